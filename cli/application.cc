@@ -1,0 +1,134 @@
+#include "cli/application.h"
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "data/input_error.h"
+#include "models/version.h"
+
+namespace errmap::cli {
+namespace {
+
+constexpr const char* kAbout =
+    "errmap: which map of (axis position, temperatures) -> error holds on "
+    "another day?\n\n"
+    "Fits polynomials and neural nets to the measured error of a machine tool "
+    "axis and\ncompares them on rows, and on whole warm-up cycles, that they "
+    "have never seen.";
+
+constexpr const char* kExample =
+    "Example: errmap compare data/sets/nistir5367_xdisp_down.csv\n"
+    "Lengths are mm and temperatures degC unless a column's suffix says "
+    "otherwise (_um, _K);\nerror = actual - nominal, so the compensation is "
+    "minus the predicted error.\n"
+    "errmap COMMAND --help explains a command.";
+
+int Fail(int status, const std::string& message) {
+  fmt::print(stderr, "errmap: {}\n", message);
+  return status;
+}
+
+// CLI11's texts may run over several lines; ours is always one.
+std::string OneLine(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  for (char& c : text) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  return text;
+}
+
+std::string ShellWord(const std::string& word) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+      "_-+=:,./^@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
+    return word;
+  }
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
+// Results must not depend on where and how fast they were made.
+std::string ProvenanceCommandLine(int argc, char** argv) {
+  std::string line = "errmap";
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--quiet") continue;
+    if (word == "--jobs" || word == "--out" || word == "--format" ||
+        word == "-o") {
+      ++i;
+      continue;
+    }
+    if (word.starts_with("--jobs=") || word.starts_with("--out=") ||
+        word.starts_with("--format=")) {
+      continue;
+    }
+    line += " " + ShellWord(word);
+  }
+  return line;
+}
+
+// CLI11 would only say that a subcommand is required.
+void RequireKnownCommand(const CLI::App& app, const std::string& word) {
+  if (word.starts_with("-")) return;
+  std::string known;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) {
+    if (command->get_name() == word) return;
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  }
+  throw UsageError(fmt::format("no command '{}'; there are {}", word, known));
+}
+
+}  // namespace
+
+int RunApplication(int argc, char** argv) {
+  Run run{.command_line = ProvenanceCommandLine(argc, argv)};
+  CLI::App app(kAbout, "errmap");
+  app.footer(kExample);
+  app.set_version_flag("--version", std::string("errmap ") + models::Version());
+  app.require_subcommand(1);
+  AddCompareCommand(&app, &run);
+  AddFitCommand(&app, &run);
+  AddPredictCommand(&app, &run);
+  AddEvaluateCommand(&app, &run);
+  AddResidualsCommand(&app, &run);
+  try {
+    if (argc < 2) {
+      fmt::print("{}", app.help());
+      return kWrongCommandLine;
+    }
+    RequireKnownCommand(app, argv[1]);
+    app.parse(argc, argv);
+    if (std::fflush(stdout) != 0) {
+      return Fail(kOtherFailure, "writing to standard output failed");
+    }
+    return run.status;
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::CallForAllHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::CallForVersion& version) {
+    return app.exit(version);
+  } catch (const CLI::ParseError& error) {
+    return Fail(kWrongCommandLine,
+                OneLine(error.what()) + "; see errmap --help");
+  } catch (const UsageError& error) {
+    return Fail(kWrongCommandLine, error.what());
+  } catch (const data::InputError& error) {
+    return Fail(kUnusableInput, error.what());
+  } catch (const std::bad_alloc&) {
+    return Fail(kOtherFailure, "not enough memory");
+  } catch (const std::exception& error) {
+    return Fail(kOtherFailure, OneLine(error.what()));
+  }
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,10 @@
+#pragma once
+
+namespace errmap::cli {
+
+/// Runs the command line and returns the exit status of design: 0 done, 2 the
+/// command line is wrong, 3 the input is unusable, 4 every fit failed, 130
+/// interrupted, 1 anything else. Errors are one line on stderr.
+int RunApplication(int argc, char** argv);
+
+}  // namespace errmap::cli

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace errmap::cli {
+
+/// Exit statuses that scripts depend on.
+enum ExitStatus : int {
+  kDone = 0,
+  kOtherFailure = 1,
+  kWrongCommandLine = 2,
+  kUnusableInput = 3,
+  kEveryFitFailed = 4,
+  kInterrupted = 130,
+};
+
+/// The command line is wrong; what() says how and what to do.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// One run of the program.
+struct Run {
+  /// The command line less what changes no figure (--jobs, --out, --format,
+  /// --quiet), quoted for a shell: for provenance.
+  std::string command_line;
+  int status = kDone;
+};
+
+/// Each adds its command to `app`; when chosen, it runs and leaves its exit
+/// status in `run`, which must outlive the parse.
+void AddCompareCommand(CLI::App* app, Run* run);
+void AddFitCommand(CLI::App* app, Run* run);
+void AddPredictCommand(CLI::App* app, Run* run);
+void AddEvaluateCommand(CLI::App* app, Run* run);
+void AddResidualsCommand(CLI::App* app, Run* run);
+
+}  // namespace errmap::cli

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "data/dataset.h"
+#include "models/error_model.h"
+
+namespace CLI {
+class App;
+}
+
+namespace errmap::cli {
+
+/// What a command is told about the data file.
+struct DataArguments {
+  std::string file;
+  std::string target;
+  std::string inputs;   // comma-separated
+  std::string exclude;  // comma-separated
+  std::string group;
+  std::string weight;
+  std::string missing = "error";
+  bool keep_dead = false;
+  bool quiet = false;
+};
+
+/// Adds DATA.csv and its options to a command.
+void AddDataArguments(CLI::App* command, DataArguments* arguments);
+
+/// Reads the file and picks its columns; remarks go to stderr unless quiet.
+data::PreparedDataset ReadData(const DataArguments& arguments);
+
+/// Rows of another file with the columns of `like` (target, inputs, groups).
+data::Dataset ReadDataLike(const std::string& file,
+                           const data::Dataset& like,
+                           const std::string& weight,
+                           data::MissingPolicy missing);
+
+/// Splits "A,B" at commas outside double quotes and takes the quotes off.
+/// Throws UsageError naming `flag`.
+std::vector<std::string> SplitNames(const std::string& list, const char* flag);
+
+/// Recipe of a SPEC; throws UsageError where it is wrong.
+std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
+    const std::string& spec);
+
+/// Says something about the run on stderr: "errmap: ...".
+void Say(const std::string& line);
+
+}  // namespace errmap::cli

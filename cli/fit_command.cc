@@ -1,0 +1,147 @@
+#include <filesystem>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/data_arguments.h"
+#include "cli/interrupt.h"
+#include "cli/json_blocks.h"
+#include "cli/number_text.h"
+#include "cli/sha256.h"
+#include "data/atomic_file.h"
+#include "models/model_file.h"
+#include "models/study.h"
+
+namespace errmap::cli {
+namespace {
+
+struct FitArguments {
+  DataArguments data;
+  std::string model;
+  std::string out;
+  std::uint64_t seed = 1;
+  std::string format = "table";
+};
+
+Json FitJson(const models::FittedModel& fitted,
+             const stats::ErrorMetrics& train,
+             const FitArguments& arguments) {
+  Json inputs = Json::array();
+  for (const models::TrainedInput& input : fitted.inputs) {
+    inputs.push_back(input.column.name);
+  }
+  return {
+      {"schema", "errmap-fit-1"},
+      {"model", fitted.name},
+      {"file", arguments.out},
+      {"target", fitted.target.name},
+      {"unit", fitted.target.unit.symbol},
+      {"inputs", std::move(inputs)},
+      {"parameters", fitted.model->num_parameters()},
+      {"equation", fitted.equation.empty() ? Json() : Json(fitted.equation)},
+      {"train", MetricsJson(train)},
+      {"stop", fitting::ToString(fitted.summary.termination)},
+      {"converged", fitted.summary.converged()},
+      {"message", fitted.summary.message},
+      {"iterations", fitted.summary.iterations},
+      {"evaluations", fitted.summary.evaluations()},
+      {"fit_seconds", fitted.summary.seconds},
+      {"remarks", fitted.remarks}};
+}
+
+std::string FitText(const models::FittedModel& fitted,
+                    const stats::ErrorMetrics& train,
+                    const FitArguments& arguments) {
+  const ErrorText error(fitted.target.unit, train.rmse);
+  std::string text =
+      fmt::format("{}: {} fitted to {}, RMSE {} on these rows (not held out)\n",
+                  fitted.name,
+                  Count(fitted.model->num_parameters(), "parameter"),
+                  Count(train.residuals.n, "row"),
+                  error.WithUnit(train.rmse));
+  if (!fitted.equation.empty()) text += fitted.equation + "\n";
+  text += fmt::format("stop: {} ({})\n",
+                      fitting::ToString(fitted.summary.termination),
+                      fitted.summary.message);
+  for (const std::string& remark : fitted.remarks) text += remark + "\n";
+  text += fmt::format(
+      "written to {}; it predicts {}, compensate by minus that\n",
+      arguments.out,
+      fitted.target.unit.symbol.empty()
+          ? fitted.target.name
+          : fitted.target.name + " in " + fitted.target.unit.symbol);
+  return text;
+}
+
+int RunFit(const FitArguments& arguments, const std::string& command_line) {
+  const auto recipe = RecipeFromArgument(arguments.model);
+  const data::PreparedDataset prepared = ReadData(arguments.data);
+  models::FittedModel fitted;
+  const std::atomic<bool>& stop = InstallInterruptFlag();
+  try {
+    fitted =
+        recipe->Fit(prepared.dataset, {.seed = arguments.seed, .stop = &stop});
+  } catch (const std::invalid_argument& error) {
+    Say(fmt::format("{} failed: {}", arguments.model, error.what()));
+    return kEveryFitFailed;
+  }
+  const Eigen::VectorXd predicted = fitted.Predict(prepared.dataset);
+  if (fitted.summary.termination == fitting::Termination::kFailed ||
+      !predicted.allFinite()) {
+    Say(fmt::format("{} failed: {}; nothing written",
+                    arguments.model,
+                    predicted.allFinite()
+                        ? fitted.summary.message
+                        : std::string("a prediction is not finite")));
+    return kEveryFitFailed;
+  }
+  models::SaveModel(
+      fitted,
+      {{"command_line", command_line},
+       {"data", arguments.data.file},
+       {"data_sha256", Sha256(data::ReadFile(arguments.data.file))},
+       {"rows", std::to_string(prepared.dataset.num_rows())},
+       {"seed", std::to_string(arguments.seed)}},
+      arguments.out);
+  const stats::ErrorMetrics train = models::Judge(prepared.dataset, predicted);
+  fmt::print("{}",
+             arguments.format == "json"
+                 ? DumpJson(FitJson(fitted, train, arguments))
+                 : FitText(fitted, train, arguments));
+  if (stop.load()) {
+    Say("interrupted; the best map so far was written");
+    return kInterrupted;
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void AddFitCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<FitArguments>();
+  CLI::App* command =
+      app->add_subcommand("fit", "Fit one map to all rows and write it");
+  AddDataArguments(command, &arguments->data);
+  command->add_option("--model", arguments->model, "The model, e.g. poly:eq8")
+      ->required()
+      ->type_name("SPEC");
+  command->add_option("-o,--output", arguments->out, "Model file to write")
+      ->required()
+      ->type_name("FILE.json");
+  command->add_option("--seed", arguments->seed, "Seed of all random choices")
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_option("--format", arguments->format, "table or json")
+      ->check(CLI::IsMember({"table", "json"}))
+      ->type_name("table|json")
+      ->capture_default_str();
+  command->footer(
+      "Example: errmap fit xdown.csv --model poly:full:degree=3 -o map.json");
+  command->callback([arguments, run] {
+    run->status = RunFit(*arguments, run->command_line);
+  });
+}
+
+}  // namespace errmap::cli

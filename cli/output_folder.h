@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "cli/comparison.h"
+
+namespace errmap::cli {
+
+/// Creates the folder `path` (and its parents) where it is missing and makes
+/// sure that files can be written there. Throws std::system_error.
+void PrepareFolder(const std::string& path);
+
+/// Writes results.json, residuals.csv and models/*.json into a folder.
+/// Throws std::system_error naming the path that could not be written.
+void WriteOutputs(const Comparison& comparison, const std::string& folder);
+
+/// Held-out residual table: one line per hold-out, fold and test row, with
+/// group, target and each model's prediction (empty where it failed).
+std::string ResidualsCsv(const Comparison& comparison);
+
+}  // namespace errmap::cli

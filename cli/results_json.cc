@@ -1,0 +1,168 @@
+#include "cli/results_json.h"
+
+#include <cmath>
+
+#include "cli/json_blocks.h"
+#include "cli/verdict_text.h"
+#include "models/version.h"
+
+namespace errmap::cli {
+namespace {
+
+using models::HoldoutResult;
+using models::ModelResult;
+
+// Folds' indices as 0-based data rows of the file.
+Json RowsJson(const std::vector<Eigen::Index>& indices,
+              const data::Dataset& dataset) {
+  Json rows = Json::array();
+  for (const Eigen::Index index : indices) {
+    rows.push_back(dataset.rows()[static_cast<std::size_t>(index)]);
+  }
+  return rows;
+}
+
+Json DataJson(const Comparison& comparison) {
+  const data::Dataset& dataset = comparison.data.dataset;
+  Json inputs = Json::array();
+  for (const data::ColumnInfo& input : dataset.inputs()) {
+    inputs.push_back(input.name);
+  }
+  Json dropped = Json::array();
+  for (const data::DroppedColumn& column : comparison.data.dropped) {
+    dropped.push_back({{"column", column.column}, {"why", column.why}});
+  }
+  return {
+      {"file", comparison.file},
+      {"sha256", comparison.sha256},
+      {"rows", dataset.num_rows()},
+      {"target", dataset.target().name},
+      {"unit", dataset.target().unit.symbol},
+      {"inputs", std::move(inputs)},
+      {"group", dataset.has_groups() ? Json(dataset.groups().column) : Json()},
+      {"dropped", std::move(dropped)}};
+}
+
+Json HoldoutsJson(const Comparison& comparison) {
+  Json holdouts = Json::array();
+  for (const models::Holdout& holdout : comparison.holdouts) {
+    Json train = Json::array();
+    Json test = Json::array();
+    for (const stats::Fold& fold : holdout.folds) {
+      train.push_back(RowsJson(fold.train, comparison.data.dataset));
+      if (holdout.test_data == nullptr) {
+        test.push_back(RowsJson(fold.test, comparison.data.dataset));
+      } else {
+        test.push_back(holdout.test_data->rows());
+      }
+    }
+    holdouts.push_back({{"name", holdout.name},
+                        {"folds", holdout.folds.size()},
+                        {"train_rows", std::move(train)},
+                        {"test_rows", std::move(test)}});
+  }
+  return holdouts;
+}
+
+Json ResultJson(const HoldoutResult& result) {
+  Json folds = Json::array();
+  for (const models::FoldResult& fold : result.folds) {
+    folds.push_back({{"train_rmse", fold.train_rmse},
+                     {"test_rmse", fold.test_rmse},
+                     {"fit_seconds", fold.fit_seconds},
+                     {"iterations", fold.summary.iterations},
+                     {"evaluations", fold.summary.evaluations()},
+                     {"stop", fitting::ToString(fold.summary.termination)},
+                     {"converged", fold.summary.converged()},
+                     {"message", fold.summary.message},
+                     {"remarks", fold.remarks}});
+  }
+  return {{"train", MetricsJson(result.train)},
+          {"test", MetricsJson(result.test)},
+          {"folds", std::move(folds)},
+          {"normality", NormalityJson(result.ks_d, result.ks_p_given)}};
+}
+
+Json ModelJson(const ModelResult& model) {
+  Json options = Json::object();
+  for (const models::EffectiveOption& option : model.options) {
+    std::visit([&](const auto& value) { options[option.key] = value; },
+               option.value);
+  }
+  Json results = Json::object();
+  for (const HoldoutResult& result : model.holdouts) {
+    if (result.ok()) results[result.holdout] = ResultJson(result);
+  }
+  Json parameters;
+  Json equation;
+  if (model.final_fit) {
+    parameters = model.final_fit->model->num_parameters();
+    if (!model.final_fit->equation.empty()) {
+      equation = model.final_fit->equation;
+    }
+  }
+  return {{"name", model.name},
+          {"kind", models::ToString(model.kind)},
+          {"options", std::move(options)},
+          {"parameters", std::move(parameters)},
+          {"equation", std::move(equation)},
+          {"status", model.ok() ? "ok" : "failed"},
+          {"why", model.ok() ? Json() : Json(model.why())},
+          {"results", std::move(results)},
+          {"predict_ns", model.predict_ns}};
+}
+
+Json VerdictsJson(const Comparison& comparison) {
+  Json verdicts = Json::array();
+  for (const models::Verdict& verdict : comparison.verdicts) {
+    if (verdict.best < 0) continue;
+    const ModelResult& best =
+        comparison.study.models[static_cast<std::size_t>(verdict.best)];
+    verdicts.push_back({{"holdout", verdict.holdout},
+                        {"choice", models::ChoiceWord(best.kind)},
+                        {"model", best.name},
+                        {"established", false},
+                        {"why", VerdictSentence(comparison, verdict)}});
+  }
+  return verdicts;
+}
+
+Json RecommendationJson(const Comparison& comparison) {
+  const models::Verdict* decisive =
+      models::DecisiveVerdict(comparison.verdicts);
+  if (decisive == nullptr) return nullptr;
+  const ModelResult& best =
+      comparison.study.models[static_cast<std::size_t>(decisive->best)];
+  return {{"choice", models::ChoiceWord(best.kind)},
+          {"model", best.name},
+          {"why", RecommendationSentence(comparison)},
+          {"caveats", Caveats(comparison)}};
+}
+
+}  // namespace
+
+std::string ResultsJson(const Comparison& comparison) {
+  Json models = Json::array();
+  for (const ModelResult& model : comparison.study.models) {
+    models.push_back(ModelJson(model));
+  }
+  Json component = {{"name", comparison.name},
+                    {"data", DataJson(comparison)},
+                    {"goal", comparison.goal},
+                    {"holdouts", HoldoutsJson(comparison)},
+                    {"models", std::move(models)},
+                    {"comparisons", Json::array()},
+                    {"tiers", Json::object()},
+                    {"verdict", VerdictsJson(comparison)},
+                    {"recommendation", RecommendationJson(comparison)}};
+  return DumpJson({{"schema", "errmap-results-1"},
+                   {"version", models::Version()},
+                   {"seed", comparison.seed},
+                   {"interrupted", comparison.study.interrupted},
+                   {"provenance",
+                    {{"command_line", comparison.command_line},
+                     {"compiler", "g++ " __VERSION__}}},
+                   {"components", Json::array({std::move(component)})}});
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,167 @@
+#include "cli/study_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/number_text.h"
+#include "cli/verdict_text.h"
+
+namespace errmap::cli {
+namespace {
+
+using models::HoldoutResult;
+using models::ModelResult;
+
+constexpr std::size_t kMostNameWidth = 44;
+constexpr int kNumberWidth = 9;
+
+// A long SPEC is cut in the table only; the footnotes and files have it whole.
+std::string ShortName(const std::string& name) {
+  if (name.size() <= kMostNameWidth) return name;
+  return name.substr(0, kMostNameWidth - 3) + "...";
+}
+
+std::string Header(const Comparison& comparison) {
+  const data::Dataset& dataset = comparison.data.dataset;
+  constexpr std::size_t kMostInputsNamed = 6;
+  std::vector<std::string> inputs;
+  for (const data::ColumnInfo& input : dataset.inputs()) {
+    inputs.push_back(input.name);
+  }
+  const std::size_t more =
+      inputs.size() - std::min(inputs.size(), kMostInputsNamed);
+  inputs.resize(inputs.size() - more);
+  const std::string groups =
+      dataset.has_groups()
+          ? ", " +
+                Count(static_cast<long long>(dataset.groups().labels.size()),
+                      "group") +
+                " (" + dataset.groups().column + ")"
+          : ", no groups";
+  return fmt::format(
+      "{}: {}{}\ntarget {} from {}{}\n",
+      comparison.file,
+      Count(dataset.num_rows(), "row"),
+      groups,
+      dataset.target().name,
+      inputs.empty() ? "no inputs" : fmt::format("{}", fmt::join(inputs, ", ")),
+      more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
+double FitSeconds(const ModelResult& model) {
+  double seconds = model.final_fit_seconds;
+  for (const HoldoutResult& result : model.holdouts) {
+    for (const models::FoldResult& fold : result.folds) {
+      seconds += fold.fit_seconds;
+    }
+  }
+  return seconds;
+}
+
+// "net:scg: 7 of 7 fits ended without converging (iteration_limit 7)": such
+// figures are usable, but another run length or start would give others.
+std::string UnconvergedNote(const ModelResult& model) {
+  std::map<std::string, int> reasons;
+  int fits = 0;
+  int unconverged = 0;
+  const auto count = [&](const fitting::FitSummary& summary) {
+    ++fits;
+    if (summary.converged()) return;
+    ++unconverged;
+    ++reasons[std::string(fitting::ToString(summary.termination))];
+  };
+  for (const HoldoutResult& result : model.holdouts) {
+    for (const models::FoldResult& fold : result.folds) count(fold.summary);
+  }
+  if (model.final_fit) count(model.final_fit->summary);
+  if (unconverged == 0) return "";
+  std::vector<std::string> parts;
+  for (const auto& [reason, times] : reasons) {
+    parts.push_back(fmt::format("{} {}", reason, times));
+  }
+  return fmt::format("{}: {} of {} ended without converging ({})\n",
+                     model.name,
+                     unconverged,
+                     Count(fits, "fit"),
+                     fmt::join(parts, ", "));
+}
+
+}  // namespace
+
+std::string StudyTable(const Comparison& comparison) {
+  const ErrorText error = ErrorTextFor(comparison);
+  std::size_t name_width = 5;
+  for (const ModelResult& model : comparison.study.models) {
+    name_width = std::max(name_width, ShortName(model.name).size());
+  }
+  std::string text = Header(comparison);
+  text += fmt::format(
+      "RMSE and mean of target - predicted{}; * lowest held-out RMSE\n\n",
+      error.symbol().empty() ? "" : " in " + error.symbol());
+
+  // Two lines of headings: the hold-outs, then the figures of each.
+  constexpr int kBlockWidth = 3 * kNumberWidth + 2;
+  std::string first = fmt::format("{:<{}} {:>6}", "", name_width, "");
+  std::string second =
+      fmt::format("{:<{}} {:>6}", "model", name_width, "params");
+  for (const models::Holdout& holdout : comparison.holdouts) {
+    first += fmt::format("  {:^{}}", holdout.name, kBlockWidth);
+    second += fmt::format("  {:>{}}{:>{}} {:>{}} ",
+                          "train",
+                          kNumberWidth,
+                          "test",
+                          kNumberWidth,
+                          "mean",
+                          kNumberWidth);
+  }
+  first += fmt::format(" {:>8} {:>8}", "fit", "predict");
+  second += fmt::format(" {:>8} {:>8}", "s", "ns");
+  text += first + "\n" + second + "\n";
+
+  std::string notes;
+  for (std::size_t i = 0; i < comparison.study.models.size(); ++i) {
+    const ModelResult& model = comparison.study.models[i];
+    text += fmt::format(
+        "{:<{}} {:>6}",
+        ShortName(model.name),
+        name_width,
+        model.final_fit
+            ? std::to_string(model.final_fit->model->num_parameters())
+            : "-");
+    for (std::size_t h = 0; h < model.holdouts.size(); ++h) {
+      const HoldoutResult& result = model.holdouts[h];
+      if (!result.ok()) {
+        text += fmt::format("  {:^{}}", "failed", kBlockWidth);
+        continue;
+      }
+      const bool best =
+          comparison.verdicts[h].best == static_cast<std::ptrdiff_t>(i);
+      text += fmt::format("  {:>{}}{:>{}}{}{:>{}} ",
+                          error(result.train.rmse),
+                          kNumberWidth,
+                          error(result.test.rmse),
+                          kNumberWidth,
+                          best ? '*' : ' ',
+                          error(result.test.residuals.mean),
+                          kNumberWidth);
+    }
+    text += fmt::format(" {:>8.3f} {:>8}",
+                        FitSeconds(model),
+                        std::isfinite(model.predict_ns)
+                            ? fmt::format("{:.0f}", model.predict_ns)
+                            : "-");
+    text += "\n";
+    if (!model.ok()) {
+      notes += fmt::format("{} failed, {}\n", model.name, model.why());
+    }
+    notes += UnconvergedNote(model);
+  }
+  return text + "\n" + notes + (notes.empty() ? "" : "\n") +
+         VerdictParagraph(comparison);
+}
+
+}  // namespace errmap::cli

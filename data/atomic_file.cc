@@ -1,0 +1,199 @@
+#include "data/atomic_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <fcntl.h>
+#include <filesystem>
+#include <optional>
+#include <random>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+#include <sys/stat.h>
+
+#include "data/input_error.h"
+#include "data/text.h"
+
+namespace errmap::data {
+namespace {
+
+constexpr mode_t kPermissionBits = 07777;
+constexpr mode_t kNewFileMode = 0666;  // less the umask
+constexpr mode_t kPrivateMode = 0600;
+class FileDescriptor {
+ public:
+  explicit FileDescriptor(int descriptor) : descriptor_(descriptor) {}
+  FileDescriptor(const FileDescriptor&) = delete;
+  FileDescriptor& operator=(const FileDescriptor&) = delete;
+  ~FileDescriptor() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+
+  int get() const { return descriptor_; }
+  bool is_open() const { return descriptor_ >= 0; }
+
+  // Some file systems report a failed write only here. 0 where all is well.
+  int Close() { return close(std::exchange(descriptor_, -1)); }
+
+ private:
+  int descriptor_;
+};
+
+// Removes the temporary file unless it was renamed.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(std::string path) : path_(std::move(path)) {}
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    if (!path_.empty()) unlink(path_.c_str());
+  }
+
+  void Release() { path_.clear(); }
+
+ private:
+  std::string path_;
+};
+
+[[noreturn]] void ThrowUnwritable(const std::string& path, int error) {
+  throw std::system_error(
+      error, std::generic_category(), "cannot write " + PrintablePath(path));
+}
+
+[[noreturn]] void ThrowUnreadable(const std::string& path, int error) {
+  throw InputError(PrintablePath(path) + ": cannot be read: " +
+                   std::generic_category().message(error) +
+                   "; check the path and its permissions");
+}
+
+void WriteAll(const FileDescriptor& file,
+              std::string_view content,
+              const std::string& path) {
+  while (!content.empty()) {
+    const ssize_t written = write(file.get(), content.data(), content.size());
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      ThrowUnwritable(path, errno);
+    }
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+// Names of open descriptors. They may lead to a regular file (a redirected
+// standard output), which must be added to and not replaced.
+bool NamesOpenDescriptor(std::string_view path) {
+  return path == "/dev/stdout" || path == "/dev/stderr" ||
+         path.starts_with("/dev/fd/") || path.starts_with("/proc/self/fd/");
+}
+
+void WriteDirectly(const std::string& path, std::string_view content) {
+  const FileDescriptor file(
+      open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOCTTY));
+  if (!file.is_open()) ThrowUnwritable(path, errno);
+  WriteAll(file, content, path);
+}
+
+std::string TemporaryName(const std::filesystem::path& folder) {
+  constexpr std::string_view kLetters = "0123456789abcdefghijklmnopqrstuv";
+  constexpr int kLength = 16;
+  std::random_device random;
+  // Without the target's own name, which may already be as long as allowed.
+  std::string name = ".errmap-";
+  for (int i = 0; i < kLength; ++i) {
+    name += kLetters[random() % kLetters.size()];
+  }
+  return folder / (name + ".tmp");
+}
+
+// Makes the rename survive a power cut. The new file is in place by now, so a
+// file system that cannot flush a folder is no reason to report a failure.
+void FlushFolder(const std::filesystem::path& folder) {
+  const FileDescriptor descriptor(
+      open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (descriptor.is_open()) fsync(descriptor.get());
+}
+
+void ReplaceFile(const std::string& path,
+                 std::string_view content,
+                 std::optional<mode_t> old_permissions) {
+  std::filesystem::path target = path;
+  if (old_permissions.has_value()) {
+    // A link keeps pointing where it does; the file behind it is replaced.
+    std::error_code error;
+    target = std::filesystem::canonical(path, error);
+    if (error) ThrowUnwritable(path, error.value());
+  }
+  const std::filesystem::path folder =
+      target.has_parent_path() ? target.parent_path() : ".";
+  const std::string temporary_name = TemporaryName(folder);
+  // Never open to more people than the old file was, not even for a moment.
+  FileDescriptor file(open(temporary_name.c_str(),
+                           O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
+                           old_permissions ? kPrivateMode : kNewFileMode));
+  if (!file.is_open()) ThrowUnwritable(path, errno);
+  TemporaryFile temporary(temporary_name);
+  WriteAll(file, content, path);
+  if (old_permissions && fchmod(file.get(), *old_permissions) != 0) {
+    ThrowUnwritable(path, errno);
+  }
+  if (fsync(file.get()) != 0) ThrowUnwritable(path, errno);
+  if (file.Close() != 0) ThrowUnwritable(path, errno);
+  if (rename(temporary_name.c_str(), target.c_str()) != 0) {
+    ThrowUnwritable(path, errno);
+  }
+  temporary.Release();
+  FlushFolder(folder);
+}
+
+}  // namespace
+
+void WriteFileAtomically(const std::string& path, std::string_view content) {
+  if (NamesOpenDescriptor(path)) {
+    WriteDirectly(path, content);
+    return;
+  }
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) {
+    if (errno != ENOENT) ThrowUnwritable(path, errno);
+    ReplaceFile(path, content, std::nullopt);
+  } else if (S_ISDIR(status.st_mode)) {
+    ThrowUnwritable(path, EISDIR);
+  } else if (S_ISREG(status.st_mode)) {
+    ReplaceFile(path, content, status.st_mode & kPermissionBits);
+  } else {
+    WriteDirectly(path, content);
+  }
+}
+
+std::string ReadFile(const std::string& path) {
+  const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  struct stat status {};
+  if (!file.is_open() || fstat(file.get(), &status) != 0) {
+    ThrowUnreadable(path, errno);
+  }
+  // One byte more than the file says, so that its end is seen without growing.
+  // Pipes and the kernel's own files say 0 and are read by growing.
+  constexpr std::size_t kLeast = 1U << 16U;
+  std::string content;
+  if (S_ISREG(status.st_mode) && status.st_size > 0) {
+    content.resize(static_cast<std::size_t>(status.st_size) + 1);
+  }
+  std::size_t size = 0;
+  for (;;) {
+    if (size == content.size()) content.resize(std::max(kLeast, 2 * size));
+    const ssize_t count =
+        read(file.get(), content.data() + size, content.size() - size);
+    if (count < 0) {
+      if (errno == EINTR) continue;
+      ThrowUnreadable(path, errno);
+    }
+    if (count == 0) break;
+    size += static_cast<std::size_t>(count);
+  }
+  content.resize(size);
+  return content;
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,78 @@
+#include "data/csv.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+
+#include "data/atomic_file.h"
+#include "data/text.h"
+
+namespace errmap::data {
+
+std::ptrdiff_t CsvTable::Find(std::string_view name) const {
+  const auto found =
+      std::find_if(columns.begin(), columns.end(), [&](const CsvColumn& c) {
+        return c.name == name;
+      });
+  return found == columns.end() ? -1 : found - columns.begin();
+}
+
+std::size_t CsvTable::LineOfRow(std::size_t row) const {
+  const auto next = std::upper_bound(
+      line_runs.begin(),
+      line_runs.end(),
+      row,
+      [](std::size_t value, const auto& run) { return value < run.first; });
+  // A table made in memory has no lines.
+  if (next == line_runs.begin()) return 0;
+  const auto& [first_row, first_line] = *std::prev(next);
+  return first_line + (row - first_row);
+}
+
+std::string CsvTable::Where(std::size_t row, std::string_view column) const {
+  return PrintablePath(file) + ": line " + std::to_string(LineOfRow(row)) +
+         " (data row " + std::to_string(row) + "), column " +
+         QuotedName(column);
+}
+
+std::string CsvTable::CellText(const CsvColumn& column, std::size_t row) const {
+  const auto found = std::lower_bound(
+      column.exceptions.begin(),
+      column.exceptions.end(),
+      row,
+      [](const auto& exception, std::size_t r) { return exception.first < r; });
+  if (found != column.exceptions.end() && found->first == row) {
+    return column.texts[found->second];
+  }
+  return CsvNumber(column.values[row]);
+}
+
+CsvTable ReadCsv(const std::string& path) {
+  return ParseCsv(ReadFile(path), path);
+}
+
+std::string CsvField(std::string_view text) {
+  const bool needs_quotes =
+      text.find_first_of(",;\"\t\r\n") != std::string_view::npos ||
+      text.starts_with('#') || Trimmed(text).size() != text.size();
+  if (!needs_quotes) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string CsvNumber(double value) {
+  if (std::isnan(value)) return "";
+  // The longest is of the form -2.2250738585072014e-308.
+  std::array<char, 32> buffer{};
+  const auto [end, error] =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), end};
+}
+
+}  // namespace errmap::data

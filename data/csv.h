@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "data/input_error.h"
+
+namespace errmap::data {
+
+/// One column as the file has it. Numbers are parsed while reading; what is
+/// not a finite number is kept apart as text, once per distinct text.
+struct CsvColumn {
+  std::string name;
+  std::vector<double>
+      values;  // (rows) quiet NaN where `exceptions` has the row
+  /// Cells that are no finite number, ascending by row: (row, index in texts).
+  std::vector<std::pair<std::size_t, std::uint32_t>> exceptions;
+  std::vector<std::string> texts;  // distinct texts of those cells, trimmed
+  /// First rows written with a decimal comma and with a decimal point, or -1.
+  std::ptrdiff_t first_decimal_comma = -1;
+  std::ptrdiff_t first_decimal_point = -1;
+
+  /// True where no cell is a number: fit for groups, never an input.
+  bool is_text() const { return exceptions.size() == values.size(); }
+};
+
+/// A CSV file: named columns of equal length.
+struct CsvTable {
+  std::string file;  // as given; begins every message about it
+  std::vector<CsvColumn> columns;
+  std::size_t num_rows = 0;
+
+  /// Index of the column of that name, or -1.
+  std::ptrdiff_t Find(std::string_view name) const;
+  /// 1-based line of the file on which data row `row` (0-based) starts.
+  std::size_t LineOfRow(std::size_t row) const;
+  /// "xdown.csv: line 18 (data row 16), column 't3_degC'", to begin a message.
+  std::string Where(std::size_t row, std::string_view column) const;
+  /// Text of a cell: its exception text, else the number in shortest form.
+  std::string CellText(const CsvColumn& column, std::size_t row) const;
+
+  /// Runs of rows on successive lines: (first row, its line), ascending; rows
+  /// after comments, quoted line breaks or the header start a new run.
+  std::vector<std::pair<std::size_t, std::size_t>> line_runs;
+};
+
+/// Reads a CSV file: RFC 4180 quotes; `,` `;` or tab, found from the header;
+/// decimal comma where the delimiter is `;` or tab; UTF-8 byte order mark,
+/// CRLF, lines starting with `#`, and blank lines at the end are passed over.
+/// An unnamed column is called column_N. Text that is no valid UTF-8 is taken
+/// for Latin-1 and converted. Linear time, about twice the file's memory; never
+/// looks at the locale.
+///
+/// Throws InputError: unreadable file, empty file, no header (a number where a
+/// name should be), header alone, ragged row, blank line inside the data,
+/// duplicate column name, quote never closed, text after a closing quote, NUL
+/// byte. Cells that are no numbers are not judged here (see MakeDataset).
+CsvTable ReadCsv(const std::string& path);
+
+/// The same from text in memory; `name` stands for the file in messages.
+CsvTable ParseCsv(std::string_view text, const std::string& name);
+
+/// Quotes a field for a comma-separated file where RFC 4180 asks for it.
+std::string CsvField(std::string_view text);
+
+/// Shortest text that reads back to the same double ("nan" becomes empty).
+std::string CsvNumber(double value);
+
+}  // namespace errmap::data

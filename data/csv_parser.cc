@@ -1,0 +1,478 @@
+// ParseCsv of data/csv.h: one pass over the text, cell by cell.
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <system_error>
+#include <unordered_map>
+
+#include "data/csv.h"
+#include "data/text.h"
+
+namespace errmap::data {
+namespace {
+
+// No cell can hold a NUL (Parser refuses them), so none ends at this one.
+constexpr char kNoDelimiter = '\0';
+
+// Where all else is equal the rarer character wins: commas and semicolons
+// occur in names.
+constexpr std::array<char, 3> kDelimiters = {'\t', ';', ','};
+using DelimiterCounts = std::array<std::size_t, kDelimiters.size()>;
+
+bool IsLineEnd(char c) { return c == '\n' || c == '\r'; }
+
+// LF, CRLF and a lone CR (old Macintosh) each end one line.
+std::size_t CountLineEnds(const char* begin, const char* end) {
+  std::size_t count = 0;
+  for (const char* p = begin; p != end; ++p) {
+    const bool before_lf = *p == '\r' && p + 1 != end && p[1] == '\n';
+    if (IsLineEnd(*p) && !before_lf) ++count;
+  }
+  return count;
+}
+
+// Each distinct text of a column once: an open-addressing table of indices
+// into CsvColumn::texts, without a second copy of them.
+class TextIndex {
+ public:
+  std::uint32_t IndexOf(std::string_view text,
+                        std::vector<std::string>* texts) {
+    if (2 * (texts->size() + 1) > slots_.size()) Grow(*texts);
+    std::uint32_t& slot = slots_[SlotOf(text, *texts)];
+    if (slot == 0) {
+      texts->emplace_back(text);
+      slot = static_cast<std::uint32_t>(texts->size());
+    }
+    return slot - 1;
+  }
+
+ private:
+  std::size_t SlotOf(std::string_view text,
+                     const std::vector<std::string>& texts) const {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t i = std::hash<std::string_view>{}(text)&mask;
+    while (slots_[i] != 0 && texts[slots_[i] - 1] != text) i = (i + 1) & mask;
+    return i;
+  }
+
+  void Grow(const std::vector<std::string>& texts) {
+    constexpr std::size_t kLeast = 16;
+    slots_.assign(std::max(kLeast, 2 * slots_.size()), 0);
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      slots_[SlotOf(texts[i], texts)] = static_cast<std::uint32_t>(i + 1);
+    }
+  }
+
+  std::vector<std::uint32_t> slots_;  // 1 + index, 0 where free; a power of two
+};
+
+class Parser {
+ public:
+  Parser(std::string_view text, const std::string& name)
+      : cursor_(text.data()), end_(text.data() + text.size()) {
+    table_.file = name;
+  }
+
+  CsvTable Parse() {
+    CheckEncoding();
+    SkipToHeader();
+    ChooseDelimiter();
+    ReadHeader();
+    ReserveRows();
+    ReadRows();
+    return std::move(table_);
+  }
+
+ private:
+  // ---- Places and errors.
+
+  std::string File() const { return PrintablePath(table_.file); }
+
+  [[noreturn]] void ThrowAt(std::size_t line, const std::string& what) const {
+    std::string place = File() + ": line " + std::to_string(line);
+    if (in_data_) {
+      place += " (data row " + std::to_string(table_.num_rows) + ")";
+    }
+    throw InputError(place + ": " + what);
+  }
+
+  // In the column that is being read, where there is one by that number.
+  [[noreturn]] void ThrowInCell(std::size_t line,
+                                const std::string& what) const {
+    if (in_data_ && column_ < table_.columns.size()) {
+      throw InputError(File() + ": line " + std::to_string(line) +
+                       " (data row " + std::to_string(table_.num_rows) +
+                       "), column " + QuotedName(table_.columns[column_].name) +
+                       ": " + what);
+    }
+    ThrowAt(line, what);
+  }
+
+  // ---- Characters.
+
+  bool IsBlank(char c) const {
+    return c == ' ' || (c == '\t' && delimiter_ != '\t');
+  }
+
+  const char* SkipBlanks(const char* p) const {
+    while (p != end_ && IsBlank(*p)) ++p;
+    return p;
+  }
+
+  bool EndsCell(const char* p) const {
+    return p == end_ || *p == delimiter_ || IsLineEnd(*p);
+  }
+
+  // Past the line end at `p`, if there is one.
+  const char* PastLineEnd(const char* p) const {
+    if (p == end_) return p;
+    return p + (*p == '\r' && p + 1 != end_ && p[1] == '\n' ? 2 : 1);
+  }
+
+  void SkipLine() {
+    cursor_ = PastLineEnd(std::find_if(cursor_, end_, IsLineEnd));
+    ++line_;
+  }
+
+  bool AtBlankLine() const {
+    const char* const p = SkipBlanks(cursor_);
+    return p != end_ ? IsLineEnd(*p) : cursor_ != end_;
+  }
+
+  // ---- Before the data.
+
+  void CheckEncoding() {
+    const std::string_view text(cursor_,
+                                static_cast<std::size_t>(end_ - cursor_));
+    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
+      throw InputError(File() +
+                       ": the file is UTF-16; save it as CSV in UTF-8");
+    }
+    if (text.starts_with("\xEF\xBB\xBF")) cursor_ += 3;
+    const std::size_t nul = text.find('\0');
+    if (nul != std::string_view::npos) {
+      ThrowAt(1 + CountLineEnds(text.data(), text.data() + nul),
+              "NUL byte; this is no text file, or UTF-16: save it as CSV in "
+              "UTF-8");
+    }
+    if (cursor_ == end_) {
+      throw InputError(File() +
+                       ": the file is empty; it needs a line of column names "
+                       "and rows of numbers below");
+    }
+  }
+
+  void SkipToHeader() {
+    while (cursor_ != end_ && (*cursor_ == '#' || AtBlankLine())) {
+      if (*cursor_ == '#') comment_before_header_ = line_;
+      SkipLine();
+    }
+    if (cursor_ == end_) {
+      throw InputError(File() +
+                       ": no header, only comments or blank lines; it needs a "
+                       "line of column names and rows of numbers below");
+    }
+  }
+
+  // Candidate delimiters outside quotes in the record at *p, which moves to
+  // the next. A quote counts where it could begin a cell of some delimiter.
+  DelimiterCounts CountDelimiters(const char** p) const {
+    DelimiterCounts counts{};
+    bool quoted = false;
+    bool at_start = true;
+    for (; *p != end_; ++*p) {
+      const char c = **p;
+      if (quoted) {
+        quoted = c != '"';
+        continue;
+      }
+      if (IsLineEnd(c)) break;
+      const auto found = std::find(kDelimiters.begin(), kDelimiters.end(), c);
+      if (found != kDelimiters.end()) {
+        ++counts[static_cast<std::size_t>(found - kDelimiters.begin())];
+        at_start = true;
+      } else if (c == '"' && (at_start || (*p)[-1] == '"')) {
+        quoted = true;  // opens, or goes on after a doubled quote
+        at_start = false;
+      } else if (c != ' ') {
+        at_start = false;
+      }
+    }
+    *p = PastLineEnd(*p);
+    return counts;
+  }
+
+  void ChooseDelimiter() {
+    const char* p = cursor_;
+    const DelimiterCounts in_header = CountDelimiters(&p);
+    while (p != end_ && (*p == '#' || IsLineEnd(*p))) {
+      p = PastLineEnd(std::find_if(p, end_, IsLineEnd));
+    }
+    const DelimiterCounts in_row = CountDelimiters(&p);
+    std::pair<bool, std::size_t> best{false, 0};
+    for (std::size_t i = 0; i < kDelimiters.size(); ++i) {
+      if (in_header[i] == 0) continue;
+      const std::pair score{in_header[i] == in_row[i], in_header[i]};
+      if (score > best) {
+        best = score;
+        delimiter_ = kDelimiters[i];
+      }
+    }
+    decimal_comma_ = delimiter_ == ';' || delimiter_ == '\t';
+  }
+
+  void ReadHeader() {
+    const std::size_t line = line_;
+    std::unordered_map<std::string, std::size_t> numbers;  // by name, 1-based
+    for (bool more = true; more;) {
+      const std::size_t number = table_.columns.size() + 1;
+      std::string name = AsUtf8(NextField());
+      more = PassCellEnd();
+      if (NumberForm form{}; ReadNumber(name, &form)) {
+        ThrowAt(line,
+                "no header: cell " + std::to_string(number) +
+                    " is the number " + QuotedText(name) +
+                    " where a column name should be; put a line of column "
+                    "names first" +
+                    (comment_before_header_ == 0
+                         ? ""
+                         : " (line " + std::to_string(comment_before_header_) +
+                               " starts with # and so is a comment)"));
+      }
+      if (name.empty()) name = "column_" + std::to_string(number);
+      const auto [other, is_new] = numbers.emplace(name, number);
+      if (!is_new) {
+        ThrowAt(line,
+                "columns " + std::to_string(other->second) + " and " +
+                    std::to_string(number) + " are both named " +
+                    QuotedName(name) + "; rename one of them");
+      }
+      table_.columns.emplace_back();
+      table_.columns.back().name = std::move(name);
+    }
+    texts_.resize(table_.columns.size());
+    header_line_ = line;
+  }
+
+  // No more rows than lines, and none shorter than its delimiters. Memory that
+  // turns out not to be needed (quoted line breaks, comments) is never touched.
+  void ReserveRows() {
+    std::ptrdiff_t lines = std::count(cursor_, end_, '\n');
+    if (lines == 0) lines = std::count(cursor_, end_, '\r');
+    const auto columns = static_cast<std::ptrdiff_t>(table_.columns.size());
+    const auto rows = static_cast<std::size_t>(
+        std::min(lines, (end_ - cursor_) / columns) + 1);
+    for (CsvColumn& column : table_.columns) column.values.reserve(rows);
+  }
+
+  // ---- The data.
+
+  void ReadRows() {
+    in_data_ = true;
+    std::size_t blank_line = 0;
+    while (cursor_ != end_) {
+      if (*cursor_ == '#') {
+        SkipLine();
+      } else if (AtBlankLine()) {
+        if (blank_line == 0) blank_line = line_;
+        SkipLine();
+      } else if (blank_line != 0) {
+        throw InputError(File() + ": line " + std::to_string(blank_line) +
+                         ": blank line inside the data; remove it, or start "
+                         "it with #");
+      } else {
+        ReadRow();
+      }
+    }
+    if (table_.num_rows == 0) {
+      throw InputError(File() + ": line " + std::to_string(header_line_) +
+                       ": a header without data; put rows of numbers below it");
+    }
+  }
+
+  void ReadRow() {
+    const std::size_t line = line_;
+    auto& runs = table_.line_runs;
+    if (runs.empty() ||
+        runs.back().second + (table_.num_rows - runs.back().first) != line) {
+      runs.emplace_back(table_.num_rows, line);
+    }
+    column_ = 0;
+    while (column_ < table_.columns.size() && ReadCell()) ++column_;
+    if (column_ + 1 != table_.columns.size()) ThrowRagged(line);
+    ++table_.num_rows;
+  }
+
+  [[noreturn]] void ThrowRagged(std::size_t line) {
+    std::size_t found = column_ + 1;
+    if (column_ == table_.columns.size()) {
+      for (NextField(); PassCellEnd(); NextField()) ++found;
+    }
+    std::string what =
+        std::to_string(found) + (found == 1 ? " field" : " fields") +
+        " where the header has " + std::to_string(table_.columns.size()) +
+        "; complete the row or remove it";
+    if (delimiter_ == ',' && found > table_.columns.size()) {
+      what +=
+          " (if these are decimal commas, write decimal points or separate "
+          "the columns with ; or tab)";
+    }
+    ThrowAt(line, what);
+  }
+
+  // Reads a cell into its column; false where the row ends with it.
+  bool ReadCell() {
+    CsvColumn& column = table_.columns[column_];
+    // Most cells are plain numbers, and from_chars finds their end by itself.
+    const char* const start = SkipBlanks(cursor_);
+    double value = 0.0;
+    const auto [stop, error] = std::from_chars(start, end_, value);
+    if (error == std::errc() && std::isfinite(value)) {
+      const char* const after = SkipBlanks(stop);
+      if (EndsCell(after)) {
+        StoreNumber({value, false, HasPoint(start, stop)}, &column);
+        cursor_ = after;
+        return PassCellEnd();
+      }
+    }
+    const std::string_view field = NextField();
+    if (NumberForm form{}; ReadNumber(field, &form)) {
+      StoreNumber(form, &column);
+    } else {
+      StoreText(field, &column);
+    }
+    return PassCellEnd();
+  }
+
+  struct NumberForm {
+    double value;
+    bool decimal_comma;
+    bool decimal_point;
+  };
+
+  static bool HasPoint(const char* begin, const char* end) {
+    return std::find(begin, end, '.') != end;
+  }
+
+  bool ReadNumber(std::string_view field, NumberForm* form) {
+    form->decimal_point = HasPoint(field.data(), field.data() + field.size());
+    form->decimal_comma = false;
+    if (decimal_comma_ && !form->decimal_point) {
+      const std::size_t comma = field.find(',');
+      if (comma != std::string_view::npos) {
+        // A second comma stays and is no part of a number.
+        point_form_ = field;
+        point_form_[comma] = '.';
+        form->decimal_comma = true;
+        return ParseNumber(point_form_, &form->value);
+      }
+    }
+    return ParseNumber(field, &form->value);
+  }
+
+  void StoreNumber(const NumberForm& form, CsvColumn* column) const {
+    const auto row = static_cast<std::ptrdiff_t>(table_.num_rows);
+    if (form.decimal_comma && column->first_decimal_comma < 0) {
+      column->first_decimal_comma = row;
+    }
+    if (form.decimal_point && column->first_decimal_point < 0) {
+      column->first_decimal_point = row;
+    }
+    column->values.push_back(form.value);
+  }
+
+  void StoreText(std::string_view field, CsvColumn* column) {
+    const std::uint32_t index =
+        texts_[column_].IndexOf(AsUtf8(field), &column->texts);
+    column->exceptions.emplace_back(table_.num_rows, index);
+    column->values.push_back(std::numeric_limits<double>::quiet_NaN());
+  }
+
+  // Past the delimiter (true) or line end (false) that ended a cell.
+  bool PassCellEnd() {
+    if (cursor_ == end_) return false;
+    if (*cursor_ == delimiter_) {
+      ++cursor_;
+      return true;
+    }
+    cursor_ = PastLineEnd(cursor_);
+    ++line_;
+    return false;
+  }
+
+  // Text of the cell at the cursor, trimmed and without its quotes; good until
+  // the next call. The cursor comes to rest on what ends the cell.
+  std::string_view NextField() {
+    const char* const start = SkipBlanks(cursor_);
+    if (start != end_ && *start == '"') {
+      cursor_ = start + 1;
+      return Trimmed(QuotedField());
+    }
+    cursor_ = start;
+    while (!EndsCell(cursor_)) ++cursor_;
+    return Trimmed({start, static_cast<std::size_t>(cursor_ - start)});
+  }
+
+  // The cursor stands after the opening quote.
+  std::string_view QuotedField() {
+    const std::size_t opening_line = line_;
+    const char* const begin = cursor_;
+    unquoted_.clear();
+    for (const char* part = begin;;) {
+      const auto rest = static_cast<std::size_t>(end_ - part);
+      const char* const quote =
+          rest == 0 ? nullptr
+                    : static_cast<const char*>(std::memchr(part, '"', rest));
+      if (quote == nullptr) {
+        ThrowInCell(opening_line,
+                    "the quote that opens here is never closed; close it, or "
+                    "remove it");
+      }
+      if (quote + 1 != end_ && quote[1] == '"') {
+        unquoted_.append(part, quote + 1);
+        part = quote + 2;
+        continue;
+      }
+      line_ += CountLineEnds(begin, quote);
+      cursor_ = SkipBlanks(quote + 1);
+      if (!EndsCell(cursor_)) {
+        ThrowInCell(line_,
+                    "text after the closing quote of the cell that opened on "
+                    "line " +
+                        std::to_string(opening_line) +
+                        "; a quote inside quotes is written twice");
+      }
+      const std::string_view last(part, static_cast<std::size_t>(quote - part));
+      if (part == begin) return last;
+      unquoted_ += last;
+      return unquoted_;
+    }
+  }
+
+  const char* cursor_;
+  const char* end_;
+  std::size_t line_ = 1;  // of the cursor
+  char delimiter_ = kNoDelimiter;
+  bool decimal_comma_ = false;
+  std::size_t comment_before_header_ = 0;  // line of the last one, or 0
+  std::size_t header_line_ = 0;
+  bool in_data_ = false;
+  std::size_t column_ = 0;        // being read, within the data
+  std::vector<TextIndex> texts_;  // (columns)
+  std::string unquoted_;          // scratch: cell with doubled quotes undone
+  std::string point_form_;        // scratch: cell with its comma made a point
+  CsvTable table_;
+};
+
+}  // namespace
+
+CsvTable ParseCsv(std::string_view text, const std::string& name) {
+  return Parser(text, name).Parse();
+}
+
+}  // namespace errmap::data

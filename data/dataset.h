@@ -1,0 +1,136 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/csv.h"
+#include "data/units.h"
+
+namespace errmap::data {
+
+/// Name and unit of a column.
+struct ColumnInfo {
+  std::string name;
+  Unit unit;
+
+  bool operator==(const ColumnInfo&) const = default;
+};
+
+/// The group of each row (warm-up cycle, day, segment).
+struct Grouping {
+  std::string column;
+  /// Distinct groups: sorted numerically if all are numbers, else in order of
+  /// appearance.
+  std::vector<std::string> labels;
+  std::vector<Eigen::Index> codes;  // (rows) index into labels
+};
+
+/// Measurements ready to be mapped: m finite rows of p inputs, one target.
+///
+/// Immutable once built; constructed by MakeDataset, or from its parts for
+/// data that are already in memory.
+class Dataset {
+ public:
+  struct Parts {
+    std::string source;              // file or name, for messages
+    std::vector<ColumnInfo> inputs;  // (p)
+    Eigen::MatrixXd input_values;    // (m x p)
+    ColumnInfo target;
+    Eigen::VectorXd target_values;   // (m)
+    Grouping groups;                 // column "" where there are none
+    Eigen::VectorXd weights;         // (m) positive, or (0): all equal
+    std::vector<Eigen::Index> rows;  // (m) data row in the file; empty: 0..m-1
+  };
+
+  /// Throws std::invalid_argument on shapes that do not agree, values that are
+  /// not finite, weights that are not positive, or group codes out of range.
+  explicit Dataset(Parts parts);
+
+  const std::string& source() const { return parts_.source; }
+  Eigen::Index num_rows() const { return parts_.target_values.size(); }
+  Eigen::Index num_inputs() const { return parts_.input_values.cols(); }
+  const std::vector<ColumnInfo>& inputs() const { return parts_.inputs; }
+  const Eigen::MatrixXd& input_values() const { return parts_.input_values; }
+  const ColumnInfo& target() const { return parts_.target; }
+  const Eigen::VectorXd& target_values() const { return parts_.target_values; }
+  bool has_groups() const { return !parts_.groups.column.empty(); }
+  const Grouping& groups() const { return parts_.groups; }
+  const Eigen::VectorXd& weights() const { return parts_.weights; }
+  const std::vector<Eigen::Index>& rows() const { return parts_.rows; }
+
+  /// Index of the input of that name, or -1.
+  Eigen::Index FindInput(std::string_view name) const;
+
+  /// The rows of these indices, in this order (group labels kept).
+  Dataset SelectRows(const std::vector<Eigen::Index>& indices) const;
+
+ private:
+  Parts parts_;
+};
+
+enum class MissingPolicy { kError, kDropRows };
+
+/// What of a table becomes the data set; empty means the default of the
+/// command line. (The `= {}` let designated initialisers leave fields out.)
+struct DatasetSelection {
+  std::string target = {};                // default: the only column "error*"
+  std::vector<std::string> inputs = {};   // default: every other numeric column
+  std::vector<std::string> exclude = {};  // never inputs
+  std::string group = {};                 // default: "cycle" if there is one
+  std::string weight = {};                // default: none
+  MissingPolicy missing = MissingPolicy::kError;
+  bool keep_dead = false;
+  /// Rows that a fitted map is judged on: exactly the named inputs, be there
+  /// none, and a target that need not vary.
+  bool only_to_judge = false;
+};
+
+struct DroppedColumn {
+  std::string column;
+  std::string why;
+};
+
+/// A data set and what was decided on the way to it.
+struct PreparedDataset {
+  Dataset dataset;
+  std::vector<DroppedColumn> dropped;  // would-be inputs left out, and why
+  std::vector<std::string> remarks;    // one line each, for people
+};
+
+/// Picks target, inputs, group and weight from a table and checks the columns
+/// in use (all others may hold anything).
+///
+/// Default inputs are the numeric columns other than target, group, weight,
+/// `cycle`, `day`, `segment`, `record`, `index`, `row`, `id`, `sample` and
+/// names starting with `time` or `truth`; a column of the target's stem
+/// (StemOfColumn) is left out with a remark unless named in `inputs`. Dead
+/// inputs (all zero, constant, or one value in at least 90 % of the rows) are
+/// dropped with a remark unless `keep_dead`; an input that repeats another
+/// value for value is named in a remark and kept.
+///
+/// Throws InputError naming file, row, column and remedy: unknown column, no
+/// or several candidates for the target, a cell of a used column that is
+/// empty, NA, NaN, infinite or no number (kDropRows drops rows with empty, NA
+/// or NaN cells only), decimal commas and points mixed, constant target,
+/// non-positive weight, no rows or no inputs left (no inputs is allowed where
+/// the table has no other numeric column).
+PreparedDataset MakeDataset(const CsvTable& table,
+                            const DatasetSelection& selection);
+
+/// Grouping of a column of the table, for the given data rows. Text and
+/// numbers both serve; empty cells are an InputError.
+Grouping GroupByColumn(const CsvTable& table,
+                       const std::string& column,
+                       const std::vector<Eigen::Index>& rows);
+
+/// Values of a numeric column for all rows, checked as MakeDataset checks; the
+/// rows kept come back in `rows` (may be null).
+Eigen::VectorXd NumericColumn(const CsvTable& table,
+                              const std::string& column,
+                              MissingPolicy missing,
+                              std::vector<Eigen::Index>* rows);
+
+}  // namespace errmap::data

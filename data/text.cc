@@ -1,0 +1,192 @@
+#include "data/text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <system_error>
+
+namespace errmap::data {
+namespace {
+
+constexpr std::size_t kCellLimit = 40;
+constexpr std::size_t kNameLimit = 80;
+
+char Lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+bool IsContinuation(unsigned char byte) { return (byte & 0xC0U) == 0x80U; }
+
+// Bytes of the UTF-8 character at `text[i]`, or 0 where there is none:
+// overlong forms, surrogates and values beyond U+10FFFF are refused.
+std::size_t Utf8Length(std::string_view text, std::size_t i) {
+  const auto byte = [&](std::size_t k) {
+    return i + k < text.size() ? static_cast<unsigned char>(text[i + k])
+                               : static_cast<unsigned char>(0);
+  };
+  const unsigned char first = byte(0);
+  if (first < 0x80U) return 1;
+  if (first < 0xC2U || first > 0xF4U) return 0;
+  if (!IsContinuation(byte(1))) return 0;
+  if (first < 0xE0U) return 2;
+  if (!IsContinuation(byte(2))) return 0;
+  if (first < 0xF0U) {
+    if (first == 0xE0U && byte(1) < 0xA0U) return 0;
+    if (first == 0xEDU && byte(1) > 0x9FU) return 0;
+    return 3;
+  }
+  if (!IsContinuation(byte(3))) return 0;
+  if (first == 0xF0U && byte(1) < 0x90U) return 0;
+  if (first == 0xF4U && byte(1) > 0x8FU) return 0;
+  return 4;
+}
+
+std::string Escaped(unsigned char byte) {
+  switch (byte) {
+    case '\n':
+      return "\\n";
+    case '\r':
+      return "\\r";
+    case '\t':
+      return "\\t";
+    default: {
+      constexpr std::string_view kDigits = "0123456789abcdef";
+      return {'\\', 'x', kDigits[byte >> 4U], kDigits[byte & 0xFU]};
+    }
+  }
+}
+
+// Single-character insertions, deletions and substitutions from a to b
+// (Levenshtein 1966), row by row of the usual table.
+std::size_t EditDistance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::string_view Trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+bool EqualsIgnoringCase(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
+    return Lower(x) == Lower(y);
+  });
+}
+
+bool StartsWithIgnoringCase(std::string_view text, std::string_view prefix) {
+  return text.size() >= prefix.size() &&
+         EqualsIgnoringCase(text.substr(0, prefix.size()), prefix);
+}
+
+bool ParseNumber(std::string_view text, double* value) {
+  // from_chars takes no plus sign, but would take the minus of "+-1".
+  if (text.starts_with('+')) {
+    text.remove_prefix(1);
+    if (text.starts_with('-')) return false;
+  }
+  const char* const end = text.data() + text.size();
+  double parsed = 0.0;
+  const auto [stop, error] = std::from_chars(text.data(), end, parsed);
+  if (error != std::errc() || stop != end || !std::isfinite(parsed)) {
+    return false;
+  }
+  *value = parsed;
+  return true;
+}
+
+std::string Printable(std::string_view text, std::size_t limit) {
+  std::string printable;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < text.size(); ++count) {
+    if (count == limit) return printable + "...";
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const std::size_t length = Utf8Length(text, i);
+    // U+0080 to U+009F command some terminals just as the C0 controls do.
+    const bool c1_control = length == 2 && byte == 0xC2U &&
+                            static_cast<unsigned char>(text[i + 1]) < 0xA0U;
+    if (length == 0 || byte < 0x20U || byte == 0x7FU) {
+      printable += Escaped(byte);
+      ++i;
+    } else if (c1_control) {
+      printable += Escaped(static_cast<unsigned char>(text[i + 1]));
+      i += length;
+    } else {
+      printable += text.substr(i, length);
+      i += length;
+    }
+  }
+  return printable;
+}
+
+std::string PrintablePath(std::string_view path) {
+  return Printable(path, std::string_view::npos);
+}
+
+std::string QuotedText(std::string_view text) {
+  return "'" + Printable(text, kCellLimit) + "'";
+}
+
+std::string QuotedName(std::string_view name) {
+  return "'" + Printable(name, kNameLimit) + "'";
+}
+
+std::string AsUtf8(std::string_view text) {
+  std::size_t i = 0;
+  while (i < text.size()) {
+    const std::size_t length = Utf8Length(text, i);
+    if (length == 0) break;
+    i += length;
+  }
+  if (i == text.size()) return std::string(text);
+  std::string utf8;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80U) {
+      utf8 += c;
+    } else {
+      utf8 += static_cast<char>(0xC0U | (byte >> 6U));
+      utf8 += static_cast<char>(0x80U | (byte & 0x3FU));
+    }
+  }
+  return utf8;
+}
+
+std::string NearestName(std::string_view name,
+                        const std::vector<std::string>& candidates) {
+  constexpr std::size_t kMaxDistance = 2;
+  // The table of distances grows with the square of the length.
+  constexpr std::size_t kMaxLength = 200;
+  std::string nearest;
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  for (const std::string& candidate : candidates) {
+    if (EqualsIgnoringCase(name, candidate)) return candidate;
+    const auto [shorter, longer] = std::minmax({name.size(), candidate.size()});
+    if (longer > kMaxLength || longer - shorter > kMaxDistance) continue;
+    const std::size_t distance = EditDistance(name, candidate);
+    // Half the letters must be right: "t1" is no slip for "ab".
+    if (distance <= kMaxDistance && 2 * distance < shorter + 1 &&
+        distance < least) {
+      least = distance;
+      nearest = candidate;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace errmap::data {
+
+/// Text without the blanks (spaces and tabs) at its ends.
+std::string_view Trimmed(std::string_view text);
+
+/// ASCII letters are compared without regard to case.
+bool EqualsIgnoringCase(std::string_view a, std::string_view b);
+bool StartsWithIgnoringCase(std::string_view text, std::string_view prefix);
+
+/// True, and the value in `value`, where the whole text is one finite decimal
+/// number: an optional sign, a decimal point, an exponent; no hexadecimal, no
+/// "inf" or "nan", nothing beyond the range of a double.
+bool ParseNumber(std::string_view text, double* value);
+
+/// Text fit for a one-line message: control characters escaped, cut after
+/// `limit` characters.
+std::string Printable(std::string_view text, std::size_t limit);
+
+/// A path at full length, fit for a one-line message.
+std::string PrintablePath(std::string_view path);
+
+/// Printable text of a cell, or name of a column, in single quotes.
+std::string QuotedText(std::string_view text);
+std::string QuotedName(std::string_view name);
+
+/// The text as UTF-8. What is no valid UTF-8 is taken for Latin-1, as
+/// spreadsheets of western Windows write it, so that a degree sign survives.
+std::string AsUtf8(std::string_view text);
+
+/// The candidate that `name` was probably meant to be (other case, or a few
+/// letters amiss), or "".
+std::string NearestName(std::string_view name,
+                        const std::vector<std::string>& candidates);
+
+}  // namespace errmap::data

@@ -1,0 +1,154 @@
+#include "fitting/optimizer.h"
+
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+namespace errmap::fitting {
+namespace {
+
+// Counts what passes through; the summary of every optimizer is filled alike.
+class CountedObjective final : public Objective {
+ public:
+  explicit CountedObjective(const Objective& objective)
+      : objective_(objective) {}
+
+  Eigen::Index num_parameters() const override {
+    return objective_.num_parameters();
+  }
+
+  double Evaluate(const Vector& x, Vector* gradient) const override {
+    ++(gradient == nullptr ? values_ : gradients_);
+    return objective_.Evaluate(x, gradient);
+  }
+
+  std::unique_ptr<Path<double>> NewPath(const Vector& x) const override {
+    return std::make_unique<CountedPath>(*this, objective_.NewPath(x));
+  }
+
+  const ResidualFunction* residuals() const override {
+    return objective_.residuals();
+  }
+
+  void Report(FitSummary* summary) const {
+    summary->value_evaluations = values_;
+    summary->gradient_evaluations = gradients_;
+    summary->curvature_evaluations = curvatures_;
+  }
+
+ private:
+  class CountedPath final : public Path<double> {
+   public:
+    CountedPath(const CountedObjective& owner,
+                std::unique_ptr<Path<double>> path)
+        : owner_(owner), path_(std::move(path)) {}
+
+    void SetDirection(const Vector& p) override { path_->SetDirection(p); }
+    double Curvature() override {
+      ++owner_.curvatures_;
+      return path_->Curvature();
+    }
+    double Value(double a) override {
+      ++owner_.values_;
+      return path_->Value(a);
+    }
+    void Accept(double a) override { path_->Accept(a); }
+    const Vector& Gradient() override {
+      ++owner_.gradients_;
+      return path_->Gradient();
+    }
+
+   private:
+    const CountedObjective& owner_;
+    std::unique_ptr<Path<double>> path_;
+  };
+
+  const Objective& objective_;
+  mutable std::int64_t values_ = 0;
+  mutable std::int64_t gradients_ = 0;
+  mutable std::int64_t curvatures_ = 0;
+};
+
+void RequireAtLeast(const char* field, double value, double least) {
+  if (!(value >= least)) {
+    throw std::invalid_argument("StoppingRules: " + std::string(field) +
+                                " must be at least " + std::to_string(least) +
+                                ", found " + std::to_string(value));
+  }
+}
+
+void RequireAbove(const char* field, double value, double bound) {
+  if (!(value > bound)) {
+    throw std::invalid_argument("StoppingRules: " + std::string(field) +
+                                " must be above " + std::to_string(bound) +
+                                ", found " + std::to_string(value));
+  }
+}
+
+}  // namespace
+
+std::string_view ToString(Termination termination) {
+  switch (termination) {
+    case Termination::kDirect:
+      return "direct";
+    case Termination::kFailed:
+      return "failed";
+    case Termination::kCostGoal:
+      return "cost_goal";
+    case Termination::kGradient:
+      return "gradient";
+    case Termination::kSlowProgress:
+      return "slow_progress";
+    case Termination::kNoDescent:
+      return "no_descent";
+    case Termination::kIterationLimit:
+      return "iteration_limit";
+    case Termination::kEvaluationLimit:
+      return "evaluation_limit";
+    case Termination::kTimeLimit:
+      return "time_limit";
+    case Termination::kInterrupted:
+      return "interrupted";
+  }
+  return "failed";
+}
+
+bool IsConverged(Termination termination) {
+  return termination == Termination::kGradient ||
+         termination == Termination::kDirect;
+}
+
+void StoppingRules::Validate() const {
+  RequireAtLeast("iterations", static_cast<double>(iterations), 0.0);
+  RequireAtLeast("evaluations", static_cast<double>(evaluations), 1.0);
+  RequireAbove("seconds", seconds, 0.0);
+  RequireAtLeast("cost_goal", cost_goal, 0.0);
+  RequireAtLeast("gradient_goal", gradient_goal, 0.0);
+  RequireAbove("slow_ratio", slow_ratio, 0.0);
+  RequireAtLeast(
+      "progress_interval", static_cast<double>(progress_interval), 1.0);
+}
+
+Minimum Optimizer::Minimize(const Objective& f,
+                            const Eigen::VectorXd& x0,
+                            const RunControl& run) const {
+  if (x0.size() != f.num_parameters()) {
+    throw std::invalid_argument(
+        "Minimize: x0 has " + std::to_string(x0.size()) +
+        " elements, the objective has " + std::to_string(f.num_parameters()) +
+        " parameters");
+  }
+  if (!x0.allFinite()) {
+    throw std::invalid_argument("Minimize: x0 must be finite throughout");
+  }
+  const CountedObjective counted(f);
+  const auto start = std::chrono::steady_clock::now();
+  Minimum minimum = DoMinimize(counted, x0, run);
+  minimum.summary.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
+          .count();
+  counted.Report(&minimum.summary);
+  return minimum;
+}
+
+}  // namespace errmap::fitting

@@ -1,0 +1,82 @@
+#include "models/error_model.h"
+
+#include <stdexcept>
+
+#include "stats/summary.h"
+
+namespace errmap::models {
+
+std::string_view ToString(OutputFunction output) {
+  return output == OutputFunction::kSigmoid ? "sigmoid" : "linear";
+}
+
+std::string_view ToString(ModelKind kind) {
+  switch (kind) {
+    case ModelKind::kBaseline:
+      return "baseline";
+    case ModelKind::kPolynomial:
+      return "polynomial";
+    case ModelKind::kNet:
+      return "net";
+  }
+  return "";
+}
+
+Eigen::VectorXd ErrorModel::Predict(const Eigen::MatrixXd& inputs) const {
+  if (inputs.cols() != num_inputs()) {
+    throw std::invalid_argument(
+        "Predict: the model reads " + std::to_string(num_inputs()) +
+        " inputs, found " + std::to_string(inputs.cols()) + " columns");
+  }
+  return DoPredict(inputs);
+}
+
+Eigen::VectorXd FittedModel::Predict(const data::Dataset& dataset) const {
+  Eigen::MatrixXd values(dataset.num_rows(),
+                         static_cast<Eigen::Index>(inputs.size()));
+  Eigen::Index column = 0;
+  for (const TrainedInput& input : inputs) {
+    const Eigen::Index index = dataset.FindInput(input.column.name);
+    if (index < 0) {
+      throw std::invalid_argument("model " + name + " reads input '" +
+                                  input.column.name + "', which " +
+                                  dataset.source() + " does not have");
+    }
+    values.col(column++) = dataset.input_values().col(index);
+  }
+  return model->Predict(values);
+}
+
+Eigen::Index FindPosition(const data::Dataset& dataset,
+                          const std::string& wanted) {
+  if (!wanted.empty()) {
+    const Eigen::Index index = dataset.FindInput(wanted);
+    if (index < 0) {
+      throw std::invalid_argument("position='" + wanted +
+                                  "' is not among the inputs");
+    }
+    return index;
+  }
+  for (Eigen::Index i = 0; i < dataset.num_inputs(); ++i) {
+    const auto& name = dataset.inputs()[static_cast<std::size_t>(i)].name;
+    if (name.starts_with("position")) return i;
+  }
+  return -1;
+}
+
+std::vector<TrainedInput> DescribeInputs(
+    const data::Dataset& training, const std::vector<Eigen::Index>& columns) {
+  std::vector<TrainedInput> inputs;
+  for (const Eigen::Index column : columns) {
+    const stats::SampleSummary summary =
+        stats::Summarize(training.input_values().col(column));
+    inputs.push_back({training.inputs()[static_cast<std::size_t>(column)],
+                      summary.min,
+                      summary.max,
+                      summary.mean,
+                      summary.n > 1 ? summary.sd : 0.0});
+  }
+  return inputs;
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,140 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/dataset.h"
+#include "fitting/optimizer.h"
+
+namespace errmap::models {
+
+/// Product of powers of the scaled inputs times a coefficient.
+struct PolynomialTerm {
+  std::vector<int> powers;  // one per input, at least 0
+  double coefficient = 0.0;
+};
+
+/// error = intercept + sum of terms in scaled inputs (x - offset) * scale.
+struct PolynomialForm {
+  Eigen::VectorXd input_offset;  // (p) unit of the input
+  Eigen::VectorXd input_scale;   // (p) per unit of the input
+  double intercept = 0.0;        // unit of the target
+  std::vector<PolynomialTerm> terms;
+};
+
+enum class OutputFunction { kSigmoid, kLinear };
+std::string_view ToString(OutputFunction output);
+
+/// One-hidden-layer net in scaled inputs (x - offset) * scale with scaled
+/// outputs z; a prediction is (z - target_offset) / target_slope.
+struct NetForm {
+  Eigen::VectorXd input_offset;  // (I)
+  Eigen::VectorXd input_scale;   // (I)
+  Eigen::MatrixXd w1;            // (H x (I+1)) last column = bias, Eq. 16
+  Eigen::MatrixXd w2;            // (J x (H+1)) last column = bias, Eq. 17
+  OutputFunction output = OutputFunction::kSigmoid;
+  Eigen::VectorXd target_slope;   // (J)
+  Eigen::VectorXd target_offset;  // (J)
+};
+
+/// What a model is, as plain data: for model files and exporters.
+using ModelDescription = std::variant<PolynomialForm, NetForm>;
+
+/// A fitted map from p inputs to one predicted error; immutable, and safe to
+/// use from several threads.
+class ErrorModel {
+ public:
+  virtual ~ErrorModel() = default;
+  virtual Eigen::Index num_inputs() const = 0;
+  virtual Eigen::Index num_parameters() const = 0;
+  /// Error (m) in the training target's unit, per row of `inputs` (m x p). A
+  /// row's prediction does not depend on the rows around it, to the last bit.
+  /// Throws std::invalid_argument unless inputs.cols() == p.
+  Eigen::VectorXd Predict(const Eigen::MatrixXd& inputs) const;
+  virtual ModelDescription Describe() const = 0;
+
+ private:
+  virtual Eigen::VectorXd DoPredict(const Eigen::MatrixXd& inputs) const = 0;
+};
+
+enum class ModelKind { kBaseline, kPolynomial, kNet };
+std::string_view ToString(ModelKind kind);
+
+/// An input of a model and where it was trained.
+struct TrainedInput {
+  data::ColumnInfo column;
+  double min = 0.0;
+  double max = 0.0;
+  double mean = 0.0;
+  double sd = 0.0;
+};
+
+/// A model with what is needed to use and to judge it.
+struct FittedModel {
+  std::string name;  // the SPEC as given
+  ModelKind kind = ModelKind::kPolynomial;
+  data::ColumnInfo target;
+  std::vector<TrainedInput> inputs;  // those the model reads, in its order
+  std::shared_ptr<const ErrorModel> model;
+  fitting::FitSummary summary;
+  std::string equation;  // in physical units; "" where there is none
+  std::vector<std::string> remarks;  // such as aliased terms; one line each
+
+  /// Predicted error (m) of every row, in the unit of `target`; the inputs are
+  /// found by name. Throws std::invalid_argument naming an input not there.
+  Eigen::VectorXd Predict(const data::Dataset& dataset) const;
+};
+
+/// What a fit may use besides the training rows.
+struct FitContext {
+  std::uint64_t seed = 1;
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// An option with the value that took effect.
+struct EffectiveOption {
+  std::string key;
+  std::variant<std::int64_t, double, std::string> value;
+};
+
+/// How to fit one kind of model: kind and options; immutable.
+class ModelRecipe {
+ public:
+  virtual ~ModelRecipe() = default;
+  /// The SPEC as the user wrote it.
+  virtual std::string name() const = 0;
+  virtual ModelKind kind() const = 0;
+  virtual std::vector<EffectiveOption> options() const = 0;
+  /// What the data lack for this model ("a position column"), if anything.
+  virtual std::optional<std::string> WhatIsMissing(
+      const data::Dataset& dataset) const = 0;
+  /// Number of coefficients over these data where it is known before the fit.
+  virtual std::optional<Eigen::Index> NumCoefficients(
+      const data::Dataset& dataset) const = 0;
+  /// Fits the rows of `training` and sees no others: scaling and every tuned
+  /// choice are learnt here. Throws std::invalid_argument with the reason
+  /// where these rows cannot be fitted (too few, an input missing).
+  virtual FittedModel Fit(const data::Dataset& training,
+                          const FitContext& context) const = 0;
+};
+
+/// Position of a data set: the input `wanted`, or by default the first whose
+/// name starts with "position"; -1 where there is none. Throws
+/// std::invalid_argument where `wanted` is named and not an input.
+Eigen::Index FindPosition(const data::Dataset& dataset,
+                          const std::string& wanted);
+
+/// The inputs `columns` of `training` with their trained range.
+std::vector<TrainedInput> DescribeInputs(
+    const data::Dataset& training, const std::vector<Eigen::Index>& columns);
+
+}  // namespace errmap::models

@@ -1,0 +1,302 @@
+#include "models/model_file.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "data/atomic_file.h"
+#include "models/feedforward_net.h"
+#include "models/polynomial_model.h"
+#include "models/version.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kSchema = "errmap-model-1";
+
+Json ToJson(const Eigen::VectorXd& vector) {
+  return std::vector<double>(vector.begin(), vector.end());
+}
+
+Json ToJson(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (Index i = 0; i < matrix.rows(); ++i) {
+    rows.push_back(ToJson(Eigen::VectorXd(matrix.row(i).transpose())));
+  }
+  return rows;
+}
+
+Json ToJson(const PolynomialForm& form, const std::string& equation) {
+  Json terms = Json::array();
+  for (const PolynomialTerm& term : form.terms) {
+    terms.push_back(
+        {{"powers", term.powers}, {"coefficient", term.coefficient}});
+  }
+  return {{"input_offset", ToJson(form.input_offset)},
+          {"input_scale", ToJson(form.input_scale)},
+          {"intercept", form.intercept},
+          {"terms", std::move(terms)},
+          {"equation", equation}};
+}
+
+Json ToJson(const NetForm& form) {
+  return {{"nodes", {form.w1.cols() - 1, form.w1.rows(), form.w2.rows()}},
+          {"output", ToString(form.output)},
+          {"input_offset", ToJson(form.input_offset)},
+          {"input_scale", ToJson(form.input_scale)},
+          {"target_slope", ToJson(form.target_slope)},
+          {"target_offset", ToJson(form.target_offset)},
+          {"w1", ToJson(form.w1)},
+          {"w2", ToJson(form.w2)}};
+}
+
+// A value of a document together with its place, for messages.
+class Node {
+ public:
+  Node(const Json& value, std::string path, const std::string& source)
+      : value_(value), path_(std::move(path)), source_(source) {}
+
+  [[noreturn]] void Refuse(const std::string& why) const {
+    throw data::InputError(
+        fmt::format("{}: {}{}; fit the model again or restore the file",
+                    source_,
+                    path_.empty() ? "" : "key '" + path_ + "': ",
+                    why));
+  }
+
+  Node At(const std::string& key) const {
+    if (!value_.is_object()) Refuse("must be an object");
+    const auto found = value_.find(key);
+    if (found == value_.end()) Refuse("has no key '" + key + "'");
+    return {*found, path_.empty() ? key : path_ + "." + key, source_};
+  }
+
+  std::vector<Node> Elements() const {
+    if (!value_.is_array()) Refuse("must be an array");
+    std::vector<Node> elements;
+    for (std::size_t i = 0; i < value_.size(); ++i) {
+      elements.emplace_back(
+          value_[i], fmt::format("{}[{}]", path_, i), source_);
+    }
+    return elements;
+  }
+
+  std::string Text() const {
+    if (!value_.is_string()) Refuse("must be text");
+    return value_.get<std::string>();
+  }
+
+  double Number() const {
+    if (!value_.is_number()) Refuse("must be a finite number");
+    const double number = value_.get<double>();
+    if (!std::isfinite(number)) Refuse("must be a finite number");
+    return number;
+  }
+
+  Index Count() const {
+    if (!value_.is_number_integer() || value_.get<std::int64_t>() < 0) {
+      Refuse("must be a whole number of at least 0");
+    }
+    return value_.get<Index>();
+  }
+
+  Eigen::VectorXd Vector() const {
+    const std::vector<Node> elements = Elements();
+    Eigen::VectorXd vector(static_cast<Index>(elements.size()));
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      vector[static_cast<Index>(i)] = elements[i].Number();
+    }
+    return vector;
+  }
+
+  Eigen::MatrixXd Matrix() const {
+    const std::vector<Node> rows = Elements();
+    if (rows.empty()) return {};
+    Eigen::MatrixXd matrix;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Eigen::VectorXd row = rows[i].Vector();
+      if (i == 0) matrix.resize(static_cast<Index>(rows.size()), row.size());
+      if (row.size() != matrix.cols()) {
+        rows[i].Refuse(fmt::format(
+            "has {} numbers, the first row has {}", row.size(), matrix.cols()));
+      }
+      matrix.row(static_cast<Index>(i)) = row.transpose();
+    }
+    return matrix;
+  }
+
+ private:
+  const Json& value_;
+  std::string path_;
+  const std::string& source_;
+};
+
+PolynomialForm ReadPolynomial(const Node& node) {
+  PolynomialForm form;
+  form.input_offset = node.At("input_offset").Vector();
+  form.input_scale = node.At("input_scale").Vector();
+  form.intercept = node.At("intercept").Number();
+  for (const Node& element : node.At("terms").Elements()) {
+    PolynomialTerm term;
+    for (const Node& power : element.At("powers").Elements()) {
+      constexpr Index kMostPower = 64;
+      const Index value = power.Count();
+      if (value > kMostPower) power.Refuse("is too high a power");
+      term.powers.push_back(static_cast<int>(value));
+    }
+    term.coefficient = element.At("coefficient").Number();
+    form.terms.push_back(std::move(term));
+  }
+  return form;
+}
+
+NetForm ReadNet(const Node& node) {
+  NetForm form;
+  form.input_offset = node.At("input_offset").Vector();
+  form.input_scale = node.At("input_scale").Vector();
+  form.target_slope = node.At("target_slope").Vector();
+  form.target_offset = node.At("target_offset").Vector();
+  form.w1 = node.At("w1").Matrix();
+  form.w2 = node.At("w2").Matrix();
+  const std::string output = node.At("output").Text();
+  if (output == ToString(OutputFunction::kSigmoid)) {
+    form.output = OutputFunction::kSigmoid;
+  } else if (output == ToString(OutputFunction::kLinear)) {
+    form.output = OutputFunction::kLinear;
+  } else {
+    node.At("output").Refuse("must be 'sigmoid' or 'linear', found '" + output +
+                             "'");
+  }
+  std::vector<Index> nodes;
+  for (const Node& count : node.At("nodes").Elements()) {
+    nodes.push_back(count.Count());
+  }
+  if (nodes !=
+      std::vector<Index>{form.w1.cols() - 1, form.w1.rows(), form.w2.rows()}) {
+    node.At("nodes").Refuse("does not agree with the shapes of w1 and w2");
+  }
+  return form;
+}
+
+data::ColumnInfo ReadColumn(const Node& node) {
+  return {node.At("name").Text(), data::UnitOfSymbol(node.At("unit").Text())};
+}
+
+ModelKind ReadKind(const Node& node) {
+  const std::string kind = node.Text();
+  for (const ModelKind known :
+       {ModelKind::kBaseline, ModelKind::kPolynomial, ModelKind::kNet}) {
+    if (kind == ToString(known)) return known;
+  }
+  node.Refuse("unknown kind of model '" + kind + "'");
+}
+
+FittedModel ReadModel(const Node& root) {
+  const std::string schema = root.At("schema").Text();
+  if (schema != kSchema) {
+    root.At("schema").Refuse(
+        fmt::format("this version reads {}, found '{}'", kSchema, schema));
+  }
+  FittedModel fitted;
+  fitted.name = root.At("name").Text();
+  fitted.kind = ReadKind(root.At("kind"));
+  fitted.target = ReadColumn(root.At("target"));
+  for (const Node& element : root.At("inputs").Elements()) {
+    fitted.inputs.push_back({ReadColumn(element),
+                             element.At("min").Number(),
+                             element.At("max").Number(),
+                             element.At("mean").Number(),
+                             element.At("sd").Number()});
+  }
+  const Node parameters = root.At("parameters");
+  const bool is_net = fitted.kind == ModelKind::kNet;
+  const Node form = root.At(is_net ? "net" : "polynomial");
+  try {
+    if (is_net) {
+      fitted.model = std::make_shared<FeedforwardNet>(ReadNet(form));
+    } else {
+      fitted.equation = form.At("equation").Text();
+      fitted.model = std::make_shared<PolynomialModel>(ReadPolynomial(form),
+                                                       parameters.Count());
+    }
+  } catch (const std::invalid_argument& error) {
+    form.Refuse(error.what());
+  }
+  if (fitted.model->num_inputs() != static_cast<Index>(fitted.inputs.size())) {
+    root.At("inputs").Refuse(fmt::format("names {} inputs, the model reads {}",
+                                         fitted.inputs.size(),
+                                         fitted.model->num_inputs()));
+  }
+  if (fitted.model->num_parameters() != parameters.Count()) {
+    parameters.Refuse(fmt::format("is {}, the model has {}",
+                                  parameters.Count(),
+                                  fitted.model->num_parameters()));
+  }
+  fitted.summary.message = "read from a file";
+  return fitted;
+}
+
+}  // namespace
+
+std::string ModelToJson(const FittedModel& fitted,
+                        const Provenance& provenance) {
+  Json inputs = Json::array();
+  for (const TrainedInput& input : fitted.inputs) {
+    inputs.push_back({{"name", input.column.name},
+                      {"unit", input.column.unit.symbol},
+                      {"min", input.min},
+                      {"max", input.max},
+                      {"mean", input.mean},
+                      {"sd", input.sd}});
+  }
+  Json document = {
+      {"schema", kSchema},
+      {"version", Version()},
+      {"name", fitted.name},
+      {"kind", ToString(fitted.kind)},
+      {"target",
+       {{"name", fitted.target.name}, {"unit", fitted.target.unit.symbol}}},
+      {"inputs", std::move(inputs)},
+      {"parameters", fitted.model->num_parameters()}};
+  const ModelDescription description = fitted.model->Describe();
+  if (const auto* polynomial = std::get_if<PolynomialForm>(&description)) {
+    document["polynomial"] = ToJson(*polynomial, fitted.equation);
+  } else {
+    document["net"] = ToJson(std::get<NetForm>(description));
+  }
+  document["interval"] = nullptr;
+  document["provenance"] = Json::object();
+  for (const auto& [key, value] : provenance) {
+    document["provenance"][key] = value;
+  }
+  constexpr int kIndent = 1;
+  return document.dump(kIndent) + "\n";
+}
+
+void SaveModel(const FittedModel& fitted,
+               const Provenance& provenance,
+               const std::string& path) {
+  data::WriteFileAtomically(path, ModelToJson(fitted, provenance));
+}
+
+FittedModel LoadModel(const std::string& path) {
+  return ModelFromJson(data::ReadFile(path), path);
+}
+
+FittedModel ModelFromJson(const std::string& text, const std::string& source) {
+  Json document;
+  try {
+    document = Json::parse(text);
+  } catch (const Json::exception& error) {
+    throw data::InputError(
+        fmt::format("{}: is no JSON model file: {}", source, error.what()));
+  }
+  return ReadModel(Node(document, "", source));
+}
+
+}  // namespace errmap::models

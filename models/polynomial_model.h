@@ -1,0 +1,36 @@
+#pragma once
+
+#include "models/error_model.h"
+
+namespace errmap::models {
+
+/// Polynomial map (NISTIR 5367, Eq. 7-9 and beyond); without terms, a constant.
+class PolynomialModel final : public ErrorModel {
+ public:
+  /// `num_parameters` is what was fitted: the terms, and the intercept unless
+  /// it is fixed (the zero map has none). Throws std::invalid_argument where
+  /// shapes do not agree, a power is negative or above 64, or a number is not
+  /// finite.
+  PolynomialModel(PolynomialForm form, Eigen::Index num_parameters);
+
+  Eigen::Index num_inputs() const override { return form_.input_offset.size(); }
+  Eigen::Index num_parameters() const override { return num_parameters_; }
+  ModelDescription Describe() const override { return form_; }
+  const PolynomialForm& form() const { return form_; }
+
+ private:
+  // A term as the list of its factors, each an index into the row's powers.
+  struct SparseTerm {
+    std::vector<Eigen::Index> factors;
+    double coefficient;
+  };
+
+  Eigen::VectorXd DoPredict(const Eigen::MatrixXd& inputs) const override;
+
+  PolynomialForm form_;
+  Eigen::Index num_parameters_;
+  int highest_power_ = 0;
+  std::vector<SparseTerm> sparse_terms_;
+};
+
+}  // namespace errmap::models

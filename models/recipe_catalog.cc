@@ -1,0 +1,65 @@
+#include "models/recipe_catalog.h"
+
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "models/model_spec.h"
+#include "models/net_recipe.h"
+#include "models/polynomial_recipe.h"
+
+namespace errmap::models {
+
+const std::vector<std::string>& ModelTypes() {
+  static const std::vector<std::string> types = {"zero",
+                                                 "mean",
+                                                 "poly:position",
+                                                 "poly:temperature",
+                                                 "poly:eq7",
+                                                 "poly:eq8",
+                                                 "poly:eq9",
+                                                 "poly:full",
+                                                 "poly:stepwise",
+                                                 "net:scg"};
+  return types;
+}
+
+std::unique_ptr<ModelRecipe> MakeRecipe(std::string_view spec_text) {
+  const ModelSpec spec = ParseModelSpec(spec_text);
+  if (auto recipe = MakePolynomialRecipe(spec)) return recipe;
+  if (auto recipe = MakeNetRecipe(spec)) return recipe;
+  throw std::invalid_argument(fmt::format("model '{}': unknown; there are {}",
+                                          spec_text,
+                                          fmt::join(ModelTypes(), ", ")));
+}
+
+DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
+                                  Eigen::Index fewest_training_rows) {
+  constexpr int kHighestFullDegree = 6;
+  constexpr Eigen::Index kRowsPerCoefficient = 5;
+  DefaultRecipes defaults;
+  for (const std::string& type : ModelTypes()) {
+    if (type == "poly:full") {
+      for (int degree = 2; degree <= kHighestFullDegree; ++degree) {
+        auto recipe = MakeRecipe(fmt::format("poly:full:degree={}", degree));
+        const Eigen::Index coefficients = *recipe->NumCoefficients(dataset);
+        if (dataset.num_inputs() > 0 &&
+            coefficients <= fewest_training_rows / kRowsPerCoefficient) {
+          defaults.recipes.push_back(std::move(recipe));
+        }
+      }
+      continue;
+    }
+    auto recipe = MakeRecipe(type);
+    if (const auto missing = recipe->WhatIsMissing(dataset)) {
+      defaults.left_out.push_back(
+          fmt::format("{} is left out: the data lack {}", type, *missing));
+    } else {
+      defaults.recipes.push_back(std::move(recipe));
+    }
+  }
+  return defaults;
+}
+
+}  // namespace errmap::models

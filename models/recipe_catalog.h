@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "models/error_model.h"
+
+namespace errmap::models {
+
+/// The recipe of a SPEC such as "poly:full:degree=3". Throws
+/// std::invalid_argument naming what is wrong and what there is.
+std::unique_ptr<ModelRecipe> MakeRecipe(std::string_view spec);
+
+/// Types of model that MakeRecipe knows, in the order they are presented.
+const std::vector<std::string>& ModelTypes();
+
+struct DefaultRecipes {
+  std::vector<std::unique_ptr<ModelRecipe>> recipes;
+  std::vector<std::string> left_out;  // one line each: which and why
+};
+
+/// The models compared when none are named: every kind that the data allow.
+/// A full polynomial takes part while it has at most a fifth as many
+/// coefficients as `fewest_training_rows`, the smallest training side of the
+/// study's folds.
+DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
+                                  Eigen::Index fewest_training_rows);
+
+}  // namespace errmap::models

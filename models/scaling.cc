@@ -1,0 +1,69 @@
+#include "models/scaling.h"
+
+#include <stdexcept>
+
+#include "stats/summary.h"
+
+namespace errmap::models {
+namespace {
+
+// A spread of 0 maps to scale 1: the offset already maps the column to 0.
+double InverseOf(double spread) { return spread > 0.0 ? 1.0 / spread : 1.0; }
+
+template <typename Spread>
+ColumnScaling ScaleColumns(const Eigen::MatrixXd& values, Spread&& spread) {
+  ColumnScaling scaling{Eigen::VectorXd(values.cols()),
+                        Eigen::VectorXd(values.cols())};
+  for (Eigen::Index j = 0; j < values.cols(); ++j) {
+    const auto [offset, width] = spread(stats::Summarize(values.col(j)));
+    scaling.offset[j] = offset;
+    scaling.scale[j] = InverseOf(width);
+  }
+  return scaling;
+}
+
+}  // namespace
+
+Eigen::MatrixXd ColumnScaling::Apply(const Eigen::MatrixXd& values) const {
+  return (values.rowwise() - offset.transpose()) * scale.asDiagonal();
+}
+
+ColumnScaling IdentityScaling(Eigen::Index num_columns) {
+  return {Eigen::VectorXd::Zero(num_columns),
+          Eigen::VectorXd::Ones(num_columns)};
+}
+
+ColumnScaling CentredRangeScaling(const Eigen::MatrixXd& values) {
+  return ScaleColumns(values, [](const stats::SampleSummary& column) {
+    return std::pair(column.min + 0.5 * column.range, 0.5 * column.range);
+  });
+}
+
+ColumnScaling UnitRangeScaling(const Eigen::MatrixXd& values) {
+  return ScaleColumns(values, [](const stats::SampleSummary& column) {
+    return std::pair(column.min, column.range);
+  });
+}
+
+ColumnScaling StandardScaling(const Eigen::MatrixXd& values) {
+  return ScaleColumns(values, [](const stats::SampleSummary& column) {
+    return std::pair(column.mean, column.n > 1 ? column.sd : 0.0);
+  });
+}
+
+TargetScaling SigmoidTargetScaling(
+    const Eigen::Ref<const Eigen::MatrixXd>& targets) {
+  constexpr double kLowest = 0.01;
+  constexpr double kHighest = 0.99;
+  const double highest = targets.maxCoeff();
+  const double range = highest - targets.minCoeff();
+  if (!(range > 0.0)) {
+    throw std::invalid_argument(
+        "the target does not vary in the training rows, so it cannot be "
+        "scaled to a sigmoid's range");
+  }
+  const double slope = (kHighest - kLowest) / range;
+  return {slope, kHighest - slope * highest};
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace errmap::models {
+
+/// scaled = (x - offset) * scale, column by column.
+struct ColumnScaling {
+  Eigen::VectorXd offset;  // (p) unit of the column
+  Eigen::VectorXd scale;   // (p) per unit of the column
+
+  /// Scaled copy of `values` (m x p).
+  Eigen::MatrixXd Apply(const Eigen::MatrixXd& values) const;
+};
+
+/// Leaves every value as it is.
+ColumnScaling IdentityScaling(Eigen::Index num_columns);
+
+/// Maps the range of each column to [-1, 1]; a constant column to 0.
+ColumnScaling CentredRangeScaling(const Eigen::MatrixXd& values);
+
+/// Maps the range of each column to [0, 1]; a constant column to 0.
+ColumnScaling UnitRangeScaling(const Eigen::MatrixXd& values);
+
+/// Maps each column to mean 0 and sd 1 (n - 1); a constant column to 0.
+ColumnScaling StandardScaling(const Eigen::MatrixXd& values);
+
+/// z = slope t + offset, from error in the target's unit to a net's output.
+struct TargetScaling {
+  double slope = 1.0;
+  double offset = 0.0;
+};
+
+/// Maps the range of `targets` to 0.01 .. 0.99, the sigmoid's usable range
+/// (NISTIR 5367, Appendix A, getpat). Throws std::invalid_argument where the
+/// targets do not vary.
+TargetScaling SigmoidTargetScaling(
+    const Eigen::Ref<const Eigen::MatrixXd>& targets);
+
+}  // namespace errmap::models

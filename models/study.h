@@ -1,0 +1,100 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/dataset.h"
+#include "models/error_model.h"
+#include "stats/error_metrics.h"
+#include "stats/holdout.h"
+
+namespace errmap::models {
+
+/// A way of holding rows out, ready for one data set.
+struct Holdout {
+  std::string name;                // its SPEC
+  bool whole_groups = false;       // no group is on both sides of a fold
+  std::vector<stats::Fold> folds;  // indices into the data set
+  /// Rows judged instead of the folds' own (file:TEST.csv), or null.
+  std::shared_ptr<const data::Dataset> test_data;
+};
+
+/// Folds of `spec` over `dataset`; `test_data` for file:TEST.csv only. Throws
+/// std::invalid_argument where the data do not allow it.
+Holdout MakeHoldout(const stats::HoldoutSpec& spec,
+                    const data::Dataset& dataset,
+                    std::uint64_t seed,
+                    std::shared_ptr<const data::Dataset> test_data = nullptr);
+
+/// What happened in one fold.
+struct FoldResult {
+  double train_rmse = 0.0;
+  double test_rmse = 0.0;
+  fitting::FitSummary summary;
+  double fit_seconds = 0.0;
+  std::vector<std::string> remarks;
+  Eigen::VectorXd test_predictions;  // one per test row of the fold
+};
+
+/// A model under one hold-out, in the target's unit.
+struct HoldoutResult {
+  std::string holdout;
+  std::string why_failed;     // "" = every fold was fitted
+  stats::ErrorMetrics train;  // each figure averaged over the folds
+  stats::ErrorMetrics test;   // of the pooled residuals of all folds
+  double ks_d = 0.0;          // of those residuals, their own mean and sd
+  double ks_p_given = 0.0;    // Eq. 140, as if mean and sd had been given
+  std::vector<FoldResult> folds;
+
+  bool ok() const { return why_failed.empty(); }
+};
+
+/// A model in the comparison.
+struct ModelResult {
+  std::string name;  // the SPEC as given
+  ModelKind kind = ModelKind::kPolynomial;
+  std::vector<EffectiveOption> options;
+  std::vector<HoldoutResult> holdouts;   // as the study's
+  std::optional<FittedModel> final_fit;  // to all rows; the map to use
+  std::string final_why_failed;
+  double final_fit_seconds = 0.0;
+  double predict_ns = 0.0;  // per prediction; NaN where nothing was fitted
+
+  bool ok() const;          // every hold-out and the final fit
+  std::string why() const;  // the first reason of failure, "" if ok
+};
+
+struct StudyOptions {
+  std::uint64_t seed = 1;
+  int jobs = 1;  // at least 1
+  const std::atomic<bool>* stop = nullptr;
+  /// Told (fits done, fits in all) from any thread; may be empty.
+  std::function<void(int, int)> progress = {};
+};
+
+struct StudyResult {
+  std::vector<ModelResult> models;  // as the recipes
+  bool interrupted = false;
+};
+
+/// Fits every recipe to the training rows of every fold and to all rows, and
+/// judges each on the rows held out; all see the same rows. Fits run in
+/// parallel; nothing but the measured times depends on `jobs`. A fit that
+/// fails is a result, not an error. Throws std::invalid_argument for no
+/// recipes, no hold-outs or jobs < 1.
+StudyResult RunStudy(const data::Dataset& dataset,
+                     const std::vector<Holdout>& holdouts,
+                     const std::vector<std::unique_ptr<ModelRecipe>>& recipes,
+                     const StudyOptions& options);
+
+/// Metrics of `predicted` (m) against the targets of `dataset`, R2 about its
+/// own mean.
+stats::ErrorMetrics Judge(const data::Dataset& dataset,
+                          const Eigen::VectorXd& predicted);
+
+}  // namespace errmap::models

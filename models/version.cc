@@ -1,0 +1,7 @@
+#include "models/version.h"
+
+namespace errmap::models {
+
+const char* Version() { return ERRMAP_VERSION; }
+
+}  // namespace errmap::models

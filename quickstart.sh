@@ -1,0 +1,249 @@
+#!/bin/sh
+# From a fresh Debian 12 and a clone to a result, without questions:
+#
+#   sh quickstart.sh        install what is missing, build, compare models on
+#                           the shipped measurements
+#   sh quickstart.sh test   the same, then the whole test suite
+#
+# Safe to run again: what is installed stays, the build is incremental. A
+# package that is already there is never replaced or removed.
+set -eu
+
+packages="g++ cmake ninja-build libeigen3-dev libopenblas-dev libceres-dev
+  libnlopt-dev libnlopt-cxx-dev libboost-dev libtbb-dev libcli11-dev
+  nlohmann-json3-dev libfmt-dev libtomlplusplus-dev libssl-dev libgtest-dev
+  libgmock-dev libbenchmark-dev gnuplot-nox"
+test_packages="clang-format-14"
+example="data/sets/nistir5367_xdisp_down.csv"
+
+usage="usage: sh quickstart.sh [test]"
+step=""
+log=""
+
+say() { printf 'errmap: %s\n' "$*"; }
+complain() { printf 'errmap: %s\n' "$*" >&2; }
+
+at_exit() {
+  status=$?
+  if [ -n "$log" ]; then rm -f "$log"; fi
+  if [ "$status" -ne 0 ] && [ -n "$step" ]; then
+    complain "failed: $step"
+  fi
+  exit "$status"
+}
+trap at_exit EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM
+
+# Runs a command with its output in $log, shown only if it fails.
+quietly() {
+  if "$@" >"$log" 2>&1 </dev/null; then return 0; fi
+  cat "$log" >&2
+  return 1
+}
+
+have() { command -v "$1" >/dev/null 2>&1; }
+
+# Boost's headers may come from any package: is there a 1.74 or newer?
+have_boost() {
+  for header in /usr/include/boost/version.hpp \
+    /usr/local/include/boost/version.hpp; do
+    [ -r "$header" ] || continue
+    version=$(awk '$1 == "#define" && $2 == "BOOST_VERSION" { print $3 }' \
+      "$header")
+    if [ "${version:-0}" -ge 107400 ]; then return 0; fi
+  done
+  return 1
+}
+
+# Is there something else that does the work of package $1?
+have_equivalent() {
+  case $1 in
+    libboost-dev) have_boost ;;
+    gnuplot-nox) have gnuplot ;;
+    clang-format-14) have clang-format-14 ;;
+    libopenblas-dev) # Any flavour of it.
+      case $(dpkg-query -W -f '${db:Status-Status} ' libopenblas-pthread-dev \
+        libopenblas-openmp-dev libopenblas-serial-dev 2>/dev/null) in
+        "installed "* | *" installed "*) return 0 ;;
+      esac
+      return 1
+      ;;
+    *) return 1 ;;
+  esac
+}
+
+# Those of the packages "$@" that must be installed.
+missing_packages() {
+  installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "$@" \
+    2>/dev/null | awk '$2 == "installed" { print $1 }') || true
+  for package in "$@"; do
+    if printf '%s\n' "$installed" | grep -Fqx -e "$package"; then continue; fi
+    if have_equivalent "$package"; then continue; fi
+    printf '%s ' "$package"
+  done
+}
+
+simulate_install() {
+  LC_ALL=C apt-get install -s --no-install-recommends "$@" 2>&1 </dev/null
+}
+
+# Stops if installing "$@" would take away a package that is there.
+refuse_to_replace() {
+  removed=$(simulate_install "$@" |
+    awk '$1 == "Remv" { printf " %s", $2 }') || true
+  if [ -n "$removed" ]; then
+    step=""
+    complain "installing $* would remove$removed: nothing was installed;" \
+      "settle the conflict yourself, then run this again"
+    exit 1
+  fi
+}
+
+# Stops if some of "$@" cannot be installed beside what is there.
+refuse_to_conflict() {
+  if simulate_install "$@" >/dev/null; then return 0; fi
+  conflicts=""
+  for package in "$@"; do
+    simulate_install "$package" >/dev/null || conflicts="$conflicts $package"
+  done
+  step=""
+  complain "Debian cannot install${conflicts:- $*} beside the packages that" \
+    "are there: nothing was installed; see: apt-get install -s${conflicts:- $*}"
+  exit 1
+}
+
+as_root() {
+  if [ "$(id -u)" -eq 0 ]; then
+    env DEBIAN_FRONTEND=noninteractive "$@"
+  else
+    sudo env DEBIAN_FRONTEND=noninteractive "$@"
+  fi
+}
+
+install_packages() {
+  step="finding out which packages are missing"
+  # shellcheck disable=SC2086 # a list of words
+  missing=$(missing_packages $wanted)
+  missing=${missing% }
+  if [ -z "$missing" ]; then
+    say "all packages are installed"
+    return 0
+  fi
+  say "missing packages: $missing"
+  # shellcheck disable=SC2086
+  refuse_to_replace $missing
+  if [ "$(id -u)" -ne 0 ] && ! have sudo; then
+    step=""
+    complain "neither root nor sudo: have an administrator run:" \
+      "apt-get install --no-install-recommends $missing"
+    exit 1
+  fi
+  say "fetching Debian's package lists"
+  step="fetching Debian's package lists (apt-get update)"
+  quietly as_root apt-get -o Acquire::Retries=3 update
+  # With the new lists the answer may be another.
+  # shellcheck disable=SC2086
+  refuse_to_replace $missing
+  # shellcheck disable=SC2086
+  refuse_to_conflict $missing
+  say "installing them"
+  step="installing packages (apt-get install)"
+  # shellcheck disable=SC2086
+  quietly as_root apt-get install -y --no-install-recommends --no-remove \
+    -o Acquire::Retries=3 -o DPkg::Lock::Timeout=120 $missing
+}
+
+# Where there is no Debian, nothing is installed.
+check_tools() {
+  absent=""
+  for tool in cmake ninja; do
+    have "$tool" || absent="$absent $tool"
+  done
+  have c++ || have g++ || have clang++ || absent="$absent c++"
+  if [ -n "$absent" ]; then
+    complain "this is not Debian, so nothing was installed; missing:$absent" \
+      "(and perhaps libraries: see the packages in quickstart.sh)"
+    exit 1
+  fi
+  say "this is not Debian: nothing is installed, using what is there"
+}
+
+# One compiler per core, but not more than memory allows (1.5 GiB each).
+compile_jobs() {
+  jobs=$cores
+  if [ -r /proc/meminfo ]; then
+    room=$(awk '$1 == "MemTotal:" { print int($2 / 1572864) }' /proc/meminfo)
+    if [ "${room:-$jobs}" -lt "$jobs" ]; then jobs=$room; fi
+  fi
+  if [ "$jobs" -lt 1 ]; then jobs=1; fi
+  printf '%s\n' "$jobs"
+}
+
+mode="compare"
+if [ $# -gt 1 ]; then
+  complain "$usage"
+  exit 2
+fi
+case ${1-} in
+  "") ;;
+  test) mode="test" ;;
+  -h | --help)
+    printf '%s\n' "$usage" \
+      "Installs what is missing from Debian, builds errmap into build/ and" \
+      "compares models on the shipped measurements; with 'test' it then runs" \
+      "the test suite."
+    exit 0
+    ;;
+  *)
+    complain "$usage"
+    exit 2
+    ;;
+esac
+
+CDPATH='' cd -- "$(dirname -- "$0")"
+step="making a temporary file"
+log=$(mktemp)
+
+wanted=$packages
+preset=release
+if [ "$mode" = test ]; then
+  wanted="$packages $test_packages"
+  # Warnings are errors only where they are ours to mend at once.
+  if [ -n "${CI:-}" ]; then preset=ci; fi
+fi
+if have apt-get && have dpkg-query; then
+  install_packages
+else
+  step=""
+  check_tools
+fi
+
+cores=$(nproc 2>/dev/null || echo 2)
+
+say "configuring a Release build in build/"
+step="configuring (cmake --preset $preset)"
+quietly cmake --preset "$preset"
+
+if [ "$mode" = test ]; then
+  say "building everything"
+  target=all
+else
+  say "building errmap (a few minutes the first time)"
+  target=errmap
+fi
+step="building (cmake --build build --target $target)"
+cmake --build build --target "$target" --parallel "$(compile_jobs)"
+
+say "running: build/errmap compare $example"
+step="build/errmap compare $example"
+build/errmap compare "$example"
+
+if [ "$mode" = test ]; then
+  if [ "$cores" -lt 2 ]; then cores=2; fi
+  say "running the test suite"
+  rm -f "$log"
+  # The last lines and the exit status are CTest's own.
+  exec ctest --test-dir build --output-on-failure --no-tests=error \
+    --parallel "$cores"
+fi

@@ -1,0 +1,43 @@
+#include "stats/error_metrics.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace errmap::stats {
+
+double RootMeanSquare(const Eigen::Ref<const Eigen::VectorXd>& residuals) {
+  const Eigen::VectorXd squares = residuals.cwiseAbs2();
+  return std::sqrt(CompensatedSum(squares) /
+                   static_cast<double>(residuals.size()));
+}
+
+ErrorMetrics ComputeErrorMetrics(
+    const Eigen::Ref<const Eigen::VectorXd>& targets,
+    const Eigen::Ref<const Eigen::VectorXd>& residuals,
+    const Eigen::Ref<const Eigen::VectorXd>& baseline) {
+  if (targets.size() != residuals.size() || targets.size() != baseline.size()) {
+    throw std::invalid_argument(
+        "ComputeErrorMetrics: targets, residuals and baseline must have one "
+        "size; found " +
+        std::to_string(targets.size()) + ", " +
+        std::to_string(residuals.size()) + ", " +
+        std::to_string(baseline.size()));
+  }
+  ErrorMetrics metrics;
+  metrics.residuals = Summarize(residuals);
+  const Eigen::VectorXd magnitudes = residuals.cwiseAbs();
+  const Eigen::VectorXd squares = residuals.cwiseAbs2();
+  const Eigen::VectorXd spread = (targets - baseline).cwiseAbs2();
+  const double n = static_cast<double>(residuals.size());
+  const double squared_error = CompensatedSum(squares);
+  metrics.rmse = std::sqrt(squared_error / n);
+  metrics.mae = CompensatedSum(magnitudes) / n;
+  const double total = CompensatedSum(spread);
+  metrics.r2 = total > 0.0 ? 1.0 - squared_error / total
+                           : std::numeric_limits<double>::quiet_NaN();
+  return metrics;
+}
+
+}  // namespace errmap::stats

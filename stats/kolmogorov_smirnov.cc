@@ -1,0 +1,58 @@
+#include "stats/kolmogorov_smirnov.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace errmap::stats {
+namespace {
+
+double NormalCdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
+
+}  // namespace
+
+double KsDistanceFromNormal(const Eigen::Ref<const Eigen::VectorXd>& sample,
+                            double mean,
+                            double sd) {
+  const Eigen::Index n = sample.size();
+  if (n == 0 || !(sd > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  Eigen::VectorXd sorted = sample;
+  std::sort(sorted.begin(), sorted.end());
+  double distance = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double cdf = NormalCdf((sorted[i] - mean) / sd);
+    const double below = static_cast<double>(i) / static_cast<double>(n);
+    const double above = static_cast<double>(i + 1) / static_cast<double>(n);
+    distance = std::max({distance, cdf - below, above - cdf});
+  }
+  return distance;
+}
+
+double KsProbabilityMeanSdGiven(double d, Eigen::Index n) {
+  return KolmogorovComplement(std::sqrt(static_cast<double>(n)) * d);
+}
+
+double KolmogorovComplement(double lambda) {
+  if (std::isnan(lambda)) return lambda;
+  if (lambda <= 0.0) return 1.0;
+  // Where the two forms are equally fast; each term falls steeply there.
+  constexpr double kCrossover = 1.0;
+  if (lambda < kCrossover) {
+    // 1 - sqrt(2 pi)/lambda sum_k exp(-(2k-1)^2 pi^2 / (8 lambda^2)).
+    const double exponent =
+        -std::numbers::pi * std::numbers::pi / (8.0 * lambda * lambda);
+    double sum = 0.0;
+    for (int k = 1; k <= 9; k += 2) sum += std::exp(exponent * k * k);
+    return 1.0 - std::sqrt(2.0 * std::numbers::pi) / lambda * sum;
+  }
+  double sum = 0.0;
+  double sign = 1.0;
+  for (int j = 1; j <= 8; ++j) {
+    sum += sign * std::exp(-2.0 * j * j * lambda * lambda);
+    sign = -sign;
+  }
+  return std::clamp(2.0 * sum, 0.0, 1.0);
+}
+
+}  // namespace errmap::stats

@@ -1,0 +1,222 @@
+#!/bin/sh
+# README.md tells the truth: its commands run, its outputs are real, its C++
+# compiles, links and runs.
+#
+#   README_commands_test.sh ROOT BUILD_DIR
+#
+# Conventions of README.md that this relies on:
+# - In a ```sh block, each line that starts with "errmap " is run (a trailing
+#   backslash continues it), in the order of the text, in one scratch folder that
+#   holds a copy of data/sets. Commands that cannot run stand in another block.
+# - A ```text block that directly follows (blank lines apart) a ```sh block with
+#   one errmap command is that command's standard output. Measured times may
+#   differ: numbers before s, ms, us or ns and numbers in columns headed by
+#   such a unit; so may runs of blanks and dashes.
+# - A ```cpp block is a whole program; run in the same scratch folder it exits
+#   with 0.
+set -eu
+
+if [ $# -ne 2 ]; then
+  echo "usage: README_commands_test.sh ROOT BUILD_DIR" >&2
+  exit 2
+fi
+root=$(CDPATH='' cd -- "$1" && pwd)
+build=$(CDPATH='' cd -- "$2" && pwd)
+readme=$root/README.md
+
+die() {
+  printf 'README: %s\n' "$*" >&2
+  exit 1
+}
+
+[ -f "$readme" ] || die "there is no $readme"
+[ -x "$build/errmap" ] || die "there is no $build/errmap: build it first"
+
+failures=0
+fail() {
+  printf 'README: %s\n' "$*" >&2
+  failures=$((failures + 1))
+}
+
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+blocks=$scratch/blocks
+work=$scratch/work
+mkdir -p "$blocks" "$work/data"
+cp -R "$root/data/sets" "$work/data/"
+PATH=$build:$PATH
+export PATH
+
+# The two commands, each on a line of its own in a ```sh block.
+awk '/^```/ { inside = !inside && $0 ~ /^```sh[ \t]*$/; next } inside' \
+  "$readme" >"$scratch/sh_lines"
+for command in "sh quickstart.sh" "sh quickstart.sh test"; do
+  sed 's/[[:space:]]*\(#.*\)\{0,1\}$//' "$scratch/sh_lines" |
+    grep -Fqx -e "$command" || fail "does not name: $command"
+done
+
+# The blocks as files 001.sh, 002.text, ...; the index has number, language and
+# whether only blank lines part it from the block before.
+awk -v blocks="$blocks" '
+  /^```/ && !inside {
+    inside = 1
+    language = substr($0, 4)
+    sub(/[ \t].*/, "", language)
+    if (language !~ /^[a-z0-9+]+$/) language = "none"
+    file = sprintf("%s/%03d.%s", blocks, ++count, language)
+    printf "" >file
+    printf "%03d %s %s\n", count, language, (prose ? "apart" : "adjacent")
+    next
+  }
+  /^```/ { inside = 0; prose = 0; close(file); next }
+  inside { print >file; next }
+  /[^ \t]/ { prose = 1 }
+  END { if (inside) { print "open fence" >"/dev/stderr"; exit 1 } }
+' "$readme" >"$scratch/index" || die "has a code block without an end"
+
+# Replaces what a clock decides by "#": see the top of this file. Letters
+# beyond ASCII become one "?" each, so that columns can be counted.
+mask_times() {
+  LC_ALL=C sed -e 's/\xc2\xb5s/us/g' -e 's/[\xc0-\xf7][\x80-\xbf]*/?/g' "$1" |
+    LC_ALL=C awk '
+    function numeric(token) {
+      return token ~ /^[-+~<("]*[0-9][0-9.,]*([eE][-+]?[0-9]+)?[),;"]*$/
+    }
+    function unit(token) { return token ~ /^[(\[]?(s|ms|us|ns)[])]?[.,;:|"]*$/ }
+    # Start and end of the tokens of this line.
+    function split_line(line,   rest, at) {
+      count = 0
+      at = 1
+      rest = line
+      while (match(rest, /[^ \t]+/)) {
+        token[++count] = substr(rest, RSTART, RLENGTH)
+        first[count] = at + RSTART - 1
+        last[count] = first[count] + RLENGTH - 1
+        at += RSTART + RLENGTH - 1
+        rest = substr(rest, RSTART + RLENGTH)
+      }
+    }
+    /^[ \t]*$/ { columns = 0; print ""; next }
+    {
+      split_line($0)
+      out = ""
+      headings = 0
+      for (i = 1; i <= count; ++i) {
+        masked = token[i]
+        if (unit(token[i])) {
+          if (i > 1 && numeric(token[i - 1])) {
+            masked = ""
+          } else {
+            # A heading: it reaches left to where two blanks part it.
+            left = i
+            while (left > 1 && first[left] - last[left - 1] == 2) --left
+            ++headings
+            new_left[headings] = first[left]
+            new_right[headings] = last[i]
+          }
+        } else if (numeric(token[i])) {
+          if (i < count && unit(token[i + 1])) masked = "#"
+          for (c = 1; c <= columns; ++c) {
+            if (first[i] <= right_of[c] && last[i] >= left_of[c]) masked = "#"
+          }
+        }
+        if (masked != "") out = out (out == "" ? "" : " ") masked
+      }
+      if (headings > 0) {
+        columns = headings
+        for (c = 1; c <= columns; ++c) {
+          left_of[c] = new_left[c]
+          right_of[c] = new_right[c]
+        }
+      }
+      gsub(/---*/, "-", out)
+      gsub(/\?\?\?*/, "?", out)
+      print out
+    }'
+}
+
+commands=0
+outputs=0
+programs=0
+single=""
+while read -r number language gap; do
+  block=$blocks/$number.$language
+  if [ "$language" = text ] && [ "$gap" = adjacent ] && [ -n "$single" ]; then
+    outputs=$((outputs + 1))
+    mask_times "$block" >"$scratch/expected"
+    mask_times "$scratch/stdout" >"$scratch/actual"
+    if ! diff -u "$scratch/expected" "$scratch/actual" >"$scratch/diff"; then
+      fail "the output of '$single' is not what it shows (- README, + now):"
+      sed '1,2d' "$scratch/diff" >&2
+    fi
+  fi
+  single=""
+  case $language in
+    sh)
+      # Lines joined at trailing backslashes.
+      awk '{
+        line = line $0
+        if (sub(/\\$/, " ", line)) next
+        if (line ~ /^errmap /) print line
+        line = ""
+      }' "$block" >"$scratch/commands"
+      while IFS= read -r command; do
+        commands=$((commands + 1))
+        status=0
+        (cd "$work" && sh -c "$command") >"$scratch/stdout" \
+          2>"$scratch/stderr" </dev/null || status=$?
+        if [ "$status" -ne 0 ]; then
+          fail "'$command' exits with $status:"
+          sed 's/^/    /' "$scratch/stderr" >&2
+        fi
+        single=$command
+      done <"$scratch/commands"
+      if [ "$(wc -l <"$scratch/commands")" -ne 1 ]; then single=""; fi
+      ;;
+    cpp)
+      programs=$((programs + 1))
+      cache=$build/CMakeCache.txt
+      [ -f "$cache" ] || die "there is no $cache: configure first"
+      compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[^=]*=//p' "$cache")
+      flags=$(sed -n 's/^CMAKE_CXX_FLAGS:[^=]*=//p' "$cache")
+      # What errmap itself is linked with; a folder's library may need any.
+      libraries=$(awk '
+        /^build errmap: / { inside = 1 }
+        inside && /^ *LINK_LIBRARIES = / {
+          sub(/^ *LINK_LIBRARIES = /, ""); print; exit
+        }' "$build/build.ninja" 2>/dev/null || true)
+      if [ -z "$libraries" ]; then
+        libraries="-Wl,--start-group"
+        for library in "$build"/liberrmap_*.a; do
+          libraries="$libraries $library"
+        done
+        libraries="$libraries -Wl,--end-group -lfmt -ltbb -lcrypto"
+      fi
+      cp "$block" "$scratch/readme_example.cc"
+      status=0
+      # shellcheck disable=SC2086 # lists of words
+      (cd "$build" && "${compiler:-g++}" -std=c++20 $flags -I "$root" \
+        -isystem /usr/include/eigen3 "$scratch/readme_example.cc" \
+        -o "$work/readme_example" $libraries) >"$scratch/log" 2>&1 || status=$?
+      if [ "$status" -ne 0 ]; then
+        fail "the C++ example does not compile and link:"
+        sed 's/^/    /' "$scratch/log" >&2
+        continue
+      fi
+      (cd "$work" && ./readme_example) >"$scratch/log" 2>&1 </dev/null ||
+        status=$?
+      if [ "$status" -ne 0 ]; then
+        fail "the C++ example exits with $status:"
+        sed 's/^/    /' "$scratch/log" >&2
+      fi
+      ;;
+  esac
+done <"$scratch/index"
+
+# A test that finds nothing proves nothing.
+[ "$commands" -gt 0 ] || fail "has no errmap command in a \`\`\`sh block"
+[ "$outputs" -gt 0 ] || fail "shows no output (\`\`\`text after \`\`\`sh)"
+[ "$programs" -gt 0 ] || fail "has no C++ example (\`\`\`cpp)"
+
+if [ "$failures" -ne 0 ]; then exit 1; fi
+echo "README: $commands commands, $outputs outputs, $programs C++ examples"

@@ -1,0 +1,79 @@
+#include "models/model_spec.h"
+
+#include <functional>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "models/recipe_catalog.h"
+
+namespace errmap::models {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Pair;
+
+std::string MessageOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ModelSpec, SplitsTypeAndOptionsAtColons) {
+  const ModelSpec spec = ParseModelSpec("net:scg:hidden=60:wfactor=1.3e-3");
+  EXPECT_EQ(spec.type, "net:scg");
+  EXPECT_THAT(spec.options,
+              ElementsAre(Pair("hidden", "60"), Pair("wfactor", "1.3e-3")));
+}
+
+TEST(ModelSpec, KeepsColonsAndCommasInDoubleQuotes) {
+  const ModelSpec spec = ParseModelSpec("poly:eq8:T=\"bed: top, left\"");
+  EXPECT_THAT(spec.options, ElementsAre(Pair("T", "bed: top, left")));
+  EXPECT_THAT(SplitList("zero,poly:eq8:T=\"a,b\", mean"),
+              ElementsAre("zero", "poly:eq8:T=\"a,b\"", "mean"));
+}
+
+TEST(ModelSpec, RefusesWhatItCannotReadAndSaysWhat) {
+  EXPECT_THAT(MessageOf([] { ParseModelSpec(""); }), HasSubstr("''"));
+  EXPECT_THAT(MessageOf([] { ParseModelSpec("poly:eq8:T=\"a"); }),
+              HasSubstr("never closed"));
+  EXPECT_THAT(MessageOf([] { ParseModelSpec("poly:degree=2:full"); }),
+              HasSubstr("'full' is no option"));
+  EXPECT_THAT(MessageOf([] { ParseModelSpec("poly:full:degree=2:degree=3"); }),
+              HasSubstr("given twice"));
+  EXPECT_THAT(MessageOf([] { SplitList("zero,,mean"); }),
+              HasSubstr("empty place"));
+}
+
+TEST(RecipeCatalog, NamesTheRangeOfAnOptionAndWhatThereIs) {
+  EXPECT_THAT(MessageOf([] { MakeRecipe("poly:full:degree=0"); }),
+              HasSubstr("degree must be a whole number from 1 to 12"));
+  EXPECT_THAT(MessageOf([] { MakeRecipe("net:scg:hidden=2.5"); }),
+              HasSubstr("hidden must be a whole number"));
+  EXPECT_THAT(MessageOf([] { MakeRecipe("net:scg:wfactor=-1"); }),
+              HasSubstr("wfactor must be a number from 0"));
+  EXPECT_THAT(MessageOf([] { MakeRecipe("net:scg:wfactor=nan"); }),
+              HasSubstr("wfactor must be a number"));
+  EXPECT_THAT(MessageOf([] { MakeRecipe("net:scg:scale=raw"); }),
+              HasSubstr("one of standard, range, none"));
+  EXPECT_THAT(MessageOf([] { MakeRecipe("net:scg:hiden=3"); }),
+              HasSubstr("no option 'hiden'; net:scg has hidden"));
+  EXPECT_THAT(MessageOf([] { MakeRecipe("zero:a=1"); }),
+              HasSubstr("zero takes no options"));
+  EXPECT_THAT(MessageOf([] { MakeRecipe("poly:eq10"); }),
+              HasSubstr("unknown; there are zero, mean"));
+}
+
+TEST(RecipeCatalog, MakesEveryTypeItLists) {
+  for (const std::string& type : ModelTypes()) {
+    EXPECT_EQ(MakeRecipe(type)->name(), type);
+  }
+}
+
+}  // namespace
+}  // namespace errmap::models
