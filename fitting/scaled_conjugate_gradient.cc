@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -114,11 +115,13 @@ class ScgRun {
     const double alpha = mu_ / delta_;
     trial_ = w_ + alpha * p_;
     const double trial_cost = Evaluate(trial_, &gradient_);
-    gm_ = -gradient_;
-    // Step 6: comparison parameter, Eq. (111). NaN counts as a failure.
+    // Step 6: comparison parameter, Eq. (111).
     double comparison = 2.0 * delta_ * (cost_ - trial_cost) / (mu_ * mu_);
 
-    if (comparison >= 0.0) {  // step 7
+    if (!std::isfinite(trial_cost) || !gradient_.allFinite()) {
+      comparison = std::numeric_limits<double>::quiet_NaN();
+      ShortenStep(p_squared);
+    } else if (gm_ = -gradient_; comparison >= 0.0) {  // step 7
       Accept(trial_cost, comparison, &report);
     } else {
       Reject(&comparison, &report);
@@ -146,6 +149,8 @@ class ScgRun {
     Evaluate(trial_, &gradient_);
     s_ = (gm_ + gradient_) / sigma_k;
     delta_ = s_.dot(p_);
+    // Infeasible that near: the scale lambda alone sets the first step.
+    if (!std::isfinite(delta_)) delta_ = 0.0;
   }
 
   void Accept(double trial_cost, double comparison, ScgPass* report) {
@@ -153,6 +158,7 @@ class ScgRun {
     ++summary_.iterations;
     ++steps_since_check_;
     failures_ = 0;
+    infeasible_ = 0;
     w_ = trial_;
     w_norm_ = w_.norm();
     cost_ = trial_cost;
@@ -171,6 +177,19 @@ class ScgRun {
       lambda_ /= 2.0;
     } else if (comparison < 0.25) {
       lambda_ *= 4.0;  // and again in step 8: 16 in all, as the program has it
+    }
+  }
+
+  // x is infeasible there, which says nothing about the curvature: a quarter of
+  // the step next, as delta becomes four times what it was in step 3.
+  void ShortenStep(double p_squared) {
+    constexpr int kMostInfeasible = 60;  // a step shorter than any rounding
+    lambda_bar_ = lambda_;
+    accepted_ = false;
+    lambda_ += 3.0 * delta_ / p_squared;
+    if (++infeasible_ > kMostInfeasible) {
+      Stop(Termination::kNoDescent,
+           "the objective is not finite however short the step");
     }
   }
 
@@ -261,6 +280,7 @@ class ScgRun {
   Eigen::Index steps_since_restart_ = 0;
   std::int64_t steps_since_check_ = 0;
   int failures_ = 0;
+  int infeasible_ = 0;
   bool accepted_ = true;  // a new direction: curvature is to be estimated
   bool stopped_ = false;
 };

@@ -31,31 +31,38 @@ VectorXd AppendixB() {
                                     static_cast<Index>(values.size()));
 }
 
-// NISTIR 5367, section 9.1 and Appendix B: mean 0.0025278 um, sd 0.1701827 um,
-// K-S D 0.0915280, probability 0.0025838.
+// NISTIR 5367, section 9 (the run without the dead thermocouples) and the run
+// results of Appendix B: mean 0.0025278 um, sd 0.1701827 um, minimum -0.67104
+// um, maximum 0.7603451 um, K-S D 0.0915280, probability 0.0025838.
 TEST(Report1995, PrintsWhatTheReportPrintsForAppendixB) {
   constexpr double kMillimetresPerMicrometre = 1e-3;
   // The residuals are printed with four digits, the statistics come from all.
   constexpr double kOfMean = 1e-6;
   constexpr double kOfSd = 1e-5;
+  constexpr double kOfExtremes = 0.5e-4;
   constexpr double kOfDistance = 2e-5;
   constexpr double kOfProbability = 1e-5;
   const Report1995Statistics printed = ComputeAsPrinted1995(AppendixB());
   EXPECT_EQ(printed.n, 397);
   EXPECT_NEAR(printed.mean / kMillimetresPerMicrometre, 0.0025278, kOfMean);
   EXPECT_NEAR(printed.sd / kMillimetresPerMicrometre, 0.1701827, kOfSd);
+  EXPECT_NEAR(printed.min / kMillimetresPerMicrometre, -0.67104, kOfExtremes);
+  EXPECT_NEAR(printed.max / kMillimetresPerMicrometre, 0.7603451, kOfExtremes);
   EXPECT_NEAR(printed.ks_d, 0.0915280, kOfDistance);
   EXPECT_NEAR(printed.ks_probability, 0.0025838, kOfProbability);
 }
 
 // What this arithmetic gives on the shipped file, so that a change is seen.
 TEST(Report1995, KeepsItsOwnFiguresOfAppendixB) {
+  // Half of the last digit that is written down here.
+  constexpr double kSixDecimals = 0.5e-6;
+  constexpr double kFiveDecimals = 0.5e-5;
   constexpr double kMillimetresPerMicrometre = 1e-3;
   const Report1995Statistics printed = ComputeAsPrinted1995(AppendixB());
-  EXPECT_NEAR(printed.mean / kMillimetresPerMicrometre, 0.002528, 0.5e-6);
-  EXPECT_NEAR(printed.sd / kMillimetresPerMicrometre, 0.17018, 0.5e-5);
-  EXPECT_NEAR(printed.ks_d, 0.09154, 0.5e-5);
-  EXPECT_NEAR(printed.ks_probability, 0.00258, 0.5e-5);
+  EXPECT_NEAR(printed.mean / kMillimetresPerMicrometre, 0.002528, kSixDecimals);
+  EXPECT_NEAR(printed.sd / kMillimetresPerMicrometre, 0.17018, kFiveDecimals);
+  EXPECT_NEAR(printed.ks_d, 0.09154, kFiveDecimals);
+  EXPECT_NEAR(printed.ks_probability, 0.00258, kFiveDecimals);
 }
 
 TEST(Report1995, SaysNotNormalWhereTheCorrectArithmeticSaysNormal) {
