@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "data/turning_centre/component_errors.h"
+#include "data/turning_centre/day_programme.h"
+#include "data/turning_centre/thermocouples.h"
+
+namespace errmap::data::turning_centre {
+
+/// What is simulated. Validate() says what may be.
+struct SimulationOptions {
+  std::uint64_t seed = 1;
+  int days = 2;     // 1 to 366; day 1 is ReportDay, the others are drawn
+  int cycles = 35;  // warm-up cycles of each day, 1 to 1000
+  Workload workload = {};
+  double air_factor = 1.0;  // of every conductance to the air, > 0, <= 100
+  /// Standard deviation of a reading of a displacement, um: a laser
+  /// interferometer in a shop.
+  double noise_um = 0.15;
+  /// Likewise of an angle, urad: 0.1 arcsec, an autocollimator.
+  double noise_urad = 0.5;
+  double sensor_noise = 0.02;  // of a thermocouple's reading, degC
+  /// Thermocouples by number, 0 to 39; each in at most one list.
+  std::vector<int> dead = {};
+  std::vector<int> stuck = {};
+  std::vector<int> drifting = {};
+  std::vector<int> noisy = {};
+  int points_per_day = 100;  // of tool_tip.csv, 0 to 100000
+
+  /// Throws std::invalid_argument naming field, value and range.
+  void Validate() const;
+};
+
+/// The four measuring sweeps of a cycle, in their order.
+enum class Sweep { kXForward, kXReverse, kZForward, kZReverse };
+inline constexpr int kNumSweeps = 4;
+
+/// The machine at one stop of a sweep.
+struct Stop {
+  int day = 0;    // from 1
+  int cycle = 0;  // from 1, counting on through the days
+  Sweep sweep = Sweep::kXForward;
+  int index = 0;       // place in the sweep, 0 to kStopsPerSweep - 1
+  double hours = 0.0;  // from midnight
+  TemperatureRise rise = {};
+  Thermocouples::Readings readings = {};
+
+  Slide slide() const;
+  Direction direction() const;
+  /// Nominal position of the moving slide, mm.
+  double position() const;
+};
+
+/// One random pose of the tool at the machine state of some stop.
+struct ToolTipPoint {
+  std::size_t stop = 0;  // index into Simulation::stops
+  double x = 0.0;        // mm
+  double z = 0.0;
+  Direction x_direction = Direction::kForward;
+  Direction z_direction = Direction::kForward;
+};
+
+struct Simulation {
+  SimulationOptions options;
+  std::vector<DayProgramme> programmes;  // (days)
+  std::vector<Stop> stops;               // in order of time
+  std::vector<ToolTipPoint> points;      // by day, then by time
+};
+
+/// Runs the machine. Throws std::invalid_argument where options.Validate()
+/// does.
+Simulation Simulate(const SimulationOptions& options);
+
+}  // namespace errmap::data::turning_centre

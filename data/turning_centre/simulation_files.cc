@@ -1,0 +1,382 @@
+#include "data/turning_centre/simulation_files.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+
+namespace errmap::data::turning_centre {
+namespace {
+
+// A component's CSV file.
+struct ComponentFile {
+  Component component;
+  Direction direction;
+  std::string stem;
+};
+
+std::string_view DirectionWord(Slide slide, Direction direction) {
+  const bool forward = direction == Direction::kForward;
+  if (slide == Slide::kX) return forward ? "down" : "up";
+  return forward ? "forward" : "reverse";
+}
+
+std::vector<ComponentFile> ComponentFiles() {
+  std::vector<ComponentFile> files;
+  for (const Component component : kComponents) {
+    const ComponentTraits& traits = TraitsOf(component);
+    const std::string stem(traits.stem);
+    if (!traits.has_direction) {
+      files.push_back({component, Direction::kForward, stem});
+      continue;
+    }
+    for (const Direction direction :
+         {Direction::kForward, Direction::kReverse}) {
+      files.push_back(
+          {component,
+           direction,
+           stem + "_" + std::string(DirectionWord(traits.slide, direction))});
+    }
+  }
+  return files;
+}
+
+std::string TwoDigits(std::size_t number) {
+  return (number < 10 ? "0" : "") + std::to_string(number);
+}
+
+std::string SensorColumns() {
+  std::string text;
+  for (std::size_t i = 0; i < kNumThermocouples; ++i) {
+    text += ",t" + TwoDigits(i) + "_degC";
+  }
+  return text;
+}
+
+void AppendReadings(const Thermocouples::Readings& readings,
+                    std::string* text) {
+  for (const double reading : readings) *text += "," + SevenDigits(reading);
+}
+
+// The instruments show 0.01 um and 0.01 urad.
+double AsDisplayed(double value, bool is_angle) {
+  const double steps = is_angle ? 1e2 : 1e5;
+  return std::floor(value * steps + 0.5) / steps;
+}
+
+bool IsRowOf(const ComponentFile& file, const Stop& stop) {
+  const Slide slide = TraitsOf(file.component).slide;
+  if (slide == Slide::kNone) return stop.index == kStopsPerSweep - 1;
+  return stop.slide() == slide && stop.direction() == file.direction;
+}
+
+std::string ComponentCsv(const Simulation& simulation,
+                         const FileOptions& options,
+                         const ComponentFile& file) {
+  const ComponentTraits& traits = TraitsOf(file.component);
+  const bool has_position = traits.slide != Slide::kNone;
+  const std::string unit = traits.is_angle ? "urad" : "mm";
+  std::string text = "record,day,cycle";
+  if (has_position) text += ",position_mm";
+  text += SensorColumns() + ",error_" + unit;
+  if (options.truth) text += ",truth_" + unit;
+  text += "\n";
+
+  constexpr double kMmPerUm = 1e-3;
+  const double noise_sd = traits.is_angle
+                              ? simulation.options.noise_urad
+                              : kMmPerUm * simulation.options.noise_um;
+  const auto stream = 2 * static_cast<std::uint64_t>(file.component) +
+                      static_cast<std::uint64_t>(file.direction);
+  RandomStream noise(simulation.options.seed, Purpose::kReadingNoise, stream);
+  int record = 0;
+  for (const Stop& stop : simulation.stops) {
+    if (!IsRowOf(file, stop)) continue;
+    const double position = has_position ? stop.position() : 0.0;
+    const double truth =
+        TrueError(file.component, position, file.direction, stop.rise);
+    const double reading = truth + noise_sd * noise.Normal();
+    text += std::to_string(++record) + "," + std::to_string(stop.day) + "," +
+            std::to_string(stop.cycle);
+    if (has_position) text += "," + SevenDigits(position);
+    AppendReadings(stop.readings, &text);
+    text += "," + SevenDigits(AsDisplayed(reading, traits.is_angle));
+    if (options.truth) text += "," + SevenDigits(truth);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string ToolTipCsv(const Simulation& simulation) {
+  const auto word = [](Direction direction) {
+    return direction == Direction::kForward ? "forward" : "reverse";
+  };
+  std::string text = "record,day,cycle,x_mm,x_direction,z_mm,z_direction" +
+                     SensorColumns() + ",error_x_mm,error_y_mm,error_z_mm\n";
+  int record = 0;
+  for (const ToolTipPoint& point : simulation.points) {
+    const Stop& stop = simulation.stops[point.stop];
+    const ToolTipError error = ToolTipErrorAt(
+        point.x, point.x_direction, point.z, point.z_direction, stop.rise);
+    text += std::to_string(++record) + "," + std::to_string(stop.day) + "," +
+            std::to_string(stop.cycle) + "," + SevenDigits(point.x) + "," +
+            word(point.x_direction) + "," + SevenDigits(point.z) + "," +
+            word(point.z_direction);
+    AppendReadings(stop.readings, &text);
+    text += "," + SevenDigits(error.x) + "," + SevenDigits(error.y) + "," +
+            SevenDigits(error.z) + "\n";
+  }
+  return text;
+}
+
+// "EXX = { forward = "...", reverse = "..." }" or "EBX = "..."".
+std::string TomlError(Component component) {
+  const ComponentTraits& traits = TraitsOf(component);
+  const std::string stem(traits.stem);
+  std::string text = std::string(traits.letters) + " = ";
+  if (!traits.has_direction) return text + "\"" + stem + ".json\"";
+  const auto map = [&](Direction direction) {
+    return "\"" + stem + "_" +
+           std::string(DirectionWord(traits.slide, direction)) + ".json\"";
+  };
+  return text + "{ forward = " + map(Direction::kForward) +
+         ", reverse = " + map(Direction::kReverse) + " }";
+}
+
+std::string TomlErrors(const std::vector<Component>& components) {
+  std::string text;
+  for (const Component component : components) {
+    text += (text.empty() ? "errors = { " : ", ") + TomlError(component);
+  }
+  return text + " }\n";
+}
+
+std::string MachineToml() {
+  const std::string home_height = SevenDigits(kXHomeHeight);
+  const std::string home_distance = SevenDigits(kZHomeDistance);
+  const std::string tip = SevenDigits(kToolTipZ);
+  std::string text =
+      R"(# The simulated turning centre: from the bed to the tool, and to the work.
+# Fit a map to each CSV file beside this and save it as STEM.json, for example
+#   errmap fit x_displacement_down.csv --model poly:stepwise -o x_displacement_down.json
+# Forward is away from home (X down, Z towards the spindle head).
+name = "turning centre"
+length = "mm"
+angle = "rad"
+
+[[link]]                     # parallelism of Z to the cold spindle axis
+name = "0Z"
+branch = "tool"
+joint = "fixed"
+offset = [0, 0, 0]
+)";
+  text += TomlErrors({Component::kParallelism});
+  text += R"(
+[[link]]
+name = "Z"
+branch = "tool"
+joint = "linear"
+axis = [0, 0, 1]
+coordinate = "z_mm"
+offset = [0, 0, )" +
+          home_distance + "]\n";
+  text += TomlErrors(
+      {Component::kZDisplacement, Component::kZStraightness, Component::kZYaw});
+  text += R"(
+[[link]]                     # orthogonality of X to Z
+name = "0X"
+branch = "tool"
+joint = "fixed"
+offset = [0, 0, 0]
+)";
+  text += TomlErrors({Component::kOrthogonality});
+  text += R"(
+[[link]]
+name = "X"
+branch = "tool"
+joint = "linear"
+axis = [1, 0, 0]
+coordinate = "x_mm"
+offset = [)" +
+          home_height + ", 0, 0]\n";
+  text += TomlErrors(
+      {Component::kXDisplacement, Component::kXStraightness, Component::kXYaw});
+  text += R"(
+[[link]]                     # from the X slide's measuring point to the tool tip
+name = "tool"
+branch = "tool"
+joint = "fixed"
+offset = [0, 0, )" +
+          tip + R"(]
+
+[[link]]                     # thermal drift of the spindle
+name = "0C"
+branch = "work"
+joint = "fixed"
+offset = [0, 0, 0]
+)";
+  text += TomlErrors({Component::kSpindleAxial,
+                      Component::kSpindleRadialX,
+                      Component::kSpindleRadialY,
+                      Component::kSpindleTiltXz,
+                      Component::kSpindleTiltYz});
+  return text;
+}
+
+std::string ListOfNumbers(const std::vector<int>& numbers) {
+  std::string text;
+  for (const int number : numbers) {
+    text += (text.empty() ? "" : ", ") + std::to_string(number);
+  }
+  return text.empty() ? "none" : text;
+}
+
+std::string ClockTime(int seconds) {
+  constexpr int kPerHour = 3600;
+  constexpr int kPerMinute = 60;
+  return TwoDigits(static_cast<std::size_t>(seconds / kPerHour)) + ":" +
+         TwoDigits(static_cast<std::size_t>(seconds % kPerHour / kPerMinute));
+}
+
+std::string Range(std::size_t first, std::size_t last) {
+  const std::string text = std::to_string(first);
+  return first == last ? text : text + "-" + std::to_string(last);
+}
+
+// The days, block of like cycles by block.
+std::string ProgrammeTable(const Simulation& simulation) {
+  std::string text =
+      "| day | start | air at start, degC | cycles | pause before, min | "
+      "spindle, 1/min | feed duty | cutting load | coolant |\n"
+      "|---|---|---|---|---|---|---|---|---|\n";
+  constexpr double kPerHour = 3600.0;
+  constexpr int kPerMinute = 60;
+  std::size_t before = 0;
+  for (std::size_t day = 0; day < simulation.programmes.size(); ++day) {
+    const DayProgramme& programme = simulation.programmes[day];
+    const std::vector<CyclePlan>& cycles = programme.cycles;
+    for (std::size_t first = 0; first < cycles.size();) {
+      const CyclePlan& plan = cycles[first];
+      std::size_t end = first + 1;
+      while (end < cycles.size() && cycles[end].pause_s == 0 &&
+             cycles[end].spindle_rpm == plan.spindle_rpm &&
+             cycles[end].feed_duty == plan.feed_duty &&
+             cycles[end].cutting_load == plan.cutting_load &&
+             cycles[end].coolant == plan.coolant) {
+        ++end;
+      }
+      const double air = programme.climate.AirAt(programme.start_s / kPerHour);
+      text += "| " + std::to_string(day + 1) + " | " +
+              ClockTime(programme.start_s) + " | " +
+              SevenDigits(std::floor(air * 100.0 + 0.5) / 100.0) + " | " +
+              Range(before + first + 1, before + end) + " | " +
+              std::to_string(plan.pause_s / kPerMinute) + " | " +
+              SevenDigits(plan.spindle_rpm) + " | " +
+              SevenDigits(plan.feed_duty) + " | " +
+              SevenDigits(plan.cutting_load) + " | " +
+              (plan.coolant ? "on" : "off") + " |\n";
+      first = end;
+    }
+    before += cycles.size();
+  }
+  return text;
+}
+
+std::string Readme(const Simulation& simulation, const FileOptions& options) {
+  const SimulationOptions& run = simulation.options;
+  std::string text =
+      R"(# A simulated turning centre
+
+Not measured: made by `errmap simulate turning-centre`, which describes the model in
+`data/turning_centre/README.md` of its source. The same options give the same bytes.
+
+| option | value |
+|---|---|
+)";
+  const auto row = [&](const std::string& name, const std::string& value) {
+    text += "| `" + name + "` | " + value + " |\n";
+  };
+  row("--seed", std::to_string(run.seed));
+  row("--days", std::to_string(run.days));
+  row("--cycles", std::to_string(run.cycles));
+  row("--duty", SevenDigits(run.workload.duty));
+  row("--speed", SevenDigits(run.workload.speed));
+  row("--air", SevenDigits(run.air_factor));
+  row("--noise", SevenDigits(run.noise_um) + " um");
+  row("--angle-noise", SevenDigits(run.noise_urad) + " urad");
+  row("--sensor-noise", SevenDigits(run.sensor_noise) + " degC");
+  row("--dead", ListOfNumbers(run.dead));
+  row("--stuck", ListOfNumbers(run.stuck));
+  row("--drifting", ListOfNumbers(run.drifting));
+  row("--noisy", ListOfNumbers(run.noisy));
+  row("--points", std::to_string(run.points_per_day));
+  row("--truth", options.truth ? "yes" : "no");
+  text += R"(
+## Files
+
+Error = actual - nominal, so the compensation is -error. Temperatures `t00_degC` to
+`t39_degC` are those of Table 1 of NISTIR 5367. `cycle` counts on through the days.
+
+| file | ISO 230-1 | positive where |
+|---|---|---|
+)";
+  for (const ComponentFile& file : ComponentFiles()) {
+    const ComponentTraits& traits = TraitsOf(file.component);
+    text += "| `" + file.stem + ".csv` | " + std::string(traits.letters) +
+            " | " + std::string(traits.meaning) + " |\n";
+  }
+  text +=
+      R"(| `tool_tip.csv` | | random poses, the true error of the tool tip against the work |
+| `machine.toml` | | the kinematic chain |
+
+## Days
+
+Day 1 is the one on which the X displacement is calibrated to the report; the others
+are drawn. Each cycle: pause, exercise of 440 s, then four sweeps of 17 stops.
+
+)";
+  return text + ProgrammeTable(simulation);
+}
+
+}  // namespace
+
+std::string SevenDigits(double value) {
+  constexpr int kDigits = 7;
+  if (value == 0.0) return "0";  // never "-0"
+  std::array<char, 32> buffer{};
+  const auto result = std::to_chars(buffer.data(),
+                                    buffer.data() + buffer.size(),
+                                    value,
+                                    std::chars_format::general,
+                                    kDigits);
+  return {buffer.data(), result.ptr};
+}
+
+std::vector<std::string> SimulationFileNames() {
+  std::vector<std::string> names;
+  for (const ComponentFile& file : ComponentFiles()) {
+    names.push_back(file.stem + ".csv");
+  }
+  for (const char* name : {"tool_tip.csv", "machine.toml", "README.md"}) {
+    names.emplace_back(name);
+  }
+  return names;
+}
+
+std::string SimulationFile(const Simulation& simulation,
+                           const FileOptions& options,
+                           const std::string& name) {
+  for (const ComponentFile& file : ComponentFiles()) {
+    if (file.stem + ".csv" == name) {
+      return ComponentCsv(simulation, options, file);
+    }
+  }
+  if (name == "tool_tip.csv") return ToolTipCsv(simulation);
+  if (name == "machine.toml") return MachineToml();
+  if (name == "README.md") return Readme(simulation, options);
+  throw std::invalid_argument("SimulationFile: no file '" + name + "'");
+}
+
+}  // namespace errmap::data::turning_centre
