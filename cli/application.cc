@@ -100,6 +100,7 @@ int RunApplication(int argc, char** argv) {
   AddPredictCommand(&app, &run);
   AddEvaluateCommand(&app, &run);
   AddResidualsCommand(&app, &run);
+  AddSimulateCommand(&app, &run);
   try {
     if (argc < 2) {
       fmt::print("{}", app.help());
