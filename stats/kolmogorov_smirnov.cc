@@ -5,23 +5,26 @@
 #include <limits>
 #include <numbers>
 
+#include "stats/distributions.h"
+
 namespace errmap::stats {
-namespace {
-
-double NormalCdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
-
-}  // namespace
 
 double KsDistanceFromNormal(const Eigen::Ref<const Eigen::VectorXd>& sample,
                             double mean,
                             double sd) {
   const Eigen::Index n = sample.size();
   if (n == 0 || !(sd > 0.0)) return std::numeric_limits<double>::quiet_NaN();
-  Eigen::VectorXd sorted = sample;
+  Eigen::VectorXd sorted = (sample.array() - mean) / sd;
   std::sort(sorted.begin(), sorted.end());
+  return KsDistanceFromStandardNormal(sorted);
+}
+
+double KsDistanceFromStandardNormal(
+    const Eigen::Ref<const Eigen::VectorXd>& ascending) {
+  const Eigen::Index n = ascending.size();
   double distance = 0.0;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double cdf = NormalCdf((sorted[i] - mean) / sd);
+    const double cdf = NormalCdf(ascending[i]);
     const double below = static_cast<double>(i) / static_cast<double>(n);
     const double above = static_cast<double>(i + 1) / static_cast<double>(n);
     distance = std::max({distance, cdf - below, above - cdf});

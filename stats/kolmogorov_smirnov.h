@@ -11,6 +11,10 @@ double KsDistanceFromNormal(const Eigen::Ref<const Eigen::VectorXd>& sample,
                             double mean,
                             double sd);
 
+/// The same of values in ascending order from the standard normal; n >= 1.
+double KsDistanceFromStandardNormal(
+    const Eigen::Ref<const Eigen::VectorXd>& ascending);
+
 /// Probability of a distance of at least `d` in n values under the null
 /// hypothesis with mean and sd GIVEN, not estimated from the same values
 /// (Eq. 139-140, the asymptotic form): Q(lambda) at lambda = sqrt(n) d. With

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace errmap::stats {
 namespace {
@@ -73,6 +74,9 @@ float KsProbability(float lambda) {
   return 1.0F;
 }
 
+// np and j stand one past their limits after the loops: np*j = (n+1)*2.
+float DivisorOf(Eigen::Index n) { return static_cast<float>((n + 1) * 2); }
+
 }  // namespace
 
 Report1995Statistics ComputeAsPrinted1995(
@@ -81,8 +85,7 @@ Report1995Statistics ComputeAsPrinted1995(
     throw std::invalid_argument("ComputeAsPrinted1995: no residuals");
   }
   const Eigen::VectorXf errors = residuals.cast<float>();
-  // np and j stand one past their limits after the loops: np*j = (n+1)*2.
-  const auto divisor = static_cast<float>((errors.size() + 1) * 2);
+  const float divisor = DivisorOf(errors.size());
   float sum = 0.0F;
   for (const float error : errors) sum += error;
   const float mean = sum / divisor;
@@ -94,14 +97,40 @@ Report1995Statistics ComputeAsPrinted1995(
   printed.n = errors.size();
   printed.mean = static_cast<double>(mean);
   printed.sd = static_cast<double>(sd);
-  printed.min = static_cast<double>(errors.minCoeff());
-  printed.max = static_cast<double>(errors.maxCoeff());
+  constexpr float kFirstMin = 1e20F;
+  constexpr float kFirstMax = 1e-20F;
+  printed.min = static_cast<double>(std::min(kFirstMin, errors.minCoeff()));
+  printed.max = static_cast<double>(std::max(kFirstMax, errors.maxCoeff()));
   const Eigen::VectorXf standardised = (errors.array() - mean) / sd;
   const float distance = KsDistance(standardised);
   printed.ks_d = static_cast<double>(distance);
   printed.ks_probability = static_cast<double>(
       KsProbability(std::sqrt(static_cast<float>(errors.size())) * distance));
   return printed;
+}
+
+double RSquaredAsPrinted1995(
+    const Eigen::Ref<const Eigen::VectorXd>& targets,
+    const Eigen::Ref<const Eigen::VectorXd>& predicted) {
+  if (targets.size() == 0 || targets.size() != predicted.size()) {
+    throw std::invalid_argument(
+        "RSquaredAsPrinted1995: needs as many predictions as targets, at least "
+        "one; found " +
+        std::to_string(predicted.size()) + " and " +
+        std::to_string(targets.size()));
+  }
+  const Eigen::VectorXf target = targets.cast<float>();
+  const Eigen::VectorXf output = predicted.cast<float>();
+  float sum = 0.0F;
+  for (const float value : target) sum += value;
+  const float mean = sum / DivisorOf(target.size());
+  float total = 0.0F;
+  float regression = 0.0F;
+  for (Eigen::Index i = 0; i < target.size(); ++i) {
+    total += (target[i] - mean) * (target[i] - mean);
+    regression += (output[i] - mean) * (output[i] - mean);
+  }
+  return static_cast<double>(regression / total);
 }
 
 }  // namespace errmap::stats

@@ -9,8 +9,8 @@ struct Report1995Statistics {
   Eigen::Index n = 0;
   double mean = 0.0;  // sum / (2 (n + 1)): about half the true mean
   double sd = 0.0;    // about 1/sqrt(2) of the true one
-  double min = 0.0;
-  double max = 0.0;
+  double min = 0.0;   // 1e20 if above: where the search begins
+  double max = 0.0;   // 1e-20 if below, so never negative
   double ks_d = 0.0;  // standardised with that mean and sd
   double ks_probability = 0.0;
 };
@@ -23,5 +23,13 @@ struct Report1995Statistics {
 /// Throws std::invalid_argument for n = 0.
 Report1995Statistics ComputeAsPrinted1995(
     const Eigen::Ref<const Eigen::VectorXd>& residuals);
+
+/// "R-SQ of nonlinear fit" as that program prints it: sum (predicted - m)^2 /
+/// sum (target - m)^2 about m = sum of targets / (2 (n + 1)), half the mean;
+/// no part of the residuals enters. Throws std::invalid_argument unless
+/// `targets` and `predicted` have one size n >= 1.
+double RSquaredAsPrinted1995(
+    const Eigen::Ref<const Eigen::VectorXd>& targets,
+    const Eigen::Ref<const Eigen::VectorXd>& predicted);
 
 }  // namespace errmap::stats

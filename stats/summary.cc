@@ -1,7 +1,10 @@
 #include "stats/summary.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 namespace errmap::stats {
 namespace {
@@ -62,6 +65,58 @@ SampleSummary Summarize(const Eigen::Ref<const Eigen::VectorXd>& sample) {
                    ? kNaN
                    : std::sqrt(std::max(0.0, sum_of_squares) / (n - 1.0));
   return summary;
+}
+
+double StandardError(const SampleSummary& summary) {
+  return summary.sd / std::sqrt(static_cast<double>(summary.n));
+}
+
+double Quantile(const Eigen::Ref<const Eigen::VectorXd>& ascending,
+                double probability) {
+  if (!(probability >= 0.0 && probability <= 1.0)) {
+    throw std::invalid_argument(
+        "Quantile: probability must be within 0 and 1, found " +
+        std::to_string(probability));
+  }
+  const Eigen::Index n = ascending.size();
+  if (n == 0) return kNaN;
+  const double at = probability * static_cast<double>(n - 1);
+  const auto below = static_cast<Eigen::Index>(at);
+  const Eigen::Index above = std::min(below + 1, n - 1);
+  const double share = at - static_cast<double>(below);
+  return (1.0 - share) * ascending[below] + share * ascending[above];
+}
+
+Histogram MakeHistogram(const Eigen::Ref<const Eigen::VectorXd>& ascending,
+                        Eigen::Index bins) {
+  const Eigen::Index n = ascending.size();
+  if (n == 0 || !ascending.allFinite() || bins < 0) {
+    throw std::invalid_argument(
+        "MakeHistogram: needs finite values and at least 0 bins, found " +
+        std::to_string(n) + " values, " + std::to_string(bins) + " bins");
+  }
+  constexpr double kMostBins = 1000.0;
+  const double low = ascending[0];
+  const double range = ascending[n - 1] - low;
+  if (!(range > 0.0)) return {.low = low, .width = 0.0, .counts = {n}};
+  if (bins == 0) {
+    const double size = static_cast<double>(n);
+    const double iqr = Quantile(ascending, 0.75) - Quantile(ascending, 0.25);
+    const double wanted = iqr > 0.0 ? range / (2.0 * iqr / std::cbrt(size))
+                                    : std::log2(size) + 1.0;
+    bins = static_cast<Eigen::Index>(
+        std::ceil(std::clamp(wanted, 1.0, kMostBins)));
+  }
+  Histogram histogram;
+  histogram.low = low;
+  histogram.width = range / static_cast<double>(bins);
+  histogram.counts.assign(static_cast<std::size_t>(bins), 0);
+  for (const double value : ascending) {
+    const auto bin = static_cast<Eigen::Index>((value - low) / range *
+                                               static_cast<double>(bins));
+    ++histogram.counts[static_cast<std::size_t>(std::min(bin, bins - 1))];
+  }
+  return histogram;
 }
 
 }  // namespace errmap::stats

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 namespace errmap::stats {
@@ -22,5 +24,30 @@ SampleSummary Summarize(const Eigen::Ref<const Eigen::VectorXd>& sample);
 /// Sum of `values` (n) with Neumaier's compensation (1974): error about one
 /// unit in the last place unless terms cancel completely.
 double CompensatedSum(const Eigen::Ref<const Eigen::VectorXd>& values);
+
+/// Standard error of the mean of independent values: sd / sqrt(n).
+double StandardError(const SampleSummary& summary);
+
+/// Quantile of `ascending` (n >= 1) at `probability` in [0, 1]: linear between
+/// x_(i) at (i - 1)/(n - 1), type 7 of Hyndman & Fan (1996), the default of R
+/// and NumPy. NaN for n = 0. Throws std::invalid_argument for a probability
+/// outside [0, 1].
+double Quantile(const Eigen::Ref<const Eigen::VectorXd>& ascending,
+                double probability);
+
+/// Counts of values in bins of one width; the last bin holds its upper edge.
+struct Histogram {
+  double low = 0.0;  // left edge of the first bin
+  double width = 0.0;
+  std::vector<Eigen::Index> counts;
+};
+
+/// Histogram of `ascending` (n >= 1) from its minimum to its maximum in `bins`
+/// bins; 0 bins = by Freedman & Diaconis (1981): width 2 IQR n^(-1/3), at most
+/// 1000, and Sturges' count where the IQR is 0. Equal values make one bin.
+/// Throws std::invalid_argument for no values, values that are not finite, or
+/// bins < 0.
+Histogram MakeHistogram(const Eigen::Ref<const Eigen::VectorXd>& ascending,
+                        Eigen::Index bins);
 
 }  // namespace errmap::stats

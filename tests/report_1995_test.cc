@@ -7,10 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "data/csv.h"
 #include "stats/kolmogorov_smirnov.h"
 #include "stats/random.h"
 #include "stats/summary.h"
+#include "tests/golden_samples.h"
 
 namespace errmap::stats {
 namespace {
@@ -20,16 +20,7 @@ using Eigen::VectorXd;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-VectorXd AppendixB() {
-  const std::string path =
-      ERRMAP_SOURCE_DIR "/data/sets/nistir5367_appendix_b.csv";
-  const data::CsvTable table = data::ReadCsv(path);
-  const auto index = table.Find("residual_mm");
-  if (index < 0) throw std::runtime_error(path + " has no residual_mm");
-  const auto& values = table.columns[static_cast<std::size_t>(index)].values;
-  return Eigen::Map<const VectorXd>(values.data(),
-                                    static_cast<Index>(values.size()));
-}
+VectorXd AppendixB() { return errmap::AppendixB("residual_mm"); }
 
 // NISTIR 5367, section 9 (the run without the dead thermocouples) and the run
 // results of Appendix B: mean 0.0025278 um, sd 0.1701827 um, minimum -0.67104
@@ -154,6 +145,29 @@ TEST(Report1995, RefusesNoResiduals) {
   EXPECT_THAT([] { ComputeAsPrinted1995(VectorXd()); },
               ThrowsMessage<std::invalid_argument>(
                   HasSubstr("ComputeAsPrinted1995: no residuals")));
+}
+
+// Appendix B: "R-SQ of nonlinear fit = 0.9961917". The residuals are printed
+// to more digits than the measured errors, so the target is made from them.
+TEST(Report1995, PrintsTheRSquaredOfAppendixB) {
+  constexpr double kOfFourDigits = 5e-6;
+  const std::string path =
+      ERRMAP_SOURCE_DIR "/data/sets/nistir5367_appendix_b.csv";
+  const VectorXd predicted = ReadCsvColumn(path, "predicted_mm");
+  EXPECT_NEAR(RSquaredAsPrinted1995(predicted + AppendixB(), predicted),
+              0.9961917,
+              kOfFourDigits);
+  EXPECT_THAT([&] { RSquaredAsPrinted1995(VectorXd(), VectorXd()); },
+              ThrowsMessage<std::invalid_argument>(
+                  HasSubstr("as many predictions as targets")));
+}
+
+// Its search for the extremes begins at 1e20 and 1e-20.
+TEST(Report1995, NeverPrintsANegativeMaximum) {
+  const Report1995Statistics printed =
+      ComputeAsPrinted1995(VectorXd{{-3.0, -1.0, -2.0}});
+  EXPECT_EQ(printed.max, static_cast<double>(1e-20F));
+  EXPECT_EQ(printed.min, -3.0);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "stats/random.h"
+#include "tests/golden_samples.h"
+#include "tests/serial_reference.h"
 
 namespace errmap::stats {
 namespace {
@@ -184,6 +187,62 @@ TEST(CompensatedSum, TellsOfOverflowAndOfWhatIsNoNumber) {
   EXPECT_EQ(CompensatedSum(VectorXd{{1.0, -kInfinity, 1.0}}), -kInfinity);
   EXPECT_TRUE(std::isnan(CompensatedSum(VectorXd{{kInfinity, -kInfinity}})));
   EXPECT_TRUE(std::isnan(CompensatedSum(VectorXd{{1.0, std::nan("")}})));
+}
+
+// golden/normality/serial_reference.csv: R's quantile(), type 7.
+TEST(Quantile, AgreesWithROnEverySample) {
+  constexpr double kRounding = 1e-14;
+  for (const char* name :
+       {"appendix_b_residual", "sample_normal_20", "sample_t3_397"}) {
+    VectorXd sorted = GoldenSample(name);
+    std::sort(sorted.begin(), sorted.end());
+    for (const int percent : {10, 25, 50, 75, 99}) {
+      EXPECT_NEAR(Quantile(sorted, percent / 100.0),
+                  SerialReference(name).at("q" + std::to_string(percent)),
+                  kRounding)
+          << name << " " << percent;
+    }
+  }
+}
+
+TEST(Quantile, OfTheEndsAndOfLittle) {
+  const VectorXd x{{1.0, 2.0, 4.0}};
+  EXPECT_EQ(Quantile(x, 0.0), 1.0);
+  EXPECT_EQ(Quantile(x, 1.0), 4.0);
+  EXPECT_EQ(Quantile(x, 0.75), 3.0);
+  EXPECT_EQ(Quantile(VectorXd{{7.0}}, 0.3), 7.0);
+  EXPECT_TRUE(std::isnan(Quantile(VectorXd(), 0.5)));
+  EXPECT_THROW(Quantile(x, 1.1), std::invalid_argument);
+  EXPECT_THROW(Quantile(x, std::nan("")), std::invalid_argument);
+}
+
+TEST(StandardError, IsTheSdOverTheRootOfN) {
+  EXPECT_DOUBLE_EQ(StandardError(Summarize(VectorXd{{2.0, 4.0, 4.0, 6.0}})),
+                   std::sqrt(8.0 / 3.0) / 2.0);
+}
+
+TEST(MakeHistogram, CountsEveryValueOnce) {
+  // IQR 4.5 of 0 .. 9: width 2 * 4.5 / 10^(1/3) = 4.18, so 3 bins.
+  const VectorXd x = VectorXd::LinSpaced(10, 0.0, 9.0);
+  const Histogram automatic = MakeHistogram(x, 0);
+  EXPECT_EQ(automatic.counts, (std::vector<Eigen::Index>{3, 3, 4}));
+  EXPECT_DOUBLE_EQ(automatic.width, 3.0);
+  const Histogram fixed = MakeHistogram(x, 2);
+  EXPECT_EQ(fixed.counts, (std::vector<Eigen::Index>{5, 5}));
+  EXPECT_EQ(fixed.low, 0.0);
+}
+
+TEST(MakeHistogram, OfEqualAndOfHeapedValues) {
+  EXPECT_EQ(MakeHistogram(VectorXd::Constant(4, 2.0), 0).counts,
+            (std::vector<Eigen::Index>{4}));
+  VectorXd heaped = VectorXd::Zero(20);  // IQR 0
+  heaped[19] = 1.0;
+  EXPECT_EQ(MakeHistogram(heaped, 0).counts.size(), 6U);  // log2(20) + 1
+  VectorXd far = VectorXd::LinSpaced(100, 0.0, 1.0);
+  far[99] = 1e9;
+  EXPECT_EQ(MakeHistogram(far, 0).counts.size(), 1000U);
+  EXPECT_THROW(MakeHistogram(VectorXd(), 0), std::invalid_argument);
+  EXPECT_THROW(MakeHistogram(heaped, -1), std::invalid_argument);
 }
 
 }  // namespace

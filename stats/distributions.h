@@ -1,0 +1,28 @@
+#pragma once
+
+namespace errmap::stats {
+
+/// Standard normal distribution function, relative error a few units in the
+/// last place on both tails.
+double NormalCdf(double z);
+
+/// log of NormalCdf, finite for every finite z (an asymptotic series where the
+/// probability itself underflows).
+double LogNormalCdf(double z);
+
+/// z with NormalCdf(z) = p, 0 < p < 1.
+double NormalQuantile(double p);
+
+/// P(|Z| >= |z|), Z standard normal.
+double NormalTwoSided(double z);
+
+/// P(X >= x) for chi-squared with `degrees_of_freedom` > 0; 1 for x <= 0.
+double ChiSquaredUpperTail(double x, double degrees_of_freedom);
+
+/// P(X >= x) for Fisher's F with these degrees of freedom > 0; 1 for x <= 0.
+double FUpperTail(double x, double numerator, double denominator);
+
+/// P(|T| >= |t|) for Student's t with `degrees_of_freedom` > 0.
+double StudentTwoSided(double t, double degrees_of_freedom);
+
+}  // namespace errmap::stats
