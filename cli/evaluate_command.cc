@@ -7,6 +7,7 @@
 #include "cli/data_arguments.h"
 #include "cli/json_blocks.h"
 #include "cli/number_text.h"
+#include "cli/residual_json.h"
 #include "cli/summary_text.h"
 #include "models/model_file.h"
 #include "models/study.h"
@@ -58,7 +59,10 @@ int RunEvaluate(const EvaluateArguments& arguments) {
                          {"target", fitted.target.name},
                          {"unit", fitted.target.unit.symbol},
                          {"summary", MetricsJson(metrics)},
-                         {"normality", NormalityJson(ks_d, ks_p)}}));
+                         {"normality",
+                          NormalityJson(stats::AssessNormality(
+                                            stats::OrderedSample(residuals)),
+                                        {})}}));
     return kDone;
   }
   fmt::print("{} ({}) on {}: target - predicted of {}\n{}",

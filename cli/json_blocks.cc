@@ -14,10 +14,6 @@ Json MetricsJson(const stats::ErrorMetrics& metrics) {
           {"r2", metrics.r2}};
 }
 
-Json NormalityJson(double ks_d, double ks_p_given) {
-  return {{"ks", {{"d", ks_d}, {"p_given", ks_p_given}}}};
-}
-
 std::string DumpJson(const Json& document) {
   constexpr int kIndent = 1;
   // Names from files may hold any bytes: what is no UTF-8 is replaced.

@@ -14,9 +14,6 @@ using Json = nlohmann::ordered_json;
 /// becomes null.
 Json MetricsJson(const stats::ErrorMetrics& metrics);
 
-/// {"ks": {"d","p_given"}}.
-Json NormalityJson(double ks_d, double ks_p_given);
-
 /// A document as every command prints it.
 std::string DumpJson(const Json& document);
 

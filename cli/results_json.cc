@@ -1,8 +1,11 @@
 #include "cli/results_json.h"
 
 #include <cmath>
+#include <map>
 
 #include "cli/json_blocks.h"
+#include "cli/residual_json.h"
+#include "cli/residual_report.h"
 #include "cli/verdict_text.h"
 #include "models/version.h"
 
@@ -64,7 +67,60 @@ Json HoldoutsJson(const Comparison& comparison) {
   return holdouts;
 }
 
-Json ResultJson(const HoldoutResult& result) {
+// The held-out residuals of all folds in the file's order. Of a row that is
+// held out more than once (groups:K:repeats=R) the first is taken.
+ResidualInputs HeldOutResiduals(const Comparison& comparison,
+                                const HoldoutResult& result,
+                                std::size_t holdout_index) {
+  const models::Holdout& holdout = comparison.holdouts[holdout_index];
+  const bool elsewhere = holdout.test_data != nullptr;
+  const data::Dataset& source =
+      elsewhere ? *holdout.test_data : comparison.data.dataset;
+  std::map<Eigen::Index, double> predicted;  // by index into source
+  for (std::size_t fold = 0; fold < result.folds.size(); ++fold) {
+    const Eigen::VectorXd& predictions = result.folds[fold].test_predictions;
+    for (Eigen::Index i = 0; i < predictions.size(); ++i) {
+      const Eigen::Index index =
+          elsewhere ? i : holdout.folds[fold].test[static_cast<std::size_t>(i)];
+      predicted.emplace(index, predictions[i]);
+    }
+  }
+  ResidualInputs inputs;
+  const auto size = static_cast<Eigen::Index>(predicted.size());
+  inputs.values.resize(size);
+  inputs.fitted.resize(size);
+  inputs.fitted_column = "predicted";
+  if (source.has_groups()) {
+    inputs.group_column = source.groups().column;
+    inputs.group_labels = source.groups().labels;
+  }
+  Eigen::Index position = -1;
+  for (Eigen::Index i = 0; i < source.num_inputs() && position < 0; ++i) {
+    const std::string& name = source.inputs()[static_cast<std::size_t>(i)].name;
+    if (!name.starts_with("position")) continue;
+    position = i;
+    inputs.position_column = name;
+    inputs.positions.resize(size);
+  }
+  Eigen::Index at = 0;
+  for (const auto& [index, value] : predicted) {
+    inputs.fitted[at] = value;
+    inputs.values[at] = source.target_values()[index] - value;
+    if (source.has_groups()) {
+      inputs.group_codes.push_back(
+          source.groups().codes[static_cast<std::size_t>(index)]);
+    }
+    if (position >= 0) {
+      inputs.positions[at] = source.input_values()(index, position);
+    }
+    ++at;
+  }
+  return inputs;
+}
+
+Json ResultJson(const Comparison& comparison,
+                const HoldoutResult& result,
+                std::size_t holdout_index) {
   Json folds = Json::array();
   for (const models::FoldResult& fold : result.folds) {
     folds.push_back({{"train_rmse", fold.train_rmse},
@@ -77,21 +133,26 @@ Json ResultJson(const HoldoutResult& result) {
                      {"message", fold.summary.message},
                      {"remarks", fold.remarks}});
   }
+  const ResidualReport report =
+      AssessResiduals(HeldOutResiduals(comparison, result, holdout_index));
   return {{"train", MetricsJson(result.train)},
           {"test", MetricsJson(result.test)},
           {"folds", std::move(folds)},
-          {"normality", NormalityJson(result.ks_d, result.ks_p_given)}};
+          {"normality", NormalityJson(report.normality, report.monte_carlo)},
+          {"randomness", RandomnessJson(report)}};
 }
 
-Json ModelJson(const ModelResult& model) {
+Json ModelJson(const Comparison& comparison, const ModelResult& model) {
   Json options = Json::object();
   for (const models::EffectiveOption& option : model.options) {
     std::visit([&](const auto& value) { options[option.key] = value; },
                option.value);
   }
   Json results = Json::object();
-  for (const HoldoutResult& result : model.holdouts) {
-    if (result.ok()) results[result.holdout] = ResultJson(result);
+  for (std::size_t h = 0; h < model.holdouts.size(); ++h) {
+    const HoldoutResult& result = model.holdouts[h];
+    if (result.ok())
+      results[result.holdout] = ResultJson(comparison, result, h);
   }
   Json parameters;
   Json equation;
@@ -144,7 +205,7 @@ Json RecommendationJson(const Comparison& comparison) {
 std::string ResultsJson(const Comparison& comparison) {
   Json models = Json::array();
   for (const ModelResult& model : comparison.study.models) {
-    models.push_back(ModelJson(model));
+    models.push_back(ModelJson(comparison, model));
   }
   Json component = {{"name", comparison.name},
                     {"data", DataJson(comparison)},

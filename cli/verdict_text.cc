@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/number_text.h"
+#include "cli/wrap_text.h"
 
 namespace errmap::cli {
 namespace {
@@ -85,29 +86,6 @@ std::string GoalSentence(const Comparison& comparison) {
           (unit.display_symbol.empty() ? "" : " " + unit.display_symbol),
       met ? "met" : "not met",
       error.WithUnit(sd));
-}
-
-// Breaks a paragraph at blanks.
-std::string Wrap(const std::string& text, std::size_t width) {
-  std::string wrapped;
-  std::size_t column = 0;
-  std::size_t begin = 0;
-  while (begin < text.size()) {
-    std::size_t end = text.find(' ', begin);
-    if (end == std::string::npos) end = text.size();
-    const std::size_t length = end - begin;
-    if (column > 0 && column + 1 + length > width) {
-      wrapped += '\n';
-      column = 0;
-    } else if (column > 0) {
-      wrapped += ' ';
-      ++column;
-    }
-    wrapped.append(text, begin, length);
-    column += length;
-    begin = end + 1;
-  }
-  return wrapped;
 }
 
 }  // namespace
@@ -199,7 +177,7 @@ std::string VerdictParagraph(const Comparison& comparison) {
   }
   std::erase(sentences, "");
   constexpr std::size_t kWidth = 80;
-  return Wrap(fmt::format("{}", fmt::join(sentences, " ")), kWidth) + "\n";
+  return WrapText(fmt::format("{}", fmt::join(sentences, " ")), kWidth) + "\n";
 }
 
 }  // namespace errmap::cli
