@@ -137,6 +137,7 @@ Json PlotsJson(const ResidualReport& report,
                  {"width", histogram.width},
                  {"counts", histogram.counts}}}};
   if (report.normality.tukey_ppcc.ok()) {
+    json["standardised"] = array(stats::Standardise(values));
     json["tukey_ppcc"] = {{"lambda", array(report.normality.curve.lambda)},
                           {"r", array(report.normality.curve.r)}};
     json["normal_probability_plot"] = {

@@ -14,8 +14,9 @@ Json NormalityJson(const stats::Normality& normality,
 /// groups, halves, biases by group and position, variance against fitted.
 Json RandomnessJson(const ResidualReport& report);
 
-/// Figures for plots: the Tukey-lambda curve, the normal probability plot and
-/// the histogram (`bins` 0: Freedman-Diaconis) of `values`.
+/// Figures for plots: standardised residuals in measured order (Eq. 137), the
+/// Tukey-lambda curve, the normal probability plot and the histogram (`bins` 0:
+/// Freedman-Diaconis) of `values`.
 Json PlotsJson(const ResidualReport& report,
                const Eigen::VectorXd& values,
                Eigen::Index bins);

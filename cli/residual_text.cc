@@ -42,7 +42,7 @@ std::string Heading(const char* title,
                     const char* first,
                     const char* second,
                     const char* third) {
-  return fmt::format("{:<22}{:>14} {:>9}  {}\n", title, first, second, third);
+  return fmt::format("{:<22}{:>11} {:>9}  {}\n", title, first, second, third);
 }
 
 std::string TestLine(const char* name,
@@ -53,7 +53,7 @@ std::string TestLine(const char* name,
                      double monte_carlo = std::nan("")) {
   if (!test.ok()) return fmt::format("  {:<20} n/a: {}\n", name, test.why_not);
   return fmt::format(
-      "  {:<20}{:>14} {:>9}  {}\n",
+      "  {:<20}{:>11} {:>9}  {}\n",
       name,
       symbol + (symbol.empty() ? "" : " ") + StatisticText(test.statistic),
       PText(test.p, from_table),
@@ -76,8 +76,8 @@ std::string CriticalText(double (*critical)(double, Eigen::Index),
 }
 
 std::string SerialCells(const TestResult& test, const std::string& shown) {
-  if (!test.ok()) return fmt::format("{:>24}", "n/a");
-  return fmt::format("{:>14} {:>9}", shown, PText(test.p));
+  if (!test.ok()) return fmt::format("{:>21}", "n/a");
+  return fmt::format("{:>11} {:>9}", shown, PText(test.p));
 }
 
 std::string SerialLine(const ResidualReport& report,
@@ -97,7 +97,7 @@ std::string SerialLine(const ResidualReport& report,
   return fmt::format("  {:<20}{}{}\n",
                      name,
                      cells(report.whole),
-                     report.within ? cells(*report.within) : "");
+                     report.within ? "    " + cells(*report.within) : "");
 }
 
 std::string ShuffledLine(const char* where,
@@ -118,7 +118,7 @@ std::string BiasLine(const NamedBias& named) {
   if (!anova.ok())
     return fmt::format("  {:<20} n/a: {}\n", name, anova.why_not);
   return fmt::format(
-      "  {:<20}{:>14} {:>9}  {:.0f} % explained; normal, one sd\n",
+      "  {:<20}{:>11} {:>9}  {:.0f} % explained; normal, one sd\n",
       name,
       fmt::format("F {:.4g}", anova.statistic),
       PText(anova.p),
@@ -308,10 +308,10 @@ std::string NormalityText(const ResidualReport& report, Eigen::Index n) {
 std::string RandomnessText(const ResidualReport& report) {
   const stats::SerialTests& whole = report.whole;
   std::string text =
-      fmt::format("{:<22}{:>14} {:>9}", "random?", "in order", "p");
+      fmt::format("{:<22}{:>11} {:>9}", "random?", "in order", "p");
   std::string lags = fmt::format("Ljung-Box, {}", whole.num_lags);
   if (report.within) {
-    text += fmt::format("{:>14} {:>9}", "within " + report.group_column, "p");
+    text += fmt::format("{:>15} {:>9}", "within " + report.group_column, "p");
     lags += fmt::format(" and {}", report.within->num_lags);
   }
   text += "\n";

@@ -64,14 +64,14 @@ simulated::Quantiles ScaledQuantiles(SimulatedStatistic statistic, Index n) {
 }
 
 const simulated::Quantiles& LevelScores() {
-  static const simulated::Quantiles scores = [] {
+  static const simulated::Quantiles kScores = [] {
     simulated::Quantiles made{};
     for (std::size_t i = 0; i < made.size(); ++i) {
       made[i] = NormalQuantile(simulated::kLevels[i]);
     }
     return made;
   }();
-  return scores;
+  return kScores;
 }
 
 void RequireSize(Index n) {

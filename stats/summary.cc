@@ -71,6 +71,22 @@ double StandardError(const SampleSummary& summary) {
   return summary.sd / std::sqrt(static_cast<double>(summary.n));
 }
 
+Eigen::VectorXd Standardise(const Eigen::Ref<const Eigen::VectorXd>& sample) {
+  // Brought to size 1: squares of very large or small values would be lost.
+  const double size = sample.size() > 0 ? sample.cwiseAbs().maxCoeff() : 0.0;
+  const double scale = size > 0.0 && std::isfinite(size)
+                           ? std::scalbn(1.0, std::ilogb(size))
+                           : kNaN;
+  const Eigen::VectorXd scaled = sample / scale;
+  const SampleSummary summary = Summarize(scaled);
+  if (!(summary.sd > 0.0)) {
+    throw std::invalid_argument(
+        "Standardise: needs at least 2 different values, all finite; found " +
+        std::to_string(sample.size()));
+  }
+  return (scaled.array() - summary.mean) / summary.sd;
+}
+
 double Quantile(const Eigen::Ref<const Eigen::VectorXd>& ascending,
                 double probability) {
   if (!(probability >= 0.0 && probability <= 1.0)) {
@@ -99,6 +115,13 @@ Histogram MakeHistogram(const Eigen::Ref<const Eigen::VectorXd>& ascending,
   const double low = ascending[0];
   const double range = ascending[n - 1] - low;
   if (!(range > 0.0)) return {.low = low, .width = 0.0, .counts = {n}};
+  if (std::isinf(range)) {  // the largest doubles apart
+    constexpr double kShrink = 0.25;
+    Histogram histogram = MakeHistogram(kShrink * ascending, bins);
+    histogram.low = low;
+    histogram.width /= kShrink;
+    return histogram;
+  }
   if (bins == 0) {
     const double size = static_cast<double>(n);
     const double iqr = Quantile(ascending, 0.75) - Quantile(ascending, 0.25);

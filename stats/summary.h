@@ -28,6 +28,10 @@ double CompensatedSum(const Eigen::Ref<const Eigen::VectorXd>& values);
 /// Standard error of the mean of independent values: sd / sqrt(n).
 double StandardError(const SampleSummary& summary);
 
+/// (x - mean) / sd of `sample` (n), in its order: NISTIR 5367, Eq. 137. Throws
+/// std::invalid_argument unless two values differ and all are finite.
+Eigen::VectorXd Standardise(const Eigen::Ref<const Eigen::VectorXd>& sample);
+
 /// Quantile of `ascending` (n >= 1) at `probability` in [0, 1]: linear between
 /// x_(i) at (i - 1)/(n - 1), type 7 of Hyndman & Fan (1996), the default of R
 /// and NumPy. NaN for n = 0. Throws std::invalid_argument for a probability

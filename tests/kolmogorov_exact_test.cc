@@ -84,14 +84,15 @@ TEST(KsProbabilityExact, DoesNotJumpWhereItsMethodsMeet) {
                 4.0 * kStep * slope + 1e-12)
         << n;
   }
+  // At one z, P changes along n by the same from each n to the next.
   constexpr double kExpansionError = 2e-10;
+  constexpr Index kLast = kMostForExactKs;
   for (const double z : {0.5, 0.7, 0.9, 1.2, 1.8}) {
-    // What the neighbouring n itself changes is of order 1e-8 of d's shift.
-    const double last =
-        KsProbabilityExact(z / std::sqrt(20000.0), kMostForExactKs);
-    const double next =
-        KsProbabilityExact(z / std::sqrt(20001.0), kMostForExactKs + 1);
-    EXPECT_NEAR(next, last, kExpansionError + 1e-7) << z;
+    const auto p = [z](Index n) {
+      return KsProbabilityExact(z / std::sqrt(static_cast<double>(n)), n);
+    };
+    EXPECT_NEAR(p(kLast + 1), 2.0 * p(kLast) - p(kLast - 1), kExpansionError)
+        << z;
   }
 }
 

@@ -216,6 +216,13 @@ TEST(Quantile, OfTheEndsAndOfLittle) {
   EXPECT_THROW(Quantile(x, std::nan("")), std::invalid_argument);
 }
 
+TEST(Standardise, GivesMeanZeroAndSdOneInTheSameOrder) {
+  const VectorXd z = Standardise(VectorXd{{6.0, 2.0, 4.0}});
+  EXPECT_EQ(z, (VectorXd{{1.0, -1.0, 0.0}}));
+  EXPECT_THROW(Standardise(VectorXd{{1.0}}), std::invalid_argument);
+  EXPECT_THROW(Standardise(VectorXd::Ones(3)), std::invalid_argument);
+}
+
 TEST(StandardError, IsTheSdOverTheRootOfN) {
   EXPECT_DOUBLE_EQ(StandardError(Summarize(VectorXd{{2.0, 4.0, 4.0, 6.0}})),
                    std::sqrt(8.0 / 3.0) / 2.0);
