@@ -1,0 +1,45 @@
+#include "stats/f_test.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
+namespace errmap::stats {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+double FTestPValue(double f, double df1, double df2) {
+  if (std::isnan(f) || !(df1 > 0.0) || !(df2 > 0.0)) return kNan;
+  if (f <= 0.0) return 1.0;
+  if (std::isinf(f)) return 0.0;
+  return boost::math::cdf(
+      boost::math::complement(boost::math::fisher_f(df1, df2), f));
+}
+
+double StudentTwoSidedP(double t, double df) {
+  if (std::isnan(t) || !(df > 0.0)) return kNan;
+  if (std::isinf(t)) return 0.0;
+  return 2.0 * boost::math::cdf(boost::math::complement(
+                   boost::math::students_t(df), std::abs(t)));
+}
+
+double StudentTwoSidedQuantile(double confidence, double df) {
+  if (!(confidence > 0.0 && confidence < 1.0)) {
+    throw std::invalid_argument(
+        "StudentTwoSidedQuantile: confidence must be above 0 and below 1, "
+        "found " +
+        std::to_string(confidence));
+  }
+  if (!(df > 0.0)) return kNan;
+  return boost::math::quantile(boost::math::complement(
+      boost::math::students_t(df), 0.5 * (1.0 - confidence)));
+}
+
+}  // namespace errmap::stats
