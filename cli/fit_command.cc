@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -9,6 +11,7 @@
 #include "cli/interrupt.h"
 #include "cli/json_blocks.h"
 #include "cli/number_text.h"
+#include "cli/regression_text.h"
 #include "cli/sha256.h"
 #include "data/atomic_file.h"
 #include "models/model_file.h"
@@ -23,16 +26,18 @@ struct FitArguments {
   std::string out;
   std::uint64_t seed = 1;
   std::string format = "table";
+  bool correlations = false;
 };
 
 Json FitJson(const models::FittedModel& fitted,
              const stats::ErrorMetrics& train,
+             const data::Dataset& dataset,
              const FitArguments& arguments) {
   Json inputs = Json::array();
   for (const models::TrainedInput& input : fitted.inputs) {
     inputs.push_back(input.column.name);
   }
-  return {
+  Json json = {
       {"schema", "errmap-fit-1"},
       {"model", fitted.name},
       {"file", arguments.out},
@@ -49,10 +54,16 @@ Json FitJson(const models::FittedModel& fitted,
       {"evaluations", fitted.summary.evaluations()},
       {"fit_seconds", fitted.summary.seconds},
       {"remarks", fitted.remarks}};
+  if (fitted.regression) {
+    json["regression"] = RegressionJson(*fitted.regression);
+  }
+  if (arguments.correlations) json["correlations"] = CorrelationJson(dataset);
+  return json;
 }
 
 std::string FitText(const models::FittedModel& fitted,
                     const stats::ErrorMetrics& train,
+                    const data::Dataset& dataset,
                     const FitArguments& arguments) {
   const ErrorText error(fitted.target.unit, train.rmse);
   std::string text =
@@ -66,6 +77,10 @@ std::string FitText(const models::FittedModel& fitted,
                       fitting::ToString(fitted.summary.termination),
                       fitted.summary.message);
   for (const std::string& remark : fitted.remarks) text += remark + "\n";
+  if (arguments.correlations) text += CorrelationText(dataset);
+  if (fitted.regression) {
+    text += RegressionText(*fitted.regression, fitted.target);
+  }
   text += fmt::format(
       "written to {}; it predicts {}, compensate by minus that\n",
       arguments.out,
@@ -81,8 +96,12 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
   models::FittedModel fitted;
   const std::atomic<bool>& stop = InstallInterruptFlag();
   try {
-    fitted =
-        recipe->Fit(prepared.dataset, {.seed = arguments.seed, .stop = &stop});
+    const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+    fitted = recipe->Fit(prepared.dataset,
+                         {.seed = arguments.seed,
+                          .stop = &stop,
+                          .explain = true,
+                          .threads = static_cast<int>(cores)});
   } catch (const std::invalid_argument& error) {
     Say(fmt::format("{} failed: {}", arguments.model, error.what()));
     return kEveryFitFailed;
@@ -108,8 +127,8 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
   const stats::ErrorMetrics train = models::Judge(prepared.dataset, predicted);
   fmt::print("{}",
              arguments.format == "json"
-                 ? DumpJson(FitJson(fitted, train, arguments))
-                 : FitText(fitted, train, arguments));
+                 ? DumpJson(FitJson(fitted, train, prepared.dataset, arguments))
+                 : FitText(fitted, train, prepared.dataset, arguments));
   if (stop.load()) {
     Say("interrupted; the best map so far was written");
     return kInterrupted;
@@ -133,6 +152,9 @@ void AddFitCommand(CLI::App* app, Run* run) {
   command->add_option("--seed", arguments->seed, "Seed of all random choices")
       ->capture_default_str()
       ->type_name("N");
+  command->add_flag("--correlations",
+                    arguments->correlations,
+                    "Also print the correlations of inputs and target");
   command->add_option("--format", arguments->format, "table or json")
       ->check(CLI::IsMember({"table", "json"}))
       ->type_name("table|json")

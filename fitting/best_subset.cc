@@ -40,8 +40,9 @@ MatrixXd WithoutColumn(const MatrixXd& triangle, Index place) {
     Eigen::JacobiRotation<double> rotation;
     double length = 0.0;
     rotation.makeGivens(less(j, j), less(j + 1, j), &length);
-    less.rightCols(size - 1 - j).middleRows(j, 2).applyOnTheLeft(
-        0, 1, rotation.adjoint());
+    less.rightCols(size - 1 - j)
+        .middleRows(j, 2)
+        .applyOnTheLeft(0, 1, rotation.adjoint());
     less(j, j) = length;
     less(j + 1, j) = 0.0;
   }
@@ -220,8 +221,8 @@ BestSubsetResult SelectBestSubset(const SelectionProblem& problem,
   problem.Validate("SelectBestSubset");
   const Index rows = problem.response.size();
   const double n = problem.num_observations();
-  VectorXd intercept = problem.intercept.size() != 0 ? problem.intercept
-                                                     : VectorXd::Ones(rows);
+  VectorXd intercept =
+      problem.intercept.size() != 0 ? problem.intercept : VectorXd::Ones(rows);
   VectorXd response = problem.response;
   const bool weighted = problem.weights.size() != 0;
   const VectorXd roots =
@@ -265,8 +266,8 @@ BestSubsetResult SelectBestSubset(const SelectionProblem& problem,
   }
   // The intercept's row and column are left out: it is always in.
   root.triangle.setZero(size + 1, size + 1);
-  root.triangle.topLeftCorner(size, size) = basis.R().bottomRightCorner(
-      size, size);
+  root.triangle.topLeftCorner(size, size) =
+      basis.R().bottomRightCorner(size, size);
   root.triangle.col(size).head(size) = along.tail(size);
   root.triangle(size, size) = residual.norm();
   const double total = root.triangle.col(size).squaredNorm();

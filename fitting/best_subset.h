@@ -32,7 +32,7 @@ struct BestSubsetResult {
   std::vector<Eigen::Index> aliased;  // passed over
   double criterion = 0.0;             // its value (adjusted R2: as it is)
   std::int64_t nodes = 0;             // of the tree that were looked at
-  bool complete = true;  // false: interrupted, the best so far
+  bool complete = true;               // false: interrupted, the best so far
 };
 
 /// The subset of the candidates (with `include` always in) that is best by
@@ -44,10 +44,11 @@ struct BestSubsetResult {
 ///
 /// Throws std::invalid_argument on bad shapes or options and where `include`
 /// has more terms than rows.
-BestSubsetResult SelectBestSubset(const SelectionProblem& problem,
-                                  const std::vector<Eigen::Index>& include,
-                                  const std::vector<bool>& excluded,
-                                  const BestSubsetOptions& options,
-                                  const std::atomic<bool>* stop_token = nullptr);
+BestSubsetResult SelectBestSubset(
+    const SelectionProblem& problem,
+    const std::vector<Eigen::Index>& include,
+    const std::vector<bool>& excluded,
+    const BestSubsetOptions& options,
+    const std::atomic<bool>* stop_token = nullptr);
 
 }  // namespace errmap::fitting

@@ -51,8 +51,7 @@ VectorXd OrthogonalBasis::Remove(Index index) {
     Eigen::JacobiRotation<double> rotation;
     double length = 0.0;
     rotation.makeGivens(r_(j, j), r_(j + 1, j), &length);
-    r_.block(j, j, 2, size_ - 1 - j)
-        .applyOnTheLeft(0, 1, rotation.adjoint());
+    r_.block(j, j, 2, size_ - 1 - j).applyOnTheLeft(0, 1, rotation.adjoint());
     r_(j, j) = length;
     r_(j + 1, j) = 0.0;
     q_.middleCols(j, 2).applyOnTheRight(0, 1, rotation);

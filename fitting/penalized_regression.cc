@@ -24,9 +24,8 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 struct Standardised {
   explicit Standardised(const RegressionProblem& problem) {
     const Index rows = problem.response.size();
-    VectorXd intercept = problem.intercept.size() != 0
-                             ? problem.intercept
-                             : VectorXd::Ones(rows);
+    VectorXd intercept = problem.intercept.size() != 0 ? problem.intercept
+                                                       : VectorXd::Ones(rows);
     VectorXd roots = VectorXd::Ones(rows);
     if (problem.weights.size() != 0) roots = problem.weights.cwiseSqrt();
     intercept = intercept.cwiseProduct(roots);
@@ -83,8 +82,7 @@ class RidgePath final : public StandardisedPath {
       const Eigen::HouseholderQR<MatrixXd> qr(data.x);
       const MatrixXd triangle =
           qr.matrixQR().topRows(k).triangularView<Eigen::Upper>();
-      const VectorXd rotated =
-          (qr.householderQ().transpose() * data.y).head(k);
+      const VectorXd rotated = (qr.householderQ().transpose() * data.y).head(k);
       const Eigen::BDCSVD<MatrixXd> svd(triangle, kThin);
       Keep(svd.singularValues(),
            svd.matrixU().transpose() * rotated,
@@ -106,10 +104,9 @@ class RidgePath final : public StandardisedPath {
   }
 
   VectorXd Coefficients(double strength) const override {
-    const VectorXd shrunk =
-        (along_.array() * singular_.array() /
-         (singular_.array().square() + strength))
-            .matrix();
+    const VectorXd shrunk = (along_.array() * singular_.array() /
+                             (singular_.array().square() + strength))
+                                .matrix();
     return scales_.asDiagonal() * (right_ * shrunk);
   }
 
@@ -178,8 +175,7 @@ class LassoPath final : public StandardisedPath {
   }
   double DegreesOfFreedom(double strength) const override {
     const VectorXd coefficients = Coefficients(strength);
-    return 1.0 +
-           static_cast<double>((coefficients.array() != 0.0).count());
+    return 1.0 + static_cast<double>((coefficients.array() != 0.0).count());
   }
 
  private:
@@ -196,8 +192,7 @@ class LassoPath final : public StandardisedPath {
     VectorXd coefficients = VectorXd::Zero(m);
     VectorXd correlation = data.x.transpose() * data.y;
     Index joining = -1;
-    double strength =
-        m > 0 ? correlation.cwiseAbs().maxCoeff(&joining) : 0.0;
+    double strength = m > 0 ? correlation.cwiseAbs().maxCoeff(&joining) : 0.0;
     knots_.push_back({strength, coefficients});
     const double least = kSmallestShare * strength;
     is_out_.assign(static_cast<std::size_t>(m), true);
@@ -209,8 +204,7 @@ class LassoPath final : public StandardisedPath {
       if (active_.empty()) break;
       // w = (X_A'X_A)^-1 s, and u = X_A w has x_j'u = s_j for active j.
       const VectorXd step_in_q =
-          basis_.R().transpose().triangularView<Eigen::Lower>().solve(
-              Signs());
+          basis_.R().transpose().triangularView<Eigen::Lower>().solve(Signs());
       const VectorXd step =
           basis_.R().triangularView<Eigen::Upper>().solve(step_in_q);
       const VectorXd direction = basis_.Q() * step_in_q;
@@ -419,14 +413,13 @@ PenalizedFit FitPenalized(const RegressionProblem& problem,
   fit.coefficients = path->Coefficients(fit.strength);
   fit.intercept = path->Intercept(fit.coefficients);
   fit.degrees_of_freedom = path->DegreesOfFreedom(fit.strength);
-  VectorXd intercept = problem.intercept.size() != 0 ? problem.intercept
-                                                     : VectorXd::Ones(rows);
+  VectorXd intercept =
+      problem.intercept.size() != 0 ? problem.intercept : VectorXd::Ones(rows);
   const VectorXd residual = problem.response - fit.intercept * intercept -
                             problem.terms * fit.coefficients;
-  fit.residual_sum_of_squares =
-      problem.weights.size() != 0
-          ? residual.cwiseAbs2().dot(problem.weights)
-          : residual.squaredNorm();
+  fit.residual_sum_of_squares = problem.weights.size() != 0
+                                    ? residual.cwiseAbs2().dot(problem.weights)
+                                    : residual.squaredNorm();
   return fit;
 }
 

@@ -11,6 +11,22 @@
 #include "fitting/linear_least_squares.h"
 #include "stats/f_test.h"
 
+// BLAS, and OpenBLAS's own switch, since threads are ours to share out.
+extern "C" {
+void dtrsm_(const char* side,
+            const char* uplo,
+            const char* transposed,
+            const char* diagonal,
+            const int* m,
+            const int* n,
+            const double* alpha,
+            const double* a,
+            const int* lda,
+            double* b,
+            const int* ldb);
+void openblas_set_num_threads(int threads);
+}
+
 namespace errmap::fitting {
 namespace {
 
@@ -60,8 +76,7 @@ void FindCondition(const MatrixXd& centred,
                    .topRows(design.cols())
                    .triangularView<Eigen::Upper>();
   }
-  const VectorXd singular =
-      Eigen::BDCSVD<MatrixXd>(triangle).singularValues();
+  const VectorXd singular = Eigen::BDCSVD<MatrixXd>(triangle).singularValues();
   const double size =
       static_cast<double>(std::max(design.rows(), design.cols()));
   fit->condition = singular[0] / singular[singular.size() - 1];
@@ -74,10 +89,9 @@ void FindCondition(const MatrixXd& centred,
 RegressionDiagnostics Diagnose(const RegressionProblem& problem) {
   CheckShapes(problem);
   const Index rows = problem.response.size();
-  const VectorXd intercept =
-      Weighted(problem.intercept.size() != 0 ? problem.intercept
-                                             : VectorXd::Ones(rows),
-               problem.weights);
+  const VectorXd intercept = Weighted(
+      problem.intercept.size() != 0 ? problem.intercept : VectorXd::Ones(rows),
+      problem.weights);
   const VectorXd y = Weighted(problem.response, problem.weights);
   RegressionDiagnostics fit;
   fit.observations = problem.observations > 0.0 ? problem.observations
@@ -125,8 +139,8 @@ RegressionDiagnostics Diagnose(const RegressionProblem& problem) {
     scaled += qr.solve(left);
     const MatrixXd triangle =
         qr.matrixQR().topRows(k).triangularView<Eigen::Upper>();
-    inverse = triangle.triangularView<Eigen::Upper>().solve(
-        MatrixXd::Identity(k, k));
+    inverse =
+        triangle.triangularView<Eigen::Upper>().solve(MatrixXd::Identity(k, k));
     fit.triangle = triangle * spread(fit.kept).asDiagonal();
   }
   const VectorXd fitted = kept * scaled;
@@ -134,9 +148,9 @@ RegressionDiagnostics Diagnose(const RegressionProblem& problem) {
   fit.regression_sum_of_squares = fitted.squaredNorm();
   const double freedom = fit.observations - static_cast<double>(fit.rank);
   fit.residual_degrees_of_freedom = freedom;
-  const double variance =
-      freedom > 0.0 ? fit.residual_sum_of_squares / freedom
-                    : std::numeric_limits<double>::quiet_NaN();
+  const double variance = freedom > 0.0
+                              ? fit.residual_sum_of_squares / freedom
+                              : std::numeric_limits<double>::quiet_NaN();
   fit.s = std::sqrt(variance);
   if (fit.total_sum_of_squares > 0.0) {
     fit.r2 = 1.0 - fit.residual_sum_of_squares / fit.total_sum_of_squares;
@@ -184,23 +198,34 @@ void RowDiagnostics::Add(const RegressionDiagnostics& fit,
                          const VectorXd& response,
                          const VectorXd& weights) {
   const Index k = static_cast<Index>(fit.kept.size());
-  VectorXd predicted =
-      VectorXd::Constant(terms.rows(), fit.intercept.estimate);
+  VectorXd predicted = VectorXd::Constant(terms.rows(), fit.intercept.estimate);
   VectorXd leverage =
       VectorXd::Constant(terms.rows(), 1.0 / fit.sum_of_weights);
   if (k > 0) {
     MatrixXd centred = terms(Eigen::all, fit.kept);
     for (Index i = 0; i < k; ++i) {
       const Index j = fit.kept[static_cast<std::size_t>(i)];
-      predicted +=
-          fit.coefficients[static_cast<std::size_t>(j)].estimate *
-          centred.col(i);
+      predicted += fit.coefficients[static_cast<std::size_t>(j)].estimate *
+                   centred.col(i);
       centred.col(i).array() -= fit.means[j];
     }
-    const MatrixXd orthonormal =
-        fit.triangle.triangularView<Eigen::Upper>()
-            .solve<Eigen::OnTheRight>(centred);
-    leverage += orthonormal.rowwise().squaredNorm();
+    // centred R^-1: at many terms and rows this is most of the second pass.
+    const int b = static_cast<int>(centred.rows());
+    const int columns = static_cast<int>(k);
+    const double one = 1.0;
+    openblas_set_num_threads(1);
+    dtrsm_("R",
+           "U",
+           "N",
+           "N",
+           &b,
+           &columns,
+           &one,
+           fit.triangle.data(),
+           &columns,
+           centred.data(),
+           &b);
+    leverage += centred.rowwise().squaredNorm();
   }
   if (weights.size() != 0) leverage = leverage.cwiseProduct(weights);
   for (Index i = 0; i < terms.rows(); ++i) {
@@ -223,28 +248,36 @@ void RowDiagnostics::Add(const RegressionDiagnostics& fit,
   rows += terms.rows();
 }
 
-AliasRelation ExplainAlias(const VectorXd& column, const MatrixXd& others) {
+AliasRelation ExplainAlias(const VectorXd& column,
+                           const MatrixXd& others,
+                           const VectorXd& intercept) {
   AliasRelation relation;
   const Index rows = column.size();
   const double tiny = static_cast<double>(rows) * kEpsilon;
-  const VectorXd centred = column.array() - column.mean();
+  const VectorXd unit =
+      (intercept.size() != 0 ? intercept : VectorXd::Ones(rows)).normalized();
+  const auto centre = [&](const VectorXd& values) {
+    return VectorXd(values - unit.dot(values) * unit);
+  };
+  const VectorXd centred = centre(column);
   if (!(centred.norm() > tiny * column.norm())) {
     relation.constant = true;
     return relation;
   }
-  MatrixXd scaled = others;
+  if (others.cols() == 0) return relation;
+  MatrixXd scaled(rows, others.cols());
   for (Index j = 0; j < scaled.cols(); ++j) {
-    scaled.col(j).array() -= scaled.col(j).mean();
+    scaled.col(j) = centre(others.col(j));
     const double length = scaled.col(j).norm();
     if (length > tiny * others.col(j).norm()) scaled.col(j) /= length;
   }
-  if (scaled.cols() == 0) return relation;
   constexpr double kSmallestPart = 1e-6;
   // One column alone where one does; else all that have a part.
+  const VectorXd along = scaled.transpose() * centred;
   Index nearest = 0;
-  const double most =
-      (scaled.transpose() * centred.normalized()).cwiseAbs().maxCoeff(&nearest);
-  if (most > 1.0 - kSmallestPart * kSmallestPart) {
+  along.cwiseAbs().maxCoeff(&nearest);
+  if ((centred - along[nearest] * scaled.col(nearest)).norm() <=
+      kSmallestPart * centred.norm()) {
     relation.columns.push_back(nearest);
     return relation;
   }

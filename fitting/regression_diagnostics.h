@@ -33,8 +33,8 @@ struct CoefficientEstimate {
 /// Sums of squares are weighted, and about the (weighted) mean.
 struct RegressionDiagnostics {
   double observations = 0.0;
-  Eigen::Index rank = 0;               // coefficients, intercept included
-  std::vector<Eigen::Index> aliased;   // terms left out, coefficient 0
+  Eigen::Index rank = 0;              // coefficients, intercept included
+  std::vector<Eigen::Index> aliased;  // terms left out, coefficient 0
   CoefficientEstimate intercept;
   std::vector<CoefficientEstimate> coefficients;  // (k)
   double regression_sum_of_squares = 0.0;
@@ -54,8 +54,8 @@ struct RegressionDiagnostics {
   /// Triangle R with (X_c R^-1)' (X_c R^-1) = I of the terms kept, centred:
   /// for the leverages of rows seen elsewhere.
   Eigen::MatrixXd triangle;
-  Eigen::VectorXd means;             // (k) weighted means of the terms
-  std::vector<Eigen::Index> kept;    // terms that `triangle` is of
+  Eigen::VectorXd means;           // (k) weighted means of the terms
+  std::vector<Eigen::Index> kept;  // terms that `triangle` is of
   double sum_of_weights = 0.0;
 };
 
@@ -93,8 +93,10 @@ struct AliasRelation {
   std::vector<Eigen::Index> columns;
 };
 
-/// Explains why `column` (n) adds nothing to an intercept and `others` (n x k).
+/// Explains why `column` (n) adds nothing to `intercept` (n; 0: ones) and
+/// `others` (n x k).
 AliasRelation ExplainAlias(const Eigen::VectorXd& column,
-                           const Eigen::MatrixXd& others);
+                           const Eigen::MatrixXd& others,
+                           const Eigen::VectorXd& intercept = {});
 
 }  // namespace errmap::fitting

@@ -26,11 +26,11 @@ void SelectionProblem::Validate(const char* caller) const {
   if (rows < 2 || candidates.rows() != rows ||
       (weights.size() != 0 && weights.size() != rows) ||
       (intercept.size() != 0 && intercept.size() != rows)) {
-    throw std::invalid_argument(
-        std::string(caller) + ": candidates have " +
-        std::to_string(candidates.rows()) + " rows, response " +
-        std::to_string(rows) + ", weights " + std::to_string(weights.size()) +
-        "; at least 2 equal are needed");
+    throw std::invalid_argument(std::string(caller) + ": candidates have " +
+                                std::to_string(candidates.rows()) +
+                                " rows, response " + std::to_string(rows) +
+                                ", weights " + std::to_string(weights.size()) +
+                                "; at least 2 equal are needed");
   }
   if (!response.allFinite() || !weights.allFinite() ||
       (weights.size() != 0 && weights.minCoeff() < 0.0)) {
@@ -53,8 +53,8 @@ SelectionState::SelectionState(const SelectionProblem& problem,
   const Index cols = problem.candidates.cols();
   // A sum of n products errs by about sqrt(n) roundings; four times that.
   rounding_ = 4.0 * std::sqrt(static_cast<double>(rows)) * kEpsilon;
-  VectorXd intercept = problem.intercept.size() != 0 ? problem.intercept
-                                                     : VectorXd::Ones(rows);
+  VectorXd intercept =
+      problem.intercept.size() != 0 ? problem.intercept : VectorXd::Ones(rows);
   VectorXd ones_or_weights = VectorXd::Ones(rows);
   if (problem.weights.size() != 0) {
     roots_ = problem.weights.cwiseSqrt();
@@ -229,7 +229,8 @@ void SelectionState::Apply(const SelectionMove& move) {
                       kEpsilon * std::abs(rest_squared_[j]);
     product_[j] -= sign * p * along;
     product_error_[j] +=
-        p_error * size + (std::abs(p) * size + std::abs(product_[j])) * kEpsilon;
+        p_error * size +
+        (std::abs(p) * size + std::abs(product_[j])) * kEpsilon;
   }
   if (move.candidate >= 0 && !move.enters) Renew(move.candidate);
 }

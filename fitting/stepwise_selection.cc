@@ -39,8 +39,8 @@ double Variance(const SelectionProblem& problem) {
   const Index rows = problem.response.size();
   const Index cols = problem.candidates.cols();
   MatrixXd design(rows, cols + 1);
-  design.col(0) = problem.intercept.size() != 0 ? problem.intercept
-                                                : VectorXd::Ones(rows);
+  design.col(0) =
+      problem.intercept.size() != 0 ? problem.intercept : VectorXd::Ones(rows);
   for (Index j = 0; j < cols; ++j) {
     design.col(j + 1) = problem.candidates.Column(j);
   }
@@ -204,8 +204,8 @@ class Selection {
         continue;
       }
       if (options_.heredity == Heredity::kStrong) return false;
-      const bool has_other = std::any_of(
-          parents.begin(), parents.end(), [&](Index parent) {
+      const bool has_other =
+          std::any_of(parents.begin(), parents.end(), [&](Index parent) {
             return parent >= 0 && parent != candidate &&
                    state_.is_chosen(parent);
           });
@@ -476,9 +476,8 @@ void StepwiseOptions::Validate() const {
            std::to_string(remove));
   }
   if (remove < enter) {
-    refuse("remove (" + std::to_string(remove) +
-           ") must not be below enter (" + std::to_string(enter) +
-           "): a term could enter and leave for ever");
+    refuse("remove (" + std::to_string(remove) + ") must not be below enter (" +
+           std::to_string(enter) + "): a term could enter and leave for ever");
   }
   if (!(collinearity > 0.0 && collinearity < 1.0)) {
     refuse("collinearity must be above 0 and below 1, found " +

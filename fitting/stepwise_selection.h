@@ -86,7 +86,7 @@ struct SelectionResult {
   std::vector<SelectionStep> steps;  // the start and each move
   std::size_t chosen_step = 0;       // the step whose model was chosen
   std::vector<Eigen::Index> aliased_includes;  // determined by those before
-  std::string ended;                 // why the moves ended, for people
+  std::string ended;  // why the moves ended, for people
 };
 
 /// Stepwise selection. From the intercept and `rules.include` (backward: from

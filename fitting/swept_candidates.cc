@@ -110,8 +110,8 @@ void SweptCandidates::Reset() {
   least_.resize(cols);
   for (Index j = 0; j < cols; ++j) {
     rest_.col(j) = problem_.candidates.Column(j).cwiseProduct(roots_);
-    least_[j] = collinearity_ * collinearity_ *
-                rest_.col(j).cwiseAbs2().dot(fitted_);
+    least_[j] =
+        collinearity_ * collinearity_ * rest_.col(j).cwiseAbs2().dot(fitted_);
   }
   error_ = problem_.response.cwiseProduct(roots_);
   chosen_.clear();
@@ -184,8 +184,7 @@ VectorXd SweptCandidates::HeldOutErrorAfterEntry(
       continue;
     }
     const double coefficient = rest_.col(j).dot(fitted_error) / squared;
-    errors[j] =
-        (error_ - coefficient * rest_.col(j)).cwiseAbs2().dot(held_out);
+    errors[j] = (error_ - coefficient * rest_.col(j)).cwiseAbs2().dot(held_out);
   }
   return errors;
 }

@@ -41,10 +41,10 @@ class SweptCandidates {
   double collinearity_;
   Eigen::VectorXd fitted_;  // (n) 1 or 0
   bool all_fitted_;
-  Eigen::VectorXd roots_;   // (n)
-  Eigen::MatrixXd rest_;    // (n x m)
-  Eigen::VectorXd least_;   // (m) squared lengths of the collinear
-  Eigen::VectorXd error_;   // (n) sqrt(w) (y - fit), in all rows
+  Eigen::VectorXd roots_;  // (n)
+  Eigen::MatrixXd rest_;   // (n x m)
+  Eigen::VectorXd least_;  // (m) squared lengths of the collinear
+  Eigen::VectorXd error_;  // (n) sqrt(w) (y - fit), in all rows
   std::vector<Eigen::Index> chosen_;
 };
 

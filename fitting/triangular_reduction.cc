@@ -66,9 +66,10 @@ void FoldIntoTriangle(MatrixXd* triangle, Eigen::Ref<MatrixXd> block) {
           work.data(),
           &info);
   if (info != 0) {
-    throw std::invalid_argument("FoldIntoTriangle: LAPACK's dtpqrt refuses "
-                                "argument " +
-                                std::to_string(-info));
+    throw std::invalid_argument(
+        "FoldIntoTriangle: LAPACK's dtpqrt refuses "
+        "argument " +
+        std::to_string(-info));
   }
 }
 
@@ -76,17 +77,17 @@ MatrixXd ReduceToTriangle(Index rows,
                           Index columns,
                           const FillRows& fill,
                           const ReductionOptions& options) {
-  Require(rows >= 0 && columns >= 1,
-          "a matrix of " + std::to_string(rows) + " x " +
-              std::to_string(columns));
-  Require(options.block_rows >= 1 && options.chains >= 1 &&
-              options.threads >= 1,
-          "block_rows, chains and threads must be at least 1");
+  Require(
+      rows >= 0 && columns >= 1,
+      "a matrix of " + std::to_string(rows) + " x " + std::to_string(columns));
+  Require(
+      options.block_rows >= 1 && options.chains >= 1 && options.threads >= 1,
+      "block_rows, chains and threads must be at least 1");
   openblas_set_num_threads(1);
   const Index blocks = (rows + options.block_rows - 1) / options.block_rows;
   const Index chains = std::clamp<Index>(blocks, 1, options.chains);
-  std::vector<MatrixXd> triangles(
-      static_cast<std::size_t>(chains), MatrixXd::Zero(columns, columns));
+  std::vector<MatrixXd> triangles(static_cast<std::size_t>(chains),
+                                  MatrixXd::Zero(columns, columns));
   tbb::task_arena arena(options.threads);
   arena.execute([&] {
     tbb::parallel_for(

@@ -78,6 +78,8 @@ struct TrainedInput {
   double sd = 0.0;
 };
 
+struct RegressionReport;
+
 /// A model with what is needed to use and to judge it.
 struct FittedModel {
   std::string name;  // the SPEC as given
@@ -88,6 +90,8 @@ struct FittedModel {
   fitting::FitSummary summary;
   std::string equation;  // in physical units; "" where there is none
   std::vector<std::string> remarks;  // such as aliased terms; one line each
+  /// Of polynomials where FitContext asks to explain, else null.
+  std::shared_ptr<const RegressionReport> regression;
 
   /// Predicted error (m) of every row, in the unit of `target`; the inputs are
   /// found by name. Throws std::invalid_argument naming an input not there.
@@ -98,6 +102,12 @@ struct FittedModel {
 struct FitContext {
   std::uint64_t seed = 1;
   const std::atomic<bool>* stop = nullptr;
+  /// Also make the report of a regression: tables, and bootstraps.
+  bool explain = false;
+  int threads = 1;  // at least 1; changes no figure
+  /// Numbers that a design matrix may hold (8 bytes each); a larger one is
+  /// reduced to a triangle in one pass over the rows.
+  double most_design_values = 2e7;
 };
 
 /// An option with the value that took effect.

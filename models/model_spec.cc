@@ -58,7 +58,11 @@ ModelSpec ParseModelSpec(std::string_view text) {
       for (const auto& [known, value] : spec.options) {
         if (known == key) RefuseSpec(text, "option '" + key + "' given twice");
       }
-      spec.options.emplace_back(key, Unquote(word.substr(equals + 1)));
+      // Lists of terms keep their quotes: they set off the names in them.
+      const bool terms =
+          key == "formula" || key == "include" || key == "exclude";
+      const std::string value = word.substr(equals + 1);
+      spec.options.emplace_back(key, terms ? value : Unquote(value));
     } else if (!spec.options.empty() || word.empty()) {
       RefuseSpec(text,
                  fmt::format("'{}' is no option; options are KEY=VALUE, set "

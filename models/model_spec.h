@@ -15,7 +15,8 @@ struct ModelSpec {
   std::vector<std::pair<std::string, std::string>> options;  // in order
 };
 
-/// Splits a SPEC at colons outside double quotes; quotes are taken off values.
+/// Splits a SPEC at colons outside double quotes; quotes are taken off values
+/// (but not in formula, include and exclude, whose names may need them).
 /// Throws std::invalid_argument: empty, open quote, a word after an option, an
 /// option given twice.
 ModelSpec ParseModelSpec(std::string_view text);

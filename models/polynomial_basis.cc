@@ -137,6 +137,7 @@ std::vector<PolynomialTerm> ExpandToPhysicalUnits(const PolynomialForm& form) {
       std::map<TermPowers, long double> next;
       for (const auto& [powers, coefficient] : product) {
         for (std::size_t k = 0; k < factor.size(); ++k) {
+          if (factor[k] == 0.0L) continue;  // an input that is not moved
           TermPowers raised = powers;
           raised[input] = static_cast<int>(k);
           next[raised] += coefficient * factor[k];
@@ -156,12 +157,36 @@ std::vector<PolynomialTerm> ExpandToPhysicalUnits(const PolynomialForm& form) {
 }
 
 std::string EquationText(const PolynomialForm& form,
-                         const std::string& target_name,
-                         const std::vector<std::string>& input_names) {
-  std::string text = target_name + " =";
+                         const data::ColumnInfo& target,
+                         const std::vector<TrainedInput>& inputs,
+                         double rmse) {
+  std::vector<std::string> names;
+  for (const TrainedInput& input : inputs) names.push_back(input.column.name);
+  const std::vector<PolynomialTerm> terms = ExpandToPhysicalUnits(form);
+  // Sum of the sizes of the terms where they are largest: a coefficient of d
+  // digits errs by half a unit of the last.
+  double size = 0.0;
+  for (const PolynomialTerm& term : terms) {
+    double largest = std::abs(term.coefficient);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      largest *=
+          std::pow(std::max(std::abs(inputs[i].min), std::abs(inputs[i].max)),
+                   term.powers[i]);
+    }
+    size += largest;
+  }
+  constexpr int kFewestDigits = 9;
+  constexpr int kMostDigits = 17;
+  constexpr double kShareOfRmse = 1e-6;
+  int digits = kFewestDigits;
+  while (digits < kMostDigits &&
+         size * 0.5 * std::pow(10.0, 1 - digits) > kShareOfRmse * rmse) {
+    ++digits;
+  }
+  std::string text = target.name + " =";
   bool first = true;
-  for (const PolynomialTerm& term : ExpandToPhysicalUnits(form)) {
-    const std::string name = TermName(term.powers, input_names);
+  for (const PolynomialTerm& term : terms) {
+    const std::string name = TermName(term.powers, names);
     const bool negative = std::signbit(term.coefficient);
     if (first) {
       text += negative ? " -" : " ";
@@ -169,7 +194,7 @@ std::string EquationText(const PolynomialForm& form,
       text += negative ? " - " : " + ";
     }
     first = false;
-    text += fmt::format("{:.8e}", std::abs(term.coefficient));
+    text += fmt::format("{:.{}e}", std::abs(term.coefficient), digits - 1);
     if (!name.empty()) text += '*' + name;
   }
   return text;

@@ -35,9 +35,13 @@ std::string TermName(const TermPowers& term,
 /// powers of raw millimetres cancel.
 std::vector<PolynomialTerm> ExpandToPhysicalUnits(const PolynomialForm& form);
 
-/// "error_mm = 3.79060810e-03 + 1.81768672e-04*position_mm + ...".
+/// "error_mm = 3.79060810e-03 + 1.81768672e-04*position_mm + ..." in the
+/// inputs' own units. Nine digits or as many more, up to 17, as it takes for
+/// the text to give the predictions over the trained range to a millionth of
+/// `rmse` (0: 17 digits): the powers cancel, so that some fits need them.
 std::string EquationText(const PolynomialForm& form,
-                         const std::string& target_name,
-                         const std::vector<std::string>& input_names);
+                         const data::ColumnInfo& target,
+                         const std::vector<TrainedInput>& inputs,
+                         double rmse);
 
 }  // namespace errmap::models

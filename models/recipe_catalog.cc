@@ -21,6 +21,9 @@ const std::vector<std::string>& ModelTypes() {
                                                  "poly:eq9",
                                                  "poly:full",
                                                  "poly:stepwise",
+                                                 "poly:best",
+                                                 "poly:ridge",
+                                                 "poly:lasso",
                                                  "net:scg"};
   return types;
 }
@@ -29,9 +32,10 @@ std::unique_ptr<ModelRecipe> MakeRecipe(std::string_view spec_text) {
   const ModelSpec spec = ParseModelSpec(spec_text);
   if (auto recipe = MakePolynomialRecipe(spec)) return recipe;
   if (auto recipe = MakeNetRecipe(spec)) return recipe;
-  throw std::invalid_argument(fmt::format("model '{}': unknown; there are {}",
-                                          spec_text,
-                                          fmt::join(ModelTypes(), ", ")));
+  throw std::invalid_argument(
+      fmt::format("model '{}': unknown; there are {}, poly:formula=...",
+                  spec_text,
+                  fmt::join(ModelTypes(), ", ")));
 }
 
 DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
@@ -40,6 +44,9 @@ DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
   constexpr Eigen::Index kRowsPerCoefficient = 5;
   DefaultRecipes defaults;
   for (const std::string& type : ModelTypes()) {
+    if (type == "poly:best" || type == "poly:ridge" || type == "poly:lasso") {
+      continue;  // compared when named
+    }
     if (type == "poly:full") {
       for (int degree = 2; degree <= kHighestFullDegree; ++degree) {
         auto recipe = MakeRecipe(fmt::format("poly:full:degree={}", degree));

@@ -13,7 +13,8 @@ namespace errmap::models {
 /// std::invalid_argument naming what is wrong and what there is.
 std::unique_ptr<ModelRecipe> MakeRecipe(std::string_view spec);
 
-/// Types of model that MakeRecipe knows, in the order they are presented.
+/// Types of model that MakeRecipe knows without options, in the order they are
+/// presented (poly:formula=... is one more).
 const std::vector<std::string>& ModelTypes();
 
 struct DefaultRecipes {
@@ -21,7 +22,8 @@ struct DefaultRecipes {
   std::vector<std::string> left_out;  // one line each: which and why
 };
 
-/// The models compared when none are named: every kind that the data allow.
+/// The models compared when none are named: every kind that the data allow,
+/// but for best subset, ridge and lasso.
 /// A full polynomial takes part while it has at most a fifth as many
 /// coefficients as `fewest_training_rows`, the smallest training side of the
 /// study's folds.

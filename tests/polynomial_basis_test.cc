@@ -56,9 +56,17 @@ TEST(PolynomialBasis, MultipliesScaledTermsOutToPhysicalUnits) {
   EXPECT_DOUBLE_EQ(terms[1].coefficient, 1.5);    // x
   EXPECT_DOUBLE_EQ(terms[2].coefficient, -15.0);  // y
   EXPECT_DOUBLE_EQ(terms[3].coefficient, 1.5);    // x y
-  EXPECT_EQ(EquationText(form, "error_mm", {"x", "y"}),
+  const data::ColumnInfo target{"error_mm", data::UnitOfColumn("error_mm")};
+  const std::vector<TrainedInput> inputs{{{"x", {}}, 6.0, 14.0, 10.0, 1.0},
+                                         {{"y", {}}, -2.0, 0.0, -1.0, 1.0}};
+  EXPECT_EQ(EquationText(form, target, inputs, 1.0),
             "error_mm = -1.00000000e+01 + 1.50000000e+00*x - "
             "1.50000000e+01*y + 1.50000000e+00*x*y");
+  // The terms reach 10 + 21 + 30 + 42: half a unit of the 16th digit of that
+  // is a millionth of this error.
+  EXPECT_EQ(EquationText(form, target, inputs, 6e-8),
+            "error_mm = -1.000000000000000e+01 + 1.500000000000000e+00*x - "
+            "1.500000000000000e+01*y + 1.500000000000000e+00*x*y");
 }
 
 }  // namespace

@@ -47,8 +47,8 @@ inline Eigen::MatrixXd Centred(const Eigen::MatrixXd& inputs) {
   for (Eigen::Index j = 0; j < inputs.cols(); ++j) {
     const double least = inputs.col(j).minCoeff();
     const double half = 0.5 * (inputs.col(j).maxCoeff() - least);
-    scaled.col(j) = (inputs.col(j).array() - (least + half)) /
-                    (half > 0.0 ? half : 1.0);
+    scaled.col(j) =
+        (inputs.col(j).array() - (least + half)) / (half > 0.0 ? half : 1.0);
   }
   return scaled;
 }

@@ -64,29 +64,27 @@ void ExpectAsInR(const nlohmann::json& golden,
   for (std::size_t i = 0; i < result.steps.size(); ++i) {
     const SelectionStep& step = result.steps[i];
     EXPECT_EQ(NameOf(step), golden["steps"][i]);
-    ExpectRelative(
-        step.residual_sum_of_squares, golden["rss"][i], kAic, "rss");
+    ExpectRelative(step.residual_sum_of_squares, golden["rss"][i], kAic, "rss");
     // Absolute: 1e-13 of the figure, which is several thousand.
-    EXPECT_NEAR(is_aic ? step.aic : step.bic,
-                golden["aic"][i].get<double>(),
-                kAic);
+    EXPECT_NEAR(
+        is_aic ? step.aic : step.bic, golden["aic"][i].get<double>(), kAic);
   }
   EXPECT_EQ(result.chosen_step, result.steps.size() - 1);
-  MatrixXd terms(response.size(),
-                 static_cast<Index>(golden["terms"].size()));
+  MatrixXd terms(response.size(), static_cast<Index>(golden["terms"].size()));
   for (std::size_t j = 0; j < golden["terms"].size(); ++j) {
     const std::string name = golden["terms"][j];
     terms.col(static_cast<Index>(j)) =
         candidates.Column(std::stol(name.substr(1)));
   }
-  const RegressionDiagnostics fit =
-      Diagnose({terms, response, weights});
+  const RegressionDiagnostics fit = Diagnose({terms, response, weights});
   ASSERT_TRUE(fit.aliased.empty());
   const auto check = [&](const CoefficientEstimate& line, std::size_t i) {
     const std::string which = " of coefficient " + std::to_string(i);
-    ExpectRelative(line.estimate, golden["estimate"][i], kTable,
-                   "estimate" + which);
-    ExpectRelative(line.standard_error, golden["standard_error"][i], kTable,
+    ExpectRelative(
+        line.estimate, golden["estimate"][i], kTable, "estimate" + which);
+    ExpectRelative(line.standard_error,
+                   golden["standard_error"][i],
+                   kTable,
                    "standard error" + which);
     ExpectRelative(line.t, golden["t"][i], kTable, "t" + which);
     // d ln p / d ln t is about -t^2 far out, so p loses what t^2 magnifies.

@@ -52,7 +52,8 @@ BENCHMARK(BM_ThirtyForwardSteps)->Unit(benchmark::kMillisecond);
 void BM_ThirtyForwardStepsOverAMatrix(benchmark::State& state) {
   const VectorXd none;
   MatrixXd matrix(595, 902);
-  for (Index j = 0; j < 902; ++j) matrix.col(j) = TheCase().candidates.Column(j);
+  for (Index j = 0; j < 902; ++j)
+    matrix.col(j) = TheCase().candidates.Column(j);
   const MatrixColumns candidates(matrix);
   const SelectionProblem problem{candidates, TheCase().data.error, none};
   StepwiseOptions options;
@@ -133,13 +134,13 @@ void BM_ReduceToTriangle(benchmark::State& state) {
   constexpr Index kColumns = 947;
   const MatrixXd block = MatrixXd::Random(2048, kColumns);
   for (auto _ : state) {
-    const MatrixXd triangle = ReduceToTriangle(
-        kRows,
-        kColumns,
-        [&](Index, Eigen::Ref<MatrixXd> rows) {
-          rows = block.topRows(rows.rows());
-        },
-        {.threads = static_cast<int>(state.range(0))});
+    const MatrixXd triangle =
+        ReduceToTriangle(kRows,
+                         kColumns,
+                         [&](Index, Eigen::Ref<MatrixXd> rows) {
+                           rows = block.topRows(rows.rows());
+                         },
+                         {.threads = static_cast<int>(state.range(0))});
     benchmark::DoNotOptimize(triangle.data());
   }
   state.counters["rows/s"] =
