@@ -126,7 +126,7 @@ TEST(PenalizedRegression, NoPenaltyIsLeastSquares) {
     options.strength = 0.0;
     const PenalizedFit fit = FitPenalized(
         {sample.terms, sample.response, sample.weights}, {}, options);
-    // The lasso's path ends at a millionth of a millionth of its start.
+    // The lasso's path is followed down to 1e-7 of its largest strength.
     const double tolerance = penalty == Penalty::kRidge ? kRelative : 1e-5;
     EXPECT_TRUE(fit.coefficients.isApprox(expected.tail(5), tolerance));
     EXPECT_NEAR(

@@ -145,7 +145,13 @@ TEST(StepwiseRules, HeredityAdmitsAProductAfterItsParents) {
     return SelectStepwise({columns, response, kEqual}, rules, options).chosen;
   };
   EXPECT_EQ(chosen(Heredity::kNone).front(), 3);
-  // One parent is enough: y, by chance the better, lets x y in before x.
+  // One parent is enough: y lets x y in before x, and comes first because it
+  // alone leaves less than x alone does.
+  const auto alone = [&](Index input) {
+    return SolveLeastSquares(DesignOf(inputs, {input}), response)
+        .residual_sum_of_squares;
+  };
+  ASSERT_LT(alone(1), alone(0));
   EXPECT_THAT(chosen(Heredity::kWeak), ElementsAre(1, 3, 0));
   const std::vector<Index> strong = chosen(Heredity::kStrong);
   for (const Index term : strong) {

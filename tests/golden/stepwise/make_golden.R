@@ -5,7 +5,7 @@
 # writes quadratic.json (902 quadratic terms of 41 inputs, 595 rows) and
 # shipped.json (14 terms of degree 4 in 2 inputs, 397 rows). Every number has
 # 17 significant digits.
-library(MASS)  # extractAIC, stepAIC: the same constants as stats::step
+library(MASS)  # for its version only: step() and extractAIC() are in stats
 
 number <- function(x) {
   ifelse(is.finite(x), sprintf("%.17g", x), "null")
