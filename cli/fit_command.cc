@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/data_arguments.h"
+#include "cli/fit_summary.h"
 #include "cli/interrupt.h"
 #include "cli/json_blocks.h"
 #include "cli/number_text.h"
@@ -47,13 +48,9 @@ Json FitJson(const models::FittedModel& fitted,
       {"parameters", fitted.model->num_parameters()},
       {"equation", fitted.equation.empty() ? Json() : Json(fitted.equation)},
       {"train", MetricsJson(train)},
-      {"stop", fitting::ToString(fitted.summary.termination)},
-      {"converged", fitted.summary.converged()},
-      {"message", fitted.summary.message},
-      {"iterations", fitted.summary.iterations},
-      {"evaluations", fitted.summary.evaluations()},
       {"fit_seconds", fitted.summary.seconds},
       {"remarks", fitted.remarks}};
+  json.update(FitSummaryJson(fitted.summary));
   if (fitted.regression) {
     json["regression"] = RegressionJson(*fitted.regression);
   }
@@ -73,9 +70,7 @@ std::string FitText(const models::FittedModel& fitted,
                   Count(train.residuals.n, "row"),
                   error.WithUnit(train.rmse));
   if (!fitted.equation.empty()) text += fitted.equation + "\n";
-  text += fmt::format("stop: {} ({})\n",
-                      fitting::ToString(fitted.summary.termination),
-                      fitted.summary.message);
+  text += FitSummaryText(fitted.summary);
   for (const std::string& remark : fitted.remarks) text += remark + "\n";
   if (arguments.correlations) text += CorrelationText(dataset);
   if (fitted.regression) {
@@ -101,7 +96,8 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
                          {.seed = arguments.seed,
                           .stop = &stop,
                           .explain = true,
-                          .threads = static_cast<int>(cores)});
+                          .threads = static_cast<int>(cores),
+                          .keep_trace = arguments.format == "json"});
   } catch (const std::invalid_argument& error) {
     Say(fmt::format("{} failed: {}", arguments.model, error.what()));
     return kEveryFitFailed;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "cli/fit_summary.h"
 #include "cli/json_blocks.h"
 #include "cli/residual_json.h"
 #include "cli/residual_report.h"
@@ -123,15 +124,12 @@ Json ResultJson(const Comparison& comparison,
                 std::size_t holdout_index) {
   Json folds = Json::array();
   for (const models::FoldResult& fold : result.folds) {
-    folds.push_back({{"train_rmse", fold.train_rmse},
-                     {"test_rmse", fold.test_rmse},
-                     {"fit_seconds", fold.fit_seconds},
-                     {"iterations", fold.summary.iterations},
-                     {"evaluations", fold.summary.evaluations()},
-                     {"stop", fitting::ToString(fold.summary.termination)},
-                     {"converged", fold.summary.converged()},
-                     {"message", fold.summary.message},
-                     {"remarks", fold.remarks}});
+    Json entry = {{"train_rmse", fold.train_rmse},
+                  {"test_rmse", fold.test_rmse},
+                  {"fit_seconds", fold.fit_seconds}};
+    entry.update(FitSummaryJson(fold.summary));
+    entry["remarks"] = fold.remarks;
+    folds.push_back(std::move(entry));
   }
   const ResidualReport report =
       AssessResiduals(HeldOutResiduals(comparison, result, holdout_index));

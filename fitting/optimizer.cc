@@ -8,21 +8,24 @@ namespace errmap::fitting {
 namespace {
 
 // Counts what passes through; the summary of every optimizer is filled alike.
-class CountedObjective final : public Objective {
+template <typename Scalar>
+class CountedObjective final : public BasicObjective<Scalar> {
  public:
-  explicit CountedObjective(const Objective& objective)
+  using Vector = VectorOf<Scalar>;
+
+  explicit CountedObjective(const BasicObjective<Scalar>& objective)
       : objective_(objective) {}
 
   Eigen::Index num_parameters() const override {
     return objective_.num_parameters();
   }
 
-  double Evaluate(const Vector& x, Vector* gradient) const override {
+  Scalar Evaluate(const Vector& x, Vector* gradient) const override {
     ++(gradient == nullptr ? values_ : gradients_);
     return objective_.Evaluate(x, gradient);
   }
 
-  std::unique_ptr<Path<double>> NewPath(const Vector& x) const override {
+  std::unique_ptr<Path<Scalar>> NewPath(const Vector& x) const override {
     return std::make_unique<CountedPath>(*this, objective_.NewPath(x));
   }
 
@@ -37,33 +40,38 @@ class CountedObjective final : public Objective {
   }
 
  private:
-  class CountedPath final : public Path<double> {
+  class CountedPath final : public Path<Scalar> {
    public:
     CountedPath(const CountedObjective& owner,
-                std::unique_ptr<Path<double>> path)
+                std::unique_ptr<Path<Scalar>> path)
         : owner_(owner), path_(std::move(path)) {}
 
     void SetDirection(const Vector& p) override { path_->SetDirection(p); }
-    double Curvature() override {
+    Scalar Curvature() override {
       ++owner_.curvatures_;
       return path_->Curvature();
     }
-    double Value(double a) override {
+    Scalar Value(Scalar a) override {
       ++owner_.values_;
       return path_->Value(a);
     }
-    void Accept(double a) override { path_->Accept(a); }
+    void Accept(Scalar a) override {
+      path_->Accept(a);
+      counted_here_ = false;
+    }
     const Vector& Gradient() override {
-      ++owner_.gradients_;
+      if (!counted_here_) ++owner_.gradients_;
+      counted_here_ = true;
       return path_->Gradient();
     }
 
    private:
     const CountedObjective& owner_;
-    std::unique_ptr<Path<double>> path_;
+    std::unique_ptr<Path<Scalar>> path_;
+    bool counted_here_ = false;  // the gradient at this point
   };
 
-  const Objective& objective_;
+  const BasicObjective<Scalar>& objective_;
   mutable std::int64_t values_ = 0;
   mutable std::int64_t gradients_ = 0;
   mutable std::int64_t curvatures_ = 0;
@@ -129,9 +137,10 @@ void StoppingRules::Validate() const {
       "progress_interval", static_cast<double>(progress_interval), 1.0);
 }
 
-Minimum Optimizer::Minimize(const Objective& f,
-                            const Eigen::VectorXd& x0,
-                            const RunControl& run) const {
+template <typename Scalar>
+Minimum BasicOptimizer<Scalar>::Minimize(const BasicObjective<Scalar>& f,
+                                         const Vector& x0,
+                                         const RunControl& run) const {
   if (x0.size() != f.num_parameters()) {
     throw std::invalid_argument(
         "Minimize: x0 has " + std::to_string(x0.size()) +
@@ -141,7 +150,7 @@ Minimum Optimizer::Minimize(const Objective& f,
   if (!x0.allFinite()) {
     throw std::invalid_argument("Minimize: x0 must be finite throughout");
   }
-  const CountedObjective counted(f);
+  const CountedObjective<Scalar> counted(f);
   const auto start = std::chrono::steady_clock::now();
   Minimum minimum = DoMinimize(counted, x0, run);
   minimum.summary.seconds =
@@ -150,5 +159,8 @@ Minimum Optimizer::Minimize(const Objective& f,
   counted.Report(&minimum.summary);
   return minimum;
 }
+
+template class BasicOptimizer<double>;
+template class BasicOptimizer<float>;
 
 }  // namespace errmap::fitting

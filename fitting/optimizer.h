@@ -35,7 +35,8 @@ bool IsConverged(Termination termination);
 struct StoppingRules {
   /// Stop after this many accepted steps (niter); at least 0.
   std::int64_t iterations = 1500;
-  /// Stop before exceeding this many evaluations of f; at least 1.
+  /// Stop before exceeding this many evaluations of value, gradient and
+  /// curvature together; at least 1.
   std::int64_t evaluations = std::numeric_limits<std::int64_t>::max();
   /// Stop once this many seconds have passed; above 0.
   double seconds = std::numeric_limits<double>::infinity();
@@ -45,9 +46,9 @@ struct StoppingRules {
   /// the report's: it stops at a true minimum only.
   double gradient_goal = 1e-12;
   /// Every `progress_interval` accepted steps (nfreq, at least 1), stop when
-  /// sqrt(2 f) > this * its value at the last check (errdel); above 0. At 1,
-  /// the report's, only growth stops, which an accepted step cannot show.
-  double slow_ratio = 1.0;
+  /// sqrt(2 f) > this * its value at the last check (errdel); above 0, and
+  /// infinity never stops. At 1, the report's, only growth stops.
+  double slow_ratio = std::numeric_limits<double>::infinity();
   std::int64_t progress_interval = 1;
 
   /// Throws std::invalid_argument naming field, value and range.
@@ -70,15 +71,18 @@ struct FitSummary {
   double initial_gradient_norm = std::numeric_limits<double>::quiet_NaN();
   double final_gradient_norm = std::numeric_limits<double>::quiet_NaN();
   std::int64_t iterations = 0;
-  std::int64_t value_evaluations = 0;     // f alone
-  std::int64_t gradient_evaluations = 0;  // f with gradient
-  std::int64_t curvature_evaluations = 0;
+  std::int64_t value_evaluations = 0;      // f alone
+  std::int64_t gradient_evaluations = 0;   // f with gradient
+  std::int64_t curvature_evaluations = 0;  // p'Hp along a direction
   double seconds = 0.0;
+  /// Of one iteration, n-1 in the sd (Table 4); NaN for too few of them.
+  double mean_iteration_seconds = std::numeric_limits<double>::quiet_NaN();
+  double sd_iteration_seconds = std::numeric_limits<double>::quiet_NaN();
   std::vector<TracePoint> trace;  // empty unless asked for
 
   bool converged() const { return IsConverged(termination); }
   std::int64_t evaluations() const {
-    return value_evaluations + gradient_evaluations;
+    return value_evaluations + gradient_evaluations + curvature_evaluations;
   }
 };
 
@@ -93,24 +97,34 @@ struct Minimum {
   FitSummary summary;
 };
 
-/// Minimises an Objective from a start; immutable, shared between threads.
-class Optimizer {
+/// Minimises an objective from a start; immutable, shared between threads.
+template <typename Scalar>
+class BasicOptimizer {
  public:
-  virtual ~Optimizer() = default;
+  using Vector = VectorOf<Scalar>;
+
+  virtual ~BasicOptimizer() = default;
   virtual std::string name() const = 0;
 
-  /// Minimum found from x0 (n). Counts and times evaluations. An infeasible
-  /// start (f or its gradient not finite) is reported as kFailed.
+  /// Minimum found from x0 (n). Counts and times evaluations: each call of
+  /// Evaluate, Curvature and Value is one, and each Gradient that is new at
+  /// its point. An infeasible start (f or its gradient not finite) is reported
+  /// as kFailed.
   /// Throws std::invalid_argument unless x0.size() == f.num_parameters() and
   /// all of x0 is finite.
-  Minimum Minimize(const Objective& f,
-                   const Eigen::VectorXd& x0,
+  Minimum Minimize(const BasicObjective<Scalar>& f,
+                   const Vector& x0,
                    const RunControl& run = {}) const;
 
  private:
-  virtual Minimum DoMinimize(const Objective& f,
-                             const Eigen::VectorXd& x0,
+  virtual Minimum DoMinimize(const BasicObjective<Scalar>& f,
+                             const Vector& x0,
                              const RunControl& run) const = 0;
 };
+
+using Optimizer = BasicOptimizer<double>;
+
+extern template class BasicOptimizer<double>;
+extern template class BasicOptimizer<float>;
 
 }  // namespace errmap::fitting

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -9,23 +10,8 @@
 
 #include "fitting/information_criteria.h"
 #include "fitting/linear_least_squares.h"
+#include "fitting/matrix_product.h"
 #include "stats/f_test.h"
-
-// BLAS, and OpenBLAS's own switch, since threads are ours to share out.
-extern "C" {
-void dtrsm_(const char* side,
-            const char* uplo,
-            const char* transposed,
-            const char* diagonal,
-            const int* m,
-            const int* n,
-            const double* alpha,
-            const double* a,
-            const int* lda,
-            double* b,
-            const int* ldb);
-void openblas_set_num_threads(int threads);
-}
 
 namespace errmap::fitting {
 namespace {
@@ -210,21 +196,7 @@ void RowDiagnostics::Add(const RegressionDiagnostics& fit,
       centred.col(i).array() -= fit.means[j];
     }
     // centred R^-1: at many terms and rows this is most of the second pass.
-    const int b = static_cast<int>(centred.rows());
-    const int columns = static_cast<int>(k);
-    const double one = 1.0;
-    openblas_set_num_threads(1);
-    dtrsm_("R",
-           "U",
-           "N",
-           "N",
-           &b,
-           &columns,
-           &one,
-           fit.triangle.data(),
-           &columns,
-           centred.data(),
-           &b);
+    DivideByUpperTriangle(fit.triangle, centred);
     leverage += centred.rowwise().squaredNorm();
   }
   if (weights.size() != 0) leverage = leverage.cwiseProduct(weights);

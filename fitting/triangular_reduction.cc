@@ -8,8 +8,9 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-// LAPACK 3.4: QR of a triangle on top of a pentagonal block; and OpenBLAS's
-// own switch, since threads are ours to share out.
+#include "fitting/matrix_product.h"
+
+// LAPACK 3.4: QR of a triangle on top of a pentagonal block.
 extern "C" {
 void dtpqrt_(const int* m,
              const int* n,
@@ -23,7 +24,6 @@ void dtpqrt_(const int* m,
              const int* ldt,
              double* work,
              int* info);
-void openblas_set_num_threads(int threads);
 }
 
 namespace errmap::fitting {
@@ -83,7 +83,7 @@ MatrixXd ReduceToTriangle(Index rows,
   Require(
       options.block_rows >= 1 && options.chains >= 1 && options.threads >= 1,
       "block_rows, chains and threads must be at least 1");
-  openblas_set_num_threads(1);
+  UseOneThreadPerCall();
   const Index blocks = (rows + options.block_rows - 1) / options.block_rows;
   const Index chains = std::clamp<Index>(blocks, 1, options.chains);
   std::vector<MatrixXd> triangles(static_cast<std::size_t>(chains),

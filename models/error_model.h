@@ -108,6 +108,7 @@ struct FitContext {
   /// Numbers that a design matrix may hold (8 bytes each); a larger one is
   /// reduced to a triangle in one pass over the rows.
   double most_design_values = 2e7;
+  bool keep_trace = false;  // of an iterative fit, in its summary
 };
 
 /// An option with the value that took effect.

@@ -1,13 +1,13 @@
 #include "models/net_recipe.h"
 
+#include <algorithm>
+#include <iterator>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
-#include <fmt/format.h>
-
-#include "fitting/scaled_conjugate_gradient.h"
 #include "models/feedforward_net.h"
-#include "models/net_objective.h"
+#include "models/net_trainer.h"
 #include "models/scaling.h"
 
 namespace errmap::models {
@@ -35,18 +35,47 @@ ColumnScaling ScalingOf(InputScaling kind, const Eigen::MatrixXd& inputs) {
   return IdentityScaling(inputs.cols());
 }
 
-// A net trained by scaled conjugate gradients.
-class ScgNetRecipe final : public ModelRecipe {
+// Budgets and stops under the report's names, defaults as in StoppingRules.
+fitting::StoppingRules TakeStoppingRules(SpecOptions* options) {
+  constexpr std::int64_t kMostSteps = 1'000'000'000;
+  constexpr double kMost = 1e12;
+  constexpr double kLeastSeconds = 1e-3;
+  fitting::StoppingRules rules;
+  rules.iterations =
+      options->TakeInteger("iterations", rules.iterations, 1, kMostSteps);
+  rules.evaluations =
+      options->TakeInteger("evaluations",
+                           rules.evaluations,
+                           1,
+                           std::numeric_limits<std::int64_t>::max());
+  rules.seconds =
+      options->TakeNumber("seconds", rules.seconds, kLeastSeconds, kMost);
+  rules.cost_goal = options->TakeNumber("egoal", rules.cost_goal, 0.0, kMost);
+  rules.gradient_goal =
+      options->TakeNumber("gwgoal", rules.gradient_goal, 0.0, kMost);
+  rules.slow_ratio =
+      options->TakeNumber("errdel", rules.slow_ratio, 1e-6, kMost);
+  rules.progress_interval =
+      options->TakeInteger("nfreq", rules.progress_interval, 1, kMostSteps);
+  return rules;
+}
+
+// A one-hidden-layer net; how it is trained is its trainer's business.
+class NetRecipe final : public ModelRecipe {
  public:
-  explicit ScgNetRecipe(const ModelSpec& spec) : name_(spec.text) {
+  explicit NetRecipe(const ModelSpec& spec) : name_(spec.text) {
+    constexpr double kLeastSlope = 1e-3;
+    constexpr double kMostSlope = 1e3;
     SpecOptions options(spec);
     hidden_ = options.TakeInteger("hidden", 20, 1, 10'000);
     wfactor_ = options.TakeNumber("wfactor", 1e-5, 0.0, 1e6);
-    scg_.stopping.iterations =
-        options.TakeInteger("iterations", 1500, 1, 1'000'000'000);
+    stopping_ = TakeStoppingRules(&options);
     scaling_ = static_cast<InputScaling>(
         options.TakeChoice("scale", 0, InputScalingNames()));
-    options.TakeChoice("variant", 0, {"netcg"});
+    output_ = static_cast<OutputFunction>(
+        options.TakeChoice("output", 0, {"sigmoid", "linear"}));
+    slope_ = options.TakeNumber("slope", 1.0, kLeastSlope, kMostSlope);
+    trainer_ = MakeNetTrainer(spec.type, stopping_, &options);
     options.RefuseOthers();
   }
 
@@ -54,11 +83,28 @@ class ScgNetRecipe final : public ModelRecipe {
   ModelKind kind() const override { return ModelKind::kNet; }
 
   std::vector<EffectiveOption> options() const override {
-    return {{"hidden", hidden_},
-            {"wfactor", wfactor_},
-            {"iterations", scg_.stopping.iterations},
-            {"scale", InputScalingNames()[static_cast<std::size_t>(scaling_)]},
-            {"variant", std::string("netcg")}};
+    std::vector<EffectiveOption> all = {
+        {"hidden", hidden_},
+        {"wfactor", wfactor_},
+        {"iterations", stopping_.iterations},
+        {"egoal", stopping_.cost_goal},
+        {"gwgoal", stopping_.gradient_goal},
+        {"scale", InputScalingNames()[static_cast<std::size_t>(scaling_)]},
+        {"output", std::string(ToString(output_))},
+        {"slope", slope_}};
+    const fitting::StoppingRules unlimited;
+    if (stopping_.evaluations != unlimited.evaluations) {
+      all.push_back({"evaluations", stopping_.evaluations});
+    }
+    if (stopping_.slow_ratio != unlimited.slow_ratio) {
+      all.push_back({"errdel", stopping_.slow_ratio});
+      all.push_back({"nfreq", stopping_.progress_interval});
+    }
+    if (stopping_.seconds != unlimited.seconds) {
+      all.push_back({"seconds", stopping_.seconds});
+    }
+    std::ranges::move(trainer_->options(), std::back_inserter(all));
+    return all;
   }
 
   std::optional<std::string> WhatIsMissing(
@@ -78,24 +124,24 @@ class ScgNetRecipe final : public ModelRecipe {
     }
     const ColumnScaling scaling = ScalingOf(scaling_, training.input_values());
     const TargetScaling target = SigmoidTargetScaling(training.target_values());
-    const Eigen::VectorXd scaled_target =
-        (training.target_values() * target.slope).array() + target.offset;
     const NetShape shape = ShapeFor(training);
-    const NetObjective objective(shape,
-                                 scaling.Apply(training.input_values()),
-                                 scaled_target,
-                                 wfactor_,
-                                 training.weights());
-    const fitting::ScaledConjugateGradient optimizer(scg_);
-    fitting::Minimum minimum = optimizer.Minimize(
-        objective, InitialWeights(shape, context.seed), {.stop = context.stop});
+    fitting::Minimum minimum = trainer_->Train(
+        {.shape = shape,
+         .inputs = scaling.Apply(training.input_values()),
+         .targets =
+             (training.target_values() * target.slope).array() + target.offset,
+         .row_weights = training.weights(),
+         .wfactor = wfactor_,
+         .initial_weights = InitialWeights(shape, context.seed)},
+        {.stop = context.stop, .keep_trace = context.keep_trace});
 
     std::vector<Index> columns(static_cast<std::size_t>(shape.inputs));
     std::iota(columns.begin(), columns.end(), Index{0});
+    // A slope c multiplies every sum that a sigmoid sees: so may the weights.
     NetForm form{.input_offset = scaling.offset,
                  .input_scale = scaling.scale,
-                 .w1 = FirstLayer(shape, minimum.x),
-                 .w2 = SecondLayer(shape, minimum.x),
+                 .w1 = shape.slope * FirstLayer(shape, minimum.x),
+                 .w2 = OutputSlope(shape) * SecondLayer(shape, minimum.x),
                  .output = shape.output,
                  .target_slope = Eigen::VectorXd::Constant(1, target.slope),
                  .target_offset = Eigen::VectorXd::Constant(1, target.offset)};
@@ -111,21 +157,25 @@ class ScgNetRecipe final : public ModelRecipe {
 
  private:
   NetShape ShapeFor(const Dataset& dataset) const {
-    return {dataset.num_inputs(), hidden_, 1, OutputFunction::kSigmoid};
+    return {dataset.num_inputs(), hidden_, 1, output_, slope_};
   }
 
   std::string name_;
   std::int64_t hidden_;
   double wfactor_;
   InputScaling scaling_;
-  fitting::ScaledConjugateGradientOptions scg_;
+  OutputFunction output_;
+  double slope_;
+  fitting::StoppingRules stopping_;
+  std::unique_ptr<NetTrainer> trainer_;
 };
 
 }  // namespace
 
 std::unique_ptr<ModelRecipe> MakeNetRecipe(const ModelSpec& spec) {
-  if (spec.type == "net:scg") return std::make_unique<ScgNetRecipe>(spec);
-  return nullptr;
+  const std::vector<std::string>& types = NetTypes();
+  if (std::ranges::find(types, spec.type) == types.end()) return nullptr;
+  return std::make_unique<NetRecipe>(spec);
 }
 
 }  // namespace errmap::models

@@ -7,8 +7,9 @@
 
 namespace errmap::models {
 
-/// The recipe of net:scg, or null where `spec.type` is another model. Throws
-/// std::invalid_argument on options that are unknown or out of range.
+/// The recipe of a net (net_trainer.h), or null where `spec.type` is another
+/// model. Throws std::invalid_argument on options that are unknown or out of
+/// range.
 std::unique_ptr<ModelRecipe> MakeNetRecipe(const ModelSpec& spec);
 
 }  // namespace errmap::models

@@ -1,6 +1,9 @@
 #include "models/recipe_catalog.h"
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -24,7 +27,9 @@ const std::vector<std::string>& ModelTypes() {
                                                  "poly:best",
                                                  "poly:ridge",
                                                  "poly:lasso",
-                                                 "net:scg"};
+                                                 "net:scg",
+                                                 "net:cg",
+                                                 "net:backprop"};
   return types;
 }
 
@@ -42,11 +47,11 @@ DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
                                   Eigen::Index fewest_training_rows) {
   constexpr int kHighestFullDegree = 6;
   constexpr Eigen::Index kRowsPerCoefficient = 5;
+  constexpr std::array<std::string_view, 5> kWhenNamed = {
+      "poly:best", "poly:ridge", "poly:lasso", "net:cg", "net:backprop"};
   DefaultRecipes defaults;
   for (const std::string& type : ModelTypes()) {
-    if (type == "poly:best" || type == "poly:ridge" || type == "poly:lasso") {
-      continue;  // compared when named
-    }
+    if (std::ranges::find(kWhenNamed, type) != kWhenNamed.end()) continue;
     if (type == "poly:full") {
       for (int degree = 2; degree <= kHighestFullDegree; ++degree) {
         auto recipe = MakeRecipe(fmt::format("poly:full:degree={}", degree));

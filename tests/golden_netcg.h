@@ -24,7 +24,12 @@ struct GoldenCase {
   Eigen::VectorXd initial_weights;
 
   models::NetObjective Objective() const {
-    return {shape, inputs, scaled_targets, wfactor};
+    return {shape,
+            inputs,
+            scaled_targets,
+            wfactor,
+            {},
+            models::NetArithmetic::kPlain};
   }
 };
 

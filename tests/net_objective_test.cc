@@ -1,14 +1,16 @@
 #include "models/net_objective.h"
 
+#include <cmath>
+#include <stdexcept>
 #include <string>
-#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "fitting/gradient_check.h"
-#include "stats/random.h"
 #include "tests/golden_netcg.h"
+#include "tests/net_test_cases.h"
+#include "tests/random_matrix.h"
 
 namespace errmap::models {
 namespace {
@@ -17,14 +19,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using errmap::testing::GoldenCase;
+using errmap::testing::NetCase;
+using errmap::testing::RandomMatrix;
 using errmap::testing::ReadGoldenCase;
-
-MatrixXd RandomMatrix(Index rows, Index cols, std::uint64_t seed) {
-  stats::Random random(seed);
-  MatrixXd matrix(rows, cols);
-  for (double& value : matrix.reshaped()) value = 2.0 * random.Uniform() - 1.0;
-  return matrix;
-}
 
 TEST(NetObjective, AgreesWithTheReportsProgramInValueAndGradient) {
   constexpr double kRounding = 1e-12;
@@ -64,42 +61,127 @@ TEST(NetObjective, AgreesWithTheReportsProgramOnItsFullSize) {
   }
 }
 
-struct ShapeCase {
-  Index inputs, hidden, outputs, patterns;
-  OutputFunction output;
-  bool weighted;
-};
-
-class NetObjectiveGradient : public ::testing::TestWithParam<ShapeCase> {};
+class NetObjectiveGradient : public ::testing::TestWithParam<NetCase> {};
 
 TEST_P(NetObjectiveGradient, AgreesWithRiddersDerivatives) {
   // Extrapolated differences of a smooth cost of order 0.1 are good to about
   // eleven digits.
   constexpr double kRidders = 1e-9;
-  const ShapeCase& c = GetParam();
-  VectorXd weights;
-  if (c.weighted) {
-    weights = RandomMatrix(c.patterns, 1, 5).cwiseAbs().array() + 0.1;
-  }
-  const NetObjective objective(
-      {c.inputs, c.hidden, c.outputs, c.output},
-      RandomMatrix(c.patterns, c.inputs, 1),
-      RandomMatrix(c.patterns, c.outputs, 2).cwiseAbs(),
-      1e-2,
-      weights);
-  const VectorXd w = RandomMatrix(objective.num_parameters(), 1, 3);
-  EXPECT_LT(fitting::CheckGradient(objective, w).worst_relative_error,
+  // The steeper the sigmoids, the sooner the cost changes.
+  const double step = 0.15 / GetParam().shape.slope;
+  EXPECT_LT(fitting::CheckGradient(
+                GetParam().Objective<double>(), GetParam().Point(), step)
+                .worst_relative_error,
             kRidders);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Shapes,
-    NetObjectiveGradient,
-    ::testing::Values(ShapeCase{1, 1, 1, 1, OutputFunction::kSigmoid, false},
-                      ShapeCase{3, 4, 2, 12, OutputFunction::kSigmoid, false},
-                      ShapeCase{3, 4, 2, 12, OutputFunction::kLinear, false},
-                      ShapeCase{5, 7, 3, 40, OutputFunction::kSigmoid, true},
-                      ShapeCase{2, 3, 1, 700, OutputFunction::kLinear, true}));
+TEST_P(NetObjectiveGradient, AgreesWithRiddersDerivativesInSinglePrecision) {
+  // Derivatives of the same cost in double, which know more than seven digits;
+  // a component is judged by the largest.
+  constexpr double kRidders = 1e-3;
+  const auto objective = GetParam().Objective<double>();
+  const VectorXd w = GetParam().Point();
+  VectorXd numeric(w.size());
+  for (Index i = 0; i < w.size(); ++i) {
+    numeric[i] = fitting::RiddersDerivative(
+                     [&](double t) {
+                       VectorXd at = w;
+                       at[i] = t;
+                       return objective.Evaluate(at, nullptr);
+                     },
+                     w[i],
+                     0.1)
+                     .value;
+  }
+  Eigen::VectorXf gradient;
+  GetParam().Objective<float>().Evaluate(w.cast<float>(), &gradient);
+  EXPECT_LT((gradient.cast<double>() - numeric).cwiseAbs().maxCoeff(),
+            kRidders * numeric.cwiseAbs().maxCoeff());
+}
+
+TEST_P(NetObjectiveGradient, IsTheSameCostWithAndWithoutGradient) {
+  const auto objective = GetParam().Objective<double>();
+  const VectorXd w = GetParam().Point();
+  VectorXd gradient;
+  const double with = objective.Evaluate(w, &gradient);
+  EXPECT_EQ(objective.Evaluate(w, nullptr), with);
+  VectorXd again;
+  EXPECT_EQ(objective.Evaluate(w, &again), with);
+  EXPECT_EQ(again, gradient);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes,
+                         NetObjectiveGradient,
+                         ::testing::ValuesIn(errmap::testing::ManyNets()),
+                         [](const ::testing::TestParamInfo<NetCase>& instance) {
+                           return instance.param.Name();
+                         });
+
+// Eq. 14-20 written out for one pattern, with slope c in both layers (Eq. 12)
+// or, for a linear output, in the first alone.
+TEST(NetObjective, IsTheFormulaOfTheReport) {
+  constexpr double kRounding = 1e-15;
+  constexpr double kSlope = 1.7;
+  constexpr double kWfactor = 0.4;
+  const auto sigmoid = [](double s) { return 1.0 / (1.0 + std::exp(-s)); };
+  const VectorXd w{{0.3, -0.5, 0.7, 0.2, -0.1, 0.9, 1.1}};
+  // One hidden node: w1 = (0.3 -0.5 0.7), w2 = (0.2 0.9; -0.1 1.1).
+  const double x1 = 0.6;
+  const double x2 = -0.8;
+  const double target = 0.25;
+  for (const auto output :
+       {OutputFunction::kSigmoid, OutputFunction::kLinear}) {
+    const NetShape shape{2, 1, 2, output, kSlope};
+    ASSERT_EQ(shape.num_weights(), w.size());
+    const double y = sigmoid(kSlope * (0.3 * x1 - 0.5 * x2 + 0.7));
+    double z1 = 0.2 * y + 0.9;
+    double z2 = -0.1 * y + 1.1;
+    if (output == OutputFunction::kSigmoid) {
+      z1 = sigmoid(kSlope * z1);
+      z2 = sigmoid(kSlope * z2);
+    }
+    const double squares =
+        (z1 - target) * (z1 - target) + (z2 + target) * (z2 + target);
+    const double expected =
+        squares / (2.0 * 1.0 * 2.0) + kWfactor * w.squaredNorm() / (2.0 * 7.0);
+    for (const auto arithmetic :
+         {NetArithmetic::kFast, NetArithmetic::kPlain}) {
+      const NetObjective objective(shape,
+                                   Eigen::RowVector2d(x1, x2),
+                                   Eigen::RowVector2d(target, -target),
+                                   kWfactor,
+                                   {},
+                                   arithmetic);
+      EXPECT_NEAR(objective.Evaluate(w, nullptr), expected, kRounding);
+    }
+  }
+}
+
+// Rows are worked on in blocks: how they fall must not show but in rounding.
+TEST(NetObjective, IsTheMeanOfItsHalves) {
+  constexpr double kRounding = 1e-14;
+  const NetShape shape{3, 6, 2, OutputFunction::kSigmoid};
+  const Index rows = 9000;
+  const MatrixXd inputs = RandomMatrix(rows, 3, 1);
+  const MatrixXd targets = RandomMatrix(rows, 2, 2);
+  const VectorXd w = RandomMatrix(shape.num_weights(), 1, 3);
+  VectorXd whole;
+  VectorXd first;
+  VectorXd second;
+  const double cost =
+      NetObjective(shape, inputs, targets, 1e-2).Evaluate(w, &whole);
+  const double halves =
+      NetObjective(
+          shape, inputs.topRows(rows / 2), targets.topRows(rows / 2), 1e-2)
+          .Evaluate(w, &first) +
+      NetObjective(shape,
+                   inputs.bottomRows(rows / 2),
+                   targets.bottomRows(rows / 2),
+                   1e-2)
+          .Evaluate(w, &second);
+  EXPECT_NEAR(cost, 0.5 * halves, kRounding);
+  EXPECT_LT((whole - 0.5 * (first + second)).cwiseAbs().maxCoeff(), kRounding);
+}
 
 TEST(NetObjective, GradientCheckFindsAGradientWrongByOneInAThousand) {
   class Wrong final : public fitting::Objective {
@@ -189,6 +271,12 @@ TEST(NetObjective, RefusesWhatDoesNotFitTogether) {
   EXPECT_THROW(
       NetObjective({2, 0, 1, OutputFunction::kSigmoid}, inputs, targets, 0.0),
       std::invalid_argument);
+  for (const double slope : {0.0, -1.0, std::nan("")}) {
+    EXPECT_THROW(
+        NetObjective(
+            {2, 3, 1, OutputFunction::kSigmoid, slope}, inputs, targets, 0.0),
+        std::invalid_argument);
+  }
 }
 
 }  // namespace

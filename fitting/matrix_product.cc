@@ -1,0 +1,93 @@
+#include "fitting/matrix_product.h"
+
+#include <cassert>
+#include <cblas.h>
+
+namespace errmap::fitting {
+namespace {
+
+template <typename Scalar, typename Gemm>
+void Call(Gemm gemm,
+          CBLAS_TRANSPOSE transpose_b,
+          const MatrixView<Scalar>& a,
+          const MatrixView<Scalar>& b,
+          MutableMatrixView<Scalar>* c,
+          bool accumulate) {
+  assert(a.rows() == c->rows());
+  assert(a.cols() == (transpose_b == CblasTrans ? b.cols() : b.rows()));
+  assert(c->cols() == (transpose_b == CblasTrans ? b.rows() : b.cols()));
+  UseOneThreadPerCall();
+  gemm(CblasColMajor,
+       CblasNoTrans,
+       transpose_b,
+       static_cast<int>(c->rows()),
+       static_cast<int>(c->cols()),
+       static_cast<int>(a.cols()),
+       Scalar(1),
+       a.data(),
+       static_cast<int>(a.outerStride()),
+       b.data(),
+       static_cast<int>(b.outerStride()),
+       accumulate ? Scalar(1) : Scalar(0),
+       c->data(),
+       static_cast<int>(c->outerStride()));
+}
+
+}  // namespace
+
+void UseOneThreadPerCall() {
+  static const bool once = [] {
+    openblas_set_num_threads(1);
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
+void Multiply(const MatrixView<double>& a,
+              const MatrixView<double>& b,
+              MutableMatrixView<double> c,
+              bool accumulate) {
+  Call<double>(cblas_dgemm, CblasNoTrans, a, b, &c, accumulate);
+}
+
+void Multiply(const MatrixView<float>& a,
+              const MatrixView<float>& b,
+              MutableMatrixView<float> c,
+              bool accumulate) {
+  Call<float>(cblas_sgemm, CblasNoTrans, a, b, &c, accumulate);
+}
+
+void MultiplyTransposed(const MatrixView<double>& a,
+                        const MatrixView<double>& b,
+                        MutableMatrixView<double> c,
+                        bool accumulate) {
+  Call<double>(cblas_dgemm, CblasTrans, a, b, &c, accumulate);
+}
+
+void MultiplyTransposed(const MatrixView<float>& a,
+                        const MatrixView<float>& b,
+                        MutableMatrixView<float> c,
+                        bool accumulate) {
+  Call<float>(cblas_sgemm, CblasTrans, a, b, &c, accumulate);
+}
+
+void DivideByUpperTriangle(const MatrixView<double>& r,
+                           MutableMatrixView<double> b) {
+  assert(r.rows() == r.cols());
+  assert(b.cols() == r.cols());
+  UseOneThreadPerCall();
+  cblas_dtrsm(CblasColMajor,
+              CblasRight,
+              CblasUpper,
+              CblasNoTrans,
+              CblasNonUnit,
+              static_cast<int>(b.rows()),
+              static_cast<int>(b.cols()),
+              1.0,
+              r.data(),
+              static_cast<int>(r.outerStride()),
+              b.data(),
+              static_cast<int>(b.outerStride()));
+}
+
+}  // namespace errmap::fitting

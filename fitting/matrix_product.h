@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace errmap::fitting {
+
+/// Column-major matrix with any distance between columns; binds without a copy.
+template <typename Scalar>
+using MatrixView =
+    Eigen::Ref<const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>,
+               0,
+               Eigen::OuterStride<>>;
+template <typename Scalar>
+using MutableMatrixView =
+    Eigen::Ref<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>,
+               0,
+               Eigen::OuterStride<>>;
+
+/// Makes OpenBLAS, in this process and from now on, use one thread per call:
+/// the same call then gives the same bits beside any number of others, and the
+/// cores are shared out by those who know the work. Called by all below.
+void UseOneThreadPerCall();
+
+/// c = a b, or c += a b where `accumulate`, with a (m x k), b (k x n), c (m x
+/// n), none of them empty; by OpenBLAS.
+void Multiply(const MatrixView<double>& a,
+              const MatrixView<double>& b,
+              MutableMatrixView<double> c,
+              bool accumulate = false);
+void Multiply(const MatrixView<float>& a,
+              const MatrixView<float>& b,
+              MutableMatrixView<float> c,
+              bool accumulate = false);
+
+/// The same for a b', b (n x k).
+void MultiplyTransposed(const MatrixView<double>& a,
+                        const MatrixView<double>& b,
+                        MutableMatrixView<double> c,
+                        bool accumulate = false);
+void MultiplyTransposed(const MatrixView<float>& a,
+                        const MatrixView<float>& b,
+                        MutableMatrixView<float> c,
+                        bool accumulate = false);
+
+/// b = b r^-1: r (k x k) upper triangular with no zero on its diagonal, b (m x
+/// k).
+void DivideByUpperTriangle(const MatrixView<double>& r,
+                           MutableMatrixView<double> b);
+
+}  // namespace errmap::fitting

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+namespace errmap::models {
+
+/// Hidden nodes are padded to whole vectors of this many bytes, whatever the
+/// machine's own vectors are, so that the sums of every version below have one
+/// order.
+inline constexpr std::ptrdiff_t kVectorBytes = 64;
+
+template <typename Scalar>
+constexpr std::ptrdiff_t PaddedHeight(std::ptrdiff_t nodes) {
+  constexpr std::ptrdiff_t kLanes =
+      kVectorBytes / static_cast<std::ptrdiff_t>(sizeof(Scalar));
+  return (nodes + kLanes - 1) / kLanes * kLanes;
+}
+
+/// A block of patterns: hidden quantities are (height x columns), column-major,
+/// height a padded one; w2 and p2 (height x outputs), 0 in the padding; output
+/// quantities (outputs x columns).
+struct BlockSize {
+  std::ptrdiff_t height = 0;
+  std::ptrdiff_t columns = 0;
+  std::ptrdiff_t outputs = 0;
+};
+
+/// The elementwise work of a net over a block of patterns. What is written must
+/// not overlap anything else, except that y may stand in the place of s.
+template <typename Scalar>
+struct NetKernels {
+  std::string_view name;  // "plain", "baseline", "avx2" or "avx512"
+
+  /// y = 1 / (1 + e^-s) of n numbers, Eq. 18; 0 and 1 in the limits, NaN for
+  /// NaN. Relative error below 4 epsilon (1 + |s|), the size of
+  /// what a rounding of s does.
+  void (*logistic)(std::ptrdiff_t n, const Scalar* s, Scalar* y);
+
+  /// y = logistic(s), o = w2'y (Eq. 16, 17 less the bias).
+  void (*forward)(
+      BlockSize size, const Scalar* s, const Scalar* w2, Scalar* y, Scalar* o);
+
+  /// The same a step along a line: s_new = s + a t, y = logistic(s_new).
+  void (*forward_along)(BlockSize size,
+                        const Scalar* s,
+                        const Scalar* t,
+                        Scalar a,
+                        const Scalar* w2,
+                        Scalar* s_new,
+                        Scalar* y,
+                        Scalar* o);
+
+  /// First and second derivative by a, at 0, of
+  /// o(a) = (w2 + a p2)' logistic(s + a t), where y = logistic(s).
+  void (*bend_along)(BlockSize size,
+                     const Scalar* y,
+                     const Scalar* t,
+                     const Scalar* w2,
+                     const Scalar* p2,
+                     Scalar* first,
+                     Scalar* second);
+
+  /// Back propagation of dE/do (outputs x columns): delta = (w2 dE/do) y (1-y),
+  /// and d_w2 += y (dE/do)' (Eq. 40-67).
+  void (*backward)(BlockSize size,
+                   const Scalar* y,
+                   const Scalar* w2,
+                   const Scalar* d_output,
+                   Scalar* delta,
+                   Scalar* d_w2);
+};
+
+/// The same by the C library's exp and sums in the order of the formulas: what
+/// the others are tested against, and the 1995 program's arithmetic.
+template <typename Scalar>
+const NetKernels<Scalar>& PlainNetKernels();
+
+/// The versions that this machine can run, slowest first.
+template <typename Scalar>
+std::span<const NetKernels<Scalar>> AvailableNetKernels();
+
+/// The fastest of them.
+template <typename Scalar>
+const NetKernels<Scalar>& FastestNetKernels() {
+  return AvailableNetKernels<Scalar>().back();
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fitting/optimizer.h"
+#include "models/error_model.h"
+#include "models/model_spec.h"
+#include "models/net_problem.h"
+
+namespace errmap::models {
+
+/// What a net is fitted to: scaled inputs (P x I), scaled targets (P x J),
+/// weights of the rows (P) or (0), and the initial weights of the net (N).
+struct NetTraining {
+  NetShape shape;
+  Eigen::MatrixXd inputs;
+  Eigen::MatrixXd targets;
+  Eigen::VectorXd row_weights;
+  double wfactor = 0.0;
+  Eigen::VectorXd initial_weights;
+};
+
+/// One way of minimising a net's objective; immutable.
+class NetTrainer {
+ public:
+  virtual ~NetTrainer() = default;
+  virtual fitting::Minimum Train(const NetTraining& training,
+                                 const fitting::RunControl& run) const = 0;
+  virtual std::vector<EffectiveOption> options() const = 0;
+};
+
+/// "net:scg", "net:cg", "net:backprop".
+const std::vector<std::string>& NetTypes();
+
+/// The trainer of a model of NetTypes(), with its own options taken from
+/// `options`; throws std::invalid_argument where they are out of range.
+std::unique_ptr<NetTrainer> MakeNetTrainer(
+    const std::string& type,
+    const fitting::StoppingRules& stopping,
+    SpecOptions* options);
+
+}  // namespace errmap::models
