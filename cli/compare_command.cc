@@ -248,9 +248,7 @@ void AddCompareCommand(CLI::App* app, Run* run) {
                    "sd wanted on held-out rows, in the target's unit "
                    "(default for lengths: 0.5 um)")
       ->type_name("X");
-  command->add_option("--seed", arguments->seed, "Seed of all random choices")
-      ->capture_default_str()
-      ->type_name("N");
+  AddSeedOption(command, &arguments->seed);
   command
       ->add_option("--jobs",
                    arguments->jobs,

@@ -118,4 +118,16 @@ std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
 
 void Say(const std::string& line) { fmt::print(stderr, "errmap: {}\n", line); }
 
+void AddSeedOption(CLI::App* command,
+                   std::uint64_t* seed,
+                   const std::string& what) {
+  command->add_option("--seed", *seed, what)
+      ->check([](const std::string& text) {
+        // CLI11 would take -1 for the largest number there is.
+        return text.starts_with('-') ? "give a whole number from 0" : "";
+      })
+      ->capture_default_str()
+      ->type_name("N");
+}
+
 }  // namespace errmap::cli

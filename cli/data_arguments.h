@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -48,5 +49,10 @@ std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
 
 /// Says something about the run on stderr: "errmap: ...".
 void Say(const std::string& line);
+
+/// --seed N, a whole number from 0.
+void AddSeedOption(CLI::App* command,
+                   std::uint64_t* seed,
+                   const std::string& what = "Seed of all random choices");
 
 }  // namespace errmap::cli

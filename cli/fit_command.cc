@@ -145,9 +145,7 @@ void AddFitCommand(CLI::App* app, Run* run) {
   command->add_option("-o,--output", arguments->out, "Model file to write")
       ->required()
       ->type_name("FILE.json");
-  command->add_option("--seed", arguments->seed, "Seed of all random choices")
-      ->capture_default_str()
-      ->type_name("N");
+  AddSeedOption(command, &arguments->seed);
   command->add_flag("--correlations",
                     arguments->correlations,
                     "Also print the correlations of inputs and target");

@@ -301,9 +301,7 @@ void AddResidualsCommand(CLI::App* app, Run* run) {
       ->check(CLI::Range(0LL, 10'000'000LL))
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--seed", arguments->seed, "Of the simulation")
-      ->type_name("N")
-      ->capture_default_str();
+  AddSeedOption(command, &arguments->seed, "Of the simulation");
   command
       ->add_option("--bins",
                    arguments->bins,

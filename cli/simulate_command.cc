@@ -76,12 +76,7 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
   command->add_option("-o,--output", arguments->folder, "Folder to write")
       ->required()
       ->type_name("DIR");
-  command->add_option("--seed", options.seed, "Seed of all that is drawn")
-      ->check([](const std::string& text) {
-        // CLI11 would take -1 for the largest number there is.
-        return text.starts_with('-') ? "give a whole number from 0" : "";
-      })
-      ->capture_default_str();
+  AddSeedOption(command, &options.seed, "Seed of all that is drawn");
   command
       ->add_option("--days",
                    options.days,

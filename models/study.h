@@ -47,8 +47,6 @@ struct HoldoutResult {
   std::string why_failed;     // "" = every fold was fitted
   stats::ErrorMetrics train;  // each figure averaged over the folds
   stats::ErrorMetrics test;   // of the pooled residuals of all folds
-  double ks_d = 0.0;          // of those residuals, their own mean and sd
-  double ks_p_given = 0.0;    // Eq. 140, as if mean and sd had been given
   std::vector<FoldResult> folds;
 
   bool ok() const { return why_failed.empty(); }
