@@ -2,6 +2,17 @@
 
 #include <cassert>
 #include <cblas.h>
+#include <cstddef>
+
+// LAPACK: Cholesky factorisation.
+extern "C" {
+void dpotrf_(const char* uplo,
+             const int* n,
+             double* a,
+             const int* lda,
+             int* info,
+             std::size_t uplo_length);
+}
 
 namespace errmap::fitting {
 namespace {
@@ -69,6 +80,52 @@ void MultiplyTransposed(const MatrixView<float>& a,
                         MutableMatrixView<float> c,
                         bool accumulate) {
   Call<float>(cblas_sgemm, CblasTrans, a, b, &c, accumulate);
+}
+
+void MultiplyByOwnTranspose(const MatrixView<double>& a,
+                            MutableMatrixView<double> c) {
+  assert(c.rows() == a.rows());
+  assert(c.cols() == a.rows());
+  UseOneThreadPerCall();
+  cblas_dsyrk(CblasColMajor,
+              CblasLower,
+              CblasNoTrans,
+              static_cast<int>(a.rows()),
+              static_cast<int>(a.cols()),
+              1.0,
+              a.data(),
+              static_cast<int>(a.outerStride()),
+              0.0,
+              c.data(),
+              static_cast<int>(c.outerStride()));
+}
+
+bool FactorizeCholesky(MutableMatrixView<double> a) {
+  assert(a.rows() == a.cols());
+  UseOneThreadPerCall();
+  const char lower = 'L';
+  const int size = static_cast<int>(a.rows());
+  const int leading = static_cast<int>(a.outerStride());
+  int info = 0;
+  dpotrf_(&lower, &size, a.data(), &leading, &info, 1);
+  return info == 0;
+}
+
+void SolveCholesky(const MatrixView<double>& factor, Eigen::VectorXd* b) {
+  assert(factor.rows() == factor.cols());
+  assert(factor.rows() == b->size());
+  UseOneThreadPerCall();
+  for (const CBLAS_TRANSPOSE transpose : {CblasNoTrans, CblasTrans}) {
+    cblas_dtrsv(CblasColMajor,
+                CblasLower,
+                transpose,
+                CblasNonUnit,
+                static_cast<int>(factor.rows()),
+                factor.data(),
+                static_cast<int>(factor.outerStride()),
+                b->data(),
+                1);
+  }
 }
 
 void DivideByUpperTriangle(const MatrixView<double>& r,

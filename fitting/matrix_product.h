@@ -42,6 +42,20 @@ void MultiplyTransposed(const MatrixView<float>& a,
                         MutableMatrixView<float> c,
                         bool accumulate = false);
 
+/// The lower triangle of c = a a', a (m x k), c (m x m), neither empty; what
+/// stands above the diagonal is left as it is.
+void MultiplyByOwnTranspose(const MatrixView<double>& a,
+                            MutableMatrixView<double> c);
+
+/// Cholesky factor L of a symmetric matrix (m x m) in the place of its lower
+/// triangle, which alone is read. False where it is not positive definite to
+/// rounding; its content is then lost.
+bool FactorizeCholesky(MutableMatrixView<double> a);
+
+/// Solves L L'x = b, with L (m x m) as FactorizeCholesky leaves it, in the
+/// place of b (m).
+void SolveCholesky(const MatrixView<double>& factor, Eigen::VectorXd* b);
+
 /// b = b r^-1: r (k x k) upper triangular with no zero on its diagonal, b (m x
 /// k).
 void DivideByUpperTriangle(const MatrixView<double>& r,

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fitting/matrix_product.h"
+
 namespace errmap::fitting {
 namespace {
 
@@ -64,7 +66,36 @@ class EvaluatedPath final : public Path<Scalar> {
   bool gradient_is_current_ = false;
 };
 
+// Keeps the Jacobian.
+class EvaluatedLinearization final : public Linearization {
+ public:
+  explicit EvaluatedLinearization(const ResidualFunction& function)
+      : function_(function) {}
+
+  void MoveTo(const Eigen::VectorXd& x,
+              Eigen::VectorXd* residuals,
+              Eigen::MatrixXd* gram) override {
+    function_.Evaluate(x, residuals, &jacobian_);
+    gram->resize(jacobian_.rows(), jacobian_.rows());
+    MultiplyByOwnTranspose(jacobian_, *gram);
+  }
+  Eigen::VectorXd Apply(const Eigen::VectorXd& v) const override {
+    return jacobian_ * v;
+  }
+  Eigen::VectorXd ApplyTransposed(const Eigen::VectorXd& u) const override {
+    return jacobian_.transpose() * u;
+  }
+
+ private:
+  const ResidualFunction& function_;
+  Eigen::MatrixXd jacobian_;
+};
+
 }  // namespace
+
+std::unique_ptr<Linearization> ResidualFunction::NewLinearization() const {
+  return std::make_unique<EvaluatedLinearization>(*this);
+}
 
 template <typename Scalar>
 std::unique_ptr<Path<Scalar>> BasicObjective<Scalar>::NewPath(

@@ -28,6 +28,23 @@ class Path {
   virtual const VectorOf<Scalar>& Gradient() = 0;
 };
 
+/// The Jacobian J (m x n) of a ResidualFunction at a point, by what it does:
+/// for methods that work in the space of the residuals and need J itself
+/// nowhere. Made by ResidualFunction::NewLinearization, which must outlive it.
+class Linearization {
+ public:
+  virtual ~Linearization() = default;
+  /// Goes to x (n): fills `residuals` (m) and the lower triangle of `gram`
+  /// (m x m), J J' at x; what stands above its diagonal is undefined.
+  virtual void MoveTo(const Eigen::VectorXd& x,
+                      Eigen::VectorXd* residuals,
+                      Eigen::MatrixXd* gram) = 0;
+  /// J v (m), v (n), at the last x.
+  virtual Eigen::VectorXd Apply(const Eigen::VectorXd& v) const = 0;
+  /// J'u (n), u (m), at the last x.
+  virtual Eigen::VectorXd ApplyTransposed(const Eigen::VectorXd& u) const = 0;
+};
+
 /// r(x) of f(x) = 1/2 |r(x)|^2 + 1/2 ridge |x|^2, for Gauss-Newton methods.
 class ResidualFunction {
  public:
@@ -38,6 +55,8 @@ class ResidualFunction {
   virtual void Evaluate(const Eigen::VectorXd& x,
                         Eigen::VectorXd* residuals,
                         Eigen::MatrixXd* jacobian) const = 0;
+  /// The default keeps the Jacobian of Evaluate.
+  virtual std::unique_ptr<Linearization> NewLinearization() const;
 };
 
 /// Smooth cost f(x) of n parameters: all that an Optimizer ever sees.

@@ -2,10 +2,65 @@
 
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
+#include <utility>
 
 namespace errmap::fitting {
 namespace {
+
+// A residual form whose evaluations are counted: residuals alone as a value,
+// with the Jacobian as a gradient.
+class CountedResiduals final : public ResidualFunction {
+ public:
+  CountedResiduals(const ResidualFunction* function,
+                   std::int64_t* values,
+                   std::int64_t* gradients)
+      : function_(function), values_(values), gradients_(gradients) {}
+
+  bool exists() const { return function_ != nullptr; }
+  Eigen::Index num_residuals() const override {
+    return function_->num_residuals();
+  }
+  double ridge() const override { return function_->ridge(); }
+  void Evaluate(const Eigen::VectorXd& x,
+                Eigen::VectorXd* residuals,
+                Eigen::MatrixXd* jacobian) const override {
+    ++(jacobian == nullptr ? *values_ : *gradients_);
+    function_->Evaluate(x, residuals, jacobian);
+  }
+  std::unique_ptr<Linearization> NewLinearization() const override {
+    return std::make_unique<Counted>(function_->NewLinearization(), gradients_);
+  }
+
+ private:
+  class Counted final : public Linearization {
+   public:
+    Counted(std::unique_ptr<Linearization> linearization,
+            std::int64_t* gradients)
+        : linearization_(std::move(linearization)), gradients_(gradients) {}
+    void MoveTo(const Eigen::VectorXd& x,
+                Eigen::VectorXd* residuals,
+                Eigen::MatrixXd* gram) override {
+      ++*gradients_;
+      linearization_->MoveTo(x, residuals, gram);
+    }
+    Eigen::VectorXd Apply(const Eigen::VectorXd& v) const override {
+      return linearization_->Apply(v);
+    }
+    Eigen::VectorXd ApplyTransposed(const Eigen::VectorXd& u) const override {
+      return linearization_->ApplyTransposed(u);
+    }
+
+   private:
+    std::unique_ptr<Linearization> linearization_;
+    std::int64_t* gradients_;
+  };
+
+  const ResidualFunction* function_;
+  std::int64_t* values_;
+  std::int64_t* gradients_;
+};
 
 // Counts what passes through; the summary of every optimizer is filled alike.
 template <typename Scalar>
@@ -14,7 +69,8 @@ class CountedObjective final : public BasicObjective<Scalar> {
   using Vector = VectorOf<Scalar>;
 
   explicit CountedObjective(const BasicObjective<Scalar>& objective)
-      : objective_(objective) {}
+      : objective_(objective),
+        residuals_(objective.residuals(), &values_, &gradients_) {}
 
   Eigen::Index num_parameters() const override {
     return objective_.num_parameters();
@@ -30,7 +86,7 @@ class CountedObjective final : public BasicObjective<Scalar> {
   }
 
   const ResidualFunction* residuals() const override {
-    return objective_.residuals();
+    return residuals_.exists() ? &residuals_ : nullptr;
   }
 
   void Report(FitSummary* summary) const {
@@ -75,6 +131,7 @@ class CountedObjective final : public BasicObjective<Scalar> {
   mutable std::int64_t values_ = 0;
   mutable std::int64_t gradients_ = 0;
   mutable std::int64_t curvatures_ = 0;
+  CountedResiduals residuals_;
 };
 
 void RequireAtLeast(const char* field, double value, double least) {

@@ -108,10 +108,10 @@ class BasicOptimizer {
 
   /// Minimum found from x0 (n). Counts and times evaluations: each call of
   /// Evaluate, Curvature and Value is one, and each Gradient that is new at
-  /// its point. An infeasible start (f or its gradient not finite) is reported
-  /// as kFailed.
-  /// Throws std::invalid_argument unless x0.size() == f.num_parameters() and
-  /// all of x0 is finite.
+  /// its point. Of a residual form, residuals alone count as a value, with a
+  /// Jacobian as a gradient. An infeasible start (f or its gradient not finite)
+  /// is reported as kFailed. Throws std::invalid_argument unless x0.size() ==
+  /// f.num_parameters() and all of x0 is finite.
   Minimum Minimize(const BasicObjective<Scalar>& f,
                    const Vector& x0,
                    const RunControl& run = {}) const;

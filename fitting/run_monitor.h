@@ -111,6 +111,9 @@ class RunMonitor {
   }
 
   bool stopped() const { return stopped_; }
+  bool has_failed() const {
+    return stopped_ && summary_.termination == Termination::kFailed;
+  }
   std::int64_t iterations() const { return summary_.iterations; }
 
   /// The summary of a run that ended with these.
