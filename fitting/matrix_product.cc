@@ -83,7 +83,8 @@ void MultiplyTransposed(const MatrixView<float>& a,
 }
 
 void MultiplyByOwnTranspose(const MatrixView<double>& a,
-                            MutableMatrixView<double> c) {
+                            MutableMatrixView<double> c,
+                            bool accumulate) {
   assert(c.rows() == a.rows());
   assert(c.cols() == a.rows());
   UseOneThreadPerCall();
@@ -95,7 +96,7 @@ void MultiplyByOwnTranspose(const MatrixView<double>& a,
               1.0,
               a.data(),
               static_cast<int>(a.outerStride()),
-              0.0,
+              accumulate ? 1.0 : 0.0,
               c.data(),
               static_cast<int>(c.outerStride()));
 }

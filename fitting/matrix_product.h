@@ -42,10 +42,11 @@ void MultiplyTransposed(const MatrixView<float>& a,
                         MutableMatrixView<float> c,
                         bool accumulate = false);
 
-/// The lower triangle of c = a a', a (m x k), c (m x m), neither empty; what
-/// stands above the diagonal is left as it is.
+/// The lower triangle of c = a a', or c += a a' where `accumulate`, a (m x k),
+/// c (m x m), neither empty; what stands above the diagonal is left as it is.
 void MultiplyByOwnTranspose(const MatrixView<double>& a,
-                            MutableMatrixView<double> c);
+                            MutableMatrixView<double> c,
+                            bool accumulate = false);
 
 /// Cholesky factor L of a symmetric matrix (m x m) in the place of its lower
 /// triangle, which alone is read. False where it is not positive definite to

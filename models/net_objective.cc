@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #include "models/net_path.h"
+#include "models/net_residuals.h"
 
 namespace errmap::models {
 namespace {
@@ -141,6 +143,16 @@ template <typename Scalar>
 std::unique_ptr<fitting::Path<Scalar>> BasicNetObjective<Scalar>::NewPath(
     const Vector& w) const {
   return std::make_unique<NetPath<Scalar>>(problem_, w);
+}
+
+template <typename Scalar>
+const fitting::ResidualFunction* BasicNetObjective<Scalar>::residuals() const {
+  if constexpr (std::is_same_v<Scalar, double>) {
+    if (residuals_ == nullptr) {
+      residuals_ = std::make_unique<NetResiduals>(problem_);
+    }
+  }
+  return residuals_.get();
 }
 
 template class BasicNetObjective<double>;

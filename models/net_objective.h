@@ -36,6 +36,8 @@ class BasicNetObjective final : public fitting::BasicObjective<Scalar> {
   Scalar Evaluate(const Vector& w, Vector* gradient) const override;
   std::unique_ptr<fitting::Path<Scalar>> NewPath(
       const Vector& w) const override;
+  /// models/net_residuals.h; in double precision only, else null.
+  const fitting::ResidualFunction* residuals() const override;
 
  private:
   // Of one block of patterns.
@@ -46,6 +48,7 @@ class BasicNetObjective final : public fitting::BasicObjective<Scalar> {
 
   NetProblem<Scalar> problem_;
   std::unique_ptr<Scratch, FreeScratch> scratch_;
+  mutable std::unique_ptr<fitting::ResidualFunction> residuals_;
 };
 
 using NetObjective = BasicNetObjective<double>;

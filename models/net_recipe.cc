@@ -35,12 +35,13 @@ ColumnScaling ScalingOf(InputScaling kind, const Eigen::MatrixXd& inputs) {
   return IdentityScaling(inputs.cols());
 }
 
-// Budgets and stops under the report's names, defaults as in StoppingRules.
-fitting::StoppingRules TakeStoppingRules(SpecOptions* options) {
+// Budgets and stops under the report's names.
+fitting::StoppingRules TakeStoppingRules(const std::string& type,
+                                         SpecOptions* options) {
   constexpr std::int64_t kMostSteps = 1'000'000'000;
   constexpr double kMost = 1e12;
   constexpr double kLeastSeconds = 1e-3;
-  fitting::StoppingRules rules;
+  fitting::StoppingRules rules = DefaultStoppingRules(type);
   rules.iterations =
       options->TakeInteger("iterations", rules.iterations, 1, kMostSteps);
   rules.evaluations =
@@ -69,7 +70,7 @@ class NetRecipe final : public ModelRecipe {
     SpecOptions options(spec);
     hidden_ = options.TakeInteger("hidden", 20, 1, 10'000);
     wfactor_ = options.TakeNumber("wfactor", 1e-5, 0.0, 1e6);
-    stopping_ = TakeStoppingRules(&options);
+    stopping_ = TakeStoppingRules(spec.type, &options);
     scaling_ = static_cast<InputScaling>(
         options.TakeChoice("scale", 0, InputScalingNames()));
     output_ = static_cast<OutputFunction>(

@@ -4,6 +4,7 @@
 
 #include "fitting/conjugate_gradient.h"
 #include "fitting/gradient_descent.h"
+#include "fitting/levenberg_marquardt.h"
 #include "fitting/scaled_conjugate_gradient.h"
 #include "models/net_objective.h"
 
@@ -78,6 +79,26 @@ class CgTrainer final : public NetTrainer {
   fitting::ConjugateGradient optimizer_;
 };
 
+// Levenberg-Marquardt: few, dear steps.
+class LmTrainer final : public NetTrainer {
+ public:
+  explicit LmTrainer(const fitting::StoppingRules& stopping)
+      : optimizer_({.stopping = stopping}) {}
+
+  fitting::Minimum Train(const NetTraining& training,
+                         const fitting::RunControl& run) const override {
+    return optimizer_.Minimize(
+        MakeObjective<double>(training, NetArithmetic::kFast),
+        training.initial_weights,
+        run);
+  }
+
+  std::vector<EffectiveOption> options() const override { return {}; }
+
+ private:
+  fitting::LevenbergMarquardt optimizer_;
+};
+
 class BackpropTrainer final : public NetTrainer {
  public:
   BackpropTrainer(const fitting::StoppingRules& stopping,
@@ -113,8 +134,13 @@ class BackpropTrainer final : public NetTrainer {
 
 const std::vector<std::string>& NetTypes() {
   static const std::vector<std::string> types = {
-      "net:scg", "net:cg", "net:backprop"};
+      "net:scg", "net:lm", "net:cg", "net:backprop"};
   return types;
+}
+
+fitting::StoppingRules DefaultStoppingRules(const std::string& type) {
+  return type == "net:lm" ? fitting::LevenbergMarquardtOptions().stopping
+                          : fitting::StoppingRules();
 }
 
 std::unique_ptr<NetTrainer> MakeNetTrainer(
@@ -122,6 +148,7 @@ std::unique_ptr<NetTrainer> MakeNetTrainer(
     const fitting::StoppingRules& stopping,
     SpecOptions* options) {
   if (type == "net:scg") return std::make_unique<ScgTrainer>(stopping, options);
+  if (type == "net:lm") return std::make_unique<LmTrainer>(stopping);
   if (type == "net:cg") return std::make_unique<CgTrainer>(stopping);
   if (type == "net:backprop") {
     return std::make_unique<BackpropTrainer>(stopping, options);

@@ -31,8 +31,11 @@ class NetTrainer {
   virtual std::vector<EffectiveOption> options() const = 0;
 };
 
-/// "net:scg", "net:cg", "net:backprop".
+/// "net:scg", "net:lm", "net:cg", "net:backprop".
 const std::vector<std::string>& NetTypes();
+
+/// When a model of NetTypes() stops unless told otherwise.
+fitting::StoppingRules DefaultStoppingRules(const std::string& type);
 
 /// The trainer of a model of NetTypes(), with its own options taken from
 /// `options`; throws std::invalid_argument where they are out of range.

@@ -28,6 +28,7 @@ const std::vector<std::string>& ModelTypes() {
                                                  "poly:ridge",
                                                  "poly:lasso",
                                                  "net:scg",
+                                                 "net:lm",
                                                  "net:cg",
                                                  "net:backprop"};
   return types;
@@ -47,8 +48,12 @@ DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
                                   Eigen::Index fewest_training_rows) {
   constexpr int kHighestFullDegree = 6;
   constexpr Eigen::Index kRowsPerCoefficient = 5;
-  constexpr std::array<std::string_view, 5> kWhenNamed = {
-      "poly:best", "poly:ridge", "poly:lasso", "net:cg", "net:backprop"};
+  constexpr std::array<std::string_view, 6> kWhenNamed = {"poly:best",
+                                                          "poly:ridge",
+                                                          "poly:lasso",
+                                                          "net:lm",
+                                                          "net:cg",
+                                                          "net:backprop"};
   DefaultRecipes defaults;
   for (const std::string& type : ModelTypes()) {
     if (std::ranges::find(kWhenNamed, type) != kWhenNamed.end()) continue;

@@ -1,0 +1,143 @@
+// Levenberg-Marquardt on the size of the report's run 3: a 37-60-1 net, 2341
+// weights, on 397 patterns. How long a step takes, and whether the objective
+// that it reaches is worth the time against scaled conjugate gradients.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Core>
+#include <benchmark/benchmark.h>
+
+#include "fitting/levenberg_marquardt.h"
+#include "fitting/matrix_product.h"
+#include "fitting/scaled_conjugate_gradient.h"
+#include "models/feedforward_net.h"
+#include "models/net_objective.h"
+#include "models/scaling.h"
+#include "tests/golden_netcg.h"
+
+namespace errmap {
+namespace {
+
+using fitting::Minimum;
+
+constexpr Eigen::Index kHidden = 60;
+constexpr double kWfactor = 1.3e-3;  // of that run, too
+
+struct Workload {
+  models::NetShape shape;
+  models::NetObjective objective;
+};
+
+// Simulated temperatures of tests/golden/netcg, every input standardised.
+const Workload& TheWorkload() {
+  static const Workload workload = [] {
+    const testing::GoldenCase golden = testing::ReadGoldenCase("case_a");
+    const auto scaling = models::StandardScaling(golden.inputs);
+    const models::NetShape shape{golden.shape.inputs, kHidden, 1};
+    return Workload{
+        shape,
+        {shape, scaling.Apply(golden.inputs), golden.scaled_targets, kWfactor}};
+  }();
+  return workload;
+}
+
+// The machine is not ours alone: of many times the lower quartile is that of
+// the work itself.
+double LowerQuartile(std::vector<double> times) {
+  const auto quarter =
+      times.begin() + static_cast<std::ptrdiff_t>(times.size() / 4);
+  std::ranges::nth_element(times, quarter);
+  return *quarter;
+}
+
+double Median(std::vector<double> values) {
+  std::ranges::sort(values);
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half]
+                                : (values[half - 1] + values[half]) / 2.0;
+}
+
+Minimum RunLm(std::uint64_t seed, const fitting::StoppingRules& stopping) {
+  return fitting::LevenbergMarquardt({.stopping = stopping})
+      .Minimize(TheWorkload().objective,
+                models::InitialWeights(TheWorkload().shape, seed));
+}
+
+Minimum RunScg(std::uint64_t seed) {
+  return fitting::ScaledConjugateGradient({.stopping = {.iterations = 1500}})
+      .Minimize(TheWorkload().objective,
+                models::InitialWeights(TheWorkload().shape, seed));
+}
+
+// An iteration: Jacobian factors, J J', and every trial it took.
+void Step(benchmark::State& state) {
+  std::vector<double> steps;
+  std::vector<double> trials;
+  for (auto _ : state) {
+    const fitting::FitSummary summary = RunLm(1, {.iterations = 40}).summary;
+    steps.push_back(summary.mean_iteration_seconds);
+    trials.push_back(summary.seconds /
+                     static_cast<double>(summary.value_evaluations));
+    state.SetIterationTime(summary.mean_iteration_seconds);
+  }
+  state.counters["step_ms"] = 1e3 * LowerQuartile(steps);
+  state.counters["trial_ms"] = 1e3 * LowerQuartile(trials);
+}
+BENCHMARK(Step)->UseManualTime()->Iterations(20)->Unit(benchmark::kMillisecond);
+
+// What a step cannot do without: a Cholesky factorisation of J J'.
+void Cholesky(benchmark::State& state) {
+  constexpr Eigen::Index kPatterns = 397;
+  const Eigen::MatrixXd a = Eigen::MatrixXd::Random(kPatterns, kPatterns);
+  Eigen::MatrixXd spd = Eigen::MatrixXd::Identity(kPatterns, kPatterns);
+  fitting::MultiplyByOwnTranspose(a, spd, true);
+  Eigen::MatrixXd factor;
+  for (auto _ : state) {
+    factor = spd;
+    benchmark::DoNotOptimize(fitting::FactorizeCholesky(factor));
+  }
+}
+BENCHMARK(Cholesky)->Unit(benchmark::kMillisecond);
+
+// For each of some starts: sqrt(2 E) that SCG reaches in 1500 iterations, and
+// that of LM within twice its time.
+void DeeperThanScgInTwiceItsTime(benchmark::State& state) {
+  constexpr std::uint64_t kSeeds = 10;
+  std::vector<double> scg_rms;
+  std::vector<double> lm_rms;
+  std::vector<double> scg_seconds;
+  std::vector<double> time_ratio;
+  double deeper = 0.0;
+  for (auto _ : state) {
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      const Minimum scg = RunScg(seed);
+      const double budget = 2.0 * scg.summary.seconds;
+      const Minimum lm = RunLm(seed, {.seconds = budget});
+      // Time to what SCG reached.
+      const double goal = std::sqrt(2.0 * scg.summary.final_cost);
+      const Minimum to_goal = RunLm(seed, {.seconds = 1e3, .cost_goal = goal});
+      scg_rms.push_back(goal);
+      lm_rms.push_back(std::sqrt(2.0 * lm.summary.final_cost));
+      scg_seconds.push_back(scg.summary.seconds);
+      time_ratio.push_back(to_goal.summary.termination ==
+                                   fitting::Termination::kCostGoal
+                               ? to_goal.summary.seconds / scg.summary.seconds
+                               : std::numeric_limits<double>::infinity());
+      if (lm_rms.back() < goal) deeper += 1.0;
+    }
+  }
+  state.counters["scg_rms"] = Median(scg_rms);
+  state.counters["lm_rms"] = Median(lm_rms);
+  state.counters["deeper_of_10"] = deeper;
+  state.counters["scg_s"] = LowerQuartile(scg_seconds);
+  state.counters["time_ratio_to_same"] = Median(time_ratio);
+}
+BENCHMARK(DeeperThanScgInTwiceItsTime)->Iterations(1)->Unit(benchmark::kSecond);
+
+}  // namespace
+}  // namespace errmap
