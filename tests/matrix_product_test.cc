@@ -152,5 +152,51 @@ TYPED_TEST(MatrixProduct, GivesTheSameBitsBesideAnyNumberOfOthers) {
   EXPECT_EQ(differing, std::vector<int>(kThreads, 0));
 }
 
+TEST(MultiplyByOwnTranspose, FillsTheLowerTriangleOnly) {
+  constexpr double kAbove = 7.0;
+  for (const Size& size : kSizes) {
+    const Eigen::MatrixXd a = RandomMatrix(size.m, size.k, 1);
+    // Sums of k squares below 1: k roundings of up to k.
+    const double bound = static_cast<double>((size.k + 1) * (size.k + 1)) *
+                         std::numeric_limits<double>::epsilon();
+    Eigen::MatrixXd c = Eigen::MatrixXd::Constant(size.m, size.m, kAbove);
+    MultiplyByOwnTranspose(a, c);
+    Eigen::MatrixXd twice = c;
+    MultiplyByOwnTranspose(a, twice, true);
+    const Eigen::MatrixXd expected = a * a.transpose();
+    for (Index j = 0; j < size.m; ++j) {
+      for (Index i = 0; i < size.m; ++i) {
+        EXPECT_NEAR(c(i, j), i < j ? kAbove : expected(i, j), bound);
+        EXPECT_NEAR(
+            twice(i, j), i < j ? kAbove : 2.0 * expected(i, j), 2.0 * bound);
+      }
+    }
+  }
+}
+
+TEST(FactorizeCholesky, SolvesByTheLowerTriangleAlone) {
+  constexpr double kTolerance = 1e-11;
+  for (const Index size : {1, 2, 7, 64, 150}) {
+    const Eigen::MatrixXd a = RandomMatrix(size, size, 1);
+    const Eigen::MatrixXd matrix =
+        a * a.transpose() + Eigen::MatrixXd::Identity(size, size);
+    const Eigen::VectorXd x = RandomMatrix(size, 1, 2);
+    Eigen::MatrixXd factor = matrix;
+    factor.triangularView<Eigen::StrictlyUpper>().setConstant(
+        std::numeric_limits<double>::quiet_NaN());
+    ASSERT_TRUE(FactorizeCholesky(factor));
+    Eigen::VectorXd solved = matrix * x;
+    SolveCholesky(factor, &solved);
+    EXPECT_LT((solved - x).norm(), kTolerance * x.norm());
+  }
+}
+
+TEST(FactorizeCholesky, SaysThatAMatrixIsNotPositiveDefinite) {
+  Eigen::MatrixXd indefinite{{1.0, 0.0}, {2.0, 1.0}};
+  EXPECT_FALSE(FactorizeCholesky(indefinite));
+  Eigen::MatrixXd singular{{1.0, 0.0}, {1.0, 1.0}};
+  EXPECT_FALSE(FactorizeCholesky(singular));
+}
+
 }  // namespace
 }  // namespace errmap::fitting

@@ -29,7 +29,8 @@ TEST(ModelFile, ReproducesEveryPredictionBitForBit) {
                                  "poly:eq8",
                                  "poly:full:degree=6",
                                  "poly:stepwise",
-                                 "net:scg:iterations=30"}) {
+                                 "net:scg:iterations=30",
+                                 "net:lm:iterations=5"}) {
     const FittedModel fitted = MakeRecipe(spec)->Fit(dataset, {.seed = 3});
     const FittedModel loaded =
         ModelFromJson(ModelToJson(fitted, {}), "saved.json");

@@ -75,5 +75,20 @@ TEST(RecipeCatalog, MakesEveryTypeItLists) {
   }
 }
 
+std::int64_t IterationsOf(const ModelRecipe& recipe) {
+  for (const EffectiveOption& option : recipe.options()) {
+    if (option.key == "iterations") return std::get<std::int64_t>(option.value);
+  }
+  return -1;
+}
+
+TEST(RecipeCatalog, GivesLevenbergMarquardtFewerSteps) {
+  EXPECT_EQ(IterationsOf(*MakeRecipe("net:scg")), 1500);
+  EXPECT_EQ(IterationsOf(*MakeRecipe("net:lm")), 200);
+  EXPECT_EQ(IterationsOf(*MakeRecipe("net:lm:iterations=7")), 7);
+  EXPECT_THAT(MessageOf([] { MakeRecipe("net:lm:variant=moller"); }),
+              HasSubstr("no option 'variant'"));
+}
+
 }  // namespace
 }  // namespace errmap::models

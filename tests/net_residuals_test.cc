@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "fitting/gradient_check.h"
+#include "fitting/levenberg_marquardt.h"
+#include "fitting/scaled_conjugate_gradient.h"
 #include "models/net_objective.h"
 #include "tests/net_test_cases.h"
 #include "tests/random_matrix.h"
@@ -110,6 +112,39 @@ TEST(NetResiduals, AreNotGivenInSinglePrecision) {
   const NetCase net = ManyNets().front();
   EXPECT_EQ(net.Objective<float>().residuals(), nullptr);
   EXPECT_NE(net.Objective<double>().residuals(), nullptr);
+}
+
+// A well-damped net has one minimum near the start: any method must find it.
+TEST(NetResiduals, LeadToTheMinimumOfScaledConjugateGradients) {
+  constexpr double kSameCost = 1e-12;
+  constexpr double kWfactor = 1.0;
+  const fitting::StoppingRules rules{.iterations = 20'000,
+                                     .gradient_goal = 1e-8};
+  const NetShape shape{2, 5, 1};
+  for (const Index patterns : {10, 60}) {  // fewer and more than weights
+    SCOPED_TRACE(patterns);
+    const NetObjective objective(shape,
+                                 RandomMatrix(patterns, 2, 1),
+                                 RandomMatrix(patterns, 1, 2).cwiseAbs(),
+                                 kWfactor);
+    const VectorXd start = 0.5 * RandomMatrix(shape.num_weights(), 1, 3);
+    const fitting::Minimum scg =
+        fitting::ScaledConjugateGradient({.stopping = rules})
+            .Minimize(objective, start);
+    const fitting::Minimum lm = fitting::LevenbergMarquardt({.stopping = rules})
+                                    .Minimize(objective, start);
+    EXPECT_EQ(lm.summary.termination, fitting::Termination::kGradient)
+        << lm.summary.message;
+    EXPECT_EQ(scg.summary.termination, fitting::Termination::kGradient);
+    EXPECT_NEAR(lm.summary.final_cost,
+                scg.summary.final_cost,
+                kSameCost * scg.summary.final_cost);
+    // Two gradients below the goal, where no curvature is below the ridge.
+    EXPECT_LT((lm.x - scg.x).norm(),
+              2.0 * rules.gradient_goal * std::max(1.0, scg.x.norm()) /
+                  objective.residuals()->ridge());
+    EXPECT_LT(lm.summary.iterations, scg.summary.iterations);
+  }
 }
 
 }  // namespace
