@@ -9,8 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "fitting/ceres_optimizer.h"
 #include "fitting/conjugate_gradient.h"
 #include "fitting/gradient_descent.h"
+#include "fitting/nlopt_optimizer.h"
 #include "fitting/optimizer.h"
 #include "fitting/scaled_conjugate_gradient.h"
 
@@ -70,7 +72,48 @@ inline OptimizerCase ScgCase(std::string name,
                  "FlatFloor"}};
 }
 
+inline OptimizerCase CeresCase(std::string name,
+                               fitting::CeresMethod method,
+                               std::vector<std::string> solves) {
+  return {.name = std::move(name),
+          .make =
+              [method](const fitting::StoppingRules& stopping) {
+                fitting::CeresOptions options;
+                options.stopping = stopping;
+                options.method = method;
+                return std::make_unique<fitting::CeresOptimizer>(options);
+              },
+          .evaluations_per_pass = 1,
+          .never_rises = true,
+          .solves = std::move(solves)};
+}
+
+inline OptimizerCase NloptCase(std::string name,
+                               fitting::NloptMethod method,
+                               std::vector<std::string> solves) {
+  return {.name = std::move(name),
+          .make =
+              [method](const fitting::StoppingRules& stopping) {
+                fitting::NloptOptions options;
+                options.stopping = stopping;
+                options.method = method;
+                return std::make_unique<fitting::NloptOptimizer>(options);
+              },
+          .evaluations_per_pass = 1,
+          .never_rises = true,
+          .solves = std::move(solves)};
+}
+
 inline std::vector<OptimizerCase> AllOptimizers() {
+  const std::vector<std::string> all = {"Rosenbrock",
+                                        "IllConditionedQuadratic",
+                                        "Beale",
+                                        "Wood",
+                                        "PowellSingular",
+                                        "NotANumberOutside",
+                                        "FlatFloor"};
+  using fitting::CeresMethod;
+  using fitting::NloptMethod;
   using fitting::StoppingRules;
   return {
       ScgCase("ScgMoller", fitting::ScgVariant::kMoller, 5),
@@ -104,6 +147,29 @@ inline std::vector<OptimizerCase> AllOptimizers() {
        .evaluations_per_pass = 1,
        .never_rises = false,
        .solves = {"Rosenbrock", "Beale", "NotANumberOutside", "FlatFloor"}},
+      CeresCase("CeresLbfgs", CeresMethod::kLbfgs, all),
+      CeresCase("CeresBfgs", CeresMethod::kBfgs, all),
+      // Slow in the ill-conditioned quadratic's valley.
+      CeresCase("CeresNonlinearCg",
+                CeresMethod::kNonlinearCg,
+                {"Rosenbrock",
+                 "Beale",
+                 "Wood",
+                 "PowellSingular",
+                 "NotANumberOutside",
+                 "FlatFloor"}),
+      NloptCase("NloptLbfgs", NloptMethod::kLbfgs, all),
+      NloptCase("NloptTnewton", NloptMethod::kTnewtonPrecondRestart, all),
+      NloptCase("NloptVar2", NloptMethod::kVar2, all),
+      NloptCase("NloptSlsqp", NloptMethod::kSlsqp, all),
+      // Separable approximations: made for many constraints, not for valleys.
+      NloptCase("NloptMma",
+                NloptMethod::kMma,
+                {"Rosenbrock", "Beale", "NotANumberOutside", "FlatFloor"}),
+      NloptCase("NloptSbplx",
+                NloptMethod::kSbplx,
+                {"Rosenbrock", "Beale", "NotANumberOutside", "FlatFloor"}),
+      NloptCase("NloptCrs2", NloptMethod::kCrs2Lm, all),
   };
 }
 
