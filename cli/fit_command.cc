@@ -14,6 +14,7 @@
 #include "cli/number_text.h"
 #include "cli/regression_text.h"
 #include "cli/sha256.h"
+#include "cli/start_report.h"
 #include "data/atomic_file.h"
 #include "models/model_file.h"
 #include "models/study.h"
@@ -51,6 +52,8 @@ Json FitJson(const models::FittedModel& fitted,
       {"fit_seconds", fitted.summary.seconds},
       {"remarks", fitted.remarks}};
   json.update(FitSummaryJson(fitted.summary));
+  if (!fitted.choices.empty()) json["choices"] = ChoicesJson(fitted.choices);
+  if (!fitted.starts.empty()) json["starts"] = StartsJson(fitted.starts);
   if (fitted.regression) {
     json["regression"] = RegressionJson(*fitted.regression);
   }
@@ -72,6 +75,7 @@ std::string FitText(const models::FittedModel& fitted,
   if (!fitted.equation.empty()) text += fitted.equation + "\n";
   text += FitSummaryText(fitted.summary);
   for (const std::string& remark : fitted.remarks) text += remark + "\n";
+  text += StartsText(fitted.starts, error);
   if (arguments.correlations) text += CorrelationText(dataset);
   if (fitted.regression) {
     text += RegressionText(*fitted.regression, fitted.target);

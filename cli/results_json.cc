@@ -7,6 +7,7 @@
 #include "cli/json_blocks.h"
 #include "cli/residual_json.h"
 #include "cli/residual_report.h"
+#include "cli/start_report.h"
 #include "cli/verdict_text.h"
 #include "models/version.h"
 
@@ -129,6 +130,8 @@ Json ResultJson(const Comparison& comparison,
                   {"fit_seconds", fold.fit_seconds}};
     entry.update(FitSummaryJson(fold.summary));
     entry["remarks"] = fold.remarks;
+    if (!fold.choices.empty()) entry["choices"] = ChoicesJson(fold.choices);
+    if (!fold.starts.empty()) entry["starts"] = StartsJson(fold.starts);
     folds.push_back(std::move(entry));
   }
   const ResidualReport report =

@@ -88,7 +88,7 @@ class GuardedResiduals final : public ceres::CostFunction {
   bool Evaluate(double const* const* parameters,
                 double* residuals,
                 double** jacobians) const override {
-    if (!run_->Evaluate(parameters[0])) return false;
+    if (!run_->Evaluate(parameters[0]) || !run_->Spend()) return false;
     const bool wants_jacobian = jacobians != nullptr && jacobians[0] != nullptr;
     try {
       f_.Evaluate(run_->x(), &r_, wants_jacobian ? &jacobian_ : nullptr);

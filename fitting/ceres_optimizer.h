@@ -38,7 +38,7 @@ struct CeresOptions {
 /// StoppingRules by a GuardedRun; its own tolerances are switched off.
 /// Levenberg and Marquardt's method and dogleg steps take the residuals with
 /// their analytic Jacobian, the ridge as further residuals sqrt(ridge) x_i;
-/// each point they ask for is also evaluated as the objective, which is what is
+/// each point they ask for is also evaluated as the objective, and both are
 /// counted.
 ///
 /// kGradient is claimed only where our own evaluation confirms it; where Ceres

@@ -51,6 +51,12 @@ bool GuardedRun::Evaluate(const double* x) {
   return is_finite_ && !has_thrown_;
 }
 
+bool GuardedRun::Spend() {
+  if (stopped() || monitor_.StopAtLimit(evaluations_, 1)) return false;
+  ++evaluations_;
+  return true;
+}
+
 bool GuardedRun::EvaluateHere() {
   ++evaluations_;
   try {

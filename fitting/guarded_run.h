@@ -33,6 +33,10 @@ class GuardedRun {
   /// infeasible, or the run is over and the solver has to come to its end.
   bool Evaluate(const double* x);
 
+  /// One more evaluation is about to be made beside Evaluate's, of residuals;
+  /// false where the limits forbid it, and the run is over.
+  bool Spend();
+
   /// Of the last Evaluate that returned true, or of the start.
   double cost() const { return cost_; }
   const Eigen::VectorXd& x() const { return x_; }

@@ -51,8 +51,8 @@ bool HasDerivatives(NloptMethod method) {
 // turned over, a line search ends within dozens.
 std::int64_t PatienceOf(NloptMethod method, Index size) {
   constexpr std::int64_t kOfALineSearch = 1000;
-  constexpr std::int64_t kPerParameter = 1000;
-  constexpr std::int64_t kOfASearch = 10'000;
+  constexpr std::int64_t kPerParameter = 100;
+  constexpr std::int64_t kOfASearch = 1000;
   return HasDerivatives(method) ? kOfALineSearch
                                 : kOfASearch + kPerParameter * size;
 }

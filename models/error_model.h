@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -80,6 +81,23 @@ struct TrainedInput {
 
 struct RegressionReport;
 
+/// An option with the value that took effect.
+struct EffectiveOption {
+  std::string key;
+  std::variant<std::int64_t, double, std::string> value;
+};
+
+/// One of several starts of an iterative fit.
+struct StartResult {
+  std::uint64_t seed = 0;
+  double final_cost = std::numeric_limits<double>::quiet_NaN();
+  fitting::Termination termination = fitting::Termination::kFailed;
+  std::int64_t iterations = 0;
+  /// On inner hold-outs, in the target's unit; NaN where not asked for.
+  double holdout_rmse = std::numeric_limits<double>::quiet_NaN();
+  bool chosen = false;
+};
+
 /// A model with what is needed to use and to judge it.
 struct FittedModel {
   std::string name;  // the SPEC as given
@@ -90,6 +108,9 @@ struct FittedModel {
   fitting::FitSummary summary;
   std::string equation;  // in physical units; "" where there is none
   std::vector<std::string> remarks;  // such as aliased terms; one line each
+  /// Values that the fit itself chose, such as wfactor=cv.
+  std::vector<EffectiveOption> choices;
+  std::vector<StartResult> starts;  // empty where there was one only
   /// Of polynomials where FitContext asks to explain, else null.
   std::shared_ptr<const RegressionReport> regression;
 
@@ -102,19 +123,14 @@ struct FittedModel {
 struct FitContext {
   std::uint64_t seed = 1;
   const std::atomic<bool>* stop = nullptr;
-  /// Also make the report of a regression: tables, and bootstraps.
+  /// Also make the report of a regression (tables, and bootstraps), and judge
+  /// each of several starts by inner hold-outs.
   bool explain = false;
   int threads = 1;  // at least 1; changes no figure
   /// Numbers that a design matrix may hold (8 bytes each); a larger one is
   /// reduced to a triangle in one pass over the rows.
   double most_design_values = 2e7;
   bool keep_trace = false;  // of an iterative fit, in its summary
-};
-
-/// An option with the value that took effect.
-struct EffectiveOption {
-  std::string key;
-  std::variant<std::int64_t, double, std::string> value;
 };
 
 /// How to fit one kind of model: kind and options; immutable.

@@ -1,39 +1,24 @@
 #include "models/net_recipe.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include "models/feedforward_net.h"
+#include "models/net_fit.h"
 #include "models/net_trainer.h"
-#include "models/scaling.h"
+#include "models/net_wfactor.h"
 
 namespace errmap::models {
 namespace {
 
 using data::Dataset;
 using Eigen::Index;
-
-enum class InputScaling { kStandard, kRange, kNone };
-
-const std::vector<std::string>& InputScalingNames() {
-  static const std::vector<std::string> names = {"standard", "range", "none"};
-  return names;
-}
-
-ColumnScaling ScalingOf(InputScaling kind, const Eigen::MatrixXd& inputs) {
-  switch (kind) {
-    case InputScaling::kStandard:
-      return StandardScaling(inputs);
-    case InputScaling::kRange:
-      return UnitRangeScaling(inputs);
-    case InputScaling::kNone:
-      break;
-  }
-  return IdentityScaling(inputs.cols());
-}
 
 // Budgets and stops under the report's names.
 fitting::StoppingRules TakeStoppingRules(const std::string& type,
@@ -61,21 +46,84 @@ fitting::StoppingRules TakeStoppingRules(const std::string& type,
   return rules;
 }
 
+// How wfactor comes about.
+enum class WfactorRule { kGiven, kCrossValidation, kDiscrepancy };
+
+struct WfactorOption {
+  WfactorRule rule = WfactorRule::kGiven;
+  double wfactor = 1e-5;
+  double delta = 0.0;  // kDiscrepancy: wanted RMS, the target's unit
+
+  static WfactorOption Take(const ModelSpec& spec, SpecOptions* options) {
+    constexpr double kMostWfactor = 1e6;
+    constexpr double kLeastDelta = 1e-300;
+    constexpr double kMostDelta = 1e300;
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    WfactorOption taken;
+    taken.delta =
+        options->TakeNumber("discrepancy", kNone, kLeastDelta, kMostDelta);
+    const std::string text = options->TakeText("wfactor", "");
+    if (!std::isnan(taken.delta)) {
+      if (!text.empty()) {
+        throw std::invalid_argument(fmt::format(
+            "model '{}': discrepancy= finds the wfactor, which wfactor= fixes",
+            spec.text));
+      }
+      taken.rule = WfactorRule::kDiscrepancy;
+    } else if (text == "cv") {
+      taken.rule = WfactorRule::kCrossValidation;
+    } else {
+      taken.wfactor =
+          options->TakeNumber("wfactor", taken.wfactor, 0.0, kMostWfactor);
+    }
+    return taken;
+  }
+
+  void Describe(std::vector<EffectiveOption>* all) const {
+    switch (rule) {
+      case WfactorRule::kGiven:
+        all->push_back({"wfactor", wfactor});
+        break;
+      case WfactorRule::kCrossValidation:
+        all->push_back({"wfactor", std::string("cv")});
+        break;
+      case WfactorRule::kDiscrepancy:
+        all->push_back({"discrepancy", delta});
+        break;
+    }
+  }
+};
+
+std::string WithUnit(double value, const data::Dataset& dataset) {
+  const std::string& unit = dataset.target().unit.symbol;
+  return unit.empty() ? fmt::format("{:.4g}", value)
+                      : fmt::format("{:.4g} {}", value, unit);
+}
+
 // A one-hidden-layer net; how it is trained is its trainer's business.
 class NetRecipe final : public ModelRecipe {
  public:
   explicit NetRecipe(const ModelSpec& spec) : name_(spec.text) {
     constexpr double kLeastSlope = 1e-3;
     constexpr double kMostSlope = 1e3;
+    constexpr std::int64_t kMostStarts = 10'000;
     SpecOptions options(spec);
-    hidden_ = options.TakeInteger("hidden", 20, 1, 10'000);
-    wfactor_ = options.TakeNumber("wfactor", 1e-5, 0.0, 1e6);
+    design_.hidden = options.TakeInteger("hidden", design_.hidden, 1, 10'000);
+    wfactor_ = WfactorOption::Take(spec, &options);
     stopping_ = TakeStoppingRules(spec.type, &options);
-    scaling_ = static_cast<InputScaling>(
+    design_.scaling = static_cast<InputScaling>(
         options.TakeChoice("scale", 0, InputScalingNames()));
-    output_ = static_cast<OutputFunction>(
+    design_.output = static_cast<OutputFunction>(
         options.TakeChoice("output", 0, {"sigmoid", "linear"}));
-    slope_ = options.TakeNumber("slope", 1.0, kLeastSlope, kMostSlope);
+    design_.slope =
+        options.TakeNumber("slope", design_.slope, kLeastSlope, kMostSlope);
+    starts_ = options.TakeInteger("starts", 1, 1, kMostStarts);
+    if (starts_ > 1 && wfactor_.rule == WfactorRule::kDiscrepancy) {
+      throw std::invalid_argument(fmt::format(
+          "model '{}': discrepancy= follows one start; take its wfactor to "
+          "starts=",
+          spec.text));
+    }
     trainer_ = MakeNetTrainer(spec.type, stopping_, &options);
     options.RefuseOthers();
   }
@@ -84,15 +132,16 @@ class NetRecipe final : public ModelRecipe {
   ModelKind kind() const override { return ModelKind::kNet; }
 
   std::vector<EffectiveOption> options() const override {
-    std::vector<EffectiveOption> all = {
-        {"hidden", hidden_},
-        {"wfactor", wfactor_},
-        {"iterations", stopping_.iterations},
-        {"egoal", stopping_.cost_goal},
-        {"gwgoal", stopping_.gradient_goal},
-        {"scale", InputScalingNames()[static_cast<std::size_t>(scaling_)]},
-        {"output", std::string(ToString(output_))},
-        {"slope", slope_}};
+    std::vector<EffectiveOption> all = {{"hidden", design_.hidden}};
+    wfactor_.Describe(&all);
+    all.push_back({"iterations", stopping_.iterations});
+    all.push_back({"egoal", stopping_.cost_goal});
+    all.push_back({"gwgoal", stopping_.gradient_goal});
+    all.push_back(
+        {"scale",
+         InputScalingNames()[static_cast<std::size_t>(design_.scaling)]});
+    all.push_back({"output", std::string(ToString(design_.output))});
+    all.push_back({"slope", design_.slope});
     const fitting::StoppingRules unlimited;
     if (stopping_.evaluations != unlimited.evaluations) {
       all.push_back({"evaluations", stopping_.evaluations});
@@ -104,6 +153,7 @@ class NetRecipe final : public ModelRecipe {
     if (stopping_.seconds != unlimited.seconds) {
       all.push_back({"seconds", stopping_.seconds});
     }
+    if (starts_ > 1) all.push_back({"starts", starts_});
     std::ranges::move(trainer_->options(), std::back_inserter(all));
     return all;
   }
@@ -115,7 +165,7 @@ class NetRecipe final : public ModelRecipe {
   }
 
   std::optional<Index> NumCoefficients(const Dataset& dataset) const override {
-    return ShapeFor(dataset).num_weights();
+    return design_.ShapeFor(dataset).num_weights();
   }
 
   FittedModel Fit(const Dataset& training,
@@ -123,50 +173,118 @@ class NetRecipe final : public ModelRecipe {
     if (const auto missing = WhatIsMissing(training)) {
       throw std::invalid_argument("the data lack " + *missing);
     }
-    const ColumnScaling scaling = ScalingOf(scaling_, training.input_values());
-    const TargetScaling target = SigmoidTargetScaling(training.target_values());
-    const NetShape shape = ShapeFor(training);
-    fitting::Minimum minimum = trainer_->Train(
-        {.shape = shape,
-         .inputs = scaling.Apply(training.input_values()),
-         .targets =
-             (training.target_values() * target.slope).array() + target.offset,
-         .row_weights = training.weights(),
-         .wfactor = wfactor_,
-         .initial_weights = InitialWeights(shape, context.seed)},
-        {.stop = context.stop, .keep_trace = context.keep_trace});
-
-    std::vector<Index> columns(static_cast<std::size_t>(shape.inputs));
-    std::iota(columns.begin(), columns.end(), Index{0});
-    // A slope c multiplies every sum that a sigmoid sees: so may the weights.
-    NetForm form{.input_offset = scaling.offset,
-                 .input_scale = scaling.scale,
-                 .w1 = shape.slope * FirstLayer(shape, minimum.x),
-                 .w2 = OutputSlope(shape) * SecondLayer(shape, minimum.x),
-                 .output = shape.output,
-                 .target_slope = Eigen::VectorXd::Constant(1, target.slope),
-                 .target_offset = Eigen::VectorXd::Constant(1, target.offset)};
+    const NetRows rows = ScaleRows(design_, training);
     FittedModel fitted;
     fitted.name = name_;
     fitted.kind = ModelKind::kNet;
     fitted.target = training.target();
+    std::vector<Index> columns(static_cast<std::size_t>(training.num_inputs()));
+    std::iota(columns.begin(), columns.end(), Index{0});
     fitted.inputs = DescribeInputs(training, columns);
+    fitting::Minimum minimum =
+        wfactor_.rule == WfactorRule::kDiscrepancy
+            ? FitToDiscrepancy(training, rows, context, &fitted)
+            : FitStarts(training, rows, context, &fitted);
+    fitted.model = std::make_shared<FeedforwardNet>(rows.FormOf(minimum.x));
     fitted.summary = std::move(minimum.summary);
-    fitted.model = std::make_shared<FeedforwardNet>(std::move(form));
     return fitted;
   }
 
  private:
-  NetShape ShapeFor(const Dataset& dataset) const {
-    return {dataset.num_inputs(), hidden_, 1, output_, slope_};
+  fitting::Minimum FitToDiscrepancy(const Dataset& training,
+                                    const NetRows& rows,
+                                    const FitContext& context,
+                                    FittedModel* fitted) const {
+    fitting::DiscrepancyChoice choice =
+        ChooseWfactorByDiscrepancy(rows, *trainer_, wfactor_.delta, context);
+    fitted->choices.push_back({"wfactor", choice.alpha});
+    fitted->choices.push_back(
+        {"discrepancy_reached", std::string(choice.reached ? "yes" : "no")});
+    fitted->remarks.push_back(fmt::format(
+        "wfactor {:.4g} by the discrepancy principle in {} fits: RMS residual "
+        "{}, wanted {}{}",
+        choice.alpha,
+        choice.steps.size(),
+        WithUnit(choice.misfit, training),
+        WithUnit(wfactor_.delta, training),
+        choice.reached ? "" : " (not reached)"));
+    return std::move(choice.minimum);
+  }
+
+  fitting::Minimum FitStarts(const Dataset& training,
+                             const NetRows& rows,
+                             const FitContext& context,
+                             FittedModel* fitted) const {
+    double wfactor = wfactor_.wfactor;
+    if (wfactor_.rule == WfactorRule::kCrossValidation) {
+      const CrossValidatedWfactor chosen =
+          ChooseWfactorByCv(design_, *trainer_, training, context);
+      wfactor = chosen.wfactor;
+      fitted->choices.push_back({"wfactor", wfactor});
+      fitted->remarks.push_back(
+          fmt::format("wfactor {:.4g} by cross-validation over {}: RMSE {} "
+                      "held out (tried {})",
+                      wfactor,
+                      chosen.folds,
+                      WithUnit(chosen.rmse, training),
+                      chosen.scores));
+    }
+    std::vector<std::uint64_t> seeds;
+    for (std::int64_t k = 0; k < starts_; ++k) {
+      seeds.push_back(SeedOfStart(context.seed, k));
+    }
+    std::vector<fitting::Minimum> minima =
+        TrainFromStarts(rows, *trainer_, wfactor, seeds, context);
+    // A cost that is not a number loses; of equal ones the first wins.
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < minima.size(); ++i) {
+      if (!(minima[i].summary.final_cost >= minima[best].summary.final_cost) &&
+          !std::isnan(minima[i].summary.final_cost)) {
+        best = i;
+      }
+    }
+    if (starts_ > 1) {
+      fitted->starts =
+          DescribeStarts(training, wfactor, seeds, minima, context);
+      fitted->starts[best].chosen = true;
+    }
+    return std::move(minima[best]);
+  }
+
+  std::vector<StartResult> DescribeStarts(
+      const Dataset& training,
+      double wfactor,
+      const std::vector<std::uint64_t>& seeds,
+      const std::vector<fitting::Minimum>& minima,
+      const FitContext& context) const {
+    std::vector<StartResult> starts;
+    std::vector<NetTrial> trials;
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      const fitting::FitSummary& summary = minima[i].summary;
+      starts.push_back({.seed = seeds[i],
+                        .final_cost = summary.final_cost,
+                        .termination = summary.termination,
+                        .iterations = summary.iterations});
+      trials.push_back({wfactor, seeds[i]});
+    }
+    if (!context.explain || training.num_rows() < 2) return starts;
+    const std::vector<double> rmse =
+        InnerHoldoutRmse(design_,
+                         *trainer_,
+                         training,
+                         MakeInnerFolds(training, context.seed),
+                         trials,
+                         context);
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      starts[i].holdout_rmse = rmse[i];
+    }
+    return starts;
   }
 
   std::string name_;
-  std::int64_t hidden_;
-  double wfactor_;
-  InputScaling scaling_;
-  OutputFunction output_;
-  double slope_;
+  NetDesign design_;
+  WfactorOption wfactor_;
+  std::int64_t starts_;
   fitting::StoppingRules stopping_;
   std::unique_ptr<NetTrainer> trainer_;
 };

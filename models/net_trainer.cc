@@ -2,9 +2,11 @@
 
 #include <stdexcept>
 
+#include "fitting/ceres_optimizer.h"
 #include "fitting/conjugate_gradient.h"
 #include "fitting/gradient_descent.h"
 #include "fitting/levenberg_marquardt.h"
+#include "fitting/nlopt_optimizer.h"
 #include "fitting/scaled_conjugate_gradient.h"
 #include "models/net_objective.h"
 
@@ -130,11 +132,79 @@ class BackpropTrainer final : public NetTrainer {
   fitting::GradientDescentOptions options_;
 };
 
+// Pairs of vectors that a quasi-Newton method may be asked to keep.
+constexpr std::int64_t kMostMemory = 1000;
+
+class CeresTrainer final : public NetTrainer {
+ public:
+  CeresTrainer(const fitting::StoppingRules& stopping, SpecOptions* options) {
+    options_.stopping = stopping;
+    options_.method = static_cast<fitting::CeresMethod>(
+        options->TakeChoice("method", 0, fitting::CeresMethodNames()));
+    options_.memory = static_cast<int>(
+        options->TakeInteger("memory", options_.memory, 1, kMostMemory));
+  }
+
+  fitting::Minimum Train(const NetTraining& training,
+                         const fitting::RunControl& run) const override {
+    return fitting::CeresOptimizer(options_).Minimize(
+        MakeObjective<double>(training, NetArithmetic::kFast),
+        training.initial_weights,
+        run);
+  }
+
+  std::vector<EffectiveOption> options() const override {
+    return {{"method", std::string(ToString(options_.method))},
+            {"memory", std::int64_t{options_.memory}}};
+  }
+
+ private:
+  fitting::CeresOptions options_;
+};
+
+class NloptTrainer final : public NetTrainer {
+ public:
+  NloptTrainer(const fitting::StoppingRules& stopping, SpecOptions* options) {
+    constexpr double kLeastBox = 1e-6;
+    constexpr double kMostBox = 1e6;
+    options_.stopping = stopping;
+    options_.method = static_cast<fitting::NloptMethod>(
+        options->TakeChoice("method", 0, fitting::NloptMethodNames()));
+    options_.memory = static_cast<int>(
+        options->TakeInteger("memory", options_.memory, 1, kMostMemory));
+    options_.box =
+        options->TakeNumber("box", options_.box, kLeastBox, kMostBox);
+  }
+
+  fitting::Minimum Train(const NetTraining& training,
+                         const fitting::RunControl& run) const override {
+    fitting::NloptOptions options = options_;
+    options.seed = training.seed;
+    return fitting::NloptOptimizer(options).Minimize(
+        MakeObjective<double>(training, NetArithmetic::kFast),
+        training.initial_weights,
+        run);
+  }
+
+  std::vector<EffectiveOption> options() const override {
+    std::vector<EffectiveOption> all = {
+        {"method", std::string(ToString(options_.method))},
+        {"memory", std::int64_t{options_.memory}}};
+    if (options_.method == fitting::NloptMethod::kCrs2Lm) {
+      all.push_back({"box", options_.box});
+    }
+    return all;
+  }
+
+ private:
+  fitting::NloptOptions options_;
+};
+
 }  // namespace
 
 const std::vector<std::string>& NetTypes() {
   static const std::vector<std::string> types = {
-      "net:scg", "net:lm", "net:cg", "net:backprop"};
+      "net:scg", "net:lm", "net:cg", "net:backprop", "net:ceres", "net:nlopt"};
   return types;
 }
 
@@ -152,6 +222,12 @@ std::unique_ptr<NetTrainer> MakeNetTrainer(
   if (type == "net:cg") return std::make_unique<CgTrainer>(stopping);
   if (type == "net:backprop") {
     return std::make_unique<BackpropTrainer>(stopping, options);
+  }
+  if (type == "net:ceres") {
+    return std::make_unique<CeresTrainer>(stopping, options);
+  }
+  if (type == "net:nlopt") {
+    return std::make_unique<NloptTrainer>(stopping, options);
   }
   throw std::invalid_argument("model '" + type + "': not a net");
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct NetTraining {
   Eigen::VectorXd row_weights;
   double wfactor = 0.0;
   Eigen::VectorXd initial_weights;
+  std::uint64_t seed = 1;  // of a method that draws at random
 };
 
 /// One way of minimising a net's objective; immutable.
@@ -31,7 +33,7 @@ class NetTrainer {
   virtual std::vector<EffectiveOption> options() const = 0;
 };
 
-/// "net:scg", "net:lm", "net:cg", "net:backprop".
+/// "net:scg", "net:lm", "net:cg", "net:backprop", "net:ceres", "net:nlopt".
 const std::vector<std::string>& NetTypes();
 
 /// When a model of NetTypes() stops unless told otherwise.

@@ -30,7 +30,9 @@ const std::vector<std::string>& ModelTypes() {
                                                  "net:scg",
                                                  "net:lm",
                                                  "net:cg",
-                                                 "net:backprop"};
+                                                 "net:backprop",
+                                                 "net:ceres",
+                                                 "net:nlopt"};
   return types;
 }
 
@@ -48,12 +50,14 @@ DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
                                   Eigen::Index fewest_training_rows) {
   constexpr int kHighestFullDegree = 6;
   constexpr Eigen::Index kRowsPerCoefficient = 5;
-  constexpr std::array<std::string_view, 6> kWhenNamed = {"poly:best",
+  constexpr std::array<std::string_view, 8> kWhenNamed = {"poly:best",
                                                           "poly:ridge",
                                                           "poly:lasso",
                                                           "net:lm",
                                                           "net:cg",
-                                                          "net:backprop"};
+                                                          "net:backprop",
+                                                          "net:ceres",
+                                                          "net:nlopt"};
   DefaultRecipes defaults;
   for (const std::string& type : ModelTypes()) {
     if (std::ranges::find(kWhenNamed, type) != kWhenNamed.end()) continue;

@@ -163,6 +163,8 @@ HoldoutResult PoolFolds(const Holdout& holdout,
     folded.summary = std::move(outcome.fitted->summary);
     folded.fit_seconds = outcome.seconds;
     folded.remarks = std::move(outcome.fitted->remarks);
+    folded.choices = std::move(outcome.fitted->choices);
+    folded.starts = std::move(outcome.fitted->starts);
     folded.test_predictions = std::move(outcome.test_predictions);
     result.folds.push_back(std::move(folded));
     begin += size;

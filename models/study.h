@@ -38,7 +38,9 @@ struct FoldResult {
   fitting::FitSummary summary;
   double fit_seconds = 0.0;
   std::vector<std::string> remarks;
-  Eigen::VectorXd test_predictions;  // one per test row of the fold
+  std::vector<EffectiveOption> choices;  // of the fit, such as wfactor=cv
+  std::vector<StartResult> starts;       // empty where there was one only
+  Eigen::VectorXd test_predictions;      // one per test row of the fold
 };
 
 /// A model under one hold-out, in the target's unit.
