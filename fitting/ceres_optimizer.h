@@ -28,7 +28,7 @@ struct CeresOptions {
   CeresMethod method = CeresMethod::kAuto;
   /// Pairs of vectors that L-BFGS keeps; at least 1. More cost as much time as
   /// a gradient of a net, fewer cost iterations.
-  int memory = 10;
+  int memory = 5;
 
   /// Throws std::invalid_argument naming field, value and range.
   void Validate() const;

@@ -1,5 +1,6 @@
 #include "fitting/guarded_run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 
@@ -18,11 +19,10 @@ bool GuardedRun::Start(const VectorXd& x0) {
   best_ = x_ = x0;
   is_finite_ = EvaluateHere();
   if (has_thrown_) return false;
-  const double norm = gradient_.norm();
   best_cost_ = cost_;
-  best_gradient_norm_ = norm;
-  return monitor_.Begin(cost_, norm) &&
-         !monitor_.StopAtGoal(cost_, norm, x_.norm()) &&
+  best_gradient_norm_ = gradient_norm_;
+  return monitor_.Begin(cost_, gradient_norm_) &&
+         !monitor_.StopAtGoal(cost_, gradient_norm_, x_.norm()) &&
          !monitor_.StopAtLimit(evaluations_, 1);
 }
 
@@ -35,17 +35,19 @@ bool GuardedRun::Evaluate(const double* x) {
             " points that the solver asked for brought no lower cost");
     return false;
   }
-  const Map<const VectorXd> at(x, x_.size());
-  if (at == x_) return is_finite_;
+  if (std::equal(x, x + x_.size(), x_.data())) return is_finite_;
   if (monitor_.StopAtLimit(evaluations_, 1)) return false;
+  const Map<const VectorXd> at(x, x_.size());
   // A solver that has lost itself in overflow is told so without a call.
-  if (!at.allFinite()) return false;
+  const double x_norm = at.norm();
+  if (!std::isfinite(x_norm)) return false;
   x_ = at;
+  x_norm_ = x_norm;
   is_finite_ = EvaluateHere();
   // Where rounding hides the cost's last fall, the gradient still shows it.
   if (is_finite_ &&
       (cost_ < best_cost_ ||
-       (cost_ == best_cost_ && gradient_.norm() < best_gradient_norm_))) {
+       (cost_ == best_cost_ && gradient_norm_ < best_gradient_norm_))) {
     Keep();
   }
   return is_finite_ && !has_thrown_;
@@ -68,17 +70,17 @@ bool GuardedRun::EvaluateHere() {
     Fail("an exception of unknown type");
     return false;
   }
-  return std::isfinite(cost_) && gradient_.allFinite() &&
-         std::isfinite(gradient_.norm());
+  gradient_norm_ = gradient_.norm();  // finite only where all of it is
+  return std::isfinite(cost_) && std::isfinite(gradient_norm_);
 }
 
 void GuardedRun::Keep() {
   best_ = x_;
   best_cost_ = cost_;
-  best_gradient_norm_ = gradient_.norm();
+  best_gradient_norm_ = gradient_norm_;
   is_iteration_open_ = true;
   idle_ = 0;
-  monitor_.StopAtGoal(best_cost_, best_gradient_norm_, best_.norm());
+  monitor_.StopAtGoal(best_cost_, best_gradient_norm_, x_norm_);
 }
 
 void GuardedRun::EndIteration() {

@@ -64,6 +64,8 @@ class GuardedRun {
   RunMonitor monitor_;
   Eigen::VectorXd x_;
   Eigen::VectorXd gradient_;
+  double x_norm_ = 0.0;
+  double gradient_norm_ = 0.0;
   double cost_ = 0.0;
   bool is_finite_ = false;  // at x_
   Eigen::VectorXd best_;

@@ -31,7 +31,7 @@ struct NloptOptions {
   /// Pairs of vectors that lbfgs, tnewton_precond_restart and var2 keep; at
   /// least 1. NLopt's own choice fills 10 MB: 560 pairs for 2341 parameters,
   /// and each iteration reads them all.
-  int memory = 10;
+  int memory = 5;
   /// crs2_lm searches |x_i - x0_i| <= box * max(1, |x0_i|); above 0.
   double box = 10.0;
   /// Of crs2_lm, the only random one.

@@ -87,7 +87,9 @@ std::vector<std::string> SplitList(std::string_view text) {
 }
 
 const std::string* SpecOptions::Find(const std::string& key) {
-  known_.push_back(key);
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
+    known_.push_back(key);
+  }
   for (const auto& [name, value] : spec_.options) {
     if (name == key) return &value;
   }
