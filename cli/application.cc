@@ -101,6 +101,7 @@ int RunApplication(int argc, char** argv) {
   AddEvaluateCommand(&app, &run);
   AddResidualsCommand(&app, &run);
   AddSimulateCommand(&app, &run);
+  AddCertifyCommand(&app, &run);
   try {
     if (argc < 2) {
       fmt::print("{}", app.help());

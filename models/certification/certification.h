@@ -1,0 +1,141 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fitting/objective.h"
+
+namespace errmap::models {
+
+/// One run of one solver on a nonlinear NIST problem.
+struct NonlinearCertificate {
+  std::string problem;
+  int start = 1;
+  std::string solver;
+  double lre_parameters = 0.0;  // the smallest over the parameters
+  double lre_sd = 0.0;
+  double lre_rss = 0.0;
+  std::int64_t iterations = 0;
+  std::string stop;     // fitting::ToString of the termination
+  std::string message;  // the solver's own words, or what it threw
+};
+
+/// All runs of one solver. Solved = lre_parameters above 4.
+struct SolverCertificate {
+  std::string solver;
+  int runs = 0;
+  int solved = 0;
+  double mean_lre_parameters = 0.0;
+  double mean_lre_sd = 0.0;
+  double least_lre_parameters = 0.0;
+};
+
+struct LinearCertificate {
+  std::string problem;
+  double lre_coefficients = 0.0;
+  double lre_sd = 0.0;
+  double lre_rss = 0.0;
+  double condition = 0.0;  // of the design with columns of unit length
+  int bits = 0;            // of the arithmetic that its condition asked for
+};
+
+struct UnivariateCertificate {
+  std::string problem;
+  double lre_mean = 0.0;
+  double lre_sd = 0.0;
+  double lre_autocorrelation = 0.0;
+  /// Of the figures above: 53 where double data hold the digits, 106 where
+  /// sqrt(1 + (mean / sd)^2) says that the decimal text must be kept.
+  int bits = 0;
+  double condition = 0.0;
+  /// The same from double data whatever the condition: what compare uses.
+  double lre_mean_double = 0.0;
+  double lre_sd_double = 0.0;
+  double lre_autocorrelation_double = 0.0;
+};
+
+struct GradientCertificate {
+  std::string objective;
+  double worst_relative_error = 0.0;
+};
+
+struct AgreementCertificate {
+  std::string solver;
+  double objective = 0.0;
+  double difference = 0.0;  // of the objective to the lowest, relative
+  double prediction_difference = 0.0;  // largest, as share of the target range
+  std::int64_t iterations = 0;
+  std::string stop;
+  /// False for solvers that are shown but held to no floor, since their method
+  /// does not promise these digits.
+  bool judged = true;
+};
+
+/// What an installation must reach; LRE are least values, errors greatest.
+struct CertificationFloors {
+  int nonlinear_solved = 54;  // of the default solver, like the next four
+  double nonlinear_parameters = 10.0;
+  double nonlinear_mean_parameters = 10.6;
+  double nonlinear_sd = 10.0;
+  double nonlinear_rss = 10.0;
+  double linear_coefficients = 13.0;
+  double linear_sd = 13.0;
+  double linear_rss = 13.0;
+  double univariate = 13.0;
+  /// NumAcc4's sd: a double keeps 8 digits of 0.1 beside 10000000.
+  double univariate_numacc4_sd = 8.0;
+  /// Of the plain double figures: the mean; sd and autocorrelation.
+  double univariate_double_mean = 13.0;
+  double univariate_double = 8.0;
+  double gradient_relative_error = 1e-6;
+  double agreement_objective = 1e-8;
+  double agreement_predictions = 1e-6;
+};
+
+struct Certification {
+  std::vector<NonlinearCertificate> nonlinear;
+  std::vector<SolverCertificate> nonlinear_summary;
+  std::vector<LinearCertificate> linear;
+  std::vector<UnivariateCertificate> univariate;
+  std::vector<GradientCertificate> gradients;
+  std::vector<AgreementCertificate> agreement;
+  /// One line per floor that was missed, in words.
+  std::vector<std::string> missed;
+
+  bool passed() const { return missed.empty(); }
+};
+
+/// The name of the default: Levenberg-Marquardt with its fallbacks and polish
+/// (fitting::FitNonlinearRegression).
+inline constexpr const char* kDefaultSolver = "lm";
+
+/// Runs every solver on the 27 problems from both starts, in parallel; the
+/// figures do not depend on the number of threads.
+void CertifyNonlinear(Certification* certification);
+void CertifyLinear(Certification* certification);
+void CertifyUnivariate(Certification* certification);
+/// Nets of several shapes and the NIST problems, at random points and at the
+/// minimum.
+void CertifyGradients(Certification* certification);
+/// Every solver on one well-damped net from one start.
+void CertifyAgreement(Certification* certification);
+
+/// Adds a row: the gradient of `f` at x (n) against Ridders extrapolation, and
+/// the Jacobian of its residuals, where it has them, along random combinations.
+/// Components are taken times their parameter's size. Below 1e-3 of the largest
+/// they are judged by that. `gradient_size`: the largest at a typical point,
+/// for a minimum, where the gradient vanishes; 0 = the largest at x.
+void CertifyGradient(const std::string& name,
+                     const fitting::Objective& f,
+                     const Eigen::VectorXd& x,
+                     double gradient_size,
+                     Certification* certification);
+
+/// Fills `missed` from the parts that were run.
+void JudgeFloors(const CertificationFloors& floors,
+                 Certification* certification);
+
+}  // namespace errmap::models

@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include "models/certification/certification.h"
+#include "stats/lre.h"
+
+namespace errmap::models {
+namespace {
+
+// Collects what is missed; written so that a NaN misses.
+class Judge {
+ public:
+  explicit Judge(std::vector<std::string>* missed) : missed_(missed) {}
+
+  void AtLeast(const std::string& what, double found, double floor) {
+    if (found >= floor) return;
+    missed_->push_back(fmt::format(
+        "{}: {:.2f}, at least {:.2f} is needed", what, found, floor));
+  }
+  void AtMost(const std::string& what, double found, double limit) {
+    if (found <= limit) return;
+    missed_->push_back(fmt::format(
+        "{}: {:.1e}, at most {:.0e} is allowed", what, found, limit));
+  }
+
+ private:
+  std::vector<std::string>* missed_;
+};
+
+}  // namespace
+
+void JudgeFloors(const CertificationFloors& floors,
+                 Certification* certification) {
+  certification->missed.clear();
+  Judge judge(&certification->missed);
+  for (const NonlinearCertificate& row : certification->nonlinear) {
+    if (row.solver != kDefaultSolver) continue;
+    const std::string run =
+        fmt::format("{} from start {}, ", row.problem, row.start);
+    judge.AtLeast(
+        run + "parameters", row.lre_parameters, floors.nonlinear_parameters);
+    judge.AtLeast(run + "standard deviations", row.lre_sd, floors.nonlinear_sd);
+    judge.AtLeast(
+        run + "residual sum of squares", row.lre_rss, floors.nonlinear_rss);
+  }
+  for (const SolverCertificate& row : certification->nonlinear_summary) {
+    if (row.solver != kDefaultSolver) continue;
+    judge.AtLeast("problems solved", row.solved, floors.nonlinear_solved);
+    judge.AtLeast("mean of parameters",
+                  row.mean_lre_parameters,
+                  floors.nonlinear_mean_parameters);
+  }
+  for (const LinearCertificate& row : certification->linear) {
+    judge.AtLeast(row.problem + ", coefficients",
+                  row.lre_coefficients,
+                  floors.linear_coefficients);
+    judge.AtLeast(
+        row.problem + ", standard deviations", row.lre_sd, floors.linear_sd);
+    judge.AtLeast(row.problem + ", residual sum of squares",
+                  row.lre_rss,
+                  floors.linear_rss);
+  }
+  for (const UnivariateCertificate& row : certification->univariate) {
+    judge.AtLeast(row.problem + ", mean", row.lre_mean, floors.univariate);
+    judge.AtLeast(row.problem + ", sd",
+                  row.lre_sd,
+                  row.problem == "NumAcc4" ? floors.univariate_numacc4_sd
+                                           : floors.univariate);
+    judge.AtLeast(row.problem + ", autocorrelation",
+                  row.lre_autocorrelation,
+                  floors.univariate);
+    judge.AtLeast(row.problem + ", mean in double",
+                  row.lre_mean_double,
+                  floors.univariate_double_mean);
+    judge.AtLeast(row.problem + ", sd in double",
+                  row.lre_sd_double,
+                  floors.univariate_double);
+    judge.AtLeast(row.problem + ", autocorrelation in double",
+                  row.lre_autocorrelation_double,
+                  floors.univariate_double);
+  }
+  for (const GradientCertificate& row : certification->gradients) {
+    judge.AtMost("gradient of " + row.objective,
+                 row.worst_relative_error,
+                 floors.gradient_relative_error);
+  }
+  for (const AgreementCertificate& row : certification->agreement) {
+    if (!row.judged) continue;
+    judge.AtMost(row.solver + ", objective above the lowest",
+                 row.difference,
+                 floors.agreement_objective);
+    judge.AtMost(row.solver + ", predictions",
+                 row.prediction_difference,
+                 floors.agreement_predictions);
+  }
+}
+
+}  // namespace errmap::models

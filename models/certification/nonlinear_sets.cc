@@ -1,0 +1,122 @@
+#include <algorithm>
+#include <map>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include "models/certification/certification.h"
+#include "models/certification/solvers.h"
+#include "models/certification/strd_functions.h"
+#include "stats/lre.h"
+
+namespace errmap::models {
+namespace {
+
+using fitting::RegressionStatistics;
+
+// Enough for the slowest that converges at all (scg on Bennett5 does not).
+constexpr fitting::StoppingRules kStopping{.iterations = 5000,
+                                           .evaluations = 20000};
+
+struct Case {
+  const data::StrdProblem* problem;
+  int start;
+  const CertifiedSolver* solver;  // null: the default
+};
+
+void Judge(const data::StrdProblem& problem,
+           const RegressionStatistics& statistics,
+           NonlinearCertificate* row) {
+  constexpr double kCap = stats::kLreCapNonlinear;
+  row->lre_parameters = stats::SmallestLogRelativeError(
+      statistics.parameters, CertifiedParameters(problem), kCap);
+  row->lre_sd = stats::SmallestLogRelativeError(
+      statistics.standard_deviations, CertifiedDeviations(problem), kCap);
+  row->lre_rss = stats::LogRelativeError(
+      statistics.residual_sum_of_squares,
+      stats::ParseDoubleDouble(problem.residual_sum_of_squares).hi,
+      kCap);
+}
+
+NonlinearCertificate RunCase(const Case& run) {
+  const data::StrdProblem& problem = *run.problem;
+  NonlinearCertificate row{
+      .problem = problem.name,
+      .start = run.start,
+      .solver = run.solver == nullptr ? kDefaultSolver : run.solver->name,
+      .stop = std::string(ToString(fitting::Termination::kFailed)),
+      .message = ""};
+  const auto function = MakeStrdFunction(problem);
+  const Eigen::VectorXd start = StrdStart(problem, run.start);
+  try {
+    fitting::FitSummary summary;
+    RegressionStatistics statistics;
+    if (run.solver == nullptr) {
+      fitting::RegressionFit fit =
+          fitting::FitNonlinearRegression(*function, start, kStopping);
+      summary = std::move(fit.summary);
+      statistics = std::move(fit.statistics);
+    } else {
+      const fitting::RegressionObjective objective(*function);
+      fitting::Minimum minimum =
+          run.solver->make(kStopping)->Minimize(objective, start);
+      summary = std::move(minimum.summary);
+      statistics = fitting::AssessRegression(
+          *function, minimum.x.cast<stats::DoubleDouble>());
+    }
+    Judge(problem, statistics, &row);
+    row.iterations = summary.iterations;
+    row.stop = std::string(ToString(summary.termination));
+    row.message = summary.message;
+  } catch (const std::exception& error) {
+    row.message = error.what();
+  }
+  return row;
+}
+
+SolverCertificate Summarise(const std::string& solver,
+                            const std::vector<NonlinearCertificate>& rows) {
+  constexpr double kSolved = 4.0;
+  SolverCertificate summary{.solver = solver,
+                            .least_lre_parameters = stats::kLreCapNonlinear};
+  for (const NonlinearCertificate& row : rows) {
+    if (row.solver != solver) continue;
+    ++summary.runs;
+    if (row.lre_parameters > kSolved) ++summary.solved;
+    summary.mean_lre_parameters += row.lre_parameters;
+    summary.mean_lre_sd += row.lre_sd;
+    summary.least_lre_parameters =
+        std::min(summary.least_lre_parameters, row.lre_parameters);
+  }
+  const double runs = std::max(1, summary.runs);
+  summary.mean_lre_parameters /= runs;
+  summary.mean_lre_sd /= runs;
+  return summary;
+}
+
+}  // namespace
+
+void CertifyNonlinear(Certification* certification) {
+  std::vector<const CertifiedSolver*> solvers{nullptr};
+  for (const CertifiedSolver& solver : CertifiedSolvers()) {
+    solvers.push_back(&solver);
+  }
+  std::vector<Case> cases;
+  for (const CertifiedSolver* solver : solvers) {
+    for (const data::StrdProblem& problem : data::StrdProblems()) {
+      if (problem.kind != data::StrdKind::kNonlinear) continue;
+      cases.push_back({&problem, 1, solver});
+      cases.push_back({&problem, 2, solver});
+    }
+  }
+  certification->nonlinear.resize(cases.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
+    certification->nonlinear[i] = RunCase(cases[i]);
+  });
+  for (const CertifiedSolver* solver : solvers) {
+    certification->nonlinear_summary.push_back(
+        Summarise(solver == nullptr ? kDefaultSolver : solver->name,
+                  certification->nonlinear));
+  }
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,341 @@
+#include "models/certification/strd_functions.h"
+
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using fitting::ExtendedMatrix;
+using fitting::ExtendedVector;
+using stats::DoubleDouble;
+
+// The right number of bits for every scalar.
+template <typename X>
+X Pi() {
+  constexpr DoubleDouble kPi{0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
+  return static_cast<X>(kPi);
+}
+
+template <typename T>
+T Square(const T& x) {
+  return x * x;
+}
+
+// NIST's models; b[0] is b1. Written so that X (data) and T (parameters, with
+// derivatives) mix: constants become T where they meet one.
+struct Bennett5 {
+  static constexpr int kParameters = 3;
+  static constexpr int kLinear[] = {0};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    using std::pow;
+    return b[0] * pow(b[1] + T(x[0]), T(X(-1.0)) / b[2]);
+  }
+};
+
+struct BoxBod {  // and Misra1a
+  static constexpr int kParameters = 2;
+  static constexpr int kLinear[] = {0};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    using std::exp;
+    return b[0] * (T(X(1.0)) - exp(-b[1] * T(x[0])));
+  }
+};
+
+struct Chwirut {
+  static constexpr int kParameters = 3;
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    using std::exp;
+    return exp(-b[0] * T(x[0])) / (b[1] + b[2] * T(x[0]));
+  }
+};
+
+struct DanWood {
+  static constexpr int kParameters = 2;
+  static constexpr int kLinear[] = {0};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    using std::pow;
+    return b[0] * pow(T(x[0]), b[1]);
+  }
+};
+
+struct Eckerle4 {
+  static constexpr int kParameters = 3;
+  static constexpr int kLinear[] = {0};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    using std::exp;
+    return b[0] / b[1] * exp(T(X(-0.5)) * Square<T>((T(x[0]) - b[2]) / b[1]));
+  }
+};
+
+struct Enso {
+  static constexpr int kParameters = 9;
+  static constexpr int kLinear[] = {0, 1, 2, 4, 5, 7, 8};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    using std::cos;
+    using std::sin;
+    const X turn = X(2.0) * Pi<X>() * x[0];
+    const T year = T(turn / X(12.0));
+    const T second = T(turn) / b[3];
+    const T third = T(turn) / b[6];
+    return b[0] + b[1] * cos(year) + b[2] * sin(year) + b[4] * cos(second) +
+           b[5] * sin(second) + b[7] * cos(third) + b[8] * sin(third);
+  }
+};
+
+struct Gauss {
+  static constexpr int kParameters = 8;
+  static constexpr int kLinear[] = {0, 2, 5};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    using std::exp;
+    return b[0] * exp(-b[1] * T(x[0])) +
+           b[2] * exp(-Square<T>((T(x[0]) - b[3]) / b[4])) +
+           b[5] * exp(-Square<T>((T(x[0]) - b[6]) / b[7]));
+  }
+};
+
+struct CubicOverCubic {  // Hahn1, Thurber
+  static constexpr int kParameters = 7;
+  static constexpr int kLinear[] = {0, 1, 2, 3};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    const T t(x[0]);
+    return (b[0] + t * (b[1] + t * (b[2] + t * b[3]))) /
+           (T(X(1.0)) + t * (b[4] + t * (b[5] + t * b[6])));
+  }
+};
+
+struct Kirby2 {
+  static constexpr int kParameters = 5;
+  static constexpr int kLinear[] = {0, 1, 2};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    const T t(x[0]);
+    return (b[0] + t * (b[1] + t * b[2])) / (T(X(1.0)) + t * (b[3] + t * b[4]));
+  }
+};
+
+struct Lanczos {
+  static constexpr int kParameters = 6;
+  static constexpr int kLinear[] = {0, 2, 4};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    using std::exp;
+    const T t(x[0]);
+    return b[0] * exp(-b[1] * t) + b[2] * exp(-b[3] * t) +
+           b[4] * exp(-b[5] * t);
+  }
+};
+
+struct Mgh09 {
+  static constexpr int kParameters = 4;
+  static constexpr int kLinear[] = {0};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    const T t(x[0]);
+    return b[0] * (t * (t + b[1])) / (t * (t + b[2]) + b[3]);
+  }
+};
+
+struct Mgh10 {
+  static constexpr int kParameters = 3;
+  static constexpr int kLinear[] = {0};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    using std::exp;
+    return b[0] * exp(b[1] / (T(x[0]) + b[2]));
+  }
+};
+
+struct Mgh17 {
+  static constexpr int kParameters = 5;
+  static constexpr int kLinear[] = {0, 1, 2};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    using std::exp;
+    const T t(x[0]);
+    return b[0] + b[1] * exp(-t * b[3]) + b[2] * exp(-t * b[4]);
+  }
+};
+
+struct Misra1b {
+  static constexpr int kParameters = 2;
+  static constexpr int kLinear[] = {0};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    const T one(X(1.0));
+    const T base = one + b[1] * T(x[0] / X(2.0));
+    return b[0] * (one - one / (base * base));
+  }
+};
+
+struct Misra1c {
+  static constexpr int kParameters = 2;
+  static constexpr int kLinear[] = {0};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    using std::pow;
+    const T one(X(1.0));
+    return b[0] * (one - pow(one + T(X(2.0)) * b[1] * T(x[0]), T(X(-0.5))));
+  }
+};
+
+struct Misra1d {
+  static constexpr int kParameters = 2;
+  static constexpr int kLinear[] = {0};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    const T product = b[1] * T(x[0]);
+    return b[0] * product / (T(X(1.0)) + product);
+  }
+};
+
+struct Nelson {  // of log y
+  static constexpr int kParameters = 3;
+  static constexpr int kLinear[] = {0, 1};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    using std::exp;
+    return b[0] - b[1] * T(x[0]) * exp(-b[2] * T(x[1]));
+  }
+};
+
+struct Rat42 {
+  static constexpr int kParameters = 3;
+  static constexpr int kLinear[] = {0};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    using std::exp;
+    return b[0] / (T(X(1.0)) + exp(b[1] - b[2] * T(x[0])));
+  }
+};
+
+struct Rat43 {
+  static constexpr int kParameters = 4;
+  static constexpr int kLinear[] = {0};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    using std::exp;
+    using std::pow;
+    const T one(X(1.0));
+    return b[0] / pow(one + exp(b[1] - b[2] * T(x[0])), one / b[3]);
+  }
+};
+
+struct Roszman1 {
+  static constexpr int kParameters = 4;
+  static constexpr int kLinear[] = {0, 1};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    using std::atan;
+    return b[0] - b[1] * T(x[0]) - atan(b[2] / (T(x[0]) - b[3])) / T(Pi<X>());
+  }
+};
+
+using Maker = std::unique_ptr<fitting::RegressionFunction> (*)(ExtendedMatrix,
+                                                               ExtendedVector);
+
+template <typename Formula>
+std::unique_ptr<fitting::RegressionFunction> Make(ExtendedMatrix predictors,
+                                                  ExtendedVector target) {
+  return std::make_unique<fitting::FormulaRegression<Formula>>(
+      std::move(predictors), std::move(target));
+}
+
+const std::map<std::string, Maker>& Makers() {
+  static const std::map<std::string, Maker> kMakers{
+      {"Bennett5", Make<Bennett5>},     {"BoxBOD", Make<BoxBod>},
+      {"Chwirut1", Make<Chwirut>},      {"Chwirut2", Make<Chwirut>},
+      {"DanWood", Make<DanWood>},       {"ENSO", Make<Enso>},
+      {"Eckerle4", Make<Eckerle4>},     {"Gauss1", Make<Gauss>},
+      {"Gauss2", Make<Gauss>},          {"Gauss3", Make<Gauss>},
+      {"Hahn1", Make<CubicOverCubic>},  {"Kirby2", Make<Kirby2>},
+      {"Lanczos1", Make<Lanczos>},      {"Lanczos2", Make<Lanczos>},
+      {"Lanczos3", Make<Lanczos>},      {"MGH09", Make<Mgh09>},
+      {"MGH10", Make<Mgh10>},           {"MGH17", Make<Mgh17>},
+      {"Misra1a", Make<BoxBod>},        {"Misra1b", Make<Misra1b>},
+      {"Misra1c", Make<Misra1c>},       {"Misra1d", Make<Misra1d>},
+      {"Nelson", Make<Nelson>},         {"Rat42", Make<Rat42>},
+      {"Rat43", Make<Rat43>},           {"Roszman1", Make<Roszman1>},
+      {"Thurber", Make<CubicOverCubic>}};
+  return kMakers;
+}
+
+template <typename Text>
+Eigen::VectorXd ParameterNumbers(const data::StrdProblem& problem, Text text) {
+  Eigen::VectorXd numbers(static_cast<Index>(problem.parameters.size()));
+  for (std::size_t j = 0; j < problem.parameters.size(); ++j) {
+    numbers[static_cast<Index>(j)] =
+        stats::ParseDoubleDouble(problem.parameters[j].*text).hi;
+  }
+  return numbers;
+}
+
+}  // namespace
+
+ExtendedVector StrdColumn(const data::StrdProblem& problem,
+                          std::size_t column) {
+  ExtendedVector values(static_cast<Index>(problem.rows.size()));
+  for (std::size_t i = 0; i < problem.rows.size(); ++i) {
+    values[static_cast<Index>(i)] =
+        stats::ParseDoubleDouble(problem.rows[i].at(column));
+  }
+  return values;
+}
+
+std::unique_ptr<fitting::RegressionFunction> MakeStrdFunction(
+    const data::StrdProblem& problem) {
+  const auto maker = Makers().find(problem.name);
+  if (problem.kind != data::StrdKind::kNonlinear || maker == Makers().end()) {
+    throw std::invalid_argument("MakeStrdFunction: no nonlinear model '" +
+                                problem.name + "'");
+  }
+  ExtendedVector target = StrdColumn(problem, 0);
+  if (problem.name == "Nelson") {
+    for (DoubleDouble& y : target) y = log(y);
+  }
+  ExtendedMatrix predictors(target.size(),
+                            static_cast<Index>(problem.columns.size()) - 1);
+  for (std::size_t j = 1; j < problem.columns.size(); ++j) {
+    predictors.col(static_cast<Index>(j) - 1) = StrdColumn(problem, j);
+  }
+  auto function = maker->second(std::move(predictors), std::move(target));
+  if (function->num_parameters() !=
+      static_cast<Index>(problem.parameters.size())) {
+    throw std::invalid_argument("MakeStrdFunction: " + problem.name + " has " +
+                                std::to_string(function->num_parameters()) +
+                                " parameters, found " +
+                                std::to_string(problem.parameters.size()));
+  }
+  return function;
+}
+
+Eigen::VectorXd CertifiedParameters(const data::StrdProblem& problem) {
+  return ParameterNumbers(problem, &data::StrdParameter::certified);
+}
+
+Eigen::VectorXd CertifiedDeviations(const data::StrdProblem& problem) {
+  return ParameterNumbers(problem, &data::StrdParameter::standard_deviation);
+}
+
+Eigen::VectorXd StrdStart(const data::StrdProblem& problem, int start) {
+  if (start != 1 && start != 2) {
+    throw std::invalid_argument("StrdStart: start must be 1 or 2, found " +
+                                std::to_string(start));
+  }
+  return ParameterNumbers(
+      problem,
+      start == 1 ? &data::StrdParameter::start1 : &data::StrdParameter::start2);
+}
+
+}  // namespace errmap::models
