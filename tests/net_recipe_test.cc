@@ -220,7 +220,7 @@ TEST(NetRecipe, EachStopReachesTheOptimizer) {
   };
   EXPECT_EQ(termination("iterations=5"), Termination::kIterationLimit);
   EXPECT_EQ(termination("evaluations=30"), Termination::kEvaluationLimit);
-  EXPECT_EQ(termination("iterations=1000000:gwgoal=0:seconds=0.02"),
+  EXPECT_EQ(termination("iterations=1000000:gwgoal=0:seconds=0.001"),
             Termination::kTimeLimit);
   EXPECT_EQ(termination("egoal=0.1"), Termination::kCostGoal);
   EXPECT_EQ(termination("gwgoal=0.01"), Termination::kGradient);
