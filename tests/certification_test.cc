@@ -156,6 +156,41 @@ TEST(JudgeFloors, HoldsOnlyTheDefaultSolverToThem) {
   EXPECT_THAT(certification.missed, SizeIs(3));
 }
 
+// What is declared linear must be: the second difference of r vanishes.
+TEST(MakeStrdFunction, LinearParametersAreLinear) {
+  int declared = 0;
+  for (const data::StrdProblem& problem : data::StrdProblems()) {
+    if (problem.kind != data::StrdKind::kNonlinear) continue;
+    const auto function = MakeStrdFunction(problem);
+    const Eigen::VectorXd b = StrdStart(problem, 2);
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(b.size());
+    for (const Eigen::Index j : function->linear_parameters()) {
+      step[j] = 0.25 * static_cast<double>(j + 1) * b[j];
+      ++declared;
+    }
+    const auto residuals = [&](const Eigen::VectorXd& at) {
+      Eigen::VectorXd r;
+      function->Evaluate(at, &r, nullptr);
+      return r;
+    };
+    const Eigen::VectorXd middle = residuals(b);
+    const Eigen::VectorXd above = residuals(b + step);
+    const Eigen::VectorXd bend = above + residuals(b - step) - 2.0 * middle;
+    EXPECT_LE(bend.norm(), 1e-12 * (above.norm() + middle.norm()))
+        << problem.name;
+  }
+  EXPECT_GT(declared, 27);
+}
+
+TEST(MakeStrdFunction, RefusesAProblemWithoutItsModel) {
+  data::StrdProblem problem = data::StrdProblems().front();
+  EXPECT_THROW(StrdStart(problem, 3), std::invalid_argument);
+  problem.parameters.pop_back();
+  EXPECT_THROW(MakeStrdFunction(problem), std::invalid_argument);
+  problem.name = "Nobody1";
+  EXPECT_THROW(MakeStrdFunction(problem), std::invalid_argument);
+}
+
 // An objective that goes flat, to NaN or to infinity beside the start.
 class Trap final : public fitting::Objective {
  public:

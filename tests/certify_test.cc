@@ -7,7 +7,15 @@ namespace {
 
 using ::testing::HasSubstr;
 
-class Certify : public Cli {};
+class Certify : public Cli {
+ protected:
+  // One run serves all tests of it: it takes some seconds.
+  const Json& Nist() const {
+    static const Json kDocument =
+        RunJson({"certify", "nist", "--format", "json"});
+    return kDocument;
+  }
+};
 
 // The floors of the issue that asked for the command: digits, shares.
 constexpr double kParameters = 10.0;
@@ -18,7 +26,7 @@ constexpr double kObjective = 1e-8;
 constexpr double kPredictions = 1e-6;
 
 TEST_F(Certify, NistFiguresReachTheirFloors) {
-  const Json document = RunJson({"certify", "nist", "--format", "json"});
+  const Json& document = Nist();
   EXPECT_EQ(document["schema"], "errmap-certify-1");
   EXPECT_EQ(document["passed"], true);
   int runs = 0;
@@ -53,7 +61,7 @@ TEST_F(Certify, NistFiguresReachTheirFloors) {
 
 // A solver that stops at a limit must not be said to have converged.
 TEST_F(Certify, ShowsEverySolverAsItIs) {
-  const Json document = RunJson({"certify", "nist", "--format", "json"});
+  const Json& document = Nist();
   const std::size_t solvers = document["nonlinear_summary"].size();
   EXPECT_EQ(document["nonlinear"].size(), 54 * solvers);
   int limited = 0;
