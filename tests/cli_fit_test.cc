@@ -1,4 +1,5 @@
 // What `errmap fit` prints of a regression.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -173,6 +174,44 @@ TEST_F(CliFit, RefusesBadSpecsInOneClearLine) {
               HasSubstr("enter must be a number from 0 to 1"));
   EXPECT_THAT(refusal("poly:stepwise:include=t9", kEveryFitFailed),
               HasSubstr("'t9' is not an input; there are position_mm"));
+}
+
+TEST_F(CliFit, ShowsEveryStartAndTheirSpread) {
+  const std::string model = "net:scg:starts=3:iterations=5";
+  const std::string text = Print(model);
+  for (const char* part : {"3 starts, * the one taken: lowest cost",
+                           "held-out RMSE",
+                           "iteration_limit",
+                           "costs from "}) {
+    EXPECT_THAT(text, HasSubstr(part));
+  }
+  const Json json = RunJson(
+      {"fit", kDown, "--model", model, "-o", "m.json", "--format", "json"});
+  const Json& table = json.at("starts").at("table");
+  ASSERT_EQ(table.size(), 3U);
+  EXPECT_EQ(table[0].at("seed"), 1);
+  EXPECT_EQ(table[0].at("stop"), "iteration_limit");
+  double least = table[0].at("final_cost");
+  for (const Json& start : table) {
+    least = std::min(least, start.at("final_cost").get<double>());
+    EXPECT_GT(start.at("holdout_rmse").get<double>(), 0.0);
+  }
+  EXPECT_EQ(json.at("starts").at("spread").at("min"), least);
+  EXPECT_EQ(json.at("final_cost"), least);
+}
+
+TEST_F(CliFit, ShowsTheWfactorThatDiscrepancyFound) {
+  const Json json = RunJson({"fit",
+                             kDown,
+                             "--model",
+                             "net:scg:discrepancy=0.001:iterations=300",
+                             "-o",
+                             "m.json",
+                             "--format",
+                             "json"});
+  EXPECT_GT(json.at("choices").at("wfactor").get<double>(), 0.0);
+  EXPECT_EQ(json.at("choices").at("discrepancy_reached"), "yes");
+  EXPECT_LE(json.at("train").at("rmse").get<double>(), 0.001 * (1.0 + 1e-9));
 }
 
 }  // namespace

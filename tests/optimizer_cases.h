@@ -81,6 +81,8 @@ inline OptimizerCase CeresCase(std::string name,
                 fitting::CeresOptions options;
                 options.stopping = stopping;
                 options.method = method;
+                // More than any problem's parameters: L-BFGS is then BFGS.
+                options.memory = 10;
                 return std::make_unique<fitting::CeresOptimizer>(options);
               },
           .evaluations_per_pass = 1,
