@@ -44,12 +44,13 @@ class ParameterSpace final : public DampedLeastSquares {
  private:
   void Linearize() override {
     const Index n = x_.size();
-    function_.Evaluate(x_, &residuals_, &jacobian_);
-    gradient_.noalias() = jacobian_.transpose() * residuals_;
+    MatrixXd jacobian;
+    function_.Evaluate(x_, &residuals_, &jacobian);
+    gradient_.noalias() = jacobian.transpose() * residuals_;
     gradient_ += ridge_ * x_;
     if (largest_ != nullptr) {
       const VectorXd norms =
-          (jacobian_.colwise().squaredNorm().transpose().array() + ridge_)
+          (jacobian.colwise().squaredNorm().transpose().array() + ridge_)
               .sqrt();
       if (!norms.allFinite()) {
         gradient_.setConstant(n, norms.sum());
@@ -58,13 +59,13 @@ class ParameterSpace final : public DampedLeastSquares {
       if (largest_->size() == 0) largest_->setZero(n);
       *largest_ = largest_->cwiseMax(norms);
       scale_ = (largest_->array() > 0.0).select(*largest_, 1.0);
-      jacobian_ *= scale_.cwiseInverse().asDiagonal();
+      jacobian *= scale_.cwiseInverse().asDiagonal();
     }
-    mean_curvature_ = jacobian_.squaredNorm() / static_cast<double>(n);
-    extra_.resize(jacobian_.rows(), n + 1);
-    extra_ << jacobian_, residuals_;
+    mean_curvature_ = jacobian.squaredNorm() / static_cast<double>(n);
+    jacobian.conservativeResize(Eigen::NoChange, n + 1);
+    jacobian.col(n) = residuals_;
     triangle_.setZero(n + 1, n + 1);
-    FoldIntoTriangle(&triangle_, extra_);
+    FoldIntoTriangle(&triangle_, jacobian);
     if (ridge_ > 0.0) {
       const double root = std::sqrt(ridge_);
       extra_.setZero(n, n + 1);
@@ -80,7 +81,6 @@ class ParameterSpace final : public DampedLeastSquares {
   const ResidualFunction& function_;
   std::shared_ptr<VectorXd> largest_;  // of all points of the run, or null
   VectorXd scale_;                     // D (n), or (0)
-  MatrixXd jacobian_;
   MatrixXd triangle_;  // R of [J D^-1, r; sqrt(c) D^-1, sqrt(c) x]
   MatrixXd damped_;
   MatrixXd extra_;

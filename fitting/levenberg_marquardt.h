@@ -22,8 +22,9 @@ enum class LmSpace {
 struct LevenbergMarquardtOptions {
   StoppingRules stopping = {.iterations = 200};
   /// The first lambda is this times the mean of (|J_j| / D_j)^2 over the
-  /// parameters; above 0. Small: a Gauss-Newton step is tried first.
-  double initial_damping = 1e-3;
+  /// parameters; above 0. Of 1e-3, 1e-2 and 0.1 this one took the fewest trials
+  /// on nets of 2341 weights; from poor starts of curve fits 1 to 100 is safer.
+  double initial_damping = 1e-2;
   /// kMarquardt makes the iterations independent of the parameters' units.
   LmScaling scaling = LmScaling::kNone;
   /// Ends without a claim where |D p| <= this |D x|; at least 0, and 0 goes on
