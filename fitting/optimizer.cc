@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -13,24 +14,23 @@ namespace {
 // with the Jacobian as a gradient.
 class CountedResiduals final : public ResidualFunction {
  public:
-  CountedResiduals(const ResidualFunction* function,
+  CountedResiduals(const ResidualFunction& function,
                    std::int64_t* values,
                    std::int64_t* gradients)
       : function_(function), values_(values), gradients_(gradients) {}
 
-  bool exists() const { return function_ != nullptr; }
   Eigen::Index num_residuals() const override {
-    return function_->num_residuals();
+    return function_.num_residuals();
   }
-  double ridge() const override { return function_->ridge(); }
+  double ridge() const override { return function_.ridge(); }
   void Evaluate(const Eigen::VectorXd& x,
                 Eigen::VectorXd* residuals,
                 Eigen::MatrixXd* jacobian) const override {
     ++(jacobian == nullptr ? *values_ : *gradients_);
-    function_->Evaluate(x, residuals, jacobian);
+    function_.Evaluate(x, residuals, jacobian);
   }
   std::unique_ptr<Linearization> NewLinearization() const override {
-    return std::make_unique<Counted>(function_->NewLinearization(), gradients_);
+    return std::make_unique<Counted>(function_.NewLinearization(), gradients_);
   }
 
  private:
@@ -57,7 +57,7 @@ class CountedResiduals final : public ResidualFunction {
     std::int64_t* gradients_;
   };
 
-  const ResidualFunction* function_;
+  const ResidualFunction& function_;
   std::int64_t* values_;
   std::int64_t* gradients_;
 };
@@ -69,8 +69,7 @@ class CountedObjective final : public BasicObjective<Scalar> {
   using Vector = VectorOf<Scalar>;
 
   explicit CountedObjective(const BasicObjective<Scalar>& objective)
-      : objective_(objective),
-        residuals_(objective.residuals(), &values_, &gradients_) {}
+      : objective_(objective) {}
 
   Eigen::Index num_parameters() const override {
     return objective_.num_parameters();
@@ -86,7 +85,10 @@ class CountedObjective final : public BasicObjective<Scalar> {
   }
 
   const ResidualFunction* residuals() const override {
-    return residuals_.exists() ? &residuals_ : nullptr;
+    if (!residuals_.has_value() && objective_.residuals() != nullptr) {
+      residuals_.emplace(*objective_.residuals(), &values_, &gradients_);
+    }
+    return residuals_.has_value() ? &*residuals_ : nullptr;
   }
 
   void Report(FitSummary* summary) const {
@@ -131,7 +133,7 @@ class CountedObjective final : public BasicObjective<Scalar> {
   mutable std::int64_t values_ = 0;
   mutable std::int64_t gradients_ = 0;
   mutable std::int64_t curvatures_ = 0;
-  CountedResiduals residuals_;
+  mutable std::optional<CountedResiduals> residuals_;  // once asked for
 };
 
 void RequireAtLeast(const char* field, double value, double least) {
