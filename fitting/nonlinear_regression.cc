@@ -193,13 +193,19 @@ RegressionFit FitNonlinearRegression(const RegressionFunction& function,
   const std::size_t linear = function.linear_parameters().size();
   if (linear > 0 && linear < static_cast<std::size_t>(start.size())) {
     const ProjectedObjective projected(function);
-    const LevenbergMarquardt optimizer({.stopping = stopping,
-                                        .scaling = LmScaling::kMarquardt,
-                                        .space = LmSpace::kParameters});
-    Minimum minimum = optimizer.Minimize(projected, projected.Reduce(start));
-    minimum.x = projected.Complete(minimum.x);
-    if (minimum.x.allFinite()) {
-      KeepBetter({std::move(minimum), "variable projection"}, &best);
+    for (const Strategy& strategy : kStrategies) {
+      const LevenbergMarquardt optimizer(
+          {.stopping = stopping,
+           .initial_damping = strategy.initial_damping,
+           .scaling = strategy.scaling,
+           .space = LmSpace::kParameters});
+      Minimum minimum = optimizer.Minimize(projected, projected.Reduce(start));
+      minimum.x = projected.Complete(minimum.x);
+      if (minimum.x.allFinite()) {
+        KeepBetter({std::move(minimum),
+                    std::string("variable projection, ") + strategy.name},
+                   &best);
+      }
     }
   }
   RegressionFit fit;
