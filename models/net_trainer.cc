@@ -1,6 +1,9 @@
 #include "models/net_trainer.h"
 
+#include <cstdint>
+#include <functional>
 #include <stdexcept>
+#include <utility>
 
 #include "fitting/ceres_optimizer.h"
 #include "fitting/conjugate_gradient.h"
@@ -62,143 +65,95 @@ class ScgTrainer final : public NetTrainer {
   bool is_single_;
 };
 
-class CgTrainer final : public NetTrainer {
+// Any optimizer, made for each fit since some of them draw from its seed.
+class OptimizerTrainer final : public NetTrainer {
  public:
-  explicit CgTrainer(const fitting::StoppingRules& stopping)
-      : optimizer_({.stopping = stopping}) {}
+  using Make =
+      std::function<std::unique_ptr<fitting::Optimizer>(std::uint64_t seed)>;
+
+  OptimizerTrainer(Make make, std::vector<EffectiveOption> options)
+      : make_(std::move(make)), options_(std::move(options)) {}
 
   fitting::Minimum Train(const NetTraining& training,
                          const fitting::RunControl& run) const override {
-    return optimizer_.Minimize(
-        MakeObjective<double>(training, NetArithmetic::kFast),
-        training.initial_weights,
-        run);
+    return make_(training.seed)
+        ->Minimize(MakeObjective<double>(training, NetArithmetic::kFast),
+                   training.initial_weights,
+                   run);
   }
 
-  std::vector<EffectiveOption> options() const override { return {}; }
+  std::vector<EffectiveOption> options() const override { return options_; }
 
  private:
-  fitting::ConjugateGradient optimizer_;
+  Make make_;
+  std::vector<EffectiveOption> options_;
 };
 
-// Levenberg-Marquardt: few, dear steps.
-class LmTrainer final : public NetTrainer {
- public:
-  explicit LmTrainer(const fitting::StoppingRules& stopping)
-      : optimizer_({.stopping = stopping}) {}
+// The trainer of an `Optimizer` that needs its options only.
+template <typename Optimizer, typename Options>
+std::unique_ptr<NetTrainer> TrainerOf(
+    const Options& options, std::vector<EffectiveOption> effective = {}) {
+  return std::make_unique<OptimizerTrainer>(
+      [options](std::uint64_t) { return std::make_unique<Optimizer>(options); },
+      std::move(effective));
+}
 
-  fitting::Minimum Train(const NetTraining& training,
-                         const fitting::RunControl& run) const override {
-    return optimizer_.Minimize(
-        MakeObjective<double>(training, NetArithmetic::kFast),
-        training.initial_weights,
-        run);
-  }
-
-  std::vector<EffectiveOption> options() const override { return {}; }
-
- private:
-  fitting::LevenbergMarquardt optimizer_;
-};
-
-class BackpropTrainer final : public NetTrainer {
- public:
-  BackpropTrainer(const fitting::StoppingRules& stopping,
-                  SpecOptions* options) {
-    constexpr double kLeastRate = 1e-12;
-    constexpr double kMostRate = 1e12;
-    constexpr double kMostMomentum = 0.999999;
-    options_.stopping = stopping;
-    options_.learning_rate = options->TakeNumber(
-        "learning_rate", options_.learning_rate, kLeastRate, kMostRate);
-    options_.momentum =
-        options->TakeNumber("momentum", options_.momentum, 0.0, kMostMomentum);
-  }
-
-  fitting::Minimum Train(const NetTraining& training,
-                         const fitting::RunControl& run) const override {
-    return fitting::GradientDescent(options_).Minimize(
-        MakeObjective<double>(training, NetArithmetic::kFast),
-        training.initial_weights,
-        run);
-  }
-
-  std::vector<EffectiveOption> options() const override {
-    return {{"learning_rate", options_.learning_rate},
-            {"momentum", options_.momentum}};
-  }
-
- private:
-  fitting::GradientDescentOptions options_;
-};
+std::unique_ptr<NetTrainer> MakeBackpropTrainer(
+    const fitting::StoppingRules& stopping, SpecOptions* spec) {
+  constexpr double kLeastRate = 1e-12;
+  constexpr double kMostRate = 1e12;
+  constexpr double kMostMomentum = 0.999999;
+  fitting::GradientDescentOptions options{.stopping = stopping};
+  options.learning_rate = spec->TakeNumber(
+      "learning_rate", options.learning_rate, kLeastRate, kMostRate);
+  options.momentum =
+      spec->TakeNumber("momentum", options.momentum, 0.0, kMostMomentum);
+  return TrainerOf<fitting::GradientDescent>(
+      options,
+      {{"learning_rate", options.learning_rate},
+       {"momentum", options.momentum}});
+}
 
 // Pairs of vectors that a quasi-Newton method may be asked to keep.
 constexpr std::int64_t kMostMemory = 1000;
 
-class CeresTrainer final : public NetTrainer {
- public:
-  CeresTrainer(const fitting::StoppingRules& stopping, SpecOptions* options) {
-    options_.stopping = stopping;
-    options_.method = static_cast<fitting::CeresMethod>(
-        options->TakeChoice("method", 0, fitting::CeresMethodNames()));
-    options_.memory = static_cast<int>(
-        options->TakeInteger("memory", options_.memory, 1, kMostMemory));
+std::unique_ptr<NetTrainer> MakeCeresTrainer(
+    const fitting::StoppingRules& stopping, SpecOptions* spec) {
+  fitting::CeresOptions options{.stopping = stopping};
+  options.method = static_cast<fitting::CeresMethod>(
+      spec->TakeChoice("method", 0, fitting::CeresMethodNames()));
+  options.memory = static_cast<int>(
+      spec->TakeInteger("memory", options.memory, 1, kMostMemory));
+  return TrainerOf<fitting::CeresOptimizer>(
+      options,
+      {{"method", std::string(ToString(options.method))},
+       {"memory", std::int64_t{options.memory}}});
+}
+
+std::unique_ptr<NetTrainer> MakeNloptTrainer(
+    const fitting::StoppingRules& stopping, SpecOptions* spec) {
+  constexpr double kLeastBox = 1e-6;
+  constexpr double kMostBox = 1e6;
+  fitting::NloptOptions options{.stopping = stopping};
+  options.method = static_cast<fitting::NloptMethod>(
+      spec->TakeChoice("method", 0, fitting::NloptMethodNames()));
+  options.memory = static_cast<int>(
+      spec->TakeInteger("memory", options.memory, 1, kMostMemory));
+  options.box = spec->TakeNumber("box", options.box, kLeastBox, kMostBox);
+  std::vector<EffectiveOption> effective = {
+      {"method", std::string(ToString(options.method))},
+      {"memory", std::int64_t{options.memory}}};
+  if (options.method == fitting::NloptMethod::kCrs2Lm) {
+    effective.push_back({"box", options.box});
   }
-
-  fitting::Minimum Train(const NetTraining& training,
-                         const fitting::RunControl& run) const override {
-    return fitting::CeresOptimizer(options_).Minimize(
-        MakeObjective<double>(training, NetArithmetic::kFast),
-        training.initial_weights,
-        run);
-  }
-
-  std::vector<EffectiveOption> options() const override {
-    return {{"method", std::string(ToString(options_.method))},
-            {"memory", std::int64_t{options_.memory}}};
-  }
-
- private:
-  fitting::CeresOptions options_;
-};
-
-class NloptTrainer final : public NetTrainer {
- public:
-  NloptTrainer(const fitting::StoppingRules& stopping, SpecOptions* options) {
-    constexpr double kLeastBox = 1e-6;
-    constexpr double kMostBox = 1e6;
-    options_.stopping = stopping;
-    options_.method = static_cast<fitting::NloptMethod>(
-        options->TakeChoice("method", 0, fitting::NloptMethodNames()));
-    options_.memory = static_cast<int>(
-        options->TakeInteger("memory", options_.memory, 1, kMostMemory));
-    options_.box =
-        options->TakeNumber("box", options_.box, kLeastBox, kMostBox);
-  }
-
-  fitting::Minimum Train(const NetTraining& training,
-                         const fitting::RunControl& run) const override {
-    fitting::NloptOptions options = options_;
-    options.seed = training.seed;
-    return fitting::NloptOptimizer(options).Minimize(
-        MakeObjective<double>(training, NetArithmetic::kFast),
-        training.initial_weights,
-        run);
-  }
-
-  std::vector<EffectiveOption> options() const override {
-    std::vector<EffectiveOption> all = {
-        {"method", std::string(ToString(options_.method))},
-        {"memory", std::int64_t{options_.memory}}};
-    if (options_.method == fitting::NloptMethod::kCrs2Lm) {
-      all.push_back({"box", options_.box});
-    }
-    return all;
-  }
-
- private:
-  fitting::NloptOptions options_;
-};
+  return std::make_unique<OptimizerTrainer>(
+      [options](std::uint64_t seed) {
+        fitting::NloptOptions seeded = options;
+        seeded.seed = seed;
+        return std::make_unique<fitting::NloptOptimizer>(seeded);
+      },
+      std::move(effective));
+}
 
 }  // namespace
 
@@ -218,17 +173,17 @@ std::unique_ptr<NetTrainer> MakeNetTrainer(
     const fitting::StoppingRules& stopping,
     SpecOptions* options) {
   if (type == "net:scg") return std::make_unique<ScgTrainer>(stopping, options);
-  if (type == "net:lm") return std::make_unique<LmTrainer>(stopping);
-  if (type == "net:cg") return std::make_unique<CgTrainer>(stopping);
-  if (type == "net:backprop") {
-    return std::make_unique<BackpropTrainer>(stopping, options);
+  if (type == "net:lm") {
+    return TrainerOf<fitting::LevenbergMarquardt>(
+        fitting::LevenbergMarquardtOptions{.stopping = stopping});
   }
-  if (type == "net:ceres") {
-    return std::make_unique<CeresTrainer>(stopping, options);
+  if (type == "net:cg") {
+    return TrainerOf<fitting::ConjugateGradient>(
+        fitting::ConjugateGradientOptions{.stopping = stopping});
   }
-  if (type == "net:nlopt") {
-    return std::make_unique<NloptTrainer>(stopping, options);
-  }
+  if (type == "net:backprop") return MakeBackpropTrainer(stopping, options);
+  if (type == "net:ceres") return MakeCeresTrainer(stopping, options);
+  if (type == "net:nlopt") return MakeNloptTrainer(stopping, options);
   throw std::invalid_argument("model '" + type + "': not a net");
 }
 
