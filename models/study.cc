@@ -25,27 +25,11 @@ double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// One fit of the study: a recipe on one fold, or on all rows (holdout < 0).
-struct Task {
-  std::size_t model;
-  std::ptrdiff_t holdout;
-  std::size_t fold;
-};
-
-// What a fit leaves behind, in a slot of its own.
-struct Outcome {
-  std::optional<FittedModel> fitted;  // empty: failed
-  std::string why_failed;
-  double seconds = 0.0;
-  VectorXd train_predictions;
-  VectorXd test_predictions;
-};
-
-Outcome FitOnce(const ModelRecipe& recipe,
-                const Dataset& training,
-                const Dataset* test,
-                const StudyOptions& options) {
-  Outcome outcome;
+FitOutcome FitOnce(const ModelRecipe& recipe,
+                   const Dataset& training,
+                   const Dataset* test,
+                   const StudyOptions& options) {
+  FitOutcome outcome;
   if (options.stop != nullptr && options.stop->load()) {
     outcome.why_failed = "interrupted before it began";
     return outcome;
@@ -129,7 +113,7 @@ stats::ErrorMetrics AverageMetrics(
 // Pools the folds of one model under one hold-out.
 HoldoutResult PoolFolds(const Holdout& holdout,
                         const std::vector<PreparedFold>& prepared,
-                        std::vector<Outcome> outcomes) {
+                        std::vector<FitOutcome> outcomes) {
   HoldoutResult result;
   result.holdout = holdout.name;
   for (std::size_t fold = 0; fold < outcomes.size(); ++fold) {
@@ -149,7 +133,7 @@ HoldoutResult PoolFolds(const Holdout& holdout,
   Index begin = 0;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const PreparedFold& fold = prepared[i];
-    Outcome& outcome = outcomes[i];
+    FitOutcome& outcome = outcomes[i];
     train.push_back(Judge(fold.training, outcome.train_predictions));
     const VectorXd& test_targets = fold.test->target_values();
     const Index size = test_targets.size();
@@ -239,7 +223,7 @@ StudyResult RunStudy(const Dataset& dataset,
   const auto prepared = PrepareFolds(dataset, holdouts);
 
   // Nets last: whoever interrupts a long run has the quick fits.
-  std::vector<Task> tasks;
+  std::vector<StudyTask> tasks;
   for (const bool nets : {false, true}) {
     for (std::size_t model = 0; model < recipes.size(); ++model) {
       if ((recipes[model]->kind() == ModelKind::kNet) != nets) continue;
@@ -251,23 +235,35 @@ StudyResult RunStudy(const Dataset& dataset,
       }
     }
   }
-  std::vector<Outcome> final_outcomes(recipes.size());
-  std::vector<std::vector<std::vector<Outcome>>> outcomes(recipes.size());
+  std::vector<FitOutcome> final_outcomes(recipes.size());
+  std::vector<std::vector<std::vector<FitOutcome>>> outcomes(recipes.size());
   for (auto& of_model : outcomes) {
     for (const auto& folds : prepared) of_model.emplace_back(folds.size());
   }
+  const auto fit = [&](const StudyTask& task) {
+    const ModelRecipe& recipe = *recipes[task.model];
+    if (task.holdout < 0) return FitOnce(recipe, dataset, nullptr, options);
+    const PreparedFold& fold =
+        prepared[static_cast<std::size_t>(task.holdout)][task.fold];
+    return FitOnce(recipe, fold.training, fold.test.get(), options);
+  };
+  const auto find_or_fit = [&](const StudyTask& task) {
+    if (options.journal == nullptr) return fit(task);
+    if (auto found = options.journal->Find(task)) return std::move(*found);
+    FitOutcome outcome = fit(task);
+    const bool stopped = options.stop != nullptr && options.stop->load();
+    if (!stopped) options.journal->Record(task, outcome);
+    return outcome;
+  };
   std::atomic<int> done{0};
   const auto run = [&](std::size_t index) {
-    const Task& task = tasks[index];
-    const ModelRecipe& recipe = *recipes[task.model];
-    if (task.holdout < 0) {
-      final_outcomes[task.model] = FitOnce(recipe, dataset, nullptr, options);
-    } else {
-      const auto h = static_cast<std::size_t>(task.holdout);
-      const PreparedFold& fold = prepared[h][task.fold];
-      outcomes[task.model][h][task.fold] =
-          FitOnce(recipe, fold.training, fold.test.get(), options);
-    }
+    const StudyTask& task = tasks[index];
+    FitOutcome& outcome =
+        task.holdout < 0
+            ? final_outcomes[task.model]
+            : outcomes[task.model][static_cast<std::size_t>(task.holdout)]
+                      [task.fold];
+    outcome = find_or_fit(task);
     const int now_done = ++done;
     if (options.progress) {
       options.progress(now_done, static_cast<int>(tasks.size()));

@@ -10,6 +10,7 @@
 
 #include "data/dataset.h"
 #include "models/error_model.h"
+#include "models/fit_outcome.h"
 #include "stats/error_metrics.h"
 #include "stats/holdout.h"
 
@@ -75,6 +76,8 @@ struct StudyOptions {
   const std::atomic<bool>* stop = nullptr;
   /// Told (fits done, fits in all) from any thread; may be empty.
   std::function<void(int, int)> progress = {};
+  /// Keeps finished fits and gives back those of an earlier run; may be null.
+  FitJournal* journal = nullptr;
 };
 
 struct StudyResult {
