@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/beta.hpp>
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/math/special_functions/gamma.hpp>
@@ -67,6 +68,12 @@ double FUpperTail(double x, double numerator, double denominator) {
 
 double StudentTwoSided(double t, double degrees_of_freedom) {
   return FUpperTail(t * t, 1.0, degrees_of_freedom);
+}
+
+double StudentQuantile(double p, double degrees_of_freedom) {
+  return boost::math::quantile(
+      boost::math::students_t_distribution<double, Policy>(degrees_of_freedom),
+      p);
 }
 
 }  // namespace errmap::stats

@@ -25,4 +25,8 @@ double FUpperTail(double x, double numerator, double denominator);
 /// P(|T| >= |t|) for Student's t with `degrees_of_freedom` > 0.
 double StudentTwoSided(double t, double degrees_of_freedom);
 
+/// t with P(T <= t) = p, 0 < p < 1, for Student's t with `degrees_of_freedom`
+/// > 0.
+double StudentQuantile(double p, double degrees_of_freedom);
+
 }  // namespace errmap::stats

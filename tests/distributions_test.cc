@@ -61,6 +61,20 @@ TEST(Distributions, AgreeWithR) {
   expect(NormalTwoSided(-1.96), 0.049995790296440856);
 }
 
+// R 4.2.2: qt(p, df).
+TEST(StudentQuantile, AgreesWithR) {
+  constexpr double kRelative = 1e-12;
+  const double reference[][3] = {{0.025, 5.0, -2.570581835636315},
+                                 {0.05, 1.0, -6.3137515146750438},
+                                 {0.975, 34.0, 2.0322445093177182},
+                                 {0.1, 2.0, -1.8856180831641265}};
+  for (const auto& [p, degrees_of_freedom, t] : reference) {
+    EXPECT_NEAR(
+        StudentQuantile(p, degrees_of_freedom), t, kRelative * std::abs(t));
+  }
+  EXPECT_NEAR(StudentQuantile(0.5, 7.0), 0.0, 1e-15);
+}
+
 TEST(Distributions, HaveTheirLimits) {
   EXPECT_EQ(ChiSquaredUpperTail(0.0, 3.0), 1.0);
   EXPECT_EQ(ChiSquaredUpperTail(kInfinity, 3.0), 0.0);
