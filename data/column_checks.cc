@@ -10,6 +10,8 @@
 namespace errmap::data {
 namespace {
 
+constexpr std::size_t kMostNames = 20;  // in one message
+
 bool IsInfinity(std::string_view text) {
   if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
   return EqualsIgnoringCase(text, "inf") ||
@@ -88,6 +90,27 @@ const std::pair<std::size_t, std::uint32_t>* FindException(
   return is_there ? &*found : nullptr;
 }
 
+[[noreturn]] void ThrowNothingPasses(const CsvTable& table,
+                                     const CsvColumn& column,
+                                     const std::vector<ColumnFilter>& filters,
+                                     const ColumnFilter& filter) {
+  std::vector<std::string> values;
+  for (std::size_t row = 0; row < table.num_rows; ++row) {
+    const std::string value = table.CellText(column, row);
+    if (std::find(values.begin(), values.end(), value) == values.end()) {
+      values.push_back(value);
+    }
+    if (values.size() == kMostNames) break;
+  }
+  throw InputError(PrintablePath(table.file) + ": no row is left where " +
+                   QuotedName(filter.column) + " is " +
+                   QuotedText(ValueText(filter)) +
+                   (&filter == &filters.front()
+                        ? ""
+                        : " and the columns before it are as asked") +
+                   "; the column has " + ListOfNames(values));
+}
+
 }  // namespace
 
 bool IsMissingText(std::string_view text) {
@@ -96,7 +119,6 @@ bool IsMissingText(std::string_view text) {
 }
 
 std::string ListOfNames(const std::vector<std::string>& names) {
-  constexpr std::size_t kMostNames = 20;
   std::string list;
   for (std::size_t i = 0; i < std::min(names.size(), kMostNames); ++i) {
     if (i > 0) list += ", ";
@@ -182,8 +204,30 @@ void RefuseMixedDecimals(const CsvTable& table,
       "; write all numbers one way, without thousands separators");
 }
 
+std::vector<bool> RowsThatPass(const CsvTable& table,
+                               const std::vector<ColumnFilter>& filters) {
+  std::vector<bool> passes(table.num_rows, true);
+  for (const ColumnFilter& filter : filters) {
+    const CsvColumn& column =
+        table.columns[RequireColumn(table, filter.column, "where")];
+    const auto* const number = std::get_if<double>(&filter.value);
+    bool any = false;
+    for (std::size_t row = 0; row < table.num_rows; ++row) {
+      passes[row] =
+          passes[row] &&
+          (number != nullptr ? column.values[row] == *number
+                             : table.CellText(column, row) ==
+                                   std::get<std::string>(filter.value));
+      any = any || passes[row];
+    }
+    if (!any) ThrowNothingPasses(table, column, filters, filter);
+  }
+  return passes;
+}
+
 KeptRows CheckCells(const CsvTable& table,
                     const std::vector<ColumnInUse>& columns,
+                    const std::vector<bool>& passes,
                     MissingPolicy missing) {
   std::vector<bool> is_dropped(table.num_rows, false);
   std::optional<BadCell> first_missing;
@@ -200,6 +244,7 @@ KeptRows CheckCells(const CsvTable& table,
                    IsMissingText);
     std::size_t missing_here = 0;
     for (const auto& [row, text] : column.exceptions) {
+      if (!passes[row]) continue;
       const bool is_missing = text_is_missing[text];
       if (!is_missing && used.use == ColumnUse::kGroup) continue;
       std::optional<BadCell>& first = is_missing ? first_missing : first_wrong;
@@ -229,9 +274,12 @@ KeptRows CheckCells(const CsvTable& table,
   KeptRows kept;
   const auto num_dropped = static_cast<std::size_t>(
       std::count(is_dropped.begin(), is_dropped.end(), true));
-  kept.rows.reserve(table.num_rows - num_dropped);
+  const auto num_passed =
+      static_cast<std::size_t>(std::count(passes.begin(), passes.end(), true));
+  kept.rows.reserve(num_passed - num_dropped);
   for (std::size_t row = 0; row < table.num_rows; ++row) {
-    if (!is_dropped[row]) kept.rows.push_back(static_cast<Eigen::Index>(row));
+    if (passes[row] && !is_dropped[row])
+      kept.rows.push_back(static_cast<Eigen::Index>(row));
   }
   if (kept.rows.empty()) {
     throw InputError(PrintablePath(table.file) +
@@ -239,13 +287,13 @@ KeptRows CheckCells(const CsvTable& table,
                      "columns in use (" +
                      QuotedName(emptiest->name) + " lacks " +
                      std::to_string(most_missing) + " of " +
-                     std::to_string(table.num_rows) +
+                     std::to_string(num_passed) +
                      "); fill them in, or leave such columns out with "
                      "--exclude");
   }
   if (num_dropped > 0) {
     kept.remark = std::to_string(num_dropped) + " of " +
-                  std::to_string(table.num_rows) +
+                  std::to_string(num_passed) +
                   (num_dropped == 1 ? " rows is" : " rows are") +
                   " dropped for missing cells; the first: " +
                   table.Where(first_missing->row, first_missing->column->name);

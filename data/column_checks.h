@@ -41,11 +41,18 @@ struct KeptRows {
   std::string remark;              // on the rows dropped, "" where none
 };
 
-/// Rows whose cells in these columns are all finite numbers (groups: not
-/// missing). Throws InputError on the first cell that is not, save that rows
-/// with an empty, NA or NaN cell are dropped where `missing` says so.
+/// Whether each row of the table passes all `filters`. Throws InputError where
+/// a column is unknown or no row is left, naming the values that there are.
+std::vector<bool> RowsThatPass(const CsvTable& table,
+                               const std::vector<ColumnFilter>& filters);
+
+/// Those of the rows that pass (one flag per row of the table) whose cells in
+/// these columns are all finite numbers (groups: not missing). Throws
+/// InputError on the first cell that is not, save that rows with an empty, NA
+/// or NaN cell are dropped where `missing` says so.
 KeptRows CheckCells(const CsvTable& table,
                     const std::vector<ColumnInUse>& columns,
+                    const std::vector<bool>& passes,
                     MissingPolicy missing);
 
 /// True for "", NA and NaN in any case: the cell holds no measurement.

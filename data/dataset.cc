@@ -83,6 +83,12 @@ Grouping GroupByText(const CsvTable& table,
 
 }  // namespace
 
+std::string ValueText(const ColumnFilter& filter) {
+  const auto* const number = std::get_if<double>(&filter.value);
+  return number != nullptr ? CsvNumber(*number)
+                           : std::get<std::string>(filter.value);
+}
+
 Dataset::Dataset(Parts parts) : parts_(std::move(parts)) {
   const Eigen::Index m = parts_.target_values.size();
   CheckSize("columns of input_values",
@@ -177,7 +183,8 @@ Eigen::VectorXd NumericColumn(const CsvTable& table,
   const ColumnInUse used{index, ColumnUse::kOther};
   RequireNumbers(table, used);
   RefuseMixedDecimals(table, {used});
-  KeptRows kept = CheckCells(table, {used}, missing);
+  KeptRows kept = CheckCells(
+      table, {used}, std::vector<bool>(table.num_rows, true), missing);
   Eigen::VectorXd values = ValuesOfRows(table.columns[index], kept.rows);
   if (rows != nullptr) *rows = std::move(kept.rows);
   return values;

@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include <Eigen/Core>
@@ -73,6 +74,18 @@ class Dataset {
 
 enum class MissingPolicy { kError, kDropRows };
 
+/// Rows whose cell in `column` is this number, or this text (a number's text
+/// is its shortest form).
+struct ColumnFilter {
+  std::string column;
+  std::variant<std::string, double> value;
+
+  bool operator==(const ColumnFilter&) const = default;
+};
+
+/// The value as text: "down", "2".
+std::string ValueText(const ColumnFilter& filter);
+
 /// What of a table becomes the data set; empty means the default of the
 /// command line. (The `= {}` let designated initialisers leave fields out.)
 struct DatasetSelection {
@@ -83,6 +96,8 @@ struct DatasetSelection {
   std::string weight = {};                // default: none
   MissingPolicy missing = MissingPolicy::kError;
   bool keep_dead = false;
+  /// Only rows that pass all of these are used and checked.
+  std::vector<ColumnFilter> where = {};
   /// Rows that a fitted map is judged on: exactly the named inputs, be there
   /// none, and a target that need not vary.
   bool only_to_judge = false;
@@ -109,14 +124,15 @@ struct PreparedDataset {
 /// (StemOfColumn) is left out with a remark unless named in `inputs`. Dead
 /// inputs (all zero, constant, or one value in at least 90 % of the rows) are
 /// dropped with a remark unless `keep_dead`; an input that repeats another
-/// value for value is named in a remark and kept.
+/// value for value is named in a remark and kept. Columns of `where` are no
+/// default inputs.
 ///
 /// Throws InputError naming file, row, column and remedy: unknown column, no
 /// or several candidates for the target, a cell of a used column that is
 /// empty, NA, NaN, infinite or no number (kDropRows drops rows with empty, NA
 /// or NaN cells only), decimal commas and points mixed, constant target,
-/// non-positive weight, no rows or no inputs left (no inputs is allowed where
-/// the table has no other numeric column).
+/// non-positive weight, no rows (`where` included) or no inputs left (no inputs
+/// is allowed where the table has no other numeric column).
 PreparedDataset MakeDataset(const CsvTable& table,
                             const DatasetSelection& selection);
 

@@ -101,6 +101,12 @@ class DatasetBuilder {
     return role == static_cast<std::ptrdiff_t>(index);
   }
 
+  bool IsFiltered(std::size_t index) const {
+    return std::ranges::any_of(selection_.where, [&](const auto& filter) {
+      return filter.column == Name(index);
+    });
+  }
+
   void Drop(std::size_t index, const std::string& why) {
     dropped_.push_back({.column = Name(index), .why = why});
   }
@@ -225,7 +231,7 @@ class DatasetBuilder {
     std::vector<std::string> texts;
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       if (i == roles_.target || Is(roles_.group, i) || Is(roles_.weight, i) ||
-          KeepsRecord(Name(i))) {
+          KeepsRecord(Name(i)) || IsFiltered(i)) {
         continue;
       }
       const std::string name = NameInRemark(Name(i));
@@ -289,7 +295,10 @@ class DatasetBuilder {
           {static_cast<std::size_t>(roles_.weight), ColumnUse::kWeight});
     }
     RefuseMixedDecimals(table_, columns);
-    KeptRows kept = CheckCells(table_, columns, selection_.missing);
+    KeptRows kept = CheckCells(table_,
+                               columns,
+                               RowsThatPass(table_, selection_.where),
+                               selection_.missing);
     if (!kept.remark.empty()) remarks_.push_back(kept.remark);
     parts_.rows = std::move(kept.rows);
   }

@@ -398,5 +398,61 @@ TEST(MakeDatasetError, MissingGroup) {
             "f.csv: line 3 (data row 1), column 'cycle': empty cell; fill it "
             "in, or drop such rows with --missing drop-rows");
 }
+// ---- Rows by the value of a column.
+
+constexpr std::string_view kBothWays =
+    "direction,day,cycle,x,error_mm\n"
+    "down,1,1,1,0.1\n"
+    "up,1,1,2,\n"
+    "down,2,2,3,0.2\n"
+    "up,2,2,4,0.4\n"
+    "down,2,3,5,0.5\n";
+
+TEST(MakeDatasetWhere, KeepsTheRowsOfOneTextUnderTheirNumbersInTheFile) {
+  // The empty cell is in a row that nobody asked for.
+  const auto prepared = Make(kBothWays, {.where = {{"direction", "down"}}});
+  EXPECT_THAT(prepared.dataset.rows(), ElementsAre(0, 2, 4));
+  EXPECT_THAT(prepared.dataset.groups().labels, ElementsAre("1", "2", "3"));
+  EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("x"));
+  EXPECT_THAT(prepared.remarks, IsEmpty());
+}
+
+TEST(MakeDatasetWhere, TakesNumbersAndSeveralColumnsAtOnce) {
+  const auto prepared =
+      Make(kBothWays, {.where = {{"direction", "down"}, {"day", 2.0}}});
+  EXPECT_THAT(prepared.dataset.rows(), ElementsAre(2, 4));
+  EXPECT_THAT(Make(kBothWays, {.where = {{"direction", "down"}, {"day", "2"}}})
+                  .dataset.rows(),
+              ElementsAre(2, 4));
+}
+
+TEST(MakeDatasetWhere, ColumnOfNumbersIsNoInput) {
+  const std::string text = "side,x,error_mm\n1,1,0.1\n1,2,0.2\n2,3,0.4\n";
+  EXPECT_THAT(InputNames(Make(text, {.where = {{"side", 1.0}}}).dataset),
+              ElementsAre("x"));
+}
+
+TEST(MakeDatasetWhere, UnknownColumnAndAbsentValueAreNamed) {
+  EXPECT_THAT(ErrorOf(kBothWays, {.where = {{"directon", "down"}}}),
+              AllOf(HasSubstr("no column 'directon' (where)"),
+                    HasSubstr("did you mean 'direction'?")));
+  EXPECT_THAT(ErrorOf(kBothWays, {.where = {{"direction", "left"}}}),
+              HasSubstr("f.csv: no row is left where 'direction' is 'left'; "
+                        "the column has 'down', 'up'"));
+  EXPECT_THAT(
+      ErrorOf(kBothWays, {.where = {{"direction", "up"}, {"day", 7.0}}}),
+      HasSubstr("no row is left where 'day' is '7' and the columns before it "
+                "are as asked; the column has '1', '2'"));
+}
+
+TEST(MakeDatasetWhere, MissingCellsAreCountedAmongTheRowsAskedFor) {
+  const auto prepared = Make(
+      std::string(kBothWays) + "up,3,3,6,0.6\n",
+      {.missing = MissingPolicy::kDropRows, .where = {{"direction", "up"}}});
+  EXPECT_THAT(prepared.dataset.rows(), ElementsAre(3, 5));
+  ASSERT_EQ(prepared.remarks.size(), 1U);
+  EXPECT_THAT(prepared.remarks[0], HasSubstr("1 of 3 rows is dropped"));
+}
+
 }  // namespace
 }  // namespace errmap::data
