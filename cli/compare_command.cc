@@ -1,5 +1,4 @@
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <memory>
 #include <set>
@@ -9,17 +8,18 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/comparison.h"
 #include "cli/data_arguments.h"
 #include "cli/interrupt.h"
 #include "cli/output_folder.h"
 #include "cli/progress.h"
-#include "cli/results_json.h"
-#include "cli/sha256.h"
+#include "cli/results_document.h"
+#include "cli/study_config.h"
+#include "cli/study_plan.h"
+#include "cli/study_run.h"
 #include "cli/study_table.h"
-#include "data/atomic_file.h"
+#include "data/text.h"
 #include "models/model_spec.h"
-#include "models/recipe_catalog.h"
+#include "stats/holdout.h"
 
 namespace errmap::cli {
 namespace {
@@ -30,6 +30,11 @@ struct CompareArguments {
   std::string model_list;
   std::vector<std::string> models;
   double goal = std::numeric_limits<double>::quiet_NaN();
+  double indifference = std::numeric_limits<double>::quiet_NaN();
+  std::string split;
+  std::string save_split;
+  std::vector<PredictionsFile> predictions;
+  bool resume = false;
   std::uint64_t seed = 1;
   int jobs = 0;
   std::string out;
@@ -37,27 +42,22 @@ struct CompareArguments {
   std::string command_line;
 };
 
-using Recipes = std::vector<std::unique_ptr<models::ModelRecipe>>;
-
 // What the command line alone can get wrong is said before any file is read.
-std::vector<stats::HoldoutSpec> ParseHoldouts(
-    const std::vector<std::string>& texts) {
-  std::vector<stats::HoldoutSpec> specs;
+void CheckHoldouts(const std::vector<std::string>& texts) {
   std::set<std::string> seen;
   for (const std::string& text : texts) {
     if (!seen.insert(text).second) {
       throw UsageError("--holdout " + text + " is given twice");
     }
     try {
-      specs.push_back(stats::ParseHoldout(text));
+      stats::ParseHoldout(text);
     } catch (const std::invalid_argument& error) {
       throw UsageError(error.what());
     }
   }
-  return specs;
 }
 
-Recipes ParseRecipes(const CompareArguments& arguments) {
+std::vector<std::string> ModelSpecs(const CompareArguments& arguments) {
   std::vector<std::string> specs;
   if (!arguments.model_list.empty()) {
     try {
@@ -67,152 +67,118 @@ Recipes ParseRecipes(const CompareArguments& arguments) {
     }
   }
   specs.insert(specs.end(), arguments.models.begin(), arguments.models.end());
-  Recipes recipes;
   std::set<std::string> seen;
   for (const std::string& spec : specs) {
     if (!seen.insert(spec).second) {
       throw UsageError("model " + spec + " is given twice");
     }
-    recipes.push_back(RecipeFromArgument(spec));
-  }
-  return recipes;
-}
-
-// every:3, and whole groups where there are at least two.
-std::vector<stats::HoldoutSpec> DefaultHoldouts(const data::Dataset& dataset) {
-  constexpr std::size_t kGroupFolds = 5;
-  std::vector<stats::HoldoutSpec> specs{stats::ParseHoldout("every:3")};
-  if (!dataset.has_groups()) return specs;
-  const std::size_t groups = dataset.groups().labels.size();
-  if (groups >= 2) {
-    specs.push_back(stats::ParseHoldout(
-        fmt::format("groups:{}", std::min(groups, kGroupFolds))));
-  } else {
-    Say(
-        fmt::format("column '{}' has one group only, so nothing can be said "
-                    "about another day; more cycles are needed for that",
-                    dataset.groups().column));
+    RecipeFromArgument(spec);
   }
   return specs;
 }
 
-std::vector<models::Holdout> MakeHoldouts(
-    const CompareArguments& arguments,
-    const std::vector<stats::HoldoutSpec>& specs,
-    const data::Dataset& dataset) {
-  std::vector<models::Holdout> holdouts;
-  for (const stats::HoldoutSpec& spec : specs) {
-    std::shared_ptr<const data::Dataset> test_data;
-    if (spec.kind == stats::HoldoutKind::kFile) {
-      test_data = std::make_shared<const data::Dataset>(ReadDataLike(
-          spec.file,
-          dataset,
-          arguments.data.weight,
-          arguments.data.missing == "error" ? data::MissingPolicy::kError
-                                            : data::MissingPolicy::kDropRows));
-    }
-    try {
-      holdouts.push_back(models::MakeHoldout(
-          spec, dataset, arguments.seed, std::move(test_data)));
-    } catch (const std::invalid_argument& error) {
-      throw data::InputError(
-          fmt::format("{}: {}", arguments.data.file, error.what()));
-    }
+void CheckLength(const char* flag, double value, bool may_be_zero) {
+  if (std::isnan(value)) return;  // not given
+  if (std::isfinite(value) && (value > 0.0 || (may_be_zero && value == 0.0))) {
+    return;
   }
-  return holdouts;
+  throw UsageError(fmt::format("{} must be {} 0, found {}",
+                               flag,
+                               may_be_zero ? "at least" : "above",
+                               value));
 }
 
-Eigen::Index FewestTrainingRows(const std::vector<models::Holdout>& holdouts) {
-  std::size_t fewest = std::numeric_limits<std::size_t>::max();
-  for (const models::Holdout& holdout : holdouts) {
-    for (const stats::Fold& fold : holdout.folds) {
-      fewest = std::min(fewest, fold.train.size());
-    }
-  }
-  return static_cast<Eigen::Index>(fewest);
+// Without a study file the command line asks for one component.
+StudyConfig ConfigOf(const CompareArguments& arguments) {
+  CheckLength("--goal", arguments.goal, false);
+  CheckLength("--indifference", arguments.indifference, true);
+  CheckHoldouts(arguments.holdouts);
+  const DataArguments& data = arguments.data;
+  ComponentConfig component;
+  component.data = data.file;
+  component.target = data.target;
+  component.inputs = SplitNames(data.inputs, "--inputs");
+  component.exclude = SplitNames(data.exclude, "--exclude");
+  component.group = data.group;
+  component.weight = data.weight;
+  component.missing = data.missing == "error" ? data::MissingPolicy::kError
+                                              : data::MissingPolicy::kDropRows;
+  component.keep_dead = data.keep_dead;
+  component.split = arguments.split;
+  component.save_split = arguments.save_split;
+  component.predictions = arguments.predictions;
+  return {.seed = arguments.seed,
+          .goal = arguments.goal,
+          .indifference = arguments.indifference,
+          .holdouts = arguments.holdouts,
+          .models = ModelSpecs(arguments),
+          .components = {std::move(component)}};
 }
 
-// The report's goal serves for lengths; angles have none of their own.
-double GoalOrDefault(double goal, const data::Unit& unit) {
-  constexpr double kReportGoalUm = 0.5;
-  if (std::isfinite(goal) || unit.quantity != data::Quantity::kLength) {
-    return goal;
-  }
-  return kReportGoalUm / unit.display_scale;
-}
-
-int RunCompare(const CompareArguments& arguments) {
-  if (arguments.goal <= 0.0 || std::isinf(arguments.goal)) {
-    throw UsageError(
-        fmt::format("--goal must be above 0, found {}", arguments.goal));
-  }
-  std::vector<stats::HoldoutSpec> specs = ParseHoldouts(arguments.holdouts);
-  Recipes recipes = ParseRecipes(arguments);
-  Comparison comparison{
-      .name = std::filesystem::path(arguments.data.file).stem().string(),
-      .file = arguments.data.file,
-      .sha256 = "",
-      .command_line = arguments.command_line,
-      .seed = arguments.seed,
-      .goal = arguments.goal,
-      .data = ReadData(arguments.data),
-      .holdouts = {},
-      .study = {},
-      .verdicts = {}};
-  const data::Dataset& dataset = comparison.data.dataset;
-  comparison.sha256 = Sha256(data::ReadFile(arguments.data.file));
-  comparison.goal = GoalOrDefault(arguments.goal, dataset.target().unit);
-  if (specs.empty()) specs = DefaultHoldouts(dataset);
-  comparison.holdouts = MakeHoldouts(arguments, specs, dataset);
-  const Eigen::Index fewest = FewestTrainingRows(comparison.holdouts);
-  constexpr Eigen::Index kFewestUsable = 2;
-  if (fewest < kFewestUsable) {
-    throw data::InputError(fmt::format(
-        "{}: too few rows for every model: a fold trains on {}; more "
-        "data or another --holdout are needed",
-        arguments.data.file,
-        fewest));
-  }
-  if (recipes.empty()) {
-    models::DefaultRecipes defaults =
-        models::MakeDefaultRecipes(dataset, fewest);
-    recipes = std::move(defaults.recipes);
-    if (!arguments.data.quiet) {
-      for (const std::string& line : defaults.left_out) Say(line);
-    }
-  }
-  // Better now than after minutes of fitting.
-  if (!arguments.out.empty()) PrepareFolder(arguments.out);
-
-  {
-    Progress progress(!arguments.data.quiet);
-    const int cores =
-        std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    comparison.study = models::RunStudy(
-        dataset,
-        comparison.holdouts,
-        recipes,
-        {.seed = arguments.seed,
-         .jobs = arguments.jobs > 0 ? arguments.jobs : cores,
-         .stop = &InstallInterruptFlag(),
-         .progress = [&](int done, int all) { progress.Show(done, all); }});
-  }
-  comparison.verdicts =
-      models::JudgeHoldouts(comparison.study, comparison.holdouts);
-
-  if (!arguments.out.empty()) WriteOutputs(comparison, arguments.out);
-  fmt::print("{}",
-             arguments.format == "json" ? ResultsJson(comparison)
-                                        : StudyTable(comparison));
-  if (comparison.study.interrupted) {
+int StatusOf(const StudyRun& run) {
+  if (run.interrupted) {
     Say("interrupted; what was finished is shown");
     return kInterrupted;
   }
-  if (models::DecisiveVerdict(comparison.verdicts) == nullptr) {
-    Say("every fit failed; the reasons are in the table");
-    return kEveryFitFailed;
+  bool any = false;
+  for (const Comparison& component : run.components) {
+    if (models::DecisiveVerdict(component.verdicts) != nullptr) {
+      any = true;
+    } else if (run.has_several()) {
+      Say(fmt::format("{}: every fit failed",
+                      data::Printable(component.name, component.name.size())));
+    }
   }
-  return kDone;
+  if (any) return kDone;
+  Say("every fit failed; the reasons are in the table");
+  return kEveryFitFailed;
+}
+
+int RunCompare(const CompareArguments& arguments) {
+  StudyPlan plan = PlanStudy(ConfigOf(arguments), arguments.data.quiet);
+  // Better now than after minutes of fitting.
+  if (!arguments.out.empty()) PrepareFolder(arguments.out);
+  const int cores =
+      std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  StudyRun run;
+  {
+    Progress progress(!arguments.data.quiet);
+    run = RunPlan(
+        std::move(plan),
+        arguments.command_line,
+        {.jobs = arguments.jobs > 0 ? arguments.jobs : cores,
+         .stop = &InstallInterruptFlag(),
+         .progress = [&](int done, int all) { progress.Show(done, all); }});
+  }
+  if (!arguments.out.empty()) WriteOutputs(run, arguments.out);
+  fmt::print("{}",
+             arguments.format == "json" ? ResultsJson(run) : StudyTable(run));
+  return StatusOf(run);
+}
+
+// Options that are read and kept, but not carried out yet: not in --help.
+void AddOptionsToCome(CLI::App* command, CompareArguments* arguments) {
+  command->add_option("--split", arguments->split)->group("");
+  command->add_option("--save-split", arguments->save_split)->group("");
+  command->add_option("--indifference", arguments->indifference)->group("");
+  command->add_flag("--resume", arguments->resume)->group("");
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--predictions",
+          [arguments](const std::vector<std::string>& pairs) {
+            for (const std::string& pair : pairs) {
+              const std::size_t equals = pair.find('=');
+              if (equals == 0 || equals == pair.npos ||
+                  equals + 1 == pair.size()) {
+                throw UsageError("--predictions must be NAME=FILE, found '" +
+                                 pair + "'");
+              }
+              arguments->predictions.push_back(
+                  {pair.substr(0, equals), pair.substr(equals + 1)});
+            }
+          })
+      ->allow_extra_args(false)
+      ->group("");
 }
 
 }  // namespace
@@ -265,6 +231,7 @@ void AddCompareCommand(CLI::App* app, Run* run) {
       ->check(CLI::IsMember({"table", "json"}))
       ->type_name("table|json")
       ->capture_default_str();
+  AddOptionsToCome(command, arguments.get());
   command->footer(
       "Exit status: 0 done, 2 wrong command line, 3 unusable input, 4 every "
       "fit failed, 130 interrupted.\n"

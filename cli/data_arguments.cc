@@ -89,10 +89,11 @@ data::PreparedDataset ReadData(const DataArguments& arguments) {
   return prepared;
 }
 
-data::Dataset ReadDataLike(const std::string& file,
+data::Dataset MakeDataLike(const data::CsvTable& table,
                            const data::Dataset& like,
                            const std::string& weight,
-                           data::MissingPolicy missing) {
+                           data::MissingPolicy missing,
+                           const std::vector<data::ColumnFilter>& where) {
   data::DatasetSelection selection{.target = like.target().name,
                                    .inputs = {},
                                    .exclude = {},
@@ -100,11 +101,12 @@ data::Dataset ReadDataLike(const std::string& file,
                                    .weight = weight,
                                    .missing = missing,
                                    .keep_dead = true,
+                                   .where = where,
                                    .only_to_judge = true};
   for (const data::ColumnInfo& input : like.inputs()) {
     selection.inputs.push_back(input.name);
   }
-  return data::MakeDataset(data::ReadCsv(file), selection).dataset;
+  return data::MakeDataset(table, selection).dataset;
 }
 
 std::unique_ptr<models::ModelRecipe> RecipeFromArgument(

@@ -33,11 +33,12 @@ void AddDataArguments(CLI::App* command, DataArguments* arguments);
 /// Reads the file and picks its columns; remarks go to stderr unless quiet.
 data::PreparedDataset ReadData(const DataArguments& arguments);
 
-/// Rows of another file with the columns of `like` (target, inputs, groups).
-data::Dataset ReadDataLike(const std::string& file,
+/// Rows of another table with the columns of `like` (target, inputs, groups).
+data::Dataset MakeDataLike(const data::CsvTable& table,
                            const data::Dataset& like,
                            const std::string& weight,
-                           data::MissingPolicy missing);
+                           data::MissingPolicy missing,
+                           const std::vector<data::ColumnFilter>& where);
 
 /// Splits "A,B" at commas outside double quotes and takes the quotes off.
 /// Throws UsageError naming `flag`.

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/results_json.h"
+#include "cli/results_document.h"
 #include "data/atomic_file.h"
 #include "data/csv.h"
 #include "models/model_file.h"
@@ -17,11 +17,12 @@
 namespace errmap::cli {
 namespace {
 
-// A file name of a SPEC: what is safe stays, the rest becomes '_'.
-std::string FileNameOf(const std::string& model, std::set<std::string>* taken) {
+// A file name of a SPEC or component less its ending: what is safe stays, the
+// rest becomes '_'.
+std::string FileNameOf(const std::string& text, std::set<std::string>* taken) {
   constexpr std::size_t kMostLength = 100;
   std::string stem;
-  for (const char c : model.substr(0, kMostLength)) {
+  for (const char c : text.substr(0, kMostLength)) {
     const bool safe = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
                       c == '.' || c == '=' || c == '+' || c == '-' || c == '_';
     stem += safe ? c : '_';
@@ -30,7 +31,26 @@ std::string FileNameOf(const std::string& model, std::set<std::string>* taken) {
   for (int copy = 2; !taken->insert(name).second; ++copy) {
     name = fmt::format("{}_{}", stem, copy);
   }
-  return name + ".json";
+  return name;
+}
+
+void WriteModels(const StudyRun& run,
+                 const Comparison& component,
+                 const std::filesystem::path& folder) {
+  const models::Provenance provenance = {
+      {"command_line", run.command_line},
+      {"data", component.file},
+      {"data_sha256", component.sha256},
+      {"rows", std::to_string(component.data.dataset.num_rows())},
+      {"seed", std::to_string(run.seed)}};
+  std::set<std::string> taken;
+  for (const models::ModelResult& model : component.study.models) {
+    if (!model.final_fit) continue;
+    models::SaveModel(
+        *model.final_fit,
+        provenance,
+        (folder / (FileNameOf(model.name, &taken) + ".json")).string());
+  }
 }
 
 }  // namespace
@@ -92,26 +112,23 @@ std::string ResidualsCsv(const Comparison& comparison) {
   return text;
 }
 
-void WriteOutputs(const Comparison& comparison, const std::string& folder) {
+void WriteOutputs(const StudyRun& run, const std::string& folder) {
   const std::filesystem::path root(folder);
   PrepareFolder((root / "models").string());
-  data::WriteFileAtomically((root / "results.json").string(),
-                            ResultsJson(comparison));
-  data::WriteFileAtomically((root / "residuals.csv").string(),
-                            ResidualsCsv(comparison));
-  const models::Provenance provenance = {
-      {"command_line", comparison.command_line},
-      {"data", comparison.file},
-      {"data_sha256", comparison.sha256},
-      {"rows", std::to_string(comparison.data.dataset.num_rows())},
-      {"seed", std::to_string(comparison.seed)}};
+  data::WriteFileAtomically((root / "results.json").string(), ResultsJson(run));
   std::set<std::string> taken;
-  for (const models::ModelResult& model : comparison.study.models) {
-    if (!model.final_fit) continue;
-    models::SaveModel(
-        *model.final_fit,
-        provenance,
-        (root / "models" / FileNameOf(model.name, &taken)).string());
+  for (const Comparison& component : run.components) {
+    std::filesystem::path residuals = root / "residuals.csv";
+    std::filesystem::path models = root / "models";
+    if (run.has_several()) {
+      const std::string name = FileNameOf(component.name, &taken);
+      PrepareFolder((root / "residuals").string());
+      residuals = root / "residuals" / (name + ".csv");
+      models /= name;
+      PrepareFolder(models.string());
+    }
+    data::WriteFileAtomically(residuals.string(), ResidualsCsv(component));
+    WriteModels(run, component, models);
   }
 }
 

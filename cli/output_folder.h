@@ -10,9 +10,10 @@ namespace errmap::cli {
 /// sure that files can be written there. Throws std::system_error.
 void PrepareFolder(const std::string& path);
 
-/// Writes results.json, residuals.csv and models/*.json into a folder.
+/// Writes results.json, residuals.csv and models/*.json into a folder; of
+/// several components residuals/COMPONENT.csv and models/COMPONENT/*.json.
 /// Throws std::system_error naming the path that could not be written.
-void WriteOutputs(const Comparison& comparison, const std::string& folder);
+void WriteOutputs(const StudyRun& run, const std::string& folder);
 
 /// Held-out residual table: one line per hold-out, fold and test row, with
 /// group, target and each model's prediction (empty where it failed).

@@ -9,7 +9,6 @@
 #include "cli/residual_report.h"
 #include "cli/start_report.h"
 #include "cli/verdict_text.h"
-#include "models/version.h"
 
 namespace errmap::cli {
 namespace {
@@ -203,28 +202,20 @@ Json RecommendationJson(const Comparison& comparison) {
 
 }  // namespace
 
-std::string ResultsJson(const Comparison& comparison) {
+Json ComponentJson(const Comparison& comparison) {
   Json models = Json::array();
   for (const ModelResult& model : comparison.study.models) {
     models.push_back(ModelJson(comparison, model));
   }
-  Json component = {{"name", comparison.name},
-                    {"data", DataJson(comparison)},
-                    {"goal", comparison.goal},
-                    {"holdouts", HoldoutsJson(comparison)},
-                    {"models", std::move(models)},
-                    {"comparisons", Json::array()},
-                    {"tiers", Json::object()},
-                    {"verdict", VerdictsJson(comparison)},
-                    {"recommendation", RecommendationJson(comparison)}};
-  return DumpJson({{"schema", "errmap-results-1"},
-                   {"version", models::Version()},
-                   {"seed", comparison.seed},
-                   {"interrupted", comparison.study.interrupted},
-                   {"provenance",
-                    {{"command_line", comparison.command_line},
-                     {"compiler", "g++ " __VERSION__}}},
-                   {"components", Json::array({std::move(component)})}});
+  return {{"name", comparison.name},
+          {"data", DataJson(comparison)},
+          {"goal", comparison.goal},
+          {"holdouts", HoldoutsJson(comparison)},
+          {"models", std::move(models)},
+          {"comparisons", Json::array()},
+          {"tiers", Json::object()},
+          {"verdict", VerdictsJson(comparison)},
+          {"recommendation", RecommendationJson(comparison)}};
 }
 
 }  // namespace errmap::cli

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <string>
-
 #include "cli/comparison.h"
+#include "cli/json_blocks.h"
 
 namespace errmap::cli {
 
-/// results.json, schema errmap-results-1.
-std::string ResultsJson(const Comparison& comparison);
+/// One of the "components" of results.json.
+Json ComponentJson(const Comparison& comparison);
 
 }  // namespace errmap::cli

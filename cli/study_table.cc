@@ -92,7 +92,7 @@ std::string UnconvergedNote(const ModelResult& model) {
 
 }  // namespace
 
-std::string StudyTable(const Comparison& comparison) {
+std::string ComponentTable(const Comparison& comparison) {
   const ErrorText error = ErrorTextFor(comparison);
   std::size_t name_width = 5;
   for (const ModelResult& model : comparison.study.models) {
@@ -162,6 +162,18 @@ std::string StudyTable(const Comparison& comparison) {
   }
   return text + "\n" + notes + (notes.empty() ? "" : "\n") +
          VerdictParagraph(comparison);
+}
+
+std::string StudyTable(const StudyRun& run) {
+  std::string text;
+  for (const Comparison& component : run.components) {
+    if (run.has_several()) {
+      text +=
+          fmt::format("{}== {} ==\n", text.empty() ? "" : "\n", component.name);
+    }
+    text += ComponentTable(component);
+  }
+  return text;
 }
 
 }  // namespace errmap::cli

@@ -1,0 +1,29 @@
+#include "cli/results_document.h"
+
+#include "cli/json_blocks.h"
+#include "cli/results_json.h"
+#include "models/version.h"
+
+namespace errmap::cli {
+namespace {
+
+Json ProvenanceJson(const StudyRun& run) {
+  return {{"command_line", run.command_line}, {"compiler", "g++ " __VERSION__}};
+}
+
+}  // namespace
+
+std::string ResultsJson(const StudyRun& run) {
+  Json components = Json::array();
+  for (const Comparison& component : run.components) {
+    components.push_back(ComponentJson(component));
+  }
+  return DumpJson({{"schema", "errmap-results-1"},
+                   {"version", models::Version()},
+                   {"seed", run.seed},
+                   {"interrupted", run.interrupted},
+                   {"provenance", ProvenanceJson(run)},
+                   {"components", std::move(components)}});
+}
+
+}  // namespace errmap::cli

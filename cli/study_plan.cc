@@ -1,0 +1,264 @@
+#include "cli/study_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "cli/data_arguments.h"
+#include "cli/sha256.h"
+#include "data/atomic_file.h"
+#include "data/text.h"
+#include "models/recipe_catalog.h"
+
+namespace errmap::cli {
+namespace {
+
+// Several components may stand in one file: each is read and parsed once.
+class TableReader {
+ public:
+  explicit TableReader(std::vector<InputFile>* inputs) : inputs_(inputs) {}
+
+  const data::CsvTable& Read(const std::string& file) {
+    const auto found = tables_.find(file);
+    if (found != tables_.end()) return found->second;
+    const std::string text = data::ReadFile(file);
+    inputs_->push_back({.file = file, .sha256 = Sha256(text)});
+    return tables_.emplace(file, data::ParseCsv(text, file)).first->second;
+  }
+
+  const std::string& Sha256Of(const std::string& file) const {
+    return std::ranges::find(*inputs_, file, &InputFile::file)->sha256;
+  }
+
+ private:
+  std::vector<InputFile>* inputs_;
+  std::map<std::string, data::CsvTable> tables_;
+};
+
+// Makes one component ready; remarks tell which where there are several.
+class ComponentPlanner {
+ public:
+  ComponentPlanner(const StudyConfig& study,
+                   const ComponentConfig& component,
+                   bool quiet,
+                   TableReader* reader)
+      : study_(study), component_(component), quiet_(quiet), reader_(reader) {}
+
+  ComponentPlan Plan() const {
+    data::PreparedDataset prepared = PrepareData();
+    const data::Dataset& dataset = prepared.dataset;
+    const data::Unit& unit = dataset.target().unit;
+    std::vector<models::Holdout> holdouts = MakeHoldouts(dataset);
+    std::vector<std::unique_ptr<models::ModelRecipe>> recipes =
+        MakeRecipes(dataset, FewestTrainingRows(holdouts));
+    return {.comparison = {.name = component_.name,
+                           .file = component_.data,
+                           .sha256 = reader_->Sha256Of(component_.data),
+                           .goal = Goal(unit),
+                           .indifference = Indifference(unit),
+                           .data = std::move(prepared),
+                           .holdouts = std::move(holdouts),
+                           .study = {},
+                           .verdicts = {}},
+            .recipes = std::move(recipes)};
+  }
+
+ private:
+  void Remark(const std::string& line) const {
+    Say(study_.components.size() > 1
+            ? data::Printable(component_.name, line.max_size()) + ": " + line
+            : line);
+  }
+
+  data::PreparedDataset PrepareData() const {
+    data::PreparedDataset prepared =
+        data::MakeDataset(reader_->Read(component_.data),
+                          {.target = component_.target,
+                           .inputs = component_.inputs,
+                           .exclude = component_.exclude,
+                           .group = component_.group,
+                           .weight = component_.weight,
+                           .missing = component_.missing,
+                           .keep_dead = component_.keep_dead,
+                           .where = component_.where});
+    if (!quiet_) {
+      for (const std::string& line : prepared.remarks) Remark(line);
+    }
+    return prepared;
+  }
+
+  // every:3, and whole groups where there are at least two.
+  std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset) const {
+    constexpr std::size_t kGroupFolds = 5;
+    std::vector<std::string> specs{"every:3"};
+    if (!dataset.has_groups()) return specs;
+    const std::size_t groups = dataset.groups().labels.size();
+    if (groups >= 2) {
+      specs.push_back(fmt::format("groups:{}", std::min(groups, kGroupFolds)));
+    } else {
+      Remark(
+          fmt::format("column '{}' has one group only, so nothing can be said "
+                      "about another day; more cycles are needed for that",
+                      dataset.groups().column));
+    }
+    return specs;
+  }
+
+  std::vector<models::Holdout> MakeHoldouts(
+      const data::Dataset& dataset) const {
+    std::vector<models::Holdout> holdouts;
+    for (const std::string& text :
+         study_.holdouts.empty() ? DefaultHoldouts(dataset) : study_.holdouts) {
+      const stats::HoldoutSpec spec = stats::ParseHoldout(text);
+      std::shared_ptr<const data::Dataset> test_data;
+      if (spec.kind == stats::HoldoutKind::kFile) {
+        test_data = std::make_shared<const data::Dataset>(
+            MakeDataLike(reader_->Read(spec.file),
+                         dataset,
+                         component_.weight,
+                         component_.missing,
+                         component_.where));
+      }
+      try {
+        holdouts.push_back(models::MakeHoldout(
+            spec, dataset, study_.seed, std::move(test_data)));
+      } catch (const std::invalid_argument& error) {
+        throw data::InputError(
+            fmt::format("{}: {}", component_.data, error.what()));
+      }
+    }
+    return holdouts;
+  }
+
+  Eigen::Index FewestTrainingRows(
+      const std::vector<models::Holdout>& holdouts) const {
+    constexpr std::size_t kFewestUsable = 2;
+    std::size_t fewest = std::numeric_limits<std::size_t>::max();
+    for (const models::Holdout& holdout : holdouts) {
+      for (const stats::Fold& fold : holdout.folds) {
+        fewest = std::min(fewest, fold.train.size());
+      }
+    }
+    if (fewest < kFewestUsable) {
+      throw data::InputError(fmt::format(
+          "{}: too few rows for every model: a fold trains on {}; more "
+          "data or another --holdout are needed",
+          component_.data,
+          fewest));
+    }
+    return static_cast<Eigen::Index>(fewest);
+  }
+
+  std::vector<std::unique_ptr<models::ModelRecipe>> MakeRecipes(
+      const data::Dataset& dataset, Eigen::Index fewest_training_rows) const {
+    if (study_.models.empty()) {
+      models::DefaultRecipes defaults =
+          models::MakeDefaultRecipes(dataset, fewest_training_rows);
+      if (!quiet_) {
+        for (const std::string& line : defaults.left_out) Remark(line);
+      }
+      return std::move(defaults.recipes);
+    }
+    std::vector<std::unique_ptr<models::ModelRecipe>> recipes;
+    for (const std::string& spec : study_.models) {
+      recipes.push_back(models::MakeRecipe(spec));
+    }
+    return recipes;
+  }
+
+  // The component's own, else the study's, else one for lengths: given in um,
+  // returned in the target's unit.
+  static double FirstGiven(double own,
+                           double of_study,
+                           double for_lengths_um,
+                           double otherwise,
+                           const data::Unit& unit) {
+    if (std::isfinite(own)) return own;
+    if (std::isfinite(of_study)) return of_study;
+    return unit.quantity == data::Quantity::kLength
+               ? for_lengths_um / unit.display_scale
+               : otherwise;
+  }
+
+  // The report's goal serves for lengths; angles have none of their own.
+  double Goal(const data::Unit& unit) const {
+    constexpr double kReportGoalUm = 0.5;
+    return FirstGiven(component_.goal,
+                      study_.goal,
+                      kReportGoalUm,
+                      std::numeric_limits<double>::quiet_NaN(),
+                      unit);
+  }
+
+  double Indifference(const data::Unit& unit) const {
+    constexpr double kIndifferenceUm = 0.02;
+    return FirstGiven(component_.indifference,
+                      study_.indifference,
+                      kIndifferenceUm,
+                      0.0,
+                      unit);
+  }
+
+  const StudyConfig& study_;
+  const ComponentConfig& component_;
+  bool quiet_;
+  TableReader* reader_;
+};
+
+std::string DefaultName(const ComponentConfig& component) {
+  std::string name = std::filesystem::path(component.data).stem().string();
+  for (const data::ColumnFilter& filter : component.where) {
+    name += ", " + ValueText(filter);
+  }
+  return name;
+}
+
+// Every component gets a name of its own: files are called by it.
+void NameComponents(StudyConfig* config) {
+  std::set<std::string> taken;
+  for (ComponentConfig& component : config->components) {
+    if (component.name.empty()) component.name = DefaultName(component);
+    if (taken.insert(component.name).second) continue;
+    throw data::InputError(
+        fmt::format("two components are named {}; give each a name of its own",
+                    data::QuotedName(component.name)));
+  }
+}
+
+}  // namespace
+
+int ComponentPlan::num_fits() const {
+  std::size_t fits_per_model = 1;  // to all rows
+  for (const models::Holdout& holdout : comparison.holdouts) {
+    fits_per_model += holdout.folds.size();
+  }
+  return static_cast<int>(fits_per_model * recipes.size());
+}
+
+int StudyPlan::num_fits() const {
+  return std::transform_reduce(
+      components.begin(),
+      components.end(),
+      0,
+      std::plus<>(),
+      [](const ComponentPlan& component) { return component.num_fits(); });
+}
+
+StudyPlan PlanStudy(const StudyConfig& config, bool quiet) {
+  StudyPlan plan{.config = config, .inputs = {}, .components = {}};
+  NameComponents(&plan.config);
+  TableReader reader(&plan.inputs);
+  for (const ComponentConfig& component : plan.config.components) {
+    plan.components.push_back(
+        ComponentPlanner(plan.config, component, quiet, &reader).Plan());
+  }
+  return plan;
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/comparison.h"
+#include "cli/study_config.h"
+#include "models/error_model.h"
+
+namespace errmap::cli {
+
+/// A component with its data read and all that will be fitted to them.
+struct ComponentPlan {
+  /// Still without results.
+  Comparison comparison;
+  std::vector<std::unique_ptr<models::ModelRecipe>> recipes;
+
+  /// Fits of every model to all rows and to every fold.
+  int num_fits() const;
+};
+
+/// What a study will do: everything is read, nothing is fitted.
+struct StudyPlan {
+  StudyConfig config;             // with the names that the components got
+  std::vector<InputFile> inputs;  // every file read
+  std::vector<ComponentPlan> components;
+
+  int num_fits() const;
+};
+
+/// Reads the data, makes the hold-outs and chooses models where the user left
+/// them to us. Says on stderr what is left out and why (`quiet`: only what
+/// limits the answer). Throws data::InputError where data cannot be used or
+/// two components have one name, std::invalid_argument for a SPEC that the
+/// catalogue does not know.
+StudyPlan PlanStudy(const StudyConfig& config, bool quiet);
+
+}  // namespace errmap::cli
