@@ -305,19 +305,16 @@ std::vector<double> Grid(double largest, double smallest) {
 }
 
 void CrossValidate(const RegressionProblem& problem,
-                   const std::vector<Index>& folds,
+                   const FoldCodes& folds,
                    const PenalizedOptions& options,
                    PenalizedFit* fit) {
-  const Index num_folds = *std::max_element(folds.begin(), folds.end()) + 1;
+  const Index first = folds.first_judged();
+  const Index num_folds = folds.count() - first;
   const std::size_t count = fit->strengths.size();
   MatrixXd errors(num_folds, static_cast<Index>(count));  // mean squares
   VectorXd shares(num_folds);                             // of the weights
   for (Index fold = 0; fold < num_folds; ++fold) {
-    std::vector<Index> train;
-    std::vector<Index> test;
-    for (std::size_t i = 0; i < folds.size(); ++i) {
-      (folds[i] == fold ? test : train).push_back(static_cast<Index>(i));
-    }
+    const auto [train, test] = folds.Split(first + fold);
     const auto pick = [](const VectorXd& values, const std::vector<Index>& at) {
       return values.size() == 0 ? VectorXd() : VectorXd(values(at));
     };
@@ -354,7 +351,8 @@ void CrossValidate(const RegressionProblem& problem,
         shares.dot(VectorXd((column.array() - mean).square()));
     fit->mean_squared_errors.push_back(mean);
     fit->standard_errors.push_back(
-        std::sqrt(variance / static_cast<double>(num_folds - 1)));
+        num_folds > 1 ? std::sqrt(variance / static_cast<double>(num_folds - 1))
+                      : std::numeric_limits<double>::quiet_NaN());
   }
 }
 
@@ -376,7 +374,7 @@ void PenalizedOptions::Validate() const {
 }
 
 PenalizedFit FitPenalized(const RegressionProblem& problem,
-                          const std::vector<Index>& folds,
+                          const FoldCodes& folds,
                           const PenalizedOptions& options) {
   options.Validate();
   const Index rows = problem.response.size();
@@ -391,8 +389,7 @@ PenalizedFit FitPenalized(const RegressionProblem& problem,
   PenalizedFit fit;
   fit.strength = options.strength;
   if (std::isnan(options.strength)) {
-    if (static_cast<Index>(folds.size()) != rows ||
-        *std::max_element(folds.begin(), folds.end()) < 1) {
+    if (static_cast<Index>(folds.codes.size()) != rows || folds.count() < 2) {
       throw std::invalid_argument(
           "FitPenalized: the penalty is chosen by cross-validation, which "
           "needs a fold for each row and at least 2 folds");
@@ -403,7 +400,7 @@ PenalizedFit FitPenalized(const RegressionProblem& problem,
                                         fit.mean_squared_errors.end());
     std::size_t at =
         static_cast<std::size_t>(least - fit.mean_squared_errors.begin());
-    if (options.one_standard_error) {
+    if (options.one_standard_error && !std::isnan(fit.standard_errors[at])) {
       const double enough = *least + fit.standard_errors[at];
       at = 0;
       while (fit.mean_squared_errors[at] > enough) ++at;

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "fitting/fold_codes.h"
 #include "fitting/regression_diagnostics.h"
 
 namespace errmap::fitting {
@@ -61,14 +62,14 @@ struct PenalizedFit {
   // The cross-validation, falling strengths; empty where none was made.
   std::vector<double> strengths;
   std::vector<double> mean_squared_errors;
-  std::vector<double> standard_errors;  // of those means, over folds
+  std::vector<double> standard_errors;  // of those means, over folds (one: NaN)
 };
 
-/// Fits by `options`; `folds` (n) is the fold of each row, needed where the
-/// strength is not given. Every fold learns its own scaling. Throws
+/// Fits by `options`; `folds` (n rows) are needed where the strength is not
+/// given. Every fold learns its own scaling. Throws
 /// std::invalid_argument on bad shapes or options, or folds that are missing.
 PenalizedFit FitPenalized(const RegressionProblem& problem,
-                          const std::vector<Eigen::Index>& folds,
+                          const FoldCodes& folds,
                           const PenalizedOptions& options);
 
 }  // namespace errmap::fitting

@@ -132,7 +132,7 @@ class Selection {
     if (options_.Uses(Criterion::kPress) && !are_observations) {
       Refuse("PRESS needs the rows; it is not to be had from a triangle");
     }
-    if (options_.Uses(Criterion::kCv) && rules_.folds.empty()) {
+    if (options_.Uses(Criterion::kCv) && rules_.folds.codes.empty()) {
       Refuse("CV needs folds");
     }
     if (static_cast<double>(rules_.include.size()) + 1.0 > n_) {
@@ -266,6 +266,7 @@ class Selection {
       swept_ = std::make_unique<SweptCandidates>(
           problem_,
           std::vector<bool>(At(problem_.response.size()), true),
+          std::vector<bool>(At(problem_.response.size()), false),
           options_.collinearity);
     }
     swept_->Follow(state_.chosen());
@@ -274,15 +275,16 @@ class Selection {
 
   SelectionMove BestByCv(const std::vector<bool>& open) {
     if (swept_folds_.empty()) {
-      const Index folds =
-          *std::max_element(rules_.folds.begin(), rules_.folds.end()) + 1;
-      for (Index fold = 0; fold < folds; ++fold) {
-        std::vector<bool> fitted(rules_.folds.size());
+      const FoldCodes& folds = rules_.folds;
+      for (Index fold = folds.first_judged(); fold < folds.count(); ++fold) {
+        std::vector<bool> fitted(folds.codes.size());
+        std::vector<bool> held_out(folds.codes.size());
         for (std::size_t i = 0; i < fitted.size(); ++i) {
-          fitted[i] = rules_.folds[i] != fold;
+          fitted[i] = folds.Fits(fold, i);
+          held_out[i] = folds.codes[i] == fold;
         }
         swept_folds_.push_back(std::make_unique<SweptCandidates>(
-            problem_, fitted, options_.collinearity));
+            problem_, fitted, held_out, options_.collinearity));
       }
     }
     VectorXd errors = VectorXd::Zero(problem_.candidates.cols());
@@ -533,15 +535,10 @@ std::vector<ExcludedTerm> JudgeExcluded(const SelectionProblem& problem,
 
 double CrossValidatedError(const MatrixXd& design,
                            const VectorXd& response,
-                           const std::vector<Index>& folds) {
-  const Index num_folds = *std::max_element(folds.begin(), folds.end()) + 1;
+                           const FoldCodes& folds) {
   double sum = 0.0;
-  for (Index fold = 0; fold < num_folds; ++fold) {
-    std::vector<Index> train;
-    std::vector<Index> test;
-    for (std::size_t i = 0; i < folds.size(); ++i) {
-      (folds[i] == fold ? test : train).push_back(static_cast<Index>(i));
-    }
+  for (Index fold = folds.first_judged(); fold < folds.count(); ++fold) {
+    const auto [train, test] = folds.Split(fold);
     const LeastSquaresFit fit =
         SolveLeastSquares(design(train, Eigen::all), response(train));
     sum += (response(test) - design(test, Eigen::all) * fit.coefficients)

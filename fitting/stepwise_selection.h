@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "fitting/fold_codes.h"
 #include "fitting/information_criteria.h"
 #include "fitting/selection_state.h"
 
@@ -52,8 +53,7 @@ struct TermRules {
   /// (m) the terms with one power less, as columns; -1 for one that is no
   /// candidate. Empty: no heredity.
   std::vector<std::vector<Eigen::Index>> parents;
-  /// (n) fold of each row for CV; empty: none.
-  std::vector<Eigen::Index> folds;
+  FoldCodes folds;  // for CV; without codes: none
 };
 
 /// One step of a selection; NaN: not computed or not defined.
@@ -118,10 +118,10 @@ std::vector<ExcludedTerm> JudgeExcluded(const SelectionProblem& problem,
                                         double collinearity);
 
 /// Squared error of the terms in `design` (n x k, intercept and weights
-/// included) on each fold when fitted to the others.
+/// included) on each judged fold when fitted to the rows that predict it.
 double CrossValidatedError(const Eigen::MatrixXd& design,
                            const Eigen::VectorXd& response,
-                           const std::vector<Eigen::Index>& folds);
+                           const FoldCodes& folds);
 
 struct ForwardSelectionOptions {
   /// Most candidates to choose; below 0: no limit but the rows.

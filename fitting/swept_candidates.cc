@@ -89,13 +89,16 @@ double Press(const double* error,
 
 SweptCandidates::SweptCandidates(const SelectionProblem& problem,
                                  const std::vector<bool>& fitted,
+                                 const std::vector<bool>& held_out,
                                  double collinearity)
     : problem_(problem),
       collinearity_(collinearity),
       fitted_(problem.response.size()),
+      held_out_(problem.response.size()),
       all_fitted_(true) {
   for (Index i = 0; i < fitted_.size(); ++i) {
     fitted_[i] = fitted[At(i)] ? 1.0 : 0.0;
+    held_out_[i] = held_out[At(i)] ? 1.0 : 0.0;
     all_fitted_ = all_fitted_ && fitted[At(i)];
   }
   roots_ = problem.weights.size() != 0
@@ -172,9 +175,8 @@ VectorXd SweptCandidates::PressAfterEntry(const VectorXd& leverage,
 
 VectorXd SweptCandidates::HeldOutErrorAfterEntry(
     const std::vector<bool>& open) const {
-  const VectorXd held_out = 1.0 - fitted_.array();
   const VectorXd fitted_error = error_.cwiseProduct(fitted_);
-  const double now = error_.cwiseAbs2().dot(held_out);
+  const double now = error_.cwiseAbs2().dot(held_out_);
   VectorXd errors = VectorXd::Constant(rest_.cols(), kInfinity);
   for (Index j = 0; j < rest_.cols(); ++j) {
     if (!open[At(j)]) continue;
@@ -184,7 +186,8 @@ VectorXd SweptCandidates::HeldOutErrorAfterEntry(
       continue;
     }
     const double coefficient = rest_.col(j).dot(fitted_error) / squared;
-    errors[j] = (error_ - coefficient * rest_.col(j)).cwiseAbs2().dot(held_out);
+    errors[j] =
+        (error_ - coefficient * rest_.col(j)).cwiseAbs2().dot(held_out_);
   }
   return errors;
 }

@@ -13,9 +13,11 @@ namespace errmap::fitting {
 /// and cross-validation, which no two numbers per candidate can give.
 class SweptCandidates {
  public:
-  /// `fitted` (n): rows that are fitted; the others are only predicted.
+  /// `fitted` (n): rows that are fitted; `held_out` (n): rows, none of them
+  /// fitted, that HeldOutErrorAfterEntry judges.
   SweptCandidates(const SelectionProblem& problem,
                   const std::vector<bool>& fitted,
+                  const std::vector<bool>& held_out,
                   double collinearity);
 
   /// Rebuilds for another set of terms, or goes on where `chosen` only grew.
@@ -27,9 +29,8 @@ class SweptCandidates {
   Eigen::VectorXd PressAfterEntry(const Eigen::VectorXd& leverage,
                                   const std::vector<bool>& open) const;
 
-  /// Of each candidate in `open`: squared error on the rows that are not
-  /// fitted after its entry. A candidate that the fitted rows determine adds
-  /// nothing there.
+  /// Of each candidate in `open`: squared error on the rows held out after its
+  /// entry. A candidate that the fitted rows determine adds nothing there.
   Eigen::VectorXd HeldOutErrorAfterEntry(const std::vector<bool>& open) const;
 
  private:
@@ -39,7 +40,8 @@ class SweptCandidates {
 
   const SelectionProblem& problem_;
   double collinearity_;
-  Eigen::VectorXd fitted_;  // (n) 1 or 0
+  Eigen::VectorXd fitted_;    // (n) 1 or 0
+  Eigen::VectorXd held_out_;  // (n) 1 or 0
   bool all_fitted_;
   Eigen::VectorXd roots_;  // (n)
   Eigen::MatrixXd rest_;   // (n x m)

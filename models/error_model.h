@@ -119,6 +119,14 @@ struct FittedModel {
   Eigen::VectorXd Predict(const data::Dataset& dataset) const;
 };
 
+/// How rows are held out for the choices made inside a fit: as outside of it,
+/// so that what is chosen is what does well there (inner_folds.h).
+enum class InnerHoldout {
+  kWholeGroups,  // where there are groups, else kRows
+  kRows,
+  kForward,
+};
+
 /// What a fit may use besides the training rows.
 struct FitContext {
   std::uint64_t seed = 1;
@@ -131,6 +139,7 @@ struct FitContext {
   /// reduced to a triangle in one pass over the rows.
   double most_design_values = 2e7;
   bool keep_trace = false;  // of an iterative fit, in its summary
+  InnerHoldout inner_holdout = InnerHoldout::kWholeGroups;
 };
 
 /// How to fit one kind of model: kind and options; immutable.

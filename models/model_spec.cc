@@ -142,6 +142,11 @@ std::string SpecOptions::TakeText(const std::string& key,
   return *text;
 }
 
+bool SpecOptions::IsWord(const std::string& key, std::string_view word) {
+  const std::string* text = Find(key);
+  return text != nullptr && *text == word;
+}
+
 std::size_t SpecOptions::TakeChoice(const std::string& key,
                                     std::size_t fallback,
                                     const std::vector<std::string>& allowed) {

@@ -42,6 +42,8 @@ class SpecOptions {
                     double least,
                     double most);
   std::string TakeText(const std::string& key, const std::string& fallback);
+  /// True where the value of `key` is `word`, such as the cv of hidden=cv.
+  bool IsWord(const std::string& key, std::string_view word);
   /// One of `allowed`, as its index.
   std::size_t TakeChoice(const std::string& key,
                          std::size_t fallback,

@@ -40,38 +40,17 @@ ColumnScaling ScalingOf(InputScaling kind, const Eigen::MatrixXd& inputs) {
   return IdentityScaling(inputs.cols());
 }
 
-// One fold of InnerFolds.
-struct InnerFold {
-  std::vector<Index> train;
-  std::vector<Index> test;
-};
-
-std::vector<InnerFold> SplitFolds(const InnerFolds& folds) {
-  std::vector<InnerFold> split;
-  for (const Index code : folds.codes) {
-    if (code >= static_cast<Index>(split.size())) {
-      split.resize(static_cast<std::size_t>(code) + 1);
-    }
-  }
-  for (std::size_t i = 0; i < folds.codes.size(); ++i) {
-    for (std::size_t fold = 0; fold < split.size(); ++fold) {
-      const bool is_test = folds.codes[i] == static_cast<Index>(fold);
-      (is_test ? split[fold].test : split[fold].train)
-          .push_back(static_cast<Index>(i));
-    }
-  }
-  return split;
-}
-
 // Sum of squared errors on the test rows; NaN where there is no fit.
 double HeldOutSquares(const NetDesign& design,
                       const NetTrainer& trainer,
                       const Dataset& all,
-                      const InnerFold& fold,
+                      const fitting::FoldCodes::Rows& fold,
                       const NetTrial& trial,
                       const FitContext& context) {
   try {
-    const NetRows rows = ScaleRows(design, all.SelectRows(fold.train));
+    NetDesign tried = design;
+    tried.hidden = trial.hidden;
+    const NetRows rows = ScaleRows(tried, all.SelectRows(fold.train));
     const fitting::Minimum minimum =
         trainer.Train(rows.From(trial.seed, trial.wfactor),
                       {.stop = context.stop, .keep_trace = false});
@@ -155,7 +134,11 @@ std::vector<double> InnerHoldoutRmse(const NetDesign& design,
                                      const InnerFolds& folds,
                                      const std::vector<NetTrial>& trials,
                                      const FitContext& context) {
-  const std::vector<InnerFold> split = SplitFolds(folds);
+  std::vector<fitting::FoldCodes::Rows> split;
+  for (Index fold = folds.folds.first_judged(); fold < folds.folds.count();
+       ++fold) {
+    split.push_back(folds.folds.Split(fold));
+  }
   std::vector<double> squares(trials.size() * split.size());
   RunJobs(squares.size(), context.threads, [&](std::size_t job) {
     squares[job] = HeldOutSquares(design,
@@ -171,7 +154,8 @@ std::vector<double> InnerHoldoutRmse(const NetDesign& design,
     for (std::size_t fold = 0; fold < split.size(); ++fold) {
       sum += squares[trial * split.size() + fold];
     }
-    rmse.push_back(std::sqrt(sum / static_cast<double>(training.num_rows())));
+    rmse.push_back(
+        std::sqrt(sum / static_cast<double>(folds.folds.NumJudged())));
   }
   return rmse;
 }

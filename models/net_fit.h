@@ -6,8 +6,8 @@
 
 #include "data/dataset.h"
 #include "models/error_model.h"
+#include "models/inner_folds.h"
 #include "models/net_trainer.h"
-#include "models/polynomial_design.h"
 #include "models/scaling.h"
 
 namespace errmap::models {
@@ -50,8 +50,9 @@ NetRows ScaleRows(const NetDesign& design, const data::Dataset& training);
 /// Seed of start k (0-based): start 0 is that of the fit itself.
 std::uint64_t SeedOfStart(std::uint64_t seed, std::int64_t k);
 
-/// A wfactor and a start to be judged.
+/// A net to be judged by inner hold-outs.
 struct NetTrial {
+  std::int64_t hidden = 1;  // in place of the design's
   double wfactor = 0.0;
   std::uint64_t seed = 1;
 };

@@ -12,6 +12,7 @@
 #include "models/feedforward_net.h"
 #include "models/net_fit.h"
 #include "models/net_trainer.h"
+#include "models/net_tuning.h"
 #include "models/net_wfactor.h"
 
 namespace errmap::models {
@@ -94,6 +95,22 @@ struct WfactorOption {
   }
 };
 
+// What `choose=` says of several starts: lowest cost, or least error on inner
+// hold-outs.
+const std::vector<std::string>& StartRules() {
+  static const std::vector<std::string> words = {"cost", "cv"};
+  return words;
+}
+
+// The first of the lowest; one that is not a number loses.
+std::size_t IndexOfLowest(const std::vector<double>& values) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    if (!std::isnan(values[i]) && !(values[i] >= values[best])) best = i;
+  }
+  return best;
+}
+
 std::string WithUnit(double value, const data::Dataset& dataset) {
   const std::string& unit = dataset.target().unit.symbol;
   return unit.empty() ? fmt::format("{:.4g}", value)
@@ -108,7 +125,10 @@ class NetRecipe final : public ModelRecipe {
     constexpr double kMostSlope = 1e3;
     constexpr std::int64_t kMostStarts = 10'000;
     SpecOptions options(spec);
-    design_.hidden = options.TakeInteger("hidden", design_.hidden, 1, 10'000);
+    tunes_hidden_ = options.IsWord("hidden", "cv");
+    if (!tunes_hidden_) {
+      design_.hidden = options.TakeInteger("hidden", design_.hidden, 1, 10'000);
+    }
     wfactor_ = WfactorOption::Take(spec, &options);
     stopping_ = TakeStoppingRules(spec.type, &options);
     design_.scaling = static_cast<InputScaling>(
@@ -118,6 +138,19 @@ class NetRecipe final : public ModelRecipe {
     design_.slope =
         options.TakeNumber("slope", design_.slope, kLeastSlope, kMostSlope);
     starts_ = options.TakeInteger("starts", 1, 1, kMostStarts);
+    const std::string choose = options.TakeText("choose", "");
+    chooses_start_by_cv_ = options.TakeChoice("choose", 0, StartRules()) == 1;
+    if (!choose.empty() && starts_ < 2) {
+      throw std::invalid_argument(fmt::format(
+          "model '{}': choose= chooses among several starts; give starts=N",
+          spec.text));
+    }
+    if (tunes_hidden_ && wfactor_.rule == WfactorRule::kDiscrepancy) {
+      throw std::invalid_argument(fmt::format(
+          "model '{}': discrepancy= needs a number of hidden nodes; choose it "
+          "with wfactor=cv first",
+          spec.text));
+    }
     if (starts_ > 1 && wfactor_.rule == WfactorRule::kDiscrepancy) {
       throw std::invalid_argument(fmt::format(
           "model '{}': discrepancy= follows one start; take its wfactor to "
@@ -132,7 +165,12 @@ class NetRecipe final : public ModelRecipe {
   ModelKind kind() const override { return ModelKind::kNet; }
 
   std::vector<EffectiveOption> options() const override {
-    std::vector<EffectiveOption> all = {{"hidden", design_.hidden}};
+    std::vector<EffectiveOption> all;
+    if (tunes_hidden_) {
+      all.push_back({"hidden", std::string("cv")});
+    } else {
+      all.push_back({"hidden", design_.hidden});
+    }
     wfactor_.Describe(&all);
     all.push_back({"iterations", stopping_.iterations});
     all.push_back({"egoal", stopping_.cost_goal});
@@ -153,7 +191,10 @@ class NetRecipe final : public ModelRecipe {
     if (stopping_.seconds != unlimited.seconds) {
       all.push_back({"seconds", stopping_.seconds});
     }
-    if (starts_ > 1) all.push_back({"starts", starts_});
+    if (starts_ > 1) {
+      all.push_back({"starts", starts_});
+      all.push_back({"choose", StartRules()[chooses_start_by_cv_ ? 1 : 0]});
+    }
     std::ranges::move(trainer_->options(), std::back_inserter(all));
     return all;
   }
@@ -165,6 +206,7 @@ class NetRecipe final : public ModelRecipe {
   }
 
   std::optional<Index> NumCoefficients(const Dataset& dataset) const override {
+    if (tunes_hidden_) return std::nullopt;
     return design_.ShapeFor(dataset).num_weights();
   }
 
@@ -173,7 +215,6 @@ class NetRecipe final : public ModelRecipe {
     if (const auto missing = WhatIsMissing(training)) {
       throw std::invalid_argument("the data lack " + *missing);
     }
-    const NetRows rows = ScaleRows(design_, training);
     FittedModel fitted;
     fitted.name = name_;
     fitted.kind = ModelKind::kNet;
@@ -181,16 +222,50 @@ class NetRecipe final : public ModelRecipe {
     std::vector<Index> columns(static_cast<std::size_t>(training.num_inputs()));
     std::iota(columns.begin(), columns.end(), Index{0});
     fitted.inputs = DescribeInputs(training, columns);
+    NetDesign design = design_;
+    double wfactor = wfactor_.wfactor;
+    if (tunes_hidden_ || wfactor_.rule == WfactorRule::kCrossValidation) {
+      Tune(training, context, &design, &wfactor, &fitted);
+    }
+    const NetRows rows = ScaleRows(design, training);
     fitting::Minimum minimum =
         wfactor_.rule == WfactorRule::kDiscrepancy
             ? FitToDiscrepancy(training, rows, context, &fitted)
-            : FitStarts(training, rows, context, &fitted);
+            : FitStarts(training, design, rows, wfactor, context, &fitted);
     fitted.model = std::make_shared<FeedforwardNet>(rows.FormOf(minimum.x));
     fitted.summary = std::move(minimum.summary);
     return fitted;
   }
 
  private:
+  void Tune(const Dataset& training,
+            const FitContext& context,
+            NetDesign* design,
+            double* wfactor,
+            FittedModel* fitted) const {
+    const TunedNet tuned =
+        TuneNet(*design,
+                {.hidden = tunes_hidden_,
+                 .wfactor = wfactor_.rule == WfactorRule::kCrossValidation,
+                 .fixed_wfactor = *wfactor},
+                *trainer_,
+                training,
+                context);
+    design->hidden = tuned.hidden;
+    *wfactor = tuned.wfactor;
+    for (const TunedValue& value : tuned.chosen) {
+      const bool is_hidden = value.choice.key == "hidden";
+      fitted->choices.push_back(value.choice);
+      fitted->remarks.push_back(fmt::format(
+          "{} by cross-validation over {}: RMSE {} held out (tried {})",
+          is_hidden ? fmt::format("{} hidden nodes", tuned.hidden)
+                    : fmt::format("wfactor {:.4g}", tuned.wfactor),
+          tuned.folds,
+          WithUnit(value.rmse, training),
+          value.scores));
+    }
+  }
+
   fitting::Minimum FitToDiscrepancy(const Dataset& training,
                                     const NetRows& rows,
                                     const FitContext& context,
@@ -212,71 +287,89 @@ class NetRecipe final : public ModelRecipe {
   }
 
   fitting::Minimum FitStarts(const Dataset& training,
+                             const NetDesign& design,
                              const NetRows& rows,
+                             double wfactor,
                              const FitContext& context,
                              FittedModel* fitted) const {
-    double wfactor = wfactor_.wfactor;
-    if (wfactor_.rule == WfactorRule::kCrossValidation) {
-      const CrossValidatedWfactor chosen =
-          ChooseWfactorByCv(design_, *trainer_, training, context);
-      wfactor = chosen.wfactor;
-      fitted->choices.push_back({"wfactor", wfactor});
-      fitted->remarks.push_back(
-          fmt::format("wfactor {:.4g} by cross-validation over {}: RMSE {} "
-                      "held out (tried {})",
-                      wfactor,
-                      chosen.folds,
-                      WithUnit(chosen.rmse, training),
-                      chosen.scores));
-    }
     std::vector<std::uint64_t> seeds;
     for (std::int64_t k = 0; k < starts_; ++k) {
       seeds.push_back(SeedOfStart(context.seed, k));
     }
     std::vector<fitting::Minimum> minima =
         TrainFromStarts(rows, *trainer_, wfactor, seeds, context);
-    // A cost that is not a number loses; of equal ones the first wins.
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < minima.size(); ++i) {
-      if (!(minima[i].summary.final_cost >= minima[best].summary.final_cost) &&
-          !std::isnan(minima[i].summary.final_cost)) {
-        best = i;
+    if (starts_ == 1) return std::move(minima.front());
+    std::vector<double> costs;
+    for (const fitting::Minimum& minimum : minima) {
+      costs.push_back(minimum.summary.final_cost);
+    }
+    std::size_t best = IndexOfLowest(costs);
+    fitted->starts = DescribeStarts(seeds, minima);
+    if (chooses_start_by_cv_ || (context.explain && training.num_rows() > 1)) {
+      const InnerFolds inner = MakeInnerFolds(training, context);
+      const std::vector<double> rmse =
+          JudgeStarts(training, design, wfactor, seeds, inner, context);
+      for (std::size_t i = 0; i < rmse.size(); ++i) {
+        fitted->starts[i].holdout_rmse = rmse[i];
+      }
+      if (chooses_start_by_cv_) {
+        best = ChooseByRmse(training, seeds, rmse, inner.text, best, fitted);
       }
     }
-    if (starts_ > 1) {
-      fitted->starts =
-          DescribeStarts(training, wfactor, seeds, minima, context);
-      fitted->starts[best].chosen = true;
-    }
+    fitted->starts[best].chosen = true;
     return std::move(minima[best]);
   }
 
-  std::vector<StartResult> DescribeStarts(
-      const Dataset& training,
-      double wfactor,
-      const std::vector<std::uint64_t>& seeds,
-      const std::vector<fitting::Minimum>& minima,
-      const FitContext& context) const {
-    std::vector<StartResult> starts;
+  // The start that errs least on inner hold-outs; `by_cost` where none of them
+  // could be judged.
+  static std::size_t ChooseByRmse(const Dataset& training,
+                                  const std::vector<std::uint64_t>& seeds,
+                                  const std::vector<double>& rmse,
+                                  const std::string& folds,
+                                  std::size_t by_cost,
+                                  FittedModel* fitted) {
+    const std::size_t best = IndexOfLowest(rmse);
+    if (std::isnan(rmse[best])) {
+      fitted->remarks.push_back(
+          "no start could be judged on inner hold-outs: the lowest cost was "
+          "taken");
+      return by_cost;
+    }
+    fitted->choices.push_back(
+        {"start_seed", static_cast<std::int64_t>(seeds[best])});
+    fitted->remarks.push_back(fmt::format(
+        "start {} of {} by cross-validation over {}: RMSE {} held out",
+        best + 1,
+        seeds.size(),
+        folds,
+        WithUnit(rmse[best], training)));
+    return best;
+  }
+
+  std::vector<double> JudgeStarts(const Dataset& training,
+                                  const NetDesign& design,
+                                  double wfactor,
+                                  const std::vector<std::uint64_t>& seeds,
+                                  const InnerFolds& inner,
+                                  const FitContext& context) const {
     std::vector<NetTrial> trials;
+    for (const std::uint64_t seed : seeds) {
+      trials.push_back({design.hidden, wfactor, seed});
+    }
+    return InnerHoldoutRmse(
+        design, *trainer_, training, inner, trials, context);
+  }
+
+  static std::vector<StartResult> DescribeStarts(
+      const std::vector<std::uint64_t>& seeds,
+      const std::vector<fitting::Minimum>& minima) {
+    std::vector<StartResult> starts;
     for (std::size_t i = 0; i < seeds.size(); ++i) {
       const fitting::FitSummary& summary = minima[i].summary;
       starts.push_back({.seed = seeds[i],
                         .final_cost = summary.final_cost,
                         .termination = summary.termination,
                         .iterations = summary.iterations});
-      trials.push_back({wfactor, seeds[i]});
-    }
-    if (!context.explain || training.num_rows() < 2) return starts;
-    const std::vector<double> rmse =
-        InnerHoldoutRmse(design_,
-                         *trainer_,
-                         training,
-                         MakeInnerFolds(training, context.seed),
-                         trials,
-                         context);
-    for (std::size_t i = 0; i < starts.size(); ++i) {
-      starts[i].holdout_rmse = rmse[i];
     }
     return starts;
   }
@@ -284,7 +377,9 @@ class NetRecipe final : public ModelRecipe {
   std::string name_;
   NetDesign design_;
   WfactorOption wfactor_;
+  bool tunes_hidden_;
   std::int64_t starts_;
+  bool chooses_start_by_cv_;
   fitting::StoppingRules stopping_;
   std::unique_ptr<NetTrainer> trainer_;
 };

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "fitting/penalized_regression.h"
+#include "models/inner_folds.h"
 #include "models/polynomial_fit.h"
 #include "models/regression_report.h"
 #include "models/selection_recipe.h"
@@ -68,10 +69,10 @@ class PenalizedRecipe final : public PolynomialRecipe {
     const TermDictionary dictionary(training, degree, terms_);
     InnerFolds folds;
     if (std::isnan(rules_.strength)) {
-      folds = MakeInnerFolds(training, context.seed);
+      folds = MakeInnerFolds(training, context);
     }
     DesignRows rows = CollectRows(dictionary.design,
-                                  folds.codes,
+                                  folds.folds.codes,
                                   context.most_design_values,
                                   context.threads);
     // A column of zeros takes no part.
@@ -85,8 +86,8 @@ class PenalizedRecipe final : public PolynomialRecipe {
                                              rows.weights,
                                              rows.intercept,
                                              rows.observations};
-    const fitting::PenalizedFit fit =
-        fitting::FitPenalized(problem, rows.parts, rules_);
+    const fitting::PenalizedFit fit = fitting::FitPenalized(
+        problem, {rows.parts, folds.folds.forward}, rules_);
     FittedModel fitted =
         MapOf(dictionary.design, fit.intercept, fit.coefficients);
     fitted.summary.final_cost = 0.5 * fit.residual_sum_of_squares;

@@ -6,10 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "fitting/triangular_reduction.h"
-#include "stats/holdout.h"
 
 namespace errmap::models {
 namespace {
@@ -166,31 +163,6 @@ DesignRows CollectRows(const PolynomialDesign& design,
     }
   }
   return rows;
-}
-
-InnerFolds MakeInnerFolds(const Dataset& training, std::uint64_t seed) {
-  constexpr Index kFolds = 5;
-  InnerFolds folds;
-  std::set<Index> groups(training.groups().codes.begin(),
-                         training.groups().codes.end());
-  const bool by_group = groups.size() >= 2;
-  const Index count = std::min(
-      kFolds,
-      by_group ? static_cast<Index>(groups.size()) : training.num_rows());
-  folds.text = by_group ? fmt::format("groups:{}", count)
-                        : fmt::format("kfold:{}", count);
-  const auto made = stats::MakeFolds(stats::ParseHoldout(folds.text),
-                                     training.num_rows(),
-                                     training.groups().codes,
-                                     seed);
-  if (by_group) folds.text += " of " + training.groups().column;
-  folds.codes.assign(static_cast<std::size_t>(training.num_rows()), 0);
-  for (std::size_t fold = 0; fold < made.size(); ++fold) {
-    for (const Index row : made[fold].test) {
-      folds.codes[static_cast<std::size_t>(row)] = static_cast<Index>(fold);
-    }
-  }
-  return folds;
 }
 
 }  // namespace errmap::models

@@ -84,14 +84,4 @@ DesignRows CollectRows(const PolynomialDesign& design,
 /// True where CollectRows makes triangles of such a design.
 bool NeedsTriangle(Eigen::Index rows, Eigen::Index terms, double most_values);
 
-/// Folds for the choices made inside a fit: whole groups in up to 5 runs where
-/// there are groups, else 5 seeded shares of the rows.
-struct InnerFolds {
-  std::vector<Eigen::Index> codes;  // (n)
-  std::string text;                 // "groups:5 of cycle", "kfold:5"
-};
-
-/// Throws std::invalid_argument where there are fewer than 2 rows.
-InnerFolds MakeInnerFolds(const data::Dataset& training, std::uint64_t seed);
-
 }  // namespace errmap::models

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "fitting/stepwise_selection.h"
+#include "models/inner_folds.h"
 #include "models/polynomial_fit.h"
 #include "models/regression_report.h"
 #include "models/selection_bootstrap.h"
@@ -172,7 +173,7 @@ class StepwiseRecipe final : public PolynomialRecipe {
     }
     InnerFolds folds;
     if (rules_.Uses(Criterion::kCv)) {
-      folds = MakeInnerFolds(training, context.seed);
+      folds = MakeInnerFolds(training, context);
     }
     // At many rows a bootstrap is made only where it is asked for, and then
     // over whole groups, each of which is a triangle.
@@ -182,10 +183,10 @@ class StepwiseRecipe final : public PolynomialRecipe {
                                                        : kDefaultBootstrap;
     const bool group_parts =
         by_triangle && repetitions > 0 && training.has_groups();
-    const DictionaryRows rows =
-        CollectDictionary(dictionary,
-                          group_parts ? training.groups().codes : folds.codes,
-                          context);
+    const DictionaryRows rows = CollectDictionary(
+        dictionary,
+        group_parts ? training.groups().codes : folds.folds.codes,
+        context);
     fitting::TermRules rules{dictionary.include,
                              dictionary.excluded,
                              {},
@@ -244,22 +245,23 @@ class StepwiseRecipe final : public PolynomialRecipe {
   }
 
   // The fold of each row that the engine sees; groups are whole in folds.
-  static std::vector<Index> FoldOf(const InnerFolds& folds,
+  static fitting::FoldCodes FoldOf(const InnerFolds& inner,
                                    const DictionaryRows& rows,
                                    const Dataset& training,
                                    bool group_parts) {
+    const fitting::FoldCodes& folds = inner.folds;
     if (folds.codes.empty()) return {};
-    if (!group_parts) return rows.parts;
+    if (!group_parts) return {rows.parts, folds.forward};
     std::vector<Index> fold_of_group(training.groups().labels.size(), 0);
     for (std::size_t i = 0; i < folds.codes.size(); ++i) {
       fold_of_group[static_cast<std::size_t>(training.groups().codes[i])] =
           folds.codes[i];
     }
-    std::vector<Index> codes;
+    fitting::FoldCodes of_parts{{}, folds.forward};
     for (const Index part : rows.parts) {
-      codes.push_back(fold_of_group[static_cast<std::size_t>(part)]);
+      of_parts.codes.push_back(fold_of_group[static_cast<std::size_t>(part)]);
     }
-    return codes;
+    return of_parts;
   }
 
   void Explain(const TermDictionary& dictionary,

@@ -28,7 +28,8 @@ double SecondsSince(Clock::time_point start) {
 FitOutcome FitOnce(const ModelRecipe& recipe,
                    const Dataset& training,
                    const Dataset* test,
-                   const StudyOptions& options) {
+                   const StudyOptions& options,
+                   InnerHoldout inner) {
   FitOutcome outcome;
   if (options.stop != nullptr && options.stop->load()) {
     outcome.why_failed = "interrupted before it began";
@@ -36,8 +37,9 @@ FitOutcome FitOnce(const ModelRecipe& recipe,
   }
   const auto start = Clock::now();
   try {
-    FittedModel fitted =
-        recipe.Fit(training, {.seed = options.seed, .stop = options.stop});
+    FittedModel fitted = recipe.Fit(
+        training,
+        {.seed = options.seed, .stop = options.stop, .inner_holdout = inner});
     outcome.seconds = SecondsSince(start);
     if (fitted.summary.termination == fitting::Termination::kFailed) {
       outcome.why_failed = fitted.summary.message;
@@ -176,6 +178,24 @@ double MeasurePrediction(const FittedModel& fitted, const Dataset& dataset) {
   return 1e9 * shortest / static_cast<double>(dataset.num_rows());
 }
 
+// Of rows where rows are held out, so that every fold tunes for what it is
+// judged by; a test file says nothing, so groups stay whole.
+InnerHoldout InnerHoldoutLike(stats::HoldoutKind kind) {
+  switch (kind) {
+    case stats::HoldoutKind::kEvery:
+    case stats::HoldoutKind::kKFold:
+    case stats::HoldoutKind::kRandom:
+      return InnerHoldout::kRows;
+    case stats::HoldoutKind::kForward:
+      return InnerHoldout::kForward;
+    case stats::HoldoutKind::kGroups:
+    case stats::HoldoutKind::kLeaveOneGroupOut:
+    case stats::HoldoutKind::kFile:
+      break;
+  }
+  return InnerHoldout::kWholeGroups;
+}
+
 }  // namespace
 
 bool ModelResult::ok() const { return why().empty(); }
@@ -201,7 +221,8 @@ Holdout MakeHoldout(const stats::HoldoutSpec& spec,
       spec.text,
       by_group && dataset.has_groups(),
       stats::MakeFolds(spec, dataset.num_rows(), dataset.groups().codes, seed),
-      std::move(test_data)};
+      std::move(test_data),
+      InnerHoldoutLike(spec.kind)};
 }
 
 stats::ErrorMetrics Judge(const Dataset& dataset, const VectorXd& predicted) {
@@ -242,10 +263,14 @@ StudyResult RunStudy(const Dataset& dataset,
   }
   const auto fit = [&](const StudyTask& task) {
     const ModelRecipe& recipe = *recipes[task.model];
-    if (task.holdout < 0) return FitOnce(recipe, dataset, nullptr, options);
-    const PreparedFold& fold =
-        prepared[static_cast<std::size_t>(task.holdout)][task.fold];
-    return FitOnce(recipe, fold.training, fold.test.get(), options);
+    if (task.holdout < 0) {
+      return FitOnce(
+          recipe, dataset, nullptr, options, InnerHoldout::kWholeGroups);
+    }
+    const auto h = static_cast<std::size_t>(task.holdout);
+    const PreparedFold& fold = prepared[h][task.fold];
+    return FitOnce(
+        recipe, fold.training, fold.test.get(), options, holdouts[h].inner);
   };
   const auto find_or_fit = [&](const StudyTask& task) {
     if (options.journal == nullptr) return fit(task);

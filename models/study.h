@@ -23,6 +23,8 @@ struct Holdout {
   std::vector<stats::Fold> folds;  // indices into the data set
   /// Rows judged instead of the folds' own (file:TEST.csv), or null.
   std::shared_ptr<const data::Dataset> test_data;
+  /// Of the choices made inside the training rows of a fold.
+  InnerHoldout inner = InnerHoldout::kWholeGroups;
 };
 
 /// Folds of `spec` over `dataset`; `test_data` for file:TEST.csv only. Throws

@@ -150,10 +150,8 @@ TEST(PenalizedRegression, CopiesAndConstantsDoNoHarm) {
 
 TEST(PenalizedRegression, CrossValidationPrefersAPenaltyWhereNoiseRules) {
   const Sample sample = MakeSample(40, 30, false, 60);
-  std::vector<Index> folds(40);
-  for (std::size_t i = 0; i < folds.size(); ++i) {
-    folds[i] = static_cast<Index>(i % 5);
-  }
+  FoldCodes folds;
+  for (Index i = 0; i < 40; ++i) folds.codes.push_back(i % 5);
   for (const Penalty penalty : {Penalty::kRidge, Penalty::kLasso}) {
     PenalizedOptions options;
     options.penalty = penalty;

@@ -87,7 +87,7 @@ TEST(StepwiseRules, SelectsByCrossValidationAsRefittingWould) {
   const VectorXd response =
       candidates.col(2) - candidates.col(5) + 0.5 * UniformMatrix(25, 1, 4);
   TermRules rules;
-  for (Index i = 0; i < 25; ++i) rules.folds.push_back(i / 5);
+  for (Index i = 0; i < 25; ++i) rules.folds.codes.push_back(i / 5);
   StepwiseOptions options;
   options.select = options.stop = options.choose = Criterion::kCv;
   const MatrixColumns columns(candidates);

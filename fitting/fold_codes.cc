@@ -1,0 +1,31 @@
+#include "fitting/fold_codes.h"
+
+#include <algorithm>
+
+namespace errmap::fitting {
+
+using Eigen::Index;
+
+Index FoldCodes::count() const {
+  return codes.empty() ? 0 : *std::max_element(codes.begin(), codes.end()) + 1;
+}
+
+FoldCodes::Rows FoldCodes::Split(Index fold) const {
+  Rows rows;
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    if (codes[i] == fold) {
+      rows.test.push_back(static_cast<Index>(i));
+    } else if (Fits(fold, i)) {
+      rows.train.push_back(static_cast<Index>(i));
+    }
+  }
+  return rows;
+}
+
+Index FoldCodes::NumJudged() const {
+  return std::count_if(codes.begin(), codes.end(), [&](Index code) {
+    return code >= first_judged();
+  });
+}
+
+}  // namespace errmap::fitting

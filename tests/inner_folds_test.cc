@@ -1,0 +1,101 @@
+#include "models/inner_folds.h"
+
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+
+// Groups of these sizes in order, numbered `step` apart as after a selection of
+// rows; no groups where `sizes` is empty.
+data::Dataset Grouped(const std::vector<Index>& sizes,
+                      Index rows_without_groups = 0) {
+  data::Dataset::Parts parts;
+  parts.source = "grouped";
+  parts.inputs = {{"position_mm", {}}};
+  parts.target = {"error_mm", {}};
+  constexpr Index kStep = 3;
+  for (std::size_t group = 0; group < sizes.size(); ++group) {
+    parts.groups.column = "day";
+    for (Index i = 0; i < kStep; ++i) parts.groups.labels.push_back("d");
+    for (Index i = 0; i < sizes[group]; ++i) {
+      parts.groups.codes.push_back(kStep * static_cast<Index>(group));
+    }
+  }
+  const Index rows = sizes.empty()
+                         ? rows_without_groups
+                         : static_cast<Index>(parts.groups.codes.size());
+  parts.input_values = Eigen::MatrixXd::Zero(rows, 1);
+  parts.target_values = Eigen::VectorXd::LinSpaced(rows, 0.0, 1.0);
+  return data::Dataset(std::move(parts));
+}
+
+TEST(InnerFolds, FollowTheKindOfHoldOutOutside) {
+  const data::Dataset days = Grouped({4, 4, 4, 4, 4, 4, 4});
+  const data::Dataset rows = Grouped({}, 30);
+  const auto text = [](const data::Dataset& dataset, InnerHoldout kind) {
+    return MakeInnerFolds(dataset, {.inner_holdout = kind}).text;
+  };
+  EXPECT_EQ(text(days, InnerHoldout::kWholeGroups), "groups:5 of day");
+  EXPECT_EQ(text(days, InnerHoldout::kRows), "kfold:5");
+  EXPECT_EQ(text(days, InnerHoldout::kForward), "forward:4 of day");
+  EXPECT_EQ(text(rows, InnerHoldout::kWholeGroups), "kfold:5");
+  EXPECT_EQ(text(rows, InnerHoldout::kRows), "kfold:5");
+  EXPECT_EQ(text(rows, InnerHoldout::kForward), "forward:4");
+  // What a fit uses unless told otherwise.
+  EXPECT_EQ(MakeInnerFolds(days, {}).text, "groups:5 of day");
+}
+
+TEST(InnerFolds, KeepEveryGroupOnOneSide) {
+  for (const std::vector<Index>& sizes :
+       {std::vector<Index>{1, 1},
+        {7, 1, 30},
+        {5, 5, 5, 5, 5, 5},
+        {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}}) {
+    const data::Dataset dataset = Grouped(sizes);
+    for (const InnerHoldout kind :
+         {InnerHoldout::kWholeGroups, InnerHoldout::kForward}) {
+      const InnerFolds inner = MakeInnerFolds(dataset, {.inner_holdout = kind});
+      std::map<Index, std::set<Index>> folds_of;
+      for (std::size_t i = 0; i < inner.folds.codes.size(); ++i) {
+        folds_of[dataset.groups().codes[i]].insert(inner.folds.codes[i]);
+      }
+      for (const auto& [group, folds] : folds_of) EXPECT_EQ(folds.size(), 1U);
+      for (Index fold = inner.folds.first_judged(); fold < inner.folds.count();
+           ++fold) {
+        const auto [train, test] = inner.folds.Split(fold);
+        EXPECT_FALSE(train.empty());
+        EXPECT_FALSE(test.empty());
+        for (const Index a : train) {
+          for (const Index b : test) {
+            const auto& codes = dataset.groups().codes;
+            const Index of_train = codes[static_cast<std::size_t>(a)];
+            const Index of_test = codes[static_cast<std::size_t>(b)];
+            EXPECT_NE(of_train, of_test);
+            if (kind == InnerHoldout::kForward) EXPECT_LT(of_train, of_test);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(InnerFolds, HoldOutRowsWhereThereIsOneGroup) {
+  EXPECT_EQ(MakeInnerFolds(Grouped({20}), {}).text, "kfold:5");
+  EXPECT_EQ(MakeInnerFolds(Grouped({}, 3), {}).text, "kfold:3");
+}
+
+TEST(InnerFolds, NeedTwoRows) {
+  EXPECT_THROW(MakeInnerFolds(Grouped({}, 1), {}), std::invalid_argument);
+  EXPECT_THROW(
+      MakeInnerFolds(Grouped({1}), {.inner_holdout = InnerHoldout::kForward}),
+      std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace errmap::models
