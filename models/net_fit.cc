@@ -103,6 +103,14 @@ NetForm NetRows::FormOf(const Eigen::VectorXd& w) const {
           .target_offset = Eigen::VectorXd::Constant(1, target.offset)};
 }
 
+Eigen::VectorXd NetRows::WeightsOf(const NetForm& form) const {
+  const NetShape& shape = training.shape;
+  Eigen::VectorXd w(shape.num_weights());
+  w << form.w1.reshaped() / shape.slope,
+      form.w2.reshaped() / OutputSlope(shape);
+  return w;
+}
+
 NetRows ScaleRows(const NetDesign& design, const Dataset& training) {
   NetRows rows;
   rows.scaling = ScalingOf(design.scaling, training.input_values());

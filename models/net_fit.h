@@ -42,6 +42,8 @@ struct NetRows {
   double TrainingRms(const Eigen::VectorXd& w) const;
   /// The net of these weights in the rows' own units.
   NetForm FormOf(const Eigen::VectorXd& w) const;
+  /// The weights (N) of a net that FormOf made, but for roundings.
+  Eigen::VectorXd WeightsOf(const NetForm& form) const;
 };
 
 /// Throws std::invalid_argument where the targets do not vary.

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "models/feedforward_net.h"
+#include "models/net_effective_parameters.h"
 #include "models/net_fit.h"
 #include "models/net_trainer.h"
 #include "models/net_tuning.h"
@@ -118,9 +119,9 @@ std::string WithUnit(double value, const data::Dataset& dataset) {
 }
 
 // A one-hidden-layer net; how it is trained is its trainer's business.
-class NetRecipe final : public ModelRecipe {
+class SpecNetRecipe final : public NetRecipe {
  public:
-  explicit NetRecipe(const ModelSpec& spec) : name_(spec.text) {
+  explicit SpecNetRecipe(const ModelSpec& spec) : name_(spec.text) {
     constexpr double kLeastSlope = 1e-3;
     constexpr double kMostSlope = 1e3;
     constexpr std::int64_t kMostStarts = 10'000;
@@ -237,7 +238,39 @@ class NetRecipe final : public ModelRecipe {
     return fitted;
   }
 
+  std::unique_ptr<NetRecipe> WithChoicesOf(
+      const FittedModel& fitted) const override {
+    return std::make_unique<SpecNetRecipe>(FixedTo(fitted));
+  }
+
+  double EffectiveParametersOf(const FittedModel& fitted,
+                               const Dataset& training) const override {
+    const SpecNetRecipe fixed = FixedTo(fitted);
+    const NetRows rows = ScaleRows(fixed.design_, training);
+    const ModelDescription description = fitted.model->Describe();
+    NetTraining at_minimum = rows.training;
+    at_minimum.wfactor = fixed.wfactor_.wfactor;
+    return EffectiveParameters(at_minimum,
+                               rows.WeightsOf(std::get<NetForm>(description)));
+  }
+
  private:
+  SpecNetRecipe FixedTo(const FittedModel& fitted) const {
+    SpecNetRecipe fixed = *this;
+    fixed.starts_ = 1;
+    fixed.chooses_start_by_cv_ = false;
+    fixed.tunes_hidden_ = false;
+    fixed.wfactor_.rule = WfactorRule::kGiven;
+    for (const EffectiveOption& choice : fitted.choices) {
+      if (choice.key == "hidden") {
+        fixed.design_.hidden = std::get<std::int64_t>(choice.value);
+      } else if (choice.key == "wfactor") {
+        fixed.wfactor_.wfactor = std::get<double>(choice.value);
+      }
+    }
+    return fixed;
+  }
+
   void Tune(const Dataset& training,
             const FitContext& context,
             NetDesign* design,
@@ -381,7 +414,7 @@ class NetRecipe final : public ModelRecipe {
   std::int64_t starts_;
   bool chooses_start_by_cv_;
   fitting::StoppingRules stopping_;
-  std::unique_ptr<NetTrainer> trainer_;
+  std::shared_ptr<const NetTrainer> trainer_;
 };
 
 }  // namespace
@@ -389,7 +422,7 @@ class NetRecipe final : public ModelRecipe {
 std::unique_ptr<ModelRecipe> MakeNetRecipe(const ModelSpec& spec) {
   const std::vector<std::string>& types = NetTypes();
   if (std::ranges::find(types, spec.type) == types.end()) return nullptr;
-  return std::make_unique<NetRecipe>(spec);
+  return std::make_unique<SpecNetRecipe>(spec);
 }
 
 }  // namespace errmap::models

@@ -7,6 +7,18 @@
 
 namespace errmap::models {
 
+/// What a net's recipe can do besides fitting.
+class NetRecipe : public ModelRecipe {
+ public:
+  /// This recipe with every choice of `fitted`, one of its fits, made fixed:
+  /// its hidden nodes, its wfactor, and one start, whose seed the caller gives.
+  virtual std::unique_ptr<NetRecipe> WithChoicesOf(
+      const FittedModel& fitted) const = 0;
+  /// Of `fitted`, one of its fits to `training`: net_effective_parameters.h.
+  virtual double EffectiveParametersOf(const FittedModel& fitted,
+                                       const data::Dataset& training) const = 0;
+};
+
 /// The recipe of a net (net_trainer.h), or null where `spec.type` is another
 /// model. Throws std::invalid_argument on options that are unknown or out of
 /// range.
