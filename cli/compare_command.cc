@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -17,8 +18,10 @@
 #include "cli/study_plan.h"
 #include "cli/study_run.h"
 #include "cli/study_table.h"
+#include "data/atomic_file.h"
 #include "data/text.h"
 #include "models/model_spec.h"
+#include "models/split_file.h"
 #include "stats/holdout.h"
 
 namespace errmap::cli {
@@ -107,11 +110,21 @@ StudyConfig ConfigOf(const CompareArguments& arguments) {
   component.split = arguments.split;
   component.save_split = arguments.save_split;
   component.predictions = arguments.predictions;
+  std::vector<std::string> specs = ModelSpecs(arguments);
+  for (const PredictionsFile& predictions : component.predictions) {
+    if (std::ranges::find(specs, predictions.name) != specs.end() ||
+        std::ranges::count(component.predictions,
+                           predictions.name,
+                           &PredictionsFile::name) > 1) {
+      throw UsageError("two models are named " + predictions.name +
+                       "; give the --predictions another name");
+    }
+  }
   return {.seed = arguments.seed,
           .goal = arguments.goal,
           .indifference = arguments.indifference,
           .holdouts = arguments.holdouts,
-          .models = ModelSpecs(arguments),
+          .models = std::move(specs),
           .components = {std::move(component)}};
 }
 
@@ -122,7 +135,9 @@ int StatusOf(const StudyRun& run) {
   }
   bool any = false;
   for (const Comparison& component : run.components) {
-    if (models::DecisiveVerdict(component.verdicts) != nullptr) {
+    if (!component.judgement.comparisons.empty() &&
+        std::ranges::any_of(component.judgement.verdicts,
+                            [](const auto& verdict) { return !!verdict; })) {
       any = true;
     } else if (run.has_several()) {
       Say(fmt::format("{}: every fit failed",
@@ -134,8 +149,18 @@ int StatusOf(const StudyRun& run) {
   return kEveryFitFailed;
 }
 
+void SaveSplit(const Comparison& comparison, const ComponentConfig& config) {
+  if (config.save_split.empty()) return;
+  data::WriteFileAtomically(
+      config.save_split,
+      models::SplitFileText(comparison.holdouts, comparison.data.dataset));
+}
+
 int RunCompare(const CompareArguments& arguments) {
   StudyPlan plan = PlanStudy(ConfigOf(arguments), arguments.data.quiet);
+  for (std::size_t i = 0; i < plan.components.size(); ++i) {
+    SaveSplit(plan.components[i].comparison, plan.config.components[i]);
+  }
   // Better now than after minutes of fitting.
   if (!arguments.out.empty()) PrepareFolder(arguments.out);
   const int cores =
@@ -156,29 +181,44 @@ int RunCompare(const CompareArguments& arguments) {
   return StatusOf(run);
 }
 
-// Options that are read and kept, but not carried out yet: not in --help.
-void AddOptionsToCome(CLI::App* command, CompareArguments* arguments) {
-  command->add_option("--split", arguments->split)->group("");
-  command->add_option("--save-split", arguments->save_split)->group("");
-  command->add_option("--indifference", arguments->indifference)->group("");
-  command->add_flag("--resume", arguments->resume)->group("");
+PredictionsFile ParsePredictions(const std::string& pair) {
+  const std::size_t equals = pair.find('=');
+  if (equals == 0 || equals == pair.npos || equals + 1 == pair.size()) {
+    throw UsageError("--predictions must be NAME=FILE, found '" + pair + "'");
+  }
+  return {pair.substr(0, equals), pair.substr(equals + 1)};
+}
+
+void AddJudgingOptions(CLI::App* command, CompareArguments* arguments) {
+  command
+      ->add_option("--indifference",
+                   arguments->indifference,
+                   "Difference in RMSE that never matters, in the target's "
+                   "unit (default for lengths: 0.02 um)")
+      ->type_name("X");
+  command
+      ->add_option("--split",
+                   arguments->split,
+                   "Hold-outs from a file with row,holdout,fold,role in place "
+                   "of the default ones")
+      ->type_name("FILE.csv");
+  command
+      ->add_option("--save-split",
+                   arguments->save_split,
+                   "Write the hold-outs to such a file, for other programs")
+      ->type_name("FILE.csv");
   command
       ->add_option_function<std::vector<std::string>>(
           "--predictions",
           [arguments](const std::vector<std::string>& pairs) {
             for (const std::string& pair : pairs) {
-              const std::size_t equals = pair.find('=');
-              if (equals == 0 || equals == pair.npos ||
-                  equals + 1 == pair.size()) {
-                throw UsageError("--predictions must be NAME=FILE, found '" +
-                                 pair + "'");
-              }
-              arguments->predictions.push_back(
-                  {pair.substr(0, equals), pair.substr(equals + 1)});
+              arguments->predictions.push_back(ParsePredictions(pair));
             }
-          })
-      ->allow_extra_args(false)
-      ->group("");
+          },
+          "Predictions made elsewhere enter the table as NAME, may be "
+          "repeated: row,predicted or row,holdout,fold,predicted")
+      ->type_name("NAME=FILE")
+      ->allow_extra_args(false);
 }
 
 }  // namespace
@@ -231,7 +271,8 @@ void AddCompareCommand(CLI::App* app, Run* run) {
       ->check(CLI::IsMember({"table", "json"}))
       ->type_name("table|json")
       ->capture_default_str();
-  AddOptionsToCome(command, arguments.get());
+  AddJudgingOptions(command, arguments.get());
+  command->add_flag("--resume", arguments->resume)->group("");
   command->footer(
       "Exit status: 0 done, 2 wrong command line, 3 unusable input, 4 every "
       "fit failed, 130 interrupted.\n"

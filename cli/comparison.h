@@ -29,7 +29,7 @@ struct Comparison {
   data::PreparedDataset data;
   std::vector<models::Holdout> holdouts;
   models::StudyResult study;
-  std::vector<models::Verdict> verdicts;
+  models::Judgement judgement;
 };
 
 /// A whole run: table, JSON and files are written from this and nothing else.

@@ -9,8 +9,8 @@
 #include "cli/number_text.h"
 #include "cli/residual_json.h"
 #include "cli/summary_text.h"
+#include "models/fold_pool.h"
 #include "models/model_file.h"
-#include "models/study.h"
 #include "stats/kolmogorov_smirnov.h"
 
 namespace errmap::cli {

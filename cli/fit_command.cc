@@ -16,8 +16,8 @@
 #include "cli/sha256.h"
 #include "cli/start_report.h"
 #include "data/atomic_file.h"
+#include "models/fold_pool.h"
 #include "models/model_file.h"
-#include "models/study.h"
 
 namespace errmap::cli {
 namespace {

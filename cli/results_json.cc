@@ -4,11 +4,13 @@
 #include <map>
 
 #include "cli/fit_summary.h"
+#include "cli/held_out_residuals.h"
 #include "cli/json_blocks.h"
+#include "cli/regression_text.h"
 #include "cli/residual_json.h"
 #include "cli/residual_report.h"
 #include "cli/start_report.h"
-#include "cli/verdict_text.h"
+#include "cli/verdict_json.h"
 
 namespace errmap::cli {
 namespace {
@@ -49,7 +51,8 @@ Json DataJson(const Comparison& comparison) {
 
 Json HoldoutsJson(const Comparison& comparison) {
   Json holdouts = Json::array();
-  for (const models::Holdout& holdout : comparison.holdouts) {
+  for (std::size_t h = 0; h < comparison.holdouts.size(); ++h) {
+    const models::Holdout& holdout = comparison.holdouts[h];
     Json train = Json::array();
     Json test = Json::array();
     for (const stats::Fold& fold : holdout.folds) {
@@ -60,68 +63,24 @@ Json HoldoutsJson(const Comparison& comparison) {
         test.push_back(holdout.test_data->rows());
       }
     }
-    holdouts.push_back({{"name", holdout.name},
-                        {"folds", holdout.folds.size()},
-                        {"train_rows", std::move(train)},
-                        {"test_rows", std::move(test)}});
+    Json entry = {{"name", holdout.name},
+                  {"folds", holdout.folds.size()},
+                  {"whole_groups", holdout.whole_groups},
+                  {"among_neighbours", holdout.among_neighbours},
+                  {"repeats", holdout.repeats},
+                  {"train_rows", std::move(train)},
+                  {"test_rows", std::move(test)}};
+    entry.update(UnitsJson(comparison, h));
+    holdouts.push_back(std::move(entry));
   }
   return holdouts;
 }
 
-// The held-out residuals of all folds in the file's order. Of a row that is
-// held out more than once (groups:K:repeats=R) the first is taken.
-ResidualInputs HeldOutResiduals(const Comparison& comparison,
-                                const HoldoutResult& result,
-                                std::size_t holdout_index) {
-  const models::Holdout& holdout = comparison.holdouts[holdout_index];
-  const bool elsewhere = holdout.test_data != nullptr;
-  const data::Dataset& source =
-      elsewhere ? *holdout.test_data : comparison.data.dataset;
-  std::map<Eigen::Index, double> predicted;  // by index into source
-  for (std::size_t fold = 0; fold < result.folds.size(); ++fold) {
-    const Eigen::VectorXd& predictions = result.folds[fold].test_predictions;
-    for (Eigen::Index i = 0; i < predictions.size(); ++i) {
-      const Eigen::Index index =
-          elsewhere ? i : holdout.folds[fold].test[static_cast<std::size_t>(i)];
-      predicted.emplace(index, predictions[i]);
-    }
-  }
-  ResidualInputs inputs;
-  const auto size = static_cast<Eigen::Index>(predicted.size());
-  inputs.values.resize(size);
-  inputs.fitted.resize(size);
-  inputs.fitted_column = "predicted";
-  if (source.has_groups()) {
-    inputs.group_column = source.groups().column;
-    inputs.group_labels = source.groups().labels;
-  }
-  Eigen::Index position = -1;
-  for (Eigen::Index i = 0; i < source.num_inputs() && position < 0; ++i) {
-    const std::string& name = source.inputs()[static_cast<std::size_t>(i)].name;
-    if (!name.starts_with("position")) continue;
-    position = i;
-    inputs.position_column = name;
-    inputs.positions.resize(size);
-  }
-  Eigen::Index at = 0;
-  for (const auto& [index, value] : predicted) {
-    inputs.fitted[at] = value;
-    inputs.values[at] = source.target_values()[index] - value;
-    if (source.has_groups()) {
-      inputs.group_codes.push_back(
-          source.groups().codes[static_cast<std::size_t>(index)]);
-    }
-    if (position >= 0) {
-      inputs.positions[at] = source.input_values()(index, position);
-    }
-    ++at;
-  }
-  return inputs;
-}
-
 Json ResultJson(const Comparison& comparison,
-                const HoldoutResult& result,
+                std::size_t model,
                 std::size_t holdout_index) {
+  const HoldoutResult& result =
+      comparison.study.models[model].holdouts[holdout_index];
   Json folds = Json::array();
   for (const models::FoldResult& fold : result.folds) {
     Json entry = {{"train_rmse", fold.train_rmse},
@@ -134,15 +93,30 @@ Json ResultJson(const Comparison& comparison,
     folds.push_back(std::move(entry));
   }
   const ResidualReport report =
-      AssessResiduals(HeldOutResiduals(comparison, result, holdout_index));
-  return {{"train", MetricsJson(result.train)},
-          {"test", MetricsJson(result.test)},
-          {"folds", std::move(folds)},
-          {"normality", NormalityJson(report.normality, report.monte_carlo)},
-          {"randomness", RandomnessJson(report)}};
+      AssessResiduals(HeldOutResiduals(comparison, model, holdout_index));
+  Json json = {
+      {"train", MetricsJson(result.train)},
+      {"test", MetricsJson(result.test)},
+      {"folds", std::move(folds)},
+      {"normality", NormalityJson(report.normality, report.monte_carlo)},
+      {"randomness", RandomnessJson(report)}};
+  json.update(StandingJson(comparison, model, holdout_index));
+  return json;
 }
 
-Json ModelJson(const Comparison& comparison, const ModelResult& model) {
+// The fit to all rows, whose map is the one to use.
+Json FinalFitJson(const ModelResult& model) {
+  const models::FittedModel& map = *model.final_fit;
+  Json json = {{"fit_seconds", model.final_fit_seconds}};
+  json.update(FitSummaryJson(map.summary));
+  json["remarks"] = map.remarks;
+  if (!map.choices.empty()) json["choices"] = ChoicesJson(map.choices);
+  if (!map.starts.empty()) json["starts"] = StartsJson(map.starts);
+  return json;
+}
+
+Json ModelJson(const Comparison& comparison, std::size_t index) {
+  const ModelResult& model = comparison.study.models[index];
   Json options = Json::object();
   for (const models::EffectiveOption& option : model.options) {
     std::visit([&](const auto& value) { options[option.key] = value; },
@@ -151,69 +125,64 @@ Json ModelJson(const Comparison& comparison, const ModelResult& model) {
   Json results = Json::object();
   for (std::size_t h = 0; h < model.holdouts.size(); ++h) {
     const HoldoutResult& result = model.holdouts[h];
-    if (result.ok())
-      results[result.holdout] = ResultJson(comparison, result, h);
+    if (result.ok()) {
+      results[result.holdout] = ResultJson(comparison, index, h);
+    }
   }
   Json parameters;
   Json equation;
+  Json sensors;
+  Json inputs;
+  Json final_fit;
+  Json regression;
   if (model.final_fit) {
-    parameters = model.final_fit->model->num_parameters();
-    if (!model.final_fit->equation.empty()) {
-      equation = model.final_fit->equation;
+    const models::FittedModel& map = *model.final_fit;
+    parameters = map.model->num_parameters();
+    if (!map.equation.empty()) equation = map.equation;
+    sensors = models::SensorsOf(map);
+    inputs = Json::array();
+    for (const models::TrainedInput& input : map.inputs) {
+      inputs.push_back(input.column.name);
     }
+    final_fit = FinalFitJson(model);
+    if (map.regression != nullptr) regression = RegressionJson(*map.regression);
   }
   return {{"name", model.name},
           {"kind", models::ToString(model.kind)},
+          {"choice", models::ToString(models::ChoiceOf(model))},
+          {"baseline", model.baseline},
           {"options", std::move(options)},
           {"parameters", std::move(parameters)},
           {"equation", std::move(equation)},
+          {"sensors", std::move(sensors)},
+          {"inputs_used", std::move(inputs)},
+          {"final", std::move(final_fit)},
+          {"regression", std::move(regression)},
+          {"memorisation", MemorisationJson(model)},
           {"status", model.ok() ? "ok" : "failed"},
           {"why", model.ok() ? Json() : Json(model.why())},
           {"results", std::move(results)},
           {"predict_ns", model.predict_ns}};
 }
 
-Json VerdictsJson(const Comparison& comparison) {
-  Json verdicts = Json::array();
-  for (const models::Verdict& verdict : comparison.verdicts) {
-    if (verdict.best < 0) continue;
-    const ModelResult& best =
-        comparison.study.models[static_cast<std::size_t>(verdict.best)];
-    verdicts.push_back({{"holdout", verdict.holdout},
-                        {"choice", models::ChoiceWord(best.kind)},
-                        {"model", best.name},
-                        {"established", false},
-                        {"why", VerdictSentence(comparison, verdict)}});
-  }
-  return verdicts;
-}
-
-Json RecommendationJson(const Comparison& comparison) {
-  const models::Verdict* decisive =
-      models::DecisiveVerdict(comparison.verdicts);
-  if (decisive == nullptr) return nullptr;
-  const ModelResult& best =
-      comparison.study.models[static_cast<std::size_t>(decisive->best)];
-  return {{"choice", models::ChoiceWord(best.kind)},
-          {"model", best.name},
-          {"why", RecommendationSentence(comparison)},
-          {"caveats", Caveats(comparison)}};
-}
-
 }  // namespace
 
 Json ComponentJson(const Comparison& comparison) {
   Json models = Json::array();
-  for (const ModelResult& model : comparison.study.models) {
-    models.push_back(ModelJson(comparison, model));
+  for (std::size_t i = 0; i < comparison.study.models.size(); ++i) {
+    models.push_back(ModelJson(comparison, i));
   }
   return {{"name", comparison.name},
           {"data", DataJson(comparison)},
           {"goal", comparison.goal},
+          {"indifference", comparison.indifference},
+          {"display", DisplayJson(comparison)},
           {"holdouts", HoldoutsJson(comparison)},
           {"models", std::move(models)},
-          {"comparisons", Json::array()},
-          {"tiers", Json::object()},
+          {"gap", GapJson(comparison)},
+          {"comparisons", ComparisonsJson(comparison)},
+          {"tiers", TiersJson(comparison)},
+          {"stability", StabilityJson(comparison)},
           {"verdict", VerdictsJson(comparison)},
           {"recommendation", RecommendationJson(comparison)}};
 }

@@ -15,6 +15,7 @@
 #include "data/atomic_file.h"
 #include "data/text.h"
 #include "models/recipe_catalog.h"
+#include "models/split_file.h"
 
 namespace errmap::cli {
 namespace {
@@ -55,6 +56,10 @@ class ComponentPlanner {
     const data::Dataset& dataset = prepared.dataset;
     const data::Unit& unit = dataset.target().unit;
     std::vector<models::Holdout> holdouts = MakeHoldouts(dataset);
+    if (holdouts.empty()) {
+      throw data::InputError(
+          fmt::format("{}: names no hold-out", component_.split));
+    }
     std::vector<std::unique_ptr<models::ModelRecipe>> recipes =
         MakeRecipes(dataset, FewestTrainingRows(holdouts));
     return {.comparison = {.name = component_.name,
@@ -65,8 +70,9 @@ class ComponentPlanner {
                            .data = std::move(prepared),
                            .holdouts = std::move(holdouts),
                            .study = {},
-                           .verdicts = {}},
-            .recipes = std::move(recipes)};
+                           .judgement = {}},
+            .recipes = std::move(recipes),
+            .given = ReadGiven()};
   }
 
  private:
@@ -110,11 +116,25 @@ class ComponentPlanner {
     return specs;
   }
 
+  // Those of the split file first; it takes the place of the default ones.
   std::vector<models::Holdout> MakeHoldouts(
       const data::Dataset& dataset) const {
     std::vector<models::Holdout> holdouts;
-    for (const std::string& text :
-         study_.holdouts.empty() ? DefaultHoldouts(dataset) : study_.holdouts) {
+    std::vector<std::string> specs = study_.holdouts;
+    if (!component_.split.empty()) {
+      holdouts =
+          models::ReadSplitFile(reader_->Read(component_.split), dataset);
+    } else if (specs.empty()) {
+      specs = DefaultHoldouts(dataset);
+    }
+    for (const std::string& text : specs) {
+      if (std::ranges::find(holdouts, text, &models::Holdout::name) !=
+          holdouts.end()) {
+        throw data::InputError(
+            fmt::format("{}: has a hold-out {}, which --holdout names, too",
+                        component_.split,
+                        text));
+      }
       const stats::HoldoutSpec spec = stats::ParseHoldout(text);
       std::shared_ptr<const data::Dataset> test_data;
       if (spec.kind == stats::HoldoutKind::kFile) {
@@ -134,6 +154,15 @@ class ComponentPlanner {
       }
     }
     return holdouts;
+  }
+
+  std::vector<models::GivenPredictions> ReadGiven() const {
+    std::vector<models::GivenPredictions> given;
+    for (const PredictionsFile& predictions : component_.predictions) {
+      given.push_back(models::ReadGivenPredictions(
+          predictions.name, reader_->Read(predictions.file)));
+    }
+    return given;
   }
 
   Eigen::Index FewestTrainingRows(
@@ -169,6 +198,11 @@ class ComponentPlanner {
     for (const std::string& spec : study_.models) {
       recipes.push_back(models::MakeRecipe(spec));
     }
+    // What any map must beat is always there to be beaten.
+    auto baselines = models::MissingBaselines(dataset, recipes);
+    recipes.insert(recipes.begin(),
+                   std::make_move_iterator(baselines.begin()),
+                   std::make_move_iterator(baselines.end()));
     return recipes;
   }
 

@@ -7,6 +7,7 @@
 #include "cli/comparison.h"
 #include "cli/study_config.h"
 #include "models/error_model.h"
+#include "models/given_predictions.h"
 
 namespace errmap::cli {
 
@@ -15,6 +16,7 @@ struct ComponentPlan {
   /// Still without results.
   Comparison comparison;
   std::vector<std::unique_ptr<models::ModelRecipe>> recipes;
+  std::vector<models::GivenPredictions> given;  // judged beside them
 
   /// Fits of every model to all rows and to every fold.
   int num_fits() const;

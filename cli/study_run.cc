@@ -28,8 +28,16 @@ StudyRun RunPlan(StudyPlan plan,
                             if (options.progress)
                               options.progress(before + done, all);
                           }});
-    comparison.verdicts =
-        models::JudgeHoldouts(comparison.study, comparison.holdouts);
+    const data::Dataset& dataset = comparison.data.dataset;
+    for (const models::GivenPredictions& given : component.given) {
+      comparison.study.models.push_back(
+          models::JudgeGivenPredictions(given, dataset, comparison.holdouts));
+    }
+    comparison.judgement = models::JudgeStudy(dataset,
+                                              comparison.holdouts,
+                                              comparison.study,
+                                              comparison.indifference,
+                                              run.seed);
     run.interrupted = comparison.study.interrupted;
     before += component.num_fits();
     run.components.push_back(std::move(comparison));

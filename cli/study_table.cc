@@ -90,6 +90,114 @@ std::string UnconvergedNote(const ModelResult& model) {
                      fmt::join(parts, ", "));
 }
 
+// "0.786-1.093", the 95 % interval of a held-out RMSE.
+std::string IntervalText(const Comparison& comparison,
+                         std::size_t model,
+                         std::size_t h,
+                         const ErrorText& error) {
+  const models::HoldoutComparison& tests = comparison.judgement.comparisons[h];
+  const stats::Bounds95& bounds =
+      tests.tests.rmse_bounds[static_cast<std::size_t>(*tests.PlaceOf(model))];
+  if (!bounds.exist()) return "-";
+  return fmt::format(
+      "{}-{}", error(std::max(0.0, bounds.lower)), error(bounds.upper));
+}
+
+// How many times its error among neighbours a model has on unseen groups.
+std::string GapText(const Comparison& comparison, std::size_t model) {
+  const auto& gap = comparison.judgement.gap;
+  if (!gap) return "";
+  for (const models::InterpolationGap::Row& row : gap->rows) {
+    if (row.model == model) return fmt::format("{:.1f}", row.ratio());
+  }
+  return "-";
+}
+
+std::string GoalMark(const Comparison& comparison, const ModelResult& model) {
+  const auto& advice = comparison.judgement.recommendation;
+  if (!advice || !model.holdouts[advice->holdout].ok()) return "-";
+  const auto met = MeetsGoal(comparison, model.holdouts[advice->holdout]);
+  return !met ? "-" : *met ? "yes" : "no";
+}
+
+std::string SensorCount(const ModelResult& model) {
+  return model.final_fit
+             ? std::to_string(models::SensorsOf(*model.final_fit).size())
+             : "-";
+}
+
+constexpr int kIntervalWidth = 14;
+constexpr int kBlockWidth = 2 * kNumberWidth + kIntervalWidth + 5;
+
+std::string Headings(const Comparison& comparison, std::size_t name_width) {
+  // Two lines: the hold-outs, then the figures of each.
+  std::string first = fmt::format("{:<{}} {:>6} {:>4}", "", name_width, "", "");
+  std::string second =
+      fmt::format("{:<{}} {:>6} {:>4}", "model", name_width, "params", "sens");
+  for (const models::Holdout& holdout : comparison.holdouts) {
+    first += fmt::format("  {:^{}}", holdout.name, kBlockWidth);
+    second += fmt::format("  {:>{}}{:>{}} {:>{}} {:>4}",
+                          "train",
+                          kNumberWidth,
+                          "test",
+                          kNumberWidth,
+                          "95 %",
+                          kIntervalWidth,
+                          "tier");
+  }
+  if (comparison.judgement.gap) {
+    first += fmt::format(" {:>6}", "");
+    second += fmt::format(" {:>6}", "gap");
+  }
+  if (std::isfinite(comparison.goal)) {
+    first += fmt::format(" {:>5}", "");
+    second += fmt::format(" {:>5}", "goal");
+  }
+  first += fmt::format(" {:>8} {:>8}", "fit", "predict");
+  second += fmt::format(" {:>8} {:>8}", "s", "ns");
+  return first + "\n" + second + "\n";
+}
+
+std::string RowText(const Comparison& comparison,
+                    std::size_t index,
+                    std::size_t name_width,
+                    const ErrorText& error) {
+  const ModelResult& model = comparison.study.models[index];
+  std::string text = fmt::format(
+      "{:<{}} {:>6} {:>4}",
+      ShortName(model.name),
+      name_width,
+      model.final_fit ? std::to_string(model.final_fit->model->num_parameters())
+                      : "-",
+      SensorCount(model));
+  for (std::size_t h = 0; h < model.holdouts.size(); ++h) {
+    const HoldoutResult& result = model.holdouts[h];
+    if (!result.ok()) {
+      text += fmt::format("  {:^{}}", "failed", kBlockWidth);
+      continue;
+    }
+    text += fmt::format("  {:>{}}{:>{}} {:>{}} {:>4}",
+                        error(result.train.rmse),
+                        kNumberWidth,
+                        error(result.test.rmse),
+                        kNumberWidth,
+                        IntervalText(comparison, index, h, error),
+                        kIntervalWidth,
+                        comparison.judgement.comparisons[h].TierOf(index));
+  }
+  if (comparison.judgement.gap) {
+    text += fmt::format(" {:>6}", GapText(comparison, index));
+  }
+  if (std::isfinite(comparison.goal)) {
+    text += fmt::format(" {:>5}", GoalMark(comparison, model));
+  }
+  return text + fmt::format(" {:>8.3f} {:>8}\n",
+                            FitSeconds(model),
+                            std::isfinite(model.predict_ns)
+                                ? fmt::format("{:.0f}", model.predict_ns)
+                                : "-");
+}
+
 }  // namespace
 
 std::string ComponentTable(const Comparison& comparison) {
@@ -100,68 +208,22 @@ std::string ComponentTable(const Comparison& comparison) {
   }
   std::string text = Header(comparison);
   text += fmt::format(
-      "RMSE and mean of target - predicted{}; * lowest held-out RMSE\n\n",
+      "RMSE of target - predicted{}; models of one tier do not differ in "
+      "practice\n\n",
       error.symbol().empty() ? "" : " in " + error.symbol());
-
-  // Two lines of headings: the hold-outs, then the figures of each.
-  constexpr int kBlockWidth = 3 * kNumberWidth + 2;
-  std::string first = fmt::format("{:<{}} {:>6}", "", name_width, "");
-  std::string second =
-      fmt::format("{:<{}} {:>6}", "model", name_width, "params");
-  for (const models::Holdout& holdout : comparison.holdouts) {
-    first += fmt::format("  {:^{}}", holdout.name, kBlockWidth);
-    second += fmt::format("  {:>{}}{:>{}} {:>{}} ",
-                          "train",
-                          kNumberWidth,
-                          "test",
-                          kNumberWidth,
-                          "mean",
-                          kNumberWidth);
-  }
-  first += fmt::format(" {:>8} {:>8}", "fit", "predict");
-  second += fmt::format(" {:>8} {:>8}", "s", "ns");
-  text += first + "\n" + second + "\n";
-
+  text += Headings(comparison, name_width);
   std::string notes;
   for (std::size_t i = 0; i < comparison.study.models.size(); ++i) {
     const ModelResult& model = comparison.study.models[i];
-    text += fmt::format(
-        "{:<{}} {:>6}",
-        ShortName(model.name),
-        name_width,
-        model.final_fit
-            ? std::to_string(model.final_fit->model->num_parameters())
-            : "-");
-    for (std::size_t h = 0; h < model.holdouts.size(); ++h) {
-      const HoldoutResult& result = model.holdouts[h];
-      if (!result.ok()) {
-        text += fmt::format("  {:^{}}", "failed", kBlockWidth);
-        continue;
-      }
-      const bool best =
-          comparison.verdicts[h].best == static_cast<std::ptrdiff_t>(i);
-      text += fmt::format("  {:>{}}{:>{}}{}{:>{}} ",
-                          error(result.train.rmse),
-                          kNumberWidth,
-                          error(result.test.rmse),
-                          kNumberWidth,
-                          best ? '*' : ' ',
-                          error(result.test.residuals.mean),
-                          kNumberWidth);
-    }
-    text += fmt::format(" {:>8.3f} {:>8}",
-                        FitSeconds(model),
-                        std::isfinite(model.predict_ns)
-                            ? fmt::format("{:.0f}", model.predict_ns)
-                            : "-");
-    text += "\n";
+    text += RowText(comparison, i, name_width, error);
     if (!model.ok()) {
       notes += fmt::format("{} failed, {}\n", model.name, model.why());
     }
     notes += UnconvergedNote(model);
+    if (model.memorisation) notes += MemorisationSentence(model) + "\n";
   }
   return text + "\n" + notes + (notes.empty() ? "" : "\n") +
-         VerdictParagraph(comparison);
+         VerdictParagraphs(comparison);
 }
 
 std::string StudyTable(const StudyRun& run) {

@@ -4,24 +4,42 @@
 #include <vector>
 
 #include "cli/comparison.h"
+#include "cli/number_text.h"
 
 namespace errmap::cli {
 
-/// "Under every:3, net:scg has the lowest error: 0.321 um RMSE; next is ..."
-std::string VerdictSentence(const Comparison& comparison,
-                            const models::Verdict& verdict);
+/// What hold-out `h` says: the lowest error with its interval, the tier, and
+/// whether the choice is more than chance.
+std::string VerdictSentence(const Comparison& comparison, std::size_t h);
 
-/// Which model to use and why, in one or two sentences; "" where nothing was
-/// fitted.
+/// Which map to use and its error on rows never seen; "" where nothing could
+/// be judged.
 std::string RecommendationSentence(const Comparison& comparison);
+
+/// Why that map, a sentence each.
+std::vector<std::string> Reasons(const Comparison& comparison);
 
 /// What a user must know before trusting it, a sentence each.
 std::vector<std::string> Caveats(const Comparison& comparison);
 
-/// All of it as a paragraph, wrapped for a terminal.
-std::string VerdictParagraph(const Comparison& comparison);
+/// "every:3 flatters poly:full:degree=6 (0.487 -> 10.254 um, 21 times)"; ""
+/// where no model is flattered or no such hold-outs are there.
+std::string GapSentence(const Comparison& comparison);
+
+/// Whether a net learns noise, with the figures; "" for other models.
+std::string MemorisationSentence(const models::ModelResult& model);
+
+/// All of it in paragraphs, wrapped for a terminal.
+std::string VerdictParagraphs(const Comparison& comparison);
 
 /// The digits that errors of this comparison are shown with.
-class ErrorText ErrorTextFor(const Comparison& comparison);
+ErrorText ErrorTextFor(const Comparison& comparison);
+
+/// "cycles", "blocks of rows": what the tests count.
+std::string PluralOfUnit(const models::UnitsOfAnalysis& units);
+
+/// Whether a model's held-out sd is below the goal; nothing without a goal.
+std::optional<bool> MeetsGoal(const Comparison& comparison,
+                              const models::HoldoutResult& result);
 
 }  // namespace errmap::cli

@@ -18,6 +18,8 @@ std::string_view ToString(ModelKind kind) {
       return "polynomial";
     case ModelKind::kNet:
       return "net";
+    case ModelKind::kFile:
+      return "file";
   }
   return "";
 }

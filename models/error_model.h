@@ -67,7 +67,8 @@ class ErrorModel {
   virtual Eigen::VectorXd DoPredict(const Eigen::MatrixXd& inputs) const = 0;
 };
 
-enum class ModelKind { kBaseline, kPolynomial, kNet };
+/// kFile: a map, or predictions, made elsewhere.
+enum class ModelKind { kBaseline, kPolynomial, kNet, kFile };
 std::string_view ToString(ModelKind kind);
 
 /// An input of a model and where it was trained.

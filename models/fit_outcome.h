@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "models/error_model.h"
+#include "models/memorisation.h"
 
 namespace errmap::models {
 
@@ -17,6 +18,7 @@ struct FitOutcome {
   double seconds = 0.0;
   Eigen::VectorXd train_predictions;  // target's unit; empty if failed
   Eigen::VectorXd test_predictions;   // the same; empty for a fit to all rows
+  std::optional<Memorisation> memorisation;  // of a net fitted to all rows
 };
 
 /// One fit of a study: a model on one fold of one hold-out, or on all rows.

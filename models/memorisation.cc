@@ -5,8 +5,8 @@
 #include <numeric>
 #include <vector>
 
+#include "models/fold_pool.h"
 #include "models/net_recipe.h"
-#include "models/study.h"
 #include "stats/random.h"
 
 namespace errmap::models {

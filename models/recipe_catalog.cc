@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "models/file_recipe.h"
 #include "models/model_spec.h"
 #include "models/net_recipe.h"
 #include "models/polynomial_recipe.h"
@@ -37,11 +38,13 @@ const std::vector<std::string>& ModelTypes() {
 }
 
 std::unique_ptr<ModelRecipe> MakeRecipe(std::string_view spec_text) {
+  if (auto recipe = MakeFileRecipe(spec_text)) return recipe;
   const ModelSpec spec = ParseModelSpec(spec_text);
   if (auto recipe = MakePolynomialRecipe(spec)) return recipe;
   if (auto recipe = MakeNetRecipe(spec)) return recipe;
   throw std::invalid_argument(
-      fmt::format("model '{}': unknown; there are {}, poly:formula=...",
+      fmt::format("model '{}': unknown; there are {}, poly:formula=..., "
+                  "file:model.json",
                   spec_text,
                   fmt::join(ModelTypes(), ", ")));
 }
@@ -81,6 +84,33 @@ DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
     }
   }
   return defaults;
+}
+
+const std::vector<std::string>& BaselineTypes() {
+  static const std::vector<std::string> types = {
+      "zero", "mean", "poly:position", "poly:temperature"};
+  return types;
+}
+
+bool IsBaseline(std::string_view spec) {
+  return std::ranges::any_of(BaselineTypes(), [&](const std::string& type) {
+    return spec == type || spec.starts_with(type + ":");
+  });
+}
+
+std::vector<std::unique_ptr<ModelRecipe>> MissingBaselines(
+    const data::Dataset& dataset,
+    const std::vector<std::unique_ptr<ModelRecipe>>& recipes) {
+  std::vector<std::unique_ptr<ModelRecipe>> missing;
+  for (const std::string& type : BaselineTypes()) {
+    const bool present = std::ranges::any_of(recipes, [&](const auto& recipe) {
+      return recipe->name() == type || recipe->name().starts_with(type + ":");
+    });
+    if (present) continue;
+    auto recipe = MakeRecipe(type);
+    if (!recipe->WhatIsMissing(dataset)) missing.push_back(std::move(recipe));
+  }
+  return missing;
 }
 
 }  // namespace errmap::models

@@ -9,8 +9,9 @@
 
 namespace errmap::models {
 
-/// The recipe of a SPEC such as "poly:full:degree=3". Throws
-/// std::invalid_argument naming what is wrong and what there is.
+/// The recipe of a SPEC such as "poly:full:degree=3" or "file:model.json".
+/// Throws std::invalid_argument naming what is wrong and what there is, and
+/// data::InputError where a model file cannot be read.
 std::unique_ptr<ModelRecipe> MakeRecipe(std::string_view spec);
 
 /// Types of model that MakeRecipe knows without options, in the order they are
@@ -29,5 +30,17 @@ struct DefaultRecipes {
 /// study's folds.
 DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
                                   Eigen::Index fewest_training_rows);
+
+/// Types of model that any other must beat to be worth its sensors: "zero" (no
+/// compensation), "mean", "poly:position" and "poly:temperature" (one of them).
+const std::vector<std::string>& BaselineTypes();
+
+/// Whether a SPEC is one of BaselineTypes, whatever its options.
+bool IsBaseline(std::string_view spec);
+
+/// The baselines that the data allow and `recipes` do not hold yet.
+std::vector<std::unique_ptr<ModelRecipe>> MissingBaselines(
+    const data::Dataset& dataset,
+    const std::vector<std::unique_ptr<ModelRecipe>>& recipes);
 
 }  // namespace errmap::models

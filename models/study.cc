@@ -11,6 +11,9 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "models/fold_pool.h"
+#include "models/recipe_catalog.h"
+
 namespace errmap::models {
 namespace {
 
@@ -28,18 +31,15 @@ double SecondsSince(Clock::time_point start) {
 FitOutcome FitOnce(const ModelRecipe& recipe,
                    const Dataset& training,
                    const Dataset* test,
-                   const StudyOptions& options,
-                   InnerHoldout inner) {
+                   const FitContext& context) {
   FitOutcome outcome;
-  if (options.stop != nullptr && options.stop->load()) {
+  if (context.stop != nullptr && context.stop->load()) {
     outcome.why_failed = "interrupted before it began";
     return outcome;
   }
   const auto start = Clock::now();
   try {
-    FittedModel fitted = recipe.Fit(
-        training,
-        {.seed = options.seed, .stop = options.stop, .inner_holdout = inner});
+    FittedModel fitted = recipe.Fit(training, context);
     outcome.seconds = SecondsSince(start);
     if (fitted.summary.termination == fitting::Termination::kFailed) {
       outcome.why_failed = fitted.summary.message;
@@ -61,103 +61,21 @@ FitOutcome FitOnce(const ModelRecipe& recipe,
   return outcome;
 }
 
-// Training and test rows of every fold, made once and shared by all models.
-struct PreparedFold {
-  Dataset training;
-  std::shared_ptr<const Dataset> test;
-};
-
-std::vector<std::vector<PreparedFold>> PrepareFolds(
-    const Dataset& dataset, const std::vector<Holdout>& holdouts) {
-  std::vector<std::vector<PreparedFold>> prepared;
-  for (const Holdout& holdout : holdouts) {
-    auto& folds = prepared.emplace_back();
-    for (const stats::Fold& fold : holdout.folds) {
-      auto test =
-          holdout.test_data != nullptr
-              ? holdout.test_data
-              : std::make_shared<const Dataset>(dataset.SelectRows(fold.test));
-      folds.push_back({dataset.SelectRows(fold.train), std::move(test)});
-    }
+// The fit to all rows is the one to use, so it is the one to explain: a
+// regression's tables, a net's error-reduction curve and what it knows by
+// heart.
+FitOutcome FitAllRows(const ModelRecipe& recipe,
+                      const Dataset& dataset,
+                      FitContext context) {
+  const bool is_net = recipe.kind() == ModelKind::kNet;
+  context.explain = !is_net;
+  context.keep_trace = is_net;
+  FitOutcome outcome = FitOnce(recipe, dataset, nullptr, context);
+  if (is_net && outcome.fitted) {
+    outcome.memorisation =
+        AssessMemorisation(recipe, dataset, *outcome.fitted, context);
   }
-  return prepared;
-}
-
-stats::SampleSummary MeanOf(const std::vector<stats::ErrorMetrics>& folds) {
-  const double count = static_cast<double>(folds.size());
-  stats::SampleSummary mean;
-  Index n = 0;
-  for (const auto& fold : folds) {
-    n += fold.residuals.n;
-    mean.mean += fold.residuals.mean / count;
-    mean.sd += fold.residuals.sd / count;
-    mean.min += fold.residuals.min / count;
-    mean.max += fold.residuals.max / count;
-    mean.range += fold.residuals.range / count;
-  }
-  mean.n = n / static_cast<Index>(folds.size());
-  return mean;
-}
-
-stats::ErrorMetrics AverageMetrics(
-    const std::vector<stats::ErrorMetrics>& folds) {
-  const double count = static_cast<double>(folds.size());
-  stats::ErrorMetrics average;
-  average.residuals = MeanOf(folds);
-  for (const auto& fold : folds) {
-    average.rmse += fold.rmse / count;
-    average.mae += fold.mae / count;
-    average.r2 += fold.r2 / count;
-  }
-  return average;
-}
-
-// Pools the folds of one model under one hold-out.
-HoldoutResult PoolFolds(const Holdout& holdout,
-                        const std::vector<PreparedFold>& prepared,
-                        std::vector<FitOutcome> outcomes) {
-  HoldoutResult result;
-  result.holdout = holdout.name;
-  for (std::size_t fold = 0; fold < outcomes.size(); ++fold) {
-    if (outcomes[fold].fitted) continue;
-    result.why_failed =
-        outcomes.size() == 1
-            ? outcomes[fold].why_failed
-            : fmt::format("fold {}: {}", fold, outcomes[fold].why_failed);
-    return result;
-  }
-  Index num_test = 0;
-  for (const PreparedFold& fold : prepared) num_test += fold.test->num_rows();
-  VectorXd targets(num_test);
-  VectorXd residuals(num_test);
-  VectorXd baseline(num_test);
-  std::vector<stats::ErrorMetrics> train;
-  Index begin = 0;
-  for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    const PreparedFold& fold = prepared[i];
-    FitOutcome& outcome = outcomes[i];
-    train.push_back(Judge(fold.training, outcome.train_predictions));
-    const VectorXd& test_targets = fold.test->target_values();
-    const Index size = test_targets.size();
-    targets.segment(begin, size) = test_targets;
-    residuals.segment(begin, size) = test_targets - outcome.test_predictions;
-    baseline.segment(begin, size)
-        .setConstant(stats::Summarize(fold.training.target_values()).mean);
-    FoldResult folded;
-    folded.train_rmse = train.back().rmse;
-    folded.test_rmse = stats::RootMeanSquare(residuals.segment(begin, size));
-    folded.summary = std::move(outcome.fitted->summary);
-    folded.fit_seconds = outcome.seconds;
-    folded.remarks = std::move(outcome.fitted->remarks);
-    folded.choices = std::move(outcome.fitted->choices);
-    folded.starts = std::move(outcome.fitted->starts);
-    folded.test_predictions = std::move(outcome.test_predictions);
-    result.folds.push_back(std::move(folded));
-    begin += size;
-  }
-  result.train = AverageMetrics(train);
-  result.test = stats::ComputeErrorMetrics(targets, residuals, baseline);
-  return result;
+  return outcome;
 }
 
 // Nanoseconds per prediction by the shortest of several runs: what else the
@@ -204,7 +122,7 @@ std::string ModelResult::why() const {
   for (const HoldoutResult& holdout : holdouts) {
     if (!holdout.ok()) return holdout.holdout + ": " + holdout.why_failed;
   }
-  return final_fit ? "" : "all rows: " + final_why_failed;
+  return final_why_failed.empty() ? "" : "all rows: " + final_why_failed;
 }
 
 Holdout MakeHoldout(const stats::HoldoutSpec& spec,
@@ -217,20 +135,19 @@ Holdout MakeHoldout(const stats::HoldoutSpec& spec,
   const bool by_group = spec.kind == stats::HoldoutKind::kGroups ||
                         spec.kind == stats::HoldoutKind::kLeaveOneGroupOut ||
                         spec.kind == stats::HoldoutKind::kForward;
-  return {
-      spec.text,
-      by_group && dataset.has_groups(),
-      stats::MakeFolds(spec, dataset.num_rows(), dataset.groups().codes, seed),
-      std::move(test_data),
-      InnerHoldoutLike(spec.kind)};
-}
-
-stats::ErrorMetrics Judge(const Dataset& dataset, const VectorXd& predicted) {
-  const VectorXd& targets = dataset.target_values();
-  return stats::ComputeErrorMetrics(
-      targets,
-      targets - predicted,
-      VectorXd::Constant(targets.size(), stats::Summarize(targets).mean));
+  Holdout holdout;
+  holdout.name = spec.text;
+  holdout.whole_groups = by_group && dataset.has_groups();
+  holdout.among_neighbours = spec.kind == stats::HoldoutKind::kEvery ||
+                             spec.kind == stats::HoldoutKind::kKFold ||
+                             spec.kind == stats::HoldoutKind::kRandom;
+  holdout.forward = spec.kind == stats::HoldoutKind::kForward;
+  holdout.repeats = std::max<Index>(1, spec.repeats);
+  holdout.folds =
+      stats::MakeFolds(spec, dataset.num_rows(), dataset.groups().codes, seed);
+  holdout.test_data = std::move(test_data);
+  holdout.inner = InnerHoldoutLike(spec.kind);
+  return holdout;
 }
 
 StudyResult RunStudy(const Dataset& dataset,
@@ -241,7 +158,8 @@ StudyResult RunStudy(const Dataset& dataset,
     throw std::invalid_argument(
         "RunStudy: needs at least one model, one hold-out and one job");
   }
-  const auto prepared = PrepareFolds(dataset, holdouts);
+  const std::vector<std::vector<PreparedFold>> prepared =
+      PrepareFolds(dataset, holdouts);
 
   // Nets last: whoever interrupts a long run has the quick fits.
   std::vector<StudyTask> tasks;
@@ -263,14 +181,12 @@ StudyResult RunStudy(const Dataset& dataset,
   }
   const auto fit = [&](const StudyTask& task) {
     const ModelRecipe& recipe = *recipes[task.model];
-    if (task.holdout < 0) {
-      return FitOnce(
-          recipe, dataset, nullptr, options, InnerHoldout::kWholeGroups);
-    }
+    FitContext context{.seed = options.seed, .stop = options.stop};
+    if (task.holdout < 0) return FitAllRows(recipe, dataset, context);
     const auto h = static_cast<std::size_t>(task.holdout);
     const PreparedFold& fold = prepared[h][task.fold];
-    return FitOnce(
-        recipe, fold.training, fold.test.get(), options, holdouts[h].inner);
+    context.inner_holdout = holdouts[h].inner;
+    return FitOnce(recipe, fold.training, fold.test.get(), context);
   };
   const auto find_or_fit = [&](const StudyTask& task) {
     if (options.journal == nullptr) return fit(task);
@@ -311,6 +227,7 @@ StudyResult RunStudy(const Dataset& dataset,
     ModelResult judged;
     judged.name = recipes[model]->name();
     judged.kind = recipes[model]->kind();
+    judged.baseline = IsBaseline(judged.name);
     judged.options = recipes[model]->options();
     for (std::size_t h = 0; h < holdouts.size(); ++h) {
       judged.holdouts.push_back(
@@ -318,6 +235,7 @@ StudyResult RunStudy(const Dataset& dataset,
     }
     judged.final_fit = std::move(final_outcomes[model].fitted);
     judged.final_why_failed = final_outcomes[model].why_failed;
+    judged.memorisation = final_outcomes[model].memorisation;
     judged.final_fit_seconds = final_outcomes[model].seconds;
     judged.predict_ns =
         judged.final_fit ? MeasurePrediction(*judged.final_fit, dataset) : kNaN;

@@ -18,8 +18,12 @@ namespace errmap::models {
 
 /// A way of holding rows out, ready for one data set.
 struct Holdout {
-  std::string name;                // its SPEC
-  bool whole_groups = false;       // no group is on both sides of a fold
+  std::string name;           // its SPEC
+  bool whole_groups = false;  // no group is on both sides of a fold
+  /// Rows between which others were fitted are judged: interpolation.
+  bool among_neighbours = false;
+  bool forward = false;            // earlier rows predict later ones
+  Eigen::Index repeats = 1;        // cuts of the same rows, one after another
   std::vector<stats::Fold> folds;  // indices into the data set
   /// Rows judged instead of the folds' own (file:TEST.csv), or null.
   std::shared_ptr<const data::Dataset> test_data;
@@ -61,14 +65,16 @@ struct HoldoutResult {
 struct ModelResult {
   std::string name;  // the SPEC as given
   ModelKind kind = ModelKind::kPolynomial;
+  bool baseline = false;  // what any map must beat: see IsBaseline
   std::vector<EffectiveOption> options;
   std::vector<HoldoutResult> holdouts;   // as the study's
   std::optional<FittedModel> final_fit;  // to all rows; the map to use
   std::string final_why_failed;
   double final_fit_seconds = 0.0;
+  std::optional<Memorisation> memorisation;  // of a net, fitted to all rows
   double predict_ns = 0.0;  // per prediction; NaN where nothing was fitted
 
-  bool ok() const;          // every hold-out and the final fit
+  bool ok() const;          // every hold-out, and the final fit if there is one
   std::string why() const;  // the first reason of failure, "" if ok
 };
 
@@ -96,10 +102,5 @@ StudyResult RunStudy(const data::Dataset& dataset,
                      const std::vector<Holdout>& holdouts,
                      const std::vector<std::unique_ptr<ModelRecipe>>& recipes,
                      const StudyOptions& options);
-
-/// Metrics of `predicted` (m) against the targets of `dataset`, R2 about its
-/// own mean.
-stats::ErrorMetrics Judge(const data::Dataset& dataset,
-                          const Eigen::VectorXd& predicted);
 
 }  // namespace errmap::models

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "models/recipe_catalog.h"
-#include "models/verdict.h"
 #include "tests/model_test_data.h"
+#include "tests/study_test_tools.h"
 
 namespace errmap::models {
 namespace {
@@ -16,22 +16,9 @@ namespace {
 using errmap::testing::ShippedMeasurements;
 using ::testing::HasSubstr;
 
-using Recipes = std::vector<std::unique_ptr<ModelRecipe>>;
-
-Recipes MakeRecipes(const std::vector<std::string>& specs) {
-  Recipes recipes;
-  for (const std::string& spec : specs) recipes.push_back(MakeRecipe(spec));
-  return recipes;
-}
-
-std::vector<Holdout> MakeHoldouts(const data::Dataset& dataset,
-                                  const std::vector<std::string>& specs) {
-  std::vector<Holdout> holdouts;
-  for (const std::string& spec : specs) {
-    holdouts.push_back(MakeHoldout(stats::ParseHoldout(spec), dataset, 1));
-  }
-  return holdouts;
-}
+using errmap::testing::MakeHoldouts;
+using errmap::testing::MakeRecipes;
+using errmap::testing::Recipes;
 
 // Micrometres as printed: half a unit of the fourth decimal.
 constexpr double kPrinted = 5e-5;
@@ -144,21 +131,6 @@ TEST(Study, JudgesTheRowsOfAnotherFile) {
       RunStudy(dataset, holdouts, MakeRecipes({"poly:eq8"}), {});
   const FoldResult& fold = study.models[0].holdouts[0].folds[0];
   EXPECT_EQ(fold.test_predictions, study.models[0].final_fit->Predict(*test));
-}
-
-TEST(Verdict, GoesByWholeGroupsWhereThereAreSome) {
-  const data::Dataset dataset = ShippedMeasurements();
-  const auto holdouts = MakeHoldouts(dataset, {"every:3", "groups:5"});
-  const StudyResult study =
-      RunStudy(dataset,
-               holdouts,
-               MakeRecipes({"poly:full:degree=6", "poly:full:degree=3"}),
-               {});
-  const auto verdicts = JudgeHoldouts(study, holdouts);
-  EXPECT_EQ(verdicts[0].best, 0);
-  EXPECT_EQ(verdicts[1].best, 1);
-  EXPECT_EQ(verdicts[1].next, 0);
-  EXPECT_EQ(DecisiveVerdict(verdicts), &verdicts[1]);
 }
 
 TEST(Study, RefusesToRunOnNothing) {

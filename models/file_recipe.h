@@ -1,0 +1,18 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "models/error_model.h"
+
+namespace errmap::models {
+
+/// "file:model.json": an existing map, judged as it is; nothing is fitted.
+/// Returns null where `spec` does not begin with "file:". Its Fit throws
+/// std::invalid_argument where the data lack an input of the map or measure
+/// target or input in another unit. Throws data::InputError where the file
+/// cannot be read or is no model file.
+std::unique_ptr<ModelRecipe> MakeFileRecipe(std::string_view spec);
+
+}  // namespace errmap::models

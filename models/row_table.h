@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <unordered_map>
+
+#include "data/csv.h"
+#include "data/dataset.h"
+
+namespace errmap::models {
+
+/// Index into `dataset` of each data row that it holds.
+std::unordered_map<Eigen::Index, Eigen::Index> IndexByRow(
+    const data::Dataset& dataset);
+
+/// Reads tables of people whose lines are about the rows of a data set; each
+/// accessor throws data::InputError naming file, line and column.
+class RowTable {
+ public:
+  /// `table` must outlive it.
+  explicit RowTable(const data::CsvTable& table) : table_(table) {}
+
+  std::size_t num_lines() const { return table_.num_rows; }
+  bool Has(const std::string& column) const { return table_.Find(column) >= 0; }
+  /// A whole number from 0.
+  Eigen::Index Whole(std::size_t line, const std::string& column) const;
+  double Number(std::size_t line, const std::string& column) const;
+  std::string Text(std::size_t line, const std::string& column) const;
+  /// Throws that `why` is wrong with a line.
+  [[noreturn]] void Refuse(std::size_t line,
+                           const std::string& column,
+                           const std::string& why) const;
+  /// Throws unless all of these columns are there.
+  void Require(const std::vector<std::string>& columns) const;
+
+ private:
+  const data::CsvColumn& Column(const std::string& name) const;
+
+  const data::CsvTable& table_;
+};
+
+}  // namespace errmap::models
