@@ -135,6 +135,9 @@ struct FitContext {
   /// Also make the report of a regression (tables, and bootstraps), and judge
   /// each of several starts by inner hold-outs.
   bool explain = false;
+  /// Explain with the recipe's default number of bootstraps; without it, with
+  /// as many as its options ask for.
+  bool default_bootstraps = true;
   int threads = 1;  // at least 1; changes no figure
   /// Numbers that a design matrix may hold (8 bytes each); a larger one is
   /// reduced to a triangle in one pass over the rows.

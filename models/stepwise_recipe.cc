@@ -177,10 +177,11 @@ class StepwiseRecipe final : public PolynomialRecipe {
     }
     // At many rows a bootstrap is made only where it is asked for, and then
     // over whole groups, each of which is a triangle.
-    const std::int64_t repetitions = !context.explain  ? 0
-                                     : bootstrap_ >= 0 ? bootstrap_
-                                     : by_triangle     ? 0
-                                                       : kDefaultBootstrap;
+    const std::int64_t repetitions =
+        !context.explain                             ? 0
+        : bootstrap_ >= 0                            ? bootstrap_
+        : by_triangle || !context.default_bootstraps ? 0
+                                                     : kDefaultBootstrap;
     const bool group_parts =
         by_triangle && repetitions > 0 && training.has_groups();
     const DictionaryRows rows = CollectDictionary(

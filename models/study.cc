@@ -69,6 +69,7 @@ FitOutcome FitAllRows(const ModelRecipe& recipe,
                       FitContext context) {
   const bool is_net = recipe.kind() == ModelKind::kNet;
   context.explain = !is_net;
+  context.default_bootstraps = false;  // seconds, where fits take milliseconds
   context.keep_trace = is_net;
   FitOutcome outcome = FitOnce(recipe, dataset, nullptr, context);
   if (is_net && outcome.fitted) {

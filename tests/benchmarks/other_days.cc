@@ -4,9 +4,10 @@
 //
 //   other_days [TRAINING_DAYS [JUDGED_DAYS [SEEDS]]]     (default 3 2 20)
 //
-// One line per seed and rule (hold-out by whole cycles, or kfold:5), then the
+// One line per seed and rule (whole cycles, neighbours, whole days), then the
 // geometric mean and the worst of RMSE recommended / RMSE best.
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -32,6 +33,9 @@ using models::Holdout;
 
 constexpr const char* kComponent = "x_displacement_down.csv";
 constexpr double kMicrometres = 1e3;
+// groups:5 of cycles, kfold:5 of rows, whole days left out in turn.
+constexpr std::array<const char*, 3> kRules = {
+    "groups:5", "kfold:5", "day by day"};
 
 data::PreparedDataset SimulateComponent(int days, std::uint64_t seed) {
   data::turning_centre::SimulationOptions options;
@@ -61,6 +65,26 @@ Days SplitDays(const data::Dataset& dataset, int first_days, int days) {
   }
   return {dataset.SelectRows(first),
           std::make_shared<const data::Dataset>(dataset.SelectRows(last))};
+}
+
+// Rows of `dataset` with the days as groups in place of the cycles.
+data::Dataset GroupByDay(const data::Dataset& dataset,
+                         Index cycles_per_day,
+                         int days) {
+  data::Dataset::Parts parts;
+  parts.source = dataset.source();
+  parts.inputs = dataset.inputs();
+  parts.input_values = dataset.input_values();
+  parts.target = dataset.target();
+  parts.target_values = dataset.target_values();
+  parts.groups.column = "day";
+  for (int day = 1; day <= days; ++day) {
+    parts.groups.labels.push_back(std::to_string(day));
+  }
+  for (const Index cycle : dataset.groups().codes) {
+    parts.groups.codes.push_back(cycle / cycles_per_day);
+  }
+  return data::Dataset(std::move(parts));
 }
 
 // The same study with one of its hold-outs only.
@@ -93,13 +117,18 @@ void ScoreSeed(int training_days,
     holdouts.push_back(
         models::MakeHoldout(stats::ParseHoldout(spec), split.first, seed));
   }
+  const auto cycles = static_cast<Index>(split.first.groups().labels.size());
+  const data::Dataset by_day =
+      GroupByDay(split.first, cycles / days, training_days);
+  holdouts.push_back(models::MakeHoldout(
+      stats::ParseHoldout("leave-one-group-out"), by_day, seed));
   holdouts.push_back(models::MakeHoldout(
       stats::ParseHoldout("file:last"), split.first, seed, split.last));
   const auto defaults =
       models::MakeDefaultRecipes(split.first, split.first.num_rows() * 4 / 5);
   const auto study = models::RunStudy(
       split.first, holdouts, defaults.recipes, {.seed = seed, .jobs = 2});
-  constexpr std::size_t kTruth = 2;
+  constexpr std::size_t kTruth = 3;
   const auto rmse = [&](std::size_t model) {
     return study.models[model].holdouts[kTruth].test.rmse;
   };
@@ -116,7 +145,7 @@ void ScoreSeed(int training_days,
   }
   for (std::size_t rule = 0; rule < kTruth; ++rule) {
     const models::Judgement judgement =
-        models::JudgeStudy(split.first,
+        models::JudgeStudy(rule == 2 ? by_day : split.first,
                            {holdouts[rule]},
                            OnlyHoldout(study, rule),
                            kIndifference,
@@ -129,11 +158,11 @@ void ScoreSeed(int training_days,
     score.worst = std::max(score.worst, ratio);
     if (rmse(model) > best_baseline) ++score.above_baseline;
     fmt::print(
-        "seed {:2} {:9} {:20} promised {:6.3f} um, last days {:6.3f}, best {} "
+        "seed {:2} {:11} {:14} promised {:6.3f} um, last days {:6.3f}, best {} "
         "{:6.3f}, best "
         "baseline {:6.3f}, ratio {:.3f}\n",
         seed,
-        holdouts[rule].name,
+        kRules[rule],
         study.models[model].name,
         promised * kMicrometres,
         rmse(model) * kMicrometres,
@@ -152,7 +181,7 @@ int Main(int argc, char** argv) {
   const int training_days = argument(1, 3);
   const int judged_days = argument(2, 2);
   const int seeds = argument(3, 20);
-  std::vector<Score> scores(2);
+  std::vector<Score> scores(kRules.size());
   for (int seed = 1; seed <= seeds; ++seed) {
     ScoreSeed(
         training_days, judged_days, static_cast<std::uint64_t>(seed), &scores);
