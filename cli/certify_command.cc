@@ -9,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/data_arguments.h"
 #include "cli/number_text.h"
+#include "cli/provenance.h"
 #include "models/certification/certification.h"
 
 namespace errmap::cli {
@@ -24,7 +25,8 @@ struct CertifyArguments {
   }
 };
 
-int RunCertify(const CertifyArguments& arguments) {
+int RunCertify(const CertifyArguments& arguments,
+               const std::string& command_line) {
   const models::CertificationFloors floors;
   models::Certification certification;
   if (arguments.Includes("nist")) {
@@ -39,10 +41,15 @@ int RunCertify(const CertifyArguments& arguments) {
     models::CertifyAgreement(&certification);
   }
   models::JudgeFloors(floors, &certification);
-  fmt::print("{}",
-             arguments.format == "json"
-                 ? DumpJson(CertificationJson(certification, floors))
-                 : CertificationText(certification, floors, arguments.details));
+  if (arguments.format == "json") {
+    Json document = CertificationJson(certification, floors);
+    document["provenance"] =
+        ProvenanceJson(command_line, {{"part", arguments.part}}, {});
+    fmt::print("{}", DumpJson(document));
+  } else {
+    fmt::print("{}",
+               CertificationText(certification, floors, arguments.details));
+  }
   if (certification.passed()) return kDone;
   const auto missed = static_cast<long long>(certification.missed.size());
   Say(
@@ -80,7 +87,9 @@ void AddCertifyCommand(CLI::App* app, Run* run) {
   command->footer(
       "Exit status: 0 every floor is reached, 4 one is missed.\n"
       "Example: errmap certify nist --format json");
-  command->callback([arguments, run] { run->status = RunCertify(*arguments); });
+  command->callback([arguments, run] {
+    run->status = RunCertify(*arguments, run->command_line);
+  });
 }
 
 }  // namespace errmap::cli

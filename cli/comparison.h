@@ -4,20 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "cli/provenance.h"
 #include "cli/study_config.h"
 #include "data/dataset.h"
 #include "models/study.h"
 #include "models/verdict.h"
 
 namespace errmap::cli {
-
-/// A file that was read, and its content's SHA-256 in hexadecimal digits.
-struct InputFile {
-  std::string file;
-  std::string sha256;
-
-  bool operator==(const InputFile&) const = default;
-};
 
 /// One component's comparison with all that its outputs need.
 struct Comparison {

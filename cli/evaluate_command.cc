@@ -7,6 +7,7 @@
 #include "cli/data_arguments.h"
 #include "cli/json_blocks.h"
 #include "cli/number_text.h"
+#include "cli/provenance.h"
 #include "cli/residual_json.h"
 #include "cli/summary_text.h"
 #include "models/fold_pool.h"
@@ -24,7 +25,8 @@ struct EvaluateArguments {
   bool quiet = false;
 };
 
-int RunEvaluate(const EvaluateArguments& arguments) {
+int RunEvaluate(const EvaluateArguments& arguments,
+                const std::string& command_line) {
   const models::FittedModel fitted = models::LoadModel(arguments.model);
   data::DatasetSelection selection{
       .target = fitted.target.name,
@@ -52,17 +54,23 @@ int RunEvaluate(const EvaluateArguments& arguments) {
       residuals, metrics.residuals.mean, metrics.residuals.sd);
   const double ks_p = stats::KsProbabilityMeanSdGiven(ks_d, residuals.size());
   if (arguments.format == "json") {
-    fmt::print("{}",
-               DumpJson({{"schema", "errmap-evaluate-1"},
-                         {"model", fitted.name},
-                         {"file", arguments.file},
-                         {"target", fitted.target.name},
-                         {"unit", fitted.target.unit.symbol},
-                         {"summary", MetricsJson(metrics)},
-                         {"normality",
-                          NormalityJson(stats::AssessNormality(
-                                            stats::OrderedSample(residuals)),
-                                        {})}}));
+    fmt::print(
+        "{}",
+        DumpJson(
+            {{"schema", "errmap-evaluate-1"},
+             {"model", fitted.name},
+             {"file", arguments.file},
+             {"target", fitted.target.name},
+             {"unit", fitted.target.unit.symbol},
+             {"summary", MetricsJson(metrics)},
+             {"normality",
+              NormalityJson(
+                  stats::AssessNormality(stats::OrderedSample(residuals)), {})},
+             {"provenance",
+              ProvenanceJson(
+                  command_line,
+                  {{"missing", arguments.missing}},
+                  {HashInput(arguments.model), HashInput(arguments.file)})}}));
     return kDone;
   }
   fmt::print("{} ({}) on {}: target - predicted of {}\n{}",
@@ -99,8 +107,9 @@ void AddEvaluateCommand(CLI::App* app, Run* run) {
       ->type_name("table|json")
       ->capture_default_str();
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
-  command->callback(
-      [arguments, run] { run->status = RunEvaluate(*arguments); });
+  command->callback([arguments, run] {
+    run->status = RunEvaluate(*arguments, run->command_line);
+  });
 }
 
 }  // namespace errmap::cli

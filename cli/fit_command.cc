@@ -12,8 +12,8 @@
 #include "cli/interrupt.h"
 #include "cli/json_blocks.h"
 #include "cli/number_text.h"
+#include "cli/provenance.h"
 #include "cli/regression_text.h"
-#include "cli/sha256.h"
 #include "cli/start_report.h"
 #include "data/atomic_file.h"
 #include "models/fold_pool.h"
@@ -59,6 +59,26 @@ Json FitJson(const models::FittedModel& fitted,
   }
   if (arguments.correlations) json["correlations"] = CorrelationJson(dataset);
   return json;
+}
+
+// What took effect, defaults included.
+Json ConfigurationJson(const models::ModelRecipe& recipe,
+                       const data::Dataset& dataset,
+                       const FitArguments& arguments) {
+  Json inputs = Json::array();
+  for (const data::ColumnInfo& input : dataset.inputs()) {
+    inputs.push_back(input.name);
+  }
+  const std::string& weight = arguments.data.weight;
+  return {
+      {"model", recipe.name()},
+      {"options", ChoicesJson(recipe.options())},
+      {"target", dataset.target().name},
+      {"inputs", std::move(inputs)},
+      {"group", dataset.has_groups() ? Json(dataset.groups().column) : Json()},
+      {"weight", weight.empty() ? Json() : Json(weight)},
+      {"missing", arguments.data.missing},
+      {"seed", arguments.seed}};
 }
 
 std::string FitText(const models::FittedModel& fitted,
@@ -116,19 +136,23 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
                         : std::string("a prediction is not finite")));
     return kEveryFitFailed;
   }
+  const InputFile input = HashInput(arguments.data.file);
   models::SaveModel(
       fitted,
-      {{"command_line", command_line},
-       {"data", arguments.data.file},
-       {"data_sha256", Sha256(data::ReadFile(arguments.data.file))},
-       {"rows", std::to_string(prepared.dataset.num_rows())},
-       {"seed", std::to_string(arguments.seed)}},
+      ModelProvenance(
+          command_line, input, prepared.dataset.num_rows(), arguments.seed),
       arguments.out);
   const stats::ErrorMetrics train = models::Judge(prepared.dataset, predicted);
-  fmt::print("{}",
-             arguments.format == "json"
-                 ? DumpJson(FitJson(fitted, train, prepared.dataset, arguments))
-                 : FitText(fitted, train, prepared.dataset, arguments));
+  if (arguments.format == "json") {
+    Json document = FitJson(fitted, train, prepared.dataset, arguments);
+    document["provenance"] =
+        ProvenanceJson(command_line,
+                       ConfigurationJson(*recipe, prepared.dataset, arguments),
+                       {input});
+    fmt::print("{}", DumpJson(document));
+  } else {
+    fmt::print("{}", FitText(fitted, train, prepared.dataset, arguments));
+  }
   if (stop.load()) {
     Say("interrupted; the best map so far was written");
     return kInterrupted;

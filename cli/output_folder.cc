@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/provenance.h"
 #include "cli/results_document.h"
 #include "data/atomic_file.h"
 #include "data/csv.h"
@@ -37,12 +38,11 @@ std::string FileNameOf(const std::string& text, std::set<std::string>* taken) {
 void WriteModels(const StudyRun& run,
                  const Comparison& component,
                  const std::filesystem::path& folder) {
-  const models::Provenance provenance = {
-      {"command_line", run.command_line},
-      {"data", component.file},
-      {"data_sha256", component.sha256},
-      {"rows", std::to_string(component.data.dataset.num_rows())},
-      {"seed", std::to_string(run.seed)}};
+  const models::Provenance provenance =
+      ModelProvenance(run.command_line,
+                      {component.file, component.sha256},
+                      component.data.dataset.num_rows(),
+                      run.seed);
   std::set<std::string> taken;
   for (const models::ModelResult& model : component.study.models) {
     if (!model.final_fit) continue;

@@ -11,6 +11,7 @@
 #include "cli/data_arguments.h"
 #include "cli/json_blocks.h"
 #include "cli/number_text.h"
+#include "cli/provenance.h"
 #include "cli/residual_json.h"
 #include "cli/residual_report.h"
 #include "cli/residual_text.h"
@@ -197,7 +198,25 @@ Json SummaryJson(const stats::ErrorMetrics& metrics,
   return summary;
 }
 
-int RunResiduals(const ResidualsArguments& arguments) {
+// The columns and choices that took effect.
+Json ConfigurationJson(const ResidualsArguments& arguments,
+                       const ResidualInputs& inputs) {
+  const auto named = [](const std::string& name) {
+    return name.empty() ? Json() : Json(name);
+  };
+  return {{"column", arguments.column},
+          {"order", named(arguments.order)},
+          {"group", named(inputs.group_column)},
+          {"position", named(inputs.position_column)},
+          {"fitted", named(inputs.fitted_column)},
+          {"missing", arguments.missing},
+          {"monte_carlo", arguments.monte_carlo},
+          {"seed", arguments.seed},
+          {"bins", arguments.bins}};
+}
+
+int RunResiduals(const ResidualsArguments& arguments,
+                 const std::string& command_line) {
   const ResidualInputs inputs = ReadInputs(arguments);
   const Eigen::VectorXd& values = inputs.values;
   const data::Unit unit = data::UnitOfColumn(arguments.column);
@@ -230,6 +249,10 @@ int RunResiduals(const ResidualsArguments& arguments) {
     if (arguments.as_printed_1995) {
       document["as_printed_1995"] = Report1995Json(printed, r_squared_1995);
     }
+    document["provenance"] =
+        ProvenanceJson(command_line,
+                       ConfigurationJson(arguments, inputs),
+                       {HashInput(arguments.file)});
     fmt::print("{}", DumpJson(document));
     return kDone;
   }
@@ -326,8 +349,9 @@ void AddResidualsCommand(CLI::App* app, Run* run) {
       ->check(CLI::IsMember({"table", "json"}))
       ->type_name("table|json")
       ->capture_default_str();
-  command->callback(
-      [arguments, run] { run->status = RunResiduals(*arguments); });
+  command->callback([arguments, run] {
+    run->status = RunResiduals(*arguments, run->command_line);
+  });
 }
 
 }  // namespace errmap::cli

@@ -1,17 +1,11 @@
 #include "cli/results_document.h"
 
 #include "cli/json_blocks.h"
+#include "cli/provenance.h"
 #include "cli/results_json.h"
 #include "models/version.h"
 
 namespace errmap::cli {
-namespace {
-
-Json ProvenanceJson(const StudyRun& run) {
-  return {{"command_line", run.command_line}, {"compiler", "g++ " __VERSION__}};
-}
-
-}  // namespace
 
 std::string ResultsJson(const StudyRun& run) {
   Json components = Json::array();
@@ -22,7 +16,8 @@ std::string ResultsJson(const StudyRun& run) {
                    {"version", models::Version()},
                    {"seed", run.seed},
                    {"interrupted", run.interrupted},
-                   {"provenance", ProvenanceJson(run)},
+                   {"provenance",
+                    ProvenanceJson(run.command_line, nullptr, run.inputs)},
                    {"components", std::move(components)}});
 }
 

@@ -12,6 +12,7 @@
 #include <ceres/iteration_callback.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
+#include <ceres/version.h>
 #include <glog/logging.h>
 
 #include "fitting/guarded_run.h"
@@ -195,6 +196,8 @@ std::string MinimizeByResiduals(const ResidualFunction& residuals,
 }
 
 }  // namespace
+
+std::string CeresVersion() { return CERES_VERSION_STRING; }
 
 const std::vector<std::string>& CeresMethodNames() {
   static const std::vector<std::string> names = {

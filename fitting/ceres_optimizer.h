@@ -23,6 +23,9 @@ enum class CeresMethod {
 const std::vector<std::string>& CeresMethodNames();
 std::string_view ToString(CeresMethod method);
 
+/// Version of the Ceres Solver compiled against: "2.1.0".
+std::string CeresVersion();
+
 struct CeresOptions {
   StoppingRules stopping = {};
   CeresMethod method = CeresMethod::kAuto;

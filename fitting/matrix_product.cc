@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cblas.h>
 #include <cstddef>
+#include <string_view>
 
 // LAPACK: Cholesky factorisation.
 extern "C" {
@@ -52,6 +53,14 @@ void UseOneThreadPerCall() {
     return true;
   }();
   static_cast<void>(once);
+}
+
+std::string OpenBlasConfiguration() {
+  std::string words = openblas_get_config();
+  while (words.ends_with(' ')) words.pop_back();
+  constexpr std::string_view kName = "OpenBLAS ";
+  if (words.starts_with(kName)) words.erase(0, kName.size());
+  return words;
 }
 
 void Multiply(const MatrixView<double>& a,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include <Eigen/Core>
 
 namespace errmap::fitting {
@@ -20,6 +22,10 @@ using MutableMatrixView =
 /// the same call then gives the same bits beside any number of others, and the
 /// cores are shared out by those who know the work. Called by all below.
 void UseOneThreadPerCall();
+
+/// Version and options of OpenBLAS in its own words, and the processor whose
+/// kernels it took: the last bits of a product depend on them.
+std::string OpenBlasConfiguration();
 
 /// c = a b, or c += a b where `accumulate`, with a (m x k), b (k x n), c (m x
 /// n), none of them empty; by OpenBLAS.

@@ -116,6 +116,15 @@ NloptProblem MakeProblem(const NloptOptions& options,
 
 }  // namespace
 
+std::string NloptVersion() {
+  int major = 0;
+  int minor = 0;
+  int patch = 0;
+  nlopt_version(&major, &minor, &patch);
+  return std::to_string(major) + "." + std::to_string(minor) + "." +
+         std::to_string(patch);
+}
+
 const std::vector<std::string>& NloptMethodNames() {
   static const std::vector<std::string> names = {"lbfgs",
                                                  "tnewton_precond_restart",

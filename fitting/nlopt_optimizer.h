@@ -25,6 +25,9 @@ enum class NloptMethod {
 const std::vector<std::string>& NloptMethodNames();
 std::string_view ToString(NloptMethod method);
 
+/// Version of the NLopt in use: "2.7.1".
+std::string NloptVersion();
+
 struct NloptOptions {
   StoppingRules stopping = {};
   NloptMethod method = NloptMethod::kLbfgs;

@@ -8,6 +8,7 @@
 #include <boost/math/special_functions/beta.hpp>
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/math/special_functions/gamma.hpp>
+#include <boost/version.hpp>
 
 namespace errmap::stats {
 namespace {
@@ -74,6 +75,14 @@ double StudentQuantile(double p, double degrees_of_freedom) {
   return boost::math::quantile(
       boost::math::students_t_distribution<double, Policy>(degrees_of_freedom),
       p);
+}
+
+std::string BoostVersion() {
+  constexpr int kMajor = BOOST_VERSION / 100000;
+  constexpr int kMinor = BOOST_VERSION / 100 % 1000;
+  constexpr int kPatch = BOOST_VERSION % 100;
+  return std::to_string(kMajor) + "." + std::to_string(kMinor) + "." +
+         std::to_string(kPatch);
 }
 
 }  // namespace errmap::stats

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace errmap::stats {
 
 /// Standard normal distribution function, relative error a few units in the
@@ -28,5 +30,8 @@ double StudentTwoSided(double t, double degrees_of_freedom);
 /// t with P(T <= t) = p, 0 < p < 1, for Student's t with `degrees_of_freedom`
 /// > 0.
 double StudentQuantile(double p, double degrees_of_freedom);
+
+/// Version of Boost, whose special functions these are: "1.74.0".
+std::string BoostVersion();
 
 }  // namespace errmap::stats
