@@ -10,8 +10,12 @@
 namespace errmap::models {
 namespace {
 
+std::string Refusal(std::string_view text, const std::string& why) {
+  return fmt::format("model '{}': {}", text, why);
+}
+
 [[noreturn]] void RefuseSpec(std::string_view text, const std::string& why) {
-  throw std::invalid_argument(fmt::format("model '{}': {}", text, why));
+  throw std::invalid_argument(Refusal(text, why));
 }
 
 // Splits at `separator` outside double quotes; the quotes stay.
@@ -165,12 +169,16 @@ std::size_t SpecOptions::TakeChoice(const std::string& key,
 void SpecOptions::RefuseOthers() const {
   for (const auto& [key, value] : spec_.options) {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
-    Refuse(known_.empty()
-               ? fmt::format("{} takes no options, found '{}'", spec_.type, key)
-               : fmt::format("no option '{}'; {} has {}",
-                             key,
-                             spec_.type,
-                             fmt::join(known_, ", ")));
+    throw UnknownOption(
+        Refusal(spec_.text,
+                known_.empty()
+                    ? fmt::format(
+                          "{} takes no options, found '{}'", spec_.type, key)
+                    : fmt::format("no option '{}'; {} has {}",
+                                  key,
+                                  spec_.type,
+                                  fmt::join(known_, ", "))),
+        known_);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,6 +25,18 @@ ModelSpec ParseModelSpec(std::string_view text);
 /// Splits a list ("zero,net:scg") at commas outside double quotes; an item
 /// wholly in quotes keeps them. Throws std::invalid_argument on an empty place.
 std::vector<std::string> SplitList(std::string_view text);
+
+/// A spec has an option that its model does not have.
+class UnknownOption : public std::invalid_argument {
+ public:
+  UnknownOption(const std::string& what, std::vector<std::string> known)
+      : std::invalid_argument(what), known_(std::move(known)) {}
+  /// Those that the model has.
+  const std::vector<std::string>& known() const { return known_; }
+
+ private:
+  std::vector<std::string> known_;
+};
 
 /// Reads the options of a spec one by one, each with its range, and refuses
 /// what is left over.
@@ -49,8 +62,8 @@ class SpecOptions {
                          std::size_t fallback,
                          const std::vector<std::string>& allowed);
 
-  /// Throws std::invalid_argument naming the first option never taken and
-  /// those that this model has.
+  /// Throws UnknownOption naming the first option never taken and those that
+  /// this model has.
   void RefuseOthers() const;
 
  private:

@@ -49,6 +49,17 @@ std::unique_ptr<ModelRecipe> MakeRecipe(std::string_view spec_text) {
                   fmt::join(ModelTypes(), ", ")));
 }
 
+std::vector<std::string> OptionNames(std::string_view type) {
+  // Each recipe knows its own options alone: asked for one that none has, it
+  // names those.
+  try {
+    MakeRecipe(fmt::format("{}:?=1", type));
+  } catch (const UnknownOption& error) {
+    return error.known();
+  }
+  return {};
+}
+
 DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
                                   Eigen::Index fewest_training_rows) {
   constexpr int kHighestFullDegree = 6;

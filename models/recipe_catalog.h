@@ -18,6 +18,10 @@ std::unique_ptr<ModelRecipe> MakeRecipe(std::string_view spec);
 /// presented (poly:formula=... is one more).
 const std::vector<std::string>& ModelTypes();
 
+/// Names of the options that a type takes, in the order of its own messages.
+/// Throws std::invalid_argument for a type that there is not.
+std::vector<std::string> OptionNames(std::string_view type);
+
 struct DefaultRecipes {
   std::vector<std::unique_ptr<ModelRecipe>> recipes;
   std::vector<std::string> left_out;  // one line each: which and why

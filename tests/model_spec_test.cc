@@ -69,6 +69,19 @@ TEST(RecipeCatalog, NamesTheRangeOfAnOptionAndWhatThereIs) {
               HasSubstr("unknown; there are zero, mean"));
 }
 
+TEST(RecipeCatalog, NamesTheOptionsOfEveryTypeAndNoOthers) {
+  EXPECT_THAT(OptionNames("poly:eq8"), ::testing::ElementsAre("position", "T"));
+  EXPECT_THAT(OptionNames("net:scg"), ::testing::Contains("wfactor"));
+  EXPECT_THAT(OptionNames("zero"), ::testing::IsEmpty());
+  EXPECT_THROW(OptionNames("poly:eq10"), std::invalid_argument);
+  // Every default in use is of an option that there is.
+  for (const std::string& type : ModelTypes()) {
+    for (const EffectiveOption& option : MakeRecipe(type)->options()) {
+      EXPECT_THAT(OptionNames(type), ::testing::Contains(option.key)) << type;
+    }
+  }
+}
+
 TEST(RecipeCatalog, MakesEveryTypeItLists) {
   for (const std::string& type : ModelTypes()) {
     EXPECT_EQ(MakeRecipe(type)->name(), type);
