@@ -4,12 +4,17 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/command_reference.h"
+#include "cli/completion.h"
+#include "cli/man_page.h"
 #include "data/input_error.h"
 #include "models/version.h"
 
@@ -76,6 +81,23 @@ std::string ProvenanceCommandLine(int argc, char** argv) {
   return line;
 }
 
+// For shells and the build, not for people: no help names them.
+constexpr std::string_view kComplete = "__complete";  // WORDS...
+constexpr std::string_view kManPage = "__man";
+
+bool RunHiddenCommand(const CLI::App& app, int argc, char** argv) {
+  if (argv[1] == kComplete) {
+    const std::vector<std::string> words(argv + 2, argv + argc);
+    fmt::print("{}", CompletionText(Complete(DescribeProgram(app), words)));
+    return true;
+  }
+  if (argv[1] == kManPage) {
+    fmt::print("{}", ManPage(DescribeProgram(app)));
+    return true;
+  }
+  return false;
+}
+
 // CLI11 would only say that a subcommand is required.
 void RequireKnownCommand(const CLI::App& app, const std::string& word) {
   if (word.starts_with("-")) return;
@@ -107,6 +129,7 @@ int RunApplication(int argc, char** argv) {
       fmt::print("{}", app.help());
       return kWrongCommandLine;
     }
+    if (RunHiddenCommand(app, argc, argv)) return kDone;
     RequireKnownCommand(app, argv[1]);
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0) {

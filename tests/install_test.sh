@@ -1,0 +1,188 @@
+#!/bin/sh
+# `cmake --install` gives all that a user needs, and nothing of it points back
+# to the build:
+#
+#   install_test.sh ROOT BUILD_DIR CMAKE
+#
+# - tests/outside_project finds the package, builds against it and runs;
+# - the installed program runs from another folder;
+# - schemas, man page and completions are there, and the latter work (bash, and
+#   fish where it is installed; zsh's is checked for its syntax).
+set -eu
+
+if [ $# -ne 3 ]; then
+  echo "usage: install_test.sh ROOT BUILD_DIR CMAKE" >&2
+  exit 2
+fi
+root=$(CDPATH='' cd -- "$1" && pwd)
+build=$(CDPATH='' cd -- "$2" && pwd)
+cmake=$3
+
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+prefix="$scratch/a prefix"
+outside=$scratch/outside
+log=$scratch/log
+mkdir "$scratch/elsewhere"
+
+die() {
+  printf 'install: %s\n' "$*" >&2
+  exit 1
+}
+
+failures=0
+fail() {
+  printf 'install: %s\n' "$*" >&2
+  failures=$((failures + 1))
+}
+
+# Runs a command with its output in $log, shown only if it fails.
+quietly() {
+  what=$1
+  shift
+  if "$@" >"$log" 2>&1 </dev/null; then return 0; fi
+  cat "$log" >&2
+  die "$what failed"
+}
+
+have() { command -v "$1" >/dev/null 2>&1; }
+
+quietly "cmake --install" "$cmake" --install "$build" --prefix "$prefix"
+
+# Nothing points back.
+package=$(find "$prefix" -type d -path '*/cmake/errmap')
+[ -n "$package" ] || die "no CMake package"
+if grep -rnF -e "$build" -e "$root/" "$package"; then
+  fail "the package names a folder of the build"
+fi
+
+# The outside project, with the compiler and flags of the library (sanitisers
+# must match), and vectors that the library was not built for.
+cached() { sed -n "s/^$1:[^=]*=//p" "$build/CMakeCache.txt"; }
+options=""
+if grep -qw avx /proc/cpuinfo 2>/dev/null; then options=-mavx; fi
+configure() {
+  "$cmake" -S "$root/tests/outside_project" -B "$outside" \
+    -G "$(cached CMAKE_GENERATOR)" \
+    "-DCMAKE_MAKE_PROGRAM=$(cached CMAKE_MAKE_PROGRAM)" \
+    "-DCMAKE_CXX_COMPILER=$(cached CMAKE_CXX_COMPILER)" \
+    "-DCMAKE_CXX_FLAGS=$(cached CMAKE_CXX_FLAGS)" \
+    "-DCMAKE_BUILD_TYPE=$(cached CMAKE_BUILD_TYPE)" \
+    "-DCMAKE_PREFIX_PATH=$prefix" "-DOUTSIDE_OPTIONS=$options" "$@"
+}
+quietly "configuring the outside project" configure
+quietly "building the outside project" "$cmake" --build "$outside"
+share=$prefix/share/errmap
+table=$share/sets/nistir5367_xdisp_down.csv
+[ -f "$table" ] || die "no $table"
+(cd "$scratch/elsewhere" && quietly "running the outside project" \
+  "$outside/outside" "$table" map.json)
+grep -Fq 'poly:full:degree=3 0.53' "$log" ||
+  fail "the outside project prints: $(cat "$log")"
+quietly "running the part" "$outside/part"
+if configure -DERRMAP_WANTED=99 >"$log" 2>&1; then
+  fail "the package calls itself version 99"
+fi
+
+# The program.
+PATH="$prefix/bin:$PATH"
+export PATH
+cd "$scratch/elsewhere"
+[ "$(command -v errmap)" = "$prefix/bin/errmap" ] || die "no $prefix/bin/errmap"
+quietly "errmap --version" errmap --version
+quietly "errmap compare" errmap compare "$table" --models mean,poly:eq8
+grep -q '^poly:eq8 ' "$log" || fail "errmap compare prints no table"
+
+# Schemas.
+count=0
+for schema in "$root"/cli/schemas/*.json; do
+  count=$((count + 1))
+  cmp -s "$schema" "$share/schemas/$(basename "$schema")" ||
+    fail "$(basename "$schema") is not installed"
+done
+[ "$count" -ge 4 ] || fail "only $count schemas in cli/schemas"
+
+# The man page: whole, and without a warning of roff.
+page=$prefix/share/man/man1/errmap.1
+[ -s "$page" ] || die "no man page $page"
+errmap __complete "" | cut -f 1 >commands
+[ -s commands ] || fail "errmap __complete offers no command"
+while read -r command; do
+  grep -Fq -e ".SS \\fB$command\\fR" "$page" ||
+    fail "the man page lacks $command"
+done <commands
+if have groff; then
+  groff -man -Tutf8 -ww "$page" >shown 2>"$log" || fail "groff fails"
+  if [ -s "$log" ]; then fail "groff says: $(cat "$log")"; fi
+  grep -q 'EXIT STATUS' shown || grep -q 'E.EX.X' shown ||
+    fail "the man page has no exit status"
+fi
+if have mandoc; then
+  # The page has no date: the same program makes the same page.
+  mandoc -T lint -W warning "$page" | grep -v 'missing date' >"$log" || true
+  if [ -s "$log" ]; then fail "mandoc says: $(cat "$log")"; fi
+fi
+
+# Completions.
+: >data.csv
+: >notes.txt
+: >map.json
+mkdir folder
+# offers SHELL LINE WORDS: completing LINE gives just these, in any order.
+offers() {
+  sort -u offered >"$scratch/offered"
+  # shellcheck disable=SC2086 # a list of words
+  printf '%s\n' $3 | sort -u >"$scratch/expected"
+  diff -u "$scratch/expected" "$scratch/offered" >"$log" ||
+    fail "$1, '$2': $(sed 1,2d "$log")"
+}
+
+bash_offers() {
+  bash --norc -c '
+    source "$1"
+    COMP_LINE=$2
+    COMP_POINT=${#COMP_LINE}
+    _errmap errmap
+    printf "%s\n" "${COMPREPLY[@]}"
+  ' bash "$prefix/share/bash-completion/completions/errmap" "$1" >offered
+  offers bash "$1" "$2"
+}
+if have bash; then
+  bash_offers "errmap comp" "compare"
+  bash_offers "errmap compare --hol" "--holdout"
+  bash_offers "errmap compare " "data.csv folder"
+  bash_offers "errmap predict map.json data.csv -o fol" "folder"
+  bash_offers "errmap compare data.csv --format j" "json"
+  # What follows the last ':' or '=' is all that readline replaces.
+  bash_offers "errmap compare data.csv --model net:nl" "nlopt"
+  bash_offers "errmap compare data.csv --model net:scg:wf" "wfactor="
+  bash_offers "errmap compare data.csv --models mean,poly:eq" "eq7 eq8 eq9"
+  bash_offers "errmap compare data.csv --models mean,poly:none" ""
+  bash_offers "errmap compare data.csv --holdout groups:5:re" "repeats=20"
+  bash_offers "errmap compare data.csv --holdout file:da" "data.csv"
+  bash_offers "errmap compare data.csv --out f" "folder"
+fi
+
+fish_script=$prefix/share/fish/vendor_completions.d/errmap.fish
+[ -s "$fish_script" ] || fail "no completions for fish"
+fish_offers() {
+  fish --no-config -c '
+    source $argv[1]
+    complete -C $argv[2] | string replace -r "\t.*" ""
+  ' "$fish_script" "$1" >offered
+  offers fish "$1" "$2"
+}
+if have fish; then
+  fish_offers "errmap comp" "compare"
+  fish_offers "errmap compare data.csv --holdo" "--holdout"
+  fish_offers "errmap compare data.csv --model net:nl" "net:nlopt"
+  fish_offers "errmap compare da" "data.csv"
+  fish_offers "errmap compare data.csv --holdout file:da" "file:data.csv"
+fi
+
+zsh_script=$prefix/share/zsh/site-functions/_errmap
+[ -s "$zsh_script" ] || fail "no completions for zsh"
+if have zsh; then zsh -n "$zsh_script" || fail "zsh cannot read $zsh_script"; fi
+
+if [ "$failures" -ne 0 ]; then exit 1; fi
+echo "install: package, program, $count schemas, man page, completions"
