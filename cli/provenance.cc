@@ -8,8 +8,8 @@
 #include <oneapi/tbb/version.h>
 #include <openssl/crypto.h>
 
-#include "cli/sha256.h"
 #include "data/atomic_file.h"
+#include "data/sha256.h"
 #include "fitting/ceres_optimizer.h"
 #include "fitting/matrix_product.h"
 #include "fitting/nlopt_optimizer.h"
@@ -45,7 +45,7 @@ std::string FmtVersion() {
 }  // namespace
 
 InputFile HashInput(const std::string& file) {
-  return {file, Sha256(data::ReadFile(file))};
+  return {file, data::Sha256(data::ReadFile(file))};
 }
 
 const std::vector<std::pair<std::string, std::string>>& LibraryVersions() {

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "cli/data_arguments.h"
-#include "cli/sha256.h"
 #include "data/atomic_file.h"
+#include "data/sha256.h"
 #include "data/text.h"
 #include "models/recipe_catalog.h"
 #include "models/split_file.h"
@@ -29,7 +29,7 @@ class TableReader {
     const auto found = tables_.find(file);
     if (found != tables_.end()) return found->second;
     const std::string text = data::ReadFile(file);
-    inputs_->push_back({.file = file, .sha256 = Sha256(text)});
+    inputs_->push_back({.file = file, .sha256 = data::Sha256(text)});
     return tables_.emplace(file, data::ParseCsv(text, file)).first->second;
   }
 

@@ -1,0 +1,71 @@
+#include "data/sha256.h"
+
+#include <array>
+#include <stdexcept>
+
+#include <openssl/evp.h>
+
+namespace errmap::data {
+namespace {
+
+struct FreeContext {
+  void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
+};
+
+void Require(bool done) {
+  if (!done) throw std::runtime_error("SHA-256 is not available in libcrypto");
+}
+
+}  // namespace
+
+struct Sha256Stream::State {
+  std::unique_ptr<EVP_MD_CTX, FreeContext> context{EVP_MD_CTX_new()};
+};
+
+Sha256Stream::Sha256Stream() : state_(std::make_unique<State>()) {
+  Require(state_->context != nullptr);
+  Require(EVP_DigestInit_ex(state_->context.get(), EVP_sha256(), nullptr) == 1);
+}
+
+Sha256Stream::~Sha256Stream() = default;
+
+// Without a name the context keeps its algorithm, which saves a look-up.
+void Sha256Stream::Begin() {
+  Require(EVP_DigestInit_ex(state_->context.get(), nullptr, nullptr) == 1);
+}
+
+void Sha256Stream::Add(std::string_view bytes) {
+  Require(EVP_DigestUpdate(state_->context.get(), bytes.data(), bytes.size()) ==
+          1);
+}
+
+std::string Sha256Stream::Finish() {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int length = 0;
+  Require(EVP_DigestFinal_ex(state_->context.get(), digest.data(), &length) ==
+          1);
+  Begin();
+  return {digest.begin(), digest.begin() + length};
+}
+
+std::string Hexadecimal(std::string_view bytes) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  constexpr unsigned kDigitBits = 4;
+  constexpr unsigned kLowDigit = 0xf;
+  std::string text;
+  text.reserve(2 * bytes.size());
+  for (const char byte : bytes) {
+    const auto value = static_cast<unsigned char>(byte);
+    text += kDigits[value >> kDigitBits];
+    text += kDigits[value & kLowDigit];
+  }
+  return text;
+}
+
+std::string Sha256(std::string_view content) {
+  Sha256Stream stream;
+  stream.Add(content);
+  return Hexadecimal(stream.Finish());
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace errmap::data {
+
+/// SHA-256 (FIPS 180-4) of bytes that come in pieces.
+class Sha256Stream {
+ public:
+  Sha256Stream();
+  ~Sha256Stream();
+  Sha256Stream(const Sha256Stream&) = delete;
+  Sha256Stream& operator=(const Sha256Stream&) = delete;
+
+  void Add(std::string_view bytes);
+  /// The 32 bytes of the digest; what is added afterwards begins anew.
+  std::string Finish();
+
+ private:
+  struct State;
+  void Begin();
+
+  std::unique_ptr<State> state_;
+};
+
+/// Two lower-case digits per byte.
+std::string Hexadecimal(std::string_view bytes);
+
+/// SHA-256 of `content` in lower-case hexadecimal.
+std::string Sha256(std::string_view content);
+
+}  // namespace errmap::data
