@@ -1,5 +1,6 @@
 #include "cli/application.h"
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -112,6 +113,8 @@ void RequireKnownCommand(const CLI::App& app, const std::string& word) {
 }  // namespace
 
 int RunApplication(int argc, char** argv) {
+  // A file that grows too long is then a failed write with a message.
+  std::signal(SIGXFSZ, SIG_IGN);
   Run run{.command_line = ProvenanceCommandLine(argc, argv)};
   CLI::App app(kAbout, "errmap");
   app.footer(kExample);

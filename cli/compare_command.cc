@@ -20,6 +20,7 @@
 #include "cli/study_table.h"
 #include "data/atomic_file.h"
 #include "data/text.h"
+#include "models/fit_journal_file.h"
 #include "models/model_spec.h"
 #include "models/split_file.h"
 #include "stats/holdout.h"
@@ -156,7 +157,31 @@ void SaveSplit(const Comparison& comparison, const ComponentConfig& config) {
       models::SplitFileText(comparison.holdouts, comparison.data.dataset));
 }
 
+void SayUnlessQuiet(const CompareArguments& arguments,
+                    const std::vector<std::string>& lines) {
+  if (arguments.data.quiet) return;
+  for (const std::string& line : lines) Say(line);
+}
+
+// Fits are kept in the output folder of a run that has one.
+std::unique_ptr<models::JournalFile> OpenJournal(
+    const CompareArguments& arguments) {
+  using models::JournalFile;
+  if (arguments.out.empty()) return nullptr;
+  auto journal = std::make_unique<JournalFile>(
+      arguments.out,
+      arguments.resume ? JournalFile::Opening::kResume
+                       : JournalFile::Opening::kAnew);
+  // The folder is ours alone now, and so is what a killed run had begun.
+  RemoveAbandoned(arguments.out);
+  SayUnlessQuiet(arguments, journal->OpeningRemarks());
+  return journal;
+}
+
 int RunCompare(const CompareArguments& arguments) {
+  if (arguments.resume && arguments.out.empty()) {
+    throw UsageError("--resume needs the folder of the earlier run: --out DIR");
+  }
   StudyPlan plan = PlanStudy(ConfigOf(arguments), arguments.data.quiet);
   for (std::size_t i = 0; i < plan.components.size(); ++i) {
     SaveSplit(plan.components[i].comparison, plan.config.components[i]);
@@ -165,6 +190,7 @@ int RunCompare(const CompareArguments& arguments) {
   if (!arguments.out.empty()) PrepareFolder(arguments.out);
   const int cores =
       std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const std::unique_ptr<models::JournalFile> journal = OpenJournal(arguments);
   StudyRun run;
   {
     Progress progress(!arguments.data.quiet);
@@ -173,8 +199,11 @@ int RunCompare(const CompareArguments& arguments) {
         arguments.command_line,
         {.jobs = arguments.jobs > 0 ? arguments.jobs : cores,
          .stop = &InstallInterruptFlag(),
+         .journal = journal.get(),
+         .describe_resume = arguments.resume && !arguments.data.quiet,
          .progress = [&](int done, int all) { progress.Show(done, all); }});
   }
+  if (journal != nullptr) SayUnlessQuiet(arguments, journal->WritingRemarks());
   if (!arguments.out.empty()) WriteOutputs(run, arguments.out);
   fmt::print("{}",
              arguments.format == "json" ? ResultsJson(run) : StudyTable(run));
@@ -272,7 +301,10 @@ void AddCompareCommand(CLI::App* app, Run* run) {
       ->type_name("table|json")
       ->capture_default_str();
   AddJudgingOptions(command, arguments.get());
-  command->add_flag("--resume", arguments->resume)->group("");
+  command->add_flag("--resume",
+                    arguments->resume,
+                    "Go on with the run that was broken off in --out DIR: fits "
+                    "finished there are not repeated");
   command->footer(
       "Exit status: 0 done, 2 wrong command line, 3 unusable input, 4 every "
       "fit failed, 130 interrupted.\n"

@@ -62,6 +62,12 @@ void PrepareFolder(const std::string& path) {
   }
 }
 
+void RemoveAbandoned(const std::string& folder) {
+  data::RemoveAbandonedFiles(folder);
+  data::RemoveAbandonedFiles(
+      (std::filesystem::path(folder) / "models").string());
+}
+
 std::string ResidualsCsv(const Comparison& comparison) {
   const data::Dataset& dataset = comparison.data.dataset;
   std::string text = "holdout,fold,row";

@@ -10,6 +10,9 @@ namespace errmap::cli {
 /// sure that files can be written there. Throws std::system_error.
 void PrepareFolder(const std::string& path);
 
+/// Removes what a killed run had begun to write into a folder and its models/.
+void RemoveAbandoned(const std::string& folder);
+
 /// Writes results.json, residuals.csv and models/*.json into a folder; of
 /// several components residuals/COMPONENT.csv and models/COMPONENT/*.json.
 /// Throws std::system_error naming the path that could not be written.

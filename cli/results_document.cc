@@ -12,13 +12,13 @@ std::string ResultsJson(const StudyRun& run) {
   for (const Comparison& component : run.components) {
     components.push_back(ComponentJson(component));
   }
-  return DumpJson({{"schema", "errmap-results-1"},
-                   {"version", models::Version()},
-                   {"seed", run.seed},
-                   {"interrupted", run.interrupted},
-                   {"provenance",
-                    ProvenanceJson(run.command_line, nullptr, run.inputs)},
-                   {"components", std::move(components)}});
+  return DumpJson(
+      {{"schema", "errmap-results-1"},
+       {"version", models::Version()},
+       {"seed", run.seed},
+       {"interrupted", run.interrupted},
+       {"provenance", ProvenanceJson(run.command_line, nullptr, run.inputs)},
+       {"components", std::move(components)}});
 }
 
 }  // namespace errmap::cli

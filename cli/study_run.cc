@@ -2,7 +2,39 @@
 
 #include <utility>
 
+#include "cli/data_arguments.h"
+
 namespace errmap::cli {
+namespace {
+
+// Runs a component's study, its fits kept in the journal if there is one.
+models::StudyResult RunJournalled(const ComponentPlan& component,
+                                  models::StudyOptions study_options,
+                                  const RunOptions& options) {
+  const Comparison& comparison = component.comparison;
+  const auto run = [&] {
+    return models::RunStudy(comparison.data.dataset,
+                            comparison.holdouts,
+                            component.recipes,
+                            study_options);
+  };
+  if (options.journal == nullptr) return run();
+  const models::FitLabels labels(comparison.name,
+                                 comparison.data.dataset,
+                                 comparison.holdouts,
+                                 component.recipes,
+                                 study_options);
+  if (options.describe_resume) {
+    for (const auto& line : models::DescribeResume(*options.journal, labels)) {
+      Say(line);
+    }
+  }
+  models::ComponentJournal journal(options.journal, &labels);
+  study_options.journal = &journal;
+  return run();
+}
+
+}  // namespace
 
 StudyRun RunPlan(StudyPlan plan,
                  const std::string& command_line,
@@ -17,17 +49,14 @@ StudyRun RunPlan(StudyPlan plan,
   int before = 0;  // fits of the components that are finished
   for (ComponentPlan& component : plan.components) {
     Comparison& comparison = component.comparison;
-    comparison.study =
-        models::RunStudy(comparison.data.dataset,
-                         comparison.holdouts,
-                         component.recipes,
-                         {.seed = run.seed,
-                          .jobs = options.jobs,
-                          .stop = options.stop,
-                          .progress = [&](int done, int /*of_component*/) {
-                            if (options.progress)
-                              options.progress(before + done, all);
-                          }});
+    models::StudyOptions study_options{
+        .seed = run.seed,
+        .jobs = options.jobs,
+        .stop = options.stop,
+        .progress = [&](int done, int /*of_component*/) {
+          if (options.progress) options.progress(before + done, all);
+        }};
+    comparison.study = RunJournalled(component, study_options, options);
     const data::Dataset& dataset = comparison.data.dataset;
     for (const models::GivenPredictions& given : component.given) {
       comparison.study.models.push_back(

@@ -6,12 +6,15 @@
 
 #include "cli/comparison.h"
 #include "cli/study_plan.h"
+#include "models/fit_journal_file.h"
 
 namespace errmap::cli {
 
 struct RunOptions {
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;
+  models::JournalFile* journal = nullptr;  // keeps the fits; may be null
+  bool describe_resume = false;  // say on stderr what the journal has of them
   /// Told (fits done, fits of the whole plan) from any thread; may be empty.
   std::function<void(int, int)> progress = {};
 };

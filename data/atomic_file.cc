@@ -7,12 +7,15 @@
 #include <filesystem>
 #include <optional>
 #include <random>
+#include <string_view>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
 
+#include <sys/file.h>
 #include <sys/stat.h>
 
+#include "data/file_descriptor.h"
 #include "data/input_error.h"
 #include "data/text.h"
 
@@ -22,24 +25,6 @@ namespace {
 constexpr mode_t kPermissionBits = 07777;
 constexpr mode_t kNewFileMode = 0666;  // less the umask
 constexpr mode_t kPrivateMode = 0600;
-class FileDescriptor {
- public:
-  explicit FileDescriptor(int descriptor) : descriptor_(descriptor) {}
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-  ~FileDescriptor() {
-    if (descriptor_ >= 0) close(descriptor_);
-  }
-
-  int get() const { return descriptor_; }
-  bool is_open() const { return descriptor_ >= 0; }
-
-  // Some file systems report a failed write only here. 0 where all is well.
-  int Close() { return close(std::exchange(descriptor_, -1)); }
-
- private:
-  int descriptor_;
-};
 
 // Removes the temporary file unless it was renamed.
 class TemporaryFile {
@@ -95,16 +80,30 @@ void WriteDirectly(const std::string& path, std::string_view content) {
   WriteAll(file, content, path);
 }
 
+constexpr std::string_view kTemporaryBegin = ".errmap-";
+constexpr std::string_view kTemporaryEnd = ".tmp";
+constexpr std::string_view kLetters = "0123456789abcdefghijklmnopqrstuv";
+constexpr int kNumLetters = 16;
+
 std::string TemporaryName(const std::filesystem::path& folder) {
-  constexpr std::string_view kLetters = "0123456789abcdefghijklmnopqrstuv";
-  constexpr int kLength = 16;
   std::random_device random;
   // Without the target's own name, which may already be as long as allowed.
-  std::string name = ".errmap-";
-  for (int i = 0; i < kLength; ++i) {
+  std::string name{kTemporaryBegin};
+  for (int i = 0; i < kNumLetters; ++i) {
     name += kLetters[random() % kLetters.size()];
   }
-  return folder / (name + ".tmp");
+  name += kTemporaryEnd;
+  return folder / name;
+}
+
+bool IsTemporaryName(std::string_view name) {
+  if (!name.starts_with(kTemporaryBegin) || !name.ends_with(kTemporaryEnd)) {
+    return false;
+  }
+  name.remove_prefix(kTemporaryBegin.size());
+  name.remove_suffix(kTemporaryEnd.size());
+  return name.size() == kNumLetters &&
+         name.find_first_not_of(kLetters) == std::string_view::npos;
 }
 
 // Makes the rename survive a power cut. The new file is in place by now, so a
@@ -134,6 +133,8 @@ void ReplaceFile(const std::string& path,
                            old_permissions ? kPrivateMode : kNewFileMode));
   if (!file.is_open()) ThrowUnwritable(path, errno);
   TemporaryFile temporary(temporary_name);
+  // Says that it is not abandoned. A file system without locks does no harm.
+  flock(file.get(), LOCK_EX | LOCK_NB);
   WriteAll(file, content, path);
   if (old_permissions && fchmod(file.get(), *old_permissions) != 0) {
     ThrowUnwritable(path, errno);
@@ -164,6 +165,21 @@ void WriteFileAtomically(const std::string& path, std::string_view content) {
     ReplaceFile(path, content, status.st_mode & kPermissionBits);
   } else {
     WriteDirectly(path, content);
+  }
+}
+
+void RemoveAbandonedFiles(const std::string& folder) {
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end;
+       !error && entry != end;
+       entry.increment(error)) {
+    const std::filesystem::path& path = entry->path();
+    if (!IsTemporaryName(path.filename().string())) continue;
+    const FileDescriptor file(
+        open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+    if (file.is_open() && flock(file.get(), LOCK_EX | LOCK_NB) == 0) {
+      unlink(path.c_str());
+    }
   }
 }
 

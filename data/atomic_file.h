@@ -10,6 +10,10 @@ namespace errmap::data {
 /// Throws std::system_error naming the path; the old file is left as it was.
 void WriteFileAtomically(const std::string& path, std::string_view content);
 
+/// Removes from `folder` what a killed process had begun to write; files that
+/// another process is writing now stay, and what cannot be removed is let be.
+void RemoveAbandonedFiles(const std::string& folder);
+
 /// Whole content of a file. Throws InputError naming the path.
 std::string ReadFile(const std::string& path);
 

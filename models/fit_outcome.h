@@ -19,6 +19,8 @@ struct FitOutcome {
   Eigen::VectorXd train_predictions;  // target's unit; empty if failed
   Eigen::VectorXd test_predictions;   // the same; empty for a fit to all rows
   std::optional<Memorisation> memorisation;  // of a net fitted to all rows
+  /// Failed for want of memory: another try may succeed, so it is not kept.
+  bool try_again = false;
 };
 
 /// One fit of a study: a model on one fold of one hold-out, or on all rows.
@@ -35,7 +37,8 @@ class FitJournal {
   virtual ~FitJournal() = default;
   /// The outcome of this very fit from an earlier run, if there is one.
   virtual std::optional<FitOutcome> Find(const StudyTask& task) = 0;
-  /// Keeps an outcome for later runs; interrupted fits are not recorded.
+  /// Keeps an outcome for later runs. Interrupted fits, and those that may
+  /// succeed next time, are not recorded.
   virtual void Record(const StudyTask& task, const FitOutcome& outcome) = 0;
 };
 

@@ -42,7 +42,7 @@ std::vector<std::int64_t> HiddenToTry(Eigen::Index rows);
 /// whose error is at most 5 % above the least, which is what another start
 /// alone changes. Both: wfactor with the design's nodes (or the most below
 /// them that are tried), then the nodes with that wfactor, then, if their
-/// number changed, the wfactor again up to a decade on either side: at most 18
+/// number changed, the wfactor again up to a decade on either side: at most 19
 /// nets over all folds. Throws std::invalid_argument where none could be
 /// judged.
 TunedNet TuneNet(const NetDesign& design,

@@ -55,6 +55,7 @@ FitOutcome FitOnce(const ModelRecipe& recipe,
     outcome.fitted = std::move(fitted);
   } catch (const std::bad_alloc&) {
     outcome.why_failed = "not enough memory";
+    outcome.try_again = true;
   } catch (const std::exception& error) {
     outcome.why_failed = error.what();
   }
@@ -151,6 +152,35 @@ Holdout MakeHoldout(const stats::HoldoutSpec& spec,
   return holdout;
 }
 
+std::vector<StudyTask> StudyTasks(
+    const std::vector<Holdout>& holdouts,
+    const std::vector<std::unique_ptr<ModelRecipe>>& recipes) {
+  std::vector<StudyTask> tasks;
+  for (const bool nets : {false, true}) {
+    for (std::size_t model = 0; model < recipes.size(); ++model) {
+      if ((recipes[model]->kind() == ModelKind::kNet) != nets) continue;
+      tasks.push_back({model, -1, 0});
+      for (std::size_t h = 0; h < holdouts.size(); ++h) {
+        for (std::size_t fold = 0; fold < holdouts[h].folds.size(); ++fold) {
+          tasks.push_back({model, static_cast<std::ptrdiff_t>(h), fold});
+        }
+      }
+    }
+  }
+  return tasks;
+}
+
+FitContext ContextOfTask(const StudyTask& task,
+                         const std::vector<Holdout>& holdouts,
+                         const StudyOptions& options) {
+  FitContext context{.seed = options.seed, .stop = options.stop};
+  if (task.holdout >= 0) {
+    context.inner_holdout =
+        holdouts[static_cast<std::size_t>(task.holdout)].inner;
+  }
+  return context;
+}
+
 StudyResult RunStudy(const Dataset& dataset,
                      const std::vector<Holdout>& holdouts,
                      const std::vector<std::unique_ptr<ModelRecipe>>& recipes,
@@ -161,20 +191,7 @@ StudyResult RunStudy(const Dataset& dataset,
   }
   const std::vector<std::vector<PreparedFold>> prepared =
       PrepareFolds(dataset, holdouts);
-
-  // Nets last: whoever interrupts a long run has the quick fits.
-  std::vector<StudyTask> tasks;
-  for (const bool nets : {false, true}) {
-    for (std::size_t model = 0; model < recipes.size(); ++model) {
-      if ((recipes[model]->kind() == ModelKind::kNet) != nets) continue;
-      tasks.push_back({model, -1, 0});
-      for (std::size_t h = 0; h < holdouts.size(); ++h) {
-        for (std::size_t fold = 0; fold < prepared[h].size(); ++fold) {
-          tasks.push_back({model, static_cast<std::ptrdiff_t>(h), fold});
-        }
-      }
-    }
-  }
+  const std::vector<StudyTask> tasks = StudyTasks(holdouts, recipes);
   std::vector<FitOutcome> final_outcomes(recipes.size());
   std::vector<std::vector<std::vector<FitOutcome>>> outcomes(recipes.size());
   for (auto& of_model : outcomes) {
@@ -182,11 +199,10 @@ StudyResult RunStudy(const Dataset& dataset,
   }
   const auto fit = [&](const StudyTask& task) {
     const ModelRecipe& recipe = *recipes[task.model];
-    FitContext context{.seed = options.seed, .stop = options.stop};
+    const FitContext context = ContextOfTask(task, holdouts, options);
     if (task.holdout < 0) return FitAllRows(recipe, dataset, context);
-    const auto h = static_cast<std::size_t>(task.holdout);
-    const PreparedFold& fold = prepared[h][task.fold];
-    context.inner_holdout = holdouts[h].inner;
+    const PreparedFold& fold =
+        prepared[static_cast<std::size_t>(task.holdout)][task.fold];
     return FitOnce(recipe, fold.training, fold.test.get(), context);
   };
   const auto find_or_fit = [&](const StudyTask& task) {
@@ -194,7 +210,7 @@ StudyResult RunStudy(const Dataset& dataset,
     if (auto found = options.journal->Find(task)) return std::move(*found);
     FitOutcome outcome = fit(task);
     const bool stopped = options.stop != nullptr && options.stop->load();
-    if (!stopped) options.journal->Record(task, outcome);
+    if (!stopped && !outcome.try_again) options.journal->Record(task, outcome);
     return outcome;
   };
   std::atomic<int> done{0};

@@ -93,6 +93,17 @@ struct StudyResult {
   bool interrupted = false;
 };
 
+/// All fits of a study in the order in which they begin: nets last, so that
+/// whoever interrupts a long run has the quick fits.
+std::vector<StudyTask> StudyTasks(
+    const std::vector<Holdout>& holdouts,
+    const std::vector<std::unique_ptr<ModelRecipe>>& recipes);
+
+/// What the fit of `task` may use besides its rows.
+FitContext ContextOfTask(const StudyTask& task,
+                         const std::vector<Holdout>& holdouts,
+                         const StudyOptions& options);
+
 /// Fits every recipe to the training rows of every fold and to all rows, and
 /// judges each on the rows held out; all see the same rows. Fits run in
 /// parallel; nothing but the measured times depends on `jobs`. A fit that

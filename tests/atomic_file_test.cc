@@ -3,7 +3,9 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <fcntl.h>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <string>
 #include <system_error>
@@ -12,6 +14,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
@@ -115,6 +118,29 @@ TEST_F(AtomicFile, WritesRelativeToTheWorkingFolder) {
   WriteFileAtomically("relative", "x");
   fs::current_path(before);
   EXPECT_EQ(ReadFile(Path("relative")), "x");
+}
+
+TEST_F(AtomicFile, RemovesWhatAKilledProcessHadBegunAndNothingElse) {
+  const std::string abandoned = Path(".errmap-0123456789abcdef.tmp");
+  const std::string written = Path(".errmap-fedcba9876543210.tmp");
+  std::ofstream(abandoned) << "half";
+  std::ofstream(written) << "half";
+  std::ofstream(Path(".errmap-notes.tmp")) << "a user's";
+  std::ofstream(Path("results.json")) << "whole";
+  const int other = open(written.c_str(), O_RDONLY);
+  ASSERT_EQ(flock(other, LOCK_EX | LOCK_NB), 0);
+  RemoveAbandonedFiles(folder_);
+  close(other);
+  EXPECT_FALSE(fs::exists(abandoned));
+  EXPECT_TRUE(fs::exists(written));
+  EXPECT_TRUE(fs::exists(Path(".errmap-notes.tmp")));
+  EXPECT_TRUE(fs::exists(Path("results.json")));
+  RemoveAbandonedFiles(folder_);
+  EXPECT_FALSE(fs::exists(written));
+}
+
+TEST_F(AtomicFile, HasNothingToRemoveFromAFolderThatIsMissing) {
+  EXPECT_NO_THROW(RemoveAbandonedFiles(Path("missing")));
 }
 
 TEST_F(AtomicFile, NamesThePathWhereTheFolderIsMissing) {

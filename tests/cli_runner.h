@@ -99,6 +99,7 @@ class Process {
   }
 
   void Interrupt() const { kill(pid_, SIGINT); }
+  void Kill() const { kill(pid_, SIGKILL); }
 
   Outcome Wait() {
     int status = 0;

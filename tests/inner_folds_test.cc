@@ -77,7 +77,9 @@ TEST(InnerFolds, KeepEveryGroupOnOneSide) {
             const Index of_train = codes[static_cast<std::size_t>(a)];
             const Index of_test = codes[static_cast<std::size_t>(b)];
             EXPECT_NE(of_train, of_test);
-            if (kind == InnerHoldout::kForward) EXPECT_LT(of_train, of_test);
+            if (kind == InnerHoldout::kForward) {
+              EXPECT_LT(of_train, of_test);
+            }
           }
         }
       }
