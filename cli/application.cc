@@ -121,6 +121,7 @@ int RunApplication(int argc, char** argv) {
   app.set_version_flag("--version", std::string("errmap ") + models::Version());
   app.require_subcommand(1);
   AddCompareCommand(&app, &run);
+  AddInitCommand(&app, &run);
   AddFitCommand(&app, &run);
   AddPredictCommand(&app, &run);
   AddEvaluateCommand(&app, &run);

@@ -36,6 +36,7 @@ struct Run {
 /// Each adds its command to `app`; when chosen, it runs and leaves its exit
 /// status in `run`, which must outlive the parse.
 void AddCompareCommand(CLI::App* app, Run* run);
+void AddInitCommand(CLI::App* app, Run* run);
 void AddFitCommand(CLI::App* app, Run* run);
 void AddPredictCommand(CLI::App* app, Run* run);
 void AddEvaluateCommand(CLI::App* app, Run* run);

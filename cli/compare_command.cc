@@ -11,11 +11,14 @@
 #include "cli/command.h"
 #include "cli/data_arguments.h"
 #include "cli/interrupt.h"
+#include "cli/leaderboard.h"
 #include "cli/output_folder.h"
 #include "cli/progress.h"
 #include "cli/results_document.h"
 #include "cli/study_config.h"
+#include "cli/study_file.h"
 #include "cli/study_plan.h"
+#include "cli/study_plan_text.h"
 #include "cli/study_run.h"
 #include "cli/study_table.h"
 #include "data/atomic_file.h"
@@ -39,6 +42,10 @@ struct CompareArguments {
   std::string save_split;
   std::vector<PredictionsFile> predictions;
   bool resume = false;
+  std::string config;
+  std::vector<std::string> changes;  // KEY=VALUE of --set
+  bool dry_run = false;
+  std::set<std::string> given;  // flags that stand on the command line
   std::uint64_t seed = 1;
   int jobs = 0;
   std::string out;
@@ -178,18 +185,105 @@ std::unique_ptr<models::JournalFile> OpenJournal(
   return journal;
 }
 
+// The study file with what the command line says in place of its words.
+StudyFile ConfigOfFile(const CompareArguments& arguments) {
+  const auto given = [&](const char* flag) {
+    return arguments.given.contains(flag);
+  };
+  if (given("DATA")) {
+    throw UsageError(
+        "DATA and --config exclude each other; the study file names its data");
+  }
+  StudyFile file = ReadStudyFile(arguments.config, arguments.changes);
+  StudyConfig& config = file.config;
+  const StudyConfig flags = ConfigOf(arguments);
+  if (given("--seed")) config.seed = flags.seed;
+  if (given("--goal")) {
+    config.goal = flags.goal;
+    for (ComponentConfig& component : config.components) {
+      component.goal = flags.goal;
+    }
+  }
+  if (given("--indifference")) {
+    config.indifference = flags.indifference;
+    for (ComponentConfig& component : config.components) {
+      component.indifference = flags.indifference;
+    }
+  }
+  if (given("--holdout")) config.holdouts = flags.holdouts;
+  if (given("--models") || given("--model")) config.models = flags.models;
+  const ComponentConfig& from = flags.components.front();
+  for (const char* flag : {"--target",
+                           "--inputs",
+                           "--exclude",
+                           "--group",
+                           "--weight",
+                           "--split",
+                           "--save-split",
+                           "--predictions"}) {
+    if (!given(flag) || config.components.size() == 1) continue;
+    throw UsageError(
+        fmt::format("{} is for one component, and {} has {}; write --set "
+                    "component.0.KEY=VALUE",
+                    flag,
+                    data::PrintablePath(arguments.config),
+                    config.components.size()));
+  }
+  for (ComponentConfig& component : config.components) {
+    if (given("--target")) component.target = from.target;
+    if (given("--inputs")) component.inputs = from.inputs;
+    if (given("--exclude")) component.exclude = from.exclude;
+    if (given("--group")) component.group = from.group;
+    if (given("--weight")) component.weight = from.weight;
+    if (given("--missing")) component.missing = from.missing;
+    if (given("--keep-dead")) component.keep_dead = from.keep_dead;
+    if (given("--split")) component.split = from.split;
+    if (given("--save-split")) component.save_split = from.save_split;
+    if (given("--predictions")) component.predictions = from.predictions;
+  }
+  return file;
+}
+
+StudyPlan PlanOf(const CompareArguments& arguments) {
+  if (arguments.config.empty()) {
+    if (!arguments.given.contains("DATA")) {
+      throw UsageError("DATA is required; see errmap --help");
+    }
+    if (!arguments.changes.empty()) {
+      throw UsageError("--set changes a study file; name it with --config");
+    }
+    return PlanStudy(ConfigOf(arguments), arguments.data.quiet);
+  }
+  const StudyFile file = ConfigOfFile(arguments);
+  StudyPlan plan = PlanStudy(file.config, arguments.data.quiet);
+  plan.inputs.insert(plan.inputs.begin(), file.file);
+  return plan;
+}
+
+std::string Formatted(const StudyRun& run, const std::string& format) {
+  if (format == "json") return ResultsJson(run);
+  if (format == "csv") return LeaderboardCsv(run);
+  if (format == "md") return LeaderboardMarkdown(run);
+  return StudyTable(run);
+}
+
 int RunCompare(const CompareArguments& arguments) {
   if (arguments.resume && arguments.out.empty()) {
     throw UsageError("--resume needs the folder of the earlier run: --out DIR");
   }
-  StudyPlan plan = PlanStudy(ConfigOf(arguments), arguments.data.quiet);
+  StudyPlan plan = PlanOf(arguments);
+  const int cores =
+      std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int jobs = arguments.jobs > 0 ? arguments.jobs : cores;
+  if (arguments.dry_run) {
+    fmt::print("{}", PlanText(plan, jobs, arguments.out));
+    return kDone;
+  }
   for (std::size_t i = 0; i < plan.components.size(); ++i) {
     SaveSplit(plan.components[i].comparison, plan.config.components[i]);
   }
   // Better now than after minutes of fitting.
   if (!arguments.out.empty()) PrepareFolder(arguments.out);
-  const int cores =
-      std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const std::unique_ptr<models::JournalFile> journal = OpenJournal(arguments);
   StudyRun run;
   {
@@ -197,7 +291,7 @@ int RunCompare(const CompareArguments& arguments) {
     run = RunPlan(
         std::move(plan),
         arguments.command_line,
-        {.jobs = arguments.jobs > 0 ? arguments.jobs : cores,
+        {.jobs = jobs,
          .stop = &InstallInterruptFlag(),
          .journal = journal.get(),
          .describe_resume = arguments.resume && !arguments.data.quiet,
@@ -205,8 +299,7 @@ int RunCompare(const CompareArguments& arguments) {
   }
   if (journal != nullptr) SayUnlessQuiet(arguments, journal->WritingRemarks());
   if (!arguments.out.empty()) WriteOutputs(run, arguments.out);
-  fmt::print("{}",
-             arguments.format == "json" ? ResultsJson(run) : StudyTable(run));
+  fmt::print("{}", Formatted(run, arguments.format));
   return StatusOf(run);
 }
 
@@ -257,6 +350,24 @@ void AddCompareCommand(CLI::App* app, Run* run) {
   CLI::App* command = app->add_subcommand(
       "compare", "Fit several maps to the same rows and judge them on others");
   AddDataArguments(command, &arguments->data);
+  command->get_option("DATA")->required(false);
+  command
+      ->add_option("--config",
+                   arguments->config,
+                   "Study file in place of DATA: components, models and "
+                   "hold-outs (errmap init writes one)")
+      ->type_name("study.toml");
+  command
+      ->add_option("--set",
+                   arguments->changes,
+                   "Put in place of a key of the study file, may be repeated: "
+                   "seed=2, component.0.target=error_mm")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_flag("--dry-run",
+                    arguments->dry_run,
+                    "Print what would be fitted and how long it may take; fit "
+                    "and write nothing");
   command
       ->add_option("--holdout",
                    arguments->holdouts,
@@ -296,9 +407,13 @@ void AddCompareCommand(CLI::App* app, Run* run) {
                    arguments->out,
                    "Folder for results.json, residuals.csv and models/")
       ->type_name("DIR");
-  command->add_option("--format", arguments->format, "table or json")
-      ->check(CLI::IsMember({"table", "json"}))
-      ->type_name("table|json")
+  command
+      ->add_option("--format",
+                   arguments->format,
+                   "What to print; csv and md have a row per component, "
+                   "hold-out and model")
+      ->check(CLI::IsMember({"table", "json", "csv", "md"}))
+      ->type_name("table|json|csv|md")
       ->capture_default_str();
   AddJudgingOptions(command, arguments.get());
   command->add_flag("--resume",
@@ -310,7 +425,10 @@ void AddCompareCommand(CLI::App* app, Run* run) {
       "fit failed, 130 interrupted.\n"
       "Example: errmap compare xdown.csv --models mean,poly:eq8,net:scg "
       "--out study");
-  command->callback([arguments, run] {
+  command->callback([arguments, run, command] {
+    for (const CLI::Option* option : command->get_options()) {
+      if (option->count() > 0) arguments->given.insert(option->get_name());
+    }
     arguments->command_line = run->command_line;
     run->status = RunCompare(*arguments);
   });

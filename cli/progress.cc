@@ -6,32 +6,57 @@
 
 #include <fmt/format.h>
 
+#include "cli/rough_time.h"
+
 namespace errmap::cli {
 
+std::string ProgressText(const ProgressState& state) {
+  constexpr int kEnoughToTell = 20;  // a twentieth
+  std::string text =
+      fmt::format("{}/{} fits, {:.1f} s", state.done, state.all, state.seconds);
+  if (state.done > 0 && state.done < state.all &&
+      state.done >= state.all / kEnoughToTell) {
+    const double left = state.seconds * (state.all - state.done) / state.done;
+    text += ", about " + RoughTimeText(left) + " left";
+  }
+  return text;
+}
+
 Progress::Progress(bool enabled)
-    : enabled_(enabled && isatty(STDERR_FILENO) == 1),
-      start_(std::chrono::steady_clock::now()) {}
+    : enabled_(enabled),
+      on_terminal_(isatty(STDERR_FILENO) == 1),
+      start_(std::chrono::steady_clock::now()),
+      last_line_(start_) {}
 
 Progress::~Progress() {
-  if (enabled_ && shown_ > 0) fmt::print(stderr, "\r\033[K");
+  if (enabled_ && on_terminal_ && shown_ > 0) fmt::print(stderr, "\r\033[K");
 }
 
 void Progress::Show(int done, int all) {
+  constexpr int kWidth = 30;
+  constexpr std::chrono::seconds kBetweenLines(10);
   if (!enabled_ || all < 1) return;
   const std::lock_guard lock(mutex_);
   if (done <= shown_) return;  // a slower thread's older count
   shown_ = done;
-  constexpr int kWidth = 30;
-  const int filled = kWidth * done / all;
-  const std::chrono::duration<double> elapsed =
-      std::chrono::steady_clock::now() - start_;
+  const auto now = std::chrono::steady_clock::now();
+  const std::string text = ProgressText(
+      {.done = done,
+       .all = all,
+       .seconds = std::chrono::duration<double>(now - start_).count()});
+  if (!on_terminal_) {
+    if (now - last_line_ < kBetweenLines) return;
+    last_line_ = now;
+    fmt::print(stderr, "errmap: {}\n", text);
+    return;
+  }
+  const int filled =
+      static_cast<int>(static_cast<long long>(kWidth) * done / all);
   fmt::print(stderr,
-             "\r[{}{}] {}/{} fits, {:.1f} s",
+             "\r[{}{}] {}\033[K",
              std::string(static_cast<std::size_t>(filled), '#'),
              std::string(static_cast<std::size_t>(kWidth - filled), '.'),
-             done,
-             all,
-             elapsed.count());
+             text);
   std::fflush(stderr);
 }
 

@@ -1,5 +1,6 @@
 #include "cli/results_document.h"
 
+#include "cli/configuration_json.h"
 #include "cli/json_blocks.h"
 #include "cli/provenance.h"
 #include "cli/results_json.h"
@@ -17,7 +18,9 @@ std::string ResultsJson(const StudyRun& run) {
        {"version", models::Version()},
        {"seed", run.seed},
        {"interrupted", run.interrupted},
-       {"provenance", ProvenanceJson(run.command_line, nullptr, run.inputs)},
+       {"provenance",
+        ProvenanceJson(
+            run.command_line, EffectiveConfiguration(run.config), run.inputs)},
        {"components", std::move(components)}});
 }
 

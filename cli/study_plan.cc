@@ -265,7 +265,50 @@ void NameComponents(StudyConfig* config) {
   }
 }
 
+// What defaults became, so that a study with these words would do the same.
+// Hold-outs and models that differ between components stay unsaid.
+void FillInDefaults(StudyPlan* plan) {
+  for (std::size_t i = 0; i < plan->components.size(); ++i) {
+    const Comparison& planned = plan->components[i].comparison;
+    const data::Dataset& dataset = planned.data.dataset;
+    ComponentConfig& component = plan->config.components[i];
+    component.target = dataset.target().name;
+    component.group = dataset.groups().column;
+    component.goal = planned.goal;
+    component.indifference = planned.indifference;
+    component.inputs.clear();
+    for (const data::ColumnInfo& input : dataset.inputs()) {
+      component.inputs.push_back(input.name);
+    }
+  }
+  const auto alike = [&](const auto& list_of) {
+    std::vector<std::string> first = list_of(plan->components.front());
+    for (const ComponentPlan& component : plan->components) {
+      if (list_of(component) != first) return std::vector<std::string>{};
+    }
+    return first;
+  };
+  plan->config.holdouts =
+      alike([](const ComponentPlan& c) { return c.HoldoutNames(); });
+  plan->config.models =
+      alike([](const ComponentPlan& c) { return c.ModelNames(); });
+}
+
 }  // namespace
+
+std::vector<std::string> ComponentPlan::HoldoutNames() const {
+  std::vector<std::string> names;
+  for (const models::Holdout& holdout : comparison.holdouts) {
+    names.push_back(holdout.name);
+  }
+  return names;
+}
+
+std::vector<std::string> ComponentPlan::ModelNames() const {
+  std::vector<std::string> names;
+  for (const auto& recipe : recipes) names.push_back(recipe->name());
+  return names;
+}
 
 int ComponentPlan::num_fits() const {
   std::size_t fits_per_model = 1;  // to all rows
@@ -292,6 +335,7 @@ StudyPlan PlanStudy(const StudyConfig& config, bool quiet) {
     plan.components.push_back(
         ComponentPlanner(plan.config, component, quiet, &reader).Plan());
   }
+  FillInDefaults(&plan);
   return plan;
 }
 

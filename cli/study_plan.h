@@ -18,14 +18,18 @@ struct ComponentPlan {
   std::vector<std::unique_ptr<models::ModelRecipe>> recipes;
   std::vector<models::GivenPredictions> given;  // judged beside them
 
+  std::vector<std::string> HoldoutNames() const;
+  std::vector<std::string> ModelNames() const;
   /// Fits of every model to all rows and to every fold.
   int num_fits() const;
 };
 
 /// What a study will do: everything is read, nothing is fitted.
 struct StudyPlan {
-  StudyConfig config;             // with the names that the components got
-  std::vector<InputFile> inputs;  // every file read
+  /// With what the defaults became: names, targets, inputs, groups, goals;
+  /// hold-outs and models where all components have the same.
+  StudyConfig config;
+  std::vector<InputFile> inputs;  // every file read, in order
   std::vector<ComponentPlan> components;
 
   int num_fits() const;

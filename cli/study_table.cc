@@ -9,6 +9,7 @@
 
 #include "cli/number_text.h"
 #include "cli/verdict_text.h"
+#include "data/text.h"
 
 namespace errmap::cli {
 namespace {
@@ -231,7 +232,9 @@ std::string StudyTable(const StudyRun& run) {
   for (const Comparison& component : run.components) {
     if (run.has_several()) {
       text +=
-          fmt::format("{}== {} ==\n", text.empty() ? "" : "\n", component.name);
+          fmt::format("{}== {} ==\n",
+                      text.empty() ? "" : "\n",
+                      data::Printable(component.name, component.name.size()));
     }
     text += ComponentTable(component);
   }

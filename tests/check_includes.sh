@@ -96,6 +96,10 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
       violation("<" name "> belongs in models/*.cc and cli/")
       next
     }
+    if (name ~ /^toml\+\+\// && FILENAME !~ /^cli\/study_file\.cc$/) {
+      violation("<" name "> belongs in cli/study_file.cc")
+      next
+    }
     if (name ~ /^(gtest|gmock|benchmark)\//) {
       violation("<" name "> belongs in tests/")
       next
