@@ -13,7 +13,7 @@ packages="g++ cmake ninja-build libeigen3-dev libopenblas-dev libceres-dev
   libnlopt-dev libnlopt-cxx-dev libboost-dev libtbb-dev libcli11-dev
   nlohmann-json3-dev libfmt-dev libtomlplusplus-dev libssl-dev libgtest-dev
   libgmock-dev libbenchmark-dev gnuplot-nox"
-test_packages="clang-format-14 python3-jsonschema"
+test_packages="clang-format-14 python3-jsonschema chromium"
 example="data/sets/nistir5367_xdisp_down.csv"
 
 usage="usage: sh quickstart.sh [test]"
@@ -62,6 +62,7 @@ have_equivalent() {
     libboost-dev) have_boost ;;
     gnuplot-nox) have gnuplot ;;
     clang-format-14) have clang-format-14 ;;
+    chromium) have chromium || have chromium-browser || have google-chrome ;;
     libopenblas-dev) # Any flavour of it.
       case $(dpkg-query -W -f '${db:Status-Status} ' libopenblas-pthread-dev \
         libopenblas-openmp-dev libopenblas-serial-dev 2>/dev/null) in

@@ -126,6 +126,7 @@ int RunApplication(int argc, char** argv) {
   AddPredictCommand(&app, &run);
   AddEvaluateCommand(&app, &run);
   AddResidualsCommand(&app, &run);
+  AddReportCommand(&app, &run);
   AddSimulateCommand(&app, &run);
   AddCertifyCommand(&app, &run);
   try {

@@ -41,6 +41,7 @@ void AddFitCommand(CLI::App* app, Run* run);
 void AddPredictCommand(CLI::App* app, Run* run);
 void AddEvaluateCommand(CLI::App* app, Run* run);
 void AddResidualsCommand(CLI::App* app, Run* run);
+void AddReportCommand(CLI::App* app, Run* run);
 void AddCertifyCommand(CLI::App* app, Run* run);
 void AddSimulateCommand(CLI::App* app, Run* run);
 

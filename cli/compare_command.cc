@@ -261,7 +261,6 @@ StudyPlan PlanOf(const CompareArguments& arguments) {
 }
 
 std::string Formatted(const StudyRun& run, const std::string& format) {
-  if (format == "json") return ResultsJson(run);
   if (format == "csv") return LeaderboardCsv(run);
   if (format == "md") return LeaderboardMarkdown(run);
   return StudyTable(run);
@@ -298,8 +297,14 @@ int RunCompare(const CompareArguments& arguments) {
          .progress = [&](int done, int all) { progress.Show(done, all); }});
   }
   if (journal != nullptr) SayUnlessQuiet(arguments, journal->WritingRemarks());
-  if (!arguments.out.empty()) WriteOutputs(run, arguments.out);
-  fmt::print("{}", Formatted(run, arguments.format));
+  const bool json = arguments.format == "json";
+  const std::string results =
+      json || !arguments.out.empty() ? ResultsJson(run) : "";
+  if (!arguments.out.empty()) {
+    const std::string remark = WriteOutputs(run, results, arguments.out);
+    if (!remark.empty()) Say(remark);
+  }
+  fmt::print("{}", json ? results : Formatted(run, arguments.format));
   return StatusOf(run);
 }
 
@@ -405,7 +410,8 @@ void AddCompareCommand(CLI::App* app, Run* run) {
   command
       ->add_option("--out",
                    arguments->out,
-                   "Folder for results.json, residuals.csv and models/")
+                   "Folder for report.html, results.json, residuals.csv and "
+                   "models/")
       ->type_name("DIR");
   command
       ->add_option("--format",

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "cli/provenance.h"
-#include "cli/results_document.h"
+#include "cli/report_files.h"
 #include "data/atomic_file.h"
 #include "data/csv.h"
 #include "models/model_file.h"
@@ -118,10 +118,12 @@ std::string ResidualsCsv(const Comparison& comparison) {
   return text;
 }
 
-void WriteOutputs(const StudyRun& run, const std::string& folder) {
+std::string WriteOutputs(const StudyRun& run,
+                         const std::string& results_json,
+                         const std::string& folder) {
   const std::filesystem::path root(folder);
   PrepareFolder((root / "models").string());
-  data::WriteFileAtomically((root / "results.json").string(), ResultsJson(run));
+  data::WriteFileAtomically((root / "results.json").string(), results_json);
   std::set<std::string> taken;
   for (const Comparison& component : run.components) {
     std::filesystem::path residuals = root / "residuals.csv";
@@ -136,6 +138,7 @@ void WriteOutputs(const StudyRun& run, const std::string& folder) {
     data::WriteFileAtomically(residuals.string(), ResidualsCsv(component));
     WriteModels(run, component, models);
   }
+  return WriteReport(Json::parse(results_json), folder);
 }
 
 }  // namespace errmap::cli

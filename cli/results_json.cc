@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "cli/figure_data.h"
 #include "cli/fit_summary.h"
 #include "cli/held_out_residuals.h"
 #include "cli/json_blocks.h"
@@ -184,7 +185,8 @@ Json ComponentJson(const Comparison& comparison) {
           {"tiers", TiersJson(comparison)},
           {"stability", StabilityJson(comparison)},
           {"verdict", VerdictsJson(comparison)},
-          {"recommendation", RecommendationJson(comparison)}};
+          {"recommendation", RecommendationJson(comparison)},
+          {"figures", FigureDataJson(comparison)}};
 }
 
 }  // namespace errmap::cli

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace errmap::cli {
+
+/// The style sheet of report.html: every contrast at least 4.5 to 1.
+extern const char* const kReportStyle;
+
+}  // namespace errmap::cli

@@ -1,0 +1,231 @@
+#!/bin/sh
+# The report as a browser shows it, on a desk (1280 px) and on a phone (390 px):
+#
+#   report_browser_test.sh ERRMAP ROOT
+#
+# No message on the console, nothing fetched, every figure there and described,
+# no overflow, no empty panel, no NaN, contrast at least 4.5 to 1. Exit status
+# 77 where there is no Chromium or no gnuplot.
+set -eu
+
+errmap=$1
+root=$2
+
+browser=""
+for candidate in chromium chromium-browser google-chrome; do
+  if command -v "$candidate" >/dev/null 2>&1; then
+    browser=$candidate
+    break
+  fi
+done
+if [ -z "$browser" ]; then
+  echo "report_browser: skipped, no Chromium: apt-get install chromium"
+  exit 77
+fi
+if ! command -v gnuplot >/dev/null 2>&1; then
+  echo "report_browser: skipped, no gnuplot: apt-get install gnuplot-nox"
+  exit 77
+fi
+
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+failed=0
+complain() {
+  echo "report_browser: $*" >&2
+  failed=1
+}
+
+# browse OUTPUT FLAG... URL: the page's DOM, and its console in OUTPUT.err.
+browse() {
+  output=$1
+  shift
+  timeout 60 "$browser" --headless --no-sandbox --disable-gpu \
+    --disable-dev-shm-usage --no-first-run --disable-background-networking \
+    --disable-component-update --user-data-dir="$scratch/profile" \
+    --enable-logging=stderr --host-resolver-rules='MAP * ~NOTFOUND' \
+    --virtual-time-budget=15000 --dump-dom "$@" \
+    >"$output" 2>"$output.err" </dev/null
+}
+
+# Runs in a copy of the page and tells the page around it what it found.
+cat >"$scratch/check.js" <<'END'
+(function () {
+  var found = [];
+  function say(what) { if (found.length < 20) found.push(what); }
+  function place(e) {
+    return e.tagName + '.' + (e.getAttribute('class') || '') + ' "' +
+      (e.textContent || '').trim().slice(0, 40) + '"';
+  }
+  document.querySelectorAll('details').forEach(function (d) { d.open = true; });
+  var width = document.documentElement.clientWidth;
+  if (document.documentElement.scrollWidth > width) {
+    say('the page is ' + document.documentElement.scrollWidth + ' px wide');
+  }
+  document.querySelectorAll('main *').forEach(function (e) {
+    if (e.closest('.scroll') && !e.classList.contains('scroll')) return;
+    if (e.closest('svg') && e.tagName !== 'svg') return;
+    if (e.getBoundingClientRect().right > width + 1) say('overflow: ' + place(e));
+  });
+  var figures = document.querySelectorAll('figure');
+  var drawn = 0;
+  figures.forEach(function (f) {
+    var svg = f.querySelector('svg');
+    var absent = f.querySelector('.absent');
+    if (!svg) {
+      if (!absent || absent.textContent.trim().length < 10) say('empty panel: ' + place(f));
+      return;
+    }
+    drawn += 1;
+    var box = svg.getBoundingClientRect();
+    if (box.width < 100 || box.height < 80) say('small figure: ' + place(f));
+    if (svg.getAttribute('role') !== 'img') say('no role: ' + place(f));
+    ['title', 'desc'].forEach(function (name) {
+      var e = svg.querySelector(name);
+      if (!e || e.textContent.trim().length < 3) say('no ' + name + ': ' + place(f));
+    });
+    if (svg.querySelectorAll('path,polygon,circle').length < 3) say('nothing drawn: ' + place(f));
+    if (svg.querySelectorAll('text').length < 4) say('no labels: ' + place(f));
+    var frame = svg.getBoundingClientRect();
+    svg.querySelectorAll('text').forEach(function (t) {
+      var b = t.getBoundingClientRect();
+      if (b.left < frame.left - 2 || b.right > frame.right + 2 ||
+          b.bottom > frame.bottom + 2) {
+        say('label cut off: "' + t.textContent + '" of ' + place(f));
+      }
+    });
+  });
+  var ids = {};
+  document.querySelectorAll('[id]').forEach(function (e) {
+    if (ids[e.id]) say('id twice: ' + e.id);
+    ids[e.id] = true;
+  });
+  document.querySelectorAll('[aria-labelledby]').forEach(function (e) {
+    e.getAttribute('aria-labelledby').split(' ').forEach(function (id) {
+      if (!ids[id]) say('no such id: ' + id);
+    });
+  });
+  function channels(colour) {
+    var m = colour.match(/[\d.]+/g);
+    return m ? m.map(Number) : [0, 0, 0, 0];
+  }
+  function luminance(c) {
+    return [0.2126, 0.7152, 0.0722].reduce(function (sum, weight, i) {
+      var v = c[i] / 255;
+      return sum + weight * (v <= 0.03928 ? v / 12.92 : Math.pow((v + 0.055) / 1.055, 2.4));
+    }, 0);
+  }
+  function background(e) {
+    for (; e; e = e.parentElement) {
+      var c = channels(getComputedStyle(e).backgroundColor);
+      if (c.length < 4 || c[3] > 0) return c;
+    }
+    return [255, 255, 255];
+  }
+  var walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  var texts = 0;
+  while (walker.nextNode()) {
+    var text = walker.currentNode.nodeValue.trim();
+    var holder = walker.currentNode.parentElement;
+    if (!text || /^(SCRIPT|STYLE|TITLE|DESC)$/i.test(holder.tagName)) continue;
+    texts += 1;
+    if (/(^|[^A-Za-z])(nan|NaN|null|undefined|inf|Infinity)($|[^A-Za-z])/.test(text)) {
+      say('not a figure: "' + text.slice(0, 60) + '"');
+    }
+    var style = getComputedStyle(holder);
+    var ink = channels(holder.closest('svg') ? style.fill : style.color);
+    var a = luminance(ink), b = luminance(background(holder));
+    var ratio = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+    if (ratio < 4.5) say('contrast ' + ratio.toFixed(2) + ': ' + place(holder));
+  }
+  performance.getEntriesByType('resource').forEach(function (r) { say('fetched ' + r.name); });
+  window.top.postMessage({width: width, figures: figures.length, drawn: drawn,
+                      texts: texts, found: found}, '*');
+})();
+END
+
+# look PAGE LEAST: LEAST is how many figures there must be.
+look() {
+  page=$1
+  least=$2
+  # The page's own policy forbids the scripts of this test; nothing else goes.
+  {
+    sed -e 's/<meta http-equiv="Content-Security-Policy"[^>]*>//' \
+      -e '/<\/body>/,$d' "$page"
+    echo "<script>"
+    cat "$scratch/check.js"
+    echo "</script></body></html>"
+  } >"$scratch/copy.html"
+  cat >"$scratch/frames.html" <<'END'
+<!DOCTYPE html><html><head><meta charset="utf-8"><link rel="icon" href="data:,"></head><body>
+<ol id="out"></ol><script>
+addEventListener('message', function (e) {
+  var li = document.createElement('li');
+  li.textContent = 'SEEN ' + JSON.stringify(e.data);
+  document.getElementById('out').appendChild(li);
+});
+</script>
+<iframe src="copy.html" style="width:1280px;height:900px;border:0"></iframe>
+<iframe src="copy.html" style="width:390px;height:800px;border:0"></iframe>
+</body></html>
+END
+  if ! browse "$scratch/dom" --window-size=1700,1000 \
+    "file://$scratch/frames.html"; then
+    complain "$browser failed on $page"
+    tail -5 "$scratch/dom.err" >&2
+    return 0
+  fi
+  grep -o 'SEEN {[^<]*' "$scratch/dom" >"$scratch/seen" || :
+  if [ "$(wc -l <"$scratch/seen")" -ne 2 ]; then
+    complain "$page was not looked at in both widths"
+    tail -5 "$scratch/dom.err" >&2
+  fi
+  while IFS= read -r line; do
+    case $line in
+      *'"found":[]'*) ;;
+      *) complain "$page: $line" ;;
+    esac
+    drawn=$(printf '%s\n' "$line" | sed 's/.*"drawn":\([0-9]*\).*/\1/')
+    if [ "$drawn" -lt "$least" ]; then
+      complain "$page: $drawn figures, at least $least are needed"
+    fi
+  done <"$scratch/seen"
+  # The page itself, with its own policy.
+  browse "$scratch/plain" --window-size=1280,900 "file://$page" ||
+    complain "$browser failed on $page itself"
+  if grep CONSOLE "$scratch/plain.err" >&2; then
+    complain "$page wrote to the console"
+  fi
+}
+
+data="$root/data/sets/nistir5367_xdisp_down.csv"
+"$errmap" compare "$data" --quiet --out "$scratch/study" \
+  --models zero,mean,poly:position,poly:eq8,poly:full:degree=3,net:scg:iterations=60 \
+  >"$scratch/table"
+"$errmap" report "$scratch/study"
+look "$scratch/study/report.html" 18
+
+# Names that try to become something else, in a table of their own.
+mkdir "$scratch/hostile"
+long=$(printf '%0200d' 0 | tr 0 W)
+{
+  printf 'cycle,"position<script>alert(1)</script>",'
+  printf '"t1""; system(""touch pwned""); ""`touch pwned`",%s,error_mm\n' "$long"
+  i=0
+  while [ "$i" -lt 120 ]; do
+    echo "$((i / 12)) <b>,$((i % 12 * 20)),$((20 + i / 7)),$((i * 7 % 31)),0.00$((10 + i * 13 % 89))"
+    i=$((i + 1))
+  done
+} >"$scratch/hostile/<script>alert(1)<_script>.csv"
+(
+  cd "$scratch/hostile"
+  "$errmap" compare '<script>alert(1)<_script>.csv' --quiet --out study \
+    --models mean,poly:eq8,poly:full:degree=2 >table
+  "$errmap" report study
+)
+look "$scratch/hostile/study/report.html" 12
+if [ -n "$(find "$scratch" -name 'pwned*')" ]; then
+  complain "a name was run as a command"
+fi
+
+if [ "$failed" -ne 0 ]; then exit 1; fi
+echo "report_browser: looked at two reports in two widths, nothing amiss"
