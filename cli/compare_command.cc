@@ -136,6 +136,17 @@ StudyConfig ConfigOf(const CompareArguments& arguments) {
           .components = {std::move(component)}};
 }
 
+// Whether a model that was asked for could be judged.
+bool AnyJudged(const Comparison& component) {
+  const auto& models = component.study.models;
+  return std::any_of(
+      models.begin() + static_cast<std::ptrdiff_t>(component.num_added),
+      models.end(),
+      [](const models::ModelResult& model) {
+        return std::ranges::any_of(model.holdouts, &models::HoldoutResult::ok);
+      });
+}
+
 int StatusOf(const StudyRun& run) {
   if (run.interrupted) {
     Say("interrupted; what was finished is shown");
@@ -143,9 +154,7 @@ int StatusOf(const StudyRun& run) {
   }
   bool any = false;
   for (const Comparison& component : run.components) {
-    if (!component.judgement.comparisons.empty() &&
-        std::ranges::any_of(component.judgement.verdicts,
-                            [](const auto& verdict) { return !!verdict; })) {
+    if (AnyJudged(component)) {
       any = true;
     } else if (run.has_several()) {
       Say(fmt::format("{}: every fit failed",

@@ -22,6 +22,8 @@ struct Comparison {
   data::PreparedDataset data;
   std::vector<models::Holdout> holdouts;
   models::StudyResult study;
+  /// Models at the head of the study that nobody asked for: baselines.
+  std::size_t num_added = 0;
   models::Judgement judgement;
 };
 

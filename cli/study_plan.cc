@@ -62,6 +62,7 @@ class ComponentPlanner {
     }
     std::vector<std::unique_ptr<models::ModelRecipe>> recipes =
         MakeRecipes(dataset, FewestTrainingRows(holdouts));
+    const std::size_t num_added = AddBaselines(dataset, &recipes);
     return {.comparison = {.name = component_.name,
                            .file = component_.data,
                            .sha256 = reader_->Sha256Of(component_.data),
@@ -70,6 +71,7 @@ class ComponentPlanner {
                            .data = std::move(prepared),
                            .holdouts = std::move(holdouts),
                            .study = {},
+                           .num_added = num_added,
                            .judgement = {}},
             .recipes = std::move(recipes),
             .given = ReadGiven()};
@@ -198,12 +200,19 @@ class ComponentPlanner {
     for (const std::string& spec : study_.models) {
       recipes.push_back(models::MakeRecipe(spec));
     }
-    // What any map must beat is always there to be beaten.
-    auto baselines = models::MissingBaselines(dataset, recipes);
-    recipes.insert(recipes.begin(),
-                   std::make_move_iterator(baselines.begin()),
-                   std::make_move_iterator(baselines.end()));
     return recipes;
+  }
+
+  // What any map must beat is always there to be beaten.
+  static std::size_t AddBaselines(
+      const data::Dataset& dataset,
+      std::vector<std::unique_ptr<models::ModelRecipe>>* recipes) {
+    auto baselines = models::MissingBaselines(dataset, *recipes);
+    const std::size_t added = baselines.size();
+    recipes->insert(recipes->begin(),
+                    std::make_move_iterator(baselines.begin()),
+                    std::make_move_iterator(baselines.end()));
+    return added;
   }
 
   // The component's own, else the study's, else one for lengths: given in um,

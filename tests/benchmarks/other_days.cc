@@ -99,7 +99,8 @@ models::StudyResult OnlyHoldout(const models::StudyResult& study,
 }
 
 struct Score {
-  double log_sum = 0.0;
+  double log_sum = 0.0;           // of RMSE recommended / RMSE best
+  double log_promise_sum = 0.0;   // of RMSE on the last days / promised
   double worst = 0.0;
   int above_baseline = 0;
 };
@@ -155,6 +156,7 @@ void ScoreSeed(int training_days,
     const double ratio = rmse(model) / best;
     Score& score = (*scores)[rule];
     score.log_sum += std::log(ratio);
+    score.log_promise_sum += std::log(rmse(model) / promised);
     score.worst = std::max(score.worst, ratio);
     if (rmse(model) > best_baseline) ++score.above_baseline;
     fmt::print(
@@ -189,12 +191,13 @@ int Main(int argc, char** argv) {
   for (std::size_t rule = 0; rule < scores.size(); ++rule) {
     fmt::print(
         "{}: geometric mean {:.3f}, worst {:.3f}, above the best baseline {} "
-        "of {}\n",
-        rule == 0 ? "groups:5" : "kfold:5",
+        "of {}; last days / promised {:.2f}\n",
+        kRules[rule],
         std::exp(scores[rule].log_sum / seeds),
         scores[rule].worst,
         scores[rule].above_baseline,
-        seeds);
+        seeds,
+        std::exp(scores[rule].log_promise_sum / seeds));
   }
   return 0;
 }
