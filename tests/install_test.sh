@@ -75,7 +75,7 @@ table=$share/sets/nistir5367_xdisp_down.csv
 [ -f "$table" ] || die "no $table"
 (cd "$scratch/elsewhere" && quietly "running the outside project" \
   "$outside/outside" "$table" map.json)
-grep -Fq 'poly:full:degree=3 0.53' "$log" ||
+grep -Fq 'poly:full:degree=3 0.553' "$log" ||
   fail "the outside project prints: $(cat "$log")"
 quietly "running the part" "$outside/part"
 if configure -DERRMAP_WANTED=99 >"$log" 2>&1; then
@@ -172,7 +172,7 @@ fish_offers() {
   fish --no-config -c '
     source $argv[1]
     complete -C $argv[2] | string replace -r "\t.*" ""
-  ' "$fish_script" "$1" >offered
+  ' "$fish_script" "$1" >offered || true # 1: nothing to replace
   offers fish "$1" "$2"
 }
 if have fish; then
