@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <memory>
 #include <set>
@@ -139,12 +140,15 @@ StudyConfig ConfigOf(const CompareArguments& arguments) {
 // Whether a model that was asked for could be judged.
 bool AnyJudged(const Comparison& component) {
   const auto& models = component.study.models;
-  return std::any_of(
-      models.begin() + static_cast<std::ptrdiff_t>(component.num_added),
-      models.end(),
-      [](const models::ModelResult& model) {
-        return std::ranges::any_of(model.holdouts, &models::HoldoutResult::ok);
-      });
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const bool added = i >= component.first_added &&
+                       i < component.first_added + component.num_added;
+    if (!added &&
+        std::ranges::any_of(models[i].holdouts, &models::HoldoutResult::ok)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 int StatusOf(const StudyRun& run) {
@@ -309,11 +313,13 @@ int RunCompare(const CompareArguments& arguments) {
   const bool json = arguments.format == "json";
   const std::string results =
       json || !arguments.out.empty() ? ResultsJson(run) : "";
+  // Before the files: a full disk must not cost the answer.
+  fmt::print("{}", json ? results : Formatted(run, arguments.format));
+  std::fflush(stdout);
   if (!arguments.out.empty()) {
     const std::string remark = WriteOutputs(run, results, arguments.out);
     if (!remark.empty()) Say(remark);
   }
-  fmt::print("{}", json ? results : Formatted(run, arguments.format));
   return StatusOf(run);
 }
 

@@ -22,7 +22,8 @@ struct Comparison {
   data::PreparedDataset data;
   std::vector<models::Holdout> holdouts;
   models::StudyResult study;
-  /// Models at the head of the study that nobody asked for: baselines.
+  /// Models of the study that nobody asked for, baselines, from `first_added`.
+  std::size_t first_added = 0;
   std::size_t num_added = 0;
   models::Judgement judgement;
 };

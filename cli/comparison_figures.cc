@@ -176,7 +176,10 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
       }
     }
     if (h == 0) {
-      marks.push_back(Intervals(view, models, holdouts[h], kHoldoutColours[h]));
+      Series bars = Intervals(view, models, holdouts[h], kHoldoutColours[h]);
+      for (const double end : bars.columns[2]) low = std::min(low, end);
+      for (const double end : bars.columns[3]) high = std::max(high, end);
+      marks.push_back(std::move(bars));
     }
     marks.push_back(std::move(points));
   }

@@ -196,7 +196,7 @@ std::string AxisCommands(char name, const Axis& axis) {
     }
     text += fmt::format("set {}tics {}({})\n",
                         name,
-                        axis.slanted_tics ? "rotate by -45 " : "",
+                        axis.slanted_tics ? "rotate by 45 right " : "",
                         tics);
   }
   return text;
@@ -238,7 +238,7 @@ std::string Style(const Series& series) {
     case Mark::kSteps:
       return fmt::format("with steps {} {}", line, colour);
     case Mark::kBars:
-      return fmt::format("with boxes fill solid 0.45 {}", colour);
+      return fmt::format("with boxes fill solid 0.45 border {}", colour);
     case Mark::kInterval:
     case Mark::kSpan:
       return fmt::format("with vectors nohead {} {}", line, colour);
@@ -376,7 +376,8 @@ std::string Commands(const Plot& plot,
   text += fmt::format("set output {}\n", GnuplotString(file));
   text +=
       "set border 3 lc rgb \"#555555\"\nset tics nomirror\n"
-      "set grid lc rgb \"#DDDDDD\" dt 1 lw 0.5\nset style fill solid 0.5\n";
+      "set grid lc rgb \"#DDDDDD\" dt 1 lw 0.5\nset style fill solid 1 "
+      "noborder\n";
   const bool labelled =
       std::any_of(plot.series.begin(), plot.series.end(), [](const auto& s) {
         return !s.label.empty();
@@ -427,16 +428,23 @@ std::string GnuplotString(std::string_view text) {
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
       " _-+*/=:,.()^<>|!?[]&%";
   std::string quoted = "\"";
+  bool after_escape = false;
   for (const char c : data::AsUtf8(text)) {
     const auto byte = static_cast<unsigned char>(c);
     constexpr unsigned char kFirstBeyondAscii = 0x80;
     constexpr unsigned char kDelete = 0x7f;
-    if (byte >= kFirstBeyondAscii || kPlain.find(c) != std::string_view::npos) {
-      quoted += c;
-    } else if (byte < ' ' || byte == kDelete) {
+    const bool plain =
+        byte >= kFirstBeyondAscii || kPlain.find(c) != std::string_view::npos;
+    // gnuplot takes a digit behind an octal escape for a part of it.
+    const bool joins = after_escape && c >= '0' && c <= '9';
+    after_escape = false;
+    if (byte < ' ' || byte == kDelete) {
       quoted += ' ';
+    } else if (plain && !joins) {
+      quoted += c;
     } else {
       quoted += fmt::format("\\{:03o}", byte);
+      after_escape = true;
     }
   }
   return quoted + "\"";

@@ -118,7 +118,10 @@ Headline HeadlineOf(const ReportView& view) {
   line.sentence = TextAt(recommendation, "sentence");
   if (line.sentence.empty()) line.sentence = FallbackSentence(view, line);
   line.why = TextAt(recommendation, "why");
-  if (line.why == line.sentence) line.why.clear();
+  // The reasons have a list of their own.
+  if (line.why == line.sentence || !At(recommendation, "reasons").empty()) {
+    line.why.clear();
+  }
   line.reasons = TextsOf(At(recommendation, "reasons"));
   line.caveats = TextsOf(At(recommendation, "caveats"));
   return line;

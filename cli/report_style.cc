@@ -58,7 +58,7 @@ details.component>summary span{font-weight:400;color:var(--soft)}
 .notice{border:1px solid #a33a00;background:#fff4ec;border-radius:6px;padding:8px 14px;margin:.8rem 0}
 footer{border-top:1px solid var(--line);margin-top:2rem;padding-top:10px;padding-bottom:30px;font-size:.875rem;color:var(--soft)}
 @media (max-width:1000px){.answer{grid-template-columns:minmax(0,1fr)}}
-@media (max-width:600px){main,header,footer{padding-left:14px;padding-right:14px}.card{padding:12px 14px}h1{font-size:1.3rem}.number{font-size:2rem}td:first-child{white-space:normal;overflow-wrap:anywhere;min-width:6.5rem}td.long:first-child{min-width:9rem}td.long{min-width:11rem}th,td{padding:4px 8px}}
+@media (max-width:600px){main,header,footer{padding-left:14px;padding-right:14px}.card{padding:12px 14px}h1{font-size:1.3rem}.number{font-size:2rem}td:first-child{white-space:normal;overflow-wrap:anywhere;min-width:8.2rem}td.long:first-child{min-width:9rem}td.long{min-width:11rem}th,td{padding:4px 8px}}
 @media print{body{font-size:10pt}main,header,footer{max-width:none;padding:0}.scroll{overflow:visible;border:0;width:auto}table{font-size:7pt;width:100%}th,td{padding:1px 3px}td:first-child,th:first-child{position:static;min-width:0}td,td.long{white-space:normal;min-width:0}.answer{grid-template-columns:minmax(0,1fr) minmax(0,1.1fr)}.figures{grid-template-columns:repeat(2,minmax(0,1fr))}.figures.many{grid-template-columns:repeat(3,minmax(0,1fr))}h2,h3,h4{break-after:avoid}tr,.card{break-inside:avoid}.equation{max-height:none}details:not([open])::details-content{content-visibility:visible;display:block}a{color:inherit;text-decoration:none}.card,th,tr.mark td,.goal{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 )css";
 

@@ -19,6 +19,9 @@ constexpr const char* kBlue = "#0072B2";
 constexpr const char* kVermillion = "#D55E00";
 constexpr const char* kGrey = "#666666";
 constexpr std::size_t kFewestForShape = 8;
+// Characters of a name that fit under a figure, and under a small one.
+constexpr std::size_t kLongLabel = 40;
+constexpr std::size_t kShortLabel = 24;
 
 // Everything the figures of one model share.
 struct Context {
@@ -157,9 +160,11 @@ std::string InputName(const ReportView& view, std::size_t index) {
   return TextAt(At(At(*view.component, {"figures", "inputs"}), index), "name");
 }
 
-std::string InputLabel(const ReportView& view, std::size_t index) {
+std::string InputLabel(const ReportView& view,
+                       std::size_t index,
+                       std::size_t most) {
   const Json& input = At(At(*view.component, {"figures", "inputs"}), index);
-  return WithUnit(Shortened(TextAt(input, "name"), 40),
+  return WithUnit(Shortened(TextAt(input, "name"), most),
                   PrettyUnit(TextAt(input, "unit")));
 }
 
@@ -173,7 +178,7 @@ Figure PositionFigure(const Context& context, std::size_t position) {
   const std::vector<double>& x = context.rows.inputs[position];
   figure.note =
       "A curve or slope here is error along the axis that the map misses.";
-  figure.plot.x.label = InputLabel(context.view, position);
+  figure.plot.x.label = InputLabel(context.view, position, kLongLabel);
   figure.plot.y.label = Residual(context);
   figure.plot.series = {Points(x, context.rows.residual),
                         ZeroLine(x),
@@ -444,7 +449,7 @@ Figure MapFigure(const Context& context, std::size_t position) {
       "Blue: measured less than predicted; orange: more. A row of one colour "
       "is a group that drifts, a column a position that the map misses.";
   figure.plot.width = 460;
-  figure.plot.x.label = InputLabel(context.view, position);
+  figure.plot.x.label = InputLabel(context.view, position, kLongLabel);
   figure.plot.y.label =
       Shortened(TextOf(At(*context.view.component, {"figures", "group"})), 30);
   figure.plot.y.tics = GroupTics(rows);
@@ -523,7 +528,7 @@ std::vector<Figure> InputFigures(const Context& context,
     figure.small = true;
     figure.plot.width = 300;
     figure.plot.height = 210;
-    figure.plot.x.label = InputLabel(context.view, input);
+    figure.plot.x.label = InputLabel(context.view, input, kShortLabel);
     figure.plot.y.label = WithUnit("residual", context.view.shown_unit);
     figure.plot.series = {Points(x, context.rows.residual), ZeroLine(x)};
     if (used.size() < all && figures.empty()) {
@@ -645,8 +650,8 @@ Figure SmallResidualFigure(const ReportView& view,
       has_position ? rows.inputs[position] : rows.row;
   figure.plot.width = 300;
   figure.plot.height = 210;
-  figure.plot.x.label =
-      has_position ? InputLabel(view, position) : "row, number in the file";
+  figure.plot.x.label = has_position ? InputLabel(view, position, kShortLabel)
+                                     : "row, number in the file";
   figure.plot.y.label = WithUnit("residual", view.shown_unit);
   figure.plot.series = {Points(x, rows.residual), ZeroLine(x)};
   figure.description = fmt::format(

@@ -63,6 +63,9 @@ class ComponentPlanner {
     std::vector<std::unique_ptr<models::ModelRecipe>> recipes =
         MakeRecipes(dataset, FewestTrainingRows(holdouts));
     const std::size_t num_added = AddBaselines(dataset, &recipes);
+    // What throws stands before the aggregate: GCC 12 destroys members of a
+    // half-built one twice (GCC PR 66139).
+    std::vector<models::GivenPredictions> given = ReadGiven();
     return {.comparison = {.name = component_.name,
                            .file = component_.data,
                            .sha256 = reader_->Sha256Of(component_.data),
@@ -71,10 +74,11 @@ class ComponentPlanner {
                            .data = std::move(prepared),
                            .holdouts = std::move(holdouts),
                            .study = {},
+                           .first_added = recipes.size() - num_added,
                            .num_added = num_added,
                            .judgement = {}},
             .recipes = std::move(recipes),
-            .given = ReadGiven()};
+            .given = std::move(given)};
   }
 
  private:
@@ -209,7 +213,7 @@ class ComponentPlanner {
       std::vector<std::unique_ptr<models::ModelRecipe>>* recipes) {
     auto baselines = models::MissingBaselines(dataset, *recipes);
     const std::size_t added = baselines.size();
-    recipes->insert(recipes->begin(),
+    recipes->insert(recipes->end(),
                     std::make_move_iterator(baselines.begin()),
                     std::make_move_iterator(baselines.end()));
     return added;

@@ -83,6 +83,12 @@ std::string TestSentence(const Comparison& comparison,
                 "{} {}", tests.tests.num_units, PluralOfUnit(tests.units)),
       ProbabilityText(pair.p_holm),
       Count(static_cast<long long>(tests.tests.pairs.size()), "pair"));
+  if (pair.established && pair.correlated) {
+    return text + fmt::format(
+                      ", as if {} were independent; neighbouring ones resemble "
+                      "each other: not established.",
+                      PluralOfUnit(tests.units));
+  }
   if (pair.established) return text + ": established.";
   return text + ": not established.";
 }
@@ -316,8 +322,9 @@ std::string CorrelationCaveat(const Comparison& comparison,
   if (!pair.correlated) return "";
   return fmt::format(
       "Neighbouring {} resemble each other (lag-1 correlation {:.2f} of the "
-      "loss differences), so p and intervals are too sure; more days, held "
-      "out whole, would tell.",
+      "loss differences), so p and intervals are too sure and nothing is "
+      "called "
+      "established; more days, held out whole, would tell.",
       PluralOfUnit(tests.units),
       pair.lag1.statistic);
 }

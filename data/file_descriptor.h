@@ -1,6 +1,5 @@
 #pragma once
 
-#include <unistd.h>
 #include <utility>
 
 namespace errmap::data {
@@ -17,9 +16,7 @@ class FileDescriptor {
     std::swap(descriptor_, other.descriptor_);
     return *this;
   }
-  ~FileDescriptor() {
-    if (descriptor_ >= 0) close(descriptor_);
-  }
+  ~FileDescriptor();
 
   int get() const { return descriptor_; }
   bool is_open() const { return descriptor_ >= 0; }
@@ -28,7 +25,7 @@ class FileDescriptor {
   int Release() { return std::exchange(descriptor_, -1); }
 
   /// Some file systems report a failed write only here. 0 where all is well.
-  int Close() { return close(Release()); }
+  int Close();
 
  private:
   int descriptor_;

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "data/atomic_file.h"
+#include "data/sha256.h"
 #include "models/model_file.h"
 
 namespace errmap::models {
@@ -38,8 +40,10 @@ void RequireUnit(const std::string& what,
 
 class FileRecipe final : public ModelRecipe {
  public:
-  FileRecipe(std::string name, FittedModel map)
-      : name_(std::move(name)), map_(std::move(map)) {
+  FileRecipe(std::string name, std::string sha256, FittedModel map)
+      : name_(std::move(name)),
+        sha256_(std::move(sha256)),
+        map_(std::move(map)) {
     map_.summary.termination = fitting::Termination::kDirect;
     map_.summary.message =
         fmt::format("read from a file ({}), not fitted here", map_.name);
@@ -48,7 +52,10 @@ class FileRecipe final : public ModelRecipe {
 
   std::string name() const override { return name_; }
   ModelKind kind() const override { return ModelKind::kFile; }
-  std::vector<EffectiveOption> options() const override { return {}; }
+  // What the file held decides the outcome, not its name.
+  std::vector<EffectiveOption> options() const override {
+    return {{"sha256", sha256_}};
+  }
 
   std::optional<std::string> WhatIsMissing(
       const data::Dataset& dataset) const override {
@@ -84,6 +91,7 @@ class FileRecipe final : public ModelRecipe {
 
  private:
   std::string name_;
+  std::string sha256_;
   FittedModel map_;
 };
 
@@ -96,7 +104,9 @@ std::unique_ptr<ModelRecipe> MakeFileRecipe(std::string_view spec) {
     throw std::invalid_argument(
         fmt::format("model '{}': names no file; write file:model.json", spec));
   }
-  return std::make_unique<FileRecipe>(std::string(spec), LoadModel(path));
+  const std::string content = data::ReadFile(path);
+  return std::make_unique<FileRecipe>(
+      std::string(spec), data::Sha256(content), ModelFromJson(content, path));
 }
 
 }  // namespace errmap::models

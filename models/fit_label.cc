@@ -143,7 +143,8 @@ std::string ContextText(const FitContext& context) {
   if (explain) text += " explained";
   if (explain && !default_bootstraps) text += " without bootstraps";
   if (keep_trace) text += " traced";
-  text += fmt::format(" inner={}", static_cast<int>(inner_holdout));
+  if (inner_holdout == InnerHoldout::kRows) text += " inner=rows";
+  if (inner_holdout == InnerHoldout::kForward) text += " inner=forward";
   if (most_design_values != FitContext().most_design_values) {
     text += fmt::format(" design={}", most_design_values);
   }

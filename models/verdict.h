@@ -34,8 +34,9 @@ struct Verdict {
   /// no other class: what the choice was made against.
   std::optional<std::size_t> rival;
   /// The choice is more than chance (kPolynomial, kNeural: best against rival
-  /// and against the best baseline by Holm's sign-flip p and the interval) or,
-  /// for the other choices, the difference is known to be within the margin.
+  /// and against the best baseline by Holm's sign-flip p and the interval, with
+  /// no sign that neighbouring units resemble each other) or, for the other
+  /// choices, the difference is known to be within the margin.
   bool established = false;
 };
 

@@ -181,7 +181,7 @@ while read -r number language gap; do
       flags=$(sed -n 's/^CMAKE_CXX_FLAGS:[^=]*=//p' "$cache")
       # What errmap itself is linked with; a folder's library may need any.
       libraries=$(awk '
-        /^build errmap: / { inside = 1 }
+        /^build errmap[: ]/ { inside = 1 }
         inside && /^ *LINK_LIBRARIES = / {
           sub(/^ *LINK_LIBRARIES = /, ""); print; exit
         }' "$build/build.ninja" 2>/dev/null || true)

@@ -97,8 +97,9 @@ TEST_F(CliStudy, ProvenanceHoldsConfigurationAndHashesOfEveryFile) {
   EXPECT_EQ(provenance["inputs"][1]["sha256"].get<std::string>().size(), 64U);
   const Json& configuration = provenance["configuration"];
   EXPECT_EQ(configuration["seed"], 3);
-  EXPECT_EQ(configuration["models"],
-            Json::array({"mean", "poly:full:degree=2"}));
+  EXPECT_EQ(
+      configuration["models"],
+      Json::array({"mean", "poly:full:degree=2", "zero", "poly:position"}));
   EXPECT_EQ(configuration["component"][1]["where"]["direction"], "up");
   EXPECT_EQ(configuration["component"][1]["target"], "error_mm");
   EXPECT_EQ(configuration["component"][1]["goal"], 0.0005);
@@ -111,12 +112,12 @@ TEST_F(CliStudy, TableNamesTheComponentsAndCsvHasARowPerModel) {
   EXPECT_THAT(table.out, AllOf(HasSubstr("== x, down =="), HasSubstr("x, up")));
   const Outcome csv =
       Run({"compare", "--config", "study.toml", "--format", "csv"});
-  EXPECT_EQ(SplitLines(csv.out).size(), 1U + 2U * 2U);
+  EXPECT_EQ(SplitLines(csv.out).size(), 1U + 2U * 4U);
   EXPECT_THAT(csv.out, HasSubstr("\"x, up\",every:3,poly:full:degree=2,"));
   const Outcome md =
       Run({"compare", "--config", "study.toml", "--format", "md"});
   const std::vector<std::string> lines = SplitLines(md.out);
-  ASSERT_EQ(lines.size(), 2U + 2U * 2U);
+  ASSERT_EQ(lines.size(), 2U + 2U * 4U);
   EXPECT_EQ(std::count(lines[0].begin(), lines[0].end(), '|'),
             std::count(lines[5].begin(), lines[5].end(), '|'));
 }
@@ -127,13 +128,17 @@ TEST_F(CliStudy, LeaderboardHasTheFiguresOfTheJson) {
   std::vector<std::string> as_csv = words;
   as_csv.emplace_back("csv");
   const auto records = Records(Run(as_csv).out);
-  ASSERT_EQ(records.size(), 2U);
+  ASSERT_EQ(records.size(), 10U);  // four baselines are added
   const Json test = Model(Compare({"--models", "poly:eq8"}),
                           "poly:eq8")["results"]["groups:5"]["test"];
-  EXPECT_EQ(records[1].at("holdout"), "groups:5");
-  EXPECT_EQ(std::stod(records[1].at("test_rmse")), test["rmse"].get<double>());
-  EXPECT_EQ(std::stod(records[1].at("test_sd")), test["sd"].get<double>());
-  EXPECT_EQ(records[1].at("test_n"), "397");
+  const auto found = std::ranges::find_if(records, [](const auto& record) {
+    return record.at("holdout") == "groups:5" &&
+           record.at("model") == "poly:eq8";
+  });
+  ASSERT_NE(found, records.end());
+  EXPECT_EQ(std::stod(found->at("test_rmse")), test["rmse"].get<double>());
+  EXPECT_EQ(std::stod(found->at("test_sd")), test["sd"].get<double>());
+  EXPECT_EQ(found->at("test_n"), "397");
   EXPECT_EQ(records[1].at("unit"), "mm");
 }
 
@@ -213,7 +218,7 @@ TEST_F(CliStudy, FlagsOverrideTheFileAndThoseThatCannotAreRefused) {
   EXPECT_EQ(document["seed"], 9);
   EXPECT_EQ(document["components"][0]["goal"], 0.5);
   EXPECT_EQ(document["components"][0]["holdouts"][0]["name"], "every:4");
-  EXPECT_EQ(document["components"][1]["models"].size(), 1U);
+  EXPECT_EQ(document["components"][1]["models"].size(), 3U);
   EXPECT_THAT(RefusalOf(Run({"compare", kDown, "--config", "study.toml"}),
                         kWrongCommandLine),
               HasSubstr("DATA and --config exclude each other"));
@@ -296,7 +301,7 @@ TEST_F(CliStudy, DryRunShowsThePlanAndTouchesNothing) {
                     HasSubstr("60 rows, 10 groups (cycle)"),
                     HasSubstr("every:3 (1 fold)"),
                     HasSubstr("mean, poly:full:degree=2"),
-                    HasSubstr("8 fits in all, seed 3; roughly a second"),
+                    HasSubstr("16 fits in all, seed 3; roughly a second"),
                     HasSubstr("models/COMPONENT/MODEL.json")));
   EXPECT_FALSE(Exists("o"));
   const Outcome plain = Run({"compare", kDown, "--dry-run"});

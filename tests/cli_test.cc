@@ -204,7 +204,7 @@ class CliRepeats : public Cli {
 
 TEST_F(CliRepeats, NumberOfJobsChangesNoByte) {
   const Everything one = CompareInto("one", "1", "1");
-  EXPECT_EQ(one.models.size(), 5U);
+  EXPECT_EQ(one.models.size(), 8U);  // three baselines are added
   for (const std::string jobs : {"2", "5"}) {
     const Everything other = CompareInto("jobs" + jobs, jobs, "1");
     EXPECT_EQ(one.results, other.results) << jobs;
@@ -218,11 +218,16 @@ TEST_F(CliRepeats, AnotherSeedChangesTheNetOnly) {
   const Json b = Json::parse(CompareInto("b", "2", "2").results);
   const Json& models_a = a["components"][0]["models"];
   const Json& models_b = b["components"][0]["models"];
-  ASSERT_EQ(models_a.size(), 5U);
+  ASSERT_EQ(models_a.size(), 8U);
   for (std::size_t i = 0; i < models_a.size(); ++i) {
     const bool is_net = models_a[i]["kind"] == "net";
-    EXPECT_EQ(models_a[i]["results"] != models_b[i]["results"], is_net)
-        << models_a[i]["name"];
+    for (const char* holdout : {"every:3", "groups:5"}) {
+      // Intervals are resampled, so they follow the seed as well.
+      EXPECT_EQ(models_a[i]["results"][holdout]["test"] !=
+                    models_b[i]["results"][holdout]["test"],
+                is_net)
+          << models_a[i]["name"];
+    }
   }
 }
 

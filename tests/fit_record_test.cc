@@ -297,7 +297,7 @@ TEST(FitRecord, RefusesAModelThatCannotBe) {
   std::string text = FitToText(FullOutcome());
   const std::size_t powers = text.find("[[2],0.25]");
   ASSERT_NE(powers, std::string::npos);
-  text.replace(powers, 5, "[[-2]");
+  text.replace(powers, 4, "[[-2]");
   EXPECT_THAT([&] { FitFromText(text); },
               ThrowsMessage<data::InputError>(HasSubstr("power")));
 }

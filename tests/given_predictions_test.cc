@@ -49,8 +49,8 @@ TEST(GivenPredictions, AreJudgedAsTheModelThatMadeThem) {
   const auto recipes = MakeRecipes({"poly:eq8"});
   const StudyResult study = RunStudy(dataset, holdouts, recipes, {});
   const HoldoutResult& ours = study.models[0].holdouts[0];
-  const std::string path =
-      WriteTestFile("p.csv", PredictionsByFold(ours, holdouts[0], dataset));
+  const data::CsvTable file =
+      data::ParseCsv(PredictionsByFold(ours, holdouts[0], dataset), "p.csv");
   const ModelResult given = JudgeGivenPredictions(
       ReadGivenPredictions("matlab", file), dataset, holdouts);
   EXPECT_TRUE(given.ok()) << given.why();

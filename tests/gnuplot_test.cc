@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/svg.h"
+#include "data/text.h"
 #include "tests/report_document.h"
 
 namespace errmap::cli {
@@ -30,6 +31,21 @@ Plot SimplePlot(const std::string& name) {
                   .mark = Mark::kPoints,
                   .columns = {{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}}}};
   return plot;
+}
+
+// A name as it must stand in the SVG: one line, & and < as entities.
+std::string AsSvgText(const std::string& name) {
+  std::string text;
+  for (const char c : data::AsUtf8(name)) {
+    if (c == '&') {
+      text += "&amp;";
+    } else if (c == '<') {
+      text += "&lt;";
+    } else {
+      text += c == '\n' ? ' ' : c;
+    }
+  }
+  return text;
 }
 
 // A folder to work in, and out of it again.
@@ -58,6 +74,10 @@ class GnuplotTest : public ::testing::Test {
 TEST(GnuplotString, WritesWhatCouldBeACommandAsOctalEscapes) {
   EXPECT_EQ(GnuplotString("a\"b`c'd\\e$f@g#h;i{j}"),
             "\"a\\042b\\140c\\047d\\134e\\044f\\100g\\043h\\073i\\173j\\175\"");
+}
+
+TEST(GnuplotString, KeepsDigitsApartFromTheEscapeBeforeThem) {
+  EXPECT_EQ(GnuplotString("a'12b3"), "\"a\\047\\061\\062b3\"");
 }
 
 TEST(GnuplotString, TurnsLineBreaksIntoBlanksAndKeepsUtf8) {
@@ -155,6 +175,8 @@ TEST_F(GnuplotTest, ShowsHostileNamesAsTextAndRunsNothing) {
     EXPECT_EQ(drawn.drawings[0].failure, "") << name;
     const std::string svg =
         CompactSvg(drawn.drawings[0].image, "role=\"img\"", "");
+    // Every character is there, as gnuplot escapes it.
+    EXPECT_THAT(drawn.drawings[0].image, HasSubstr(AsSvgText(name)));
     EXPECT_THAT(svg, Not(HasSubstr("<script"))) << svg;
     EXPECT_THAT(svg, Not(HasSubstr("<img"))) << svg;
     EXPECT_TRUE(std::filesystem::is_empty(folder_)) << name;

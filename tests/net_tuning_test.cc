@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -63,8 +64,8 @@ TEST(NetTuning, TakesTheFewestNodesThatDoAsWell) {
 TEST(NetTuning, TakesMoreNodesWhereTheCurveNeedsThem) {
   const FittedModel fitted = FitOf(
       "net:scg:hidden=cv:scale=standard:output=linear:wfactor=1e-7:"
-      "iterations=400",
-      OneInput(300, [](double x) { return std::sin(40.0 * x); }));
+      "iterations=1500",
+      OneInput(300, [](double x) { return std::sin(15.0 * x); }));
   EXPECT_GT(std::get<std::int64_t>(fitted.choices[0].value), 5);
 }
 
@@ -83,12 +84,12 @@ TEST(NetTuning, ChoosesNodesAndWfactorTogetherInABoundedNumberOfFits) {
                                     "groups:5 of cycle"),
                           HasSubstr("wfactor")));
   // What was chosen, given as numbers, is the same map.
-  const FittedModel fixed = FitOf(
-      "net:scg:iterations=40:hidden=" +
-          std::to_string(std::get<std::int64_t>(one.choices[0].value)) +
-          ":wfactor=" +
-          ::testing::PrintToString(std::get<double>(one.choices[1].value)),
-      dataset);
+  const FittedModel fixed =
+      FitOf("net:scg:iterations=40:hidden=" +
+                std::to_string(std::get<std::int64_t>(one.choices[0].value)) +
+                ":wfactor=" +
+                fmt::format("{}", std::get<double>(one.choices[1].value)),
+            dataset);
   EXPECT_LT((fixed.Predict(dataset) - one.Predict(dataset)).norm(),
             1e-9 * one.Predict(dataset).norm());
 }

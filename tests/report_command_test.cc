@@ -31,7 +31,9 @@ TEST_F(ReportCommand, DrawsTheReportOfAComparisonTwiceAlike) {
   const std::string first = Read("study/report.html");
   EXPECT_THAT(first, HasSubstr("poly:eq8"));
   EXPECT_THAT(Read("study/report.md"), HasSubstr("poly:eq8"));
-  if (HasGnuplot()) EXPECT_THAT(first, HasSubstr("<svg"));
+  if (HasGnuplot()) {
+    EXPECT_THAT(first, HasSubstr("<svg"));
+  }
   ASSERT_EQ(Run({"report", "study"}).status, 0);
   EXPECT_EQ(Read("study/report.html"), first);
 }

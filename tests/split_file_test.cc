@@ -20,8 +20,9 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 std::string Refusal(const std::string& content) {
-  const std::string path = WriteTestFile("split.csv", content);
-  return MessageOf<InputError>([&] { ReadSplitFile(path, QuadraticData(6)); });
+  return MessageOf<InputError>([&] {
+    ReadSplitFile(data::ParseCsv(content, "split.csv"), QuadraticData(6));
+  });
 }
 
 TEST(SplitFile, ReadsBackTheVeryFoldsThatWereWritten) {

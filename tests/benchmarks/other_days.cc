@@ -99,8 +99,8 @@ models::StudyResult OnlyHoldout(const models::StudyResult& study,
 }
 
 struct Score {
-  double log_sum = 0.0;           // of RMSE recommended / RMSE best
-  double log_promise_sum = 0.0;   // of RMSE on the last days / promised
+  double log_sum = 0.0;          // of RMSE recommended / RMSE best
+  double log_promise_sum = 0.0;  // of RMSE on the last days / promised
   double worst = 0.0;
   int above_baseline = 0;
 };
