@@ -109,7 +109,10 @@ std::string GapText(const Comparison& comparison, std::size_t model) {
   const auto& gap = comparison.judgement.gap;
   if (!gap) return "";
   for (const models::InterpolationGap::Row& row : gap->rows) {
-    if (row.model == model) return fmt::format("{:.1f}", row.ratio());
+    if (row.model != model) continue;
+    constexpr double kLarge = 1000.0;
+    return row.ratio() < kLarge ? fmt::format("{:.1f}", row.ratio())
+                                : fmt::format("{:.0e}", row.ratio());
   }
   return "-";
 }

@@ -49,6 +49,13 @@ std::string RmseWithInterval(const Comparison& comparison,
   return text;
 }
 
+// "4.5"; a ratio beyond a thousand has no decimals that mean anything.
+std::string RatioText(double ratio) {
+  constexpr double kLarge = 1000.0;
+  return ratio < kLarge ? fmt::format("{:.1f}", ratio)
+                        : fmt::format("{:.2g}", ratio);
+}
+
 std::string ProbabilityText(double p) {
   constexpr double kSmallest = 1e-4;
   return p < kSmallest ? "below 0.0001" : fmt::format("{:.2g}", p);
@@ -177,6 +184,13 @@ std::string SimplestReason(const Comparison& comparison,
         "tier (the others: {}).",
         NamesOf(comparison, advice.first_tier, advice.model));
   }
+  if (tests.tests.num_units < 2) {
+    return fmt::format(
+        "It is the simplest of those that are near the lowest "
+        "error ({} of {}); more is not known.",
+        error(Rmse(comparison, advice.first_tier.front(), advice.holdout)),
+        Model(comparison, advice.first_tier.front()).name);
+  }
   const double excess = tests.tests.ExcessAtMost(
       *tests.PlaceOf(advice.model), *tests.PlaceOf(advice.first_tier.front()));
   return fmt::format(
@@ -205,11 +219,11 @@ std::string GapReason(const Comparison& comparison,
   for (const models::InterpolationGap::Row& row : gap->rows) {
     if (row.model != advice.model) continue;
     return fmt::format(
-        "Between neighbours ({}) it has {}, on unseen {} {:.1f} times that.",
+        "Between neighbours ({}) it has {}, on unseen {} {} times that.",
         comparison.holdouts[gap->neighbours].name,
         error.WithUnit(row.neighbours_rmse),
         PluralOfUnit(Tests(comparison, gap->unseen).units),
-        row.ratio());
+        RatioText(row.ratio()));
   }
   return "";
 }
@@ -555,11 +569,11 @@ std::string GapSentence(const Comparison& comparison) {
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < std::min(flattered.size(), kMostNamed); ++i) {
     const auto& row = flattered[i];
-    parts.push_back(fmt::format("{} ({} against {}, {:.1f} times)",
+    parts.push_back(fmt::format("{} ({} against {}, {} times)",
                                 Model(comparison, row.model).name,
                                 error(row.neighbours_rmse),
                                 error.WithUnit(row.unseen_rmse),
-                                row.ratio()));
+                                RatioText(row.ratio())));
   }
   std::string text = fmt::format("Warning: {} flatters {}",
                                  comparison.holdouts[gap->neighbours].name,

@@ -62,10 +62,19 @@ MatrixXd GatherResiduals(const HeldOut& held,
   return residuals;
 }
 
+std::size_t CountGroups(const HeldOut& held) {
+  std::set<Index> present;
+  for (const Index row : held.rows) {
+    present.insert(held.source->groups().codes[static_cast<std::size_t>(row)]);
+  }
+  return present.size();
+}
+
 // Codes of the units of the held-out rows; `units` gets name and labels.
 std::vector<Index> AssignUnits(const HeldOut& held, UnitsOfAnalysis* units) {
   std::vector<Index> codes;
-  if (held.source->has_groups()) {
+  // One group is no grouping: its rows are all that there is to resample.
+  if (held.source->has_groups() && CountGroups(held) > 1) {
     const data::Grouping& groups = held.source->groups();
     units->name = groups.column;
     units->are_groups = true;

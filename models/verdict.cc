@@ -161,11 +161,30 @@ double ExtrapolatedShare(const data::Dataset& dataset,
                  : 0.0;
 }
 
+// Models with an RMSE within the margin of `best`, by RMSE.
+std::vector<std::size_t> NearTheBest(
+    const HoldoutComparison& comparison,
+    const std::function<bool(std::size_t)>& wanted,
+    double best,
+    double indifference) {
+  const double most =
+      best + stats::Margin{.indifference = indifference}.Of(best);
+  std::vector<std::size_t> near;
+  for (const std::size_t model : comparison.models) {
+    const double rmse = RmseOf(comparison, model);
+    if (wanted(model) && rmse >= best && rmse <= most) near.push_back(model);
+  }
+  std::ranges::stable_sort(
+      near, {}, [&](std::size_t model) { return RmseOf(comparison, model); });
+  return near;
+}
+
 std::optional<Recommendation> Recommend(
     const data::Dataset& dataset,
     const std::vector<Holdout>& holdouts,
     const StudyResult& study,
-    const std::vector<HoldoutComparison>& comparisons) {
+    const std::vector<HoldoutComparison>& comparisons,
+    double indifference) {
   const auto decisive = DecisiveHoldout(holdouts, comparisons);
   if (!decisive) return std::nullopt;
   const HoldoutComparison& comparison = comparisons[*decisive];
@@ -188,6 +207,15 @@ std::optional<Recommendation> Recommend(
     if (!advice.first_tier.empty()) break;
   }
   if (advice.first_tier.empty()) return std::nullopt;
+  // One unit bounds no difference, so a tier is a model alone; what is near it
+  // by the margin may be better just as well, and simpler.
+  if (comparison.tests.num_units < 2) {
+    advice.first_tier =
+        NearTheBest(comparison,
+                    is_map,
+                    RmseOf(comparison, advice.first_tier.front()),
+                    indifference);
+  }
   std::vector<std::size_t> candidates;
   std::ranges::copy_if(advice.first_tier,
                        std::back_inserter(candidates),
@@ -277,7 +305,7 @@ Judgement JudgeStudy(const data::Dataset& dataset,
   }
   judgement.gap = MeasureGap(holdouts, judgement.comparisons);
   judgement.recommendation =
-      Recommend(dataset, holdouts, study, judgement.comparisons);
+      Recommend(dataset, holdouts, study, judgement.comparisons, indifference);
   return judgement;
 }
 

@@ -62,8 +62,9 @@ struct Recommendation {
   std::size_t holdout = 0;  // that it follows
   std::size_t model = 0;
   Choice choice = Choice::kBaseline;
-  std::vector<std::size_t> first_tier;  // by RMSE
-  std::size_t best_baseline = 0;        // by RMSE, under that hold-out
+  /// By RMSE; where there is one unit only, the models within the margin.
+  std::vector<std::size_t> first_tier;
+  std::size_t best_baseline = 0;  // by RMSE, under that hold-out
   bool has_baseline = false;
   /// Predictions without a map that were better than every map, if any.
   std::optional<std::size_t> better_but_no_map;

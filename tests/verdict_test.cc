@@ -169,6 +169,33 @@ TEST(Verdict, AnswersWithFiveRows) {
   EXPECT_FALSE(judgement.verdicts[0]->established);
 }
 
+TEST(Verdict, PrefersTheSimplestNearTheBestWhereNothingBoundsADifference) {
+  // 6 held-out rows of one cycle are one block; a thousandth of the error
+  // parts the two.
+  data::Dataset::Parts parts;
+  parts.source = "one cycle";
+  parts.inputs = {{"position_mm", data::UnitOfColumn("position_mm")},
+                  {"t1_degC", data::UnitOfColumn("t1_degC")}};
+  parts.input_values.resize(20, 2);
+  parts.target = {"error_mm", data::UnitOfColumn("error_mm")};
+  parts.target_values.resize(20);
+  parts.groups = {"cycle", {"1"}, std::vector<Eigen::Index>(20, 0)};
+  for (Eigen::Index i = 0; i < 20; ++i) {
+    const double k = static_cast<double>(i);
+    parts.input_values.row(i) << k, 20.0 + 0.1 * k + 1e-3 * std::sin(k * k);
+    parts.target_values[i] = 1e-3 * k;
+  }
+  const data::Dataset dataset(std::move(parts));
+  StudyResult study;
+  const Judgement judgement = JudgeSpecs(
+      dataset, {"every:3"}, {"poly:full:degree=1", "poly:position"}, &study);
+  EXPECT_FALSE(judgement.comparisons[0].units.are_groups);
+  EXPECT_EQ(judgement.comparisons[0].tests.num_units, 1);
+  EXPECT_EQ(judgement.recommendation->first_tier.size(), 2u);
+  EXPECT_EQ(study.models[judgement.recommendation->model].name,
+            "poly:position");
+}
+
 TEST(Verdict, LeavesOutAModelThatFailedInOneFold) {
   // Two groups of two rows are too few for six coefficients.
   StudyResult study;
