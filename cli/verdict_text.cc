@@ -353,6 +353,29 @@ std::string ExtrapolationCaveat(const models::Recommendation& advice) {
       100.0 * advice.extrapolated_share);
 }
 
+// Another hold-out of unseen rows in whose first tier the map is not.
+std::string DisagreementCaveat(const Comparison& comparison,
+                               const models::Recommendation& advice) {
+  const ErrorText error = ErrorTextFor(comparison);
+  std::vector<std::string> parts;
+  for (std::size_t h = 0; h < comparison.holdouts.size(); ++h) {
+    const auto& verdict = comparison.judgement.verdicts[h];
+    if (h == advice.holdout || comparison.holdouts[h].among_neighbours ||
+        !verdict || Tests(comparison, h).TierOf(advice.model) < 2) {
+      continue;
+    }
+    parts.push_back(
+        fmt::format("under {} it has {}, {} has {}",
+                    comparison.holdouts[h].name,
+                    error.WithUnit(Rmse(comparison, advice.model, h)),
+                    Model(comparison, verdict->best).name,
+                    error(Rmse(comparison, verdict->best, h))));
+  }
+  if (parts.empty()) return "";
+  return fmt::format("The hold-outs of unseen rows disagree: {}.",
+                     fmt::join(parts, "; "));
+}
+
 std::string StabilityCaveat(const Comparison& comparison) {
   std::vector<std::string> parts;
   for (std::size_t h = 0; h < comparison.holdouts.size(); ++h) {
@@ -543,6 +566,7 @@ std::vector<std::string> Caveats(const Comparison& comparison) {
   if (advice == nullptr) return caveats;
   caveats.push_back(UnseenCaveat(comparison, *advice));
   caveats.push_back(UnitsCaveat(comparison, *advice));
+  caveats.push_back(DisagreementCaveat(comparison, *advice));
   caveats.push_back(CorrelationCaveat(comparison, *advice));
   caveats.push_back(ExtrapolationCaveat(*advice));
   caveats.push_back(LimitCaveat(comparison, *advice));

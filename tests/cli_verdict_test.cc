@@ -147,6 +147,20 @@ TEST_F(Cli, RefusesWrongJudgingOptionsInOneLine) {
   expect({"--split", "split.csv"}, kUnusable, "no data row 999");
 }
 
+TEST_F(Cli, SaysWhereHoldOutsOfUnseenCyclesDisagree) {
+  const Json component = Compare({"--models",
+                                  "poly:full:degree=3",
+                                  "--holdout",
+                                  "groups:5",
+                                  "--holdout",
+                                  "forward:5",
+                                  "--quiet"});
+  EXPECT_EQ(component["recommendation"]["model"], "poly:full:degree=3");
+  EXPECT_THAT(component["recommendation"]["caveats"].dump(),
+              AllOf(HasSubstr("disagree: under forward:5 it has"),
+                    HasSubstr("poly:position has")));
+}
+
 TEST_F(Cli, EstablishesNothingFromFiveCycles) {
   std::string text = "cycle,position_mm,error_mm\n";
   for (int i = 0; i < 50; ++i) {
