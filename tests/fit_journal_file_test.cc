@@ -23,15 +23,15 @@
 
 #include "models/fit_record.h"
 #include "tests/model_test_data.h"
-#include "tests/study_test_data.h"
+#include "tests/study_test_tools.h"
 
 namespace errmap::models {
 namespace {
 
 namespace fs = std::filesystem;
-using errmap::testing::HoldoutsOf;
+using errmap::testing::MakeHoldouts;
+using errmap::testing::MakeRecipes;
 using errmap::testing::Recipes;
-using errmap::testing::RecipesOf;
 using errmap::testing::ShippedMeasurements;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -371,7 +371,7 @@ class JournalledStudy : public FitJournalFile {
   static constexpr int kAll = 1 << 20;
   data::Dataset dataset_ = ShippedMeasurements();
   std::vector<Holdout> holdouts_ =
-      HoldoutsOf(dataset_, {"every:3", "groups:5"});
+      MakeHoldouts(dataset_, {"every:3", "groups:5"});
   std::string program_ = "errmap 1";
   std::atomic<int> fits_ = 0;
   std::atomic<bool> stop_ = false;
@@ -386,7 +386,7 @@ TEST_F(JournalledStudy, EndsAsAnUnbrokenOneWithoutRepeatingAFit) {
                                           "poly:formula=no_such_mm"};
   constexpr int kFits = 3 * 7;  // those of the last throw before they count
   const std::string whole =
-      TextOf(RunStudy(dataset_, holdouts_, RecipesOf(specs), {.jobs = 2}));
+      TextOf(RunStudy(dataset_, holdouts_, MakeRecipes(specs), {.jobs = 2}));
   std::mt19937_64 random(3);
   for (int round = 0; round < 5; ++round) {
     Opening opening = Opening::kAnew;
@@ -442,7 +442,7 @@ TEST_F(JournalledStudy, MakesAnewWhatAnotherSeedOrOtherRowsMade) {
     rows.push_back(row);
   }
   dataset_ = dataset_.SelectRows(rows);
-  holdouts_ = HoldoutsOf(dataset_, {"every:3", "groups:5"});
+  holdouts_ = MakeHoldouts(dataset_, {"every:3", "groups:5"});
   Run({"mean"}, Opening::kResume, kAll, {.seed = 2});
   EXPECT_EQ(fits_, 7);
   EXPECT_THAT(

@@ -11,15 +11,15 @@
 
 #include "models/version.h"
 #include "tests/model_test_data.h"
-#include "tests/study_test_data.h"
+#include "tests/study_test_tools.h"
 
 namespace errmap::models {
 namespace {
 
 using data::Dataset;
-using errmap::testing::HoldoutsOf;
+using errmap::testing::MakeHoldouts;
+using errmap::testing::MakeRecipes;
 using errmap::testing::QuadraticData;
-using errmap::testing::RecipesOf;
 using ::testing::HasSubstr;
 
 constexpr Eigen::Index kRows = 40;
@@ -43,9 +43,9 @@ std::vector<std::string> KeysOf(
     const std::vector<std::string>& specs = {"poly:eq8"},
     const StudyOptions& options = {},
     const std::string& program = "errmap 1") {
-  const auto folds = HoldoutsOf(dataset, holdouts);
+  const auto folds = MakeHoldouts(dataset, holdouts);
   const FitLabels labels(
-      "x", dataset, folds, RecipesOf(specs), options, program);
+      "x", dataset, folds, MakeRecipes(specs), options, program);
   std::vector<std::string> keys;
   for (const FitLabel& label : labels.All()) keys.push_back(label.Key());
   return keys;
@@ -53,8 +53,8 @@ std::vector<std::string> KeysOf(
 
 TEST(FitLabels, GiveEveryFitItsPlaceInTheOrderOfTheStudy) {
   const Dataset dataset = QuadraticData(kRows);
-  const auto holdouts = HoldoutsOf(dataset, {"every:3", "kfold:2"});
-  const auto recipes = RecipesOf({"net:scg:hidden=3", "mean"});
+  const auto holdouts = MakeHoldouts(dataset, {"every:3", "kfold:2"});
+  const auto recipes = MakeRecipes({"net:scg:hidden=3", "mean"});
   const FitLabels labels("x down", dataset, holdouts, recipes, {}, "errmap 1");
   const std::vector<FitLabel> all = labels.All();
   ASSERT_EQ(all.size(), 8U);
@@ -147,7 +147,7 @@ TEST(FitLabels, KnowTheRowsOfATestFile) {
                                    dataset,
                                    1,
                                    std::make_shared<const Dataset>(test)));
-    const auto recipes = RecipesOf({"mean"});
+    const auto recipes = MakeRecipes({"mean"});
     const FitLabels labels("x", dataset, holdouts, recipes, {}, "errmap 1");
     return std::pair(labels.All()[0].Key(), labels.All()[1].Key());
   };
