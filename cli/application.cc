@@ -13,9 +13,9 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/command_reference.h"
-#include "cli/completion.h"
-#include "cli/man_page.h"
+#include "cli/shell/command_reference.h"
+#include "cli/shell/completion.h"
+#include "cli/shell/man_page.h"
 #include "data/input_error.h"
 #include "models/version.h"
 

@@ -14,7 +14,7 @@
 #include <Eigen/Core>
 
 #include "data/dataset.h"
-#include "fitting/optimizer.h"
+#include "fitting/minimisers/optimizer.h"
 
 namespace errmap::models {
 

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "data/atomic_file.h"
-#include "models/feedforward_net.h"
-#include "models/polynomial_model.h"
+#include "models/net/feedforward_net.h"
+#include "models/polynomial/polynomial_model.h"
 #include "models/version.h"
 
 namespace errmap::models {

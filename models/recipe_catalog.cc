@@ -10,8 +10,8 @@
 
 #include "models/file_recipe.h"
 #include "models/model_spec.h"
-#include "models/net_recipe.h"
-#include "models/polynomial_recipe.h"
+#include "models/net/net_recipe.h"
+#include "models/polynomial/polynomial_recipe.h"
 
 namespace errmap::models {
 

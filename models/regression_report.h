@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "fitting/regression_diagnostics.h"
-#include "fitting/stepwise_selection.h"
+#include "fitting/least_squares/regression_diagnostics.h"
+#include "fitting/selection/stepwise_selection.h"
 
 namespace errmap::models {
 

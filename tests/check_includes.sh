@@ -1,5 +1,6 @@
 #!/bin/sh
-# No folder includes upwards, and each foreign library has one home:
+# No folder and no room in it includes upwards, no headers include each other
+# in a circle, and each foreign library has one home:
 #
 #   check_includes.sh [ROOT]
 #
@@ -32,6 +33,48 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     allowed["models"] = " models fitting stats data "
     allowed["cli"] = " cli models fitting stats data "
     allowed["tests"] = " tests cli models fitting stats data "
+    # What each room may include of its folder besides itself; a folder without
+    # rooms here has none.
+    rooms["stats"] = ""
+    rooms["stats/normality"] = " stats "
+    rooms["stats/comparison"] = " stats "
+    rooms["fitting"] = ""
+    rooms["fitting/least_squares"] = " fitting "
+    rooms["fitting/selection"] = " fitting fitting/least_squares "
+    rooms["fitting/minimisers"] = " fitting fitting/least_squares "
+    rooms["fitting/nonlinear"] = " fitting fitting/least_squares " \
+                                 "fitting/minimisers "
+    rooms["data"] = ""
+    rooms["data/turning_centre"] = " data "
+    rooms["models"] = ""
+    rooms["models/history"] = " models "
+    rooms["models/polynomial"] = " models models/history "
+    rooms["models/net"] = " models models/history "
+    rooms["models/blend"] = " models models/history models/polynomial " \
+                            "models/net "
+    rooms["models/study"] = " models models/history models/polynomial " \
+                            "models/net models/blend "
+    rooms["models/promise"] = rooms["models/study"] "models/study "
+    rooms["models/kinematics"] = " models models/history "
+    rooms["models/export"] = " models models/history models/polynomial " \
+                             "models/net models/blend "
+    rooms["models/certification"] = " models models/polynomial models/net "
+    rooms["models/netcg"] = " models models/net "
+    rooms["cli"] = ""
+    rooms["cli/shell"] = " cli "
+    rooms["cli/study_file"] = " cli cli/shell "
+    rooms["cli/report"] = " cli cli/shell cli/study_file "
+    rooms["cli/commands"] = " cli cli/shell cli/study_file cli/report "
+    # These know every room, since they put them together.
+    knows_all["cli/application.cc"] = 1
+    knows_all["models/file_recipe.cc"] = 1
+    knows_all["models/model_file.cc"] = 1
+    knows_all["models/recipe_catalog.cc"] = 1
+  }
+
+  function room_of(path) {
+    sub(/\/[^\/]*$/, "", path)
+    return path
   }
 
   function violation(what) { printf "%s:%d: %s\n", FILENAME, FNR, what }
@@ -41,7 +84,11 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     sub(/\/.*/, "", folder)
     is_header = FILENAME ~ /\.h$/
     public_header = is_header && folder ~ /^(stats|data|fitting|models)$/
+    room = room_of(FILENAME)
     print "checked"
+    if (folder != "tests" && !(room in rooms)) {
+      violation("the room " room "/ is not known to this check")
+    }
   }
 
   /^[ \t]*#[ \t]*include([ \t<"]|$)/ {
@@ -71,16 +118,23 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
         violation("nothing but tests includes " name)
       } else if (index(allowed[folder], " " home " ") == 0) {
         violation(folder "/ must not include " name)
+      } else if (home == folder && folder != "tests") {
+        other = room_of(name)
+        if (other != room && !(FILENAME in knows_all) &&
+            index(rooms[room], " " other " ") == 0) {
+          violation(room "/ must not include " name)
+        }
       }
+      if (is_header) print "edge " FILENAME " " name
       next
     }
 
-    if (name ~ /^ceres\// && FILENAME !~ /^fitting\/ceres_optimizer[^\/]*\.cc$/) {
-      violation("<" name "> belongs in fitting/ceres_optimizer*.cc")
+    if (name ~ /^ceres\// && FILENAME !~ /^fitting\/minimisers\/ceres_optimizer[^\/]*\.cc$/) {
+      violation("<" name "> belongs in fitting/minimisers/ceres_optimizer*.cc")
       next
     }
-    if (name ~ /^nlopt/ && FILENAME !~ /^fitting\/nlopt_optimizer[^\/]*\.cc$/) {
-      violation("<" name "> belongs in fitting/nlopt_optimizer*.cc")
+    if (name ~ /^nlopt/ && FILENAME !~ /^fitting\/minimisers\/nlopt_optimizer[^\/]*\.cc$/) {
+      violation("<" name "> belongs in fitting/minimisers/nlopt_optimizer*.cc")
       next
     }
     if (folder == "tests") next  # May use the other libraries.
@@ -96,8 +150,8 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
       violation("<" name "> belongs in models/*.cc and cli/")
       next
     }
-    if (name ~ /^toml\+\+\// && FILENAME !~ /^cli\/study_file\.cc$/) {
-      violation("<" name "> belongs in cli/study_file.cc")
+    if (name ~ /^toml\+\+\// && FILENAME !~ /^cli\/study_file\/study_file\.cc$/) {
+      violation("<" name "> belongs in cli/study_file/study_file.cc")
       next
     }
     if (name ~ /^(gtest|gmock|benchmark)\//) {
@@ -117,6 +171,10 @@ if [ "$checked" -eq 0 ]; then
   echo "check_includes: no source file in $(pwd)" >&2
   exit 1
 fi
+# tsort names the headers that include each other, if there are any.
+sed -n 's/^edge //p' "$report" | tsort 2>&1 >/dev/null |
+  sed -n 's/^tsort: \([^ ]*\/.*\)/\1: is in a circle of includes/p' >>"$report"
+sed -i '/^edge /d' "$report"
 if grep -qvx checked "$report"; then
   grep -vx checked "$report" | sort -t: -k1,1 -k2,2n
   echo "check_includes: failed" >&2

@@ -23,32 +23,35 @@ fail() {
 
 good_tree() {
   rm -rf "$tree"
-  mkdir -p "$tree/stats" "$tree/data" "$tree/fitting" "$tree/models" \
-    "$tree/cli" "$tree/tests/benchmarks"
+  mkdir -p "$tree/stats" "$tree/data" "$tree/fitting/minimisers" \
+    "$tree/models/study" "$tree/models/net" "$tree/cli/report" "$tree/tests/benchmarks"
   printf '%s\n' '#pragma once' '#include <vector>' '#include <Eigen/Core>' \
     >"$tree/stats/summary.h"
   printf '%s\n' '#include "stats/summary.h"' \
     '#include <boost/math/distributions/normal.hpp>' >"$tree/stats/summary.cc"
   printf '%s\n' '#pragma once' '#include <string>' >"$tree/data/csv.h"
   printf '%s\n' '#pragma once' '#include "stats/summary.h"' \
-    >"$tree/fitting/optimizer.h"
+    >"$tree/fitting/minimisers/optimizer.h"
   printf '%s\n' '#include <ceres/ceres.h>' \
-    '#include "fitting/optimizer.h"' >"$tree/fitting/ceres_optimizer.cc"
-  printf '%s\n' '#include <nlopt.hpp>' >"$tree/fitting/nlopt_optimizer.cc"
+    '#include "fitting/minimisers/optimizer.h"' >"$tree/fitting/minimisers/ceres_optimizer.cc"
+  printf '%s\n' '#include <nlopt.hpp>' >"$tree/fitting/minimisers/nlopt_optimizer.cc"
   printf '%s\n' '#pragma once' '#include "data/csv.h"' \
-    '#include "fitting/optimizer.h"' '#include "stats/summary.h"' \
-    >"$tree/models/study.h"
-  printf '%s\n' '#include "models/study.h"' '#include <nlohmann/json.hpp>' \
+    '#include "fitting/minimisers/optimizer.h"' '#include "stats/summary.h"' \
+    >"$tree/models/study/study.h"
+  printf '%s\n' '#include "models/study/study.h"' '#include <nlohmann/json.hpp>' \
     '#include <fmt/format.h>' '#include <tbb/parallel_for.h>' \
-    >"$tree/models/study.cc"
+    >"$tree/models/study/study.cc"
   printf '%s\n' '#pragma once' '#include <nlohmann/json_fwd.hpp>' \
-    '#include "models/study.h"' >"$tree/cli/report.h"
-  printf '%s\n' '#include "cli/report.h"' '#include <unistd.h>' \
-    '#include <CLI/CLI.hpp>' '#include "data/csv.h"' >"$tree/cli/report.cc"
-  printf '%s\n' '#pragma once' '#include "fitting/optimizer.h"' \
+    '#include "models/study/study.h"' >"$tree/cli/report/report.h"
+  printf '%s\n' '#include "cli/report/report.h"' '#include <unistd.h>' \
+    '#include <CLI/CLI.hpp>' '#include "data/csv.h"' >"$tree/cli/report/report.cc"
+  printf '%s\n' '#pragma once' '#include "models/kind.h"' \
+    >"$tree/models/net/net.h"
+  printf '%s\n' '#pragma once' >"$tree/models/kind.h"
+  printf '%s\n' '#pragma once' '#include "fitting/minimisers/optimizer.h"' \
     >"$tree/tests/test_problems.h"
   printf '%s\n' '#include <gtest/gtest.h>' '#include <nlohmann/json.hpp>' \
-    '#include "cli/report.h"' '#include "tests/test_problems.h"' \
+    '#include "cli/report/report.h"' '#include "tests/test_problems.h"' \
     >"$tree/tests/optimizer_test.cc"
 }
 
@@ -74,51 +77,71 @@ check_includes || fail "check_includes refuses a good tree"
 
 # Upwards.
 violation stats/summary.h '#include "data/csv.h"'
-violation stats/summary.cc '#include "fitting/optimizer.h"'
-violation stats/summary.cc '#include "models/study.h"'
-violation stats/summary.cc '#include "cli/report.h"'
+violation stats/summary.cc '#include "fitting/minimisers/optimizer.h"'
+violation stats/summary.cc '#include "models/study/study.h"'
+violation stats/summary.cc '#include "cli/report/report.h"'
 violation data/csv.h '#include "stats/summary.h"'
-violation data/csv.h '#include "fitting/optimizer.h"'
-violation data/csv.h '#include "models/study.h"'
-violation data/csv.h '#include "cli/report.h"'
-violation fitting/optimizer.h '#include "data/csv.h"'
-violation fitting/optimizer.h '#include "models/study.h"'
-violation fitting/ceres_optimizer.cc '#include "cli/report.h"'
-violation models/study.cc '#include "cli/report.h"'
-violation models/study.cc '  #  include "cli/report.h"  // indented'
+violation data/csv.h '#include "fitting/minimisers/optimizer.h"'
+violation data/csv.h '#include "models/study/study.h"'
+violation data/csv.h '#include "cli/report/report.h"'
+violation fitting/minimisers/optimizer.h '#include "data/csv.h"'
+violation fitting/minimisers/optimizer.h '#include "models/study/study.h"'
+violation fitting/minimisers/ceres_optimizer.cc '#include "cli/report/report.h"'
+violation models/study/study.cc '#include "cli/report/report.h"'
+violation models/study/study.cc '  #  include "cli/report/report.h"  // indented'
+# Between rooms: upwards, sideways, unknown, and from the root of a folder.
+violation models/net/net.h '#include "models/study/study.h"'
+violation models/kind.h '#include "models/net/net.h"'
+violation fitting/minimisers/optimizer.h '#include "fitting/nonlinear/fit.h"'
+cases=$((cases + 1))
+good_tree
+mkdir "$tree/models/attic"
+printf '%s\n' '#pragma once' >"$tree/models/attic/old.h"
+if check_includes; then fail "check_includes passes an unknown room"; fi
+# In a circle, which no room forbids.
+cases=$((cases + 1))
+good_tree
+printf '%s\n' '#include "models/net/circle.h"' >>"$tree/models/net/net.h"
+printf '%s\n' '#pragma once' '#include "models/net/net.h"' \
+  >"$tree/models/net/circle.h"
+if check_includes; then
+  fail "check_includes passes a circle"
+elif ! grep -q 'models/net/circle.h: .*circle' "$output"; then
+  fail "check_includes does not name the circle"
+fi
 # Into the tests.
 violation stats/summary.cc '#include "tests/test_problems.h"'
 violation data/csv.h '#include "tests/test_problems.h"'
-violation fitting/optimizer.h '#include "tests/test_problems.h"'
-violation models/study.h '#include "tests/test_problems.h"'
-violation cli/report.cc '#include "tests/test_problems.h"'
+violation fitting/minimisers/optimizer.h '#include "tests/test_problems.h"'
+violation models/study/study.h '#include "tests/test_problems.h"'
+violation cli/report/report.cc '#include "tests/test_problems.h"'
 # Not written from the root, not in quotes, not readable.
 violation stats/summary.cc '#include "summary.h"'
-violation models/study.cc '#include "../stats/summary.h"'
-violation models/study.cc '#include "models/../stats/summary.h"'
+violation models/study/study.cc '#include "../stats/summary.h"'
+violation models/study/study.cc '#include "models/../stats/summary.h"'
 violation tests/optimizer_test.cc '#include "test_problems.h"'
-violation cli/report.cc '#include <models/study.h>'
-violation cli/report.cc '#include REPORT_HEADER'
+violation cli/report/report.cc '#include <models/study/study.h>'
+violation cli/report/report.cc '#include REPORT_HEADER'
 # Foreign libraries away from home.
-violation fitting/optimizer.h '#include <ceres/types.h>'
-violation models/study.cc '#include <ceres/ceres.h>'
-violation fitting/nlopt_optimizer.cc '#include <ceres/ceres.h>'
+violation fitting/minimisers/optimizer.h '#include <ceres/types.h>'
+violation models/study/study.cc '#include <ceres/ceres.h>'
+violation fitting/minimisers/nlopt_optimizer.cc '#include <ceres/ceres.h>'
 violation tests/optimizer_test.cc '#include <ceres/ceres.h>'
-violation fitting/ceres_optimizer.cc '#include <nlopt.hpp>'
-violation models/study.cc '#include <nlopt.h>'
-violation fitting/ceres_optimizer.cc '#include <boost/math/tools/roots.hpp>'
+violation fitting/minimisers/ceres_optimizer.cc '#include <nlopt.hpp>'
+violation models/study/study.cc '#include <nlopt.h>'
+violation fitting/minimisers/ceres_optimizer.cc '#include <boost/math/tools/roots.hpp>'
 violation stats/summary.h '#include <boost/math/tools/roots.hpp>'
-violation models/study.cc '#include <CLI/CLI.hpp>'
-violation cli/report.h '#include <CLI/App.hpp>'
+violation models/study/study.cc '#include <CLI/CLI.hpp>'
+violation cli/report/report.h '#include <CLI/App.hpp>'
 violation data/csv.h '#include <nlohmann/json.hpp>'
-violation models/study.h '#include <nlohmann/json_fwd.hpp>'
+violation models/study/study.h '#include <nlohmann/json_fwd.hpp>'
 violation stats/summary.cc '#include <nlohmann/json.hpp>'
-violation models/study.cc '#include <gtest/gtest.h>'
+violation models/study/study.cc '#include <gtest/gtest.h>'
 # Public headers.
 violation stats/summary.h '#include <fmt/format.h>'
 violation data/csv.h '#include <unistd.h>'
-violation fitting/optimizer.h '#include <tbb/parallel_for.h>'
-violation models/study.h '#include <openssl/sha.h>'
+violation fitting/minimisers/optimizer.h '#include <tbb/parallel_for.h>'
+violation models/study/study.h '#include <openssl/sha.h>'
 
 cases=$((cases + 1))
 rm -rf "$tree"

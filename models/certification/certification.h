@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "fitting/objective.h"
+#include "fitting/minimisers/objective.h"
 
 namespace errmap::models {
 

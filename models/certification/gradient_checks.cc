@@ -3,9 +3,9 @@
 #include <limits>
 #include <random>
 
-#include "fitting/gradient_check.h"
-#include "fitting/scaled_conjugate_gradient.h"
-#include "fitting/variable_projection.h"
+#include "fitting/minimisers/gradient_check.h"
+#include "fitting/minimisers/scaled_conjugate_gradient.h"
+#include "fitting/nonlinear/variable_projection.h"
 #include "models/certification/certification.h"
 #include "models/certification/net_example.h"
 #include "models/certification/strd_functions.h"

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "fitting/extended_least_squares.h"
+#include "fitting/least_squares/extended_least_squares.h"
 #include "models/certification/certification.h"
 #include "models/certification/strd_functions.h"
 #include "stats/extended_summary.h"

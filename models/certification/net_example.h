@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "models/feedforward_net.h"
-#include "models/net_objective.h"
+#include "models/net/feedforward_net.h"
+#include "models/net/net_objective.h"
 
 namespace errmap::models {
 

@@ -1,10 +1,10 @@
 #include "models/certification/solvers.h"
 
-#include "fitting/ceres_optimizer.h"
-#include "fitting/conjugate_gradient.h"
-#include "fitting/levenberg_marquardt.h"
-#include "fitting/nlopt_optimizer.h"
-#include "fitting/scaled_conjugate_gradient.h"
+#include "fitting/minimisers/ceres_optimizer.h"
+#include "fitting/minimisers/conjugate_gradient.h"
+#include "fitting/minimisers/levenberg_marquardt.h"
+#include "fitting/minimisers/nlopt_optimizer.h"
+#include "fitting/minimisers/scaled_conjugate_gradient.h"
 
 namespace errmap::models {
 namespace {

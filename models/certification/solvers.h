@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fitting/optimizer.h"
+#include "fitting/minimisers/optimizer.h"
 
 namespace errmap::models {
 

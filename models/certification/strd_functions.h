@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "data/strd_problem.h"
-#include "fitting/nonlinear_regression.h"
+#include "fitting/nonlinear/nonlinear_regression.h"
 
 namespace errmap::models {
 

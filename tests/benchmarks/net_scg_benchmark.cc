@@ -18,12 +18,12 @@
 #include <benchmark/benchmark.h>
 
 #include "fitting/matrix_product.h"
-#include "fitting/scaled_conjugate_gradient.h"
-#include "models/feedforward_net.h"
-#include "models/net_kernels.h"
-#include "models/net_objective.h"
+#include "fitting/minimisers/scaled_conjugate_gradient.h"
+#include "models/net/feedforward_net.h"
+#include "models/net/net_kernels.h"
+#include "models/net/net_objective.h"
 #include "models/scaling.h"
-#include "tests/golden_netcg.h"
+#include "tests/models/golden_netcg.h"
 
 namespace errmap {
 namespace {

@@ -14,12 +14,12 @@
 #include <Eigen/Core>
 #include <benchmark/benchmark.h>
 
-#include "fitting/ceres_optimizer.h"
-#include "fitting/nlopt_optimizer.h"
-#include "models/feedforward_net.h"
-#include "models/net_objective.h"
+#include "fitting/minimisers/ceres_optimizer.h"
+#include "fitting/minimisers/nlopt_optimizer.h"
+#include "models/net/feedforward_net.h"
+#include "models/net/net_objective.h"
 #include "models/scaling.h"
-#include "tests/golden_netcg.h"
+#include "tests/models/golden_netcg.h"
 
 namespace errmap {
 namespace {

@@ -9,9 +9,9 @@
 #include <benchmark/benchmark.h>
 
 #include "stats/bias.h"
-#include "stats/kolmogorov_exact.h"
-#include "stats/monte_carlo.h"
-#include "stats/normality.h"
+#include "stats/normality/kolmogorov_exact.h"
+#include "stats/normality/monte_carlo.h"
+#include "stats/normality/normality.h"
 #include "stats/random.h"
 #include "stats/randomness.h"
 

@@ -21,8 +21,8 @@
 #include "data/dataset.h"
 #include "data/turning_centre/simulation_files.h"
 #include "models/recipe_catalog.h"
-#include "models/study.h"
-#include "models/verdict.h"
+#include "models/study/study.h"
+#include "models/study/verdict.h"
 #include "stats/holdout.h"
 
 namespace errmap {

@@ -13,13 +13,14 @@
 #include "data/csv.h"
 #include "data/turning_centre/simulation.h"
 #include "data/turning_centre/simulation_files.h"
+#include "tests/places.h"
 
 namespace errmap::data::turning_centre {
 namespace {
 
 double RmseOfReportDay(const Simulation& simulation) {
   const CsvTable table =
-      ReadCsv(ERRMAP_SOURCE_DIR "/data/sets/nistir5367_xdisp_down.csv");
+      ReadCsv(tests::SourceDir() + "/data/sets/nistir5367_xdisp_down.csv");
   const auto column = [&](const char* name) -> const std::vector<double>& {
     return table.columns[static_cast<std::size_t>(table.Find(name))].values;
   };

@@ -1,10 +1,10 @@
 // Selection over the 902 quadratic terms of 41 inputs, 595 rows.
 #include <benchmark/benchmark.h>
 
-#include "fitting/stepwise_selection.h"
-#include "fitting/triangular_reduction.h"
+#include "fitting/least_squares/triangular_reduction.h"
+#include "fitting/selection/stepwise_selection.h"
 #include "stats/random.h"
-#include "tests/stepwise_data.h"
+#include "tests/fitting/stepwise_data.h"
 
 namespace errmap::fitting {
 namespace {

@@ -1,0 +1,95 @@
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/report/certify_json.h"
+#include "cli/report/certify_text.h"
+#include "cli/shell/number_text.h"
+#include "cli/study_file/data_arguments.h"
+#include "cli/study_file/provenance.h"
+#include "models/certification/certification.h"
+
+namespace errmap::cli {
+namespace {
+
+struct CertifyArguments {
+  std::string part = "all";
+  std::string format = "table";
+  bool details = false;
+
+  bool Includes(const char* name) const {
+    return part == "all" || part == name;
+  }
+};
+
+int RunCertify(const CertifyArguments& arguments,
+               const std::string& command_line) {
+  const models::CertificationFloors floors;
+  models::Certification certification;
+  if (arguments.Includes("nist")) {
+    models::CertifyNonlinear(&certification);
+    models::CertifyLinear(&certification);
+    models::CertifyUnivariate(&certification);
+  }
+  if (arguments.Includes("gradients")) {
+    models::CertifyGradients(&certification);
+  }
+  if (arguments.Includes("agreement")) {
+    models::CertifyAgreement(&certification);
+  }
+  models::JudgeFloors(floors, &certification);
+  if (arguments.format == "json") {
+    Json document = CertificationJson(certification, floors);
+    document["provenance"] =
+        ProvenanceJson(command_line, {{"part", arguments.part}}, {});
+    fmt::print("{}", DumpJson(document));
+  } else {
+    fmt::print("{}",
+               CertificationText(certification, floors, arguments.details));
+  }
+  if (certification.passed()) return kDone;
+  const auto missed = static_cast<long long>(certification.missed.size());
+  Say(
+      fmt::format("certify: {} missed, the first: {}; this installation is not "
+                  "to be trusted",
+                  Count(missed, "floor"),
+                  certification.missed.front()));
+  return kEveryFitFailed;
+}
+
+}  // namespace
+
+void AddCertifyCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<CertifyArguments>();
+  CLI::App* command = app->add_subcommand(
+      "certify",
+      "Prove the optimisers and statistics of this installation on certified "
+      "problems");
+  command
+      ->add_option("PART",
+                   arguments->part,
+                   "nist: NIST's reference data sets; gradients: derivatives "
+                   "against extrapolated differences; agreement: every solver "
+                   "on one net")
+      ->check(CLI::IsMember({"nist", "gradients", "agreement", "all"}))
+      ->type_name("nist|gradients|agreement|all")
+      ->capture_default_str();
+  command->add_flag("--details",
+                    arguments->details,
+                    "Every run of every solver, with its own words");
+  command->add_option("--format", arguments->format, "table or json")
+      ->check(CLI::IsMember({"table", "json"}))
+      ->type_name("table|json")
+      ->capture_default_str();
+  command->footer(
+      "Exit status: 0 every floor is reached, 4 one is missed.\n"
+      "Example: errmap certify nist --format json");
+  command->callback([arguments, run] {
+    run->status = RunCertify(*arguments, run->command_line);
+  });
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,115 @@
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/json_blocks.h"
+#include "cli/report/residual_json.h"
+#include "cli/report/summary_text.h"
+#include "cli/shell/number_text.h"
+#include "cli/study_file/data_arguments.h"
+#include "cli/study_file/provenance.h"
+#include "models/model_file.h"
+#include "models/study/fold_pool.h"
+#include "stats/kolmogorov_smirnov.h"
+
+namespace errmap::cli {
+namespace {
+
+struct EvaluateArguments {
+  std::string model;
+  std::string file;
+  std::string missing = "error";
+  std::string format = "table";
+  bool quiet = false;
+};
+
+int RunEvaluate(const EvaluateArguments& arguments,
+                const std::string& command_line) {
+  const models::FittedModel fitted = models::LoadModel(arguments.model);
+  data::DatasetSelection selection{
+      .target = fitted.target.name,
+      .inputs = {},
+      .exclude = {},
+      .group = "",
+      .weight = "",
+      .missing = arguments.missing == "error" ? data::MissingPolicy::kError
+                                              : data::MissingPolicy::kDropRows,
+      .keep_dead = true,
+      .only_to_judge = true};
+  for (const models::TrainedInput& input : fitted.inputs) {
+    selection.inputs.push_back(input.column.name);
+  }
+  const data::PreparedDataset prepared =
+      data::MakeDataset(data::ReadCsv(arguments.file), selection);
+  if (!arguments.quiet) {
+    for (const std::string& remark : prepared.remarks) Say(remark);
+  }
+  const data::Dataset& dataset = prepared.dataset;
+  const Eigen::VectorXd predicted = fitted.Predict(dataset);
+  const Eigen::VectorXd residuals = dataset.target_values() - predicted;
+  const stats::ErrorMetrics metrics = models::Judge(dataset, predicted);
+  const double ks_d = stats::KsDistanceFromNormal(
+      residuals, metrics.residuals.mean, metrics.residuals.sd);
+  const double ks_p = stats::KsProbabilityMeanSdGiven(ks_d, residuals.size());
+  if (arguments.format == "json") {
+    fmt::print(
+        "{}",
+        DumpJson(
+            {{"schema", "errmap-evaluate-1"},
+             {"model", fitted.name},
+             {"file", arguments.file},
+             {"target", fitted.target.name},
+             {"unit", fitted.target.unit.symbol},
+             {"summary", MetricsJson(metrics)},
+             {"normality",
+              NormalityJson(
+                  stats::AssessNormality(stats::OrderedSample(residuals)), {})},
+             {"provenance",
+              ProvenanceJson(
+                  command_line,
+                  {{"missing", arguments.missing}},
+                  {HashInput(arguments.model), HashInput(arguments.file)})}}));
+    return kDone;
+  }
+  fmt::print("{} ({}) on {}: target - predicted of {}\n{}",
+             arguments.model,
+             fitted.name,
+             arguments.file,
+             fitted.target.name,
+             SummaryText(metrics, fitted.target.unit, ks_d, ks_p));
+  return kDone;
+}
+
+}  // namespace
+
+void AddEvaluateCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<EvaluateArguments>();
+  CLI::App* command = app->add_subcommand(
+      "evaluate", "Judge a fitted map on measurements it may not know");
+  command->add_option("MODEL", arguments->model, "Model file")
+      ->required()
+      ->type_name("FILE.json");
+  command
+      ->add_option("DATA", arguments->file, "CSV file with inputs and target")
+      ->required()
+      ->type_name("FILE.csv");
+  command
+      ->add_option("--missing",
+                   arguments->missing,
+                   "What empty, NA and NaN cells do: error or drop-rows")
+      ->check(CLI::IsMember({"error", "drop-rows"}))
+      ->type_name("error|drop-rows")
+      ->capture_default_str();
+  command->add_option("--format", arguments->format, "table or json")
+      ->check(CLI::IsMember({"table", "json"}))
+      ->type_name("table|json")
+      ->capture_default_str();
+  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
+  command->callback([arguments, run] {
+    run->status = RunEvaluate(*arguments, run->command_line);
+  });
+}
+
+}  // namespace errmap::cli

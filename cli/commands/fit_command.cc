@@ -1,0 +1,191 @@
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/json_blocks.h"
+#include "cli/report/fit_summary.h"
+#include "cli/report/regression_text.h"
+#include "cli/report/start_report.h"
+#include "cli/shell/interrupt.h"
+#include "cli/shell/number_text.h"
+#include "cli/study_file/data_arguments.h"
+#include "cli/study_file/provenance.h"
+#include "data/atomic_file.h"
+#include "models/model_file.h"
+#include "models/study/fold_pool.h"
+
+namespace errmap::cli {
+namespace {
+
+struct FitArguments {
+  DataArguments data;
+  std::string model;
+  std::string out;
+  std::uint64_t seed = 1;
+  std::string format = "table";
+  bool correlations = false;
+};
+
+Json FitJson(const models::FittedModel& fitted,
+             const stats::ErrorMetrics& train,
+             const data::Dataset& dataset,
+             const FitArguments& arguments) {
+  Json inputs = Json::array();
+  for (const models::TrainedInput& input : fitted.inputs) {
+    inputs.push_back(input.column.name);
+  }
+  Json json = {
+      {"schema", "errmap-fit-1"},
+      {"model", fitted.name},
+      {"file", arguments.out},
+      {"target", fitted.target.name},
+      {"unit", fitted.target.unit.symbol},
+      {"inputs", std::move(inputs)},
+      {"parameters", fitted.model->num_parameters()},
+      {"equation", fitted.equation.empty() ? Json() : Json(fitted.equation)},
+      {"train", MetricsJson(train)},
+      {"fit_seconds", fitted.summary.seconds},
+      {"remarks", fitted.remarks}};
+  json.update(FitSummaryJson(fitted.summary));
+  if (!fitted.choices.empty()) json["choices"] = ChoicesJson(fitted.choices);
+  if (!fitted.starts.empty()) json["starts"] = StartsJson(fitted.starts);
+  if (fitted.regression) {
+    json["regression"] = RegressionJson(*fitted.regression);
+  }
+  if (arguments.correlations) json["correlations"] = CorrelationJson(dataset);
+  return json;
+}
+
+// What took effect, defaults included.
+Json ConfigurationJson(const models::ModelRecipe& recipe,
+                       const data::Dataset& dataset,
+                       const FitArguments& arguments) {
+  Json inputs = Json::array();
+  for (const data::ColumnInfo& input : dataset.inputs()) {
+    inputs.push_back(input.name);
+  }
+  const std::string& weight = arguments.data.weight;
+  return {
+      {"model", recipe.name()},
+      {"options", ChoicesJson(recipe.options())},
+      {"target", dataset.target().name},
+      {"inputs", std::move(inputs)},
+      {"group", dataset.has_groups() ? Json(dataset.groups().column) : Json()},
+      {"weight", weight.empty() ? Json() : Json(weight)},
+      {"missing", arguments.data.missing},
+      {"seed", arguments.seed}};
+}
+
+std::string FitText(const models::FittedModel& fitted,
+                    const stats::ErrorMetrics& train,
+                    const data::Dataset& dataset,
+                    const FitArguments& arguments) {
+  const ErrorText error(fitted.target.unit, train.rmse);
+  std::string text =
+      fmt::format("{}: {} fitted to {}, RMSE {} on these rows (not held out)\n",
+                  fitted.name,
+                  Count(fitted.model->num_parameters(), "parameter"),
+                  Count(train.residuals.n, "row"),
+                  error.WithUnit(train.rmse));
+  if (!fitted.equation.empty()) text += fitted.equation + "\n";
+  text += FitSummaryText(fitted.summary);
+  for (const std::string& remark : fitted.remarks) text += remark + "\n";
+  text += StartsText(fitted.starts, error);
+  if (arguments.correlations) text += CorrelationText(dataset);
+  if (fitted.regression) {
+    text += RegressionText(*fitted.regression, fitted.target);
+  }
+  text += fmt::format(
+      "written to {}; it predicts {}, compensate by minus that\n",
+      arguments.out,
+      fitted.target.unit.symbol.empty()
+          ? fitted.target.name
+          : fitted.target.name + " in " + fitted.target.unit.symbol);
+  return text;
+}
+
+int RunFit(const FitArguments& arguments, const std::string& command_line) {
+  const auto recipe = RecipeFromArgument(arguments.model);
+  const data::PreparedDataset prepared = ReadData(arguments.data);
+  models::FittedModel fitted;
+  const std::atomic<bool>& stop = InstallInterruptFlag();
+  try {
+    const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+    fitted = recipe->Fit(prepared.dataset,
+                         {.seed = arguments.seed,
+                          .stop = &stop,
+                          .explain = true,
+                          .threads = static_cast<int>(cores),
+                          .keep_trace = arguments.format == "json"});
+  } catch (const std::invalid_argument& error) {
+    Say(fmt::format("{} failed: {}", arguments.model, error.what()));
+    return kEveryFitFailed;
+  }
+  const Eigen::VectorXd predicted = fitted.Predict(prepared.dataset);
+  if (fitted.summary.termination == fitting::Termination::kFailed ||
+      !predicted.allFinite()) {
+    Say(fmt::format("{} failed: {}; nothing written",
+                    arguments.model,
+                    predicted.allFinite()
+                        ? fitted.summary.message
+                        : std::string("a prediction is not finite")));
+    return kEveryFitFailed;
+  }
+  const InputFile input = HashInput(arguments.data.file);
+  models::SaveModel(
+      fitted,
+      ModelProvenance(
+          command_line, input, prepared.dataset.num_rows(), arguments.seed),
+      arguments.out);
+  const stats::ErrorMetrics train = models::Judge(prepared.dataset, predicted);
+  if (arguments.format == "json") {
+    Json document = FitJson(fitted, train, prepared.dataset, arguments);
+    document["provenance"] =
+        ProvenanceJson(command_line,
+                       ConfigurationJson(*recipe, prepared.dataset, arguments),
+                       {input});
+    fmt::print("{}", DumpJson(document));
+  } else {
+    fmt::print("{}", FitText(fitted, train, prepared.dataset, arguments));
+  }
+  if (stop.load()) {
+    Say("interrupted; the best map so far was written");
+    return kInterrupted;
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void AddFitCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<FitArguments>();
+  CLI::App* command =
+      app->add_subcommand("fit", "Fit one map to all rows and write it");
+  AddDataArguments(command, &arguments->data);
+  command->add_option("--model", arguments->model, "The model, e.g. poly:eq8")
+      ->required()
+      ->type_name("SPEC");
+  command->add_option("-o,--output", arguments->out, "Model file to write")
+      ->required()
+      ->type_name("FILE.json");
+  AddSeedOption(command, &arguments->seed);
+  command->add_flag("--correlations",
+                    arguments->correlations,
+                    "Also print the correlations of inputs and target");
+  command->add_option("--format", arguments->format, "table or json")
+      ->check(CLI::IsMember({"table", "json"}))
+      ->type_name("table|json")
+      ->capture_default_str();
+  command->footer(
+      "Example: errmap fit xdown.csv --model poly:full:degree=3 -o map.json");
+  command->callback([arguments, run] {
+    run->status = RunFit(*arguments, run->command_line);
+  });
+}
+
+}  // namespace errmap::cli

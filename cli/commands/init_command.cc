@@ -1,0 +1,87 @@
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/study_file/data_arguments.h"
+#include "cli/study_file/study_file_text.h"
+#include "cli/study_file/study_plan.h"
+#include "data/atomic_file.h"
+#include "data/text.h"
+
+namespace errmap::cli {
+namespace {
+
+struct InitArguments {
+  std::string data;
+  std::string target;
+  std::string out = "study.toml";
+  bool force = false;
+};
+
+// The data file as seen from the study file's folder.
+std::string PathFrom(const std::string& study_file, const std::string& data) {
+  const std::filesystem::path folder =
+      std::filesystem::path(study_file).parent_path();
+  if (folder.empty() || std::filesystem::path(data).is_absolute()) return data;
+  return std::filesystem::path(data).lexically_relative(folder).empty()
+             ? std::filesystem::absolute(data).string()
+             : std::filesystem::proximate(data, folder).string();
+}
+
+int RunInit(const InitArguments& arguments) {
+  if (!arguments.force && std::filesystem::exists(arguments.out)) {
+    throw UsageError(fmt::format(
+        "{} is there already; write another with -o, or replace it with "
+        "--force",
+        data::PrintablePath(arguments.out)));
+  }
+  StudyConfig config = ProposeStudy(data::ReadCsv(arguments.data));
+  for (ComponentConfig& component : config.components) {
+    component.target = arguments.target;
+  }
+  const StudyPlan plan = PlanStudy(config, true);
+  data::WriteFileAtomically(
+      arguments.out,
+      StudyFileText(plan, PathFrom(arguments.out, arguments.data)));
+  fmt::print(
+      "{}: {} component{}; look it over, then errmap compare --config "
+      "{}\n",
+      data::PrintablePath(arguments.out),
+      plan.components.size(),
+      plan.components.size() == 1 ? "" : "s",
+      data::PrintablePath(arguments.out));
+  return kDone;
+}
+
+}  // namespace
+
+void AddInitCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<InitArguments>();
+  CLI::App* command = app->add_subcommand(
+      "init", "Write a commented study file for a data file");
+  command->add_option("DATA", arguments->data, "CSV file, one row per sample")
+      ->required()
+      ->type_name("FILE.csv");
+  command
+      ->add_option("--target",
+                   arguments->target,
+                   "Column to be mapped (default: the only one named error*)")
+      ->type_name("COL");
+  command->add_option("-o,--out", arguments->out, "Study file to write")
+      ->type_name("study.toml")
+      ->capture_default_str();
+  command->add_flag(
+      "--force", arguments->force, "Replace a file that is there already");
+  command->footer(
+      "A column such as direction with few values becomes one component per "
+      "value.\n"
+      "Example: errmap init xdown.csv -o study.toml && errmap compare --config "
+      "study.toml");
+  command->callback([arguments, run] { run->status = RunInit(*arguments); });
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,357 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/json_blocks.h"
+#include "cli/report/residual_json.h"
+#include "cli/report/residual_report.h"
+#include "cli/report/residual_text.h"
+#include "cli/report/residual_words.h"
+#include "cli/shell/number_text.h"
+#include "cli/shell/wrap_text.h"
+#include "cli/study_file/data_arguments.h"
+#include "cli/study_file/provenance.h"
+#include "data/column_checks.h"
+#include "data/csv.h"
+#include "data/dataset.h"
+#include "data/input_error.h"
+#include "stats/error_metrics.h"
+#include "stats/report_1995.h"
+
+namespace errmap::cli {
+namespace {
+
+using Eigen::Index;
+using Rows = std::vector<Index>;
+
+struct ResidualsArguments {
+  std::string file;
+  std::string column;
+  std::string order;
+  std::string group;
+  std::string position;
+  std::string fitted;
+  std::string missing = "error";
+  std::string format = "table";
+  long long monte_carlo = 0;
+  std::uint64_t seed = 1;
+  long long bins = 0;
+  bool details = false;
+  bool as_printed_1995 = false;
+
+  data::MissingPolicy policy() const {
+    return missing == "error" ? data::MissingPolicy::kError
+                              : data::MissingPolicy::kDropRows;
+  }
+};
+
+// A numeric column and the data rows that it has values in.
+struct Column {
+  std::string name;  // "": none
+  Eigen::VectorXd values;
+  Rows rows;
+};
+
+Column ReadColumn(const data::CsvTable& table,
+                  const std::string& name,
+                  const ResidualsArguments& arguments) {
+  Column column{.name = name, .values = {}, .rows = {}};
+  column.values =
+      data::NumericColumn(table, name, arguments.policy(), &column.rows);
+  return column;
+}
+
+// The column that an option names, or the first whose name starts with
+// `prefix`; that one must be fit for use, else it is passed over.
+Column FindColumn(const data::CsvTable& table,
+                  const std::string& named,
+                  const char* option,
+                  const std::string& prefix,
+                  const ResidualsArguments& arguments) {
+  if (!named.empty()) {
+    data::RequireColumn(table, named, option);
+    return ReadColumn(table, named, arguments);
+  }
+  if (prefix.empty()) return {};
+  for (const data::CsvColumn& column : table.columns) {
+    if (!column.name.starts_with(prefix) || column.name == arguments.column) {
+      continue;
+    }
+    try {
+      return ReadColumn(table, column.name, arguments);
+    } catch (const data::InputError& error) {
+      Say(fmt::format("{}: left out: {}", column.name, error.what()));
+    }
+    return {};
+  }
+  return {};
+}
+
+// The values of a column in these of its rows.
+Eigen::VectorXd At(const Column& column, const Rows& rows) {
+  Eigen::VectorXd values(static_cast<Index>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto at =
+        std::lower_bound(column.rows.begin(), column.rows.end(), rows[i]);
+    values[static_cast<Index>(i)] = column.values[at - column.rows.begin()];
+  }
+  return values;
+}
+
+// Rows that every column in use has values in, ascending.
+Rows CommonRows(const std::vector<const Column*>& columns) {
+  Rows rows = columns.front()->rows;
+  for (const Column* column : columns) {
+    if (column->name.empty()) continue;
+    Rows both;
+    std::set_intersection(rows.begin(),
+                          rows.end(),
+                          column->rows.begin(),
+                          column->rows.end(),
+                          std::back_inserter(both));
+    rows = std::move(both);
+  }
+  return rows;
+}
+
+ResidualInputs ReadInputs(const ResidualsArguments& arguments) {
+  const data::CsvTable table = data::ReadCsv(arguments.file);
+  data::RequireColumn(table, arguments.column, "--column");
+  const Column residuals = ReadColumn(table, arguments.column, arguments);
+  const Column order =
+      FindColumn(table, arguments.order, "--order", "", arguments);
+  const Column position = FindColumn(
+      table, arguments.position, "--position", "position", arguments);
+  const Column fitted =
+      FindColumn(table, arguments.fitted, "--fitted", "predicted", arguments);
+  Rows rows = CommonRows({&residuals, &order, &position, &fitted});
+  if (rows.empty()) {
+    throw data::InputError(fmt::format(
+        "{}: no row has values in every column in use", arguments.file));
+  }
+  ResidualInputs inputs;
+  if (!order.name.empty()) {
+    const Eigen::VectorXd keys = At(order, rows);
+    std::vector<std::size_t> by_key(rows.size());
+    std::iota(by_key.begin(), by_key.end(), std::size_t{0});
+    std::stable_sort(
+        by_key.begin(), by_key.end(), [&](std::size_t a, std::size_t b) {
+          return keys[static_cast<Index>(a)] < keys[static_cast<Index>(b)];
+        });
+    Rows ordered;
+    for (const std::size_t i : by_key) ordered.push_back(rows[i]);
+    rows = std::move(ordered);
+    inputs.order = "order of " + order.name;
+  }
+  inputs.values = At(residuals, rows);
+  if (!position.name.empty()) {
+    inputs.position_column = position.name;
+    inputs.positions = At(position, rows);
+  }
+  if (!fitted.name.empty()) {
+    inputs.fitted_column = fitted.name;
+    inputs.fitted = At(fitted, rows);
+  }
+  std::string group = arguments.group;
+  if (!group.empty()) {
+    data::RequireColumn(table, group, "--group");
+  } else if (table.Find("cycle") >= 0 && arguments.column != "cycle") {
+    group = "cycle";
+  }
+  if (!group.empty()) {
+    data::Grouping grouping = data::GroupByColumn(table, group, rows);
+    inputs.group_column = group;
+    inputs.group_codes = std::move(grouping.codes);
+    inputs.group_labels = std::move(grouping.labels);
+  }
+  return inputs;
+}
+
+Json Report1995Json(const stats::Report1995Statistics& printed,
+                    double r_squared) {
+  return {{"r_squared", r_squared},
+          {"mean", printed.mean},
+          {"sd", printed.sd},
+          {"min", printed.min},
+          {"max", printed.max},
+          {"ks", {{"d", printed.ks_d}, {"p_given", printed.ks_probability}}}};
+}
+
+Json SummaryJson(const stats::ErrorMetrics& metrics,
+                 const Eigen::VectorXd& values,
+                 const stats::ShapeMoments& shape) {
+  Eigen::VectorXd sorted = values;
+  std::sort(sorted.begin(), sorted.end());
+  Json summary = MetricsJson(metrics);
+  summary["standard_error"] = stats::StandardError(metrics.residuals);
+  summary["skewness"] = shape.skewness;
+  summary["kurtosis"] = shape.kurtosis;
+  summary["q25"] = stats::Quantile(sorted, 0.25);
+  summary["median"] = stats::Quantile(sorted, 0.5);
+  summary["q75"] = stats::Quantile(sorted, 0.75);
+  return summary;
+}
+
+// The columns and choices that took effect.
+Json ConfigurationJson(const ResidualsArguments& arguments,
+                       const ResidualInputs& inputs) {
+  const auto named = [](const std::string& name) {
+    return name.empty() ? Json() : Json(name);
+  };
+  return {{"column", arguments.column},
+          {"order", named(arguments.order)},
+          {"group", named(inputs.group_column)},
+          {"position", named(inputs.position_column)},
+          {"fitted", named(inputs.fitted_column)},
+          {"missing", arguments.missing},
+          {"monte_carlo", arguments.monte_carlo},
+          {"seed", arguments.seed},
+          {"bins", arguments.bins}};
+}
+
+int RunResiduals(const ResidualsArguments& arguments,
+                 const std::string& command_line) {
+  const ResidualInputs inputs = ReadInputs(arguments);
+  const Eigen::VectorXd& values = inputs.values;
+  const data::Unit unit = data::UnitOfColumn(arguments.column);
+  // A residual is what is left of a target, so R2 has no meaning here.
+  stats::ErrorMetrics metrics =
+      stats::ComputeErrorMetrics(values, values, values);
+  metrics.r2 = std::numeric_limits<double>::quiet_NaN();
+  const ResidualReport report = AssessResiduals(
+      inputs, static_cast<Index>(arguments.monte_carlo), arguments.seed);
+  const stats::Report1995Statistics printed =
+      stats::ComputeAsPrinted1995(values);
+  const double r_squared_1995 =
+      inputs.fitted_column.empty()
+          ? std::numeric_limits<double>::quiet_NaN()
+          : stats::RSquaredAsPrinted1995(inputs.fitted + values, inputs.fitted);
+  const std::string sentences =
+      ResidualSentences(report, metrics.residuals, printed, unit);
+  if (arguments.format == "json") {
+    Json document = {
+        {"schema", "errmap-residuals-1"},
+        {"file", arguments.file},
+        {"column", arguments.column},
+        {"unit", unit.symbol},
+        {"summary", SummaryJson(metrics, values, report.normality.shape)},
+        {"normality", NormalityJson(report.normality, report.monte_carlo)},
+        {"randomness", RandomnessJson(report)},
+        {"plots",
+         PlotsJson(report, values, static_cast<Index>(arguments.bins))},
+        {"words", sentences}};
+    if (arguments.as_printed_1995) {
+      document["as_printed_1995"] = Report1995Json(printed, r_squared_1995);
+    }
+    document["provenance"] =
+        ProvenanceJson(command_line,
+                       ConfigurationJson(arguments, inputs),
+                       {HashInput(arguments.file)});
+    fmt::print("{}", DumpJson(document));
+    return kDone;
+  }
+  constexpr std::size_t kWidth = 80;
+  fmt::print(
+      "{}, column {}: {} in {}{}\n",
+      arguments.file,
+      arguments.column,
+      Count(values.size(), "value"),
+      inputs.order,
+      inputs.group_column.empty() ? "" : ", groups " + inputs.group_column);
+  if (arguments.as_printed_1995) {
+    fmt::print("{}\ncorrect:\n", Report1995Text(printed, r_squared_1995, unit));
+  }
+  fmt::print("{}\n{}\n{}\n{}\n",
+             SampleText(metrics, values, report.normality.shape, unit),
+             NormalityText(report, values.size()),
+             RandomnessText(report),
+             WrapText(sentences, kWidth));
+  if (arguments.details) {
+    fmt::print(
+        "{}",
+        DetailsText(report, values, unit, static_cast<Index>(arguments.bins)));
+  }
+  return kDone;
+}
+
+void AddColumnOptions(CLI::App* command, ResidualsArguments* arguments) {
+  command->add_option("--column", arguments->column, "The column")
+      ->required()
+      ->type_name("COL");
+  command
+      ->add_option("--order",
+                   arguments->order,
+                   "Numbers that tell the measured order (default: the file's)")
+      ->type_name("COL");
+  command
+      ->add_option("--group",
+                   arguments->group,
+                   "Warm-up cycles, days or segments (default: cycle)")
+      ->type_name("COL");
+  command
+      ->add_option("--position",
+                   arguments->position,
+                   "Look for bias along it (default: the first position*)")
+      ->type_name("COL");
+  command
+      ->add_option("--fitted",
+                   arguments->fitted,
+                   "Does the spread change with it? (default: the first "
+                   "predicted*)")
+      ->type_name("COL");
+}
+
+}  // namespace
+
+void AddResidualsCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<ResidualsArguments>();
+  CLI::App* command = app->add_subcommand(
+      "residuals", "Statistics of a column of residuals (or of anything)");
+  command->add_option("FILE", arguments->file, "CSV file")
+      ->required()
+      ->type_name("FILE.csv");
+  AddColumnOptions(command, arguments.get());
+  command
+      ->add_option("--monte-carlo",
+                   arguments->monte_carlo,
+                   "Simulate p with this many normal samples (0: none)")
+      ->check(CLI::Range(0LL, 10'000'000LL))
+      ->type_name("N")
+      ->capture_default_str();
+  AddSeedOption(command, &arguments->seed, "Of the simulation");
+  command
+      ->add_option("--bins",
+                   arguments->bins,
+                   "Bins of the histogram (0: by Freedman and Diaconis)")
+      ->check(CLI::Range(0LL, 10'000LL))
+      ->type_name("N")
+      ->capture_default_str();
+  command
+      ->add_option("--missing",
+                   arguments->missing,
+                   "What empty, NA and NaN cells do: error or drop-rows")
+      ->check(CLI::IsMember({"error", "drop-rows"}))
+      ->type_name("error|drop-rows")
+      ->capture_default_str();
+  command->add_flag("--details",
+                    arguments->details,
+                    "Also bias per group and position, histogram, PPCC curve");
+  command->add_flag("--as-printed-1995",
+                    arguments->as_printed_1995,
+                    "Also what the program of NISTIR 5367 prints for them");
+  command->add_option("--format", arguments->format, "table or json")
+      ->check(CLI::IsMember({"table", "json"}))
+      ->type_name("table|json")
+      ->capture_default_str();
+  command->callback([arguments, run] {
+    run->status = RunResiduals(*arguments, run->command_line);
+  });
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,142 @@
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/report/output_folder.h"
+#include "cli/shell/number_text.h"
+#include "cli/study_file/data_arguments.h"
+#include "data/atomic_file.h"
+#include "data/turning_centre/simulation.h"
+#include "data/turning_centre/simulation_files.h"
+
+namespace errmap::cli {
+namespace {
+
+using data::turning_centre::FileOptions;
+using data::turning_centre::Simulate;
+using data::turning_centre::Simulation;
+using data::turning_centre::SimulationOptions;
+
+struct SimulateArguments {
+  std::string machine;
+  std::string folder;
+  SimulationOptions simulation;
+  FileOptions files;
+  bool quiet = false;
+};
+
+int RunSimulate(const SimulateArguments& arguments) {
+  const SimulationOptions& options = arguments.simulation;
+  try {
+    options.Validate();
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  // Before the work, not after it.
+  PrepareFolder(arguments.folder);
+  const Simulation simulation = Simulate(options);
+  const std::filesystem::path root(arguments.folder);
+  const std::vector<std::string> names =
+      data::turning_centre::SimulationFileNames();
+  for (const std::string& name : names) {
+    data::WriteFileAtomically((root / name).string(),
+                              data::turning_centre::SimulationFile(
+                                  simulation, arguments.files, name));
+  }
+  if (!arguments.quiet) {
+    Say(fmt::format("{} of {}, {} in {}; README.md there says what they are",
+                    Count(options.days, "day"),
+                    Count(options.cycles, "cycle"),
+                    Count(static_cast<long long>(names.size()), "file"),
+                    arguments.folder));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void AddSimulateCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<SimulateArguments>();
+  SimulationOptions& options = arguments->simulation;
+  CLI::App* command = app->add_subcommand(
+      "simulate", "Make measurements of a machine whose truth is known");
+  command
+      ->add_option("MACHINE",
+                   arguments->machine,
+                   "turning-centre: two slides, a spindle, 40 thermocouples")
+      ->required()
+      ->check(CLI::IsMember({"turning-centre"}))
+      ->type_name("NAME");
+  command->add_option("-o,--output", arguments->folder, "Folder to write")
+      ->required()
+      ->type_name("DIR");
+  AddSeedOption(command, &options.seed, "Seed of all that is drawn");
+  command
+      ->add_option("--days",
+                   options.days,
+                   "Days; the first is calibrated to the report of 1995, the "
+                   "others are drawn")
+      ->capture_default_str();
+  command->add_option("--cycles", options.cycles, "Warm-up cycles per day")
+      ->capture_default_str();
+  command
+      ->add_option("--duty", options.workload.duty, "Factor on every feed duty")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--speed", options.workload.speed, "Factor on every spindle speed")
+      ->capture_default_str();
+  command
+      ->add_option("--air",
+                   options.air_factor,
+                   "Factor on every heat conductance to the air")
+      ->capture_default_str();
+  command
+      ->add_option("--noise",
+                   options.noise_um,
+                   "Standard deviation of a reading of length, um")
+      ->capture_default_str();
+  command
+      ->add_option("--angle-noise",
+                   options.noise_urad,
+                   "Standard deviation of a reading of an angle, urad")
+      ->capture_default_str();
+  command
+      ->add_option("--sensor-noise",
+                   options.sensor_noise,
+                   "Standard deviation of a thermocouple's reading, degC")
+      ->capture_default_str();
+  const auto add_fault =
+      [&](const char* flag, std::vector<int>* list, const char* what) {
+        command->add_option(flag, *list, what)
+            ->delimiter(',')
+            ->type_name("N,N,...");
+      };
+  add_fault("--dead", &options.dead, "Thermocouples (0 to 39) that read 0");
+  add_fault("--stuck", &options.stuck, "... that stop on the first day");
+  add_fault("--drifting", &options.drifting, "... that gain 0.04 degC an hour");
+  add_fault("--noisy", &options.noisy, "... with 25 times the noise");
+  command
+      ->add_option("--points",
+                   options.points_per_day,
+                   "Random poses per day in tool_tip.csv")
+      ->capture_default_str();
+  command->add_flag(
+      "--truth",
+      arguments->files.truth,
+      "Add the error without reading noise: truth_mm, truth_urad");
+  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
+  command->footer(
+      "Example: errmap simulate turning-centre -o simulated --days 3 --dead "
+      "3,4,16,19\nThe same options give the same files, byte for byte.");
+  command->callback(
+      [arguments, run] { run->status = RunSimulate(*arguments); });
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/report/report_view.h"
+
+namespace errmap::cli {
+
+/// What the first screen says of a component, as plain text.
+struct Headline {
+  std::string sentence;  // the recommendation
+  std::string error;     // "0.938 µm", "" where there is none
+  std::string interval;  // "95 % interval 0.81 to 1.06 µm", "" likewise
+  std::string where;     // "RMSE on whole groups never seen (groups:5)"
+  std::string beside;    // the other hold-out's error, "" where there is none
+  std::string goal;      // "Goal: sd below 0.5 µm. Not met: sd 0.896 µm."
+  bool has_goal = false;
+  bool meets_goal = false;
+  std::string cost;     // sensors, parameters, time
+  std::string sensors;  // their names, "" where they are not known
+  std::string why;
+  std::vector<std::string> reasons;
+  std::vector<std::string> caveats;
+};
+
+Headline HeadlineOf(const ReportView& view);
+
+/// The sign convention, in one sentence.
+extern const char* const kSignConvention;
+
+}  // namespace errmap::cli

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "stats/bias.h"
+#include "stats/error_metrics.h"
+#include "stats/normality/normality.h"
+#include "stats/randomness.h"
+#include "stats/report_1995.h"
+
+namespace errmap::cli {
+
+/// Residuals in measured order and what is known of each; a column name of ""
+/// means that there is no such column.
+struct ResidualInputs {
+  Eigen::VectorXd values;  // (n)
+  std::string order = "file order";
+  std::string group_column = {};
+  std::vector<Eigen::Index> group_codes = {};  // (n) into group_labels
+  std::vector<std::string> group_labels = {};
+  std::string position_column = {};
+  Eigen::VectorXd positions = {};  // (n)
+  std::string fitted_column = {};
+  Eigen::VectorXd fitted = {};  // (n)
+};
+
+/// Biases at the levels of one column.
+struct NamedBias {
+  std::string column;
+  std::vector<std::string> labels;  // by level
+  stats::BiasByLevel bias;
+};
+
+/// Every statistic of one set of residuals: text and JSON are written from
+/// this and nothing else.
+struct ResidualReport {
+  std::string order;
+  stats::Normality normality;
+  stats::MonteCarloP monte_carlo;            // draws = 0: not asked for
+  stats::SerialTests whole;                  // over the whole order
+  std::string group_column;                  // "": no groups
+  std::optional<stats::SerialTests> within;  // within groups
+  stats::SerialShuffles whole_shuffles;      // draws = 0: not asked for
+  stats::SerialShuffles within_shuffles;
+  stats::TestResult halves;
+  std::optional<NamedBias> by_group;
+  std::optional<NamedBias> by_position;
+  std::string fitted_column;
+  std::optional<stats::TestResult> breusch_pagan;
+};
+
+/// Assesses the residuals; `monte_carlo` simulated samples and shuffles (0:
+/// none) with this seed.
+ResidualReport AssessResiduals(const ResidualInputs& inputs,
+                               Eigen::Index monte_carlo = 0,
+                               std::uint64_t seed = 1);
+
+}  // namespace errmap::cli

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "cli/report/residual_report.h"
+#include "data/units.h"
+
+namespace errmap::cli {
+
+/// What the figures say about the residuals, in sentences that follow from
+/// them and from nothing else: their shape, how the 1995 program would have
+/// judged them, whether they are independent, where they are biased.
+std::string ResidualSentences(const ResidualReport& report,
+                              const stats::SampleSummary& summary,
+                              const stats::Report1995Statistics& printed,
+                              const data::Unit& unit);
+
+}  // namespace errmap::cli

@@ -1,0 +1,135 @@
+#include "cli/study_file/data_arguments.h"
+
+#include <stdexcept>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "models/model_spec.h"
+#include "models/recipe_catalog.h"
+
+namespace errmap::cli {
+
+void AddDataArguments(CLI::App* command, DataArguments* arguments) {
+  command->add_option("DATA", arguments->file, "CSV file, one row per sample")
+      ->required()
+      ->type_name("FILE.csv");
+  command
+      ->add_option("--target",
+                   arguments->target,
+                   "Column to be mapped (default: the only one named error*)")
+      ->type_name("COL");
+  command
+      ->add_option("--inputs",
+                   arguments->inputs,
+                   "Columns to map from (default: every other numeric column)")
+      ->type_name("A,B,...");
+  command
+      ->add_option("--exclude", arguments->exclude, "Columns never to map from")
+      ->type_name("A,B,...");
+  command
+      ->add_option("--group",
+                   arguments->group,
+                   "Column that tells warm-up cycles, days or segments apart "
+                   "(default: cycle)")
+      ->type_name("COL");
+  command
+      ->add_option("--weight", arguments->weight, "Column of row weights > 0")
+      ->type_name("COL");
+  command
+      ->add_option("--missing",
+                   arguments->missing,
+                   "What empty, NA and NaN cells do: error or drop-rows")
+      ->check(CLI::IsMember({"error", "drop-rows"}))
+      ->type_name("error|drop-rows")
+      ->capture_default_str();
+  command->add_flag("--keep-dead",
+                    arguments->keep_dead,
+                    "Keep inputs that hold one value only (failed sensors)");
+  command->add_flag(
+      "--quiet", arguments->quiet, "No remarks and no progress on stderr");
+}
+
+std::vector<std::string> SplitNames(const std::string& list, const char* flag) {
+  if (list.empty()) return {};
+  std::vector<std::string> names;
+  try {
+    names = models::SplitList(list);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("{}: {}", flag, error.what()));
+  }
+  for (std::string& name : names) {
+    if (name.size() >= 2 && name.front() == '"' && name.back() == '"') {
+      name = name.substr(1, name.size() - 2);
+      for (std::size_t at = 0; (at = name.find("\"\"", at)) != name.npos;
+           ++at) {
+        name.erase(at, 1);  // RFC 4180: two quotes stand for one
+      }
+    }
+  }
+  return names;
+}
+
+data::PreparedDataset ReadData(const DataArguments& arguments) {
+  const data::DatasetSelection selection{
+      .target = arguments.target,
+      .inputs = SplitNames(arguments.inputs, "--inputs"),
+      .exclude = SplitNames(arguments.exclude, "--exclude"),
+      .group = arguments.group,
+      .weight = arguments.weight,
+      .missing = arguments.missing == "error" ? data::MissingPolicy::kError
+                                              : data::MissingPolicy::kDropRows,
+      .keep_dead = arguments.keep_dead};
+  data::PreparedDataset prepared =
+      data::MakeDataset(data::ReadCsv(arguments.file), selection);
+  if (!arguments.quiet) {
+    for (const std::string& remark : prepared.remarks) Say(remark);
+  }
+  return prepared;
+}
+
+data::Dataset MakeDataLike(const data::CsvTable& table,
+                           const data::Dataset& like,
+                           const std::string& weight,
+                           data::MissingPolicy missing,
+                           const std::vector<data::ColumnFilter>& where) {
+  data::DatasetSelection selection{.target = like.target().name,
+                                   .inputs = {},
+                                   .exclude = {},
+                                   .group = like.groups().column,
+                                   .weight = weight,
+                                   .missing = missing,
+                                   .keep_dead = true,
+                                   .where = where,
+                                   .only_to_judge = true};
+  for (const data::ColumnInfo& input : like.inputs()) {
+    selection.inputs.push_back(input.name);
+  }
+  return data::MakeDataset(table, selection).dataset;
+}
+
+std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
+    const std::string& spec) {
+  try {
+    return models::MakeRecipe(spec);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
+void Say(const std::string& line) { fmt::print(stderr, "errmap: {}\n", line); }
+
+void AddSeedOption(CLI::App* command,
+                   std::uint64_t* seed,
+                   const std::string& what) {
+  command->add_option("--seed", *seed, what)
+      ->check([](const std::string& text) {
+        // CLI11 would take -1 for the largest number there is.
+        return text.starts_with('-') ? "give a whole number from 0" : "";
+      })
+      ->capture_default_str()
+      ->type_name("N");
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,558 @@
+#include "cli/study_file/study_file.h"
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include "cli/command.h"
+#include "cli/study_file/toml_text.h"
+#include "data/atomic_file.h"
+#include "data/input_error.h"
+#include "data/sha256.h"
+#include "data/text.h"
+#include "models/recipe_catalog.h"
+#include "stats/holdout.h"
+
+namespace errmap::cli {
+namespace {
+
+using data::QuotedName;
+using data::QuotedText;
+
+constexpr std::string_view kOverride = "--set ";  // begins its source's name
+
+std::string Place(const std::string& file, const toml::source_region& at) {
+  return fmt::format(
+      "{}:{}:{}: ", data::PrintablePath(file), at.begin.line, at.begin.column);
+}
+
+[[noreturn]] void Refuse(const std::string& file,
+                         const toml::source_region& at,
+                         const std::string& what) {
+  if (at.path != nullptr && at.path->starts_with(kOverride)) {
+    throw UsageError(data::PrintablePath(*at.path) + ": " + what);
+  }
+  throw data::InputError(Place(file, at) + what);
+}
+
+std::string Found(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "a list";
+    case toml::node_type::string:
+      return "text (" + QuotedText(node.ref<std::string>()) + ")";
+    case toml::node_type::integer:
+      return fmt::format("a number ({})", node.ref<std::int64_t>());
+    case toml::node_type::floating_point:
+      return fmt::format("a number ({})", node.ref<double>());
+    case toml::node_type::boolean:
+      return node.ref<bool>() ? "true" : "false";
+    default:
+      return "a date or time";
+  }
+}
+
+// Of a whole or other number.
+double NumberOf(const toml::node& node) {
+  const auto* const whole = node.as_integer();
+  return whole != nullptr ? static_cast<double>(whole->get())
+                          : node.ref<double>();
+}
+
+// "did you mean 'target'? "
+std::string Suggestion(std::string_view name,
+                       const std::vector<std::string>& known) {
+  const std::string nearest = data::NearestName(name, known);
+  return nearest.empty() ? "" : "did you mean '" + nearest + "'? ";
+}
+
+// A table of the file, read key by key; what is wrong is said with its place.
+class Keys {
+ public:
+  Keys(const toml::table& table, std::string where, const std::string& file)
+      : table_(table), where_(std::move(where)), file_(file) {}
+
+  void AllowOnly(const std::vector<std::string>& known) const {
+    for (const auto& [key, value] : table_) {
+      if (std::ranges::find(known, key.str()) != known.end()) continue;
+      Refuse(file_,
+             key.source(),
+             fmt::format("unknown key {} in {}; {}allowed are {}",
+                         QuotedName(key.str()),
+                         where_,
+                         Suggestion(key.str(), known),
+                         fmt::join(known, ", ")));
+    }
+  }
+
+  const toml::node* Find(std::string_view key) const { return table_.get(key); }
+
+  void TakeText(std::string_view key, std::string* text) const {
+    const toml::node* const node = Find(key);
+    if (node == nullptr) return;
+    const auto* const value = node->as_string();
+    if (value == nullptr) RefuseType(key, *node, "text in quotes");
+    if (value->get().empty()) {
+      Refuse(file_,
+             node->source(),
+             fmt::format("'{}' must not be empty; leave it out for the default",
+                         key));
+    }
+    *text = value->get();
+  }
+
+  void TakeFlag(std::string_view key, bool* flag) const {
+    const toml::node* const node = Find(key);
+    if (node == nullptr) return;
+    const auto* const value = node->as_boolean();
+    if (value == nullptr) RefuseType(key, *node, "true or false");
+    *flag = value->get();
+  }
+
+  void TakeNumber(std::string_view key,
+                  bool may_be_zero,
+                  double* number) const {
+    const toml::node* const node = Find(key);
+    if (node == nullptr) return;
+    if (!node->is_number()) RefuseType(key, *node, "a number");
+    const double value = NumberOf(*node);
+    if (!std::isfinite(value) || value < 0.0 ||
+        (value == 0.0 && !may_be_zero)) {
+      Refuse(file_,
+             node->source(),
+             fmt::format("'{}' must be {} 0, found {}",
+                         key,
+                         may_be_zero ? "at least" : "above",
+                         value));
+    }
+    *number = value;
+  }
+
+  void TakeSeed(std::uint64_t* seed) const {
+    const toml::node* const node = Find("seed");
+    if (node == nullptr) return;
+    const auto* const value = node->as_integer();
+    if (value == nullptr || value->get() < 0) {
+      RefuseType("seed", *node, "a whole number from 0");
+    }
+    *seed = static_cast<std::uint64_t>(value->get());
+  }
+
+  /// Texts of a list; `check` may refuse one by throwing invalid_argument.
+  template <typename Check>
+  void TakeList(std::string_view key,
+                std::vector<std::string>* list,
+                const Check& check) const {
+    constexpr std::string_view kWanted = "a list of texts such as [\"a\"]";
+    const toml::node* const node = Find(key);
+    if (node == nullptr) return;
+    const toml::array* const array = node->as_array();
+    if (array == nullptr) RefuseType(key, *node, kWanted);
+    for (const toml::node& item : *array) {
+      const auto* const text = item.as_string();
+      if (text == nullptr) RefuseType(key, item, kWanted);
+      if (std::ranges::find(*list, text->get()) != list->end()) {
+        Refuse(file_,
+               item.source(),
+               fmt::format("'{}' has {} twice", key, QuotedName(text->get())));
+      }
+      try {
+        check(text->get());
+      } catch (const std::invalid_argument& error) {
+        Refuse(file_, item.source(), error.what());
+      }
+      list->push_back(text->get());
+    }
+  }
+
+  void TakeList(std::string_view key, std::vector<std::string>* list) const {
+    TakeList(key, list, [](const std::string& /*any*/) {});
+  }
+
+  [[noreturn]] void RefuseType(std::string_view key,
+                               const toml::node& node,
+                               std::string_view wanted) const {
+    Refuse(file_,
+           node.source(),
+           fmt::format("{} in {} must be {}, found {}",
+                       QuotedName(key),
+                       where_,
+                       wanted,
+                       Found(node)));
+  }
+
+  [[noreturn]] void RefuseTable(const std::string& what) const {
+    Refuse(file_, table_.source(), where_ + ": " + what);
+  }
+
+ private:
+  const toml::table& table_;
+  std::string where_;
+  const std::string& file_;
+};
+
+// A value with colons in it, as a SPEC needs it.
+std::string Quoted(const std::string& text) {
+  return text.find(':') == text.npos || text.find('"') != text.npos
+             ? text
+             : '"' + text + '"';
+}
+
+class StudyFileReader {
+ public:
+  explicit StudyFileReader(const std::string& file)
+      : file_(file), folder_(std::filesystem::path(file).parent_path()) {}
+
+  StudyConfig Read(const toml::table& root) const {
+    const Keys keys(root, "the study", file_);
+    keys.AllowOnly({"seed",
+                    "goal",
+                    "indifference",
+                    "holdouts",
+                    "models",
+                    "model",
+                    "component"});
+    StudyConfig config;
+    keys.TakeSeed(&config.seed);
+    keys.TakeNumber("goal", false, &config.goal);
+    keys.TakeNumber("indifference", true, &config.indifference);
+    keys.TakeList("holdouts", &config.holdouts, [](const std::string& spec) {
+      stats::ParseHoldout(spec);
+    });
+    for (std::string& spec : config.holdouts) {
+      const stats::HoldoutSpec parsed = stats::ParseHoldout(spec);
+      if (parsed.kind == stats::HoldoutKind::kFile) {
+        spec = "file:" + BesideStudyFile(parsed.file);
+      }
+    }
+    keys.TakeList("models", &config.models, [](const std::string& spec) {
+      models::MakeRecipe(spec);
+    });
+    for (const toml::table* table : Tables(keys, "model")) {
+      config.models.push_back(ReadModel(*table, config.models));
+    }
+    for (const toml::table* table : Tables(keys, "component")) {
+      config.components.push_back(ReadComponent(*table));
+    }
+    if (config.components.empty()) {
+      throw data::InputError(data::PrintablePath(file_) +
+                             ": no [[component]]; add one with data = "
+                             "\"FILE.csv\", or let errmap init write the file");
+    }
+    return config;
+  }
+
+ private:
+  std::vector<const toml::table*> Tables(const Keys& keys,
+                                         const char* key) const {
+    std::vector<const toml::table*> tables;
+    const toml::node* const node = keys.Find(key);
+    if (node == nullptr) return tables;
+    const std::string wanted = fmt::format("tables, each headed [[{}]]", key);
+    const toml::array* const array = node->as_array();
+    if (array == nullptr) keys.RefuseType(key, *node, wanted);
+    for (const toml::node& item : *array) {
+      if (item.as_table() == nullptr) keys.RefuseType(key, item, wanted);
+      tables.push_back(item.as_table());
+    }
+    return tables;
+  }
+
+  std::string BesideStudyFile(const std::string& path) const {
+    if (folder_.empty()) return path;
+    return (folder_ / path).lexically_normal().string();
+  }
+
+  ComponentConfig ReadComponent(const toml::table& table) const {
+    const Keys keys(table, "[[component]]", file_);
+    keys.AllowOnly({"name",
+                    "data",
+                    "where",
+                    "target",
+                    "inputs",
+                    "exclude",
+                    "group",
+                    "weight",
+                    "missing",
+                    "keep_dead",
+                    "goal",
+                    "indifference"});
+    ComponentConfig component;
+    keys.TakeText("name", &component.name);
+    keys.TakeText("data", &component.data);
+    if (component.data.empty()) {
+      keys.RefuseTable("needs data = \"FILE.csv\"");
+    }
+    component.data = BesideStudyFile(component.data);
+    component.where = ReadWhere(keys);
+    keys.TakeText("target", &component.target);
+    keys.TakeList("inputs", &component.inputs);
+    keys.TakeList("exclude", &component.exclude);
+    keys.TakeText("group", &component.group);
+    keys.TakeText("weight", &component.weight);
+    component.missing = ReadMissing(keys);
+    keys.TakeFlag("keep_dead", &component.keep_dead);
+    keys.TakeNumber("goal", false, &component.goal);
+    keys.TakeNumber("indifference", true, &component.indifference);
+    return component;
+  }
+
+  static data::MissingPolicy ReadMissing(const Keys& keys) {
+    std::string missing = "error";
+    keys.TakeText("missing", &missing);
+    if (missing == "drop-rows") return data::MissingPolicy::kDropRows;
+    if (missing != "error") {
+      keys.RefuseType(
+          "missing", *keys.Find("missing"), "\"error\" or \"drop-rows\"");
+    }
+    return data::MissingPolicy::kError;
+  }
+
+  std::vector<data::ColumnFilter> ReadWhere(const Keys& keys) const {
+    std::vector<data::ColumnFilter> filters;
+    const toml::node* const node = keys.Find("where");
+    if (node == nullptr) return filters;
+    if (node->as_table() == nullptr) {
+      keys.RefuseType(
+          "where", *node, "columns and values: { direction = \"down\" }");
+    }
+    const Keys columns(*node->as_table(), "where", file_);
+    for (const auto& [column, value] : *node->as_table()) {
+      if (const auto* const text = value.as_string()) {
+        filters.push_back({std::string(column.str()), text->get()});
+      } else if (value.is_number()) {
+        filters.push_back({std::string(column.str()), NumberOf(value)});
+      } else {
+        columns.RefuseType(column.str(), value, "text in quotes or a number");
+      }
+    }
+    return filters;
+  }
+
+  // use = "poly:stepwise", degree = 2 -> "poly:stepwise:degree=2"
+  std::string ReadModel(const toml::table& table,
+                        const std::vector<std::string>& earlier) const {
+    const Keys keys(table, "[[model]]", file_);
+    std::string spec;
+    keys.TakeText("use", &spec);
+    if (spec.empty()) keys.RefuseTable("needs use = \"SPEC\"");
+    for (const toml::node* node : InOrderOfTheFile(table)) {
+      spec += OptionText(keys, KeyOf(table, *node), *node);
+    }
+    try {
+      models::MakeRecipe(spec);
+    } catch (const std::invalid_argument& error) {
+      Refuse(file_, table.source(), error.what());
+    }
+    if (std::ranges::find(earlier, spec) != earlier.end()) {
+      keys.RefuseTable("model " + QuotedName(spec) + " is given twice");
+    }
+    return spec;
+  }
+
+  // The options of a model (toml++ sorts its keys by name).
+  static std::vector<const toml::node*> InOrderOfTheFile(
+      const toml::table& table) {
+    std::vector<const toml::node*> nodes;
+    for (const auto& [key, value] : table) {
+      if (key.str() != "use") nodes.push_back(&value);
+    }
+    const auto place = [](const toml::node* node) {
+      const toml::source_region& at = node->source();
+      const bool is_override =
+          at.path != nullptr && at.path->starts_with(kOverride);
+      return std::tuple(is_override, at.begin.line, at.begin.column);
+    };
+    std::ranges::stable_sort(nodes, {}, place);
+    return nodes;
+  }
+
+  static std::string KeyOf(const toml::table& table, const toml::node& node) {
+    for (const auto& [key, value] : table) {
+      if (&value == &node) return std::string(key.str());
+    }
+    return "";
+  }
+
+  static std::string OptionText(const Keys& keys,
+                                const std::string& key,
+                                const toml::node& node) {
+    if (const auto* const flag = node.as_boolean()) {
+      return fmt::format(":{}={}", key, flag->get() ? "yes" : "no");
+    }
+    if (const auto* const integer = node.as_integer()) {
+      return fmt::format(":{}={}", key, integer->get());
+    }
+    if (const auto* const number = node.as_floating_point()) {
+      return fmt::format(":{}={}", key, number->get());
+    }
+    if (const auto* const text = node.as_string()) {
+      return fmt::format(":{}={}", key, Quoted(text->get()));
+    }
+    constexpr std::string_view kWanted =
+        "text, a number, true, false or a list of texts";
+    const toml::array* const array = node.as_array();
+    if (array == nullptr) keys.RefuseType(key, node, kWanted);
+    std::vector<std::string> names;
+    for (const toml::node& item : *array) {
+      if (!item.is_string()) keys.RefuseType(key, item, kWanted);
+      names.push_back(Quoted(item.ref<std::string>()));
+    }
+    return fmt::format(":{}={}", key, fmt::join(names, "+"));
+  }
+
+  const std::string& file_;
+  std::filesystem::path folder_;
+};
+
+// ---- --set KEY=VALUE
+
+// Where the first '=' outside double quotes stands.
+std::size_t FindEquals(const std::string& text) {
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') quoted = !quoted;
+    if (text[i] == '\\' && quoted) ++i;
+    if (text[i] == '=' && !quoted) return i;
+  }
+  return std::string::npos;
+}
+
+// An override as a small TOML document. A value that is no TOML is text.
+toml::table ParseOverride(const std::string& text) {
+  const std::size_t equals = FindEquals(text);
+  if (equals == std::string::npos || equals == 0) {
+    throw UsageError(data::PrintablePath(
+        fmt::format("--set must be KEY=VALUE, found '{}'", text)));
+  }
+  const std::string source = std::string(kOverride) + text;
+  const std::string key = text.substr(0, equals);
+  try {
+    return toml::parse(text, source);
+  } catch (const toml::parse_error&) {
+    // Then the value is text, or the key is wrong.
+  }
+  try {
+    return toml::parse(key + " = " + TomlText(text.substr(equals + 1)), source);
+  } catch (const toml::parse_error& error) {
+    throw UsageError(
+        fmt::format("{}: {}; keys are dotted names such as "
+                    "component.0.target, odd ones in quotes",
+                    data::PrintablePath(source),
+                    error.description()));
+  }
+}
+
+// Puts overrides in the place of what the file says.
+class Overrider {
+ public:
+  explicit Overrider(std::string text) : text_(std::move(text)) {}
+
+  void Apply(toml::table&& changes, toml::table* target) const {
+    for (auto&& [key, value] : changes) {
+      toml::node* const old = target->get(key.str());
+      toml::table* const nested = value.as_table();
+      const bool descends = nested != nullptr && !nested->is_inline();
+      if (descends && old != nullptr && old->is_table()) {
+        Apply(std::move(*nested), old->as_table());
+      } else if (descends && old != nullptr && old->is_array()) {
+        ApplyToList(key.str(), std::move(*nested), old->as_array());
+      } else if (descends &&
+                 (key.str() == "component" || key.str() == "model")) {
+        RefuseItem(key.str(), nested->begin()->first.str(), 0);
+      } else {
+        // A key that is there would keep its place in the file.
+        target->erase(key.str());
+        std::move(value).visit([&](auto&& node) {
+          target->insert(toml::key(key), std::forward<decltype(node)>(node));
+        });
+      }
+    }
+  }
+
+ private:
+  void ApplyToList(std::string_view list,
+                   toml::table&& changes,
+                   toml::array* items) const {
+    for (auto&& [key, value] : changes) {
+      toml::table* const item = FindItem(key.str(), items);
+      if (item == nullptr) RefuseItem(list, key.str(), items->size());
+      if (value.as_table() == nullptr) {
+        throw UsageError(fmt::format(
+            "{}: {}.{} is a table; name one of its keys: {}.{}.KEY=VALUE",
+            data::PrintablePath(std::string(kOverride) + text_),
+            list,
+            data::PrintablePath(key.str()),
+            list,
+            data::PrintablePath(key.str())));
+      }
+      Apply(std::move(*value.as_table()), item);
+    }
+  }
+
+  // By name, else by number from 0.
+  static toml::table* FindItem(std::string_view key, toml::array* items) {
+    for (toml::node& item : *items) {
+      toml::table* const table = item.as_table();
+      if (table != nullptr && (*table)["name"].value<std::string>() == key) {
+        return table;
+      }
+    }
+    for (std::size_t i = 0; i < items->size(); ++i) {
+      if (std::to_string(i) == key) return items->get(i)->as_table();
+    }
+    return nullptr;
+  }
+
+  [[noreturn]] void RefuseItem(std::string_view list,
+                               std::string_view key,
+                               std::size_t size) const {
+    throw UsageError(
+        fmt::format("{}: no {} {}; the study file has {}",
+                    data::PrintablePath(std::string(kOverride) + text_),
+                    list,
+                    QuotedName(key),
+                    size == 0 ? "none" : fmt::format("0 to {}", size - 1)));
+  }
+
+  std::string text_;
+};
+
+}  // namespace
+
+StudyConfig ParseStudyFile(const std::string& text,
+                           const std::string& path,
+                           const std::vector<std::string>& overrides) {
+  toml::table root;
+  try {
+    root = toml::parse(text, path);
+  } catch (const toml::parse_error& error) {
+    throw data::InputError(
+        Place(path, error.source()) +
+        data::PrintablePath(std::string(error.description())));
+  }
+  for (const std::string& change : overrides) {
+    Overrider(change).Apply(ParseOverride(change), &root);
+  }
+  return StudyFileReader(path).Read(root);
+}
+
+StudyFile ReadStudyFile(const std::string& path,
+                        const std::vector<std::string>& overrides) {
+  const std::string text = data::ReadFile(path);
+  return {.config = ParseStudyFile(text, path, overrides),
+          .file = {.file = path, .sha256 = data::Sha256(text)}};
+}
+
+}  // namespace errmap::cli

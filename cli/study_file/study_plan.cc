@@ -1,0 +1,355 @@
+#include "cli/study_file/study_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "cli/study_file/data_arguments.h"
+#include "data/atomic_file.h"
+#include "data/sha256.h"
+#include "data/text.h"
+#include "models/recipe_catalog.h"
+#include "models/study/split_file.h"
+
+namespace errmap::cli {
+namespace {
+
+// Several components may stand in one file: each is read and parsed once.
+class TableReader {
+ public:
+  explicit TableReader(std::vector<InputFile>* inputs) : inputs_(inputs) {}
+
+  const data::CsvTable& Read(const std::string& file) {
+    const auto found = tables_.find(file);
+    if (found != tables_.end()) return found->second;
+    const std::string text = data::ReadFile(file);
+    inputs_->push_back({.file = file, .sha256 = data::Sha256(text)});
+    return tables_.emplace(file, data::ParseCsv(text, file)).first->second;
+  }
+
+  const std::string& Sha256Of(const std::string& file) const {
+    return std::ranges::find(*inputs_, file, &InputFile::file)->sha256;
+  }
+
+ private:
+  std::vector<InputFile>* inputs_;
+  std::map<std::string, data::CsvTable> tables_;
+};
+
+// Makes one component ready; remarks tell which where there are several.
+class ComponentPlanner {
+ public:
+  ComponentPlanner(const StudyConfig& study,
+                   const ComponentConfig& component,
+                   bool quiet,
+                   TableReader* reader)
+      : study_(study), component_(component), quiet_(quiet), reader_(reader) {}
+
+  ComponentPlan Plan() const {
+    data::PreparedDataset prepared = PrepareData();
+    const data::Dataset& dataset = prepared.dataset;
+    const data::Unit& unit = dataset.target().unit;
+    std::vector<models::Holdout> holdouts = MakeHoldouts(dataset);
+    if (holdouts.empty()) {
+      throw data::InputError(
+          fmt::format("{}: names no hold-out", component_.split));
+    }
+    std::vector<std::unique_ptr<models::ModelRecipe>> recipes =
+        MakeRecipes(dataset, FewestTrainingRows(holdouts));
+    const std::size_t num_added = AddBaselines(dataset, &recipes);
+    // What throws stands before the aggregate: GCC 12 destroys members of a
+    // half-built one twice (GCC PR 66139).
+    std::vector<models::GivenPredictions> given = ReadGiven();
+    return {.comparison = {.name = component_.name,
+                           .file = component_.data,
+                           .sha256 = reader_->Sha256Of(component_.data),
+                           .goal = Goal(unit),
+                           .indifference = Indifference(unit),
+                           .data = std::move(prepared),
+                           .holdouts = std::move(holdouts),
+                           .study = {},
+                           .first_added = recipes.size() - num_added,
+                           .num_added = num_added,
+                           .judgement = {}},
+            .recipes = std::move(recipes),
+            .given = std::move(given)};
+  }
+
+ private:
+  void Remark(const std::string& line) const {
+    Say(study_.components.size() > 1
+            ? data::Printable(component_.name, line.max_size()) + ": " + line
+            : line);
+  }
+
+  data::PreparedDataset PrepareData() const {
+    data::PreparedDataset prepared =
+        data::MakeDataset(reader_->Read(component_.data),
+                          {.target = component_.target,
+                           .inputs = component_.inputs,
+                           .exclude = component_.exclude,
+                           .group = component_.group,
+                           .weight = component_.weight,
+                           .missing = component_.missing,
+                           .keep_dead = component_.keep_dead,
+                           .where = component_.where});
+    if (!quiet_) {
+      for (const std::string& line : prepared.remarks) Remark(line);
+    }
+    return prepared;
+  }
+
+  // every:3, and whole groups where there are at least two.
+  std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset) const {
+    constexpr std::size_t kGroupFolds = 5;
+    std::vector<std::string> specs{"every:3"};
+    if (!dataset.has_groups()) return specs;
+    const std::size_t groups = dataset.groups().labels.size();
+    if (groups >= 2) {
+      specs.push_back(fmt::format("groups:{}", std::min(groups, kGroupFolds)));
+    } else {
+      Remark(
+          fmt::format("column '{}' has one group only, so nothing can be said "
+                      "about another day; more cycles are needed for that",
+                      dataset.groups().column));
+    }
+    return specs;
+  }
+
+  // Those of the split file first; it takes the place of the default ones.
+  std::vector<models::Holdout> MakeHoldouts(
+      const data::Dataset& dataset) const {
+    std::vector<models::Holdout> holdouts;
+    std::vector<std::string> specs = study_.holdouts;
+    if (!component_.split.empty()) {
+      holdouts =
+          models::ReadSplitFile(reader_->Read(component_.split), dataset);
+    } else if (specs.empty()) {
+      specs = DefaultHoldouts(dataset);
+    }
+    for (const std::string& text : specs) {
+      if (std::ranges::find(holdouts, text, &models::Holdout::name) !=
+          holdouts.end()) {
+        throw data::InputError(
+            fmt::format("{}: has a hold-out {}, which --holdout names, too",
+                        component_.split,
+                        text));
+      }
+      const stats::HoldoutSpec spec = stats::ParseHoldout(text);
+      std::shared_ptr<const data::Dataset> test_data;
+      if (spec.kind == stats::HoldoutKind::kFile) {
+        test_data = std::make_shared<const data::Dataset>(
+            MakeDataLike(reader_->Read(spec.file),
+                         dataset,
+                         component_.weight,
+                         component_.missing,
+                         component_.where));
+      }
+      try {
+        holdouts.push_back(models::MakeHoldout(
+            spec, dataset, study_.seed, std::move(test_data)));
+      } catch (const std::invalid_argument& error) {
+        throw data::InputError(
+            fmt::format("{}: {}", component_.data, error.what()));
+      }
+    }
+    return holdouts;
+  }
+
+  std::vector<models::GivenPredictions> ReadGiven() const {
+    std::vector<models::GivenPredictions> given;
+    for (const PredictionsFile& predictions : component_.predictions) {
+      given.push_back(models::ReadGivenPredictions(
+          predictions.name, reader_->Read(predictions.file)));
+    }
+    return given;
+  }
+
+  Eigen::Index FewestTrainingRows(
+      const std::vector<models::Holdout>& holdouts) const {
+    constexpr std::size_t kFewestUsable = 2;
+    std::size_t fewest = std::numeric_limits<std::size_t>::max();
+    for (const models::Holdout& holdout : holdouts) {
+      for (const stats::Fold& fold : holdout.folds) {
+        fewest = std::min(fewest, fold.train.size());
+      }
+    }
+    if (fewest < kFewestUsable) {
+      throw data::InputError(fmt::format(
+          "{}: too few rows for every model: a fold trains on {}; more "
+          "data or another --holdout are needed",
+          component_.data,
+          fewest));
+    }
+    return static_cast<Eigen::Index>(fewest);
+  }
+
+  std::vector<std::unique_ptr<models::ModelRecipe>> MakeRecipes(
+      const data::Dataset& dataset, Eigen::Index fewest_training_rows) const {
+    if (study_.models.empty()) {
+      models::DefaultRecipes defaults =
+          models::MakeDefaultRecipes(dataset, fewest_training_rows);
+      if (!quiet_) {
+        for (const std::string& line : defaults.left_out) Remark(line);
+      }
+      return std::move(defaults.recipes);
+    }
+    std::vector<std::unique_ptr<models::ModelRecipe>> recipes;
+    for (const std::string& spec : study_.models) {
+      recipes.push_back(models::MakeRecipe(spec));
+    }
+    return recipes;
+  }
+
+  // What any map must beat is always there to be beaten.
+  static std::size_t AddBaselines(
+      const data::Dataset& dataset,
+      std::vector<std::unique_ptr<models::ModelRecipe>>* recipes) {
+    auto baselines = models::MissingBaselines(dataset, *recipes);
+    const std::size_t added = baselines.size();
+    recipes->insert(recipes->end(),
+                    std::make_move_iterator(baselines.begin()),
+                    std::make_move_iterator(baselines.end()));
+    return added;
+  }
+
+  // The component's own, else the study's, else one for lengths: given in um,
+  // returned in the target's unit.
+  static double FirstGiven(double own,
+                           double of_study,
+                           double for_lengths_um,
+                           double otherwise,
+                           const data::Unit& unit) {
+    if (std::isfinite(own)) return own;
+    if (std::isfinite(of_study)) return of_study;
+    return unit.quantity == data::Quantity::kLength
+               ? for_lengths_um / unit.display_scale
+               : otherwise;
+  }
+
+  // The report's goal serves for lengths; angles have none of their own.
+  double Goal(const data::Unit& unit) const {
+    constexpr double kReportGoalUm = 0.5;
+    return FirstGiven(component_.goal,
+                      study_.goal,
+                      kReportGoalUm,
+                      std::numeric_limits<double>::quiet_NaN(),
+                      unit);
+  }
+
+  double Indifference(const data::Unit& unit) const {
+    constexpr double kIndifferenceUm = 0.02;
+    return FirstGiven(component_.indifference,
+                      study_.indifference,
+                      kIndifferenceUm,
+                      0.0,
+                      unit);
+  }
+
+  const StudyConfig& study_;
+  const ComponentConfig& component_;
+  bool quiet_;
+  TableReader* reader_;
+};
+
+std::string DefaultName(const ComponentConfig& component) {
+  std::string name = std::filesystem::path(component.data).stem().string();
+  for (const data::ColumnFilter& filter : component.where) {
+    name += ", " + ValueText(filter);
+  }
+  return name;
+}
+
+// Every component gets a name of its own: files are called by it.
+void NameComponents(StudyConfig* config) {
+  std::set<std::string> taken;
+  for (ComponentConfig& component : config->components) {
+    if (component.name.empty()) component.name = DefaultName(component);
+    if (taken.insert(component.name).second) continue;
+    throw data::InputError(
+        fmt::format("two components are named {}; give each a name of its own",
+                    data::QuotedName(component.name)));
+  }
+}
+
+// What defaults became, so that a study with these words would do the same.
+// Hold-outs and models that differ between components stay unsaid.
+void FillInDefaults(StudyPlan* plan) {
+  for (std::size_t i = 0; i < plan->components.size(); ++i) {
+    const Comparison& planned = plan->components[i].comparison;
+    const data::Dataset& dataset = planned.data.dataset;
+    ComponentConfig& component = plan->config.components[i];
+    component.target = dataset.target().name;
+    component.group = dataset.groups().column;
+    component.goal = planned.goal;
+    component.indifference = planned.indifference;
+    component.inputs.clear();
+    for (const data::ColumnInfo& input : dataset.inputs()) {
+      component.inputs.push_back(input.name);
+    }
+  }
+  const auto alike = [&](const auto& list_of) {
+    std::vector<std::string> first = list_of(plan->components.front());
+    for (const ComponentPlan& component : plan->components) {
+      if (list_of(component) != first) return std::vector<std::string>{};
+    }
+    return first;
+  };
+  plan->config.holdouts =
+      alike([](const ComponentPlan& c) { return c.HoldoutNames(); });
+  plan->config.models =
+      alike([](const ComponentPlan& c) { return c.ModelNames(); });
+}
+
+}  // namespace
+
+std::vector<std::string> ComponentPlan::HoldoutNames() const {
+  std::vector<std::string> names;
+  for (const models::Holdout& holdout : comparison.holdouts) {
+    names.push_back(holdout.name);
+  }
+  return names;
+}
+
+std::vector<std::string> ComponentPlan::ModelNames() const {
+  std::vector<std::string> names;
+  for (const auto& recipe : recipes) names.push_back(recipe->name());
+  return names;
+}
+
+int ComponentPlan::num_fits() const {
+  std::size_t fits_per_model = 1;  // to all rows
+  for (const models::Holdout& holdout : comparison.holdouts) {
+    fits_per_model += holdout.folds.size();
+  }
+  return static_cast<int>(fits_per_model * recipes.size());
+}
+
+int StudyPlan::num_fits() const {
+  return std::transform_reduce(
+      components.begin(),
+      components.end(),
+      0,
+      std::plus<>(),
+      [](const ComponentPlan& component) { return component.num_fits(); });
+}
+
+StudyPlan PlanStudy(const StudyConfig& config, bool quiet) {
+  StudyPlan plan{.config = config, .inputs = {}, .components = {}};
+  NameComponents(&plan.config);
+  TableReader reader(&plan.inputs);
+  for (const ComponentConfig& component : plan.config.components) {
+    plan.components.push_back(
+        ComponentPlanner(plan.config, component, quiet, &reader).Plan());
+  }
+  FillInDefaults(&plan);
+  return plan;
+}
+
+}  // namespace errmap::cli

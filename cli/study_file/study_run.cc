@@ -1,0 +1,78 @@
+#include "cli/study_file/study_run.h"
+
+#include <utility>
+
+#include "cli/study_file/data_arguments.h"
+
+namespace errmap::cli {
+namespace {
+
+// Runs a component's study, its fits kept in the journal if there is one.
+models::StudyResult RunJournalled(const ComponentPlan& component,
+                                  models::StudyOptions study_options,
+                                  const RunOptions& options) {
+  const Comparison& comparison = component.comparison;
+  const auto run = [&] {
+    return models::RunStudy(comparison.data.dataset,
+                            comparison.holdouts,
+                            component.recipes,
+                            study_options);
+  };
+  if (options.journal == nullptr) return run();
+  const models::FitLabels labels(comparison.name,
+                                 comparison.data.dataset,
+                                 comparison.holdouts,
+                                 component.recipes,
+                                 study_options);
+  if (options.describe_resume) {
+    for (const auto& line : models::DescribeResume(*options.journal, labels)) {
+      Say(line);
+    }
+  }
+  models::ComponentJournal journal(options.journal, &labels);
+  study_options.journal = &journal;
+  return run();
+}
+
+}  // namespace
+
+StudyRun RunPlan(StudyPlan plan,
+                 const std::string& command_line,
+                 const RunOptions& options) {
+  const int all = plan.num_fits();
+  StudyRun run{.seed = plan.config.seed,
+               .command_line = command_line,
+               .config = std::move(plan.config),
+               .inputs = std::move(plan.inputs),
+               .components = {},
+               .interrupted = false};
+  int before = 0;  // fits of the components that are finished
+  for (ComponentPlan& component : plan.components) {
+    Comparison& comparison = component.comparison;
+    models::StudyOptions study_options{
+        .seed = run.seed,
+        .jobs = options.jobs,
+        .stop = options.stop,
+        .progress = [&](int done, int /*of_component*/) {
+          if (options.progress) options.progress(before + done, all);
+        }};
+    comparison.study = RunJournalled(component, study_options, options);
+    const data::Dataset& dataset = comparison.data.dataset;
+    for (const models::GivenPredictions& given : component.given) {
+      comparison.study.models.push_back(
+          models::JudgeGivenPredictions(given, dataset, comparison.holdouts));
+    }
+    comparison.judgement = models::JudgeStudy(dataset,
+                                              comparison.holdouts,
+                                              comparison.study,
+                                              comparison.indifference,
+                                              run.seed);
+    run.interrupted = comparison.study.interrupted;
+    before += component.num_fits();
+    run.components.push_back(std::move(comparison));
+    if (run.interrupted) break;
+  }
+  return run;
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,164 @@
+#include "fitting/least_squares/extended_least_squares.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include <Eigen/QR>
+
+namespace errmap::fitting {
+namespace {
+
+using Eigen::Index;
+using stats::DoubleDouble;
+
+void CheckShapes(const ExtendedMatrix& design, const ExtendedVector& response) {
+  const Index n = design.rows();
+  const Index p = design.cols();
+  if (p < 1 || n < p || response.size() != n) {
+    throw std::invalid_argument(
+        "SolveExtendedLeastSquares: design is " + std::to_string(n) + " x " +
+        std::to_string(p) + ", response has " +
+        std::to_string(response.size()) +
+        "; as many rows, at least as many as columns, are needed");
+  }
+  if (!design.cast<double>().allFinite() ||
+      !response.cast<double>().allFinite()) {
+    throw std::invalid_argument(
+        "SolveExtendedLeastSquares: values must be finite");
+  }
+}
+
+// The power of two next to the length of each column: scaling by it is exact.
+Eigen::VectorXd ColumnScales(const ExtendedMatrix& design) {
+  Eigen::VectorXd scales(design.cols());
+  for (Index j = 0; j < design.cols(); ++j) {
+    const double length = design.col(j).cast<double>().stableNorm();
+    scales[j] = length > 0.0 ? std::ldexp(1.0, -std::ilogb(length)) : 1.0;
+  }
+  return scales;
+}
+
+// Products of `matrix` by powers of two, column by column.
+ExtendedMatrix Scaled(const ExtendedMatrix& matrix,
+                      const Eigen::VectorXd& scales) {
+  ExtendedMatrix scaled = matrix;
+  for (Index j = 0; j < scaled.cols(); ++j) {
+    for (Index i = 0; i < scaled.rows(); ++i) scaled(i, j) *= scales[j];
+  }
+  return scaled;
+}
+
+template <typename Scalar>
+ExtendedLeastSquaresFit Solve(const ExtendedMatrix& scaled,
+                              const ExtendedVector& response,
+                              const Eigen::VectorXd& scales,
+                              int bits) {
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+  using std::abs;
+  using std::sqrt;
+  const Index n = scaled.rows();
+  const Index p = scaled.cols();
+  const Matrix design = scaled.cast<Scalar>();
+  const Vector y = response.cast<Scalar>();
+  const Eigen::HouseholderQR<Matrix> qr(design);
+  const Matrix r = qr.matrixQR().topRows(p);
+
+  ExtendedLeastSquaresFit fit;
+  fit.bits = bits;
+  fit.degrees_of_freedom = n - p;
+  fit.condition = fit.error_estimate = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  fit.coefficients = ExtendedVector::Constant(p, nan);
+  fit.standard_deviations = ExtendedVector::Constant(p, nan);
+  fit.residual_sum_of_squares = nan;
+  for (Index j = 0; j < p; ++j) {
+    if (!(abs(r(j, j)) > Scalar(0.0))) return fit;
+  }
+  const Matrix inverse =
+      r.template triangularView<Eigen::Upper>().solve(Matrix::Identity(p, p));
+  Scalar r_square(0.0);
+  Scalar inverse_square(0.0);
+  for (Index j = 0; j < p; ++j) {
+    // Of the columns at unit length, whatever the power of two left.
+    const Scalar column = r.col(j).head(j + 1).squaredNorm();
+    r_square += Scalar(1.0);
+    inverse_square += inverse.row(j).squaredNorm() * column;
+  }
+  fit.condition = static_cast<double>(Scalar(sqrt(r_square * inverse_square)));
+  fit.full_rank =
+      fit.condition * std::ldexp(1.0, -bits) * static_cast<double>(n) < 1.0;
+
+  const Vector rotated = qr.householderQ().adjoint() * y;
+  const Vector b =
+      inverse.template triangularView<Eigen::Upper>() * rotated.head(p);
+  // The residuals always in 106 bits: they cancel.
+  const ExtendedVector extended_b = b.template cast<DoubleDouble>();
+  const ExtendedVector residuals = response - scaled * extended_b;
+  fit.residual_sum_of_squares = residuals.squaredNorm();
+  const DoubleDouble variance =
+      n > p ? fit.residual_sum_of_squares /
+                  DoubleDouble(static_cast<double>(n - p))
+            : DoubleDouble(nan);
+  const double y_length =
+      std::ldexp(response.cast<double>().stableNorm(), -bits);
+  fit.error_estimate = 0.0;
+  for (Index j = 0; j < p; ++j) {
+    const double b_j = extended_b[j].hi;
+    const DoubleDouble length(
+        static_cast<DoubleDouble>(Scalar(inverse.row(j).squaredNorm())));
+    fit.error_estimate = std::max(fit.error_estimate,
+                                  y_length * sqrt(length).hi / std::abs(b_j));
+    fit.coefficients[j] = extended_b[j] * scales[j];
+    fit.standard_deviations[j] = sqrt(variance * length) * scales[j];
+  }
+  return fit;
+}
+
+}  // namespace
+
+void ExtendedLeastSquaresOptions::Validate() const {
+  constexpr double kMost = 15.0;
+  if (!(digits > 0.0 && digits <= kMost)) {
+    throw std::invalid_argument(
+        "ExtendedLeastSquaresOptions: digits must be above 0 and at most 15, "
+        "found " +
+        std::to_string(digits));
+  }
+}
+
+ExtendedLeastSquaresFit SolveExtendedLeastSquares(
+    const ExtendedMatrix& design,
+    const ExtendedVector& response,
+    const ExtendedLeastSquaresOptions& options) {
+  options.Validate();
+  CheckShapes(design, response);
+  const Eigen::VectorXd scales = ColumnScales(design);
+  const ExtendedMatrix scaled = Scaled(design, scales);
+  const ExtendedLeastSquaresFit fit =
+      Solve<double>(scaled, response, scales, stats::kDoubleBits);
+  if (fit.error_estimate <= std::pow(10.0, -options.digits)) return fit;
+  return Solve<DoubleDouble>(
+      scaled, response, scales, stats::kDoubleDoubleBits);
+}
+
+ExtendedMatrix PowersDesign(const ExtendedVector& x, int low, int high) {
+  if (low < 0 || high < low) {
+    throw std::invalid_argument("PowersDesign: 0 <= low <= high, found " +
+                                std::to_string(low) + " and " +
+                                std::to_string(high));
+  }
+  ExtendedMatrix design(x.size(), high - low + 1);
+  for (Index i = 0; i < x.size(); ++i) {
+    DoubleDouble power = 1.0;
+    for (int k = 0; k <= high; ++k, power *= x[i]) {
+      if (k >= low) design(i, k - low) = power;
+    }
+  }
+  return design;
+}
+
+}  // namespace errmap::fitting

@@ -1,0 +1,267 @@
+#include "fitting/least_squares/regression_diagnostics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include <Eigen/Dense>
+
+#include "fitting/information_criteria.h"
+#include "fitting/least_squares/linear_least_squares.h"
+#include "fitting/matrix_product.h"
+#include "stats/f_test.h"
+
+namespace errmap::fitting {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kConfidence = 0.95;
+// A leverage this near to 1 is 1.
+constexpr double kLeastSlack = 1e-9;
+
+void CheckShapes(const RegressionProblem& problem) {
+  const Index rows = problem.response.size();
+  if (rows < 1 || problem.terms.rows() != rows ||
+      (problem.weights.size() != 0 && problem.weights.size() != rows) ||
+      (problem.intercept.size() != 0 && problem.intercept.size() != rows)) {
+    throw std::invalid_argument(
+        "Diagnose: terms have " + std::to_string(problem.terms.rows()) +
+        " rows, response " + std::to_string(rows) + ", weights " +
+        std::to_string(problem.weights.size()) + ", intercept " +
+        std::to_string(problem.intercept.size()));
+  }
+}
+
+// Rows times the root of their weight.
+VectorXd Weighted(const VectorXd& values, const VectorXd& weights) {
+  if (weights.size() == 0) return values;
+  return values.cwiseProduct(weights.cwiseSqrt());
+}
+
+void FindCondition(const MatrixXd& centred,
+                   const VectorXd& means,
+                   const VectorXd& intercept,
+                   RegressionDiagnostics* fit) {
+  MatrixXd design(centred.rows(), centred.cols() + 1);
+  design.col(0) = intercept;
+  design.rightCols(centred.cols()) = centred + intercept * means.transpose();
+  for (Index j = 0; j < design.cols(); ++j) {
+    const double length = design.col(j).norm();
+    if (length > 0.0) design.col(j) /= length;
+  }
+  MatrixXd triangle = design;
+  if (design.rows() > design.cols()) {
+    triangle = Eigen::HouseholderQR<MatrixXd>(design)
+                   .matrixQR()
+                   .topRows(design.cols())
+                   .triangularView<Eigen::Upper>();
+  }
+  const VectorXd singular = Eigen::BDCSVD<MatrixXd>(triangle).singularValues();
+  const double size =
+      static_cast<double>(std::max(design.rows(), design.cols()));
+  fit->condition = singular[0] / singular[singular.size() - 1];
+  fit->effective_rank =
+      (singular.array() > size * kEpsilon * singular[0]).count();
+}
+
+}  // namespace
+
+RegressionDiagnostics Diagnose(const RegressionProblem& problem) {
+  CheckShapes(problem);
+  const Index rows = problem.response.size();
+  const VectorXd intercept = Weighted(
+      problem.intercept.size() != 0 ? problem.intercept : VectorXd::Ones(rows),
+      problem.weights);
+  const VectorXd y = Weighted(problem.response, problem.weights);
+  RegressionDiagnostics fit;
+  fit.observations = problem.observations > 0.0 ? problem.observations
+                                                : static_cast<double>(rows);
+  fit.sum_of_weights = intercept.squaredNorm();
+  const double mean = intercept.dot(y) / fit.sum_of_weights;
+  const VectorXd centred_y = y - mean * intercept;
+  fit.total_sum_of_squares = centred_y.squaredNorm();
+
+  MatrixXd centred(rows, problem.terms.cols());
+  fit.means.resize(problem.terms.cols());
+  VectorXd spread(problem.terms.cols());  // lengths of the centred columns
+  for (Index j = 0; j < centred.cols(); ++j) {
+    VectorXd column = Weighted(problem.terms.col(j), problem.weights);
+    const double length = column.norm();
+    fit.means[j] = intercept.dot(column) / fit.sum_of_weights;
+    column -= fit.means[j] * intercept;
+    spread[j] = column.norm();
+    // What is left of a constant column is rounding.
+    const double size = static_cast<double>(rows);
+    if (!(spread[j] > size * kEpsilon * length)) spread[j] = 0.0;
+    centred.col(j) =
+        spread[j] > 0.0 ? VectorXd(column / spread[j]) : VectorXd::Zero(rows);
+  }
+  std::vector<Index> aliased;
+  if (centred.cols() > 0) aliased = SolveLeastSquares(centred, y).aliased;
+  fit.aliased = aliased;
+  for (Index j = 0; j < centred.cols(); ++j) {
+    if (!std::binary_search(aliased.begin(), aliased.end(), j)) {
+      fit.kept.push_back(j);
+    }
+  }
+  const MatrixXd kept = centred(Eigen::all, fit.kept);
+  const Index k = kept.cols();
+  fit.rank = k + 1;
+  fit.coefficients.resize(static_cast<std::size_t>(centred.cols()));
+
+  VectorXd scaled = VectorXd::Zero(k);
+  MatrixXd inverse(k, k);
+  if (k > 0) {
+    const Eigen::HouseholderQR<MatrixXd> qr(kept);
+    scaled = qr.solve(centred_y);
+    // One step of refinement: the residual holds what rounding left out.
+    const VectorXd left = centred_y - kept * scaled;
+    scaled += qr.solve(left);
+    const MatrixXd triangle =
+        qr.matrixQR().topRows(k).triangularView<Eigen::Upper>();
+    inverse =
+        triangle.triangularView<Eigen::Upper>().solve(MatrixXd::Identity(k, k));
+    fit.triangle = triangle * spread(fit.kept).asDiagonal();
+  }
+  const VectorXd fitted = kept * scaled;
+  fit.residual_sum_of_squares = (centred_y - fitted).squaredNorm();
+  fit.regression_sum_of_squares = fitted.squaredNorm();
+  const double freedom = fit.observations - static_cast<double>(fit.rank);
+  fit.residual_degrees_of_freedom = freedom;
+  const double variance = freedom > 0.0
+                              ? fit.residual_sum_of_squares / freedom
+                              : std::numeric_limits<double>::quiet_NaN();
+  fit.s = std::sqrt(variance);
+  if (fit.total_sum_of_squares > 0.0) {
+    fit.r2 = 1.0 - fit.residual_sum_of_squares / fit.total_sum_of_squares;
+    if (freedom > 0.0) {
+      fit.adjusted_r2 = AdjustedR2(fit.residual_sum_of_squares,
+                                   fit.total_sum_of_squares,
+                                   fit.observations,
+                                   static_cast<double>(fit.rank));
+    }
+  }
+  if (k > 0 && freedom > 0.0) {
+    fit.f = fit.regression_sum_of_squares / static_cast<double>(k) / variance;
+    fit.f_p = stats::FTestPValue(fit.f, static_cast<double>(k), freedom);
+  }
+  const double quantile = stats::StudentTwoSidedQuantile(kConfidence, freedom);
+  const auto complete = [&](double unscaled_variance,
+                            CoefficientEstimate* line) {
+    line->standard_error = std::sqrt(variance * unscaled_variance);
+    line->t = line->estimate / line->standard_error;
+    line->p = stats::StudentTwoSidedP(line->t, freedom);
+    line->lower = line->estimate - quantile * line->standard_error;
+    line->upper = line->estimate + quantile * line->standard_error;
+  };
+  const double spread_y = std::sqrt(fit.total_sum_of_squares);
+  VectorXd kept_means(k);
+  for (Index i = 0; i < k; ++i) {
+    const Index j = fit.kept[static_cast<std::size_t>(i)];
+    CoefficientEstimate& line = fit.coefficients[static_cast<std::size_t>(j)];
+    line.estimate = scaled[i] / spread[j];
+    line.vif = inverse.row(i).squaredNorm();
+    complete(line.vif / (spread[j] * spread[j]), &line);
+    if (spread_y > 0.0) line.standardised = scaled[i] / spread_y;
+    kept_means[i] = fit.means[j] / spread[j];
+  }
+  fit.intercept.estimate = mean - kept_means.dot(scaled);
+  complete(1.0 / fit.sum_of_weights +
+               (inverse.transpose() * kept_means).squaredNorm(),
+           &fit.intercept);
+  FindCondition(kept, kept_means, intercept, &fit);
+  return fit;
+}
+
+void RowDiagnostics::Add(const RegressionDiagnostics& fit,
+                         const MatrixXd& terms,
+                         const VectorXd& response,
+                         const VectorXd& weights) {
+  const Index k = static_cast<Index>(fit.kept.size());
+  VectorXd predicted = VectorXd::Constant(terms.rows(), fit.intercept.estimate);
+  VectorXd leverage =
+      VectorXd::Constant(terms.rows(), 1.0 / fit.sum_of_weights);
+  if (k > 0) {
+    MatrixXd centred = terms(Eigen::all, fit.kept);
+    for (Index i = 0; i < k; ++i) {
+      const Index j = fit.kept[static_cast<std::size_t>(i)];
+      predicted += fit.coefficients[static_cast<std::size_t>(j)].estimate *
+                   centred.col(i);
+      centred.col(i).array() -= fit.means[j];
+    }
+    // centred R^-1: at many terms and rows this is most of the second pass.
+    DivideByUpperTriangle(fit.triangle, centred);
+    leverage += centred.rowwise().squaredNorm();
+  }
+  if (weights.size() != 0) leverage = leverage.cwiseProduct(weights);
+  for (Index i = 0; i < terms.rows(); ++i) {
+    const double residual = response[i] - predicted[i];
+    const double weight = weights.size() != 0 ? weights[i] : 1.0;
+    const double slack = 1.0 - leverage[i];
+    if (std::abs(residual) > std::abs(largest_residual) ||
+        largest_residual_row < 0) {
+      largest_residual = residual;
+      largest_residual_row = rows + i;
+    }
+    largest_leverage = std::max(largest_leverage, leverage[i]);
+    if (slack > kLeastSlack) {
+      press += weight * (residual / slack) * (residual / slack);
+    } else {
+      ++leverage_one;
+      press = std::numeric_limits<double>::infinity();
+    }
+  }
+  rows += terms.rows();
+}
+
+AliasRelation ExplainAlias(const VectorXd& column,
+                           const MatrixXd& others,
+                           const VectorXd& intercept) {
+  AliasRelation relation;
+  const Index rows = column.size();
+  const double tiny = static_cast<double>(rows) * kEpsilon;
+  const VectorXd unit =
+      (intercept.size() != 0 ? intercept : VectorXd::Ones(rows)).normalized();
+  const auto centre = [&](const VectorXd& values) {
+    return VectorXd(values - unit.dot(values) * unit);
+  };
+  const VectorXd centred = centre(column);
+  if (!(centred.norm() > tiny * column.norm())) {
+    relation.constant = true;
+    return relation;
+  }
+  if (others.cols() == 0) return relation;
+  MatrixXd scaled(rows, others.cols());
+  for (Index j = 0; j < scaled.cols(); ++j) {
+    scaled.col(j) = centre(others.col(j));
+    const double length = scaled.col(j).norm();
+    if (length > tiny * others.col(j).norm()) scaled.col(j) /= length;
+  }
+  constexpr double kSmallestPart = 1e-6;
+  // One column alone where one does; else all that have a part.
+  const VectorXd along = scaled.transpose() * centred;
+  Index nearest = 0;
+  along.cwiseAbs().maxCoeff(&nearest);
+  if ((centred - along[nearest] * scaled.col(nearest)).norm() <=
+      kSmallestPart * centred.norm()) {
+    relation.columns.push_back(nearest);
+    return relation;
+  }
+  const VectorXd parts =
+      SolveLeastSquares(scaled, centred.normalized()).coefficients.cwiseAbs();
+  for (Index j = 0; j < parts.size(); ++j) {
+    if (parts[j] > kSmallestPart) relation.columns.push_back(j);
+  }
+  std::sort(relation.columns.begin(),
+            relation.columns.end(),
+            [&](Index a, Index b) { return parts[a] > parts[b]; });
+  return relation;
+}
+
+}  // namespace errmap::fitting

@@ -1,0 +1,119 @@
+#include "fitting/least_squares/triangular_reduction.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "fitting/matrix_product.h"
+
+// LAPACK 3.4: QR of a triangle on top of a pentagonal block.
+extern "C" {
+void dtpqrt_(const int* m,
+             const int* n,
+             const int* l,
+             const int* nb,
+             double* a,
+             const int* lda,
+             double* b,
+             const int* ldb,
+             double* t,
+             const int* ldt,
+             double* work,
+             int* info);
+}
+
+namespace errmap::fitting {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+void Require(bool holds, const std::string& what) {
+  if (!holds) throw std::invalid_argument("ReduceToTriangle: " + what);
+}
+
+}  // namespace
+
+void FoldIntoTriangle(MatrixXd* triangle, Eigen::Ref<MatrixXd> block) {
+  const int rows = static_cast<int>(block.rows());
+  const int columns = static_cast<int>(block.cols());
+  if (rows == 0 || columns == 0) return;
+  // Columns folded together; wider panels lose in the panel what they win in
+  // the products (measured over 16 to 64).
+  constexpr int kPanel = 48;
+  const int panel = std::min(kPanel, columns);
+  const int leading = static_cast<int>(triangle->outerStride());
+  const int block_leading = static_cast<int>(block.outerStride());
+  constexpr int kRectangular = 0;
+  MatrixXd reflectors(panel, columns);
+  std::vector<double> work(static_cast<std::size_t>(panel) *
+                           static_cast<std::size_t>(columns));
+  int info = 0;
+  dtpqrt_(&rows,
+          &columns,
+          &kRectangular,
+          &panel,
+          triangle->data(),
+          &leading,
+          block.data(),
+          &block_leading,
+          reflectors.data(),
+          &panel,
+          work.data(),
+          &info);
+  if (info != 0) {
+    throw std::invalid_argument(
+        "FoldIntoTriangle: LAPACK's dtpqrt refuses "
+        "argument " +
+        std::to_string(-info));
+  }
+}
+
+MatrixXd ReduceToTriangle(Index rows,
+                          Index columns,
+                          const FillRows& fill,
+                          const ReductionOptions& options) {
+  Require(
+      rows >= 0 && columns >= 1,
+      "a matrix of " + std::to_string(rows) + " x " + std::to_string(columns));
+  Require(
+      options.block_rows >= 1 && options.chains >= 1 && options.threads >= 1,
+      "block_rows, chains and threads must be at least 1");
+  UseOneThreadPerCall();
+  const Index blocks = (rows + options.block_rows - 1) / options.block_rows;
+  const Index chains = std::clamp<Index>(blocks, 1, options.chains);
+  std::vector<MatrixXd> triangles(static_cast<std::size_t>(chains),
+                                  MatrixXd::Zero(columns, columns));
+  tbb::task_arena arena(options.threads);
+  arena.execute([&] {
+    tbb::parallel_for(
+        Index{0},
+        chains,
+        [&](Index chain) {
+          MatrixXd block(options.block_rows, columns);
+          const Index end = (chain + 1) * blocks / chains;
+          for (Index b = chain * blocks / chains; b < end; ++b) {
+            const Index first = b * options.block_rows;
+            const Index count = std::min(options.block_rows, rows - first);
+            fill(first, block.topRows(count));
+            FoldIntoTriangle(&triangles[static_cast<std::size_t>(chain)],
+                             block.topRows(count));
+          }
+        },
+        tbb::simple_partitioner());
+  });
+  for (std::size_t apart = 1; apart < triangles.size(); apart *= 2) {
+    for (std::size_t i = 0; i + apart < triangles.size(); i += 2 * apart) {
+      FoldIntoTriangle(&triangles[i], triangles[i + apart]);
+      triangles[i + apart].resize(0, 0);
+    }
+  }
+  // What lies below the diagonal was never touched.
+  return triangles[0];
+}
+
+}  // namespace errmap::fitting

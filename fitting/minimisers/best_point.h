@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cmath>
+
+#include "fitting/minimisers/run_monitor.h"
+
+namespace errmap::fitting {
+
+/// The way of an optimizer whose cost may rise: where it is, and the best point
+/// that it has seen.
+class BestPoint {
+ public:
+  BestPoint(const Objective& f,
+            const Eigen::VectorXd& x0,
+            const StoppingRules& rules,
+            const RunControl& run)
+      : monitor(rules, run), x(x0), f_(f), best_(x0), trial_(x0.size()) {}
+
+  /// Evaluates the start; false where the run ends there.
+  bool Start() {
+    cost = Evaluate(x, &gradient);
+    gradient_norm = gradient.norm();
+    if (!monitor.Begin(cost, gradient_norm)) return false;
+    Keep();
+    return !monitor.StopAtGoal(cost, gradient_norm, x.norm());
+  }
+
+  double Evaluate(const Eigen::VectorXd& at, Eigen::VectorXd* slope) {
+    ++evaluations;
+    return f_.Evaluate(at, slope);
+  }
+
+  /// One iteration: x += step, then every stop but the limits. False where the
+  /// run has ended.
+  bool Move(const Eigen::VectorXd& step, const char* not_finite) {
+    trial_ = x + step;
+    cost = Evaluate(trial_, &gradient);
+    gradient_norm = gradient.norm();
+    if (!std::isfinite(cost) || !std::isfinite(gradient_norm)) {
+      monitor.Stop(Termination::kNoDescent, not_finite);
+      return false;
+    }
+    x.swap(trial_);
+    monitor.EndIteration(cost, gradient_norm);
+    if (cost <= best_cost_) Keep();
+    ++steps_since_check_;
+    if (monitor.StopAtSlowProgress(cost, &steps_since_check_)) return false;
+    if (monitor.ReachesGradientGoal(gradient_norm, x.norm()) &&
+        cost > best_cost_) {
+      monitor.Stop(Termination::kNoDescent,
+                   "the gradient is small, but a better point was seen");
+      return false;
+    }
+    return !monitor.StopAtGoal(cost, gradient_norm, x.norm());
+  }
+
+  Minimum Finish() {
+    return {std::move(best_), monitor.Finish(best_cost_, best_gradient_norm_)};
+  }
+
+  RunMonitor monitor;
+  Eigen::VectorXd x;
+  Eigen::VectorXd gradient;  // at x
+  double cost = 0.0;
+  double gradient_norm = 0.0;
+  std::int64_t evaluations = 0;
+
+ private:
+  void Keep() {
+    best_ = x;
+    best_cost_ = cost;
+    best_gradient_norm_ = gradient_norm;
+  }
+
+  const Objective& f_;
+  Eigen::VectorXd best_;
+  Eigen::VectorXd trial_;
+  double best_cost_ = 0.0;
+  double best_gradient_norm_ = 0.0;
+  std::int64_t steps_since_check_ = 0;
+};
+
+}  // namespace errmap::fitting

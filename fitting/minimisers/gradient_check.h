@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+
+#include "fitting/minimisers/objective.h"
+
+namespace errmap::fitting {
+
+struct Derivative {
+  double value = 0.0;
+  double error = 0.0;  // estimate of the absolute error of `value`
+};
+
+/// df/dt at `t` by Ridders' method (1982): central differences over a falling
+/// step, extrapolated to zero; stops when the estimate gets worse. `step` is
+/// the first and largest step, a distance over which f changes noticeably.
+Derivative RiddersDerivative(const std::function<double(double)>& f,
+                             double t,
+                             double step);
+
+struct GradientCheck {
+  double worst_relative_error = 0.0;  // |analytic - numeric| / scale
+  Eigen::Index worst_parameter = -1;
+  double worst_analytic = 0.0;
+  double worst_numeric = 0.0;
+};
+
+/// Compares the gradient of `f` at x (n) with Ridders' derivatives in every
+/// parameter. The scale of each is max(|numeric|, 1e-6 times the largest
+/// gradient component): a component that is zero among large ones cannot be
+/// judged by its own size.
+GradientCheck CheckGradient(const Objective& f,
+                            const Eigen::VectorXd& x,
+                            double step = 0.1);
+
+}  // namespace errmap::fitting

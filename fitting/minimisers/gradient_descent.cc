@@ -1,0 +1,48 @@
+#include "fitting/minimisers/gradient_descent.h"
+
+#include <stdexcept>
+
+#include "fitting/minimisers/best_point.h"
+
+namespace errmap::fitting {
+
+void GradientDescentOptions::Validate() const {
+  stopping.Validate();
+  if (!(learning_rate > 0.0)) {
+    throw std::invalid_argument(
+        "GradientDescentOptions: learning_rate must be above 0, found " +
+        std::to_string(learning_rate));
+  }
+  if (!(momentum >= 0.0 && momentum < 1.0)) {
+    throw std::invalid_argument(
+        "GradientDescentOptions: momentum must be at least 0 and below 1, "
+        "found " +
+        std::to_string(momentum));
+  }
+}
+
+GradientDescent::GradientDescent(GradientDescentOptions options)
+    : options_(options) {
+  options_.Validate();
+}
+
+Minimum GradientDescent::DoMinimize(const Objective& f,
+                                    const Eigen::VectorXd& x0,
+                                    const RunControl& run) const {
+  BestPoint state(f, x0, options_.stopping, run);
+  if (state.Start()) {
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(x0.size());
+    while (!state.monitor.StopAtLimit(state.evaluations, 1)) {
+      step = options_.momentum * step -
+             options_.learning_rate * state.gradient;  // Eq. (70)
+      if (!state.Move(step,
+                      "the steps have diverged: the learning rate is too "
+                      "large")) {
+        break;
+      }
+    }
+  }
+  return state.Finish();
+}
+
+}  // namespace errmap::fitting

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fitting/minimisers/objective.h"
+
+namespace errmap::fitting {
+
+/// Why a minimisation ended. Only kGradient and kDirect claim a minimum.
+enum class Termination {
+  kDirect,           // solved in one go (linear least squares)
+  kFailed,           // no usable point: x0 infeasible, or never run
+  kCostGoal,         // sqrt(2 f) < cost goal: as asked, a minimum or not
+  kGradient,         // gradient small against the parameters: converged
+  kSlowProgress,     // cost hardly falls any more, not converged
+  kNoDescent,        // no step lowers the cost, not converged
+  kIterationLimit,   // not converged
+  kEvaluationLimit,  // not converged
+  kTimeLimit,        // not converged
+  kInterrupted,      // stopped from outside, not converged
+};
+
+/// "gradient", "iteration_limit", ...: the word in JSON and tables.
+std::string_view ToString(Termination termination);
+
+/// True for kGradient and kDirect: a goal or a limit reached is no minimum.
+bool IsConverged(Termination termination);
+
+/// When to stop; the report's names in brackets.
+struct StoppingRules {
+  /// Stop after this many accepted steps (niter); at least 0.
+  std::int64_t iterations = 1500;
+  /// Stop before exceeding this many evaluations of value, gradient and
+  /// curvature together; at least 1.
+  std::int64_t evaluations = std::numeric_limits<std::int64_t>::max();
+  /// Stop once this many seconds have passed; above 0.
+  double seconds = std::numeric_limits<double>::infinity();
+  /// Stop when sqrt(2 f) < this (egoal); at least 0, and 0 never stops.
+  double cost_goal = 0.0;
+  /// Stop when |g| < this * max(1, |x|) (gwgoal); at least 0. The default is
+  /// the report's: it stops at a true minimum only.
+  double gradient_goal = 1e-12;
+  /// Every `progress_interval` accepted steps (nfreq, at least 1), stop when
+  /// sqrt(2 f) > this * its value at the last check (errdel); above 0, and
+  /// infinity never stops. At 1, the report's, only growth stops.
+  double slow_ratio = std::numeric_limits<double>::infinity();
+  std::int64_t progress_interval = 1;
+
+  /// Throws std::invalid_argument naming field, value and range.
+  void Validate() const;
+};
+
+/// One line of an error-reduction curve.
+struct TracePoint {
+  std::int64_t iteration = 0;
+  double rms_error = 0.0;  // sqrt(2 f), the report's rmserr
+  double gradient_norm = 0.0;
+};
+
+/// What a minimisation did. Born saying that it has not run.
+struct FitSummary {
+  Termination termination = Termination::kFailed;
+  std::string message = "not run";
+  double initial_cost = std::numeric_limits<double>::quiet_NaN();
+  double final_cost = std::numeric_limits<double>::quiet_NaN();
+  double initial_gradient_norm = std::numeric_limits<double>::quiet_NaN();
+  double final_gradient_norm = std::numeric_limits<double>::quiet_NaN();
+  std::int64_t iterations = 0;
+  std::int64_t value_evaluations = 0;      // f alone
+  std::int64_t gradient_evaluations = 0;   // f with gradient
+  std::int64_t curvature_evaluations = 0;  // p'Hp along a direction
+  double seconds = 0.0;
+  /// Of one iteration, n-1 in the sd (Table 4); NaN for too few of them.
+  double mean_iteration_seconds = std::numeric_limits<double>::quiet_NaN();
+  double sd_iteration_seconds = std::numeric_limits<double>::quiet_NaN();
+  std::vector<TracePoint> trace;  // empty unless asked for
+
+  bool converged() const { return IsConverged(termination); }
+  std::int64_t evaluations() const {
+    return value_evaluations + gradient_evaluations + curvature_evaluations;
+  }
+};
+
+/// What surrounds a run without changing its mathematics.
+struct RunControl {
+  const std::atomic<bool>* stop = nullptr;  // set from outside to interrupt
+  bool keep_trace = false;
+};
+
+struct Minimum {
+  Eigen::VectorXd x;  // (n) best point seen
+  FitSummary summary;
+};
+
+/// Minimises an objective from a start; immutable, shared between threads.
+template <typename Scalar>
+class BasicOptimizer {
+ public:
+  using Vector = VectorOf<Scalar>;
+
+  virtual ~BasicOptimizer() = default;
+  virtual std::string name() const = 0;
+
+  /// Minimum found from x0 (n). Counts and times evaluations: each call of
+  /// Evaluate, Curvature and Value is one, and each Gradient that is new at
+  /// its point. Of a residual form, residuals alone count as a value, with a
+  /// Jacobian as a gradient. An infeasible start (f or its gradient not finite)
+  /// is reported as kFailed. Throws std::invalid_argument unless x0.size() ==
+  /// f.num_parameters() and all of x0 is finite.
+  Minimum Minimize(const BasicObjective<Scalar>& f,
+                   const Vector& x0,
+                   const RunControl& run = {}) const;
+
+ private:
+  virtual Minimum DoMinimize(const BasicObjective<Scalar>& f,
+                             const Vector& x0,
+                             const RunControl& run) const = 0;
+};
+
+using Optimizer = BasicOptimizer<double>;
+
+extern template class BasicOptimizer<double>;
+extern template class BasicOptimizer<float>;
+
+}  // namespace errmap::fitting

@@ -1,0 +1,170 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "fitting/minimisers/optimizer.h"
+
+namespace errmap::fitting {
+
+/// What every iterative optimizer keeps account of in the same way: limits,
+/// goals, time and trace of its iterations, and the summary that says so.
+class RunMonitor {
+ public:
+  RunMonitor(const StoppingRules& rules, const RunControl& run)
+      : rules_(rules), run_(run), start_(Clock::now()), last_(start_) {
+    constexpr std::int64_t kReserved = std::int64_t{1} << 16;
+    if (run.keep_trace) {
+      summary_.trace.reserve(
+          static_cast<std::size_t>(std::min(kReserved, rules.iterations + 1)));
+    }
+  }
+
+  /// The start, before any iteration. False, and stopped as failed, where it
+  /// is not finite.
+  bool Begin(double cost, double gradient_norm) {
+    summary_.initial_cost = summary_.final_cost = cost;
+    summary_.initial_gradient_norm = summary_.final_gradient_norm =
+        gradient_norm;
+    if (!std::isfinite(cost) || !std::isfinite(gradient_norm)) {
+      Stop(Termination::kFailed,
+           "the cost or its gradient is not finite at the start");
+      return false;
+    }
+    summary_.message = "still running";
+    last_checked_rms_ = std::sqrt(2.0 * cost);
+    Trace(cost, gradient_norm);
+    last_ = Clock::now();
+    return true;
+  }
+
+  /// An iteration has ended at this cost and gradient.
+  void EndIteration(double cost, double gradient_norm) {
+    ++summary_.iterations;
+    const Clock::time_point now = Clock::now();
+    const std::chrono::duration<double> taken = now - last_;
+    last_ = now;
+    // Welford's recurrence.
+    const double offset = taken.count() - mean_seconds_;
+    mean_seconds_ += offset / static_cast<double>(summary_.iterations);
+    squares_ += offset * (taken.count() - mean_seconds_);
+    Trace(cost, gradient_norm);
+  }
+
+  /// Ends the run where a limit forbids another pass of at most `needed`
+  /// evaluations after `evaluations`. Asked before each pass, so that limits
+  /// always hold.
+  bool StopAtLimit(std::int64_t evaluations, std::int64_t needed) {
+    const auto limit = Exhausted(evaluations, needed);
+    if (!limit) return false;
+    Stop(*limit,
+         *limit == Termination::kInterrupted
+             ? "interrupted; the best point so far is kept"
+             : "a limit was reached before the gradient was small");
+    return true;
+  }
+
+  bool ReachesCostGoal(double cost) const {
+    return std::sqrt(2.0 * cost) < rules_.cost_goal;
+  }
+
+  /// |g| < gradient_goal max(1, |x|), or no gradient at all.
+  bool ReachesGradientGoal(double gradient_norm, double x_norm) const {
+    return gradient_norm < rules_.gradient_goal * std::max(1.0, x_norm) ||
+           gradient_norm == 0.0;
+  }
+
+  /// Ends the run at either goal.
+  bool StopAtGoal(double cost, double gradient_norm, double x_norm) {
+    if (ReachesCostGoal(cost)) {
+      Stop(Termination::kCostGoal, "the error goal was reached");
+    } else if (ReachesGradientGoal(gradient_norm, x_norm)) {
+      Stop(Termination::kGradient, "the gradient is small: a minimum");
+    }
+    return stopped_;
+  }
+
+  /// Every progress_interval iterations, ends the run where the error has not
+  /// fallen to slow_ratio times what it was at the last check. `steps` counts
+  /// the iterations since then and is reset.
+  bool StopAtSlowProgress(double cost, std::int64_t* steps) {
+    if (*steps < rules_.progress_interval) return false;
+    *steps = 0;
+    const double rms = std::sqrt(2.0 * cost);
+    if (rms > rules_.slow_ratio * last_checked_rms_) {
+      Stop(Termination::kSlowProgress,
+           "the error fell too little since the last check");
+    }
+    last_checked_rms_ = rms;
+    return stopped_;
+  }
+
+  void Stop(Termination termination, std::string message) {
+    summary_.termination = termination;
+    summary_.message = std::move(message);
+    stopped_ = true;
+  }
+
+  bool stopped() const { return stopped_; }
+  bool has_failed() const {
+    return stopped_ && summary_.termination == Termination::kFailed;
+  }
+  std::int64_t iterations() const { return summary_.iterations; }
+
+  /// The summary of a run that ended with these.
+  FitSummary Finish(double cost, double gradient_norm) {
+    summary_.final_cost = cost;
+    summary_.final_gradient_norm = gradient_norm;
+    if (summary_.iterations > 0) {
+      summary_.mean_iteration_seconds = mean_seconds_;
+    }
+    if (summary_.iterations > 1) {
+      summary_.sd_iteration_seconds =
+          std::sqrt(squares_ / static_cast<double>(summary_.iterations - 1));
+    }
+    return std::move(summary_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::optional<Termination> Exhausted(std::int64_t evaluations,
+                                       std::int64_t needed) const {
+    if (run_.stop != nullptr && run_.stop->load(std::memory_order_relaxed)) {
+      return Termination::kInterrupted;
+    }
+    if (summary_.iterations >= rules_.iterations) {
+      return Termination::kIterationLimit;
+    }
+    if (evaluations > rules_.evaluations - needed) {
+      return Termination::kEvaluationLimit;
+    }
+    const std::chrono::duration<double> elapsed = Clock::now() - start_;
+    if (elapsed.count() >= rules_.seconds) return Termination::kTimeLimit;
+    return std::nullopt;
+  }
+
+  void Trace(double cost, double gradient_norm) {
+    if (run_.keep_trace) {
+      summary_.trace.push_back(
+          {summary_.iterations, std::sqrt(2.0 * cost), gradient_norm});
+    }
+  }
+
+  const StoppingRules& rules_;
+  const RunControl& run_;
+  const Clock::time_point start_;
+  Clock::time_point last_;
+  FitSummary summary_;
+  double last_checked_rms_ = 0.0;
+  double mean_seconds_ = 0.0;
+  double squares_ = 0.0;
+  bool stopped_ = false;
+};
+
+}  // namespace errmap::fitting

@@ -1,0 +1,193 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fitting/least_squares/extended_least_squares.h"
+#include "fitting/minimisers/objective.h"
+#include "fitting/minimisers/optimizer.h"
+#include "fitting/nonlinear/dual_number.h"
+
+namespace errmap::fitting {
+
+/// Residuals r_i = y_i - f(x_i, b) of a model with p parameters b on n
+/// observations, in double and in 106 bits.
+class RegressionFunction {
+ public:
+  virtual ~RegressionFunction() = default;
+  virtual Eigen::Index num_parameters() const = 0;
+  virtual Eigen::Index num_observations() const = 0;
+  /// Indices of parameters in which f is linear while the others stand still,
+  /// all of them together.
+  virtual std::vector<Eigen::Index> linear_parameters() const { return {}; }
+  /// Fills `residuals` (n) and, unless null, `jacobian` (n x p), dr_i/db_j.
+  virtual void Evaluate(const Eigen::VectorXd& b,
+                        Eigen::VectorXd* residuals,
+                        Eigen::MatrixXd* jacobian) const = 0;
+  virtual void Evaluate(const ExtendedVector& b,
+                        ExtendedVector* residuals,
+                        ExtendedMatrix* jacobian) const = 0;
+};
+
+/// A RegressionFunction from one formula, its Jacobian by automatic
+/// differentiation: `Formula` has kParameters and, for every T that is a number
+/// or a Dual of one,
+///   template <typename T, typename X> static T Predict(const T* b, const X*
+///   x);
+/// kLinear, an array of indices, names linear_parameters() where there are any.
+template <typename Formula>
+class FormulaRegression final : public RegressionFunction {
+ public:
+  /// `predictors` (n x k): one row x per observation; `target` (n).
+  FormulaRegression(ExtendedMatrix predictors, ExtendedVector target)
+      : predictors_(predictors.transpose()),
+        target_(std::move(target)),
+        double_predictors_(predictors_.cast<double>()),
+        double_target_(target_.cast<double>()) {}
+
+  Eigen::Index num_parameters() const override { return Formula::kParameters; }
+  Eigen::Index num_observations() const override { return target_.size(); }
+  std::vector<Eigen::Index> linear_parameters() const override {
+    if constexpr (requires { Formula::kLinear; }) {
+      return {std::begin(Formula::kLinear), std::end(Formula::kLinear)};
+    } else {
+      return {};
+    }
+  }
+  void Evaluate(const Eigen::VectorXd& b,
+                Eigen::VectorXd* residuals,
+                Eigen::MatrixXd* jacobian) const override {
+    EvaluateIn<double>(
+        double_predictors_, double_target_, b, residuals, jacobian);
+  }
+  void Evaluate(const ExtendedVector& b,
+                ExtendedVector* residuals,
+                ExtendedMatrix* jacobian) const override {
+    EvaluateIn<stats::DoubleDouble>(
+        predictors_, target_, b, residuals, jacobian);
+  }
+
+ private:
+  template <typename Scalar, typename Matrix, typename Vector>
+  static void EvaluateIn(const Matrix& predictors,
+                         const Vector& target,
+                         const Vector& b,
+                         Vector* residuals,
+                         Matrix* jacobian) {
+    constexpr int kParameters = Formula::kParameters;
+    using Derived = Dual<Scalar, kParameters>;
+    residuals->resize(target.size());
+    if (jacobian == nullptr) {
+      for (Eigen::Index i = 0; i < target.size(); ++i) {
+        (*residuals)[i] =
+            target[i] - Formula::Predict(b.data(), predictors.col(i).data());
+      }
+      return;
+    }
+    jacobian->resize(target.size(), kParameters);
+    std::array<Derived, static_cast<std::size_t>(kParameters)> parameters;
+    for (int j = 0; j < kParameters; ++j) {
+      parameters[static_cast<std::size_t>(j)] = Derived::Parameter(b[j], j);
+    }
+    for (Eigen::Index i = 0; i < target.size(); ++i) {
+      const Derived prediction =
+          Formula::Predict(parameters.data(), predictors.col(i).data());
+      (*residuals)[i] = target[i] - prediction.value;
+      for (int j = 0; j < kParameters; ++j) {
+        (*jacobian)(i, j) = -prediction.slope[static_cast<std::size_t>(j)];
+      }
+    }
+  }
+
+  ExtendedMatrix predictors_;  // (k x n)
+  ExtendedVector target_;
+  Eigen::MatrixXd double_predictors_;
+  Eigen::VectorXd double_target_;
+};
+
+/// f(b) = 1/2 |r(b)|^2, as every Optimizer takes it. `function` must outlive
+/// it.
+class RegressionObjective final : public Objective, private ResidualFunction {
+ public:
+  explicit RegressionObjective(const RegressionFunction& function)
+      : function_(function) {}
+
+  Eigen::Index num_parameters() const override {
+    return function_.num_parameters();
+  }
+  double Evaluate(const Eigen::VectorXd& b,
+                  Eigen::VectorXd* gradient) const override;
+  const ResidualFunction* residuals() const override { return this; }
+
+ private:
+  Eigen::Index num_residuals() const override {
+    return function_.num_observations();
+  }
+  double ridge() const override { return 0.0; }
+  void Evaluate(const Eigen::VectorXd& b,
+                Eigen::VectorXd* residuals,
+                Eigen::MatrixXd* jacobian) const override {
+    function_.Evaluate(b, residuals, jacobian);
+  }
+
+  const RegressionFunction& function_;
+};
+
+/// What a regression says at given parameters, worked out in 106 bits.
+struct RegressionStatistics {
+  Eigen::VectorXd parameters;  // (p)
+  /// sqrt(s^2 [(J'J)^-1]_jj), s^2 = RSS / (n - p); NaN where J is deficient.
+  Eigen::VectorXd standard_deviations;
+  double residual_sum_of_squares = 0.0;
+  Eigen::Index degrees_of_freedom = 0;
+};
+
+/// Throws std::invalid_argument unless b (p) fits and n > p.
+RegressionStatistics AssessRegression(const RegressionFunction& function,
+                                      const ExtendedVector& b);
+
+struct PolishOptions {
+  int steps = 200;  // at most; at least 0
+  /// Ends with convergence where no parameter moves by more than this,
+  /// relative; above 0. What is left is then below the digits of a double
+  /// unless the steps shrink very slowly.
+  double smallest_step = 1e-15;
+
+  /// Throws std::invalid_argument naming field, value and range.
+  void Validate() const;
+};
+
+struct PolishedParameters {
+  ExtendedVector parameters;  // (p)
+  int steps = 0;
+  bool converged = false;  // the last step was below smallest_step
+};
+
+/// Gauss-Newton steps from `b` (p) in 106 bits, each halved until it lowers the
+/// sum of squares: digits that a minimiser in double cannot see, since the sum
+/// of squares is flat to the rounding unit over its square root. Ends where no
+/// step lowers the sum, or J is deficient.
+PolishedParameters PolishRegression(const RegressionFunction& function,
+                                    const ExtendedVector& b,
+                                    const PolishOptions& options = {});
+
+struct RegressionFit {
+  RegressionStatistics statistics;
+  FitSummary summary;  // of the run that won, its message naming the strategy
+  int polish_steps = 0;
+};
+
+/// Minimises `function` from `start` (p) by Levenberg-Marquardt under several
+/// strategies: scalings, first dampings, and on the ProjectedObjective where
+/// there are linear parameters. Takes the lowest sum of squares and polishes
+/// it. Every strategy is always run: a curved valley that defeats one is no
+/// trouble to the next, and the lowest sum of squares needs no judge. Ends with
+/// kGradient where polishing has converged, else as the best run did. Throws
+/// std::invalid_argument where Optimizer::Minimize does.
+RegressionFit FitNonlinearRegression(const RegressionFunction& function,
+                                     const Eigen::VectorXd& start,
+                                     const StoppingRules& stopping);
+
+}  // namespace errmap::fitting

@@ -1,0 +1,79 @@
+#include "fitting/nonlinear/variable_projection.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include <Eigen/QR>
+
+namespace errmap::fitting {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+ProjectedObjective::ProjectedObjective(const RegressionFunction& function)
+    : function_(function), linear_(function.linear_parameters()) {
+  for (Index j = 0; j < function.num_parameters(); ++j) {
+    if (std::find(linear_.begin(), linear_.end(), j) == linear_.end()) {
+      others_.push_back(j);
+    }
+  }
+  if (linear_.empty() || others_.empty()) {
+    throw std::invalid_argument(
+        "ProjectedObjective: needs linear parameters and others, found " +
+        std::to_string(linear_.size()) + " and " +
+        std::to_string(others_.size()));
+  }
+}
+
+Index ProjectedObjective::num_parameters() const {
+  return static_cast<Index>(others_.size());
+}
+
+VectorXd ProjectedObjective::Reduce(const VectorXd& b) const {
+  return b(others_);
+}
+
+VectorXd ProjectedObjective::Complete(const VectorXd& a) const {
+  VectorXd b = VectorXd::Zero(function_.num_parameters());
+  b(others_) = a;
+  VectorXd residuals;
+  MatrixXd jacobian;
+  function_.Evaluate(b, &residuals, &jacobian);
+  const MatrixXd columns = jacobian(Eigen::all, linear_);
+  if (!columns.allFinite() || !residuals.allFinite()) {
+    b.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return b;
+  }
+  // With c = 0 in b: r(a, c) = r(a, 0) + (dr/dc) c.
+  b(linear_) = columns.colPivHouseholderQr().solve(-residuals);
+  return b;
+}
+
+void ProjectedObjective::Evaluate(const VectorXd& a,
+                                  VectorXd* residuals,
+                                  MatrixXd* jacobian) const {
+  MatrixXd full;
+  function_.Evaluate(Complete(a), residuals, &full);
+  if (jacobian == nullptr) return;
+  *jacobian = full(Eigen::all, others_);
+  const MatrixXd columns = full(Eigen::all, linear_);
+  if (!jacobian->allFinite() || !columns.allFinite()) return;
+  *jacobian -= columns * columns.colPivHouseholderQr().solve(*jacobian);
+}
+
+double ProjectedObjective::Evaluate(const VectorXd& a,
+                                    VectorXd* gradient) const {
+  VectorXd residuals;
+  if (gradient == nullptr) {
+    Evaluate(a, &residuals, nullptr);
+  } else {
+    MatrixXd jacobian;
+    Evaluate(a, &residuals, &jacobian);
+    *gradient = jacobian.transpose() * residuals;
+  }
+  return 0.5 * residuals.squaredNorm();
+}
+
+}  // namespace errmap::fitting

@@ -1,0 +1,96 @@
+#include "models/net/feedforward_net.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "stats/random.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+
+double Sigmoid(double s) { return 1.0 / (1.0 + std::exp(-s)); }
+
+}  // namespace
+
+FeedforwardNet::FeedforwardNet(NetForm form) : form_(std::move(form)) {
+  const auto refuse = [](const std::string& why) {
+    throw std::invalid_argument("FeedforwardNet: " + why);
+  };
+  const Index num_inputs = form_.input_offset.size();
+  const Index num_hidden = form_.w1.rows();
+  if (num_inputs < 1 || num_hidden < 1 ||
+      form_.input_scale.size() != num_inputs ||
+      form_.w1.cols() != num_inputs + 1 || form_.w2.cols() != num_hidden + 1) {
+    refuse("inputs, scales and weights do not agree in size");
+  }
+  if (form_.w2.rows() != 1 || form_.target_slope.size() != 1 ||
+      form_.target_offset.size() != 1) {
+    refuse("an error map has one output, found " +
+           std::to_string(form_.w2.rows()));
+  }
+  if (!form_.input_offset.allFinite() || !form_.input_scale.allFinite() ||
+      !form_.w1.allFinite() || !form_.w2.allFinite() ||
+      !form_.target_slope.allFinite() || !form_.target_offset.allFinite()) {
+    refuse("weights and scales must be finite");
+  }
+  if (form_.target_slope[0] == 0.0) refuse("target_slope must not be 0");
+}
+
+// One row at a time, sums over inputs in order: the hidden nodes are the inner
+// loop, so that the compiler may use vectors without changing a single sum.
+Eigen::VectorXd FeedforwardNet::DoPredict(const Eigen::MatrixXd& inputs) const {
+  const Index num_inputs = form_.w1.cols() - 1;
+  const Index num_hidden = form_.w1.rows();
+  Eigen::VectorXd predicted(inputs.rows());
+  Eigen::VectorXd activation(num_hidden);
+  for (Index row = 0; row < inputs.rows(); ++row) {
+    for (Index h = 0; h < num_hidden; ++h) {
+      activation[h] = form_.w1(h, num_inputs);
+    }
+    for (Index i = 0; i < num_inputs; ++i) {
+      const double scaled =
+          (inputs(row, i) - form_.input_offset[i]) * form_.input_scale[i];
+      for (Index h = 0; h < num_hidden; ++h) {
+        activation[h] += form_.w1(h, i) * scaled;
+      }
+    }
+    double output = form_.w2(0, num_hidden);
+    for (Index h = 0; h < num_hidden; ++h) {
+      output += form_.w2(0, h) * Sigmoid(activation[h]);
+    }
+    if (form_.output == OutputFunction::kSigmoid) output = Sigmoid(output);
+    predicted[row] = (output - form_.target_offset[0]) / form_.target_slope[0];
+  }
+  return predicted;
+}
+
+Eigen::VectorXd InitialWeights(const NetShape& shape, std::uint64_t seed) {
+  stats::Random random(seed);
+  Eigen::VectorXd w(shape.num_weights());
+  const auto draw = [&](Index offset, Index nodes, Index inputs) {
+    for (Index to = 0; to < nodes; ++to) {
+      for (Index from = 0; from < inputs; ++from) {
+        w[offset + from * nodes + to] = random.Uniform() - 0.5;
+      }
+    }
+  };
+  draw(0, shape.hidden, shape.inputs + 1);
+  draw(shape.num_weights1(), shape.outputs, shape.hidden + 1);
+  return w;
+}
+
+Eigen::MatrixXd FirstLayer(const NetShape& shape, const Eigen::VectorXd& w) {
+  return Eigen::Map<const Eigen::MatrixXd>(
+      w.data(), shape.hidden, shape.inputs + 1);
+}
+
+Eigen::MatrixXd SecondLayer(const NetShape& shape, const Eigen::VectorXd& w) {
+  return Eigen::Map<const Eigen::MatrixXd>(
+      w.data() + shape.num_weights1(), shape.outputs, shape.hidden + 1);
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,100 @@
+#include "models/net/net_effective_parameters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <Eigen/Eigenvalues>
+
+#include "fitting/matrix_product.h"
+#include "models/net/net_objective.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr Index kMostDimensions = 3000;
+constexpr double kMostProducts = 5e11;
+
+// The lower triangle of J J' (P J x P J).
+MatrixXd PatternGram(const NetTraining& training, const VectorXd& w) {
+  const NetObjective objective(training.shape,
+                               training.inputs,
+                               training.targets,
+                               training.wfactor,
+                               training.row_weights);
+  const auto linearization = objective.residuals()->NewLinearization();
+  VectorXd residuals;
+  MatrixXd gram;
+  linearization->MoveTo(w, &residuals, &gram);
+  return gram;
+}
+
+// The lower triangle of J'J (N x N), block by block of patterns.
+MatrixXd WeightGram(const NetTraining& training, const VectorXd& w) {
+  constexpr Index kBlock = 2048;
+  const Index patterns = training.inputs.rows();
+  const bool weighted = training.row_weights.size() != 0;
+  MatrixXd gram = MatrixXd::Zero(w.size(), w.size());
+  for (Index begin = 0; begin < patterns; begin += kBlock) {
+    const Index count = std::min(kBlock, patterns - begin);
+    const VectorXd weights =
+        weighted ? VectorXd(training.row_weights.segment(begin, count))
+                 : VectorXd();
+    const NetObjective objective(training.shape,
+                                 training.inputs.middleRows(begin, count),
+                                 training.targets.middleRows(begin, count),
+                                 training.wfactor,
+                                 weights);
+    VectorXd residuals;
+    MatrixXd jacobian;
+    objective.residuals()->Evaluate(w, &residuals, &jacobian);
+    // A block counts its own rows as all there are.
+    const double share =
+        weighted ? weights.sum() / training.row_weights.sum()
+                 : static_cast<double>(count) / static_cast<double>(patterns);
+    const MatrixXd transposed = std::sqrt(share) * jacobian.transpose();
+    fitting::MultiplyByOwnTranspose(transposed, gram, true);
+  }
+  return gram;
+}
+
+}  // namespace
+
+double EffectiveParameters(const NetTraining& training, const VectorXd& w) {
+  const Index residuals = training.inputs.rows() * training.shape.outputs;
+  const Index weights = training.shape.num_weights();
+  if (w.size() != weights) {
+    throw std::invalid_argument("EffectiveParameters: the net has " +
+                                std::to_string(weights) + " weights, found " +
+                                std::to_string(w.size()));
+  }
+  const Index dimensions = std::min(residuals, weights);
+  const double products = static_cast<double>(residuals) *
+                          static_cast<double>(dimensions) *
+                          static_cast<double>(dimensions);
+  if (dimensions > kMostDimensions || products > kMostProducts) return kNaN;
+  const MatrixXd gram =
+      residuals <= weights ? PatternGram(training, w) : WeightGram(training, w);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(gram,
+                                                       Eigen::EigenvaluesOnly);
+  if (solver.info() != Eigen::Success) return kNaN;
+  const VectorXd& eigenvalues = solver.eigenvalues();  // ascending
+  const double c = training.wfactor / static_cast<double>(weights);
+  // What is below the roundings of the largest is taken as 0.
+  const double least = eigenvalues[dimensions - 1] *
+                       static_cast<double>(dimensions) *
+                       std::numeric_limits<double>::epsilon();
+  double sum = 0.0;
+  for (const double eigenvalue : eigenvalues) {
+    if (eigenvalue > least) sum += eigenvalue / (eigenvalue + c);
+  }
+  return sum;
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "models/net/net_trainer.h"
+
+namespace errmap::models {
+
+/// Effective number of parameters of a net at its fitted weights w (N):
+///
+///   trace of J (J'J + c I)^-1 J',  c = wfactor / N,
+///
+/// J (P x N) and c being those of E = 1/2 |r|^2 + 1/2 c |w|^2 (net_residuals.h;
+/// Moody 1992; MacKay 1992, Eq. 4.9, with J'J for the Hessian of the misfit).
+/// It is the number of directions in the space of the targets that the fit
+/// follows: the rank of J where wfactor is 0, and less the larger it is.
+///
+/// `training` holds the fitted rows and their wfactor. Worked out in the
+/// smaller of the spaces of patterns and weights. NaN where that has more than
+/// 3000 dimensions or the products would take more than about a minute.
+double EffectiveParameters(const NetTraining& training,
+                           const Eigen::VectorXd& w);
+
+}  // namespace errmap::models

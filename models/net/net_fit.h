@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "data/dataset.h"
+#include "models/error_model.h"
+#include "models/inner_folds.h"
+#include "models/net/net_trainer.h"
+#include "models/scaling.h"
+
+namespace errmap::models {
+
+enum class InputScaling { kStandard, kRange, kNone };
+
+/// "standard", "range", "none": the words of `scale=`, in that order.
+const std::vector<std::string>& InputScalingNames();
+
+/// What a net is before it sees any rows.
+struct NetDesign {
+  std::int64_t hidden = 20;
+  InputScaling scaling = InputScaling::kStandard;
+  OutputFunction output = OutputFunction::kSigmoid;
+  double slope = 1.0;
+
+  NetShape ShapeFor(const data::Dataset& dataset) const {
+    return {dataset.num_inputs(), hidden, 1, output, slope};
+  }
+};
+
+/// Training rows as a net sees them, and the way back to physical units.
+struct NetRows {
+  ColumnScaling scaling;
+  TargetScaling target;
+  NetTraining training;  // wfactor, initial weights and seed not yet set
+
+  /// `training` from the start of that seed.
+  NetTraining From(std::uint64_t seed, double wfactor) const;
+  /// RMS residual of these rows at the weights w (N), in the target's unit;
+  /// weighted as the cost is.
+  double TrainingRms(const Eigen::VectorXd& w) const;
+  /// The net of these weights in the rows' own units.
+  NetForm FormOf(const Eigen::VectorXd& w) const;
+  /// The weights (N) of a net that FormOf made, but for roundings.
+  Eigen::VectorXd WeightsOf(const NetForm& form) const;
+};
+
+/// Throws std::invalid_argument where the targets do not vary.
+NetRows ScaleRows(const NetDesign& design, const data::Dataset& training);
+
+/// Seed of start k (0-based): start 0 is that of the fit itself.
+std::uint64_t SeedOfStart(std::uint64_t seed, std::int64_t k);
+
+/// A net to be judged by inner hold-outs.
+struct NetTrial {
+  std::int64_t hidden = 1;  // in place of the design's
+  double wfactor = 0.0;
+  std::uint64_t seed = 1;
+};
+
+/// Of each trial the RMSE on the rows left out of its fits, all folds pooled,
+/// in the target's unit; NaN where one of its fits failed. Runs on
+/// context.threads, which changes no bit.
+std::vector<double> InnerHoldoutRmse(const NetDesign& design,
+                                     const NetTrainer& trainer,
+                                     const data::Dataset& training,
+                                     const InnerFolds& folds,
+                                     const std::vector<NetTrial>& trials,
+                                     const FitContext& context);
+
+/// The minima from the starts of these seeds, in their order; on
+/// context.threads, which changes no bit.
+std::vector<fitting::Minimum> TrainFromStarts(
+    const NetRows& rows,
+    const NetTrainer& trainer,
+    double wfactor,
+    const std::vector<std::uint64_t>& seeds,
+    const FitContext& context);
+
+}  // namespace errmap::models

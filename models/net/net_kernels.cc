@@ -1,0 +1,56 @@
+#include "models/net/net_kernels.h"
+
+#include <vector>
+
+#include "models/net/net_kernels_versions.h"
+
+namespace errmap::models {
+namespace {
+
+template <typename Scalar>
+std::vector<NetKernels<Scalar>> Versions(
+    const NetKernels<Scalar>& baseline,
+    [[maybe_unused]] const NetKernels<Scalar>* avx2,
+    [[maybe_unused]] const NetKernels<Scalar>* avx512) {
+  std::vector<NetKernels<Scalar>> versions = {baseline};
+#if defined(__x86_64__)
+  const bool has_avx2 =
+      __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (has_avx2) versions.push_back(*avx2);
+  if (has_avx2 && __builtin_cpu_supports("avx512f") &&
+      __builtin_cpu_supports("avx512dq")) {
+    versions.push_back(*avx512);
+  }
+#endif
+  return versions;
+}
+
+}  // namespace
+
+#if defined(__x86_64__)
+#define ERRMAP_ADDRESS(version) &version
+#else
+#define ERRMAP_ADDRESS(version) nullptr
+#endif
+
+template <>
+std::span<const NetKernels<double>> AvailableNetKernels<double>() {
+  static const std::vector<NetKernels<double>> versions =
+      Versions(kBaselineDouble,
+               ERRMAP_ADDRESS(kAvx2Double),
+               ERRMAP_ADDRESS(kAvx512Double));
+  return versions;
+}
+
+template <>
+std::span<const NetKernels<float>> AvailableNetKernels<float>() {
+  static const std::vector<NetKernels<float>> versions =
+      Versions(kBaselineSingle,
+               ERRMAP_ADDRESS(kAvx2Single),
+               ERRMAP_ADDRESS(kAvx512Single));
+  return versions;
+}
+
+#undef ERRMAP_ADDRESS
+
+}  // namespace errmap::models

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "models/net/net_kernels.h"
+
+// The versions of models/net/net_kernels.h; AVX ones on x86-64 only, and only
+// to be called where the machine has those instructions.
+
+namespace errmap::models {
+
+extern const NetKernels<double> kBaselineDouble;
+extern const NetKernels<float> kBaselineSingle;
+extern const NetKernels<double> kAvx2Double;
+extern const NetKernels<float> kAvx2Single;
+extern const NetKernels<double> kAvx512Double;
+extern const NetKernels<float> kAvx512Single;
+
+}  // namespace errmap::models

@@ -1,0 +1,198 @@
+#include "models/net/net_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace errmap::models {
+
+using Eigen::Index;
+
+namespace {
+
+// What is kept of all patterns may take this much, about a third-level cache.
+constexpr Index kMostKeptBytes = Index{32} << 20;
+
+template <typename Scalar>
+bool FitsTheCaches(const NetProblem<Scalar>& problem) {
+  constexpr Index kMatrices = 5;
+  return kMatrices * problem.height * problem.num_patterns() *
+             static_cast<Index>(sizeof(Scalar)) <=
+         kMostKeptBytes;
+}
+
+}  // namespace
+
+template <typename Scalar>
+NetPath<Scalar>::NetPath(const NetProblem<Scalar>& problem, const Vector& w)
+    : problem_(problem),
+      keeps_(FitsTheCaches(problem)),
+      w_(w),
+      p_(Vector::Zero(w.size())),
+      gradient_(w.size()),
+      weights_(problem),
+      direction_(problem),
+      trial_(problem),
+      gradient_sum_(problem),
+      first_(problem.shape.outputs * problem.block),
+      second_(problem.shape.outputs * problem.block) {
+  const Index columns = keeps_ ? problem.num_patterns() : problem.block;
+  const Index outputs = problem.shape.outputs;
+  s_ = AlignedMatrix<Scalar>(problem.height, columns);
+  t_ = AlignedMatrix<Scalar>(problem.height, columns);
+  y_ = AlignedMatrix<Scalar>(problem.height, columns);
+  z_ = AlignedMatrix<Scalar>(outputs, columns);
+  if (keeps_) {
+    trial_s_ = AlignedMatrix<Scalar>(problem.height, columns);
+    trial_y_ = AlignedMatrix<Scalar>(problem.height, columns);
+    trial_z_ = AlignedMatrix<Scalar>(outputs, columns);
+  }
+  Renew();
+}
+
+template <typename Scalar>
+template <typename Work>
+void NetPath<Scalar>::ForEachBlock(Work work) const {
+  const Index num_patterns = problem_.num_patterns();
+  for (Index begin = 0; begin < num_patterns; begin += problem_.block) {
+    work(begin, std::min(problem_.block, num_patterns - begin));
+  }
+}
+
+template <typename Scalar>
+void NetPath<Scalar>::Renew() {
+  w_squared_ = static_cast<double>(w_.squaredNorm());
+  weights_.Pack(problem_.shape, w_);
+  if (!keeps_) return;
+  problem_.Activate(weights_.w1, 0, problem_.num_patterns(), s_.data());
+  ForEachBlock([&](Index begin, Index columns) {
+    problem_.kernels->forward(problem_.Size(columns),
+                              s_.column(begin),
+                              weights_.w2.data(),
+                              y_.column(begin),
+                              z_.column(begin));
+    Outputs(problem_, begin, columns, weights_.bias, z_.column(begin));
+  });
+}
+
+template <typename Scalar>
+typename NetPath<Scalar>::Block NetPath<Scalar>::At(Index begin,
+                                                    Index columns) {
+  if (keeps_) return {y_.column(begin), z_.column(begin)};
+  problem_.Activate(weights_.w1, begin, columns, s_.data());
+  problem_.kernels->forward(problem_.Size(columns),
+                            s_.data(),
+                            weights_.w2.data(),
+                            y_.data(),
+                            z_.data());
+  Outputs(problem_, begin, columns, weights_.bias, z_.data());
+  return {y_.data(), z_.data()};
+}
+
+template <typename Scalar>
+const Scalar* NetPath<Scalar>::AlongDirection(Index begin, Index columns) {
+  if (keeps_) return t_.column(begin);
+  problem_.Activate(direction_.w1, begin, columns, t_.data());
+  return t_.data();
+}
+
+template <typename Scalar>
+void NetPath<Scalar>::SetDirection(const Vector& p) {
+  p_ = p;
+  p_squared_ = static_cast<double>(p_.squaredNorm());
+  w_along_ = static_cast<double>(p_.dot(w_));
+  direction_.Pack(problem_.shape, p_);
+  has_trial_ = false;
+  if (keeps_) {
+    problem_.Activate(direction_.w1, 0, problem_.num_patterns(), t_.data());
+  }
+}
+
+template <typename Scalar>
+Scalar NetPath<Scalar>::Curvature() {
+  double sum = 0.0;
+  ForEachBlock([&](Index begin, Index columns) {
+    const Block block = At(begin, columns);
+    problem_.kernels->bend_along(problem_.Size(columns),
+                                 block.y,
+                                 AlongDirection(begin, columns),
+                                 weights_.w2.data(),
+                                 direction_.w2.data(),
+                                 first_.data(),
+                                 second_.data());
+    sum += OutputCurvature(problem_,
+                           begin,
+                           columns,
+                           block.z,
+                           direction_.bias,
+                           first_.data(),
+                           second_.data());
+  });
+  // Cost halves the sum of squares, whose second derivative is twice `sum`.
+  return static_cast<Scalar>(Cost(problem_, 2.0 * sum, 2.0 * p_squared_));
+}
+
+template <typename Scalar>
+Scalar NetPath<Scalar>::Value(Scalar a) {
+  trial_a_ = a;
+  has_trial_ = true;
+  trial_.Move(weights_, a, direction_);
+  double sum = 0.0;
+  ForEachBlock([&](Index begin, Index columns) {
+    Scalar* z = keeps_ ? trial_z_.column(begin) : z_.data();
+    if (keeps_) {
+      problem_.kernels->forward_along(problem_.Size(columns),
+                                      s_.column(begin),
+                                      t_.column(begin),
+                                      a,
+                                      trial_.w2.data(),
+                                      trial_s_.column(begin),
+                                      trial_y_.column(begin),
+                                      z);
+    } else {
+      problem_.Activate(trial_.w1, begin, columns, s_.data());
+      problem_.kernels->forward(
+          problem_.Size(columns), s_.data(), trial_.w2.data(), y_.data(), z);
+    }
+    sum += Outputs(problem_, begin, columns, trial_.bias, z);
+  });
+  const auto step = static_cast<double>(a);
+  return static_cast<Scalar>(Cost(
+      problem_, sum, w_squared_ + step * (2.0 * w_along_ + step * p_squared_)));
+}
+
+template <typename Scalar>
+void NetPath<Scalar>::Accept(Scalar a) {
+  constexpr int kRenewal = 64;
+  if (!has_trial_ || a != trial_a_) Value(a);
+  has_trial_ = false;
+  w_ += a * p_;
+  if (++accepted_ % kRenewal == 0) {
+    Renew();
+  } else {
+    w_squared_ = static_cast<double>(w_.squaredNorm());
+    std::swap(weights_, trial_);
+    if (keeps_) {
+      std::swap(s_, trial_s_);
+      std::swap(y_, trial_y_);
+      std::swap(z_, trial_z_);
+    }
+  }
+  w_along_ = static_cast<double>(p_.dot(w_));
+}
+
+template <typename Scalar>
+const typename NetPath<Scalar>::Vector& NetPath<Scalar>::Gradient() {
+  gradient_sum_.Clear();
+  ForEachBlock([&](Index begin, Index columns) {
+    const Block block = At(begin, columns);
+    gradient_sum_.Add(begin, columns, block.y, block.z, weights_);
+  });
+  gradient_sum_.Finish(w_, &gradient_);
+  return gradient_;
+}
+
+template class NetPath<double>;
+template class NetPath<float>;
+
+}  // namespace errmap::models

@@ -1,0 +1,242 @@
+#include "models/net/net_problem.h"
+
+#include "fitting/matrix_product.h"
+
+namespace errmap::models {
+
+using Eigen::Index;
+
+template <typename Scalar>
+void NetProblem<Scalar>::Activate(const AlignedMatrix<Scalar>& w1,
+                                  Index begin,
+                                  Index columns,
+                                  Scalar* s) const {
+  Eigen::Map<Matrix> to(s, height, columns);
+  const auto inputs = patterns.middleCols(begin, columns);
+  if (arithmetic == NetArithmetic::kPlain) {
+    to.noalias() = w1.all() * inputs;
+  } else {
+    fitting::Multiply(w1.all(), inputs, to);
+  }
+}
+
+template <typename Scalar>
+PackedWeights<Scalar>::PackedWeights(const NetProblem<Scalar>& problem)
+    : w1(problem.height, problem.shape.inputs + 1),
+      w2(problem.height, problem.shape.outputs),
+      bias(fitting::VectorOf<Scalar>::Zero(problem.shape.outputs)) {}
+
+template <typename Scalar>
+void PackedWeights<Scalar>::Pack(const NetShape& shape,
+                                 const fitting::VectorOf<Scalar>& w) {
+  using ConstMap = Eigen::Map<const typename AlignedMatrix<Scalar>::Matrix>;
+  const Index hidden = shape.hidden;
+  const ConstMap from1(w.data(), hidden, shape.inputs + 1);
+  const ConstMap from2(
+      w.data() + shape.num_weights1(), shape.outputs, hidden + 1);
+  w1.all().topRows(hidden) = from1;
+  w2.all().topRows(hidden) = from2.leftCols(hidden).transpose();
+  bias = from2.col(hidden);
+}
+
+template <typename Scalar>
+void PackedWeights<Scalar>::Unpack(const NetShape& shape,
+                                   fitting::VectorOf<Scalar>* w) const {
+  using Map = Eigen::Map<typename AlignedMatrix<Scalar>::Matrix>;
+  const Index hidden = shape.hidden;
+  Map to1(w->data(), hidden, shape.inputs + 1);
+  Map to2(w->data() + shape.num_weights1(), shape.outputs, hidden + 1);
+  to1 = w1.all().topRows(hidden);
+  to2.leftCols(hidden) = w2.all().topRows(hidden).transpose();
+  to2.col(hidden) = bias;
+}
+
+template <typename Scalar>
+void PackedWeights<Scalar>::Move(const PackedWeights& base,
+                                 Scalar a,
+                                 const PackedWeights& direction) {
+  w1.all() = base.w1.all() + a * direction.w1.all();
+  w2.all() = base.w2.all() + a * direction.w2.all();
+  bias = base.bias + a * direction.bias;
+}
+
+template <typename Scalar>
+void PackedWeights<Scalar>::SetZero() {
+  w1.all().setZero();
+  w2.all().setZero();
+  bias.setZero();
+}
+
+template <typename Scalar>
+double Outputs(const NetProblem<Scalar>& problem,
+               Index begin,
+               Index columns,
+               const fitting::VectorOf<Scalar>& bias,
+               Scalar* o) {
+  const Index outputs = problem.shape.outputs;
+  const Scalar slope = static_cast<Scalar>(OutputSlope(problem.shape));
+  for (Index p = 0; p < columns; ++p) {
+    for (Index j = 0; j < outputs; ++j) {
+      o[p * outputs + j] = slope * (o[p * outputs + j] + bias[j]);
+    }
+  }
+  if (problem.shape.output == OutputFunction::kSigmoid) {
+    problem.kernels->logistic(outputs * columns, o, o);
+  }
+  const Scalar* targets = problem.targets.data() + begin * outputs;
+  const bool weighted = problem.weights.size() != 0;
+  double sum = 0.0;
+  for (Index p = 0; p < columns; ++p) {
+    double squares = 0.0;
+    for (Index j = 0; j < outputs; ++j) {
+      const double error =
+          static_cast<double>(o[p * outputs + j] - targets[p * outputs + j]);
+      squares += error * error;
+    }
+    sum += weighted ? squares * static_cast<double>(problem.weights[begin + p])
+                    : squares;
+  }
+  return sum;
+}
+
+template <typename Scalar>
+void OutputSlopes(const NetProblem<Scalar>& problem,
+                  Index begin,
+                  Index columns,
+                  const Scalar* z,
+                  Scalar* d_output) {
+  const Index outputs = problem.shape.outputs;
+  const bool sigmoid = problem.shape.output == OutputFunction::kSigmoid;
+  const Scalar slope = static_cast<Scalar>(OutputSlope(problem.shape));
+  const bool weighted = problem.weights.size() != 0;
+  const Scalar share =
+      Scalar(1) / static_cast<Scalar>(problem.num_patterns() * outputs);
+  const Scalar* targets = problem.targets.data() + begin * outputs;
+  for (Index p = 0; p < columns; ++p) {
+    const Scalar factor = weighted ? share * problem.weights[begin + p] : share;
+    for (Index j = 0; j < outputs; ++j) {
+      const Index i = p * outputs + j;
+      const Scalar derivative =
+          sigmoid ? slope * (z[i] - z[i] * z[i]) : Scalar(1);
+      d_output[i] = factor * (z[i] - targets[i]) * derivative;
+    }
+  }
+}
+
+template <typename Scalar>
+double OutputCurvature(const NetProblem<Scalar>& problem,
+                       Index begin,
+                       Index columns,
+                       const Scalar* z,
+                       const fitting::VectorOf<Scalar>& bias_step,
+                       const Scalar* first,
+                       const Scalar* second) {
+  const Index outputs = problem.shape.outputs;
+  const bool sigmoid = problem.shape.output == OutputFunction::kSigmoid;
+  const Scalar slope = static_cast<Scalar>(OutputSlope(problem.shape));
+  const bool weighted = problem.weights.size() != 0;
+  const Scalar* targets = problem.targets.data() + begin * outputs;
+  double sum = 0.0;
+  for (Index p = 0; p < columns; ++p) {
+    double bend = 0.0;
+    for (Index j = 0; j < outputs; ++j) {
+      const Index i = p * outputs + j;
+      Scalar first_z = first[i] + bias_step[j];
+      Scalar second_z = second[i];
+      if (sigmoid) {  // z' = c z (1-z) o', z'' = c z (1-z) (o'' + c (1-2z)
+                      // o'^2)
+        const Scalar derivative = slope * (z[i] - z[i] * z[i]);
+        second_z =
+            derivative * (second_z + slope * (Scalar(1) - Scalar(2) * z[i]) *
+                                         first_z * first_z);
+        first_z *= derivative;
+      }
+      bend += static_cast<double>(first_z) * static_cast<double>(first_z) +
+              static_cast<double>(z[i] - targets[i]) *
+                  static_cast<double>(second_z);
+    }
+    sum += weighted ? bend * static_cast<double>(problem.weights[begin + p])
+                    : bend;
+  }
+  return sum;
+}
+
+template <typename Scalar>
+GradientSum<Scalar>::GradientSum(const NetProblem<Scalar>& problem)
+    : problem_(problem),
+      sum_(problem),
+      delta_(problem.height, problem.block),
+      d_output_(problem.shape.outputs * problem.block) {}
+
+template <typename Scalar>
+void GradientSum<Scalar>::Clear() {
+  sum_.SetZero();
+}
+
+template <typename Scalar>
+void GradientSum<Scalar>::Add(Index begin,
+                              Index columns,
+                              const Scalar* y,
+                              const Scalar* z,
+                              const PackedWeights<Scalar>& weights) {
+  OutputSlopes(problem_, begin, columns, z, d_output_.data());
+  problem_.kernels->backward(problem_.Size(columns),
+                             y,
+                             weights.w2.data(),
+                             d_output_.data(),
+                             delta_.data(),
+                             sum_.w2.data());
+  for (Index p = 0; p < columns; ++p) {
+    for (Index j = 0; j < problem_.shape.outputs; ++j) {
+      sum_.bias[j] += d_output_[p * problem_.shape.outputs + j];
+    }
+  }
+  const auto block = problem_.patterns.middleCols(begin, columns);
+  if (problem_.arithmetic == NetArithmetic::kPlain) {
+    sum_.w1.all().noalias() += delta_.columns(0, columns) * block.transpose();
+  } else {
+    fitting::MultiplyTransposed(
+        delta_.columns(0, columns), block, sum_.w1.all(), true);
+  }
+}
+
+template <typename Scalar>
+void GradientSum<Scalar>::Finish(const fitting::VectorOf<Scalar>& w,
+                                 fitting::VectorOf<Scalar>* gradient) const {
+  gradient->resize(w.size());
+  sum_.Unpack(problem_.shape, gradient);
+  *gradient += problem_.decay * w;
+}
+
+template struct NetProblem<double>;
+template struct NetProblem<float>;
+template struct PackedWeights<double>;
+template struct PackedWeights<float>;
+template class GradientSum<double>;
+template class GradientSum<float>;
+template double Outputs(const NetProblem<double>&,
+                        Index,
+                        Index,
+                        const fitting::VectorOf<double>&,
+                        double*);
+template double Outputs(const NetProblem<float>&,
+                        Index,
+                        Index,
+                        const fitting::VectorOf<float>&,
+                        float*);
+template double OutputCurvature(const NetProblem<double>&,
+                                Index,
+                                Index,
+                                const double*,
+                                const fitting::VectorOf<double>&,
+                                const double*,
+                                const double*);
+template double OutputCurvature(const NetProblem<float>&,
+                                Index,
+                                Index,
+                                const float*,
+                                const fitting::VectorOf<float>&,
+                                const float*,
+                                const float*);
+
+}  // namespace errmap::models

@@ -1,0 +1,150 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "fitting/minimisers/objective.h"
+#include "models/error_model.h"
+#include "models/net/aligned_matrix.h"
+#include "models/net/net_kernels.h"
+
+namespace errmap::models {
+
+/// How sums and the logistic function are worked out.
+enum class NetArithmetic {
+  kFast,   // OpenBLAS and the widest vectors: a machine's own last digits
+  kPlain,  // as the formulas stand: the last digits of the 1995 program
+};
+
+/// Nodes of a one-hidden-layer net and the layout of its weight vector w:
+/// w1 (H x (I+1)) column by column, then w2 (J x (H+1)) likewise; the last
+/// column of each is the bias (NISTIR 5367, Eq. 14-17).
+struct NetShape {
+  Eigen::Index inputs = 0;   // I
+  Eigen::Index hidden = 0;   // H
+  Eigen::Index outputs = 1;  // J
+  OutputFunction output = OutputFunction::kSigmoid;
+  double slope = 1.0;  // c of f(s) = 1 / (1 + e^(-c s)), Eq. 12; above 0
+
+  Eigen::Index num_weights1() const { return hidden * (inputs + 1); }
+  Eigen::Index num_weights() const {
+    return num_weights1() + outputs * (hidden + 1);
+  }
+};
+
+/// Slope of the output nodes: that of `shape`, but 1 for linear ones.
+inline double OutputSlope(const NetShape& shape) {
+  return shape.output == OutputFunction::kSigmoid ? shape.slope : 1.0;
+}
+
+/// Scaled patterns and the cost over them; what evaluations share. The slope c
+/// is multiplied into the patterns once, so that hidden nodes see slope 1.
+template <typename Scalar>
+struct NetProblem {
+  using Vector = fitting::VectorOf<Scalar>;
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+  NetShape shape;
+  Matrix patterns;          // ((I+1) x P) c x, last row c
+  Matrix targets;           // (J x P)
+  Vector weights;           // (P) of mean 1, or (0)
+  Scalar decay = 0;         // wfactor / N
+  Eigen::Index height = 0;  // H, padded
+  Eigen::Index block = 0;   // patterns worked on at a time
+  NetArithmetic arithmetic = NetArithmetic::kFast;
+  const NetKernels<Scalar>* kernels = nullptr;
+
+  Eigen::Index num_patterns() const { return patterns.cols(); }
+  BlockSize Size(Eigen::Index columns) const {
+    return {height, columns, shape.outputs};
+  }
+  /// s = w1 X over the patterns from `begin` on, s (height x columns).
+  void Activate(const AlignedMatrix<Scalar>& w1,
+                Eigen::Index begin,
+                Eigen::Index columns,
+                Scalar* s) const;
+};
+
+/// A weight vector as the kernels want it; zeros in the padding.
+template <typename Scalar>
+struct PackedWeights {
+  AlignedMatrix<Scalar> w1;        // (height x (I+1))
+  AlignedMatrix<Scalar> w2;        // (height x J)
+  fitting::VectorOf<Scalar> bias;  // (J)
+
+  explicit PackedWeights(const NetProblem<Scalar>& problem);
+  /// From and to the vector w (N).
+  void Pack(const NetShape& shape, const fitting::VectorOf<Scalar>& w);
+  void Unpack(const NetShape& shape, fitting::VectorOf<Scalar>* w) const;
+  /// This = base + a direction.
+  void Move(const PackedWeights& base,
+            Scalar a,
+            const PackedWeights& direction);
+  void SetZero();
+};
+
+/// Adds the bias to o (J x columns), the sums into the output nodes of the
+/// patterns from `begin` on, and turns it into the outputs z (Eq. 17, 18).
+/// Returns the sum of the squared, weighted residuals.
+template <typename Scalar>
+double Outputs(const NetProblem<Scalar>& problem,
+               Eigen::Index begin,
+               Eigen::Index columns,
+               const fitting::VectorOf<Scalar>& bias,
+               Scalar* o);
+
+/// dE/do (J x columns) at the outputs z, less the decay.
+template <typename Scalar>
+void OutputSlopes(const NetProblem<Scalar>& problem,
+                  Eigen::Index begin,
+                  Eigen::Index columns,
+                  const Scalar* z,
+                  Scalar* d_output);
+
+/// Second derivative along a line of the sum of squares that Outputs returns,
+/// halved, from z and the first and second derivative of o (J x columns);
+/// `bias_step` (J) is still to be added to the first.
+template <typename Scalar>
+double OutputCurvature(const NetProblem<Scalar>& problem,
+                       Eigen::Index begin,
+                       Eigen::Index columns,
+                       const Scalar* z,
+                       const fitting::VectorOf<Scalar>& bias_step,
+                       const Scalar* first,
+                       const Scalar* second);
+
+/// Gathers dE/dw over blocks.
+template <typename Scalar>
+class GradientSum {
+ public:
+  explicit GradientSum(const NetProblem<Scalar>& problem);
+  void Clear();
+  /// Adds the patterns from `begin` on, from their y (height x columns) and
+  /// outputs z (J x columns).
+  void Add(Eigen::Index begin,
+           Eigen::Index columns,
+           const Scalar* y,
+           const Scalar* z,
+           const PackedWeights<Scalar>& weights);
+  /// dE/dw (N) with the decay of `w`.
+  void Finish(const fitting::VectorOf<Scalar>& w,
+              fitting::VectorOf<Scalar>* gradient) const;
+
+ private:
+  const NetProblem<Scalar>& problem_;
+  PackedWeights<Scalar> sum_;
+  AlignedMatrix<Scalar> delta_;         // (height x block)
+  fitting::VectorOf<Scalar> d_output_;  // (J * block)
+};
+
+/// E from the sum of weighted squares and |w|^2.
+template <typename Scalar>
+double Cost(const NetProblem<Scalar>& problem,
+            double sum_of_squares,
+            double weights_squared) {
+  const auto count =
+      static_cast<double>(problem.num_patterns() * problem.shape.outputs);
+  return sum_of_squares / (2.0 * count) +
+         0.5 * static_cast<double>(problem.decay) * weights_squared;
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,428 @@
+#include "models/net/net_recipe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "models/net/feedforward_net.h"
+#include "models/net/net_effective_parameters.h"
+#include "models/net/net_fit.h"
+#include "models/net/net_trainer.h"
+#include "models/net/net_tuning.h"
+#include "models/net/net_wfactor.h"
+
+namespace errmap::models {
+namespace {
+
+using data::Dataset;
+using Eigen::Index;
+
+// Budgets and stops under the report's names.
+fitting::StoppingRules TakeStoppingRules(const std::string& type,
+                                         SpecOptions* options) {
+  constexpr std::int64_t kMostSteps = 1'000'000'000;
+  constexpr double kMost = 1e12;
+  constexpr double kLeastSeconds = 1e-3;
+  fitting::StoppingRules rules = DefaultStoppingRules(type);
+  rules.iterations =
+      options->TakeInteger("iterations", rules.iterations, 1, kMostSteps);
+  rules.evaluations =
+      options->TakeInteger("evaluations",
+                           rules.evaluations,
+                           1,
+                           std::numeric_limits<std::int64_t>::max());
+  rules.seconds =
+      options->TakeNumber("seconds", rules.seconds, kLeastSeconds, kMost);
+  rules.cost_goal = options->TakeNumber("egoal", rules.cost_goal, 0.0, kMost);
+  rules.gradient_goal =
+      options->TakeNumber("gwgoal", rules.gradient_goal, 0.0, kMost);
+  rules.slow_ratio =
+      options->TakeNumber("errdel", rules.slow_ratio, 1e-6, kMost);
+  rules.progress_interval =
+      options->TakeInteger("nfreq", rules.progress_interval, 1, kMostSteps);
+  return rules;
+}
+
+// How wfactor comes about.
+enum class WfactorRule { kGiven, kCrossValidation, kDiscrepancy };
+
+struct WfactorOption {
+  WfactorRule rule = WfactorRule::kGiven;
+  double wfactor = 1e-5;
+  double delta = 0.0;  // kDiscrepancy: wanted RMS, the target's unit
+
+  static WfactorOption Take(const ModelSpec& spec, SpecOptions* options) {
+    constexpr double kMostWfactor = 1e6;
+    constexpr double kLeastDelta = 1e-300;
+    constexpr double kMostDelta = 1e300;
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    WfactorOption taken;
+    taken.delta =
+        options->TakeNumber("discrepancy", kNone, kLeastDelta, kMostDelta);
+    const std::string text = options->TakeText("wfactor", "");
+    if (!std::isnan(taken.delta)) {
+      if (!text.empty()) {
+        throw std::invalid_argument(fmt::format(
+            "model '{}': discrepancy= finds the wfactor, which wfactor= fixes",
+            spec.text));
+      }
+      taken.rule = WfactorRule::kDiscrepancy;
+    } else if (text == "cv") {
+      taken.rule = WfactorRule::kCrossValidation;
+    } else {
+      taken.wfactor =
+          options->TakeNumber("wfactor", taken.wfactor, 0.0, kMostWfactor);
+    }
+    return taken;
+  }
+
+  void Describe(std::vector<EffectiveOption>* all) const {
+    switch (rule) {
+      case WfactorRule::kGiven:
+        all->push_back({"wfactor", wfactor});
+        break;
+      case WfactorRule::kCrossValidation:
+        all->push_back({"wfactor", std::string("cv")});
+        break;
+      case WfactorRule::kDiscrepancy:
+        all->push_back({"discrepancy", delta});
+        break;
+    }
+  }
+};
+
+// What `choose=` says of several starts: lowest cost, or least error on inner
+// hold-outs.
+const std::vector<std::string>& StartRules() {
+  static const std::vector<std::string> words = {"cost", "cv"};
+  return words;
+}
+
+// The first of the lowest; one that is not a number loses.
+std::size_t IndexOfLowest(const std::vector<double>& values) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    if (!std::isnan(values[i]) && !(values[i] >= values[best])) best = i;
+  }
+  return best;
+}
+
+std::string WithUnit(double value, const data::Dataset& dataset) {
+  const std::string& unit = dataset.target().unit.symbol;
+  return unit.empty() ? fmt::format("{:.4g}", value)
+                      : fmt::format("{:.4g} {}", value, unit);
+}
+
+// A one-hidden-layer net; how it is trained is its trainer's business.
+class SpecNetRecipe final : public NetRecipe {
+ public:
+  explicit SpecNetRecipe(const ModelSpec& spec) : name_(spec.text) {
+    constexpr double kLeastSlope = 1e-3;
+    constexpr double kMostSlope = 1e3;
+    constexpr std::int64_t kMostStarts = 10'000;
+    SpecOptions options(spec);
+    tunes_hidden_ = options.IsWord("hidden", "cv");
+    if (!tunes_hidden_) {
+      design_.hidden = options.TakeInteger("hidden", design_.hidden, 1, 10'000);
+    }
+    wfactor_ = WfactorOption::Take(spec, &options);
+    stopping_ = TakeStoppingRules(spec.type, &options);
+    design_.scaling = static_cast<InputScaling>(
+        options.TakeChoice("scale", 0, InputScalingNames()));
+    design_.output = static_cast<OutputFunction>(
+        options.TakeChoice("output", 0, {"sigmoid", "linear"}));
+    design_.slope =
+        options.TakeNumber("slope", design_.slope, kLeastSlope, kMostSlope);
+    starts_ = options.TakeInteger("starts", 1, 1, kMostStarts);
+    const std::string choose = options.TakeText("choose", "");
+    chooses_start_by_cv_ = options.TakeChoice("choose", 0, StartRules()) == 1;
+    if (!choose.empty() && starts_ < 2) {
+      throw std::invalid_argument(fmt::format(
+          "model '{}': choose= chooses among several starts; give starts=N",
+          spec.text));
+    }
+    if (tunes_hidden_ && wfactor_.rule == WfactorRule::kDiscrepancy) {
+      throw std::invalid_argument(fmt::format(
+          "model '{}': discrepancy= needs a number of hidden nodes; choose it "
+          "with wfactor=cv first",
+          spec.text));
+    }
+    if (starts_ > 1 && wfactor_.rule == WfactorRule::kDiscrepancy) {
+      throw std::invalid_argument(fmt::format(
+          "model '{}': discrepancy= follows one start; take its wfactor to "
+          "starts=",
+          spec.text));
+    }
+    trainer_ = MakeNetTrainer(spec.type, stopping_, &options);
+    options.RefuseOthers();
+  }
+
+  std::string name() const override { return name_; }
+  ModelKind kind() const override { return ModelKind::kNet; }
+
+  std::vector<EffectiveOption> options() const override {
+    std::vector<EffectiveOption> all;
+    if (tunes_hidden_) {
+      all.push_back({"hidden", std::string("cv")});
+    } else {
+      all.push_back({"hidden", design_.hidden});
+    }
+    wfactor_.Describe(&all);
+    all.push_back({"iterations", stopping_.iterations});
+    all.push_back({"egoal", stopping_.cost_goal});
+    all.push_back({"gwgoal", stopping_.gradient_goal});
+    all.push_back(
+        {"scale",
+         InputScalingNames()[static_cast<std::size_t>(design_.scaling)]});
+    all.push_back({"output", std::string(ToString(design_.output))});
+    all.push_back({"slope", design_.slope});
+    const fitting::StoppingRules unlimited;
+    if (stopping_.evaluations != unlimited.evaluations) {
+      all.push_back({"evaluations", stopping_.evaluations});
+    }
+    if (stopping_.slow_ratio != unlimited.slow_ratio) {
+      all.push_back({"errdel", stopping_.slow_ratio});
+      all.push_back({"nfreq", stopping_.progress_interval});
+    }
+    if (stopping_.seconds != unlimited.seconds) {
+      all.push_back({"seconds", stopping_.seconds});
+    }
+    if (starts_ > 1) {
+      all.push_back({"starts", starts_});
+      all.push_back({"choose", StartRules()[chooses_start_by_cv_ ? 1 : 0]});
+    }
+    std::ranges::move(trainer_->options(), std::back_inserter(all));
+    return all;
+  }
+
+  std::optional<std::string> WhatIsMissing(
+      const Dataset& dataset) const override {
+    if (dataset.num_inputs() > 0) return std::nullopt;
+    return "inputs: a net needs at least one";
+  }
+
+  std::optional<Index> NumCoefficients(const Dataset& dataset) const override {
+    if (tunes_hidden_) return std::nullopt;
+    return design_.ShapeFor(dataset).num_weights();
+  }
+
+  FittedModel Fit(const Dataset& training,
+                  const FitContext& context) const override {
+    if (const auto missing = WhatIsMissing(training)) {
+      throw std::invalid_argument("the data lack " + *missing);
+    }
+    FittedModel fitted;
+    fitted.name = name_;
+    fitted.kind = ModelKind::kNet;
+    fitted.target = training.target();
+    std::vector<Index> columns(static_cast<std::size_t>(training.num_inputs()));
+    std::iota(columns.begin(), columns.end(), Index{0});
+    fitted.inputs = DescribeInputs(training, columns);
+    NetDesign design = design_;
+    double wfactor = wfactor_.wfactor;
+    if (tunes_hidden_ || wfactor_.rule == WfactorRule::kCrossValidation) {
+      Tune(training, context, &design, &wfactor, &fitted);
+    }
+    const NetRows rows = ScaleRows(design, training);
+    fitting::Minimum minimum =
+        wfactor_.rule == WfactorRule::kDiscrepancy
+            ? FitToDiscrepancy(training, rows, context, &fitted)
+            : FitStarts(training, design, rows, wfactor, context, &fitted);
+    fitted.model = std::make_shared<FeedforwardNet>(rows.FormOf(minimum.x));
+    fitted.summary = std::move(minimum.summary);
+    return fitted;
+  }
+
+  std::unique_ptr<NetRecipe> WithChoicesOf(
+      const FittedModel& fitted) const override {
+    return std::make_unique<SpecNetRecipe>(FixedTo(fitted));
+  }
+
+  double EffectiveParametersOf(const FittedModel& fitted,
+                               const Dataset& training) const override {
+    const SpecNetRecipe fixed = FixedTo(fitted);
+    const NetRows rows = ScaleRows(fixed.design_, training);
+    const ModelDescription description = fitted.model->Describe();
+    NetTraining at_minimum = rows.training;
+    at_minimum.wfactor = fixed.wfactor_.wfactor;
+    return EffectiveParameters(at_minimum,
+                               rows.WeightsOf(std::get<NetForm>(description)));
+  }
+
+ private:
+  SpecNetRecipe FixedTo(const FittedModel& fitted) const {
+    SpecNetRecipe fixed = *this;
+    fixed.starts_ = 1;
+    fixed.chooses_start_by_cv_ = false;
+    fixed.tunes_hidden_ = false;
+    fixed.wfactor_.rule = WfactorRule::kGiven;
+    for (const EffectiveOption& choice : fitted.choices) {
+      if (choice.key == "hidden") {
+        fixed.design_.hidden = std::get<std::int64_t>(choice.value);
+      } else if (choice.key == "wfactor") {
+        fixed.wfactor_.wfactor = std::get<double>(choice.value);
+      }
+    }
+    return fixed;
+  }
+
+  void Tune(const Dataset& training,
+            const FitContext& context,
+            NetDesign* design,
+            double* wfactor,
+            FittedModel* fitted) const {
+    const TunedNet tuned =
+        TuneNet(*design,
+                {.hidden = tunes_hidden_,
+                 .wfactor = wfactor_.rule == WfactorRule::kCrossValidation,
+                 .fixed_wfactor = *wfactor},
+                *trainer_,
+                training,
+                context);
+    design->hidden = tuned.hidden;
+    *wfactor = tuned.wfactor;
+    for (const TunedValue& value : tuned.chosen) {
+      const bool is_hidden = value.choice.key == "hidden";
+      fitted->choices.push_back(value.choice);
+      fitted->remarks.push_back(fmt::format(
+          "{} by cross-validation over {}: RMSE {} held out (tried {})",
+          is_hidden ? fmt::format("{} hidden nodes", tuned.hidden)
+                    : fmt::format("wfactor {:.4g}", tuned.wfactor),
+          tuned.folds,
+          WithUnit(value.rmse, training),
+          value.scores));
+    }
+  }
+
+  fitting::Minimum FitToDiscrepancy(const Dataset& training,
+                                    const NetRows& rows,
+                                    const FitContext& context,
+                                    FittedModel* fitted) const {
+    fitting::DiscrepancyChoice choice =
+        ChooseWfactorByDiscrepancy(rows, *trainer_, wfactor_.delta, context);
+    fitted->choices.push_back({"wfactor", choice.alpha});
+    fitted->choices.push_back(
+        {"discrepancy_reached", std::string(choice.reached ? "yes" : "no")});
+    fitted->remarks.push_back(fmt::format(
+        "wfactor {:.4g} by the discrepancy principle in {} fits: RMS residual "
+        "{}, wanted {}{}",
+        choice.alpha,
+        choice.steps.size(),
+        WithUnit(choice.misfit, training),
+        WithUnit(wfactor_.delta, training),
+        choice.reached ? "" : " (not reached)"));
+    return std::move(choice.minimum);
+  }
+
+  fitting::Minimum FitStarts(const Dataset& training,
+                             const NetDesign& design,
+                             const NetRows& rows,
+                             double wfactor,
+                             const FitContext& context,
+                             FittedModel* fitted) const {
+    std::vector<std::uint64_t> seeds;
+    for (std::int64_t k = 0; k < starts_; ++k) {
+      seeds.push_back(SeedOfStart(context.seed, k));
+    }
+    std::vector<fitting::Minimum> minima =
+        TrainFromStarts(rows, *trainer_, wfactor, seeds, context);
+    if (starts_ == 1) return std::move(minima.front());
+    std::vector<double> costs;
+    for (const fitting::Minimum& minimum : minima) {
+      costs.push_back(minimum.summary.final_cost);
+    }
+    std::size_t best = IndexOfLowest(costs);
+    fitted->starts = DescribeStarts(seeds, minima);
+    if (chooses_start_by_cv_ || (context.explain && training.num_rows() > 1)) {
+      const InnerFolds inner = MakeInnerFolds(training, context);
+      const std::vector<double> rmse =
+          JudgeStarts(training, design, wfactor, seeds, inner, context);
+      for (std::size_t i = 0; i < rmse.size(); ++i) {
+        fitted->starts[i].holdout_rmse = rmse[i];
+      }
+      if (chooses_start_by_cv_) {
+        best = ChooseByRmse(training, seeds, rmse, inner.text, best, fitted);
+      }
+    }
+    fitted->starts[best].chosen = true;
+    return std::move(minima[best]);
+  }
+
+  // The start that errs least on inner hold-outs; `by_cost` where none of them
+  // could be judged.
+  static std::size_t ChooseByRmse(const Dataset& training,
+                                  const std::vector<std::uint64_t>& seeds,
+                                  const std::vector<double>& rmse,
+                                  const std::string& folds,
+                                  std::size_t by_cost,
+                                  FittedModel* fitted) {
+    const std::size_t best = IndexOfLowest(rmse);
+    if (std::isnan(rmse[best])) {
+      fitted->remarks.push_back(
+          "no start could be judged on inner hold-outs: the lowest cost was "
+          "taken");
+      return by_cost;
+    }
+    fitted->choices.push_back(
+        {"start_seed", static_cast<std::int64_t>(seeds[best])});
+    fitted->remarks.push_back(fmt::format(
+        "start {} of {} by cross-validation over {}: RMSE {} held out",
+        best + 1,
+        seeds.size(),
+        folds,
+        WithUnit(rmse[best], training)));
+    return best;
+  }
+
+  std::vector<double> JudgeStarts(const Dataset& training,
+                                  const NetDesign& design,
+                                  double wfactor,
+                                  const std::vector<std::uint64_t>& seeds,
+                                  const InnerFolds& inner,
+                                  const FitContext& context) const {
+    std::vector<NetTrial> trials;
+    for (const std::uint64_t seed : seeds) {
+      trials.push_back({design.hidden, wfactor, seed});
+    }
+    return InnerHoldoutRmse(
+        design, *trainer_, training, inner, trials, context);
+  }
+
+  static std::vector<StartResult> DescribeStarts(
+      const std::vector<std::uint64_t>& seeds,
+      const std::vector<fitting::Minimum>& minima) {
+    std::vector<StartResult> starts;
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      const fitting::FitSummary& summary = minima[i].summary;
+      starts.push_back({.seed = seeds[i],
+                        .final_cost = summary.final_cost,
+                        .termination = summary.termination,
+                        .iterations = summary.iterations});
+    }
+    return starts;
+  }
+
+  std::string name_;
+  NetDesign design_;
+  WfactorOption wfactor_;
+  bool tunes_hidden_;
+  std::int64_t starts_;
+  bool chooses_start_by_cv_;
+  fitting::StoppingRules stopping_;
+  std::shared_ptr<const NetTrainer> trainer_;
+};
+
+}  // namespace
+
+std::unique_ptr<ModelRecipe> MakeNetRecipe(const ModelSpec& spec) {
+  const std::vector<std::string>& types = NetTypes();
+  if (std::ranges::find(types, spec.type) == types.end()) return nullptr;
+  return std::make_unique<SpecNetRecipe>(spec);
+}
+
+}  // namespace errmap::models

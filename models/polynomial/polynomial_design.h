@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/dataset.h"
+#include "models/polynomial/polynomial_basis.h"
+#include "models/scaling.h"
+
+namespace errmap::models {
+
+/// Which inputs are moved to the middle of their range before products and
+/// powers are formed.
+enum class Centring {
+  kAll,       // each
+  kNone,      // none: products of the inputs as they are
+  kHarmless,  // those where it does not change what the terms can express
+};
+
+/// Scaling of the columns `inputs` of `training` for `terms`: each input's
+/// largest size, after centring or not, becomes 1.
+ColumnScaling PolynomialScaling(const data::Dataset& training,
+                                const std::vector<Eigen::Index>& inputs,
+                                const std::vector<TermPowers>& terms,
+                                Centring centring);
+
+/// Terms over the rows of a data set, formed when they are needed. References
+/// must outlive it.
+class PolynomialDesign {
+ public:
+  PolynomialDesign(const data::Dataset& dataset,
+                   std::vector<Eigen::Index> inputs,
+                   ColumnScaling scaling,
+                   std::vector<TermPowers> terms);
+
+  Eigen::Index rows() const { return dataset_.num_rows(); }
+  Eigen::Index num_terms() const {
+    return static_cast<Eigen::Index>(terms_.size());
+  }
+  const data::Dataset& dataset() const { return dataset_; }
+  const std::vector<Eigen::Index>& inputs() const { return inputs_; }
+  const ColumnScaling& scaling() const { return scaling_; }
+  const std::vector<TermPowers>& terms() const { return terms_; }
+  std::vector<std::string> TermNames() const;
+
+  /// Scaled inputs (n x p).
+  Eigen::MatrixXd ScaledInputs() const;
+  /// Terms (b x k) of these rows.
+  Eigen::MatrixXd Rows(const std::vector<Eigen::Index>& rows) const;
+  Eigen::MatrixXd Rows(Eigen::Index first, Eigen::Index count) const;
+
+ private:
+  const data::Dataset& dataset_;
+  std::vector<Eigen::Index> inputs_;
+  ColumnScaling scaling_;
+  std::vector<TermPowers> terms_;
+};
+
+/// What least squares needs of a design: its rows, or triangles that stand for
+/// them (fitting/least_squares/triangular_reduction.h).
+struct DesignRows {
+  Eigen::MatrixXd terms;      // (r x k)
+  Eigen::VectorXd response;   // (r)
+  Eigen::VectorXd weights;    // (r) or (0)
+  Eigen::VectorXd intercept;  // (r); (0) where rows are observations
+  double observations = 0.0;
+  /// (r) part that each row belongs to; (0) where no parts were asked for.
+  std::vector<Eigen::Index> parts;
+
+  bool are_observations() const { return intercept.size() == 0; }
+};
+
+/// The rows themselves while they hold no more than `most_values` numbers,
+/// else a triangle for each part: rows of equal code in `parts` (n, or empty:
+/// one part) stay together. Weights are worked into triangles.
+DesignRows CollectRows(const PolynomialDesign& design,
+                       const std::vector<Eigen::Index>& parts,
+                       double most_values,
+                       int threads);
+
+/// True where CollectRows makes triangles of such a design.
+bool NeedsTriangle(Eigen::Index rows, Eigen::Index terms, double most_values);
+
+}  // namespace errmap::models

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "models/error_model.h"
+#include "models/polynomial/polynomial_design.h"
+#include "models/regression_report.h"
+
+namespace errmap::models {
+
+/// Columns 0 .. p-1.
+std::vector<Eigen::Index> AllColumns(const data::Dataset& dataset);
+
+/// The part that every recipe of a polynomial shares.
+class PolynomialRecipe : public ModelRecipe {
+ public:
+  explicit PolynomialRecipe(std::string name) : name_(std::move(name)) {}
+  std::string name() const override { return name_; }
+  ModelKind kind() const override { return ModelKind::kPolynomial; }
+  std::vector<EffectiveOption> options() const override { return {}; }
+  std::optional<std::string> WhatIsMissing(
+      const data::Dataset& /*dataset*/) const override {
+    return std::nullopt;
+  }
+
+ protected:
+  /// A fit that says where it comes from, without a model yet.
+  FittedModel NewModel(const data::Dataset& training) const;
+
+  /// Least squares of intercept and `terms` in the columns `inputs` of
+  /// `training` by pivoted QR; with context.explain, its report, which a
+  /// caller that chose the terms completes. Throws std::invalid_argument where
+  /// there are fewer rows than coefficients.
+  FittedModel FitTerms(const data::Dataset& training,
+                       const std::vector<Eigen::Index>& inputs,
+                       const std::vector<TermPowers>& terms,
+                       const FitContext& context,
+                       Centring centring = Centring::kAll,
+                       RegressionReport* report = nullptr) const;
+
+  /// A map of given coefficients of the scaled terms, zeros left out, that
+  /// reads only the inputs which it needs.
+  FittedModel MapOf(const PolynomialDesign& design,
+                    double intercept,
+                    const Eigen::VectorXd& coefficients) const;
+
+ private:
+  std::string name_;
+};
+
+/// The terms `chosen` of a design over all inputs, over only those inputs that
+/// one of them has.
+struct UsedTerms {
+  std::vector<Eigen::Index> inputs;
+  std::vector<TermPowers> terms;
+};
+UsedTerms KeepUsedInputs(const std::vector<TermPowers>& terms,
+                         const std::vector<Eigen::Index>& chosen);
+
+/// The lines of the coefficient table in the inputs' own units, and their
+/// centres; `fit` is in scaled terms.
+void FillCoefficientTable(const PolynomialDesign& design,
+                          RegressionReport* report);
+
+}  // namespace errmap::models

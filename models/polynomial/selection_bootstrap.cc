@@ -1,0 +1,93 @@
+#include "models/polynomial/selection_bootstrap.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <mutex>
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "models/regression_report.h"
+#include "stats/random.h"
+
+namespace errmap::models {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+VectorXd BootstrapInclusion(const DictionaryRows& rows,
+                            const std::vector<Index>& units,
+                            int repetitions,
+                            const ChooseTerms& choose,
+                            const FitContext& context) {
+  const Index count = rows.response.size();
+  // Units are numbered anew: a code may have no rows here.
+  std::map<Index, Index> number;
+  std::vector<Index> unit_of(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < unit_of.size(); ++i) {
+    const Index code = units.empty() ? static_cast<Index>(i) : units[i];
+    unit_of[i] =
+        number.emplace(code, static_cast<Index>(number.size())).first->second;
+  }
+  const auto num_units = static_cast<std::uint64_t>(number.size());
+  // Draws are made in order, so that threads change nothing.
+  stats::Random random(context.seed);
+  std::vector<VectorXd> weights;
+  for (int i = 0; i < repetitions; ++i) {
+    VectorXd times = VectorXd::Zero(static_cast<Index>(num_units));
+    for (std::uint64_t draw = 0; draw < num_units; ++draw) {
+      times[static_cast<Index>(random.Below(num_units))] += 1.0;
+    }
+    VectorXd weight = times(unit_of);
+    if (rows.weights.size() != 0) weight = weight.cwiseProduct(rows.weights);
+    weights.push_back(std::move(weight));
+  }
+  VectorXd shares = VectorXd::Zero(rows.candidates->cols());
+  std::mutex mutex;
+  bool stopped = false;
+  tbb::task_arena arena(context.threads);
+  arena.execute([&] {
+    tbb::parallel_for(0, repetitions, [&](int i) {
+      if (context.stop != nullptr && context.stop->load()) {
+        const std::lock_guard lock(mutex);
+        stopped = true;
+        return;
+      }
+      const fitting::SelectionProblem problem{
+          *rows.candidates,
+          rows.response,
+          weights[static_cast<std::size_t>(i)],
+          rows.intercept,
+          rows.observations};
+      const std::vector<Index> chosen = choose(problem);
+      const std::lock_guard lock(mutex);
+      for (const Index term : chosen) shares[term] += 1.0;
+    });
+  });
+  if (stopped) {
+    return VectorXd::Constant(shares.size(),
+                              std::numeric_limits<double>::quiet_NaN());
+  }
+  return shares / static_cast<double>(repetitions);
+}
+
+void ReportInclusion(const TermDictionary& dictionary,
+                     const std::vector<Index>& chosen,
+                     const VectorXd& shares,
+                     RegressionReport* report) {
+  report->terms.resize(chosen.size());
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    report->terms[i].inclusion = shares[chosen[i]];
+  }
+  const std::vector<std::string> names = dictionary.design.TermNames();
+  std::map<std::string, double> share_of;
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    share_of[names[j]] = shares[static_cast<Index>(j)];
+  }
+  for (ExcludedReport& excluded : report->excluded) {
+    excluded.inclusion = share_of[excluded.name];
+  }
+}
+
+}  // namespace errmap::models

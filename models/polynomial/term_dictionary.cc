@@ -1,0 +1,247 @@
+#include "models/polynomial/term_dictionary.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "fitting/least_squares/regression_diagnostics.h"
+#include "models/polynomial/polynomial_fit.h"
+#include "models/regression_report.h"
+
+namespace errmap::models {
+namespace {
+
+using data::Dataset;
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr double kMostValues = 1.25e8;  // 1 GB
+constexpr Index kMostTriangle = 4000;   // columns; four triangles of 128 MB
+
+std::vector<std::string> InputNames(const Dataset& dataset) {
+  std::vector<std::string> names;
+  for (const data::ColumnInfo& input : dataset.inputs()) {
+    names.push_back(input.name);
+  }
+  return names;
+}
+
+std::vector<TermPowers> CheckedTerms(const Dataset& training, int degree) {
+  constexpr Index kMostTerms = 2'000'000;
+  const auto count = CountTerms(training.num_inputs(), degree);
+  const Index rows = training.num_rows();
+  const double values =
+      count ? static_cast<double>(*count) * static_cast<double>(rows)
+            : std::numeric_limits<double>::infinity();
+  const bool held = values <= kMostValues;
+  const bool reduced =
+      count && *count <= kMostTriangle && rows > 2 * (*count + 2);
+  if (!count || *count > kMostTerms || (!held && !reduced)) {
+    throw std::invalid_argument(fmt::format(
+        "degree {} in {} inputs makes {} candidate terms, too many to hold "
+        "for {} rows; use a lower degree or fewer inputs",
+        degree,
+        training.num_inputs(),
+        count ? std::to_string(*count) : "countless",
+        rows));
+  }
+  return AllTerms(training.num_inputs(), degree);
+}
+
+// Columns of the named terms in the dictionary.
+std::vector<Index> Find(const std::vector<NamedTerm>& named,
+                        const PolynomialDesign& design,
+                        int degree,
+                        const std::string& what) {
+  const std::vector<std::string> names = InputNames(design.dataset());
+  std::vector<Index> found;
+  for (const TermPowers& powers : ResolveTerms(named, names, what)) {
+    const auto at =
+        std::find(design.terms().begin(), design.terms().end(), powers);
+    if (at == design.terms().end()) {
+      throw std::invalid_argument(
+          fmt::format("{}: {} is not among the terms up to degree {}",
+                      what,
+                      TermName(powers, names),
+                      degree));
+    }
+    found.push_back(at - design.terms().begin());
+  }
+  return found;
+}
+
+PolynomialDesign MakeDesign(const Dataset& training,
+                            int degree,
+                            Centring centring) {
+  std::vector<TermPowers> terms = CheckedTerms(training, degree);
+  std::vector<Index> inputs = AllColumns(training);
+  ColumnScaling scaling = PolynomialScaling(training, inputs, terms, centring);
+  return {training, std::move(inputs), std::move(scaling), std::move(terms)};
+}
+
+}  // namespace
+
+int DefaultDegree(Index num_inputs) {
+  constexpr Index kFewInputs = 8;
+  return num_inputs <= kFewInputs ? 3 : 2;
+}
+
+TermOptions TermOptions::Take(SpecOptions* options, bool with_include) {
+  TermOptions terms;
+  constexpr std::int64_t kByNumberOfInputs = 0;
+  constexpr std::int64_t kMostDegree = 4;
+  terms.degree = static_cast<int>(
+      options->TakeInteger("degree", kByNumberOfInputs, 1, kMostDegree));
+  terms.centring = options->TakeChoice("centred", 0, {"yes", "no"}) == 0
+                       ? Centring::kAll
+                       : Centring::kNone;
+  const auto list = [&](const char* key) {
+    const std::string text = options->TakeText(key, "");
+    return text.empty() ? std::vector<NamedTerm>() : ParseTerms(text, key);
+  };
+  if (with_include) terms.include = list("include");
+  terms.exclude = list("exclude");
+  return terms;
+}
+
+void TermOptions::Describe(std::vector<EffectiveOption>* options) const {
+  const auto text = [](const std::vector<NamedTerm>& terms) {
+    std::vector<std::string> products;
+    for (const NamedTerm& term : terms) {
+      std::vector<std::string> factors;
+      for (const NamedTerm::Factor& factor : term.factors) {
+        factors.push_back(TermName({factor.power}, {factor.input}));
+      }
+      products.push_back(fmt::format("{}", fmt::join(factors, "*")));
+    }
+    return fmt::format("{}", fmt::join(products, "+"));
+  };
+  if (degree > 0) options->push_back({"degree", std::int64_t{degree}});
+  if (centring == Centring::kNone) {
+    options->push_back({"centred", std::string("no")});
+  }
+  if (!include.empty()) options->push_back({"include", text(include)});
+  if (!exclude.empty()) options->push_back({"exclude", text(exclude)});
+}
+
+TermDictionary::TermDictionary(const Dataset& training,
+                               int degree_of_terms,
+                               const TermOptions& options)
+    : degree(degree_of_terms),
+      design(MakeDesign(training, degree_of_terms, options.centring)),
+      include(Find(options.include, design, degree, "include")),
+      excluded(static_cast<std::size_t>(design.num_terms()), false) {
+  for (const Index term : Find(options.exclude, design, degree, "exclude")) {
+    if (std::find(include.begin(), include.end(), term) != include.end()) {
+      throw std::invalid_argument(
+          fmt::format("{} is both included and excluded",
+                      design.TermNames()[static_cast<std::size_t>(term)]));
+    }
+    excluded[static_cast<std::size_t>(term)] = true;
+  }
+}
+
+std::vector<std::vector<Index>> TermDictionary::Parents() const {
+  std::map<TermPowers, Index> place;
+  for (std::size_t i = 0; i < design.terms().size(); ++i) {
+    place.emplace(design.terms()[i], static_cast<Index>(i));
+  }
+  std::vector<std::vector<Index>> parents(design.terms().size());
+  for (std::size_t i = 0; i < parents.size(); ++i) {
+    TermPowers powers = design.terms()[i];
+    for (int& power : powers) {
+      if (power == 0) continue;
+      --power;
+      // The parent of a term of degree 1 is the intercept, always in.
+      const auto found = place.find(powers);
+      if (found != place.end()) parents[i].push_back(found->second);
+      ++power;
+    }
+  }
+  return parents;
+}
+
+Index TermDictionary::NumOpen() const {
+  return static_cast<Index>(
+      std::count(excluded.begin(), excluded.end(), false));
+}
+
+DictionaryRows CollectDictionary(const TermDictionary& dictionary,
+                                 const std::vector<Index>& parts,
+                                 const FitContext& context) {
+  const PolynomialDesign& design = dictionary.design;
+  const Dataset& training = design.dataset();
+  DictionaryRows rows;
+  constexpr int kQuadratic = 2;
+  const bool reduced = NeedsTriangle(
+      design.rows(), design.num_terms(), context.most_design_values);
+  if (dictionary.degree == kQuadratic && !reduced) {
+    rows.candidates =
+        std::make_unique<fitting::QuadraticColumns>(design.ScaledInputs());
+    rows.response = training.target_values();
+    rows.weights = training.weights();
+    rows.observations = static_cast<double>(design.rows());
+    rows.parts = parts;
+    return rows;
+  }
+  DesignRows collected =
+      CollectRows(design, parts, context.most_design_values, context.threads);
+  rows.candidates =
+      std::make_unique<fitting::MatrixColumns>(std::move(collected.terms));
+  rows.response = std::move(collected.response);
+  rows.weights = std::move(collected.weights);
+  rows.intercept = std::move(collected.intercept);
+  rows.observations = collected.observations;
+  rows.parts = std::move(collected.parts);
+  return rows;
+}
+
+void ReportExcluded(const TermDictionary& dictionary,
+                    const DictionaryRows& rows,
+                    const std::vector<Index>& chosen,
+                    double collinearity,
+                    RegressionReport* report) {
+  const std::vector<std::string> names = dictionary.design.TermNames();
+  const auto name = [&](Index term) {
+    return names[static_cast<std::size_t>(term)];
+  };
+  const MatrixXd terms = rows.candidates->Columns(chosen);
+  for (const fitting::ExcludedTerm& term :
+       fitting::JudgeExcluded(rows.Problem(), chosen, collinearity)) {
+    if (!term.aliased) {
+      report->excluded.push_back({name(term.candidate), term.f, term.p});
+      continue;
+    }
+    const fitting::AliasRelation relation = fitting::ExplainAlias(
+        rows.candidates->Column(term.candidate), terms, rows.intercept);
+    std::string why = "is constant";
+    if (!relation.constant) {
+      constexpr std::size_t kMostNamed = 4;
+      std::vector<std::string> others;
+      for (const Index column : relation.columns) {
+        if (others.size() == kMostNamed) {
+          others.push_back("...");
+          break;
+        }
+        others.push_back(name(chosen[static_cast<std::size_t>(column)]));
+      }
+      why =
+          fmt::format("{} {}",
+                      relation.columns.size() == 1 ? "repeats" : "follows from",
+                      fmt::join(others, ", "));
+    }
+    report->aliased.push_back({name(term.candidate), std::move(why)});
+  }
+  std::stable_sort(report->excluded.begin(),
+                   report->excluded.end(),
+                   [](const ExcludedReport& a, const ExcludedReport& b) {
+                     return a.f > b.f;
+                   });
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "models/error_model.h"
+#include "models/study/memorisation.h"
+
+namespace errmap::models {
+
+/// What one fit of a study leaves behind.
+struct FitOutcome {
+  std::optional<FittedModel> fitted;  // empty: failed
+  std::string why_failed;
+  double seconds = 0.0;
+  Eigen::VectorXd train_predictions;  // target's unit; empty if failed
+  Eigen::VectorXd test_predictions;   // the same; empty for a fit to all rows
+  std::optional<Memorisation> memorisation;  // of a net fitted to all rows
+  /// Failed for want of memory: another try may succeed, so it is not kept.
+  bool try_again = false;
+};
+
+/// One fit of a study: a model on one fold of one hold-out, or on all rows.
+struct StudyTask {
+  std::size_t model = 0;
+  std::ptrdiff_t holdout = -1;  // -1: all rows
+  std::size_t fold = 0;
+};
+
+/// Keeps finished fits, so that a study that was broken off goes on where it
+/// was. Find and Record are called from several threads.
+class FitJournal {
+ public:
+  virtual ~FitJournal() = default;
+  /// The outcome of this very fit from an earlier run, if there is one.
+  virtual std::optional<FitOutcome> Find(const StudyTask& task) = 0;
+  /// Keeps an outcome for later runs. Interrupted fits, and those that may
+  /// succeed next time, are not recorded.
+  virtual void Record(const StudyTask& task, const FitOutcome& outcome) = 0;
+};
+
+}  // namespace errmap::models

@@ -1,0 +1,132 @@
+#include "models/study/memorisation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "models/net/net_recipe.h"
+#include "models/study/fold_pool.h"
+#include "stats/random.h"
+
+namespace errmap::models {
+namespace {
+
+using data::Dataset;
+using Eigen::Index;
+
+// The stream of the shuffle is not that of the folds and weights.
+constexpr std::uint64_t kShuffleStream = 0x6D656D6F72697365ULL;
+
+bool IsStopped(const FitContext& context) {
+  return context.stop != nullptr && context.stop->load();
+}
+
+// The fit to targets in another order, of the same recipe and start.
+void RefitShuffled(const ModelRecipe& recipe,
+                   const Dataset& training,
+                   const FittedModel& fitted,
+                   const FitContext& context,
+                   Memorisation* found) {
+  if (IsStopped(context)) {
+    found->why_not = "interrupted";
+    return;
+  }
+  FitContext plain = context;
+  plain.explain = false;
+  plain.keep_trace = false;
+  for (const StartResult& start : fitted.starts) {
+    if (start.chosen) plain.seed = start.seed;
+  }
+  const Dataset shuffled =
+      ShuffleTargets(training, context.seed ^ kShuffleStream);
+  const FittedModel refit = recipe.Fit(shuffled, plain);
+  switch (refit.summary.termination) {
+    case fitting::Termination::kFailed:
+      found->why_not = "the fit to shuffled targets: " + refit.summary.message;
+      break;
+    case fitting::Termination::kInterrupted:
+      found->why_not = "interrupted";
+      break;
+    default:
+      found->shuffled_r2 = Judge(shuffled, refit.Predict(shuffled)).r2;
+  }
+}
+
+void Assess(const ModelRecipe& recipe,
+            const Dataset& training,
+            const FittedModel& fitted,
+            const FitContext& context,
+            Memorisation* found) {
+  const auto rows = static_cast<double>(training.num_rows());
+  found->weights_per_row =
+      static_cast<double>(fitted.model->num_parameters()) / rows;
+  found->train_r2 = Judge(training, fitted.Predict(training)).r2;
+  const auto* net = dynamic_cast<const NetRecipe*>(&recipe);
+  if (net == nullptr) {
+    RefitShuffled(recipe, training, fitted, context, found);
+    return;
+  }
+  if (!IsStopped(context)) {
+    found->effective_parameters = net->EffectiveParametersOf(fitted, training);
+    found->effective_per_row = found->effective_parameters / rows;
+    if (std::isnan(found->effective_parameters)) {
+      found->why_not = "effective parameters: too many rows and weights";
+    }
+  }
+  RefitShuffled(*net->WithChoicesOf(fitted), training, fitted, context, found);
+}
+
+}  // namespace
+
+std::string_view ToString(NoiseLearning learning) {
+  switch (learning) {
+    case NoiseLearning::kUnknown:
+      return "unknown";
+    case NoiseLearning::kLittle:
+      return "little";
+    case NoiseLearning::kSome:
+      return "some";
+    case NoiseLearning::kMuch:
+      return "much";
+  }
+  return "";
+}
+
+NoiseLearning Memorisation::learning() const {
+  const double share = std::fmax(shuffled_r2, effective_per_row);
+  if (std::isnan(share)) return NoiseLearning::kUnknown;
+  if (share >= kMuchNoise) return NoiseLearning::kMuch;
+  return share >= kSomeNoise ? NoiseLearning::kSome : NoiseLearning::kLittle;
+}
+
+Memorisation AssessMemorisation(const ModelRecipe& recipe,
+                                const Dataset& training,
+                                const FittedModel& fitted,
+                                const FitContext& context) {
+  Memorisation found;
+  try {
+    Assess(recipe, training, fitted, context, &found);
+  } catch (const std::bad_alloc&) {
+    found.why_not = "not enough memory";
+  } catch (const std::exception& error) {
+    found.why_not = error.what();
+  }
+  return found;
+}
+
+Dataset ShuffleTargets(const Dataset& dataset, std::uint64_t seed) {
+  std::vector<Index> order(static_cast<std::size_t>(dataset.num_rows()));
+  std::iota(order.begin(), order.end(), Index{0});
+  stats::Random(seed).Shuffle(order);
+  return Dataset({.source = dataset.source(),
+                  .inputs = dataset.inputs(),
+                  .input_values = dataset.input_values(),
+                  .target = dataset.target(),
+                  .target_values = dataset.target_values()(order),
+                  .groups = dataset.groups(),
+                  .weights = dataset.weights(),
+                  .rows = dataset.rows()});
+}
+
+}  // namespace errmap::models

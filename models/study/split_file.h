@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "data/csv.h"
+#include "data/dataset.h"
+#include "models/study/study.h"
+
+namespace errmap::models {
+
+/// Hold-outs of a split file: CSV row,holdout,fold,role with role
+/// train|test|unused and 0-based data rows. They come in the order of the
+/// file, folds by ascending number; a hold-out keeps groups whole if no fold
+/// has a group on both sides.
+///
+/// Throws data::InputError naming file, line and remedy: a missing column, a
+/// row that `dataset` lacks, an unknown role, a row twice in a fold, folds not
+/// numbered 0, 1, ..., a fold without training or test rows.
+std::vector<Holdout> ReadSplitFile(const data::CsvTable& file,
+                                   const data::Dataset& dataset);
+
+/// The hold-outs as such a file; those judged on another file are left out.
+std::string SplitFileText(const std::vector<Holdout>& holdouts,
+                          const data::Dataset& dataset);
+
+}  // namespace errmap::models

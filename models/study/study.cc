@@ -1,0 +1,265 @@
+#include "models/study/study.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include "models/recipe_catalog.h"
+#include "models/study/fold_pool.h"
+
+namespace errmap::models {
+namespace {
+
+using data::Dataset;
+using Eigen::Index;
+using Eigen::VectorXd;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+FitOutcome FitOnce(const ModelRecipe& recipe,
+                   const Dataset& training,
+                   const Dataset* test,
+                   const FitContext& context) {
+  FitOutcome outcome;
+  if (context.stop != nullptr && context.stop->load()) {
+    outcome.why_failed = "interrupted before it began";
+    return outcome;
+  }
+  const auto start = Clock::now();
+  try {
+    FittedModel fitted = recipe.Fit(training, context);
+    outcome.seconds = SecondsSince(start);
+    if (fitted.summary.termination == fitting::Termination::kFailed) {
+      outcome.why_failed = fitted.summary.message;
+      return outcome;
+    }
+    outcome.train_predictions = fitted.Predict(training);
+    if (test != nullptr) outcome.test_predictions = fitted.Predict(*test);
+    if (!outcome.train_predictions.allFinite() ||
+        !outcome.test_predictions.allFinite()) {
+      outcome.why_failed = "a prediction is not finite";
+      return outcome;
+    }
+    outcome.fitted = std::move(fitted);
+  } catch (const std::bad_alloc&) {
+    outcome.why_failed = "not enough memory";
+    outcome.try_again = true;
+  } catch (const std::exception& error) {
+    outcome.why_failed = error.what();
+  }
+  return outcome;
+}
+
+// The fit to all rows is the one to use, so it is the one to explain: a
+// regression's tables, a net's error-reduction curve and what it knows by
+// heart.
+FitOutcome FitAllRows(const ModelRecipe& recipe,
+                      const Dataset& dataset,
+                      FitContext context) {
+  const bool is_net = recipe.kind() == ModelKind::kNet;
+  context.explain = !is_net;
+  context.default_bootstraps = false;  // seconds, where fits take milliseconds
+  context.keep_trace = is_net;
+  FitOutcome outcome = FitOnce(recipe, dataset, nullptr, context);
+  if (is_net && outcome.fitted) {
+    outcome.memorisation =
+        AssessMemorisation(recipe, dataset, *outcome.fitted, context);
+  }
+  return outcome;
+}
+
+// Nanoseconds per prediction by the shortest of several runs: what else the
+// machine does can only make one longer.
+double MeasurePrediction(const FittedModel& fitted, const Dataset& dataset) {
+  constexpr double kEnoughSeconds = 2e-3;
+  constexpr int kMostRuns = 1000;
+  const auto start = Clock::now();
+  double shortest = std::numeric_limits<double>::infinity();
+  double sink = 0.0;
+  for (int run = 0; run < kMostRuns && SecondsSince(start) < kEnoughSeconds;
+       ++run) {
+    const auto begin = Clock::now();
+    sink += fitted.Predict(dataset)[0];
+    shortest = std::min(shortest, SecondsSince(begin));
+  }
+  if (std::isnan(sink)) return kNaN;  // keeps the loop from being removed
+  return 1e9 * shortest / static_cast<double>(dataset.num_rows());
+}
+
+// Of rows where rows are held out, so that every fold tunes for what it is
+// judged by; a test file says nothing, so groups stay whole.
+InnerHoldout InnerHoldoutLike(stats::HoldoutKind kind) {
+  switch (kind) {
+    case stats::HoldoutKind::kEvery:
+    case stats::HoldoutKind::kKFold:
+    case stats::HoldoutKind::kRandom:
+      return InnerHoldout::kRows;
+    case stats::HoldoutKind::kForward:
+      return InnerHoldout::kForward;
+    case stats::HoldoutKind::kGroups:
+    case stats::HoldoutKind::kLeaveOneGroupOut:
+    case stats::HoldoutKind::kFile:
+      break;
+  }
+  return InnerHoldout::kWholeGroups;
+}
+
+}  // namespace
+
+bool ModelResult::ok() const { return why().empty(); }
+
+std::string ModelResult::why() const {
+  for (const HoldoutResult& holdout : holdouts) {
+    if (!holdout.ok()) return holdout.holdout + ": " + holdout.why_failed;
+  }
+  return final_why_failed.empty() ? "" : "all rows: " + final_why_failed;
+}
+
+Holdout MakeHoldout(const stats::HoldoutSpec& spec,
+                    const Dataset& dataset,
+                    std::uint64_t seed,
+                    std::shared_ptr<const Dataset> test_data) {
+  if ((spec.kind == stats::HoldoutKind::kFile) != (test_data != nullptr)) {
+    throw std::invalid_argument("MakeHoldout: test data belong to file: only");
+  }
+  const bool by_group = spec.kind == stats::HoldoutKind::kGroups ||
+                        spec.kind == stats::HoldoutKind::kLeaveOneGroupOut ||
+                        spec.kind == stats::HoldoutKind::kForward;
+  Holdout holdout;
+  holdout.name = spec.text;
+  holdout.whole_groups = by_group && dataset.has_groups();
+  holdout.among_neighbours = spec.kind == stats::HoldoutKind::kEvery ||
+                             spec.kind == stats::HoldoutKind::kKFold ||
+                             spec.kind == stats::HoldoutKind::kRandom;
+  holdout.forward = spec.kind == stats::HoldoutKind::kForward;
+  holdout.repeats = std::max<Index>(1, spec.repeats);
+  holdout.folds =
+      stats::MakeFolds(spec, dataset.num_rows(), dataset.groups().codes, seed);
+  holdout.test_data = std::move(test_data);
+  holdout.inner = InnerHoldoutLike(spec.kind);
+  return holdout;
+}
+
+std::vector<StudyTask> StudyTasks(
+    const std::vector<Holdout>& holdouts,
+    const std::vector<std::unique_ptr<ModelRecipe>>& recipes) {
+  std::vector<StudyTask> tasks;
+  for (const bool nets : {false, true}) {
+    for (std::size_t model = 0; model < recipes.size(); ++model) {
+      if ((recipes[model]->kind() == ModelKind::kNet) != nets) continue;
+      tasks.push_back({model, -1, 0});
+      for (std::size_t h = 0; h < holdouts.size(); ++h) {
+        for (std::size_t fold = 0; fold < holdouts[h].folds.size(); ++fold) {
+          tasks.push_back({model, static_cast<std::ptrdiff_t>(h), fold});
+        }
+      }
+    }
+  }
+  return tasks;
+}
+
+FitContext ContextOfTask(const StudyTask& task,
+                         const std::vector<Holdout>& holdouts,
+                         const StudyOptions& options) {
+  FitContext context{.seed = options.seed, .stop = options.stop};
+  if (task.holdout >= 0) {
+    context.inner_holdout =
+        holdouts[static_cast<std::size_t>(task.holdout)].inner;
+  }
+  return context;
+}
+
+StudyResult RunStudy(const Dataset& dataset,
+                     const std::vector<Holdout>& holdouts,
+                     const std::vector<std::unique_ptr<ModelRecipe>>& recipes,
+                     const StudyOptions& options) {
+  if (recipes.empty() || holdouts.empty() || options.jobs < 1) {
+    throw std::invalid_argument(
+        "RunStudy: needs at least one model, one hold-out and one job");
+  }
+  const std::vector<std::vector<PreparedFold>> prepared =
+      PrepareFolds(dataset, holdouts);
+  const std::vector<StudyTask> tasks = StudyTasks(holdouts, recipes);
+  std::vector<FitOutcome> final_outcomes(recipes.size());
+  std::vector<std::vector<std::vector<FitOutcome>>> outcomes(recipes.size());
+  for (auto& of_model : outcomes) {
+    for (const auto& folds : prepared) of_model.emplace_back(folds.size());
+  }
+  const auto fit = [&](const StudyTask& task) {
+    const ModelRecipe& recipe = *recipes[task.model];
+    const FitContext context = ContextOfTask(task, holdouts, options);
+    if (task.holdout < 0) return FitAllRows(recipe, dataset, context);
+    const PreparedFold& fold =
+        prepared[static_cast<std::size_t>(task.holdout)][task.fold];
+    return FitOnce(recipe, fold.training, fold.test.get(), context);
+  };
+  const auto find_or_fit = [&](const StudyTask& task) {
+    if (options.journal == nullptr) return fit(task);
+    if (auto found = options.journal->Find(task)) return std::move(*found);
+    FitOutcome outcome = fit(task);
+    const bool stopped = options.stop != nullptr && options.stop->load();
+    if (!stopped && !outcome.try_again) options.journal->Record(task, outcome);
+    return outcome;
+  };
+  std::atomic<int> done{0};
+  const auto run = [&](std::size_t index) {
+    const StudyTask& task = tasks[index];
+    FitOutcome& outcome =
+        task.holdout < 0
+            ? final_outcomes[task.model]
+            : outcomes[task.model][static_cast<std::size_t>(task.holdout)]
+                      [task.fold];
+    outcome = find_or_fit(task);
+    const int now_done = ++done;
+    if (options.progress) {
+      options.progress(now_done, static_cast<int>(tasks.size()));
+    }
+  };
+  // Each worker takes the next task, so that they start in the order above.
+  std::atomic<std::size_t> next{0};
+  const oneapi::tbb::global_control allow_jobs(
+      oneapi::tbb::global_control::max_allowed_parallelism,
+      static_cast<std::size_t>(options.jobs));
+  oneapi::tbb::task_arena arena(options.jobs);
+  arena.execute([&] {
+    oneapi::tbb::parallel_for(0, options.jobs, [&](int /*worker*/) {
+      for (std::size_t i = next++; i < tasks.size(); i = next++) run(i);
+    });
+  });
+
+  StudyResult result;
+  for (std::size_t model = 0; model < recipes.size(); ++model) {
+    ModelResult judged;
+    judged.name = recipes[model]->name();
+    judged.kind = recipes[model]->kind();
+    judged.baseline = IsBaseline(judged.name);
+    judged.options = recipes[model]->options();
+    for (std::size_t h = 0; h < holdouts.size(); ++h) {
+      judged.holdouts.push_back(
+          PoolFolds(holdouts[h], prepared[h], std::move(outcomes[model][h])));
+    }
+    judged.final_fit = std::move(final_outcomes[model].fitted);
+    judged.final_why_failed = final_outcomes[model].why_failed;
+    judged.memorisation = final_outcomes[model].memorisation;
+    judged.final_fit_seconds = final_outcomes[model].seconds;
+    judged.predict_ns =
+        judged.final_fit ? MeasurePrediction(*judged.final_fit, dataset) : kNaN;
+    result.models.push_back(std::move(judged));
+  }
+  result.interrupted = options.stop != nullptr && options.stop->load();
+  return result;
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,322 @@
+#include "models/study/verdict.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <tuple>
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+
+double RmseOf(const HoldoutComparison& comparison, std::size_t model) {
+  return comparison.tests.rmse[*comparison.PlaceOf(model)];
+}
+
+// The model of lowest RMSE among those that `wanted` accepts.
+std::optional<std::size_t> BestWhere(
+    const HoldoutComparison& comparison,
+    const std::function<bool(std::size_t)>& wanted) {
+  std::optional<std::size_t> best;
+  for (const std::size_t model : comparison.models) {
+    if (!wanted(model)) continue;
+    if (!best || RmseOf(comparison, model) < RmseOf(comparison, *best)) {
+      best = model;
+    }
+  }
+  return best;
+}
+
+std::vector<std::size_t> FirstTier(const HoldoutComparison& comparison) {
+  std::vector<std::size_t> models;
+  for (const Index place : comparison.tests.tiers.front()) {
+    models.push_back(comparison.models[static_cast<std::size_t>(place)]);
+  }
+  return models;
+}
+
+// Where neighbouring units resemble each other, every p is too small: what they
+// establish would be noise in a third of the cases
+// (paired_comparison_null_test).
+bool BeatsForSure(const HoldoutComparison& comparison,
+                  std::size_t better,
+                  std::size_t worse) {
+  const stats::PairComparison& pair = comparison.tests.Pair(
+      *comparison.PlaceOf(better), *comparison.PlaceOf(worse));
+  return pair.established && !pair.correlated;
+}
+
+Verdict JudgeHoldout(const HoldoutComparison& comparison,
+                     const StudyResult& study) {
+  Verdict verdict;
+  verdict.holdout = comparison.holdout;
+  const std::vector<std::size_t> tier = FirstTier(comparison);
+  verdict.best = tier.front();
+  const auto in_tier = [&](Choice choice) {
+    return std::ranges::any_of(tier, [&](std::size_t model) {
+      return ChoiceOf(study.models[model]) == choice;
+    });
+  };
+  const Choice of_best = ChoiceOf(study.models[verdict.best]);
+  if (in_tier(Choice::kBaseline)) {
+    verdict.choice = Choice::kBaseline;
+  } else if (in_tier(Choice::kPolynomial) && in_tier(Choice::kNeural)) {
+    verdict.choice = Choice::kNoPracticalDifference;
+  } else {
+    verdict.choice = of_best;
+  }
+  const auto best_baseline = BestWhere(comparison, [&](std::size_t model) {
+    return ChoiceOf(study.models[model]) == Choice::kBaseline;
+  });
+  verdict.rival = BestWhere(comparison, [&](std::size_t model) {
+    const Choice choice = ChoiceOf(study.models[model]);
+    return choice != of_best && choice != Choice::kBaseline;
+  });
+  if (!verdict.rival && of_best != Choice::kBaseline) {
+    verdict.rival = best_baseline;
+  }
+  const bool enough_units =
+      comparison.tests.num_units >= stats::kFewestUnitsToEstablish;
+  if (verdict.choice == Choice::kBaseline ||
+      verdict.choice == Choice::kNoPracticalDifference) {
+    // Sharing a tier is a bound on the difference, not a lack of evidence.
+    verdict.established = enough_units;
+  } else {
+    verdict.established =
+        enough_units && verdict.rival &&
+        BeatsForSure(comparison, verdict.best, *verdict.rival) &&
+        (!best_baseline ||
+         BeatsForSure(comparison, verdict.best, *best_baseline));
+  }
+  return verdict;
+}
+
+std::optional<InterpolationGap> MeasureGap(
+    const std::vector<Holdout>& holdouts,
+    const std::vector<HoldoutComparison>& comparisons) {
+  std::optional<std::size_t> neighbours;
+  std::optional<std::size_t> unseen;
+  for (std::size_t h = 0; h < holdouts.size(); ++h) {
+    if (comparisons[h].models.empty()) continue;
+    if (!neighbours && holdouts[h].among_neighbours) neighbours = h;
+    if (!unseen && holdouts[h].whole_groups) unseen = h;
+  }
+  if (!neighbours || !unseen) return std::nullopt;
+  InterpolationGap gap{*neighbours, *unseen, {}};
+  for (const std::size_t model : comparisons[*neighbours].models) {
+    if (!comparisons[*unseen].PlaceOf(model)) continue;
+    gap.rows.push_back({model,
+                        RmseOf(comparisons[*neighbours], model),
+                        RmseOf(comparisons[*unseen], model)});
+  }
+  return gap;
+}
+
+// The hold-out to go by: whole unseen groups, else another file, else any.
+std::optional<std::size_t> DecisiveHoldout(
+    const std::vector<Holdout>& holdouts,
+    const std::vector<HoldoutComparison>& comparisons) {
+  const std::array<std::function<bool(const Holdout&)>, 3> preferences = {
+      [](const Holdout& holdout) {
+        return holdout.whole_groups && holdout.test_data == nullptr;
+      },
+      [](const Holdout& holdout) { return holdout.test_data != nullptr; },
+      [](const Holdout&) { return true; }};
+  for (const auto& preferred : preferences) {
+    for (std::size_t h = 0; h < holdouts.size(); ++h) {
+      if (preferred(holdouts[h]) && !comparisons[h].models.empty()) return h;
+    }
+  }
+  return std::nullopt;
+}
+
+// Share of the held-out rows with an input outside what its fold trained on.
+double ExtrapolatedShare(const data::Dataset& dataset,
+                         const Holdout& holdout,
+                         const FittedModel& fitted) {
+  std::vector<Index> columns;
+  for (const TrainedInput& input : fitted.inputs) {
+    columns.push_back(dataset.FindInput(input.column.name));
+  }
+  Index outside = 0;
+  Index all = 0;
+  for (const stats::Fold& fold : holdout.folds) {
+    const data::Dataset test = holdout.test_data != nullptr
+                                   ? *holdout.test_data
+                                   : dataset.SelectRows(fold.test);
+    Eigen::Array<bool, Eigen::Dynamic, 1> beyond =
+        Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(test.num_rows(), false);
+    for (const Index column : columns) {
+      const auto trained = dataset.input_values().col(column)(fold.train);
+      const auto tested = test.input_values().col(column).array();
+      beyond =
+          beyond || tested < trained.minCoeff() || tested > trained.maxCoeff();
+    }
+    outside += beyond.count();
+    all += test.num_rows();
+  }
+  return all > 0 ? static_cast<double>(outside) / static_cast<double>(all)
+                 : 0.0;
+}
+
+// Models with an RMSE within the margin of `best`, by RMSE.
+std::vector<std::size_t> NearTheBest(
+    const HoldoutComparison& comparison,
+    const std::function<bool(std::size_t)>& wanted,
+    double best,
+    double indifference) {
+  const double most =
+      best + stats::Margin{.indifference = indifference}.Of(best);
+  std::vector<std::size_t> near;
+  for (const std::size_t model : comparison.models) {
+    const double rmse = RmseOf(comparison, model);
+    if (wanted(model) && rmse >= best && rmse <= most) near.push_back(model);
+  }
+  std::ranges::stable_sort(
+      near, {}, [&](std::size_t model) { return RmseOf(comparison, model); });
+  return near;
+}
+
+std::optional<Recommendation> Recommend(
+    const data::Dataset& dataset,
+    const std::vector<Holdout>& holdouts,
+    const StudyResult& study,
+    const std::vector<HoldoutComparison>& comparisons,
+    double indifference) {
+  const auto decisive = DecisiveHoldout(holdouts, comparisons);
+  if (!decisive) return std::nullopt;
+  const HoldoutComparison& comparison = comparisons[*decisive];
+  const auto is_map = [&](std::size_t model) {
+    return study.models[model].final_fit.has_value();
+  };
+  Recommendation advice;
+  advice.holdout = *decisive;
+  // The first tier that holds a map: predictions alone cannot be run.
+  for (const std::vector<Index>& tier : comparison.tests.tiers) {
+    for (const Index place : tier) {
+      const std::size_t model =
+          comparison.models[static_cast<std::size_t>(place)];
+      if (is_map(model)) {
+        advice.first_tier.push_back(model);
+      } else if (advice.first_tier.empty() && !advice.better_but_no_map) {
+        advice.better_but_no_map = model;
+      }
+    }
+    if (!advice.first_tier.empty()) break;
+  }
+  if (advice.first_tier.empty()) return std::nullopt;
+  // One unit bounds no difference, so a tier is a model alone; what is near it
+  // by the margin may be better just as well, and simpler.
+  if (comparison.tests.num_units < 2) {
+    advice.first_tier =
+        NearTheBest(comparison,
+                    is_map,
+                    RmseOf(comparison, advice.first_tier.front()),
+                    indifference);
+  }
+  std::vector<std::size_t> candidates;
+  std::ranges::copy_if(advice.first_tier,
+                       std::back_inserter(candidates),
+                       [&](std::size_t model) {
+                         return ChoiceOf(study.models[model]) ==
+                                Choice::kBaseline;
+                       });
+  if (candidates.empty()) candidates = advice.first_tier;
+  advice.model =
+      *std::ranges::min_element(candidates, {}, [&](std::size_t model) {
+        const FittedModel& map = *study.models[model].final_fit;
+        return std::tuple(SensorsOf(map).size(),
+                          map.model->num_parameters(),
+                          RmseOf(comparison, model));
+      });
+  const auto best_baseline = BestWhere(comparison, [&](std::size_t model) {
+    return ChoiceOf(study.models[model]) == Choice::kBaseline;
+  });
+  advice.has_baseline = best_baseline.has_value();
+  advice.best_baseline = best_baseline.value_or(0);
+  advice.choice = ChoiceOf(study.models[advice.model]);
+  const auto in_tier = [&](Choice choice) {
+    return std::ranges::any_of(advice.first_tier, [&](std::size_t model) {
+      return ChoiceOf(study.models[model]) == choice;
+    });
+  };
+  if (advice.choice != Choice::kBaseline && in_tier(Choice::kPolynomial) &&
+      in_tier(Choice::kNeural)) {
+    advice.choice = Choice::kNoPracticalDifference;
+  }
+  advice.extrapolated_share = ExtrapolatedShare(
+      dataset, holdouts[*decisive], *study.models[advice.model].final_fit);
+  return advice;
+}
+
+}  // namespace
+
+std::string_view ToString(Choice choice) {
+  switch (choice) {
+    case Choice::kPolynomial:
+      return "polynomial";
+    case Choice::kNeural:
+      return "neural";
+    case Choice::kNoPracticalDifference:
+      return "no practical difference";
+    case Choice::kBaseline:
+      return "baseline";
+    case Choice::kGiven:
+      return "given";
+  }
+  return "";
+}
+
+Choice ChoiceOf(const ModelResult& model) {
+  if (model.baseline) return Choice::kBaseline;
+  // An existing map is what it was fitted as.
+  ModelKind kind = model.kind;
+  if (kind == ModelKind::kFile && model.final_fit) {
+    kind = model.final_fit->kind;
+  }
+  switch (kind) {
+    case ModelKind::kBaseline:
+      return Choice::kBaseline;
+    case ModelKind::kPolynomial:
+      return Choice::kPolynomial;
+    case ModelKind::kNet:
+      return Choice::kNeural;
+    case ModelKind::kFile:
+      return Choice::kGiven;
+  }
+  return Choice::kGiven;
+}
+
+Judgement JudgeStudy(const data::Dataset& dataset,
+                     const std::vector<Holdout>& holdouts,
+                     const StudyResult& study,
+                     double indifference,
+                     std::uint64_t seed) {
+  Judgement judgement;
+  judgement.comparisons =
+      CompareHoldouts(dataset, holdouts, study, indifference, seed);
+  for (const HoldoutComparison& comparison : judgement.comparisons) {
+    judgement.verdicts.push_back(
+        comparison.models.empty()
+            ? std::nullopt
+            : std::optional(JudgeHoldout(comparison, study)));
+  }
+  judgement.gap = MeasureGap(holdouts, judgement.comparisons);
+  judgement.recommendation =
+      Recommend(dataset, holdouts, study, judgement.comparisons, indifference);
+  return judgement;
+}
+
+std::vector<std::string> SensorsOf(const FittedModel& fitted) {
+  std::vector<std::string> sensors;
+  for (const TrainedInput& input : fitted.inputs) {
+    if (!input.column.name.starts_with("position")) {
+      sensors.push_back(input.column.name);
+    }
+  }
+  return sensors;
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,231 @@
+#include "stats/comparison/paired_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "stats/comparison/holm.h"
+#include "stats/randomness.h"
+
+namespace errmap::stats {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// The place of pair a < b of `models` in (0,1), (0,2), ..., (1,2), ...
+Index PairIndex(Index a, Index b, Index models) {
+  return a * (2 * models - a - 1) / 2 + (b - a - 1);
+}
+
+std::vector<PairComparison> AllPairs(Index models) {
+  std::vector<PairComparison> pairs;
+  for (Index a = 0; a < models; ++a) {
+    for (Index b = a + 1; b < models; ++b) {
+      pairs.emplace_back();
+      pairs.back().a = a;
+      pairs.back().b = b;
+    }
+  }
+  return pairs;
+}
+
+// One column of loss differences per pair.
+MatrixXd Differences(const MatrixXd& mean_squares,
+                     const std::vector<PairComparison>& pairs) {
+  MatrixXd differences(mean_squares.rows(), static_cast<Index>(pairs.size()));
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    differences.col(static_cast<Index>(i)) =
+        mean_squares.col(pairs[i].a) - mean_squares.col(pairs[i].b);
+  }
+  return differences;
+}
+
+void CheckFolds(const FoldLosses& folds, Index models) {
+  const Index num = folds.mean_squares.rows();
+  if (folds.mean_squares.cols() != models || folds.test_rows.size() != num ||
+      folds.train_rows.size() != num) {
+    throw std::invalid_argument(
+        "FoldLosses: " + std::to_string(num) + " folds of " +
+        std::to_string(folds.mean_squares.cols()) + " models with " +
+        std::to_string(folds.test_rows.size()) + " numbers of test rows and " +
+        std::to_string(folds.train_rows.size()) + " of training rows for " +
+        std::to_string(models) + " models");
+  }
+  if (!folds.mean_squares.allFinite() ||
+      !(folds.mean_squares.array() >= 0.0).all()) {
+    throw std::invalid_argument(
+        "FoldLosses: every mean square must be finite and at least 0");
+  }
+  if (!folds.test_rows.allFinite() || !folds.train_rows.allFinite() ||
+      !(folds.test_rows.array() > 0.0).all() ||
+      !(folds.train_rows.array() > 0.0).all()) {
+    throw std::invalid_argument(
+        "FoldLosses: every number of rows must be finite and above 0");
+  }
+}
+
+void TestFolds(const FoldLosses& folds, std::vector<PairComparison>* pairs) {
+  const double test_to_train =
+      folds.test_rows.size() == 0
+          ? 0.0
+          : folds.test_rows.sum() / folds.train_rows.sum();
+  const MatrixXd differences = Differences(folds.mean_squares, *pairs);
+  for (std::size_t i = 0; i < pairs->size(); ++i) {
+    (*pairs)[i].corrected_t = CorrectedResampledT(
+        differences.col(static_cast<Index>(i)), test_to_train);
+  }
+}
+
+void TestUnits(const UnitLosses& losses,
+               const ComparisonOptions& options,
+               std::vector<PairComparison>* pairs) {
+  const MatrixXd differences = Differences(losses.mean_squares, *pairs);
+  const std::vector<SignFlipTest> flipped =
+      TestBySignFlips(differences, options.flips, options.seed);
+  std::vector<double> p;
+  for (std::size_t i = 0; i < pairs->size(); ++i) {
+    const VectorXd d = differences.col(static_cast<Index>(i));
+    PairComparison& pair = (*pairs)[i];
+    pair.sign_flip = flipped[i];
+    p.push_back(pair.sign_flip.test.p);
+    pair.wilcoxon = TestSignedRanks(d);
+    if (losses.time_ordered) {
+      pair.diebold_mariano = DieboldMariano(d, options.horizon);
+    }
+    pair.lag1 = TestSerially({d}).lag1;
+    pair.correlated = pair.lag1.p <= kSignificance && pair.lag1.statistic > 0.0;
+  }
+  const std::vector<double> adjusted = AdjustByHolm(p);
+  for (std::size_t i = 0; i < pairs->size(); ++i) {
+    (*pairs)[i].p_holm = adjusted[i];
+  }
+}
+
+bool IsEstablished(const PairComparison& pair, Index units) {
+  const double mean = pair.sign_flip.test.statistic;
+  return units >= kFewestUnitsToEstablish && pair.p_holm <= kSignificance &&
+         (mean > 0.0 ? pair.bounds.lower > 0.0 : pair.bounds.upper < 0.0);
+}
+
+// 2 / 2^n, n the number of units: the least that sign flips can reach.
+double SmallestP(Index units) {
+  return std::ldexp(2.0, -static_cast<int>(std::min<Index>(units, 1000)));
+}
+
+std::string WhyNothingCanBeEstablished(const Comparison& comparison,
+                                       const ComparisonOptions& options) {
+  const Index units = comparison.num_units;
+  const double pairs = static_cast<double>(comparison.pairs.size());
+  const std::string found =
+      std::to_string(units) + (units == 1 ? " unit" : " units");
+  if (units < kFewestUnitsToEstablish) {
+    return found + ", at least " + std::to_string(kFewestUnitsToEstablish) +
+           " are needed: with fewer, no sign-flip p can be below 0.05";
+  }
+  const double smallest =
+      units <= kMostForExactFlips
+          ? SmallestP(units)
+          : 1.0 / (static_cast<double>(options.flips) + 1.0);
+  if (smallest * pairs <= kSignificance) return "";
+  if (units > kMostForExactFlips) {
+    return std::to_string(options.flips) + " sign patterns are too few for " +
+           std::to_string(comparison.pairs.size()) + " pairs";
+  }
+  Index enough = units;
+  while (SmallestP(enough) * pairs > kSignificance) ++enough;
+  return found + " for " + std::to_string(comparison.pairs.size()) +
+         " pairs: at least " + std::to_string(enough) +
+         " are needed for a p below 0.05 after Holm's adjustment";
+}
+
+MatrixXd ExcessBounds(const Comparison& comparison) {
+  const Index models = comparison.rmse.size();
+  MatrixXd bounds = MatrixXd::Zero(models, models);
+  for (const PairComparison& pair : comparison.pairs) {
+    bounds(pair.a, pair.b) = pair.bounds.at_most;
+    bounds(pair.b, pair.a) = -pair.bounds.at_least;
+  }
+  return bounds;
+}
+
+void BoundErrors(const UnitLosses& losses,
+                 const ComparisonOptions& options,
+                 Comparison* comparison) {
+  // Not the draws of the sign flips again.
+  constexpr std::uint64_t kOwnSequence = 0x9e3779b97f4a7c15U;
+  const UnitBootstrap bootstrap(
+      losses, options.resamples, options.seed ^ kOwnSequence);
+  for (Index model = 0; model < losses.num_models(); ++model) {
+    comparison->rmse_bounds.push_back(bootstrap.OfRmse(model));
+  }
+  for (PairComparison& pair : comparison->pairs) {
+    pair.difference = comparison->rmse[pair.a] - comparison->rmse[pair.b];
+    pair.bounds = bootstrap.OfDifference(pair.a, pair.b);
+  }
+}
+
+}  // namespace
+
+void ComparisonOptions::Validate() const {
+  const auto check = [](const char* field, Index value, Index least) {
+    if (value >= least) return;
+    throw std::invalid_argument(std::string("ComparisonOptions: ") + field +
+                                " must be at least " + std::to_string(least) +
+                                ", found " + std::to_string(value));
+  };
+  check("flips", flips, 1);
+  check("resamples", resamples, 99);
+  check("horizon", horizon, 1);
+  margin.Validate();
+}
+
+const PairComparison& Comparison::Pair(Index one, Index other) const {
+  const Index models = rmse.size();
+  const auto [a, b] = std::minmax(one, other);
+  if (a < 0 || b >= models || a == b) {
+    throw std::out_of_range(
+        "Comparison: no pair of models " + std::to_string(one) + " and " +
+        std::to_string(other) + " of " + std::to_string(models));
+  }
+  return pairs[static_cast<std::size_t>(PairIndex(a, b, models))];
+}
+
+double Comparison::ExcessAtMost(Index model, Index than) const {
+  const Bounds95& bounds = Pair(model, than).bounds;
+  return model < than ? bounds.at_most : -bounds.at_least;
+}
+
+Comparison CompareModels(const UnitLosses& losses,
+                         const FoldLosses* folds,
+                         const ComparisonOptions& options) {
+  options.Validate();
+  losses.Validate();
+  if (folds != nullptr) CheckFolds(*folds, losses.num_models());
+  Comparison comparison;
+  comparison.num_units = losses.num_units();
+  comparison.pairs = AllPairs(losses.num_models());
+  if (losses.num_units() == 0) {
+    comparison.rmse = VectorXd::Constant(
+        losses.num_models(), std::numeric_limits<double>::quiet_NaN());
+  } else {
+    comparison.rmse = PooledRmse(losses);
+  }
+  BoundErrors(losses, options, &comparison);
+  TestUnits(losses, options, &comparison.pairs);
+  if (folds != nullptr) TestFolds(*folds, &comparison.pairs);
+  for (PairComparison& pair : comparison.pairs) {
+    pair.established = IsEstablished(pair, comparison.num_units);
+  }
+  comparison.why_nothing_can_be_established =
+      WhyNothingCanBeEstablished(comparison, options);
+  if (losses.num_units() > 0) {
+    comparison.tiers =
+        FormTiers(comparison.rmse, ExcessBounds(comparison), options.margin);
+  }
+  return comparison;
+}
+
+}  // namespace errmap::stats

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "stats/comparison/mean_difference.h"
+#include "stats/comparison/sign_flip.h"
+#include "stats/comparison/signed_rank.h"
+#include "stats/comparison/tiers.h"
+#include "stats/comparison/unit_bootstrap.h"
+#include "stats/comparison/unit_losses.h"
+
+namespace errmap::stats {
+
+/// Fewer units establish nothing: with 5, the two of 2^5 sign patterns that
+/// are most extreme already have p = 0.0625.
+inline constexpr Eigen::Index kFewestUnitsToEstablish = 6;
+
+/// Level of every test, after Holm's adjustment where one is made.
+inline constexpr double kSignificance = 0.05;
+
+/// Mean held-out losses by fold, for the corrected resampled t.
+struct FoldLosses {
+  Eigen::MatrixXd mean_squares;  // (folds, of all repeats, x models)
+  Eigen::VectorXd test_rows;     // (folds), above 0
+  Eigen::VectorXd train_rows;    // (folds), above 0
+};
+
+struct ComparisonOptions {
+  std::uint64_t seed = 1;
+  Eigen::Index flips = 9999;      // sign patterns drawn where too many; >= 1
+  Eigen::Index resamples = 4999;  // of the bootstrap; >= 99
+  Eigen::Index horizon = 1;       // of Diebold-Mariano; >= 1
+  Margin margin = {};             // between tiers
+
+  /// Throws std::invalid_argument naming field, value and range.
+  void Validate() const;
+};
+
+/// Model a against model b; d = loss of a - loss of b, one mean per unit, so
+/// below 0 where a is better.
+struct PairComparison {
+  Eigen::Index a = 0;
+  Eigen::Index b = 0;
+  double difference = 0.0;  // pooled RMSE of a less that of b
+  Bounds95 bounds;          // of `difference`, bootstrap over units
+  SignFlipTest sign_flip;   // of d: the test that decides
+  double p_holm = 1.0;      // sign_flip's p among all pairs
+  SignedRankTest wilcoxon;  // of d
+  std::optional<MeanDifferenceTest> corrected_t;      // where folds are given
+  std::optional<MeanDifferenceTest> diebold_mariano;  // where time-ordered
+  /// Lag-1 correlation of d in the order of units, p two-sided.
+  TestResult lag1;
+  /// It is larger than chance (p <= 5 %) and positive: neighbouring units
+  /// resemble each other, and every p here is too small.
+  bool correlated = false;
+  /// At least kFewestUnitsToEstablish units, p_holm <= 5 %, and the interval of
+  /// the RMSE difference lies wholly on the side of the mean of d.
+  bool established = false;
+};
+
+/// All models against each other on the same units.
+struct Comparison {
+  Eigen::Index num_units = 0;
+  Eigen::VectorXd rmse;               // (models) pooled over rows
+  std::vector<Bounds95> rmse_bounds;  // (models)
+  std::vector<PairComparison> pairs;  // (0,1), (0,2), ..., (1,2), ...
+  std::vector<std::vector<Eigen::Index>> tiers;  // see FormTiers
+  /// Why not even the clearest difference could be established: too few units,
+  /// at all or for so many pairs; "" where it could.
+  std::string why_nothing_can_be_established;
+
+  /// The pair of two different models, whichever is a. Throws
+  /// std::out_of_range where there is none.
+  const PairComparison& Pair(Eigen::Index one, Eigen::Index other) const;
+  /// One-sided 95 % upper bound of RMSE of `model` less that of `than`.
+  double ExcessAtMost(Eigen::Index model, Eigen::Index than) const;
+};
+
+/// Compares all models of `losses` by every test that applies; `folds` (the
+/// same models) may be null. The same losses, options and seed give the same
+/// result. Throws std::invalid_argument for invalid losses, folds or options.
+Comparison CompareModels(const UnitLosses& losses,
+                         const FoldLosses* folds,
+                         const ComparisonOptions& options);
+
+}  // namespace errmap::stats

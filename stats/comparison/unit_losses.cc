@@ -1,0 +1,110 @@
+#include "stats/comparison/unit_losses.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+namespace errmap::stats {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+[[noreturn]] void Refuse(const std::string& why) {
+  throw std::invalid_argument("UnitLosses: " + why);
+}
+
+std::string At(const std::string& first,
+               Index i,
+               const std::string& second,
+               Index j) {
+  return first + " " + std::to_string(i) + ", " + second + " " +
+         std::to_string(j);
+}
+
+}  // namespace
+
+void UnitLosses::Validate() const {
+  if (rows.size() != num_units()) {
+    Refuse(std::to_string(rows.size()) + " numbers of rows for " +
+           std::to_string(num_units()) + " units");
+  }
+  if (!codes.empty() && static_cast<Index>(codes.size()) != num_units()) {
+    Refuse(std::to_string(codes.size()) + " codes for " +
+           std::to_string(num_units()) + " units");
+  }
+  for (Index unit = 0; unit < num_units(); ++unit) {
+    constexpr double kMost = std::numeric_limits<double>::max();
+    if (!(rows[unit] > 0.0 && rows[unit] <= kMost)) {
+      Refuse("unit " + std::to_string(unit) + " has " +
+             std::to_string(rows[unit]) + " rows, must be above 0");
+    }
+    for (Index model = 0; model < num_models(); ++model) {
+      const double loss = mean_squares(unit, model);
+      if (!(loss >= 0.0 && loss <= kMost)) {
+        Refuse(At("unit", unit, "model", model) + ": mean square " +
+               std::to_string(loss) + ", must be finite and at least 0");
+      }
+    }
+  }
+}
+
+UnitLosses GatherByUnit(const MatrixXd& residuals,
+                        const std::vector<Index>& unit_codes) {
+  if (static_cast<Index>(unit_codes.size()) != residuals.rows()) {
+    throw std::invalid_argument(
+        "GatherByUnit: " + std::to_string(unit_codes.size()) +
+        " unit codes for " + std::to_string(residuals.rows()) + " rows");
+  }
+  std::map<Index, Index> unit_of;  // by code
+  for (const Index code : unit_codes) {
+    if (code < 0) {
+      throw std::invalid_argument("GatherByUnit: negative unit code " +
+                                  std::to_string(code));
+    }
+    unit_of[code] = 0;
+  }
+  UnitLosses losses;
+  for (auto& [code, unit] : unit_of) {
+    unit = static_cast<Index>(losses.codes.size());
+    losses.codes.push_back(code);
+  }
+  const Index units = static_cast<Index>(losses.codes.size());
+  losses.rows = VectorXd::Zero(units);
+  losses.mean_squares = MatrixXd::Zero(units, residuals.cols());
+  for (Index row = 0; row < residuals.rows(); ++row) {
+    if (!residuals.row(row).allFinite()) {
+      throw std::invalid_argument("GatherByUnit: row " + std::to_string(row) +
+                                  " has a residual that is not finite");
+    }
+    const Index unit = unit_of[unit_codes[static_cast<std::size_t>(row)]];
+    losses.rows[unit] += 1.0;
+    losses.mean_squares.row(unit) += residuals.row(row).cwiseAbs2();
+  }
+  losses.mean_squares.array().colwise() /= losses.rows.array();
+  return losses;
+}
+
+std::vector<Index> BlocksInOrder(Index num_rows) {
+  constexpr Index kMostBlocks = 20;
+  constexpr Index kRowsPerBlock = 5;
+  const Index blocks =
+      std::clamp<Index>(num_rows / kRowsPerBlock, 1, kMostBlocks);
+  std::vector<Index> codes;
+  for (Index block = 0; block < blocks; ++block) {
+    const Index length =
+        num_rows / blocks + (block < num_rows % blocks ? 1 : 0);
+    codes.insert(codes.end(), static_cast<std::size_t>(length), block);
+  }
+  return codes;
+}
+
+VectorXd PooledRmse(const UnitLosses& losses) {
+  return ((losses.mean_squares.transpose() * losses.rows) / losses.rows.sum())
+      .cwiseSqrt();
+}
+
+}  // namespace errmap::stats

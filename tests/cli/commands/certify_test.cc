@@ -1,0 +1,112 @@
+// errmap certify, run as a user runs it.
+
+#include "tests/cli/cli_fixture.h"
+
+namespace errmap {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Certify : public Cli {
+ protected:
+  // One run serves all tests of it: it takes some seconds.
+  const Json& Nist() const {
+    static const Json kDocument =
+        RunJson({"certify", "nist", "--format", "json"});
+    return kDocument;
+  }
+};
+
+// The floors of the issue that asked for the command: digits, shares.
+constexpr double kParameters = 10.0;
+constexpr double kMeanParameters = 10.6;
+constexpr double kLinear = 13.0;
+constexpr double kNumAcc4Sd = 8.0;
+constexpr double kObjective = 1e-8;
+constexpr double kPredictions = 1e-6;
+
+TEST_F(Certify, NistFiguresReachTheirFloors) {
+  const Json& document = Nist();
+  EXPECT_EQ(document["schema"], "errmap-certify-1");
+  EXPECT_EQ(document["passed"], true);
+  int runs = 0;
+  for (const Json& row : document["nonlinear"]) {
+    if (row["solver"] != "lm") continue;
+    ++runs;
+    EXPECT_GE(row["lre_parameters"], kParameters) << row;
+    EXPECT_GE(row["lre_sd"], kParameters) << row;
+    EXPECT_GE(row["lre_rss"], kParameters) << row;
+  }
+  EXPECT_EQ(runs, 54);
+  const Json& best = document["nonlinear_summary"][0];
+  EXPECT_EQ(best["solver"], "lm");
+  EXPECT_EQ(best["solved"], 54);
+  EXPECT_GE(best["mean_lre_parameters"], kMeanParameters);
+  ASSERT_EQ(document["linear"].size(), 11U);
+  for (const Json& row : document["linear"]) {
+    EXPECT_GE(row["lre_coefficients"], kLinear) << row;
+    EXPECT_GE(row["lre_sd"], kLinear) << row;
+    if (row["problem"] == "Filip") {
+      EXPECT_GE(row["bits"], 106);
+    }
+  }
+  ASSERT_EQ(document["univariate"].size(), 9U);
+  for (const Json& row : document["univariate"]) {
+    EXPECT_GE(row["lre_mean"], kLinear) << row;
+    EXPECT_GE(row["lre_sd"], row["problem"] == "NumAcc4" ? kNumAcc4Sd : kLinear)
+        << row;
+    EXPECT_GE(row["lre_autocorrelation"], kLinear) << row;
+  }
+}
+
+// A solver that stops at a limit must not be said to have converged.
+TEST_F(Certify, ShowsEverySolverAsItIs) {
+  const Json& document = Nist();
+  const std::size_t solvers = document["nonlinear_summary"].size();
+  EXPECT_EQ(document["nonlinear"].size(), 54 * solvers);
+  int limited = 0;
+  for (const Json& row : document["nonlinear"]) {
+    EXPECT_NE(row["message"], "") << row;
+    if (row["stop"] == "iteration_limit") ++limited;
+  }
+  EXPECT_GT(limited, 0);
+}
+
+TEST_F(Certify, GradientsAndAgreementHold) {
+  const Json gradients = RunJson({"certify", "gradients", "--format", "json"});
+  EXPECT_GE(gradients["gradients"].size(), 60U);
+  EXPECT_TRUE(gradients["linear"].empty());
+  for (const Json& row : gradients["gradients"]) {
+    EXPECT_LE(row["worst_relative_error"], 1e-6) << row;
+  }
+  const Json agreement = RunJson({"certify", "agreement", "--format", "json"});
+  EXPECT_GE(agreement["agreement"].size(), 5U);
+  for (const Json& row : agreement["agreement"]) {
+    if (!row["judged"]) continue;
+    EXPECT_LE(row["difference"], kObjective) << row;
+    EXPECT_LE(row["prediction_difference"], kPredictions) << row;
+  }
+}
+
+TEST_F(Certify, TableNamesFloorsAndEndsWithAVerdict) {
+  const Outcome outcome = Run({"certify", "agreement"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("objective within 1e-08"));
+  EXPECT_THAT(outcome.out, HasSubstr("Passed: every floor is reached."));
+  const Outcome details = Run({"certify", "gradients", "--details"});
+  EXPECT_THAT(details.out, HasSubstr("Thurber, at the minimum"));
+}
+
+TEST_F(Certify, TheSameRunTwiceGivesTheSameBytes) {
+  const std::vector<std::string> words{
+      "certify", "agreement", "--format", "json"};
+  EXPECT_EQ(Run(words).out, Run(words).out);
+}
+
+TEST_F(Certify, RefusesAnUnknownPart) {
+  EXPECT_THAT(RefusalOf(Run({"certify", "everything"}), kWrongCommandLine),
+              HasSubstr("everything"));
+}
+
+}  // namespace
+}  // namespace errmap

@@ -1,0 +1,304 @@
+// Data that errmap cannot use, and data that only look so: exit status 3 and
+// one line that names file, row, column and remedy.
+
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/cli_runner.h"
+
+namespace errmap {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+constexpr int kUnusable = 3;
+
+const std::string kHeader = "position_mm,t1_degC,error_mm\n";
+const std::string kRows =
+    "1,20,0.1\n2,21,0.3\n3,22.5,0.2\n4,20.3,0.5\n5,20.1,0.4\n6,22,0.6\n";
+
+class CliBadInput : public CliTest {
+ protected:
+  Outcome Compare(std::string_view text,
+                  std::vector<std::string> more = {}) const {
+    Write("f.csv", text);
+    std::vector<std::string> words{
+        "compare", "f.csv", "--models", "mean", "--holdout", "every:3"};
+    words.insert(words.end(), more.begin(), more.end());
+    return Run(words);
+  }
+
+  std::string Refusal(std::string_view text,
+                      const std::vector<std::string>& more = {}) const {
+    return RefusalOf(Compare(text, more), kUnusable);
+  }
+
+  Json Data(const Outcome& outcome) const {
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return Json::parse(outcome.out)["components"][0];
+  }
+};
+
+TEST_F(CliBadInput, MissingCellNamesLineRowColumnAndRemedies) {
+  EXPECT_THAT(
+      Refusal(kHeader + "1,20,0.1\n2,,0.3\n" + kRows),
+      AllOf(HasSubstr("f.csv: line 3 (data row 1), column 't1_degC': empty"),
+            HasSubstr("--exclude t1_degC"),
+            HasSubstr("--missing drop-rows")));
+}
+
+TEST_F(CliBadInput, MissingTargetIsNotToBeExcluded) {
+  EXPECT_THAT(Refusal(kHeader + kRows + "7,20,NA\n"),
+              AllOf(HasSubstr("line 8 (data row 6), column 'error_mm': 'NA'"),
+                    Not(HasSubstr("--exclude"))));
+}
+
+TEST_F(CliBadInput, NonNumericCellShowsItsText) {
+  EXPECT_THAT(
+      Refusal(kHeader + "1,20,0.1\n2,2o,0.3\n" + kRows),
+      HasSubstr(
+          "f.csv: line 3 (data row 1), column 't1_degC': '2o' is no number"));
+}
+
+TEST_F(CliBadInput, NaNIsAMissingValue) {
+  EXPECT_THAT(Refusal(kHeader + "1,20,NaN\n" + kRows),
+              HasSubstr("f.csv: line 2 (data row 0), column 'error_mm': 'NaN' "
+                        "is a missing value"));
+}
+
+TEST_F(CliBadInput, InfinitiesAreRefusedEvenWhereRowsMayBeDropped) {
+  for (const std::string text : {"inf", "-inf", "Infinity", "1e999"}) {
+    for (const std::string policy : {"error", "drop-rows"}) {
+      EXPECT_THAT(
+          Refusal(kHeader + "1,20,0.1\n2," + text + ",0.3\n" + kRows,
+                  {"--missing", policy}),
+          HasSubstr("f.csv: line 3 (data row 1), column 't1_degC': '" + text))
+          << text;
+    }
+  }
+}
+
+TEST_F(CliBadInput, ShortAndLongRowsAreRagged) {
+  EXPECT_THAT(Refusal(kHeader + kRows + "7,20\n"),
+              HasSubstr("f.csv: line 8 (data row 6): 2 fields where the header "
+                        "has 3"));
+  EXPECT_THAT(Refusal(kHeader + "1,20,0,1\n" + kRows),
+              AllOf(HasSubstr("f.csv: line 2 (data row 0): 4 fields where the "
+                              "header has 3"),
+                    HasSubstr("decimal commas")));
+}
+
+TEST_F(CliBadInput, DuplicateNames) {
+  EXPECT_THAT(Refusal("t,t,error_mm\n" + kRows),
+              HasSubstr("f.csv: line 1: columns 1 and 2 are both named 't'"));
+}
+
+TEST_F(CliBadInput, NoHeader) {
+  EXPECT_THAT(Refusal(kRows), HasSubstr("f.csv: line 1: no header"));
+}
+
+TEST_F(CliBadInput, EmptyFile) {
+  EXPECT_THAT(Refusal(""), HasSubstr("f.csv: the file is empty"));
+}
+
+TEST_F(CliBadInput, HeaderAlone) {
+  EXPECT_THAT(Refusal(kHeader),
+              HasSubstr("f.csv: line 1: a header without data"));
+}
+
+TEST_F(CliBadInput, AbsentFileAndFolder) {
+  EXPECT_THAT(RefusalOf(Run({"compare", "none.csv"}), kUnusable),
+              HasSubstr("none.csv: cannot be read: No such file"));
+  EXPECT_THAT(RefusalOf(Run({"compare", "."}), kUnusable), HasSubstr(".: "));
+}
+
+TEST_F(CliBadInput, UnknownColumnNamesFlagAndKnownColumns) {
+  EXPECT_THAT(
+      Refusal(kHeader + kRows, {"--target", "eror_mm"}),
+      AllOf(HasSubstr("f.csv: no column 'eror_mm' (--target)"),
+            HasSubstr("did you mean 'error_mm'?"),
+            HasSubstr("the columns are 'position_mm', 't1_degC', 'error_mm'")));
+  for (const std::string flag :
+       {"--inputs", "--exclude", "--group", "--weight"}) {
+    EXPECT_THAT(Refusal(kHeader + kRows, {flag, "nosuch"}),
+                HasSubstr("f.csv: no column 'nosuch' (" + flag + ")"));
+  }
+}
+
+TEST_F(CliBadInput, ConstantTarget) {
+  EXPECT_THAT(Refusal(kHeader + "1,20,0.1\n2,21,0.1\n3,22,0.1\n"),
+              HasSubstr("f.csv: target 'error_mm' is constant (0.1 in all 3 "
+                        "rows)"));
+}
+
+TEST_F(CliBadInput, TargetMustBeNamedWhereItIsNotPlain) {
+  EXPECT_THAT(Refusal("position_mm,disp_um\n1,2\n2,3\n3,5\n"),
+              AllOf(HasSubstr("f.csv"), HasSubstr("--target")));
+  EXPECT_THAT(Refusal("error_x_um,error_y_um,t1\n1,2,3\n2,3,9\n3,5,4\n"),
+              AllOf(HasSubstr("f.csv"), HasSubstr("--target")));
+}
+
+TEST_F(CliBadInput, TooFewRowsForEveryModel) {
+  EXPECT_THAT(Refusal(kHeader + "1,20,0.1\n2,21,0.2\n"),
+              HasSubstr("f.csv: hold-out 'every:3': needs at least 3 rows, "
+                        "found 2"));
+  Write("g.csv", kHeader + "1,20,0.1\n2,21,0.2\n");
+  EXPECT_THAT(
+      RefusalOf(Run({"compare", "g.csv", "--holdout", "every:2"}), kUnusable),
+      HasSubstr("g.csv: too few rows for every model"));
+}
+
+TEST_F(CliBadInput, OpenQuote) {
+  EXPECT_THAT(Refusal(kHeader + "1,20,0.1\n2,\"21,0.2\n" + kRows),
+              HasSubstr("f.csv: line 3 (data row 1), column 't1_degC': the "
+                        "quote that opens here is never closed"));
+}
+
+TEST_F(CliBadInput, NulByte) {
+  EXPECT_THAT(Refusal(kHeader + "1,20,0.1\n2,2" + std::string(1, '\0') +
+                      "1,0.2\n" + kRows),
+              HasSubstr("f.csv: line 3: NUL byte"));
+}
+
+TEST_F(CliBadInput, DecimalCommasAndPointsMixed) {
+  EXPECT_THAT(
+      Refusal("position_mm;t1_degC;error_mm\n1,5;21;0,1\n2;20.5;0,2\n3;4;5\n"),
+      AllOf(HasSubstr("f.csv: line 3 (data row 1), column 't1_degC': decimal "
+                      "point (20.5)"),
+            HasSubstr("decimal comma (0,1) at line 2 (data row 0), column "
+                      "'error_mm'")));
+}
+
+TEST_F(CliBadInput, ColumnsNotInUseMayHoldAnything) {
+  EXPECT_EQ(Compare("position_mm,t1_degC,error_mm,note\n1,2,0.1,inf\n"
+                    "2,,0.2,\n3,x,0.4,7\n4,5,0.8,\n",
+                    {"--inputs", "position_mm"})
+                .status,
+            0);
+}
+
+TEST_F(CliBadInput, MessageStaysOneLineWhateverTheCellHolds) {
+  EXPECT_THAT(Refusal(kHeader + "1,\"a\nb\x1b[31m\",0.1\n" + kRows),
+              HasSubstr("f.csv: line 2 (data row 0), column 't1_degC'"));
+}
+
+TEST_F(CliBadInput, OtherCommandsRefuseAlike) {
+  Write("f.csv", kHeader + "1,,0.1\n" + kRows);
+  EXPECT_THAT(
+      RefusalOf(Run({"fit", "f.csv", "--model", "mean", "-o", "m"}), kUnusable),
+      HasSubstr("f.csv: line 2 (data row 0), column 't1_degC'"));
+  EXPECT_FALSE(Exists("m"));
+  EXPECT_THAT(
+      RefusalOf(Run({"residuals", "f.csv", "--column", "t1_degC"}), kUnusable),
+      HasSubstr("f.csv: line 2 (data row 0), column 't1_degC'"));
+  EXPECT_THAT(
+      RefusalOf(Run({"residuals", "f.csv", "--column", "t9"}), kUnusable),
+      HasSubstr("f.csv: no column 't9' (--column)"));
+}
+
+TEST_F(CliBadInput, DroppedRowsKeepTheNumberingOfTheFile) {
+  const Outcome outcome =
+      Compare(kHeader + "1,20,0.1\n2,,0.3\n3,22.5,0.2\n4,20.3,0.5\n5,na,1\n" +
+                  "6,NaN,4\n7,22,4\n",
+              {"--missing", "drop-rows", "--format", "json", "--out", "o"});
+  const Json data = Data(outcome);
+  EXPECT_EQ(data["data"]["rows"], 4);
+  EXPECT_EQ(data["holdouts"][0]["train_rows"], Json::parse("[[0,2,6]]"));
+  EXPECT_EQ(data["holdouts"][0]["test_rows"], Json::parse("[[3]]"));
+  EXPECT_THAT(outcome.err,
+              HasSubstr("3 of 7 rows are dropped for missing cells; the first: "
+                        "f.csv: line 3 (data row 1), column 't1_degC'"));
+  EXPECT_THAT(Read("o/residuals.csv"), HasSubstr("every:3,0,3,0.5,"));
+}
+
+TEST_F(CliBadInput, DropRowsNeverDropsText) {
+  EXPECT_THAT(Refusal(kHeader + "1,20,0.1\n2,,0.3\n3,x,0.2\n" + kRows,
+                      {"--missing", "drop-rows"}),
+              HasSubstr("f.csv: line 4 (data row 2), column 't1_degC': 'x' is "
+                        "no number"));
+}
+
+TEST_F(CliBadInput, DropRowsThatLeavesNothing) {
+  EXPECT_THAT(
+      Refusal(kHeader + "1,,0.1\n2,20,\n,1,2\n", {"--missing", "drop-rows"}),
+      HasSubstr("f.csv: no row is left"));
+}
+
+const std::string kDeadSensors =
+    "position_mm,t1,t2,t3,t4,error_mm\n"
+    "1,20,0,7,20,0.1\n2,21,0,7,21,0.3\n3,22.5,0,7,22.5,0.2\n"
+    "4,20.3,0,7,20.3,0.5\n";
+
+TEST_F(CliBadInput, DeadSensorsAreDroppedAndDuplicatesNamed) {
+  const Outcome outcome = Compare(kDeadSensors, {"--format", "json"});
+  EXPECT_THAT(
+      outcome.err,
+      AllOf(HasSubstr("errmap: input t2 is dead (0 in all 4 rows) and is left "
+                      "out; --keep-dead keeps it\n"),
+            HasSubstr("errmap: input t3 is dead (7 in all 4 rows)"),
+            HasSubstr("errmap: input t4 repeats t1 value for value; both are "
+                      "kept\n")));
+  const Json data = Data(outcome)["data"];
+  EXPECT_EQ(data["inputs"], Json::parse(R"(["position_mm","t1","t4"])"));
+  ASSERT_EQ(data["dropped"].size(), 2U);
+  EXPECT_EQ(data["dropped"][0]["column"], "t2");
+  EXPECT_EQ(data["dropped"][1]["column"], "t3");
+}
+
+TEST_F(CliBadInput, KeepDeadKeepsThemAndSaysSo) {
+  const Outcome outcome =
+      Compare(kDeadSensors, {"--format", "json", "--keep-dead"});
+  EXPECT_THAT(outcome.err,
+              HasSubstr("errmap: input t2 is dead (0 in all 4 rows) and is "
+                        "kept\n"));
+  const Json data = Data(outcome)["data"];
+  EXPECT_EQ(data["inputs"].size(), 5U);
+  EXPECT_THAT(data["dropped"], IsEmpty());
+}
+
+TEST_F(CliBadInput, QuietKeepsRemarksBack) {
+  EXPECT_EQ(Compare(kDeadSensors, {"--quiet"}).err, "");
+}
+
+TEST_F(CliBadInput, GermanFileGivesTheVerySameFigures) {
+  const std::string plain =
+      Process::TextOf(SetPath("nistir5367_xdisp_down.csv"));
+  std::string german = "\xEF\xBB\xBF";
+  for (const char c : plain) {
+    if (c == '\n') german += '\r';
+    german += c == ',' ? ';' : c == '.' ? ',' : c;
+  }
+  Write("plain.csv", plain);
+  Write("german.csv", german);
+  const std::vector<std::string> options{"--models",
+                                         "mean,poly:eq8,poly:stepwise,net:scg:"
+                                         "iterations=50",
+                                         "--format",
+                                         "json"};
+  std::vector<std::string> words{"compare", "plain.csv"};
+  words.insert(words.end(), options.begin(), options.end());
+  Json a = RunJson(words)["components"][0]["models"];
+  words[1] = "german.csv";
+  Json b = RunJson(words)["components"][0]["models"];
+  ASSERT_EQ(a.size(), b.size());
+  ASSERT_GT(a.size(), 0U);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i]["equation"], b[i]["equation"]);
+    for (const std::string holdout : {"every:3", "groups:5"}) {
+      for (const std::string part : {"train", "test", "normality"}) {
+        EXPECT_EQ(a[i]["results"][holdout][part],
+                  b[i]["results"][holdout][part]);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace errmap

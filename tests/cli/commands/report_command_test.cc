@@ -1,0 +1,173 @@
+#include <sys/resource.h>
+
+#include "tests/cli/cli_fixture.h"
+#include "tests/cli/report_document.h"
+
+namespace errmap {
+namespace {
+
+using ::testing::HasSubstr;
+
+bool HasGnuplot() { return std::system("command -v gnuplot >/dev/null") == 0; }
+
+class ReportCommand : public Cli {
+ protected:
+  void WriteStudy(const cli::Json& document) const {
+    std::filesystem::create_directory(scratch_ / "study");
+    Write("study/results.json", cli::DumpJson(document));
+  }
+};
+
+TEST_F(ReportCommand, DrawsTheReportOfAComparisonTwiceAlike) {
+  const Outcome compare = Run({"compare",
+                               kDown,
+                               "--models",
+                               "mean,poly:eq8",
+                               "--out",
+                               "study",
+                               "--quiet"});
+  ASSERT_EQ(compare.status, 0) << compare.err;
+  ASSERT_EQ(Run({"report", "study"}).status, 0);
+  const std::string first = Read("study/report.html");
+  EXPECT_THAT(first, HasSubstr("poly:eq8"));
+  EXPECT_THAT(Read("study/report.md"), HasSubstr("poly:eq8"));
+  if (HasGnuplot()) {
+    EXPECT_THAT(first, HasSubstr("<svg"));
+  }
+  ASSERT_EQ(Run({"report", "study"}).status, 0);
+  EXPECT_EQ(Read("study/report.html"), first);
+}
+
+TEST_F(ReportCommand, FindsTheRowsOfTheFiguresInResultsJson) {
+  const Json component = Compare({"--models", "mean,poly:eq8"});
+  const Json& figures = component["figures"];
+  const Json& table = figures["tables"][0];
+  EXPECT_EQ(table["rows_total"], 397);
+  EXPECT_EQ(table["target"].size(), 397U);
+  EXPECT_EQ(table["labels"].size(), 35U);
+  EXPECT_EQ(figures["position"], "position_mm");
+  EXPECT_EQ(figures["inputs"][0]["name"], "position_mm");
+  EXPECT_EQ(figures["inputs"][0]["unit"], "mm");
+  // Under every:3 two rows of three are in no test.
+  const Json& near = figures["holdouts"][0]["predictions"]["mean"];
+  EXPECT_TRUE(near[0].is_null());
+  EXPECT_TRUE(near[2].is_number());
+  // The residuals of the figures are those of the table.
+  const Json& far = figures["holdouts"][1]["predictions"]["poly:eq8"];
+  double sum = 0.0;
+  for (std::size_t i = 0; i < far.size(); ++i) {
+    const double residual =
+        table["target"][i].get<double>() - far[i].get<double>();
+    sum += residual * residual;
+  }
+  const double rmse =
+      Model(component, "poly:eq8")["results"]["groups:5"]["test"]["rmse"];
+  EXPECT_NEAR(std::sqrt(sum / static_cast<double>(far.size())), rmse, 1e-9);
+}
+
+TEST_F(ReportCommand, ThinsMoreThanFiveThousandRowsEvenly) {
+  std::string text = "position_mm,error_mm\n";
+  constexpr int kRows = 6000;
+  for (int i = 0; i < kRows; ++i) {
+    text += std::to_string(i % 50) + "," +
+            std::to_string(0.001 * (i % 50) + 0.0001 * (i % 7)) + "\n";
+  }
+  Write("many.csv", text);
+  const Json document = RunJson({"compare",
+                                 "many.csv",
+                                 "--models",
+                                 "mean,poly:position",
+                                 "--format",
+                                 "json"});
+  const Json& table = document["components"][0]["figures"]["tables"][0];
+  EXPECT_EQ(table["rows_total"], kRows);
+  ASSERT_EQ(table["rows"].size(), 5000U);
+  EXPECT_EQ(table["rows"][0], 0);
+  EXPECT_EQ(table["rows"][4999], 5998);
+}
+
+TEST_F(ReportCommand, WritesFiguresWithTheirScriptsForAPaper) {
+  if (!HasGnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  WriteStudy(MakeReportDocument());
+  for (const std::string format : {"svg", "pdf", "png"}) {
+    const Outcome outcome =
+        Run({"report", "study", "--figures", format, "--image", format});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_GT(Read(format + "/c1-gap." + format).size(), 1000U);
+    const std::string script = Read(format + "/c1-best-histogram.gp");
+    EXPECT_THAT(script, HasSubstr("$data"));
+    EXPECT_THAT(script, HasSubstr("µm"));
+  }
+  // The script draws its figure by itself.
+  const std::string image = Read("svg/c1-gap.svg");
+  std::filesystem::remove(scratch_ / "svg/c1-gap.svg");
+  const std::string draw = "cd '" + (scratch_ / "svg").string() +
+                           "' && LC_ALL=C.UTF-8 gnuplot -d c1-gap.gp";
+  ASSERT_EQ(std::system(draw.c_str()), 0);
+  EXPECT_EQ(Read("svg/c1-gap.svg"), image);
+}
+
+TEST_F(ReportCommand, RunsNothingThatStandsInNames) {
+  DocumentSpec spec;
+  for (const std::string& name : HostileNames()) {
+    spec.name += name;
+    spec.models.push_back("poly:" + name);
+  }
+  spec.position = "position" + HostileNames()[1];
+  spec.group_prefix = HostileNames()[2];
+  WriteStudy(MakeReportDocument(spec));
+  const Outcome outcome = Run({"report", "study", "--figures", "figures"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_FALSE(Exists("pwned"));
+  EXPECT_FALSE(Exists("study/pwned"));
+  EXPECT_FALSE(Exists("figures/pwned"));
+}
+
+TEST_F(ReportCommand, PrintsHtmlOrMarkdownWhereAskedTo) {
+  WriteStudy(MakeReportDocument());
+  const Outcome html = Run({"report", "study", "--format", "html"});
+  EXPECT_EQ(html.status, 0);
+  EXPECT_TRUE(html.out.starts_with("<!DOCTYPE html>"));
+  const Outcome markdown = Run({"report", "study", "--format", "md"});
+  EXPECT_TRUE(markdown.out.starts_with("# Error maps"));
+  EXPECT_FALSE(Exists("study/report.html"));
+}
+
+TEST_F(ReportCommand, NamesAFileThatIsMissingOrNoResults) {
+  EXPECT_THAT(RefusalOf(Run({"report", "nowhere"}), kUnusable),
+              HasSubstr("results.json"));
+  std::filesystem::create_directory(scratch_ / "study");
+  Write("study/results.json", "{ half");
+  EXPECT_THAT(RefusalOf(Run({"report", "study"}), kUnusable),
+              HasSubstr("is no JSON"));
+  Write("study/results.json", "{\"schema\": \"errmap-fit-1\"}");
+  EXPECT_THAT(RefusalOf(Run({"report", "study"}), kUnusable),
+              HasSubstr("'errmap-fit-1'"));
+}
+
+TEST_F(ReportCommand, KeepsAGoodReportWhereItCannotWrite) {
+  WriteStudy(MakeReportDocument());
+  ASSERT_EQ(Run({"report", "study"}).status, 0);
+  const std::string good = Read("study/report.html");
+  // A file-size limit stands for a full disk; the program inherits it.
+  signal(SIGXFSZ, SIG_IGN);
+  rlimit old{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
+  rlimit tight = old;
+  tight.rlim_cur = 4096;
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &tight), 0);
+  const Outcome outcome = Run({"report", "study"});
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &old), 0);
+  EXPECT_EQ(outcome.status, kFailure);
+  EXPECT_THAT(outcome.err, HasSubstr("report.html"));
+  EXPECT_EQ(Read("study/report.html"), good);
+}
+
+TEST_F(ReportCommand, RefusesAnUnknownFormatOrImage) {
+  EXPECT_EQ(Run({"report", "study", "--image", "gif"}).status,
+            kWrongCommandLine);
+  EXPECT_EQ(Run({"report"}).status, kWrongCommandLine);
+}
+
+}  // namespace
+}  // namespace errmap

@@ -1,0 +1,283 @@
+#include "cli/report/report_html.h"
+
+#include <chrono>
+#include <cstdlib>
+#include <regex>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/report/report_markdown.h"
+#include "cli/report/report_tables.h"
+#include "tests/cli/report_document.h"
+
+namespace errmap::cli {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string Draw(const Json& document) {
+  FigureSet figures = MakeFigures(document);
+  DrawFigures(&figures);
+  return ReportHtml(document, figures);
+}
+
+// Without drawing: quick.
+std::string Write(const Json& document) {
+  return ReportHtml(document, MakeFigures(document));
+}
+
+std::size_t CountOf(const std::string& text, const std::string& word) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos;
+       at = text.find(word, at + word.size())) {
+    ++count;
+  }
+  return count;
+}
+
+// What is shown: the text without tags and style.
+std::string VisibleText(const std::string& html) {
+  const std::size_t body = html.find("<body>");
+  std::string text;
+  bool inside = false;
+  for (std::size_t i = body; i < html.size(); ++i) {
+    if (html[i] == '<') inside = true;
+    if (!inside) text += html[i];
+    if (html[i] == '>') {
+      inside = false;
+      text += ' ';
+    }
+  }
+  return text;
+}
+
+void ExpectNoHoles(const std::string& html) {
+  const std::string text = VisibleText(html);
+  for (const char* word : {"nan", "NaN", "null", "inf"}) {
+    EXPECT_FALSE(std::regex_search(
+        text,
+        std::regex(std::string("(^|[^a-zA-Z])") + word + "($|[^a-zA-Z])")))
+        << word;
+  }
+  EXPECT_EQ(html.find("<figure></figure>"), std::string::npos);
+  EXPECT_EQ(html.find("<tbody>\n</tbody>"), std::string::npos);
+}
+
+TEST(ReportHtml, OpensWithTheAnswer) {
+  const std::string html = Write(MakeReportDocument());
+  const std::string text = VisibleText(html);
+  for (const char* words : {"Use poly:eq8 on another day.",
+                            "1.900 µm",
+                            "RMSE on whole groups never seen (groups:5); 95 % "
+                            "interval 1.520 to 2.470 µm",
+                            "Goal: sd below 0.5 µm. Not met: sd 1.881 µm.",
+                            "1.200 µm under every:3",
+                            "1 sensor, 11 parameters, 12 ns per prediction",
+                            "compensate by minus the predicted error",
+                            "A reason.",
+                            "A caveat."}) {
+    EXPECT_THAT(text, HasSubstr(words));
+  }
+  EXPECT_LT(text.find("Use poly:eq8"), text.find("Leaderboard"));
+}
+
+TEST(ReportHtml, OrdersTheLeaderboardByUnseenErrorAndShowsTiers) {
+  const Json document = MakeReportDocument();
+  const ReportView view = ViewOf(document["components"][0]);
+  const ReportTable table = LeaderboardTable(view);
+  ASSERT_EQ(table.rows.size(), 3U);
+  EXPECT_EQ(table.rows[0][0], "mean");
+  EXPECT_EQ(table.rows[1][0], "poly:eq8");
+  EXPECT_EQ(table.marked, 1U);
+  EXPECT_EQ(table.rows[1][1], "2");
+  EXPECT_EQ(table.rows[1][2], "1.900 (1.520 to 2.470)");
+  EXPECT_EQ(table.rows[2][5], "0.0030, established");
+}
+
+TEST(ReportHtml, TurnsADifferenceTheWayItIsRead) {
+  Json document = MakeReportDocument();
+  Json& component = document["components"][0];
+  const auto difference = [&] {
+    return ComparisonTable(ViewOf(component), "groups:5").rows.at(0).at(1);
+  };
+  const std::string expected = difference();
+  EXPECT_EQ(expected, "1.900 (0.950 to 2.850)");
+  Json& pair = component["comparisons"][0];
+  std::swap(pair["a"], pair["b"]);
+  std::swap(pair["rmse_a"], pair["rmse_b"]);
+  pair["difference"] = -pair["difference"].get<double>();
+  pair["ci95"] = {-pair["ci95"][1].get<double>(),
+                  -pair["ci95"][0].get<double>()};
+  EXPECT_EQ(difference(), expected);
+}
+
+TEST(ReportHtml, HasNoScriptNoLinkOutAndNoHole) {
+  const std::string html = Draw(MakeReportDocument());
+  EXPECT_THAT(html, Not(HasSubstr("<script")));
+  EXPECT_THAT(html, Not(HasSubstr("http://")));
+  EXPECT_THAT(html, Not(HasSubstr("https://")));
+  EXPECT_THAT(html, Not(HasSubstr("url(")));
+  ExpectNoHoles(html);
+}
+
+TEST(ReportHtml, SaysInWordsWhatIsMissingAndHasNoHoles) {
+  Json bare = MakeReportDocument();
+  Json& component = bare["components"][0];
+  for (const char* key : {"figures",
+                          "gap",
+                          "comparisons",
+                          "tiers",
+                          "verdict",
+                          "recommendation",
+                          "display",
+                          "goal",
+                          "stability"}) {
+    component.erase(key);
+  }
+  for (Json& model : component["models"]) {
+    for (const char* key : {"final",
+                            "regression",
+                            "sensors",
+                            "inputs_used",
+                            "predict_ns",
+                            "parameters"}) {
+      model[key] = nullptr;
+    }
+  }
+  const std::string html = Write(bare);
+  EXPECT_THAT(html, HasSubstr("No map can be recommended"));
+  EXPECT_THAT(html, HasSubstr("Differences between models were not tested"));
+  EXPECT_THAT(html, HasSubstr("The fits to all rows were not kept"));
+  ExpectNoHoles(html);
+}
+
+TEST(ReportHtml, ReportsARunInWhichEverythingFailed) {
+  Json document = MakeReportDocument();
+  Json& component = document["components"][0];
+  component["recommendation"] = nullptr;
+  for (Json& model : component["models"]) {
+    model["status"] = "failed";
+    model["why"] = "too few rows";
+    model["results"] = Json::object();
+    model["final"] = nullptr;
+  }
+  document["interrupted"] = true;
+  const std::string html = Write(document);
+  EXPECT_THAT(html, HasSubstr("The run was interrupted"));
+  EXPECT_THAT(html, HasSubstr("too few rows"));
+  EXPECT_THAT(html, HasSubstr("No model has an error on held-out rows"));
+  ExpectNoHoles(html);
+}
+
+TEST(ReportHtml, NeverThrowsOnADocumentOfAnotherShape) {
+  for (const Json& odd :
+       {Json(),
+        Json(3),
+        Json::array({1, 2}),
+        Json::object(),
+        Json{{"components", 5}},
+        Json{{"components", {1, "x", nullptr}}},
+        Json{{"components", {{{"models", "x"}, {"holdouts", 3}}}}}}) {
+    EXPECT_THAT(Write(odd), HasSubstr("</html>")) << odd;
+    EXPECT_THAT(ReportMarkdown(odd), HasSubstr("# Error maps")) << odd;
+  }
+}
+
+TEST(ReportHtml, ShowsHostileNamesAsText) {
+  for (const std::string& name : HostileNames()) {
+    DocumentSpec spec;
+    spec.name = name;
+    spec.file = name;
+    spec.position = "position" + name;
+    spec.temperature = name;
+    spec.group = name;
+    spec.group_prefix = name;
+    spec.target = name;
+    spec.unit = name;
+    spec.models = {"mean", "poly:" + name, "net:" + name};
+    // As it would come out of the file.
+    const Json document = Json::parse(DumpJson(MakeReportDocument(spec)));
+    const std::string html = Draw(document);
+    EXPECT_THAT(html, Not(HasSubstr("<script"))) << name;
+    EXPECT_THAT(html, Not(HasSubstr("<img"))) << name;
+    // In the figures quotes are text; elsewhere they would end an attribute.
+    EXPECT_THAT(Write(document), Not(HasSubstr("\" onload"))) << name;
+    EXPECT_EQ(CountOf(html, "</title>"), 1 + CountOf(html, "<svg")) << name;
+    EXPECT_THAT(html, Not(HasSubstr("could not be drawn"))) << name;
+    const std::string text = ReportMarkdown(document);
+    EXPECT_FALSE(std::regex_search(text, std::regex("(^|[^\\\\])<"))) << name;
+  }
+}
+
+TEST(ReportHtml, WithoutGnuplotSaysHowToHaveTheFigures) {
+  const Json document = MakeReportDocument();
+  const char* const path = std::getenv("PATH");
+  const std::string old = path != nullptr ? path : "";
+  setenv("PATH", "/nonexistent", 1);
+  const std::string html = Draw(document);
+  setenv("PATH", old.c_str(), 1);
+  EXPECT_THAT(html, HasSubstr("sudo apt-get install gnuplot-nox"));
+  EXPECT_THAT(html, HasSubstr("Leaderboard"));
+  EXPECT_THAT(html, Not(HasSubstr("<svg")));
+}
+
+TEST(ReportHtml, OfTwelveModelsAndSixHundredRowsIsSmallAndQuick) {
+  DocumentSpec spec;
+  spec.rows = 600;
+  spec.groups = 35;
+  spec.models = {"zero",
+                 "mean",
+                 "poly:position",
+                 "poly:eq7",
+                 "poly:eq8",
+                 "poly:eq9",
+                 "poly:full",
+                 "poly:stepwise",
+                 "poly:ridge",
+                 "net:scg",
+                 "net:lm",
+                 "net:backprop"};
+  const Json document = MakeReportDocument(spec);
+  const auto start = std::chrono::steady_clock::now();
+  const std::string html = Draw(document);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
+          .count();
+  constexpr std::size_t kMostBytes = 1'500'000;
+  EXPECT_LT(html.size(), kMostBytes);
+  // Three seconds on a quiet machine; a test machine may be busy.
+  constexpr double kMostSeconds = 12.0;
+  EXPECT_LT(seconds, kMostSeconds);
+  RecordProperty("seconds", std::to_string(seconds));
+  RecordProperty("bytes", std::to_string(html.size()));
+}
+
+TEST(ReportHtml, OfManyComponentsBeginsWithAnIndexAndFoldsTheRest) {
+  DocumentSpec spec;
+  spec.components = 100;
+  const std::string html = Write(MakeReportDocument(spec));
+  EXPECT_EQ(CountOf(html, "<details class=\"component\">"), 100U);
+  EXPECT_THAT(html, HasSubstr("<a href=\"#c100\">"));
+  EXPECT_THAT(html, HasSubstr("id=\"c100\""));
+  EXPECT_LT(html.find("<nav"), html.find("<details"));
+  constexpr std::size_t kMostBytes = 6'000'000;
+  EXPECT_LT(html.size(), kMostBytes);
+}
+
+TEST(ReportHtml, IsTheSameForTheSameDocument) {
+  const Json document = MakeReportDocument();
+  EXPECT_EQ(Draw(document), Draw(Json::parse(DumpJson(document))));
+}
+
+TEST(ReportMarkdown, HoldsTheAnswerAndTheTables) {
+  const std::string text = ReportMarkdown(MakeReportDocument());
+  EXPECT_THAT(text, HasSubstr("**Use poly:eq8 on another day.**"));
+  EXPECT_THAT(text, HasSubstr("| **poly:eq8** |"));
+  EXPECT_THAT(text, HasSubstr("### Leaderboard"));
+  EXPECT_THAT(text, HasSubstr("## Provenance"));
+}
+
+}  // namespace
+}  // namespace errmap::cli

@@ -1,0 +1,193 @@
+#include "data/turning_centre/simulation_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "data/atomic_file.h"
+#include "data/csv.h"
+#include "data/dataset.h"
+#include "tests/places.h"
+
+namespace errmap::data::turning_centre {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::ThrowsMessage;
+
+constexpr int kDays = 2;
+constexpr int kCycles = 4;
+
+const Simulation& Small() {
+  static const Simulation simulation =
+      Simulate({.days = kDays, .cycles = kCycles, .dead = {3, 4, 16, 19}});
+  return simulation;
+}
+
+CsvTable Table(const std::string& name, const FileOptions& options = {}) {
+  return ParseCsv(SimulationFile(Small(), options, name), name);
+}
+
+std::vector<double> Column(const CsvTable& table, const std::string& name) {
+  const auto index = table.Find(name);
+  if (index < 0) throw std::runtime_error(table.file + ": no " + name);
+  return table.columns[static_cast<std::size_t>(index)].values;
+}
+
+TEST(SimulationFiles, AreOnePerComponentAndDirection) {
+  EXPECT_THAT(SimulationFileNames(),
+              ElementsAre("x_displacement_down.csv",
+                          "x_displacement_up.csv",
+                          "x_straightness.csv",
+                          "x_yaw.csv",
+                          "z_displacement_forward.csv",
+                          "z_displacement_reverse.csv",
+                          "z_straightness.csv",
+                          "z_yaw.csv",
+                          "parallelism.csv",
+                          "orthogonality.csv",
+                          "spindle_axial.csv",
+                          "spindle_radial_x.csv",
+                          "spindle_radial_y.csv",
+                          "spindle_tilt_xz.csv",
+                          "spindle_tilt_yz.csv",
+                          "tool_tip.csv",
+                          "machine.toml",
+                          "README.md"));
+}
+
+TEST(SimulationFiles, HaveTheColumnsOfTheirComponent) {
+  struct Case {
+    const char* name;
+    bool has_position;
+    const char* unit;
+    std::size_t rows_per_cycle;
+  };
+  for (const Case& c : {Case{"x_displacement_up.csv", true, "mm", 17},
+                        Case{"x_yaw.csv", true, "urad", 17},
+                        Case{"z_straightness.csv", true, "mm", 17},
+                        Case{"orthogonality.csv", false, "urad", 4},
+                        Case{"spindle_axial.csv", false, "mm", 4},
+                        Case{"spindle_tilt_xz.csv", false, "urad", 4}}) {
+    const CsvTable table = Table(c.name, {.truth = true});
+    EXPECT_EQ(table.num_rows, kDays * kCycles * c.rows_per_cycle) << c.name;
+    std::vector<std::string> names = {"record", "day", "cycle"};
+    if (c.has_position) names.emplace_back("position_mm");
+    for (int i = 0; i < 40; ++i) {
+      names.push_back((i < 10 ? "t0" : "t") + std::to_string(i) + "_degC");
+    }
+    names.push_back(std::string("error_") + c.unit);
+    names.push_back(std::string("truth_") + c.unit);
+    ASSERT_EQ(table.columns.size(), names.size()) << c.name;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      EXPECT_EQ(table.columns[i].name, names[i]) << c.name;
+    }
+    EXPECT_EQ(Column(table, "cycle").back(), kDays * kCycles);
+    EXPECT_EQ(Column(table, "day").back(), kDays);
+  }
+}
+
+TEST(SimulationFiles, ErrorIsTheTruthWithReadingNoise) {
+  const CsvTable table = Table("x_displacement_down.csv", {.truth = true});
+  const std::vector<double> error = Column(table, "error_mm");
+  const std::vector<double> truth = Column(table, "truth_mm");
+  double sum_of_squares = 0.0;
+  for (std::size_t i = 0; i < error.size(); ++i) {
+    sum_of_squares += (error[i] - truth[i]) * (error[i] - truth[i]);
+  }
+  const double sd =
+      std::sqrt(sum_of_squares / static_cast<double>(error.size()));
+  // 136 readings fix a standard deviation to 6 %; four of these.
+  EXPECT_NEAR(sd, 0.15e-3, 0.25 * 0.15e-3);
+}
+
+TEST(SimulationFiles, TruthIsOptionalAndChangesNothingElse) {
+  const CsvTable with = Table("x_displacement_down.csv", {.truth = true});
+  const CsvTable without = Table("x_displacement_down.csv");
+  EXPECT_EQ(without.Find("truth_mm"), -1);
+  EXPECT_EQ(Column(with, "error_mm"), Column(without, "error_mm"));
+}
+
+TEST(SimulationFiles, AreDataSetsOfFortyOneInputsLessTheDead) {
+  const PreparedDataset prepared =
+      MakeDataset(Table("x_displacement_up.csv", {.truth = true}), {});
+  EXPECT_EQ(prepared.dataset.num_inputs(), 37);
+  EXPECT_EQ(prepared.dropped.size(), 4U);
+  EXPECT_EQ(prepared.dataset.target().name, "error_mm");
+  EXPECT_EQ(prepared.dataset.groups().column, "cycle");
+}
+
+TEST(SimulationFiles, TheToolTipTableRepeatsTheModel) {
+  const CsvTable table = Table("tool_tip.csv");
+  const std::vector<double> x = Column(table, "x_mm");
+  const std::vector<double> z = Column(table, "z_mm");
+  const std::vector<double> error_z = Column(table, "error_z_mm");
+  ASSERT_EQ(table.num_rows, Small().points.size());
+  for (std::size_t i = 0; i < table.num_rows; ++i) {
+    const ToolTipPoint& point = Small().points[i];
+    EXPECT_NEAR(x[i], point.x, 1e-9);
+    EXPECT_NEAR(z[i], point.z, 1e-9);
+    const ToolTipError error = ToolTipErrorAt(point.x,
+                                              point.x_direction,
+                                              point.z,
+                                              point.z_direction,
+                                              Small().stops[point.stop].rise);
+    EXPECT_NEAR(error_z[i], error.z, 5e-7 * std::abs(error.z));
+  }
+}
+
+TEST(SimulationFiles, MachineNamesAMapForEveryComponentFile) {
+  const std::string toml = SimulationFile(Small(), {}, "machine.toml");
+  for (const std::string& name : SimulationFileNames()) {
+    if (!name.ends_with(".csv") || name == "tool_tip.csv") continue;
+    const std::string map = name.substr(0, name.size() - 4) + ".json";
+    EXPECT_THAT(toml, HasSubstr("\"" + map + "\""));
+  }
+  EXPECT_THAT(
+      toml,
+      HasSubstr("EZZ = { forward = \"z_displacement_forward.json\", reverse = "
+                "\"z_displacement_reverse.json\" }, EXZ = "
+                "\"z_straightness.json\", EBZ = \"z_yaw.json\" }"));
+}
+
+TEST(SimulationFiles, ReadmeStatesOptionsAndDays) {
+  const std::string text = SimulationFile(Small(), {}, "README.md");
+  EXPECT_THAT(text, HasSubstr("| `--dead` | 3, 4, 16, 19 |"));
+  EXPECT_THAT(text, HasSubstr("| 1 | 08:00 |"));
+  EXPECT_THAT(text, HasSubstr("the compensation is -error"));
+}
+
+TEST(SimulationFiles, NumbersHaveSevenDigits) {
+  EXPECT_EQ(SevenDigits(-0.0), "0");
+  EXPECT_EQ(SevenDigits(22.5), "22.5");
+  EXPECT_EQ(SevenDigits(-0.012345678), "-0.01234568");
+  EXPECT_EQ(SevenDigits(123456789.0), "1.234568e+08");
+}
+
+TEST(SimulationFiles, RefusesANameThatIsNotItsOwn) {
+  EXPECT_THAT([] { SimulationFile(Small(), {}, "y_yaw.csv"); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("y_yaw.csv")));
+}
+
+// The same bytes on every x86-64 machine: those that were shipped.
+TEST(SimulationFiles, ShippedSetIsReproducedByteForByte) {
+  const Simulation simulation = Simulate({.dead = {3, 4, 16, 19}});
+  for (const char* name :
+       {"x_displacement_down.csv", "x_displacement_up.csv"}) {
+    const std::string shipped =
+        ReadFile(tests::SourceDir() + "/data/sets/turning_centre/" + name);
+    // A diff of 300 kB helps nobody.
+    EXPECT_TRUE(SimulationFile(simulation, {.truth = true}, name) == shipped)
+        << name;
+  }
+}
+
+}  // namespace
+}  // namespace errmap::data::turning_centre

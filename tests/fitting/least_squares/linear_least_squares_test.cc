@@ -1,0 +1,303 @@
+#include "fitting/least_squares/linear_least_squares.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "stats/random.h"
+
+namespace errmap::fitting {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::ThrowsMessage;
+
+// Well-conditioned systems of some ten rows: a few roundings.
+constexpr double kRounding = 1e-13;
+
+MatrixXd RandomMatrix(Index rows, Index cols, std::uint64_t seed) {
+  stats::Random random(seed);
+  MatrixXd matrix(rows, cols);
+  for (double& value : matrix.reshaped()) value = 2.0 * random.Uniform() - 1.0;
+  return matrix;
+}
+
+VectorXd RandomVector(Index rows, std::uint64_t seed) {
+  return RandomMatrix(rows, 1, seed);
+}
+
+// Powers 0 .. degree of x, as NIST's polynomial problems are written.
+MatrixXd Powers(const VectorXd& x, Index degree) {
+  MatrixXd design(x.size(), degree + 1);
+  design.col(0).setOnes();
+  for (Index j = 1; j <= degree; ++j) {
+    design.col(j) = design.col(j - 1).cwiseProduct(x);
+  }
+  return design;
+}
+
+// -log10 of the largest relative error: NIST's log relative error.
+double AgreeingDigits(const VectorXd& found, const VectorXd& certified) {
+  const double worst =
+      ((found - certified).array() / certified.array()).abs().maxCoeff();
+  return worst > 0.0 ? -std::log10(worst) : 15.0;
+}
+
+void ExpectRefused(const MatrixXd& design,
+                   const VectorXd& response,
+                   const VectorXd& weights,
+                   const std::string& message) {
+  EXPECT_THAT([&] { SolveLeastSquares(design, response, weights); },
+              ThrowsMessage<std::invalid_argument>(
+                  HasSubstr("SolveLeastSquares: " + message)));
+}
+
+TEST(LinearLeastSquares, SolvesASquareSystemExactly) {
+  const MatrixXd design{{2.0, 1.0}, {1.0, 3.0}};
+  const LeastSquaresFit fit = SolveLeastSquares(design, VectorXd{{5.0, 10.0}});
+  EXPECT_NEAR(fit.coefficients[0], 1.0, kRounding);
+  EXPECT_NEAR(fit.coefficients[1], 3.0, kRounding);
+  EXPECT_EQ(fit.rank, 2);
+  EXPECT_THAT(fit.aliased, IsEmpty());
+  EXPECT_NEAR(fit.residual_sum_of_squares, 0.0, kRounding * kRounding);
+}
+
+TEST(LinearLeastSquares, FitsALineThroughPointsOffIt) {
+  // By hand: through (0, 0), (1, 1), (2, 1): y = 1/6 + x / 2, RSS 1/6.
+  const MatrixXd design{{1.0, 0.0}, {1.0, 1.0}, {1.0, 2.0}};
+  const LeastSquaresFit fit =
+      SolveLeastSquares(design, VectorXd{{0.0, 1.0, 1.0}});
+  EXPECT_NEAR(fit.coefficients[0], 1.0 / 6.0, kRounding);
+  EXPECT_NEAR(fit.coefficients[1], 0.5, kRounding);
+  EXPECT_NEAR(fit.residual_sum_of_squares, 1.0 / 6.0, kRounding);
+}
+
+TEST(LinearLeastSquares, SolvesOneRowOfOneColumn) {
+  const LeastSquaresFit fit =
+      SolveLeastSquares(MatrixXd{{4.0}}, VectorXd{{2.0}});
+  EXPECT_DOUBLE_EQ(fit.coefficients[0], 0.5);
+  EXPECT_EQ(fit.rank, 1);
+  EXPECT_DOUBLE_EQ(fit.condition, 1.0);
+}
+
+TEST(LinearLeastSquares, LeavesResidualsAtRightAnglesToEveryColumn) {
+  const MatrixXd design = RandomMatrix(40, 6, 1);
+  const VectorXd response = RandomVector(40, 2);
+  const LeastSquaresFit fit = SolveLeastSquares(design, response);
+  const VectorXd residuals = response - design * fit.coefficients;
+  EXPECT_LT((design.transpose() * residuals).cwiseAbs().maxCoeff(), kRounding);
+  EXPECT_NEAR(fit.residual_sum_of_squares, residuals.squaredNorm(), kRounding);
+}
+
+TEST(LinearLeastSquares, WholeWeightsEqualRepeatedRows) {
+  const MatrixXd design = RandomMatrix(8, 3, 3);
+  const VectorXd response = RandomVector(8, 4);
+  const VectorXd weights{{1.0, 3.0, 2.0, 1.0, 0.0, 5.0, 1.0, 2.0}};
+  const Index total = static_cast<Index>(weights.sum());
+  MatrixXd repeated(total, 3);
+  VectorXd repeated_response(total);
+  Index next = 0;
+  for (Index row = 0; row < 8; ++row) {
+    for (double w = 0.0; w < weights[row]; w += 1.0, ++next) {
+      repeated.row(next) = design.row(row);
+      repeated_response[next] = response[row];
+    }
+  }
+  const LeastSquaresFit weighted = SolveLeastSquares(design, response, weights);
+  const LeastSquaresFit plain = SolveLeastSquares(repeated, repeated_response);
+  EXPECT_LT((weighted.coefficients - plain.coefficients).norm(), kRounding);
+  EXPECT_NEAR(weighted.residual_sum_of_squares,
+              plain.residual_sum_of_squares,
+              kRounding);
+}
+
+TEST(LinearLeastSquares, EqualWeightsChangeNoCoefficient) {
+  constexpr double kWeight = 7.0;
+  const MatrixXd design = RandomMatrix(12, 4, 5);
+  const VectorXd response = RandomVector(12, 6);
+  const LeastSquaresFit plain = SolveLeastSquares(design, response);
+  const LeastSquaresFit weighted =
+      SolveLeastSquares(design, response, VectorXd::Constant(12, kWeight));
+  EXPECT_LT((weighted.coefficients - plain.coefficients).norm(), kRounding);
+  EXPECT_NEAR(weighted.residual_sum_of_squares,
+              kWeight * plain.residual_sum_of_squares,
+              kWeight * kRounding);
+}
+
+TEST(LinearLeastSquares, RowOrderAndColumnScaleDoNotMatter) {
+  const MatrixXd design = RandomMatrix(20, 4, 7);
+  const VectorXd response = RandomVector(20, 8);
+  const LeastSquaresFit plain = SolveLeastSquares(design, response);
+  const LeastSquaresFit reversed =
+      SolveLeastSquares(design.colwise().reverse(), response.reverse());
+  EXPECT_LT((reversed.coefficients - plain.coefficients).norm(), kRounding);
+  // Powers of two from 2^-400 to 2^400: the squares would over- and underflow.
+  VectorXd scales(4);
+  scales << 0x1.0p400, 1.0, 0x1.0p-400, 0x1.0p-30;
+  const LeastSquaresFit scaled =
+      SolveLeastSquares(design * scales.asDiagonal(), response);
+  EXPECT_EQ(scaled.rank, 4);
+  EXPECT_LT(
+      (scaled.coefficients.cwiseProduct(scales) - plain.coefficients).norm(),
+      kRounding);
+  EXPECT_NEAR(scaled.condition, plain.condition, kRounding * plain.condition);
+}
+
+TEST(LinearLeastSquares, NamesAColumnThatTheOthersDetermine) {
+  MatrixXd design = RandomMatrix(15, 4, 9);
+  design.col(2) = 2.0 * design.col(0) - 0.5 * design.col(3);
+  const VectorXd response = RandomVector(15, 10);
+  const LeastSquaresFit fit = SolveLeastSquares(design, response);
+  EXPECT_EQ(fit.rank, 3);
+  ASSERT_EQ(fit.aliased.size(), 1U);
+  // Any of the three that depend on each other may be the one left out.
+  EXPECT_NE(fit.aliased[0], 1);
+  EXPECT_EQ(fit.coefficients[fit.aliased[0]], 0.0);
+  const LeastSquaresFit without = SolveLeastSquares(
+      MatrixXd{design(Eigen::all, std::vector<Index>{0, 1, 3})}, response);
+  EXPECT_NEAR(
+      fit.residual_sum_of_squares, without.residual_sum_of_squares, kRounding);
+}
+
+TEST(LinearLeastSquares, NamesACopyAndAColumnOfZeros) {
+  MatrixXd design = RandomMatrix(10, 4, 11);
+  design.col(1).setZero();
+  design.col(3) = design.col(0);
+  const LeastSquaresFit fit = SolveLeastSquares(design, RandomVector(10, 12));
+  EXPECT_EQ(fit.rank, 2);
+  ASSERT_EQ(fit.aliased.size(), 2U);
+  EXPECT_TRUE(std::is_sorted(fit.aliased.begin(), fit.aliased.end()));
+  EXPECT_THAT(fit.aliased, ::testing::Contains(1));
+  EXPECT_TRUE(fit.aliased[0] == 0 || fit.aliased[1] == 3);
+  for (const Index column : fit.aliased) {
+    EXPECT_EQ(fit.coefficients[column], 0.0);
+  }
+}
+
+TEST(LinearLeastSquares, NothingButZerosHasRankZero) {
+  const LeastSquaresFit fit =
+      SolveLeastSquares(MatrixXd::Zero(3, 2), VectorXd{{1.0, 2.0, 2.0}});
+  EXPECT_EQ(fit.rank, 0);
+  EXPECT_THAT(fit.aliased, ElementsAre(0, 1));
+  EXPECT_EQ(fit.coefficients, VectorXd::Zero(2));
+  EXPECT_DOUBLE_EQ(fit.residual_sum_of_squares, 9.0);
+  const LeastSquaresFit weightless = SolveLeastSquares(
+      MatrixXd::Ones(3, 1), VectorXd::Ones(3), VectorXd::Zero(3));
+  EXPECT_EQ(weightless.rank, 0);
+  EXPECT_EQ(weightless.residual_sum_of_squares, 0.0);
+}
+
+TEST(LinearLeastSquares, FewerRowsThanColumnsFitExactlyWithRankOfTheRows) {
+  const MatrixXd design = RandomMatrix(3, 5, 13);
+  const VectorXd response = RandomVector(3, 14);
+  const LeastSquaresFit fit = SolveLeastSquares(design, response);
+  EXPECT_EQ(fit.rank, 3);
+  EXPECT_EQ(fit.aliased.size(), 2U);
+  EXPECT_LT((design * fit.coefficients - response).norm(), kRounding);
+  EXPECT_NEAR(fit.residual_sum_of_squares, 0.0, kRounding);
+  for (const Index column : fit.aliased) {
+    EXPECT_EQ(fit.coefficients[column], 0.0);
+  }
+}
+
+TEST(LinearLeastSquares, ConditionBoundsTheTrueOneFromBelow) {
+  // Columns at an angle a: singular values sqrt(1 +- cos a).
+  for (const double angle : {1.5, 0.1, 1e-3, 1e-6}) {
+    const MatrixXd design{{1.0, std::cos(angle)}, {0.0, std::sin(angle)}};
+    const double condition = 1.0 / std::tan(0.5 * angle);
+    const double found = SolveLeastSquares(design, VectorXd::Ones(2)).condition;
+    EXPECT_LE(found, condition * (1.0 + 1e-9)) << angle;
+    EXPECT_GE(found, 0.4 * condition) << angle;
+  }
+}
+
+// NIST StRD, linear regression (www.itl.nist.gov/div898/strd): x = 0 .. 20;
+// Wampler1: y = sum x^j, all six coefficients 1; Wampler2: y = sum (x / 10)^j,
+// coefficients 10^-j; both fit exactly, RSS 0.
+TEST(LinearLeastSquares, SolvesTheExactWamplerPolynomials) {
+  constexpr double kDigits = 9.0;      // condition about 1e5 when scaled
+  constexpr double kDigitsOfTwo = 11;  // its y are rounded, but smaller
+  const VectorXd x = VectorXd::LinSpaced(21, 0.0, 20.0);
+  const MatrixXd design = Powers(x, 5);
+  const VectorXd ones = VectorXd::Ones(6);
+  const LeastSquaresFit first = SolveLeastSquares(design, design * ones);
+  EXPECT_EQ(first.rank, 6);
+  EXPECT_GE(AgreeingDigits(first.coefficients, ones), kDigits);
+  EXPECT_LT(std::sqrt(first.residual_sum_of_squares / 15.0), 1e-8);
+
+  VectorXd tenths(6);
+  for (Index j = 0; j < 6; ++j) {
+    tenths[j] = std::pow(10.0, -static_cast<double>(j));
+  }
+  const LeastSquaresFit second = SolveLeastSquares(design, design * tenths);
+  EXPECT_GE(AgreeingDigits(second.coefficients, tenths), kDigitsOfTwo);
+}
+
+// NIST StRD NoInt1: y = 130 .. 140 on x = 60 .. 70 through the origin;
+// certified 2.07438016528926, RSS 127.272727272727. NoInt2: (4, 3), (5, 4),
+// (6, 4); certified 0.727272727272727, RSS 0.272727272727273. Both follow
+// exactly from sum xy / sum xx in fractions.
+TEST(LinearLeastSquares, SolvesTheRegressionsThroughTheOrigin) {
+  constexpr double kLastCertifiedDigit = 5e-15;
+  const VectorXd x = VectorXd::LinSpaced(11, 60.0, 70.0);
+  const VectorXd y = x.array() + 70.0;
+  const LeastSquaresFit first = SolveLeastSquares(x, y);
+  EXPECT_NEAR(first.coefficients[0], 2.07438016528926, kLastCertifiedDigit);
+  EXPECT_NEAR(first.residual_sum_of_squares, 127.272727272727, 1e-12);
+  const LeastSquaresFit second =
+      SolveLeastSquares(VectorXd{{4.0, 5.0, 6.0}}, VectorXd{{3.0, 4.0, 4.0}});
+  EXPECT_NEAR(second.coefficients[0], 0.727272727272727, kLastCertifiedDigit);
+  EXPECT_NEAR(second.residual_sum_of_squares, 0.272727272727273, 1e-14);
+}
+
+TEST(LinearLeastSquares, RefusesAnEmptyDesign) {
+  ExpectRefused(MatrixXd(0, 2), VectorXd(), {}, "empty design matrix (0 x 2)");
+  ExpectRefused(
+      MatrixXd(2, 0), VectorXd::Zero(2), {}, "empty design matrix (2 x 0)");
+}
+
+TEST(LinearLeastSquares, RefusesShapesThatDoNotAgree) {
+  ExpectRefused(MatrixXd::Ones(3, 2),
+                VectorXd::Ones(4),
+                {},
+                "design has 3 rows, response 4, weights 0");
+  ExpectRefused(MatrixXd::Ones(3, 2),
+                VectorXd::Ones(3),
+                VectorXd::Ones(2),
+                "design has 3 rows, response 3, weights 2");
+}
+
+TEST(LinearLeastSquares, RefusesValuesThatAreNotFinite) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
+                           std::numeric_limits<double>::infinity()}) {
+    MatrixXd design = MatrixXd::Ones(3, 2);
+    VectorXd ones = VectorXd::Ones(3);
+    VectorXd spoilt = ones;
+    spoilt[1] = bad;
+    design(2, 1) = bad;
+    ExpectRefused(design, ones, {}, "values must be finite");
+    ExpectRefused(MatrixXd::Ones(3, 2), spoilt, {}, "values must be finite");
+    ExpectRefused(MatrixXd::Ones(3, 2), ones, spoilt, "values must be finite");
+  }
+}
+
+TEST(LinearLeastSquares, RefusesNegativeWeights) {
+  ExpectRefused(MatrixXd::Ones(2, 1),
+                VectorXd::Ones(2),
+                VectorXd{{1.0, -1e-9}},
+                "weights must not be negative");
+}
+
+}  // namespace
+}  // namespace errmap::fitting

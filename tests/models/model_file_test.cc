@@ -1,0 +1,116 @@
+#include "models/model_file.h"
+
+#include <functional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "data/input_error.h"
+#include "models/recipe_catalog.h"
+#include "tests/models/model_test_data.h"
+
+namespace errmap::models {
+namespace {
+
+using errmap::testing::ShippedMeasurements;
+using ::testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+
+std::string SavedModel(const std::string& spec) {
+  return ModelToJson(MakeRecipe(spec)->Fit(ShippedMeasurements(), {}),
+                     {{"data", "shipped"}});
+}
+
+TEST(ModelFile, ReproducesEveryPredictionBitForBit) {
+  const data::Dataset dataset = ShippedMeasurements();
+  for (const std::string spec : {"zero",
+                                 "mean",
+                                 "poly:eq8",
+                                 "poly:full:degree=6",
+                                 "poly:stepwise",
+                                 "net:scg:iterations=30",
+                                 "net:lm:iterations=5"}) {
+    const FittedModel fitted = MakeRecipe(spec)->Fit(dataset, {.seed = 3});
+    const FittedModel loaded =
+        ModelFromJson(ModelToJson(fitted, {}), "saved.json");
+    EXPECT_EQ(loaded.Predict(dataset), fitted.Predict(dataset)) << spec;
+    EXPECT_EQ(loaded.name, spec);
+    EXPECT_EQ(loaded.kind, fitted.kind);
+    EXPECT_EQ(loaded.target, fitted.target);
+    EXPECT_EQ(loaded.equation, fitted.equation);
+    // And saving what was loaded changes nothing.
+    EXPECT_EQ(ModelToJson(loaded, {}), ModelToJson(fitted, {})) << spec;
+  }
+}
+
+// What loading says after `damage` has been done to a saved model.
+std::string Refusal(const std::string& spec,
+                    const std::function<void(Json*)>& damage) {
+  Json document = Json::parse(SavedModel(spec));
+  damage(&document);
+  try {
+    ModelFromJson(document.dump(), "saved.json");
+  } catch (const data::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ModelFile, LoadsWhatIsWhole) {
+  EXPECT_EQ(Refusal("poly:eq8", [](Json*) {}), "");
+}
+
+TEST(ModelFile, RefusesAnUnknownVersion) {
+  const std::string message = Refusal(
+      "poly:eq8", [](Json* json) { (*json)["schema"] = "errmap-model-9"; });
+  EXPECT_THAT(message, HasSubstr("saved.json: key 'schema'"));
+  EXPECT_THAT(message, HasSubstr("reads errmap-model-1"));
+}
+
+TEST(ModelFile, RefusesWrongShapesMissingKeysAndNonFiniteNumbers) {
+  using Damage = std::function<void(Json*)>;
+  struct Case {
+    std::string spec;
+    Damage damage;
+    std::string expected;
+  };
+  const std::string net = "net:scg:iterations=3";
+  const std::vector<Case> cases = {
+      {"poly:eq8",
+       [](Json* j) { (*j)["polynomial"]["input_scale"].push_back(1.0); },
+       "input_offset and input_scale differ"},
+      {"poly:eq8",
+       [](Json* j) { (*j)["polynomial"]["terms"][1]["powers"].push_back(1); },
+       "3 powers for 2 inputs"},
+      {"poly:eq8",
+       [](Json* j) { (*j)["polynomial"]["terms"][1]["coefficient"] = nullptr; },
+       "polynomial.terms[1].coefficient': must be a finite number"},
+      {"poly:eq8",
+       [](Json* j) { (*j)["polynomial"]["terms"][0]["powers"][0] = -1; },
+       "must be a whole number"},
+      {"poly:eq8", [](Json* j) { j->erase("polynomial"); }, "'polynomial'"},
+      {"poly:eq8", [](Json* j) { (*j)["kind"] = "spline"; }, "'spline'"},
+      {"poly:eq8", [](Json* j) { (*j)["inputs"].erase(1); }, "names 1 inputs"},
+      {"poly:eq8", [](Json* j) { (*j)["inputs"][0]["min"] = "low"; }, "min"},
+      {net, [](Json* j) { (*j)["net"]["nodes"][1] = 7; }, "nodes"},
+      {net, [](Json* j) { (*j)["net"]["w1"][2].erase(0); }, "w1[2]"},
+      {net, [](Json* j) { (*j)["net"]["output"] = "tanh"; }, "'tanh'"},
+      {net, [](Json* j) { (*j)["net"]["target_slope"][0] = 0.0; }, "slope"},
+      {net, [](Json* j) { (*j)["parameters"] = 80; }, "is 80, the model has"}};
+  for (const Case& c : cases) {
+    EXPECT_THAT(Refusal(c.spec, c.damage), HasSubstr(c.expected));
+  }
+}
+
+TEST(ModelFile, RefusesWhatIsNoJson) {
+  const std::string whole = SavedModel("poly:eq8");
+  EXPECT_THROW(ModelFromJson(whole.substr(0, whole.size() / 2), "cut.json"),
+               data::InputError);
+  EXPECT_THROW(ModelFromJson("", "empty.json"), data::InputError);
+  EXPECT_THROW(ModelFromJson("[1, 2]", "list.json"), data::InputError);
+  EXPECT_THROW(LoadModel("/nonexistent/map.json"), data::InputError);
+}
+
+}  // namespace
+}  // namespace errmap::models

@@ -1,0 +1,304 @@
+// poly:stepwise, poly:best, poly:ridge, poly:lasso and poly:formula as recipes.
+#include "models/polynomial/selection_recipe.h"
+
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "models/polynomial/polynomial_basis.h"
+#include "models/polynomial/polynomial_model.h"
+#include "models/recipe_catalog.h"
+#include "models/regression_report.h"
+#include "tests/fitting/regression_test_data.h"
+#include "tests/models/model_test_data.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using errmap::testing::QuadraticData;
+using errmap::testing::ShippedMeasurements;
+using ::testing::HasSubstr;
+
+constexpr FitContext kExplain{.explain = true};
+
+std::string RefusalOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string RefusalOfSpec(const std::string& spec) {
+  return RefusalOf([&] { MakeRecipe(spec); });
+}
+
+// 2000 rows of six inputs in 12 groups, with weights where asked for.
+data::Dataset ManyRows(bool weighted) {
+  constexpr Index kRows = 2000;
+  data::Dataset::Parts parts;
+  parts.source = "many";
+  for (const char* name :
+       {"position_mm", "t1_degC", "t2_degC", "t3_degC", "t4_degC", "t5_degC"}) {
+    parts.inputs.push_back({name, data::UnitOfColumn(name)});
+  }
+  parts.input_values = errmap::testing::UniformMatrix(kRows, 6, 1);
+  parts.input_values.col(0) *= 200.0;
+  for (Index j = 1; j < 6; ++j) parts.input_values.col(j).array() += 22.0;
+  parts.target = {"error_mm", data::UnitOfColumn("error_mm")};
+  const auto& x = parts.input_values;
+  parts.target_values =
+      1e-4 * x.col(0).array() + 2e-3 * x.col(1).array() +
+      1e-5 * x.col(0).array() * x.col(3).array() +
+      1e-3 * x.col(2).array().square() +
+      1e-3 * errmap::testing::UniformMatrix(kRows, 1, 2).array();
+  if (weighted) {
+    parts.weights = 1.5 + errmap::testing::UniformMatrix(kRows, 1, 3).array();
+  }
+  parts.groups.column = "cycle";
+  for (int group = 0; group < 12; ++group) {
+    parts.groups.labels.push_back(std::to_string(group));
+  }
+  for (Index i = 0; i < kRows; ++i) parts.groups.codes.push_back(i % 12);
+  return data::Dataset(std::move(parts));
+}
+
+TEST(SelectionRecipe, TrianglesGiveWhatTheRowsGive) {
+  constexpr double kRelative = 1e-9;
+  for (const bool weighted : {false, true}) {
+    const data::Dataset dataset = ManyRows(weighted);
+    for (const char* spec : {"poly:stepwise:degree=2",
+                             "poly:stepwise:degree=3:criterion=aic:max_terms=9",
+                             "poly:stepwise:degree=2:criterion=cv",
+                             "poly:best:degree=2:exclude=t5_degC^2",
+                             "poly:full:degree=2",
+                             "poly:ridge:degree=2",
+                             "poly:lasso:degree=2",
+                             "poly:formula=position_mm*t3_degC+t2_degC^2"}) {
+      SCOPED_TRACE(spec);
+      FitContext reduced = kExplain;
+      reduced.most_design_values = 1000.0;
+      reduced.threads = 2;
+      const auto recipe = MakeRecipe(spec);
+      const FittedModel rows = recipe->Fit(dataset, kExplain);
+      const FittedModel triangles = recipe->Fit(dataset, reduced);
+      ASSERT_EQ(rows.inputs.size(), triangles.inputs.size());
+      const auto form = [](const FittedModel& fitted) {
+        return std::get<PolynomialForm>(fitted.model->Describe());
+      };
+      const PolynomialForm by_rows = form(rows);
+      const PolynomialForm by_triangles = form(triangles);
+      ASSERT_EQ(by_rows.terms.size(), by_triangles.terms.size());
+      double largest = 0.0;
+      for (const PolynomialTerm& term : by_rows.terms) {
+        largest = std::max(largest, std::abs(term.coefficient));
+      }
+      for (std::size_t i = 0; i < by_rows.terms.size(); ++i) {
+        EXPECT_EQ(by_rows.terms[i].powers, by_triangles.terms[i].powers);
+        EXPECT_NEAR(by_rows.terms[i].coefficient,
+                    by_triangles.terms[i].coefficient,
+                    kRelative * largest);
+      }
+      if (rows.regression->penalised) continue;
+      EXPECT_NEAR(rows.regression->fit.s,
+                  triangles.regression->fit.s,
+                  kRelative * rows.regression->fit.s);
+      EXPECT_NEAR(rows.regression->rows.press,
+                  triangles.regression->rows.press,
+                  kRelative * rows.regression->rows.press);
+    }
+  }
+}
+
+TEST(SelectionRecipe, BootstrapOverGroupTrianglesIsThatOverTheirRows) {
+  const data::Dataset dataset = ManyRows(false);
+  const auto recipe = MakeRecipe("poly:stepwise:degree=2:bootstrap=20");
+  FitContext reduced = kExplain;
+  reduced.most_design_values = 1000.0;
+  const FittedModel rows = recipe->Fit(dataset, kExplain);
+  const FittedModel triangles = recipe->Fit(dataset, reduced);
+  EXPECT_EQ(rows.regression->bootstrap_unit, "cycle");
+  ASSERT_EQ(rows.regression->terms.size(), triangles.regression->terms.size());
+  for (std::size_t i = 0; i < rows.regression->terms.size(); ++i) {
+    EXPECT_EQ(rows.regression->terms[i].inclusion,
+              triangles.regression->terms[i].inclusion);
+  }
+}
+
+TEST(SelectionRecipe, RefusesPressWhereTheRowsAreNotHeld) {
+  FitContext reduced;
+  reduced.most_design_values = 1000.0;
+  const data::Dataset dataset = ManyRows(false);
+  EXPECT_THAT(
+      RefusalOf([&] {
+        MakeRecipe("poly:stepwise:criterion=press")->Fit(dataset, reduced);
+      }),
+      HasSubstr("PRESS of every step needs the rows"));
+}
+
+TEST(SelectionRecipe, ReportReproducesTheMap) {
+  const data::Dataset dataset = ShippedMeasurements();
+  const FittedModel fitted =
+      MakeRecipe("poly:stepwise:degree=4")->Fit(dataset, kExplain);
+  const RegressionReport& report = *fitted.regression;
+  EXPECT_EQ(report.terms.size() + 1,
+            static_cast<std::size_t>(fitted.model->num_parameters()));
+  EXPECT_EQ(report.bootstrap, 200);
+  EXPECT_EQ(report.bootstrap_unit, "cycle");
+  EXPECT_EQ(report.terms.size() + report.excluded.size(), 14U);
+  for (const ReportTerm& term : report.terms) {
+    EXPECT_GE(term.inclusion, 0.0);
+    EXPECT_LE(term.inclusion, 1.0);
+  }
+  // Table and centres alone give the first row's prediction.
+  ASSERT_EQ(report.centres.size(), 2U);
+  double sum = report.intercept.numbers.estimate;
+  const double x = dataset.input_values()(0, 0) - report.centres[0].second;
+  const double c = dataset.input_values()(0, 1) - report.centres[1].second;
+  for (const ReportTerm& term : report.terms) {
+    double value = term.numbers.estimate;
+    for (int i = 0; i <= 4; ++i) {
+      for (int j = 0; i + j <= 4; ++j) {
+        if (i + j > 0 &&
+            TermName({i, j}, {"position_mm", "elapsed_cycles"}) == term.name) {
+          value *= std::pow(x, i) * std::pow(c, j);
+        }
+      }
+    }
+    sum += value;
+  }
+  EXPECT_NEAR(sum, fitted.Predict(dataset)[0], 1e-15);
+}
+
+TEST(SelectionRecipe, SameSeedAndAnyThreadsGiveTheSameReport) {
+  const data::Dataset dataset = ShippedMeasurements();
+  const auto recipe = MakeRecipe("poly:stepwise:degree=4:bootstrap=40");
+  const auto inclusion = [&](std::uint64_t seed, int threads) {
+    std::vector<double> shares;
+    FitContext context = kExplain;
+    context.seed = seed;
+    context.threads = threads;
+    for (const auto& term : recipe->Fit(dataset, context).regression->terms) {
+      shares.push_back(term.inclusion);
+    }
+    return shares;
+  };
+  EXPECT_EQ(inclusion(1, 1), inclusion(1, 2));
+  EXPECT_NE(inclusion(1, 1), inclusion(2, 1));
+}
+
+TEST(SelectionRecipe, BestSubsetIsNotWorseThanStepwise) {
+  const data::Dataset dataset = ShippedMeasurements();
+  const auto bic = [&](const std::string& spec) {
+    const auto fitted = MakeRecipe(spec)->Fit(dataset, kExplain);
+    return fitting::Bic(fitted.regression->fit.residual_sum_of_squares,
+                        397.0,
+                        static_cast<double>(fitted.model->num_parameters()));
+  };
+  EXPECT_LE(bic("poly:best:degree=4"), bic("poly:stepwise:degree=4"));
+  EXPECT_THAT(RefusalOf([&] {
+                MakeRecipe("poly:best:degree=4")->Fit(ManyRows(false), {});
+              }),
+              HasSubstr("best subset is practical up to about 40 candidate "
+                        "terms, and degree 4 in 6 inputs makes 209"));
+}
+
+TEST(SelectionRecipe, FormulaMeansProductsOfTheInputsAsTheyAre) {
+  // Without the main effects a product of moved inputs is another map.
+  const data::Dataset dataset = QuadraticData(60);
+  const FittedModel fitted =
+      MakeRecipe("poly:formula=position_mm*t1_degC")->Fit(dataset, kExplain);
+  const auto form = std::get<PolynomialForm>(fitted.model->Describe());
+  EXPECT_TRUE(form.input_offset.isZero());
+  EXPECT_EQ(ExpandToPhysicalUnits(form).size(), 2U);
+  // With them it is the same map, and centring keeps the digits.
+  const FittedModel closed =
+      MakeRecipe("poly:formula=position_mm+t1_degC+position_mm*t1_degC")
+          ->Fit(dataset, kExplain);
+  EXPECT_FALSE(
+      std::get<PolynomialForm>(closed.model->Describe()).input_offset.isZero());
+  const FittedModel plain =
+      MakeRecipe(
+          "poly:formula=position_mm+t1_degC+position_mm*t1_degC:"
+          "centred=no")
+          ->Fit(dataset, kExplain);
+  EXPECT_TRUE(closed.Predict(dataset).isApprox(plain.Predict(dataset), 1e-9));
+}
+
+TEST(SelectionRecipe, RidgeAndLassoShrinkAndStayNearTheData) {
+  const data::Dataset dataset = ShippedMeasurements();
+  for (const char* spec : {"poly:ridge", "poly:lasso", "poly:lasso:rule=1se"}) {
+    const FittedModel fitted = MakeRecipe(spec)->Fit(dataset, kExplain);
+    EXPECT_TRUE(fitted.regression->penalised);
+    EXPECT_EQ(fitted.regression->cross_validation, "groups:5 of cycle");
+    EXPECT_LT((fitted.Predict(dataset) - dataset.target_values()).norm(),
+              0.5 * dataset.target_values().norm());
+  }
+  const FittedModel nothing =
+      MakeRecipe("poly:lasso:penalty=1e9")->Fit(dataset, {});
+  EXPECT_EQ(nothing.model->num_parameters(), 1);
+  EXPECT_NEAR(
+      nothing.Predict(dataset)[0], dataset.target_values().mean(), 1e-15);
+}
+
+TEST(SelectionRecipe, RefusesBadOptionsInOneLine) {
+  EXPECT_THAT(RefusalOfSpec("poly:stepwise:degree=0"),
+              HasSubstr("degree must be a whole number from 1 to 4"));
+  EXPECT_THAT(RefusalOfSpec("poly:stepwise:criterion=p:enter=1.5"),
+              HasSubstr("enter must be a number from 0 to 1"));
+  EXPECT_THAT(RefusalOfSpec("poly:stepwise:criterion=p:enter=0"),
+              HasSubstr("enter must be above 0 and below 1"));
+  EXPECT_THAT(RefusalOfSpec("poly:stepwise:criterion=p:enter=0.1:remove=0.05"),
+              HasSubstr("remove (0.05) is below enter (0.1)"));
+  EXPECT_THAT(RefusalOfSpec("poly:stepwise:enter=0.1"),
+              HasSubstr("they need criterion=p"));
+  EXPECT_THAT(RefusalOfSpec("poly:stepwise:criterion=dic"),
+              HasSubstr("criterion must be one of p, aic"));
+  EXPECT_THAT(RefusalOfSpec("poly:stepwise:include=position_mm++t1"),
+              HasSubstr("position 13"));
+  EXPECT_THAT(RefusalOfSpec("poly:formula=a*"), HasSubstr("position 3"));
+  EXPECT_THAT(RefusalOfSpec("poly:best:criterion=press"),
+              HasSubstr("criterion must be one of aic"));
+  EXPECT_THAT(RefusalOfSpec("poly:ridge:penalty=1:rule=1se"),
+              HasSubstr("which penalty= fixes"));
+  const data::Dataset dataset = QuadraticData(40);
+  const auto refusal = [&](const std::string& spec) {
+    return RefusalOf([&] { MakeRecipe(spec)->Fit(dataset, {}); });
+  };
+  EXPECT_THAT(refusal("poly:stepwise:include=t9_degC"),
+              HasSubstr("'t9_degC' is not an input"));
+  EXPECT_THAT(refusal("poly:stepwise:degree=2:exclude=t1_degC^3"),
+              HasSubstr("t1_degC^3 is not among the terms up to degree 2"));
+  EXPECT_THAT(refusal("poly:stepwise:include=t1_degC:exclude=t1_degC"),
+              HasSubstr("both included and excluded"));
+  EXPECT_THAT(refusal("poly:formula=nothing_here"),
+              HasSubstr("'nothing_here' is not an input"));
+}
+
+TEST(SelectionRecipe, NamesAliasedTerms) {
+  const data::Dataset all = QuadraticData(50);
+  data::Dataset::Parts parts;
+  parts.source = "copies";
+  parts.inputs = all.inputs();
+  parts.input_values = all.input_values();
+  parts.input_values.col(2) = all.input_values().col(1);  // t2 repeats t1
+  parts.target = all.target();
+  parts.target_values = all.target_values();
+  const FittedModel fitted =
+      MakeRecipe("poly:stepwise:degree=2")
+          ->Fit(data::Dataset(std::move(parts)), kExplain);
+  bool named = false;
+  for (const AliasReport& alias : fitted.regression->aliased) {
+    named =
+        named || (alias.name == "t2_degC" && alias.why == "repeats t1_degC");
+  }
+  EXPECT_TRUE(named);
+}
+
+}  // namespace
+}  // namespace errmap::models

@@ -1,0 +1,199 @@
+#include "models/study/memorisation.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "models/recipe_catalog.h"
+#include "tests/models/model_test_data.h"
+#include "tests/random_matrix.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using errmap::testing::QuadraticData;
+using errmap::testing::RandomMatrix;
+using errmap::testing::ShippedMeasurements;
+using ::testing::HasSubstr;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+Memorisation Assess(const std::string& spec,
+                    const data::Dataset& training,
+                    const FitContext& context = {}) {
+  const auto recipe = MakeRecipe(spec);
+  return AssessMemorisation(
+      *recipe, training, recipe->Fit(training, context), context);
+}
+
+TEST(ShuffleTargets, KeepsAllButTheOrderOfTheTargets) {
+  const data::Dataset all = ShippedMeasurements();
+  const data::Dataset shuffled = ShuffleTargets(all, 4);
+  EXPECT_EQ(shuffled.input_values(), all.input_values());
+  EXPECT_EQ(shuffled.groups().codes, all.groups().codes);
+  EXPECT_EQ(shuffled.rows(), all.rows());
+  EXPECT_NE(shuffled.target_values(), all.target_values());
+  Eigen::VectorXd a = all.target_values();
+  Eigen::VectorXd b = shuffled.target_values();
+  std::sort(a.begin(), a.end());
+  std::sort(b.begin(), b.end());
+  EXPECT_EQ(a, b);
+  EXPECT_EQ(ShuffleTargets(all, 4).target_values(), shuffled.target_values());
+  EXPECT_NE(ShuffleTargets(all, 5).target_values(), shuffled.target_values());
+}
+
+TEST(Memorisation, IsThatOfItsCoefficientsForALinearFit) {
+  // 20 coefficients (degree 3 in 3 inputs) on 200 rows follow 0.1 of noise,
+  // give or take sqrt(2 * 20) / 200 = 0.03 in one order.
+  data::Dataset::Parts parts;
+  parts.source = "random";
+  parts.inputs = {{"a", {}}, {"b", {}}, {"c", {}}};
+  parts.input_values = RandomMatrix(200, 3, 1);
+  parts.target = {"error_mm", {}};
+  parts.target_values = parts.input_values.col(0) + parts.input_values.col(1);
+  const data::Dataset dataset(std::move(parts));
+  const Memorisation found = Assess("poly:full:degree=3", dataset);
+  EXPECT_NEAR(found.shuffled_r2, 19.0 / 199.0, 0.09);
+  EXPECT_NEAR(found.train_r2, 1.0, 1e-9);
+  EXPECT_DOUBLE_EQ(found.weights_per_row, 0.1);
+  EXPECT_TRUE(std::isnan(found.effective_parameters));
+  EXPECT_EQ(found.learning(), NoiseLearning::kLittle);
+  EXPECT_EQ(found.why_not, "");
+}
+
+TEST(Memorisation, TellsANetThatLearnsNoiseFromOneThatCannot) {
+  data::Dataset::Parts parts;
+  parts.source = "random";
+  parts.inputs = {{"a", {}}, {"b", {}}, {"c", {}}};
+  parts.input_values = RandomMatrix(40, 3, 8);
+  parts.target = {"error_mm", {}};
+  parts.target_values = parts.input_values.col(0);
+  const data::Dataset few(std::move(parts));
+  const Memorisation free = Assess("net:scg:hidden=20:wfactor=1e-8", few);
+  EXPECT_GT(free.shuffled_r2, 0.8);
+  EXPECT_DOUBLE_EQ(free.weights_per_row, 101.0 / 40.0);
+  EXPECT_GT(free.effective_per_row, kMuchNoise);
+  EXPECT_DOUBLE_EQ(free.effective_per_row, free.effective_parameters / 40.0);
+  EXPECT_EQ(free.learning(), NoiseLearning::kMuch);
+
+  const Memorisation bound = Assess("net:scg:hidden=20:wfactor=10", few);
+  EXPECT_LT(bound.shuffled_r2, 0.1);
+  EXPECT_LT(bound.effective_per_row, 0.1);
+  EXPECT_EQ(bound.learning(), NoiseLearning::kLittle);
+  EXPECT_EQ(bound.why_not, "");
+}
+
+TEST(Memorisation, ClassifiesByTheLargerShare) {
+  struct Case {
+    double shuffled_r2;
+    double effective_per_row;
+    NoiseLearning expected;
+  };
+  for (const Case& c : {Case{kNaN, kNaN, NoiseLearning::kUnknown},
+                        Case{-0.1, kNaN, NoiseLearning::kLittle},
+                        Case{0.199, 0.1, NoiseLearning::kLittle},
+                        Case{0.2, 0.1, NoiseLearning::kSome},
+                        Case{0.1, 0.3, NoiseLearning::kSome},
+                        Case{kNaN, 0.49, NoiseLearning::kSome},
+                        Case{0.5, 0.1, NoiseLearning::kMuch},
+                        Case{0.0, 0.9, NoiseLearning::kMuch}}) {
+    Memorisation memorisation;
+    memorisation.shuffled_r2 = c.shuffled_r2;
+    memorisation.effective_per_row = c.effective_per_row;
+    EXPECT_EQ(memorisation.learning(), c.expected)
+        << c.shuffled_r2 << " " << c.effective_per_row;
+  }
+  EXPECT_EQ(ToString(NoiseLearning::kUnknown), "unknown");
+  EXPECT_EQ(ToString(NoiseLearning::kLittle), "little");
+  EXPECT_EQ(ToString(NoiseLearning::kSome), "some");
+  EXPECT_EQ(ToString(NoiseLearning::kMuch), "much");
+}
+
+// Tuned again on shuffled targets, hidden nodes and wfactor would be others,
+// and the net judged not the one at hand.
+TEST(Memorisation, FixesWhatTheFitHasTuned) {
+  const data::Dataset dataset = QuadraticData(60);
+  const std::string limits = ":iterations=40";
+  const auto tuned =
+      MakeRecipe("net:scg:hidden=cv:wfactor=cv:starts=3" + limits);
+  const FittedModel fitted = tuned->Fit(dataset, {.seed = 3});
+  const Memorisation found =
+      AssessMemorisation(*tuned, dataset, fitted, {.seed = 3});
+  const auto fixed = MakeRecipe(
+      "net:scg:hidden=" +
+      std::to_string(std::get<std::int64_t>(fitted.choices[0].value)) +
+      ":wfactor=" +
+      ::testing::PrintToString(std::get<double>(fitted.choices[1].value)) +
+      limits);
+  std::uint64_t seed = 0;
+  for (const StartResult& start : fitted.starts) {
+    if (start.chosen) seed = start.seed;
+  }
+  const FittedModel same = fixed->Fit(dataset, {.seed = seed});
+  ASSERT_EQ(same.Predict(dataset), fitted.Predict(dataset));
+  // The order of the targets is the seed's, whichever start was chosen.
+  FittedModel with_start = same;
+  with_start.starts = fitted.starts;
+  const Memorisation expected =
+      AssessMemorisation(*fixed, dataset, with_start, {.seed = 3});
+  EXPECT_EQ(found.shuffled_r2, expected.shuffled_r2);
+  EXPECT_EQ(found.effective_parameters, expected.effective_parameters);
+  EXPECT_TRUE(std::isfinite(found.shuffled_r2));
+  EXPECT_TRUE(std::isfinite(found.effective_parameters));
+}
+
+TEST(Memorisation, IsTheSameForEverySlopeAndPrecisionAsForTheWeights) {
+  // The form of a net has the slope in its weights; it must come out again.
+  const data::Dataset dataset = QuadraticData(60);
+  for (const std::string options :
+       {":slope=2", ":slope=0.5:output=linear", ":precision=single"}) {
+    const Memorisation found =
+        Assess("net:scg:hidden=4:iterations=100:wfactor=0" + options, dataset);
+    // All weights count where nothing holds them, but for rounding.
+    EXPECT_GT(found.effective_parameters, 12.0) << options;
+    EXPECT_LE(found.effective_parameters, 21.0) << options;
+    EXPECT_GT(found.train_r2, 0.9) << options;
+  }
+}
+
+TEST(Memorisation, LeavesFiguresOutWhereTheFitIsInterrupted) {
+  const data::Dataset dataset = QuadraticData(60);
+  const auto recipe = MakeRecipe("net:scg:hidden=4:iterations=20");
+  const FittedModel fitted = recipe->Fit(dataset, {});
+  const std::atomic<bool> stop = true;
+  const Memorisation found =
+      AssessMemorisation(*recipe, dataset, fitted, {.stop = &stop});
+  EXPECT_TRUE(std::isnan(found.shuffled_r2));
+  EXPECT_TRUE(std::isnan(found.effective_parameters));
+  EXPECT_EQ(found.why_not, "interrupted");
+  EXPECT_EQ(found.learning(), NoiseLearning::kUnknown);
+  EXPECT_TRUE(std::isfinite(found.train_r2));
+}
+
+TEST(Memorisation, GivesAReasonWhereTheRefitFails) {
+  // Fitted elsewhere, to rows of other inputs.
+  const auto recipe = MakeRecipe("poly:position");
+  const FittedModel fitted = recipe->Fit(QuadraticData(60), {});
+  data::Dataset::Parts parts;
+  parts.source = "elsewhere";
+  parts.inputs = {{"a", {}}};
+  parts.input_values = RandomMatrix(20, 1, 1);
+  parts.target = {"error_mm", {}};
+  parts.target_values = parts.input_values.col(0);
+  const Memorisation found =
+      AssessMemorisation(*recipe, data::Dataset(std::move(parts)), fitted, {});
+  EXPECT_THAT(found.why_not, HasSubstr("position_mm"));
+  EXPECT_TRUE(std::isnan(found.shuffled_r2));
+}
+
+}  // namespace
+}  // namespace errmap::models

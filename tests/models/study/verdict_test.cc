@@ -1,0 +1,259 @@
+#include "models/study/verdict.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "models/study/given_predictions.h"
+#include "tests/models/model_test_data.h"
+#include "tests/models/study/study_test_tools.h"
+#include "tests/random_matrix.h"
+
+namespace errmap::models {
+namespace {
+
+using errmap::testing::MakeHoldouts;
+using errmap::testing::MakeRecipes;
+using errmap::testing::ShippedMeasurements;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr double kIndifferenceMm = 2e-5;
+
+// Groups of rows whose target is slope * x plus noise; x grows by group.
+data::Dataset GroupedLine(Eigen::Index groups,
+                          Eigen::Index rows_of_group,
+                          double slope) {
+  data::Dataset::Parts parts;
+  parts.source = "line";
+  parts.inputs = {{"position_mm", data::UnitOfColumn("position_mm")},
+                  {"t1_degC", data::UnitOfColumn("t1_degC")}};
+  const Eigen::Index rows = groups * rows_of_group;
+  parts.input_values.resize(rows, 2);
+  parts.target = {"error_mm", data::UnitOfColumn("error_mm")};
+  parts.target_values.resize(rows);
+  parts.groups.column = "cycle";
+  for (Eigen::Index g = 0; g < groups; ++g) {
+    parts.groups.labels.push_back(std::to_string(g + 1));
+  }
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const double k = static_cast<double>(i);
+    const double t = 20.0 + std::sin(2.3 * k);
+    parts.input_values.row(i) << static_cast<double>(i % rows_of_group), t;
+    parts.groups.codes.push_back(i / rows_of_group);
+    parts.target_values[i] =
+        slope * (t - 20.0) + 1e-3 * std::sin(12.9898 * k * k);
+  }
+  return data::Dataset(std::move(parts));
+}
+
+Judgement JudgeSpecs(const data::Dataset& dataset,
+                     const std::vector<std::string>& holdout_specs,
+                     const std::vector<std::string>& model_specs,
+                     StudyResult* study) {
+  const auto holdouts = MakeHoldouts(dataset, holdout_specs);
+  *study = RunStudy(dataset, holdouts, MakeRecipes(model_specs), {});
+  return JudgeStudy(dataset, holdouts, *study, kIndifferenceMm, 1);
+}
+
+TEST(Verdict, FollowsTheUnseenCyclesOfTheShippedMeasurements) {
+  const data::Dataset dataset = ShippedMeasurements();
+  StudyResult study;
+  const Judgement judgement = JudgeSpecs(dataset,
+                                         {"every:3", "groups:5"},
+                                         {"zero",
+                                          "mean",
+                                          "poly:position",
+                                          "poly:temperature",
+                                          "poly:eq8",
+                                          "poly:full:degree=3",
+                                          "poly:full:degree=6",
+                                          "poly:stepwise",
+                                          "net:scg"},
+                                         &study);
+  const Verdict& neighbours = *judgement.verdicts[0];
+  EXPECT_EQ(neighbours.choice, Choice::kNeural);
+  EXPECT_EQ(study.models[neighbours.best].name, "net:scg");
+  const Verdict& unseen = *judgement.verdicts[1];
+  EXPECT_EQ(unseen.choice, Choice::kPolynomial);
+  EXPECT_EQ(study.models[unseen.best].name, "poly:full:degree=3");
+  // p is small, but the losses of neighbouring cycles resemble each other.
+  const auto& tests = judgement.comparisons[1];
+  const auto& pair = tests.tests.Pair(*tests.PlaceOf(unseen.best),
+                                      *tests.PlaceOf(*unseen.rival));
+  EXPECT_TRUE(pair.established);
+  EXPECT_TRUE(pair.correlated);
+  EXPECT_FALSE(unseen.established);
+  ASSERT_TRUE(judgement.gap);
+  for (const InterpolationGap::Row& row : judgement.gap->rows) {
+    if (study.models[row.model].name != "poly:full:degree=6") continue;
+    EXPECT_NEAR(1e3 * row.neighbours_rmse, 0.487, 5e-4);
+    EXPECT_NEAR(1e3 * row.unseen_rmse, 10.254, 5e-4);
+    EXPECT_TRUE(row.flatters());
+  }
+  ASSERT_TRUE(judgement.recommendation);
+  const Recommendation& advice = *judgement.recommendation;
+  EXPECT_EQ(advice.holdout, 1u);
+  EXPECT_EQ(advice.choice, Choice::kPolynomial);
+  // The same cubic with 8 of its 10 terms: the simplest of the first tier.
+  EXPECT_EQ(study.models[advice.model].name, "poly:stepwise");
+  EXPECT_EQ(study.models[advice.best_baseline].name, "poly:position");
+  EXPECT_GT(advice.extrapolated_share, 0.3);
+}
+
+TEST(Verdict, SaysThatNothingBetterThanABaselineIsKnown) {
+  StudyResult study;
+  const Judgement judgement = JudgeSpecs(GroupedLine(12, 6, 0.0),
+                                         {"groups:4"},
+                                         {"zero", "mean", "poly:full:degree=2"},
+                                         &study);
+  EXPECT_EQ(judgement.verdicts[0]->choice, Choice::kBaseline);
+  EXPECT_EQ(judgement.recommendation->choice, Choice::kBaseline);
+  EXPECT_TRUE(study.models[judgement.recommendation->model].baseline);
+}
+
+TEST(Verdict, CallsAModelAgainstItsTwinNoBetter) {
+  StudyResult study;
+  const data::Dataset dataset = GroupedLine(12, 6, 0.01);
+  const Judgement judgement = JudgeSpecs(
+      dataset,
+      {"groups:4"},
+      {"mean", "poly:full:degree=1", "poly:formula=position_mm+t1_degC"},
+      &study);
+  const auto& tiers = judgement.comparisons[0].tests.tiers;
+  EXPECT_EQ(tiers[0].size(), 2u);
+  EXPECT_FALSE(judgement.comparisons[0].tests.Pair(1, 2).established);
+  EXPECT_EQ(judgement.recommendation->choice, Choice::kPolynomial);
+  EXPECT_TRUE(judgement.verdicts[0]->established);  // against the mean
+}
+
+TEST(Verdict, EstablishesNothingWithFewerThanSixGroups) {
+  for (const Eigen::Index groups : {2, 3, 5}) {
+    StudyResult study;
+    const Judgement judgement = JudgeSpecs(GroupedLine(groups, 20, 0.05),
+                                           {"leave-one-group-out"},
+                                           {"mean", "poly:full:degree=1"},
+                                           &study);
+    EXPECT_FALSE(judgement.verdicts[0]->established) << groups;
+    for (const auto& pair : judgement.comparisons[0].tests.pairs) {
+      EXPECT_FALSE(pair.established);
+    }
+    EXPECT_NE(judgement.comparisons[0].tests.why_nothing_can_be_established,
+              "");
+    ASSERT_TRUE(judgement.recommendation);
+  }
+}
+
+TEST(Verdict, CountsBlocksOfRowsWhereThereAreNoGroups) {
+  const data::Dataset dataset = errmap::testing::QuadraticData(120);
+  StudyResult study;
+  const Judgement judgement =
+      JudgeSpecs(dataset, {"every:3"}, {"mean", "poly:eq8"}, &study);
+  const HoldoutComparison& comparison = judgement.comparisons[0];
+  EXPECT_FALSE(comparison.units.are_groups);
+  EXPECT_EQ(comparison.units.name, "block of rows");
+  EXPECT_EQ(comparison.tests.num_units, 8);  // 40 held-out rows, 5 in a block
+  EXPECT_EQ(comparison.units.labels.front(), "rows 2-14");
+  EXPECT_FALSE(judgement.gap);
+}
+
+TEST(Verdict, AnswersWithFiveRows) {
+  StudyResult study;
+  const Judgement judgement = JudgeSpecs(errmap::testing::QuadraticData(5),
+                                         {"every:3"},
+                                         {"zero", "mean", "poly:position"},
+                                         &study);
+  ASSERT_TRUE(judgement.recommendation);
+  EXPECT_FALSE(judgement.verdicts[0]->established);
+}
+
+TEST(Verdict, PrefersTheSimplestNearTheBestWhereNothingBoundsADifference) {
+  // 6 held-out rows of one cycle are one block; a thousandth of the error
+  // parts the two.
+  data::Dataset::Parts parts;
+  parts.source = "one cycle";
+  parts.inputs = {{"position_mm", data::UnitOfColumn("position_mm")},
+                  {"t1_degC", data::UnitOfColumn("t1_degC")}};
+  parts.input_values.resize(20, 2);
+  parts.target = {"error_mm", data::UnitOfColumn("error_mm")};
+  parts.target_values.resize(20);
+  parts.groups = {"cycle", {"1"}, std::vector<Eigen::Index>(20, 0)};
+  for (Eigen::Index i = 0; i < 20; ++i) {
+    const double k = static_cast<double>(i);
+    parts.input_values.row(i) << k, 20.0 + 0.1 * k + 1e-3 * std::sin(k * k);
+    parts.target_values[i] = 1e-3 * k;
+  }
+  const data::Dataset dataset(std::move(parts));
+  StudyResult study;
+  const Judgement judgement = JudgeSpecs(
+      dataset, {"every:3"}, {"poly:full:degree=1", "poly:position"}, &study);
+  EXPECT_FALSE(judgement.comparisons[0].units.are_groups);
+  EXPECT_EQ(judgement.comparisons[0].tests.num_units, 1);
+  EXPECT_EQ(judgement.recommendation->first_tier.size(), 2u);
+  EXPECT_EQ(study.models[judgement.recommendation->model].name,
+            "poly:position");
+}
+
+TEST(Verdict, LeavesOutAModelThatFailedInOneFold) {
+  // Two groups of two rows are too few for six coefficients.
+  StudyResult study;
+  const Judgement judgement = JudgeSpecs(GroupedLine(3, 2, 0.01),
+                                         {"leave-one-group-out"},
+                                         {"mean", "poly:full:degree=2"},
+                                         &study);
+  EXPECT_FALSE(study.models[1].holdouts[0].ok());
+  EXPECT_THAT(judgement.comparisons[0].models, ElementsAre(0u));
+  EXPECT_EQ(judgement.comparisons[0].TierOf(1), 0);
+  EXPECT_EQ(judgement.recommendation->model, 0u);
+}
+
+TEST(Verdict, HasNoneWhereEveryFitFailed) {
+  StudyResult study;
+  const Judgement judgement = JudgeSpecs(GroupedLine(3, 2, 0.01),
+                                         {"leave-one-group-out"},
+                                         {"poly:full:degree=4"},
+                                         &study);
+  EXPECT_FALSE(judgement.verdicts[0]);
+  EXPECT_FALSE(judgement.recommendation);
+}
+
+TEST(Verdict, CountsTheCutsThatEachModelWins) {
+  StudyResult study;
+  const Judgement judgement =
+      JudgeSpecs(ShippedMeasurements(),
+                 {"groups:5:repeats=6"},
+                 {"mean", "poly:full:degree=2", "poly:full:degree=3"},
+                 &study);
+  const auto& wins = judgement.comparisons[0].wins;
+  ASSERT_FALSE(wins.empty());
+  double sum = 0.0;
+  for (const WinShare& win : wins) sum += win.share;
+  EXPECT_DOUBLE_EQ(sum, 1.0);
+  EXPECT_EQ(study.models[wins.front().model].name, "poly:full:degree=3");
+  // Each cycle is one unit however often it was held out.
+  EXPECT_EQ(judgement.comparisons[0].tests.num_units, 35);
+}
+
+TEST(Verdict, NeverRecommendsPredictionsWithoutAMap) {
+  const data::Dataset dataset = GroupedLine(12, 6, 0.01);
+  const auto holdouts = MakeHoldouts(dataset, {"groups:4"});
+  StudyResult study = RunStudy(
+      dataset, holdouts, MakeRecipes({"mean", "poly:full:degree=1"}), {});
+  GivenPredictions perfect{"oracle", "oracle.csv", {}, {}};
+  for (Eigen::Index i = 0; i < dataset.num_rows(); ++i) {
+    perfect.by_row[i] = dataset.target_values()[i];
+  }
+  study.models.push_back(JudgeGivenPredictions(perfect, dataset, holdouts));
+  const Judgement judgement =
+      JudgeStudy(dataset, holdouts, study, kIndifferenceMm, 1);
+  EXPECT_EQ(study.models[judgement.verdicts[0]->best].name, "oracle");
+  EXPECT_EQ(judgement.verdicts[0]->choice, Choice::kGiven);
+  EXPECT_EQ(study.models[judgement.recommendation->model].name,
+            "poly:full:degree=1");
+  EXPECT_EQ(judgement.recommendation->better_but_no_map, 2u);
+}
+
+}  // namespace
+}  // namespace errmap::models

@@ -1,0 +1,304 @@
+#include "stats/comparison/paired_comparison.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "stats/comparison/holm.h"
+#include "stats/normality/monte_carlo.h"
+#include "stats/random.h"
+
+namespace errmap::stats {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::ThrowsMessage;
+
+// `units` of 10 rows, model m with an RMSE of about scale[m].
+UnitLosses MakeLosses(Index units, const VectorXd& scale) {
+  Random random(8);
+  UnitLosses losses;
+  losses.mean_squares.resize(units, scale.size());
+  for (Index unit = 0; unit < units; ++unit) {
+    for (Index model = 0; model < scale.size(); ++model) {
+      losses.mean_squares(unit, model) =
+          scale[model] * scale[model] *
+          NormalSample(10, &random).squaredNorm() / 10.0;
+    }
+  }
+  losses.rows = VectorXd::Constant(units, 10.0);
+  return losses;
+}
+
+FoldLosses MakeFolds(Index folds, Index models) {
+  FoldLosses losses;
+  losses.mean_squares = MatrixXd::Ones(folds, models);
+  for (Index fold = 0; fold < folds; ++fold) {
+    losses.mean_squares(fold, 0) = 2.0 + static_cast<double>(fold);
+  }
+  losses.test_rows = VectorXd::Constant(folds, 20.0);
+  losses.train_rows = VectorXd::Constant(folds, 80.0);
+  return losses;
+}
+
+TEST(CompareModels, EstablishesAClearDifference) {
+  const UnitLosses losses = MakeLosses(12, VectorXd{{1.0, 1.02, 2.0}});
+  const Comparison found = CompareModels(losses, nullptr, {});
+  EXPECT_EQ(found.num_units, 12);
+  EXPECT_EQ(found.why_nothing_can_be_established, "");
+  ASSERT_EQ(found.pairs.size(), 3U);
+  ASSERT_EQ(found.rmse_bounds.size(), 3U);
+  const PairComparison& clear = found.Pair(2, 0);
+  EXPECT_EQ(clear.a, 0);
+  EXPECT_EQ(clear.b, 2);
+  EXPECT_TRUE(clear.established);
+  EXPECT_LT(clear.bounds.upper, 0.0);
+  EXPECT_DOUBLE_EQ(clear.difference, found.rmse[0] - found.rmse[2]);
+  EXPECT_DOUBLE_EQ(clear.sign_flip.test.p, 2.0 / 4096.0);
+  EXPECT_DOUBLE_EQ(clear.p_holm, 6.0 / 4096.0);
+  EXPECT_FALSE(found.Pair(0, 1).established);
+  EXPECT_GT(found.Pair(0, 1).p_holm, kSignificance);
+  // Not told apart is no reason to be alike.
+  EXPECT_THAT(found.tiers, testing::SizeIs(3));
+}
+
+TEST(CompareModels, AdjustsBySignFlipsOverAllPairs) {
+  const Comparison found =
+      CompareModels(MakeLosses(9, VectorXd{{1.0, 1.2, 1.4, 1.6}}), nullptr, {});
+  std::vector<double> p;
+  for (const PairComparison& pair : found.pairs) {
+    p.push_back(pair.sign_flip.test.p);
+  }
+  const std::vector<double> adjusted = AdjustByHolm(p);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    EXPECT_EQ(found.pairs[i].p_holm, adjusted[i]);
+  }
+}
+
+TEST(CompareModels, FindsEveryPairWhicheverComesFirst) {
+  const Comparison found =
+      CompareModels(MakeLosses(7, VectorXd::Ones(5)), nullptr, {});
+  for (Index a = 0; a < 5; ++a) {
+    for (Index b = 0; b < 5; ++b) {
+      if (a == b) continue;
+      EXPECT_EQ(found.Pair(a, b).a, std::min(a, b));
+      EXPECT_EQ(found.Pair(a, b).b, std::max(a, b));
+      EXPECT_GT(found.ExcessAtMost(a, b), found.rmse[a] - found.rmse[b]);
+    }
+  }
+  EXPECT_THROW(found.Pair(2, 2), std::out_of_range);
+  EXPECT_THROW(found.Pair(0, 5), std::out_of_range);
+  EXPECT_THROW(found.Pair(-1, 2), std::out_of_range);
+}
+
+TEST(CompareModels, TestsFoldsAndTimeOnlyWhereTheyAreGiven) {
+  UnitLosses losses = MakeLosses(10, VectorXd{{1.0, 1.5}});
+  const Comparison without = CompareModels(losses, nullptr, {});
+  EXPECT_FALSE(without.pairs[0].corrected_t.has_value());
+  EXPECT_FALSE(without.pairs[0].diebold_mariano.has_value());
+  losses.time_ordered = true;
+  const FoldLosses folds = MakeFolds(5, 2);
+  const Comparison with = CompareModels(losses, &folds, {.horizon = 2});
+  const VectorXd d = losses.mean_squares.col(0) - losses.mean_squares.col(1);
+  EXPECT_EQ(with.pairs[0].diebold_mariano->test.p, DieboldMariano(d, 2).test.p);
+  EXPECT_EQ(with.pairs[0].corrected_t->test.p,
+            CorrectedResampledT(VectorXd{{1, 2, 3, 4, 5}}, 0.25).test.p);
+}
+
+// The answer does not hang on the order of models, nor on the unit of length.
+TEST(CompareModels, KeepsItsAnswerWithOtherOrderAndScale) {
+  const UnitLosses losses = MakeLosses(40, VectorXd{{1.0, 1.15, 1.6}});
+  UnitLosses turned = losses;
+  turned.mean_squares = 1e-6 * losses.mean_squares.rowwise().reverse();
+  const Comparison a = CompareModels(losses, nullptr, {});
+  const Comparison b = CompareModels(turned, nullptr, {});
+  constexpr double kRounding = 1e-12;
+  for (Index i = 0; i < 3; ++i) {
+    for (Index j = i + 1; j < 3; ++j) {
+      const PairComparison& one = a.Pair(i, j);
+      const PairComparison& other = b.Pair(2 - i, 2 - j);
+      EXPECT_NEAR(one.difference, -1e3 * other.difference, kRounding);
+      EXPECT_NEAR(one.bounds.lower, -1e3 * other.bounds.upper, kRounding);
+      EXPECT_EQ(one.sign_flip.test.p, other.sign_flip.test.p);
+      EXPECT_EQ(one.p_holm, other.p_holm);
+      EXPECT_EQ(one.wilcoxon.test.p, other.wilcoxon.test.p);
+      EXPECT_EQ(one.established, other.established);
+    }
+  }
+}
+
+TEST(CompareModels, EstablishesNothingBelowSixUnits) {
+  for (const Index units : {1, 2, 3, 5}) {
+    const Comparison found =
+        CompareModels(MakeLosses(units, VectorXd{{1.0, 100.0}}), nullptr, {});
+    EXPECT_FALSE(found.pairs[0].established);
+    EXPECT_THAT(found.why_nothing_can_be_established,
+                HasSubstr(std::to_string(units) + " unit"));
+    EXPECT_THAT(found.why_nothing_can_be_established,
+                HasSubstr("at least 6 are needed"));
+    EXPECT_EQ(found.pairs[0].bounds.exist(), units >= 2);
+  }
+  const Comparison six =
+      CompareModels(MakeLosses(6, VectorXd{{1.0, 100.0}}), nullptr, {});
+  EXPECT_TRUE(six.pairs[0].established);
+  EXPECT_EQ(six.why_nothing_can_be_established, "");
+}
+
+// 2/2^10 * 66 pairs is above 5 %, 2/2^12 * 66 below.
+TEST(CompareModels, SaysWhenThereAreTooFewUnitsForSoManyPairs) {
+  VectorXd scale = VectorXd::LinSpaced(12, 0.0, 11.0);
+  for (double& value : scale) value = std::pow(10.0, value);
+  const Comparison ten = CompareModels(MakeLosses(10, scale), nullptr, {});
+  EXPECT_THAT(ten.why_nothing_can_be_established,
+              HasSubstr("10 units for 66 pairs: at least 12 are needed"));
+  for (const PairComparison& pair : ten.pairs) EXPECT_FALSE(pair.established);
+  const Comparison twelve = CompareModels(MakeLosses(12, scale), nullptr, {});
+  EXPECT_EQ(twelve.why_nothing_can_be_established, "");
+  EXPECT_TRUE(twelve.Pair(0, 11).established);
+  const Comparison few_draws =
+      CompareModels(MakeLosses(40, scale), nullptr, {.flips = 99});
+  EXPECT_THAT(few_draws.why_nothing_can_be_established,
+              HasSubstr("99 sign patterns are too few for 66 pairs"));
+}
+
+TEST(CompareModels, PutsModelsAloneWhereNoBoundExists) {
+  UnitLosses losses = MakeLosses(1, VectorXd{{1.0, 1.0, 1.0}});
+  losses.mean_squares << 1.0, 1.0, 1.001;
+  const Comparison found = CompareModels(losses, nullptr, {});
+  EXPECT_THAT(found.tiers, ElementsAre(ElementsAre(0, 1), ElementsAre(2)));
+}
+
+TEST(CompareModels, CallsEqualModelsEqual) {
+  UnitLosses losses = MakeLosses(20, VectorXd{{1.0, 1.0}});
+  losses.mean_squares.col(1) = losses.mean_squares.col(0);
+  losses.time_ordered = true;
+  const FoldLosses folds{.mean_squares = MatrixXd::Ones(5, 2),
+                         .test_rows = VectorXd::Ones(5),
+                         .train_rows = VectorXd::Ones(5)};
+  const Comparison found = CompareModels(losses, &folds, {});
+  const PairComparison& pair = found.pairs[0];
+  EXPECT_EQ(pair.difference, 0.0);
+  EXPECT_EQ(pair.sign_flip.test.p, 1.0);
+  EXPECT_EQ(pair.p_holm, 1.0);
+  EXPECT_EQ(pair.wilcoxon.test.p, 1.0);
+  EXPECT_EQ(pair.corrected_t->test.p, 1.0);
+  EXPECT_EQ(pair.diebold_mariano->test.p, 1.0);
+  EXPECT_EQ(pair.bounds.upper, 0.0);
+  EXPECT_FALSE(pair.lag1.ok());
+  EXPECT_FALSE(pair.correlated);
+  EXPECT_FALSE(pair.established);
+  EXPECT_THAT(found.tiers, ElementsAre(ElementsAre(0, 1)));
+}
+
+// One unit of 1000 rows outweighs eleven of 5: the pooled RMSE and the mean
+// over units point in opposite directions, so nothing is established.
+TEST(CompareModels, EstablishesNothingWhereRowsAndUnitsDisagree) {
+  UnitLosses losses;
+  losses.mean_squares = MatrixXd::Constant(12, 2, 1.0);
+  losses.rows = VectorXd::Constant(12, 5.0);
+  for (Index unit = 0; unit < 12; ++unit) {
+    losses.mean_squares(unit, 1) = 2.0 + 0.01 * static_cast<double>(unit);
+  }
+  losses.rows[11] = 1000.0;
+  losses.mean_squares(11, 1) = 0.9;
+  const Comparison found = CompareModels(losses, nullptr, {});
+  const PairComparison& pair = found.pairs[0];
+  EXPECT_LT(pair.sign_flip.test.statistic, 0.0);
+  EXPECT_GT(pair.difference, 0.0);
+  EXPECT_LE(pair.p_holm, kSignificance);
+  EXPECT_FALSE(pair.established);
+}
+
+TEST(CompareModels, WarnsOfUnitsThatResembleTheirNeighbours) {
+  UnitLosses losses = MakeLosses(35, VectorXd{{1.0, 1.0}});
+  EXPECT_FALSE(CompareModels(losses, nullptr, {}).pairs[0].correlated);
+  for (Index unit = 0; unit < 35; ++unit) {
+    losses.mean_squares(unit, 0) += unit < 17 ? 2.0 : 0.0;
+  }
+  const Comparison drifting = CompareModels(losses, nullptr, {});
+  EXPECT_TRUE(drifting.pairs[0].correlated);
+  EXPECT_GT(drifting.pairs[0].lag1.statistic, 0.5);
+  // Alternation is memory too, but makes no p too small.
+  for (Index unit = 0; unit < 35; ++unit) {
+    losses.mean_squares(unit, 0) = unit % 2 == 0 ? 3.0 : 1.0;
+  }
+  EXPECT_FALSE(CompareModels(losses, nullptr, {}).pairs[0].correlated);
+}
+
+TEST(CompareModels, GivesTheSameForTheSameSeedOnly) {
+  const UnitLosses losses = MakeLosses(40, VectorXd{{1.0, 1.05}});
+  const auto run = [&losses](std::uint64_t seed) {
+    return CompareModels(losses, nullptr, {.seed = seed}).pairs[0];
+  };
+  EXPECT_EQ(run(1).sign_flip.test.p, run(1).sign_flip.test.p);
+  EXPECT_EQ(run(1).bounds.upper, run(1).bounds.upper);
+  EXPECT_NE(run(1).sign_flip.test.p, run(2).sign_flip.test.p);
+}
+
+TEST(CompareModels, ComparesNoUnitsNoModelsAndOne) {
+  const Comparison no_units =
+      CompareModels(MakeLosses(0, VectorXd::Ones(2)), nullptr, {});
+  EXPECT_TRUE(std::isnan(no_units.rmse[0]));
+  EXPECT_EQ(no_units.pairs[0].sign_flip.test.why_not, "no units");
+  EXPECT_FALSE(no_units.pairs[0].established);
+  EXPECT_THAT(no_units.tiers, IsEmpty());
+  EXPECT_THAT(no_units.why_nothing_can_be_established, HasSubstr("0 units"));
+  const Comparison no_models =
+      CompareModels(MakeLosses(9, VectorXd()), nullptr, {});
+  EXPECT_THAT(no_models.pairs, IsEmpty());
+  EXPECT_THAT(no_models.tiers, IsEmpty());
+  const Comparison one =
+      CompareModels(MakeLosses(9, VectorXd::Ones(1)), nullptr, {});
+  EXPECT_THAT(one.pairs, IsEmpty());
+  EXPECT_THAT(one.tiers, ElementsAre(ElementsAre(0)));
+  EXPECT_TRUE(one.rmse_bounds[0].exist());
+}
+
+TEST(CompareModels, RefusesInvalidLossesFoldsAndOptions) {
+  const UnitLosses losses = MakeLosses(8, VectorXd::Ones(2));
+  UnitLosses bad = losses;
+  bad.mean_squares(3, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(
+      [&] { CompareModels(bad, nullptr, {}); },
+      ThrowsMessage<std::invalid_argument>(HasSubstr("unit 3, model 1")));
+  const FoldLosses other_models = MakeFolds(5, 3);
+  EXPECT_THAT(
+      [&] { CompareModels(losses, &other_models, {}); },
+      ThrowsMessage<std::invalid_argument>(HasSubstr("5 folds of 3 models")));
+  FoldLosses folds = MakeFolds(5, 2);
+  folds.train_rows[2] = 0.0;
+  EXPECT_THAT([&] { CompareModels(losses, &folds, {}); },
+              ThrowsMessage<std::invalid_argument>(
+                  HasSubstr("rows must be finite and above 0")));
+  folds = MakeFolds(5, 2);
+  folds.mean_squares(0, 0) = -1.0;
+  EXPECT_THAT([&] { CompareModels(losses, &folds, {}); },
+              ThrowsMessage<std::invalid_argument>(
+                  HasSubstr("mean square must be finite and at least 0")));
+}
+
+TEST(ComparisonOptions, AreCheckedFieldByField) {
+  EXPECT_NO_THROW(ComparisonOptions().Validate());
+  EXPECT_THAT([] { ComparisonOptions{.flips = 0}.Validate(); },
+              ThrowsMessage<std::invalid_argument>(
+                  HasSubstr("flips must be at least 1, found 0")));
+  EXPECT_THAT([] { ComparisonOptions{.resamples = 98}.Validate(); },
+              ThrowsMessage<std::invalid_argument>(
+                  HasSubstr("resamples must be at least 99, found 98")));
+  EXPECT_THAT([] { ComparisonOptions{.horizon = 0}.Validate(); },
+              ThrowsMessage<std::invalid_argument>(
+                  HasSubstr("horizon must be at least 1, found 0")));
+  EXPECT_THROW(ComparisonOptions{.margin = {.share = -1.0}}.Validate(),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace errmap::stats
