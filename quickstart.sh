@@ -12,8 +12,8 @@ set -eu
 packages="g++ cmake ninja-build libeigen3-dev libopenblas-dev libceres-dev
   libnlopt-dev libnlopt-cxx-dev libboost-dev libtbb-dev libcli11-dev
   nlohmann-json3-dev libfmt-dev libtomlplusplus-dev libssl-dev libgtest-dev
-  libgmock-dev libbenchmark-dev gnuplot-nox"
-test_packages="clang-format-14 python3-jsonschema chromium"
+  libgmock-dev libbenchmark-dev"
+test_packages="clang-format-14 python3-jsonschema chromium gnuplot-nox"
 example="data/sets/nistir5367_xdisp_down.csv"
 
 usage="usage: sh quickstart.sh [test]"

@@ -316,10 +316,7 @@ int RunCompare(const CompareArguments& arguments) {
   // Before the files: a full disk must not cost the answer.
   fmt::print("{}", json ? results : Formatted(run, arguments.format));
   std::fflush(stdout);
-  if (!arguments.out.empty()) {
-    const std::string remark = WriteOutputs(run, results, arguments.out);
-    if (!remark.empty()) Say(remark);
-  }
+  if (!arguments.out.empty()) WriteOutputs(run, results, arguments.out);
   return StatusOf(run);
 }
 

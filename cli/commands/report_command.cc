@@ -22,13 +22,13 @@ namespace {
 struct ReportArguments {
   std::string folder;
   std::string figures;
-  std::string image = "svg";
+  std::string image = "pdf";
   std::string format;
 };
 
 ImageFormat FormatNamed(const std::string& name) {
-  if (name == "pdf") return ImageFormat::kPdf;
-  return name == "png" ? ImageFormat::kPng : ImageFormat::kSvg;
+  if (name == "svg") return ImageFormat::kSvg;
+  return name == "png" ? ImageFormat::kPng : ImageFormat::kPdf;
 }
 
 Json ReadResults(const std::string& folder) {
@@ -54,26 +54,24 @@ Json ReadResults(const std::string& folder) {
 
 int RunReport(const ReportArguments& arguments) {
   const Json results = ReadResults(arguments.folder);
-  // Better now than after the figures are drawn.
   if (!arguments.figures.empty()) PrepareFolder(arguments.figures);
   if (arguments.format == "md") {
     fmt::print("{}", ReportMarkdown(results));
   } else if (arguments.format == "html") {
-    FigureSet figures = MakeFigures(results);
-    DrawFigures(&figures);
-    if (!figures.failure.empty()) Say("no figures: " + figures.failure);
-    fmt::print("{}", ReportHtml(results, figures));
+    fmt::print("{}", ReportHtml(results, MakeFigures(results)));
   } else {
-    const std::string remark = WriteReport(results, arguments.folder);
-    if (!remark.empty()) Say(remark);
+    WriteReport(results, arguments.folder);
   }
   if (arguments.figures.empty()) return kDone;
-  const std::vector<std::string> failures =
-      WriteFigures(MakeFigures(results, true),
-                   FormatNamed(arguments.image),
-                   arguments.figures);
-  for (const std::string& failure : failures) Say(failure);
-  return failures.empty() ? kDone : kOtherFailure;
+  const std::size_t written = WriteFigures(MakeFigures(results, true),
+                                           FormatNamed(arguments.image),
+                                           arguments.figures);
+  Say(fmt::format(
+      "{} figures as svg in {}; gnuplot *.gp there draws them as {}",
+      written,
+      data::PrintablePath(arguments.figures),
+      arguments.image));
+  return kDone;
 }
 
 }  // namespace
@@ -92,12 +90,14 @@ void AddReportCommand(CLI::App* app, Run* run) {
   command
       ->add_option("--figures",
                    arguments->figures,
-                   "Also write every figure here, with its gnuplot script and "
-                   "data")
+                   "Also write every figure here: NAME.svg, and NAME.gp, a "
+                   "gnuplot script with its data")
       ->type_name("DIR2");
-  command->add_option("--image", arguments->image, "svg, pdf or png")
-      ->check(CLI::IsMember({"svg", "pdf", "png"}))
-      ->type_name("svg|pdf|png")
+  command
+      ->add_option(
+          "--image", arguments->image, "What the scripts draw: pdf, png or svg")
+      ->check(CLI::IsMember({"pdf", "png", "svg"}))
+      ->type_name("pdf|png|svg")
       ->capture_default_str();
   command
       ->add_option("--format",
@@ -106,9 +106,9 @@ void AddReportCommand(CLI::App* app, Run* run) {
       ->check(CLI::IsMember({"html", "md"}))
       ->type_name("html|md");
   command->footer(
-      "Exit status: 0 done, 1 a figure asked for could not be drawn, 2 wrong "
-      "command line, 3 unusable results.json.\n"
-      "Example: errmap report study --figures paper --image pdf");
+      "Exit status: 0 done, 2 wrong command line, 3 unusable results.json.\n"
+      "Example: errmap report study --figures paper, then in paper gnuplot "
+      "*.gp");
   command->callback([arguments, run] { run->status = RunReport(*arguments); });
 }
 

@@ -108,26 +108,12 @@ void AddGoal(const ReportView& view, double rows, Plot* plot) {
        .dashed = true});
 }
 
-// A logarithmic axis over what there is, with tics at 1, 2 and 5.
+// A logarithmic axis over what there is.
 void MakeLogarithmic(double low, double high, Axis* axis) {
   constexpr double kMargin = 1.25;
   axis->logarithmic = true;
   axis->low = low / kMargin;
   axis->high = high * kMargin;
-  // Over many decades the powers of ten are enough.
-  constexpr double kManyDecades = 300.0;
-  const bool powers_only = high > kManyDecades * low;
-  for (int decade = static_cast<int>(std::floor(std::log10(axis->low)));
-       decade <= static_cast<int>(std::ceil(std::log10(axis->high)));
-       ++decade) {
-    for (const int step : {1, 2, 5}) {
-      const double at = step * std::pow(10.0, decade);
-      if (at < axis->low || at > axis->high || (powers_only && step > 1)) {
-        continue;
-      }
-      axis->tics.emplace_back(fmt::format("{:.6g}", at), at);
-    }
-  }
 }
 
 }  // namespace
@@ -193,13 +179,13 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
     }
     links.columns[0].push_back(kAutomatic);
     links.columns[1].push_back(kAutomatic);
-    plot.y.tics.emplace_back(Shortened(models[i]->name, kNameLength),
-                             static_cast<double>(i));
+    plot.y.names.emplace_back(Shortened(models[i]->name, kNameLength),
+                              static_cast<double>(i));
   }
   plot.series.push_back(std::move(links));
   for (Series& series : marks) plot.series.push_back(std::move(series));
   AddGoal(view, static_cast<double>(models.size()), &plot);
-  plot.x.label = WithUnit("RMSE on held-out rows", view.shown_unit);
+  plot.x = {.quantity = "RMSE on held-out rows", .unit = view.shown_unit};
   if (SpansDecades(low, high)) {
     const double goal = view.goal * view.scale;
     MakeLogarithmic(goal > 0.0 ? std::min(low, goal) : low,
@@ -208,15 +194,14 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
   } else {
     plot.x.low = 0.0;
   }
-  plot.y.label = "model";
+  plot.y.quantity = "model";
   // The best stands on top.
   plot.y.low = static_cast<double>(models.size()) - 0.5;
   plot.y.high = -0.5;
   plot.width = 450;
-  constexpr int kFrame = 120;
+  constexpr int kFrame = 60;
   constexpr int kRow = 19;
   plot.height = kFrame + kRow * static_cast<int>(models.size());
-  plot.legend_below = true;
   figure.note =
       view.decisive_is_unseen
           ? "For another day the filled dot counts; an open one far left of it "
@@ -244,10 +229,9 @@ std::vector<Figure> TrainingFigures(const ReportView& view,
         "The fit to all rows; sqrt(2 E) of the scaled target, penalty "
         "included, as the report's Figures 10 to 24.";
     figure.plot.name = fmt::format("{}training-{}", prefix, 1 + first / 6);
-    figure.plot.x.label = "iteration, count";
-    figure.plot.y.label = "sqrt(2 E), scaled, no unit";
+    figure.plot.x = {.quantity = "iteration", .unit = "count"};
+    figure.plot.y.quantity = "sqrt(2 E), scaled";
     figure.plot.y.logarithmic = true;
-    figure.plot.legend_below = true;
     std::vector<std::string> words;
     for (std::size_t i = first;
          i < std::min(iterated.size(), first + kColours.size());
@@ -286,8 +270,8 @@ std::vector<Figure> StartFigures(const ReportView& view,
       "Each dot is one start of the fit to all rows; the chosen one is "
       "filled.";
   figure.plot.name = prefix + "starts";
-  figure.plot.y.label = "sqrt(2 E), scaled, no unit";
-  figure.plot.x.label = "model";
+  figure.plot.y.quantity = "sqrt(2 E), scaled";
+  figure.plot.x.quantity = "model";
   Series all{.label = "start",
              .mark = Mark::kPoints,
              .columns = {{}, {}},
@@ -305,8 +289,8 @@ std::vector<Figure> StartFigures(const ReportView& view,
   for (const ViewedModel& model : view.models) {
     const Json& table = At(*model.json, {"final", "starts", "table"});
     if (!table.is_array() || table.empty()) continue;
-    const auto at = static_cast<double>(figure.plot.x.tics.size());
-    figure.plot.x.tics.emplace_back(Shortened(model.name, 20), at);
+    const auto at = static_cast<double>(figure.plot.x.names.size());
+    figure.plot.x.names.emplace_back(Shortened(model.name, 20), at);
     int n = 0;
     for (const Json& start : table) {
       const double cost = NumberAt(start, "final_cost");
@@ -324,10 +308,9 @@ std::vector<Figure> StartFigures(const ReportView& view,
     }
     words.push_back(fmt::format("{}: {} starts", model.name, n));
   }
-  if (figure.plot.x.tics.empty() || !(high > 0.0)) return {};
+  if (figure.plot.x.names.empty() || !(high > 0.0)) return {};
   figure.plot.x.low = -0.6;
-  figure.plot.x.high = static_cast<double>(figure.plot.x.tics.size()) - 0.4;
-  figure.plot.x.slanted_tics = figure.plot.x.tics.size() > 3;
+  figure.plot.x.high = static_cast<double>(figure.plot.x.names.size()) - 0.4;
   figure.plot.y.logarithmic = SpansDecades(low, high);
   figure.plot.series = {std::move(all), std::move(chosen)};
   figure.description =
@@ -370,8 +353,8 @@ Figure CorrelationFigure(const ReportView& view, const std::string& prefix) {
     constexpr std::size_t kMostTics = 45;
     if (names.size() <= kMostTics || i % 2 == 0) {
       const std::string label = Shortened(names[i], 18);
-      figure.plot.x.tics.emplace_back(label, static_cast<double>(i));
-      figure.plot.y.tics.emplace_back(label, static_cast<double>(i));
+      figure.plot.x.names.emplace_back(label, static_cast<double>(i));
+      figure.plot.y.names.emplace_back(label, static_cast<double>(i));
     }
   }
   const auto n = static_cast<double>(names.size());
@@ -380,15 +363,13 @@ Figure CorrelationFigure(const ReportView& view, const std::string& prefix) {
   const int cell = names.size() > 12 ? kCell : 3 * kCell;
   figure.plot.width = kFrame + 90 + cell * static_cast<int>(names.size());
   figure.plot.height = kFrame + cell * static_cast<int>(names.size());
-  figure.plot.x.label = "column";
-  figure.plot.x.slanted_tics = true;
+  figure.plot.x.quantity = "column";
   figure.plot.x.low = -0.5;
   figure.plot.x.high = n - 0.5;
-  figure.plot.y.label = "column";
+  figure.plot.y.quantity = "column";
   figure.plot.y.low = n - 0.5;
   figure.plot.y.high = -0.5;
-  figure.plot.colour_label = "Pearson correlation, no unit";
-  figure.plot.colour_limit = 1.0;
+  figure.plot.colour = {.quantity = "Pearson correlation", .high = 1.0};
   figure.plot.series = {std::move(cells)};
   figure.note =
       "Columns near 1 or -1 say the same: a map needs one of them only.";
@@ -411,10 +392,10 @@ std::vector<Figure> LearningFigures(const ReportView& view,
     figure.place = FigurePlace::kFits;
     figure.title = "Error against the amount of training data";
     figure.plot.name = fmt::format("{}learning-{}", prefix, c + 1);
-    figure.plot.x.label = fmt::format("training data, {}", TextAt(curve, "by"));
-    figure.plot.y.label = WithUnit("RMSE on held-out rows", view.shown_unit);
+    figure.plot.x = {.quantity = "training data", .unit = TextAt(curve, "by")};
+    figure.plot.y = {.quantity = "RMSE on held-out rows",
+                     .unit = view.shown_unit};
     figure.plot.y.low = 0.0;
-    figure.plot.legend_below = true;
     std::vector<std::string> words;
     const Json& models = At(curve, "models");
     for (std::size_t m = 0; m < models.size() && m < kColours.size(); ++m) {

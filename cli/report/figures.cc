@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "cli/report/comparison_figures.h"
-#include "cli/report/html.h"
 #include "cli/report/residual_figures.h"
 #include "cli/report/svg.h"
 #include "data/atomic_file.h"
@@ -15,24 +14,8 @@
 namespace errmap::cli {
 namespace {
 
-constexpr double kPatienceSeconds = 120.0;
 constexpr std::size_t kFewComponents = 6;
 constexpr std::size_t kManyComponents = 30;
-
-bool HasPoints(const Plot& plot) {
-  for (const Series& series : plot.series) {
-    if (series.columns.empty()) continue;
-    for (std::size_t i = 0; i < series.columns.front().size(); ++i) {
-      if (std::all_of(
-              series.columns.begin(), series.columns.end(), [&](auto& column) {
-                return i < column.size() && std::isfinite(column[i]);
-              })) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
 
 void Append(std::vector<Figure> more, std::vector<Figure>* figures) {
   for (Figure& figure : more) figures->push_back(std::move(figure));
@@ -87,19 +70,6 @@ std::vector<Figure> FiguresOf(const ReportView& view,
   return figures;
 }
 
-// Figures that there are, with their plots.
-std::vector<Figure*> Drawable(FigureSet* set, std::vector<Plot>* plots) {
-  std::vector<Figure*> drawable;
-  for (ComponentFigures& component : set->components) {
-    for (Figure& figure : component.figures) {
-      if (!figure.missing.empty()) continue;
-      drawable.push_back(&figure);
-      plots->push_back(figure.plot);
-    }
-  }
-  return drawable;
-}
-
 }  // namespace
 
 FigureSet MakeFigures(const Json& results, bool everything) {
@@ -122,58 +92,33 @@ FigureSet MakeFigures(const Json& results, bool everything) {
   return set;
 }
 
-void DrawFigures(FigureSet* figures) {
-  std::vector<Plot> plots;
-  const std::vector<Figure*> drawable = Drawable(figures, &plots);
-  Drawings drawn = DrawPlots(plots, ImageFormat::kSvg, kPatienceSeconds);
-  figures->failure = drawn.failure;
-  for (std::size_t i = 0; i < drawable.size(); ++i) {
-    Figure& figure = *drawable[i];
-    figure.drawing.failure = drawn.drawings[i].failure;
-    if (!figure.drawing.failure.empty()) continue;
-    const std::string& id = figure.plot.name;
-    figure.drawing.image = CompactSvg(
-        drawn.drawings[i].image,
-        fmt::format("role=\"img\" aria-labelledby=\"{0}-t {0}-d\"", id),
-        fmt::format("<title id=\"{0}-t\">{1}</title>"
-                    "<desc id=\"{0}-d\">{2}</desc>",
-                    id,
-                    HtmlText(figure.subject.empty()
-                                 ? figure.title
-                                 : figure.subject + ": " + figure.title),
-                    HtmlText(figure.description)));
-    if (figure.drawing.image.empty()) {
-      figure.drawing.failure = "gnuplot wrote no SVG that can be read";
-    }
-  }
+std::string FigureSvg(const Figure& figure) {
+  return Svg(figure.plot,
+             figure.subject.empty() ? figure.title
+                                    : figure.subject + ": " + figure.title,
+             figure.description);
 }
 
-std::vector<std::string> WriteFigures(const FigureSet& figures,
-                                      ImageFormat format,
-                                      const std::string& folder) {
-  FigureSet set = figures;
-  std::vector<Plot> plots;
-  const std::vector<Figure*> drawable = Drawable(&set, &plots);
-  const Drawings drawn = DrawPlots(plots, format, kPatienceSeconds);
+std::size_t WriteFigures(const FigureSet& figures,
+                         ImageFormat format,
+                         const std::string& folder) {
   const std::filesystem::path root(folder);
-  std::vector<std::string> failures;
-  for (std::size_t i = 0; i < plots.size(); ++i) {
-    const std::string image =
-        fmt::format("{}.{}", plots[i].name, ToString(format));
-    data::WriteFileAtomically((root / (plots[i].name + ".gp")).string(),
-                              PlotScript(plots[i], format, image));
-    if (drawn.drawings[i].failure.empty()) {
-      data::WriteFileAtomically((root / image).string(),
-                                drawn.drawings[i].image);
-    } else if (drawn.failure.empty()) {
-      failures.push_back(image + ": " + drawn.drawings[i].failure);
+  std::size_t written = 0;
+  for (const ComponentFigures& component : figures.components) {
+    for (const Figure& figure : component.figures) {
+      if (!figure.missing.empty()) continue;
+      const std::string& name = figure.plot.name;
+      data::WriteFileAtomically((root / (name + ".svg")).string(),
+                                SvgFile(FigureSvg(figure)));
+      data::WriteFileAtomically(
+          (root / (name + ".gp")).string(),
+          PlotScript(figure.plot,
+                     format,
+                     fmt::format("{}.{}", name, ToString(format))));
+      ++written;
     }
   }
-  if (!drawn.failure.empty()) {
-    failures.push_back("the scripts are written, but nothing is drawn: " +
-                       drawn.failure);
-  }
-  return failures;
+  return written;
 }
 
 }  // namespace errmap::cli

@@ -22,7 +22,6 @@ struct Figure {
   std::string missing;
   bool small = false;  // one of many of a kind
   Plot plot;           // plot.name: "c1-gap", unique in the report
-  Drawing drawing;     // filled by DrawFigures
 };
 
 /// How much is drawn of one component.
@@ -37,21 +36,20 @@ struct ComponentFigures {
 /// All figures of a report, by component.
 struct FigureSet {
   std::vector<ComponentFigures> components;
-  std::string failure;  // why none could be drawn, "" otherwise
 };
 
-/// Figures of results.json, not drawn yet: everything of each component, or
+/// Figures of results.json: everything of each component, or
 /// (`everything` false) what keeps a report of many components usable.
 FigureSet MakeFigures(const Json& results, bool everything = false);
 
-/// Draws those that are not missing, as SVG for a page.
-void DrawFigures(FigureSet* figures);
+/// The figure as SVG.
+std::string FigureSvg(const Figure& figure);
 
-/// Writes every figure as DIR/NAME.FORMAT with DIR/NAME.gp, the gnuplot script
-/// that draws it, data included. Returns what could not be drawn, one line
-/// each. Throws std::system_error where the folder cannot be written.
-std::vector<std::string> WriteFigures(const FigureSet& figures,
-                                      ImageFormat format,
-                                      const std::string& folder);
+/// Writes every figure as DIR/NAME.svg with DIR/NAME.gp, the gnuplot script
+/// that draws it as NAME.FORMAT, data included. Returns their number. Throws
+/// std::system_error where the folder cannot be written.
+std::size_t WriteFigures(const FigureSet& figures,
+                         ImageFormat format,
+                         const std::string& folder);
 
 }  // namespace errmap::cli

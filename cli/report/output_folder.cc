@@ -118,9 +118,9 @@ std::string ResidualsCsv(const Comparison& comparison) {
   return text;
 }
 
-std::string WriteOutputs(const StudyRun& run,
-                         const std::string& results_json,
-                         const std::string& folder) {
+void WriteOutputs(const StudyRun& run,
+                  const std::string& results_json,
+                  const std::string& folder) {
   const std::filesystem::path root(folder);
   PrepareFolder((root / "models").string());
   data::WriteFileAtomically((root / "results.json").string(), results_json);
@@ -138,7 +138,7 @@ std::string WriteOutputs(const StudyRun& run,
     data::WriteFileAtomically(residuals.string(), ResidualsCsv(component));
     WriteModels(run, component, models);
   }
-  return WriteReport(Json::parse(results_json), folder);
+  WriteReport(Json::parse(results_json), folder);
 }
 
 }  // namespace errmap::cli

@@ -15,11 +15,11 @@ void RemoveAbandoned(const std::string& folder);
 
 /// Writes results.json (`results_json`), residuals.csv, models/*.json and the
 /// report into a folder; of several components residuals/COMPONENT.csv and
-/// models/COMPONENT/*.json. Returns "" or a line on what the report lacks.
+/// models/COMPONENT/*.json.
 /// Throws std::system_error naming the path that could not be written.
-std::string WriteOutputs(const StudyRun& run,
-                         const std::string& results_json,
-                         const std::string& folder);
+void WriteOutputs(const StudyRun& run,
+                  const std::string& results_json,
+                  const std::string& folder);
 
 /// Held-out residual table: one line per hold-out, fold and test row, with
 /// group, target and each model's prediction (empty where it failed).

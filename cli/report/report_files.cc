@@ -9,16 +9,12 @@
 
 namespace errmap::cli {
 
-std::string WriteReport(const Json& results, const std::string& folder) {
-  FigureSet figures = MakeFigures(results);
-  DrawFigures(&figures);
+void WriteReport(const Json& results, const std::string& folder) {
   const std::filesystem::path root(folder);
   data::WriteFileAtomically((root / "report.html").string(),
-                            ReportHtml(results, figures));
+                            ReportHtml(results, MakeFigures(results)));
   data::WriteFileAtomically((root / "report.md").string(),
                             ReportMarkdown(results));
-  if (figures.failure.empty()) return "";
-  return "report.html has no figures: " + figures.failure;
 }
 
 }  // namespace errmap::cli

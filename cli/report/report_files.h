@@ -9,8 +9,7 @@ namespace errmap::cli {
 /// Draws FOLDER/report.html and FOLDER/report.md from results.json, the
 /// document as it stands in the file (DumpJson, parsed): so `errmap report`
 /// draws the same bytes later. Each file appears whole or not at all. Throws
-/// std::system_error naming what could not be written. Returns "" or a line on
-/// figures that are missing.
-std::string WriteReport(const Json& results, const std::string& folder);
+/// std::system_error naming what could not be written.
+void WriteReport(const Json& results, const std::string& folder);
 
 }  // namespace errmap::cli

@@ -77,22 +77,14 @@ std::string Collapsed(const std::string& title, const std::string& content) {
                      content);
 }
 
-std::string FigureHtml(const Figure& figure, const std::string& no_figures) {
+std::string FigureHtml(const Figure& figure) {
   std::string html = fmt::format(
       "<figure{}><figcaption><b>{}</b></figcaption>",
       !figure.small && figure.plot.width > 560 ? " class=\"wide\"" : "",
       HtmlName(figure.title));
-  if (!figure.missing.empty()) {
-    html += "<p class=\"absent\">" + HtmlText(figure.missing) + "</p>";
-  } else if (!figure.drawing.image.empty()) {
-    html += figure.drawing.image + Paragraph(figure.note, "soft small");
-  } else {
-    html += "<p class=\"absent\">" +
-            HtmlText(no_figures.empty() ? "This figure could not be drawn: " +
-                                              figure.drawing.failure + "."
-                                        : "Not drawn: " + no_figures + ".") +
-            "</p>";
-  }
+  html += figure.missing.empty()
+              ? FigureSvg(figure) + Paragraph(figure.note, "soft small")
+              : "<p class=\"absent\">" + HtmlText(figure.missing) + "</p>";
   return html + "</figure>\n";
 }
 
@@ -103,9 +95,7 @@ std::string Grid(const std::string& figures, const char* style) {
 
 // Those of one place, by the model they are of; small ones in a grid of their
 // own.
-std::string FiguresHtml(const ComponentFigures& figures,
-                        FigurePlace place,
-                        const std::string& no_figures) {
+std::string FiguresHtml(const ComponentFigures& figures, FigurePlace place) {
   std::string html;
   for (std::size_t i = 0; i < figures.figures.size();) {
     const std::string& subject = figures.figures[i].subject;
@@ -115,7 +105,7 @@ std::string FiguresHtml(const ComponentFigures& figures,
          ++i) {
       const Figure& figure = figures.figures[i];
       if (figure.place != place) continue;
-      (figure.small ? small : large) += FigureHtml(figure, no_figures);
+      (figure.small ? small : large) += FigureHtml(figure);
     }
     if (!subject.empty() && !(large.empty() && small.empty())) {
       html += "<h4>" + HtmlName(subject) + "</h4>\n";
@@ -180,10 +170,6 @@ std::string Page::Notices() const {
     html +=
         "<p class=\"notice\">results.json holds no component: there is "
         "nothing to report.</p>\n";
-  }
-  if (!figures_.failure.empty()) {
-    html += "<p class=\"notice\">The figures are missing: " +
-            HtmlText(figures_.failure) + ". Everything else is here.</p>\n";
   }
   return html;
 }
@@ -250,7 +236,7 @@ std::string Page::Answer(const ReportView& view,
   html += Paragraph(kSignConvention, "soft small") + "</div>\n<div>";
   for (const Figure& figure : figures.figures) {
     if (figure.place == FigurePlace::kAnswer) {
-      html += FigureHtml(figure, figures_.failure);
+      html += FigureHtml(figure);
     }
   }
   html += "</div>\n</div>\n" + TableHtml(LeaderboardTable(view));
@@ -287,9 +273,8 @@ std::string Page::Residuals(const ReportView& view,
             : " and of its strongest rival, " + HtmlName(view.rival) + ",",
         HtmlName(view.decisive));
   }
-  html += FiguresHtml(figures, FigurePlace::kResiduals, figures_.failure);
-  const std::string every =
-      FiguresHtml(figures, FigurePlace::kEveryModel, figures_.failure);
+  html += FiguresHtml(figures, FigurePlace::kResiduals);
+  const std::string every = FiguresHtml(figures, FigurePlace::kEveryModel);
   if (!every.empty()) {
     html += "<h4>Residuals of every model, " + HtmlName(view.decisive) +
             "</h4>\n" + every;
@@ -311,8 +296,7 @@ std::string Page::Residuals(const ReportView& view,
 
 std::string Page::Fits(const ReportView& view,
                        const ComponentFigures& figures) const {
-  return "<h3>The fits</h3>\n" +
-         FiguresHtml(figures, FigurePlace::kFits, figures_.failure) +
+  return "<h3>The fits</h3>\n" + FiguresHtml(figures, FigurePlace::kFits) +
          TableHtml(RunTable(view)) +
          Collapsed("Every start", TableHtml(StartTable(view))) +
          Collapsed("Every fold", TableHtml(FoldTable(view))) +
@@ -370,7 +354,7 @@ std::string Page::Data(const ReportView& view,
   html += "<p>" + Count(static_cast<long long>(inputs.size()), "input") +
           (names.empty() ? "" : ": " + names) + ".</p>\n";
   html += TableHtml(DroppedTable(view)) + TableHtml(HoldoutTable(view));
-  return html + FiguresHtml(figures, FigurePlace::kData, figures_.failure);
+  return html + FiguresHtml(figures, FigurePlace::kData);
 }
 
 std::string Page::Component(const ReportView& view, std::size_t index) const {

@@ -46,6 +46,7 @@ figure{margin:0;min-width:0;break-inside:avoid}
 figcaption{font-size:.875rem;margin-bottom:.2rem}
 figcaption b{display:block}
 figure svg{display:block;width:100%;height:auto;max-width:640px;background:#fff;font-family:system-ui,-apple-system,"Segoe UI",Roboto,Arial,"Noto Sans",sans-serif}
+.words{fill:var(--ink)}.frame{stroke:var(--soft)}.grid{stroke:var(--line)}.paper{fill:var(--paper)}
 figure.wide{grid-column:1/-1}
 figure.wide svg{max-width:820px}
 .absent{border:1px dashed #8a94a0;border-radius:4px;padding:14px;color:var(--soft);font-size:.875rem;background:var(--tint)}

@@ -86,9 +86,9 @@ std::string TestText(const Json& test, const char* statistic) {
   return FigureText(value) + " (" + PText(NumberAt(test, "p")) + ")";
 }
 
-void Mark(const ReportView& view,
-          const std::string& model,
-          ReportTable* table) {
+void MarkIfRecommended(const ReportView& view,
+                       const std::string& model,
+                       ReportTable* table) {
   if (model == view.recommended) table->marked = table->rows.size();
 }
 
@@ -151,7 +151,7 @@ ReportTable LeaderboardTable(const ReportView& view) {
                         {"parameters"},
                         {"predict, ns"}});
   for (const ViewedModel& model : view.models) {
-    Mark(view, model.name, &table);
+    MarkIfRecommended(view, model.name, &table);
     const Json& decisive = ResultOf(view, model.name, view.decisive);
     std::vector<std::string> row{
         model.name,
@@ -196,7 +196,7 @@ ReportTable GapTable(const ReportView& view) {
   for (const ViewedModel& viewed : view.models) {
     const Json& model = Find(At(gap, "models"), "model", viewed.name);
     if (!model.is_object()) continue;
-    Mark(view, viewed.name, &table);
+    MarkIfRecommended(view, viewed.name, &table);
     table.rows.push_back(
         {viewed.name,
          ErrorOrDash(error, NumberAt(model, "neighbours_rmse")),
@@ -307,7 +307,7 @@ ReportTable ResidualTable(const ReportView& view, const std::string& holdout) {
     const Json& result = ResultOf(view, model.name, holdout);
     const Json& test = At(result, "test");
     if (!test.is_object()) continue;
-    Mark(view, model.name, &table);
+    MarkIfRecommended(view, model.name, &table);
     std::vector<std::string> row{model.name, CountText(NumberAt(test, "n"))};
     for (const char* key :
          {"mean", "sd", "min", "max", "range", "rmse", "mae"}) {
@@ -340,7 +340,7 @@ ReportTable NormalityTable(const ReportView& view, const std::string& holdout) {
   for (const ViewedModel& model : view.models) {
     const Json& tests = At(ResultOf(view, model.name, holdout), "normality");
     if (!tests.is_object()) continue;
-    Mark(view, model.name, &table);
+    MarkIfRecommended(view, model.name, &table);
     const Json& ks = At(tests, "ks");
     const double d = NumberAt(ks, "d");
     table.rows.push_back(
@@ -381,7 +381,7 @@ ReportTable IndependenceTable(const ReportView& view,
   for (const ViewedModel& model : view.models) {
     const Json& tests = At(ResultOf(view, model.name, holdout), "randomness");
     if (!tests.is_object()) continue;
-    Mark(view, model.name, &table);
+    MarkIfRecommended(view, model.name, &table);
     const Json& order = At(tests, "in_order");
     const Json& group = At(tests, "by_group");
     const Json& position = At(tests, "by_position");

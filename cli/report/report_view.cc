@@ -145,32 +145,11 @@ std::vector<double> Shown(const ReportView& view, std::vector<double> values) {
   return values;
 }
 
-std::string WithUnit(const std::string& what, const std::string& unit) {
-  return what + ", " + (unit.empty() ? "no unit" : unit);
-}
-
 std::string PrettyUnit(const std::string& symbol) {
   if (symbol == "um") return "µm";
   if (symbol == "degC") return "°C";
   if (symbol == "urad") return "µrad";
   return symbol;
-}
-
-std::string Shortened(const std::string& text, std::size_t most) {
-  const auto begins = [](char c) {
-    constexpr unsigned kContinuation = 0x80;
-    constexpr unsigned kMask = 0xC0;
-    return (static_cast<unsigned char>(c) & kMask) != kContinuation;
-  };
-  std::vector<std::size_t> starts;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (begins(text[i])) starts.push_back(i);
-  }
-  if (starts.size() <= most || most < 2) return text;
-  const std::size_t front = most / 2;
-  const std::size_t back = most - front - 1;
-  return text.substr(0, starts[front]) + "…" +
-         text.substr(starts[starts.size() - back]);
 }
 
 }  // namespace errmap::cli

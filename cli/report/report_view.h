@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/report/json_access.h"
+#include "cli/report/plot.h"
 #include "cli/shell/number_text.h"
 
 namespace errmap::cli {
@@ -58,11 +59,7 @@ ErrorText ErrorTextOf(const ReportView& view);
 /// Values scaled to the shown unit.
 std::vector<double> Shown(const ReportView& view, std::vector<double> values);
 
-/// "residual, µm"; "residual, no unit".
-std::string WithUnit(const std::string& what, const std::string& unit);
 /// A unit's symbol as people write it: "um" -> "µm", "degC" -> "°C".
 std::string PrettyUnit(const std::string& symbol);
-/// At most `most` characters (not bytes), the middle replaced by "…".
-std::string Shortened(const std::string& text, std::size_t most);
 
 }  // namespace errmap::cli

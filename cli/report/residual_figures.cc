@@ -68,8 +68,8 @@ Figure Begin(const Context& context,
   return figure;
 }
 
-std::string Residual(const Context& context) {
-  return WithUnit("residual", context.view.shown_unit);
+Axis ResidualAxis(const ReportView& view) {
+  return {.quantity = "residual", .unit = view.shown_unit};
 }
 
 Series Points(std::vector<double> x, std::vector<double> y) {
@@ -115,8 +115,8 @@ Figure PredictedFigure(const Context& context) {
   const HeldOutRows& rows = context.rows;
   figure.note = "On the line the prediction is right.";
   const std::string& unit = context.view.shown_unit;
-  figure.plot.x.label = WithUnit("measured error", unit);
-  figure.plot.y.label = WithUnit("predicted error", unit);
+  figure.plot.x = {.quantity = "measured error", .unit = unit};
+  figure.plot.y = {.quantity = "predicted error", .unit = unit};
   const auto [low, high] =
       std::minmax_element(rows.target.begin(), rows.target.end());
   figure.plot.series = {{.mark = Mark::kLine,
@@ -160,12 +160,10 @@ std::string InputName(const ReportView& view, std::size_t index) {
   return TextAt(At(At(*view.component, {"figures", "inputs"}), index), "name");
 }
 
-std::string InputLabel(const ReportView& view,
-                       std::size_t index,
-                       std::size_t most) {
+Axis InputAxis(const ReportView& view, std::size_t index, std::size_t most) {
   const Json& input = At(At(*view.component, {"figures", "inputs"}), index);
-  return WithUnit(Shortened(TextAt(input, "name"), most),
-                  PrettyUnit(TextAt(input, "unit")));
+  return {.quantity = Shortened(TextAt(input, "name"), most),
+          .unit = PrettyUnit(TextAt(input, "unit"))};
 }
 
 Figure PositionFigure(const Context& context, std::size_t position) {
@@ -178,8 +176,8 @@ Figure PositionFigure(const Context& context, std::size_t position) {
   const std::vector<double>& x = context.rows.inputs[position];
   figure.note =
       "A curve or slope here is error along the axis that the map misses.";
-  figure.plot.x.label = InputLabel(context.view, position, kLongLabel);
-  figure.plot.y.label = Residual(context);
+  figure.plot.x = InputAxis(context.view, position, kLongLabel);
+  figure.plot.y = ResidualAxis(context.view);
   figure.plot.series = {Points(x, context.rows.residual),
                         ZeroLine(x),
                         Means(x, context.rows.residual)};
@@ -199,12 +197,6 @@ std::vector<std::pair<std::string, double>> GroupTics(const HeldOutRows& rows) {
   return tics;
 }
 
-bool HasLongLabel(const HeldOutRows& rows) {
-  return std::any_of(rows.labels.begin(),
-                     rows.labels.end(),
-                     [](const std::string& label) { return label.size() > 4; });
-}
-
 Figure GroupFigure(const Context& context) {
   const std::string group =
       TextOf(At(*context.view.component, {"figures", "group"}));
@@ -216,10 +208,9 @@ Figure GroupFigure(const Context& context) {
   figure.note =
       "Groups whose mean lies off zero drift as a whole: warm-up or another "
       "day that the map does not know.";
-  figure.plot.x.label = Shortened(group, 40);
-  figure.plot.x.tics = GroupTics(context.rows);
-  figure.plot.x.slanted_tics = HasLongLabel(context.rows);
-  figure.plot.y.label = Residual(context);
+  figure.plot.x.quantity = Shortened(group, 40);
+  figure.plot.x.names = GroupTics(context.rows);
+  figure.plot.y = ResidualAxis(context.view);
   figure.plot.series = {Points(context.rows.group, context.rows.residual),
                         ZeroLine(context.rows.group),
                         Means(context.rows.group, context.rows.residual)};
@@ -264,8 +255,8 @@ Figure HistogramFigure(const Context& context) {
                                std::exp(-0.5 * z * z));
   }
   figure.note = "Figure 11 of the report of 1995.";
-  figure.plot.x.label = Residual(context);
-  figure.plot.y.label = "count, rows";
+  figure.plot.x = ResidualAxis(context.view);
+  figure.plot.y = {.quantity = "count", .unit = "rows"};
   figure.plot.y.low = 0.0;
   figure.plot.series = {bars, curve};
   figure.description = fmt::format(
@@ -299,8 +290,10 @@ Figure NormalPlotFigure(const Context& context) {
       "Figure 7 of the report of 1995: normal residuals lie on the line (same "
       "mean and "
       "sd).";
-  figure.plot.x.label = "normal order statistic median, standard deviations";
-  figure.plot.y.label = WithUnit("ordered residual", context.view.shown_unit);
+  figure.plot.x = {.quantity = "normal order statistic median",
+                   .unit = "standard deviations"};
+  figure.plot.y = {.quantity = "ordered residual",
+                   .unit = context.view.shown_unit};
   figure.plot.series = {
       {.mark = Mark::kLine,
        .columns = {{x.front(), x.back()},
@@ -327,8 +320,8 @@ Figure PpccFigure(const Context& context) {
       "sample is highest near 0.14.",
       curve.best_lambda,
       curve.best_r);
-  figure.plot.x.label = "Tukey's lambda, no unit";
-  figure.plot.y.label = "probability plot correlation, no unit";
+  figure.plot.x.quantity = "Tukey's lambda";
+  figure.plot.y.quantity = "probability plot correlation";
   const double least = curve.r.minCoeff();
   figure.plot.series = {{.label = "normal (0.14)",
                          .mark = Mark::kLine,
@@ -392,8 +385,8 @@ Figure EcdfFigure(const Context& context) {
   figure.note =
       "The Kolmogorov-Smirnov distance is the largest gap between the two; the "
       "grey line marks its place.";
-  figure.plot.x.label = Residual(context);
-  figure.plot.y.label = "share of rows, fraction";
+  figure.plot.x = ResidualAxis(context.view);
+  figure.plot.y = {.quantity = "share of rows", .unit = "fraction"};
   figure.plot.y.low = 0.0;
   figure.plot.y.high = 1.0;
   figure.plot.series = {{.mark = Mark::kLine,
@@ -449,18 +442,18 @@ Figure MapFigure(const Context& context, std::size_t position) {
       "Blue: measured less than predicted; orange: more. A row of one colour "
       "is a group that drifts, a column a position that the map misses.";
   figure.plot.width = 460;
-  figure.plot.x.label = InputLabel(context.view, position, kLongLabel);
-  figure.plot.y.label =
+  figure.plot.x = InputAxis(context.view, position, kLongLabel);
+  figure.plot.y.quantity =
       Shortened(TextOf(At(*context.view.component, {"figures", "group"})), 30);
-  figure.plot.y.tics = GroupTics(rows);
+  figure.plot.y.names = GroupTics(rows);
   figure.plot.y.low = -0.5;
   figure.plot.y.high = static_cast<double>(rows.labels.size()) - 0.5;
   const double half = 0.5 * CellWidth(x);
   const auto [low, high] = std::minmax_element(x.begin(), x.end());
   figure.plot.x.low = *low - half;
   figure.plot.x.high = *high + half;
-  figure.plot.colour_label = WithUnit("residual", context.view.shown_unit);
-  figure.plot.colour_limit = largest;
+  figure.plot.colour = ResidualAxis(context.view);
+  figure.plot.colour.high = largest;
   figure.plot.series = {{.mark = Mark::kCells,
                          .columns = {x,
                                      rows.group,
@@ -528,8 +521,8 @@ std::vector<Figure> InputFigures(const Context& context,
     figure.small = true;
     figure.plot.width = 300;
     figure.plot.height = 210;
-    figure.plot.x.label = InputLabel(context.view, input, kShortLabel);
-    figure.plot.y.label = WithUnit("residual", context.view.shown_unit);
+    figure.plot.x = InputAxis(context.view, input, kShortLabel);
+    figure.plot.y = ResidualAxis(context.view);
     figure.plot.series = {Points(x, context.rows.residual), ZeroLine(x)};
     if (used.size() < all && figures.empty()) {
       figure.note = fmt::format(
@@ -650,9 +643,10 @@ Figure SmallResidualFigure(const ReportView& view,
       has_position ? rows.inputs[position] : rows.row;
   figure.plot.width = 300;
   figure.plot.height = 210;
-  figure.plot.x.label = has_position ? InputLabel(view, position, kShortLabel)
-                                     : "row, number in the file";
-  figure.plot.y.label = WithUnit("residual", view.shown_unit);
+  figure.plot.x = has_position
+                      ? InputAxis(view, position, kShortLabel)
+                      : Axis{.quantity = "row", .unit = "number in the file"};
+  figure.plot.y = ResidualAxis(view);
   figure.plot.series = {Points(x, rows.residual), ZeroLine(x)};
   figure.description = fmt::format(
       "Residuals of {} held-out rows over the {}: root mean square {}.",

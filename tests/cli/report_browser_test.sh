@@ -5,7 +5,7 @@
 #
 # No message on the console, nothing fetched, every figure there and described,
 # no overflow, no empty panel, no NaN, contrast at least 4.5 to 1. Exit status
-# 77 where there is no Chromium or no gnuplot.
+# 77 where there is no Chromium.
 set -eu
 
 errmap=$1
@@ -22,11 +22,6 @@ if [ -z "$browser" ]; then
   echo "report_browser: skipped, no Chromium: apt-get install chromium"
   exit 77
 fi
-if ! command -v gnuplot >/dev/null 2>&1; then
-  echo "report_browser: skipped, no gnuplot: apt-get install gnuplot-nox"
-  exit 77
-fi
-
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 failed=0

@@ -1,7 +1,6 @@
 #include "cli/report/report_html.h"
 
 #include <chrono>
-#include <cstdlib>
 #include <regex>
 
 #include <gmock/gmock.h>
@@ -17,13 +16,6 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-std::string Draw(const Json& document) {
-  FigureSet figures = MakeFigures(document);
-  DrawFigures(&figures);
-  return ReportHtml(document, figures);
-}
-
-// Without drawing: quick.
 std::string Write(const Json& document) {
   return ReportHtml(document, MakeFigures(document));
 }
@@ -114,7 +106,7 @@ TEST(ReportHtml, TurnsADifferenceTheWayItIsRead) {
 }
 
 TEST(ReportHtml, HasNoScriptNoLinkOutAndNoHole) {
-  const std::string html = Draw(MakeReportDocument());
+  const std::string html = Write(MakeReportDocument());
   EXPECT_THAT(html, Not(HasSubstr("<script")));
   EXPECT_THAT(html, Not(HasSubstr("http://")));
   EXPECT_THAT(html, Not(HasSubstr("https://")));
@@ -199,28 +191,14 @@ TEST(ReportHtml, ShowsHostileNamesAsText) {
     spec.models = {"mean", "poly:" + name, "net:" + name};
     // As it would come out of the file.
     const Json document = Json::parse(DumpJson(MakeReportDocument(spec)));
-    const std::string html = Draw(document);
+    const std::string html = Write(document);
     EXPECT_THAT(html, Not(HasSubstr("<script"))) << name;
     EXPECT_THAT(html, Not(HasSubstr("<img"))) << name;
-    // In the figures quotes are text; elsewhere they would end an attribute.
-    EXPECT_THAT(Write(document), Not(HasSubstr("\" onload"))) << name;
+    EXPECT_THAT(html, Not(HasSubstr("\" onload"))) << name;
     EXPECT_EQ(CountOf(html, "</title>"), 1 + CountOf(html, "<svg")) << name;
-    EXPECT_THAT(html, Not(HasSubstr("could not be drawn"))) << name;
     const std::string text = ReportMarkdown(document);
     EXPECT_FALSE(std::regex_search(text, std::regex("(^|[^\\\\])<"))) << name;
   }
-}
-
-TEST(ReportHtml, WithoutGnuplotSaysHowToHaveTheFigures) {
-  const Json document = MakeReportDocument();
-  const char* const path = std::getenv("PATH");
-  const std::string old = path != nullptr ? path : "";
-  setenv("PATH", "/nonexistent", 1);
-  const std::string html = Draw(document);
-  setenv("PATH", old.c_str(), 1);
-  EXPECT_THAT(html, HasSubstr("sudo apt-get install gnuplot-nox"));
-  EXPECT_THAT(html, HasSubstr("Leaderboard"));
-  EXPECT_THAT(html, Not(HasSubstr("<svg")));
 }
 
 TEST(ReportHtml, OfTwelveModelsAndSixHundredRowsIsSmallAndQuick) {
@@ -241,7 +219,7 @@ TEST(ReportHtml, OfTwelveModelsAndSixHundredRowsIsSmallAndQuick) {
                  "net:backprop"};
   const Json document = MakeReportDocument(spec);
   const auto start = std::chrono::steady_clock::now();
-  const std::string html = Draw(document);
+  const std::string html = Write(document);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
           .count();
@@ -268,7 +246,7 @@ TEST(ReportHtml, OfManyComponentsBeginsWithAnIndexAndFoldsTheRest) {
 
 TEST(ReportHtml, IsTheSameForTheSameDocument) {
   const Json document = MakeReportDocument();
-  EXPECT_EQ(Draw(document), Draw(Json::parse(DumpJson(document))));
+  EXPECT_EQ(Write(document), Write(Json::parse(DumpJson(document))));
 }
 
 TEST(ReportMarkdown, HoldsTheAnswerAndTheTables) {
