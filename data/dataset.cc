@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
@@ -39,6 +40,35 @@ void CheckGroups(const Grouping& groups, Eigen::Index num_rows) {
                    std::to_string(num_labels - 1));
     }
   }
+}
+
+void CheckLog(const SessionLog& log,
+              const std::vector<Eigen::Index>& log_rows,
+              Eigen::Index num_inputs,
+              Eigen::Index num_rows) {
+  const Eigen::Index in_log = log.time.size();
+  CheckSize("columns of log.input_values", log.input_values.cols(), num_inputs);
+  if (num_inputs > 0) {
+    CheckSize("rows of log.input_values", log.input_values.rows(), in_log);
+  }
+  if (!log.time.allFinite()) {
+    ThrowInvalid("log.time has a value that is not finite");
+  }
+  const auto check_codes = [](const char* what,
+                              const std::vector<Eigen::Index>& codes,
+                              Eigen::Index expected,
+                              Eigen::Index limit) {
+    CheckSize(what, static_cast<Eigen::Index>(codes.size()), expected);
+    for (const Eigen::Index code : codes) {
+      if (code >= 0 && code < limit) continue;
+      ThrowInvalid(std::string(what) + ": " + std::to_string(code) +
+                   " is outside 0.." + std::to_string(limit - 1));
+    }
+  };
+  const auto sessions = static_cast<Eigen::Index>(log.sessions.labels.size());
+  check_codes("log.sessions.codes", log.sessions.codes, in_log, sessions);
+  check_codes("log.first_rows", log.first_rows, sessions, in_log);
+  check_codes("log_rows", log_rows, num_rows, in_log);
 }
 
 // Numbers come out sorted and each with its shortest text.
@@ -117,6 +147,28 @@ Dataset::Dataset(Parts parts) : parts_(std::move(parts)) {
     for (Eigen::Index row = 0; row < m; ++row) parts_.rows.push_back(row);
   }
   CheckSize("rows", static_cast<Eigen::Index>(parts_.rows.size()), m);
+  if (parts_.log != nullptr) {
+    CheckLog(*parts_.log, parts_.log_rows, num_inputs(), m);
+  } else {
+    CheckSize("log_rows without a log",
+              static_cast<Eigen::Index>(parts_.log_rows.size()),
+              0);
+  }
+}
+
+std::vector<Eigen::Index> Dataset::session_codes() const {
+  std::vector<Eigen::Index> codes;
+  codes.reserve(parts_.log_rows.size());
+  for (const Eigen::Index row : parts_.log_rows) {
+    codes.push_back(parts_.log->sessions.codes[static_cast<std::size_t>(row)]);
+  }
+  return codes;
+}
+
+Eigen::Index Dataset::num_sessions() const {
+  const std::vector<Eigen::Index> codes = session_codes();
+  return static_cast<Eigen::Index>(
+      std::set<Eigen::Index>(codes.begin(), codes.end()).size());
 }
 
 Eigen::Index Dataset::FindInput(std::string_view name) const {
@@ -143,13 +195,16 @@ Dataset Dataset::SelectRows(const std::vector<Eigen::Index>& indices) const {
                          .labels = parts_.groups.labels,
                          .codes = {}},
               .weights = {},
-              .rows = {}};
+              .rows = {},
+              .log = parts_.log,
+              .log_rows = {}};
   if (parts_.weights.size() != 0) parts.weights = parts_.weights(indices);
   parts.rows.reserve(indices.size());
   for (const Eigen::Index index : indices) {
     const auto i = static_cast<std::size_t>(index);
     parts.rows.push_back(parts_.rows[i]);
     if (has_groups()) parts.groups.codes.push_back(parts_.groups.codes[i]);
+    if (parts_.log) parts.log_rows.push_back(parts_.log_rows[i]);
   }
   return Dataset(std::move(parts));
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -29,6 +30,18 @@ struct Grouping {
   std::vector<Eigen::Index> codes;  // (rows) index into labels
 };
 
+/// Every row of the table as it was read, in file order, rows dropped or held
+/// out included: what filters of the inputs run through.
+struct SessionLog {
+  /// Of all rows. A session is an uninterrupted run; column "" where sessions
+  /// were cut by time or the table is one.
+  Grouping sessions;
+  std::vector<Eigen::Index> first_rows;  // (sessions) first row that was kept
+  Eigen::VectorXd time;   // (rows) finite, never falling within a session
+  std::string time_unit;  // "s", or "rows": the number of the row
+  Eigen::MatrixXd input_values;  // (rows x p) NaN where a cell holds no number
+};
+
 /// Measurements ready to be mapped: m finite rows of p inputs, one target.
 ///
 /// Immutable once built; constructed by MakeDataset, or from its parts for
@@ -44,10 +57,13 @@ class Dataset {
     Grouping groups;                 // column "" where there are none
     Eigen::VectorXd weights;         // (m) positive, or (0): all equal
     std::vector<Eigen::Index> rows;  // (m) data row in the file; empty: 0..m-1
+    /// Null where nothing is known of sessions and times.
+    std::shared_ptr<const SessionLog> log = {};
+    std::vector<Eigen::Index> log_rows = {};  // (m) rows of the log
   };
 
   /// Throws std::invalid_argument on shapes that do not agree, values that are
-  /// not finite, weights that are not positive, or group codes out of range.
+  /// not finite, weights that are not positive, or codes out of range.
   explicit Dataset(Parts parts);
 
   const std::string& source() const { return parts_.source; }
@@ -61,11 +77,20 @@ class Dataset {
   const Grouping& groups() const { return parts_.groups; }
   const Eigen::VectorXd& weights() const { return parts_.weights; }
   const std::vector<Eigen::Index>& rows() const { return parts_.rows; }
+  /// Shared with every selection of rows; may be null.
+  const std::shared_ptr<const SessionLog>& log() const { return parts_.log; }
+  const std::vector<Eigen::Index>& log_rows() const { return parts_.log_rows; }
+  /// Session of each row (m), an index into log()->sessions.labels; empty
+  /// without a log.
+  std::vector<Eigen::Index> session_codes() const;
+  /// Sessions that these rows are of; 0 without a log.
+  Eigen::Index num_sessions() const;
+  bool has_sessions() const { return num_sessions() >= 2; }
 
   /// Index of the input of that name, or -1.
   Eigen::Index FindInput(std::string_view name) const;
 
-  /// The rows of these indices, in this order (group labels kept).
+  /// The rows of these indices, in this order (group labels and log kept).
   Dataset SelectRows(const std::vector<Eigen::Index>& indices) const;
 
  private:

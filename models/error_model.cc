@@ -33,22 +33,6 @@ Eigen::VectorXd ErrorModel::Predict(const Eigen::MatrixXd& inputs) const {
   return DoPredict(inputs);
 }
 
-Eigen::VectorXd FittedModel::Predict(const data::Dataset& dataset) const {
-  Eigen::MatrixXd values(dataset.num_rows(),
-                         static_cast<Eigen::Index>(inputs.size()));
-  Eigen::Index column = 0;
-  for (const TrainedInput& input : inputs) {
-    const Eigen::Index index = dataset.FindInput(input.column.name);
-    if (index < 0) {
-      throw std::invalid_argument("model " + name + " reads input '" +
-                                  input.column.name + "', which " +
-                                  dataset.source() + " does not have");
-    }
-    values.col(column++) = dataset.input_values().col(index);
-  }
-  return model->Predict(values);
-}
-
 Eigen::Index FindPosition(const data::Dataset& dataset,
                           const std::string& wanted) {
   if (!wanted.empty()) {

@@ -99,12 +99,40 @@ struct StartResult {
   bool chosen = false;
 };
 
+struct History;
+
+/// Bounds within which a map was trained: what goes beyond is clipped to them.
+/// A column that hardly moved in training may move far on another day.
+struct Guards {
+  /// Inputs of the form are clipped at [min - m * range, max + m * range].
+  double input_margin = 0.5;
+  /// Predictions likewise.
+  double error_margin = 0.1;
+  Eigen::VectorXd input_min;  // (inputs of the form) in training
+  Eigen::VectorXd input_max;
+  double error_min = 0.0;  // of the target in training, in its unit
+  double error_max = 0.0;
+};
+
+/// Guards with the default margins at the trained range of the form's inputs
+/// and of `targets` (at least one).
+Guards MakeGuards(const std::vector<TrainedInput>& form_inputs,
+                  const Eigen::VectorXd& targets);
+
+struct Prediction {
+  Eigen::VectorXd errors;  // (m) target's unit
+  /// (m) whether an input of the form, or the error, was clipped.
+  Eigen::Array<bool, Eigen::Dynamic, 1> clipped;
+};
+
 /// A model with what is needed to use and to judge it.
 struct FittedModel {
   std::string name;  // the SPEC as given
   ModelKind kind = ModelKind::kPolynomial;
   data::ColumnInfo target;
-  std::vector<TrainedInput> inputs;  // those the model reads, in its order
+  /// Columns that the map reads, in the order of the form, which reads the
+  /// inputs derived from them where there is a history.
+  std::vector<TrainedInput> inputs;
   std::shared_ptr<const ErrorModel> model;
   fitting::FitSummary summary;
   std::string equation;  // in physical units; "" where there is none
@@ -114,9 +142,20 @@ struct FittedModel {
   std::vector<StartResult> starts;  // empty where there was one only
   /// Of polynomials where FitContext asks to explain, else null.
   std::shared_ptr<const RegressionReport> regression;
+  /// How the inputs of the form are derived (models/history/history.h); null:
+  /// the form reads `inputs` as they are.
+  std::shared_ptr<const History> history;
+  std::optional<Guards> guards;  // nothing is clipped without them
 
-  /// Predicted error (m) of every row, in the unit of `target`; the inputs are
-  /// found by name. Throws std::invalid_argument naming an input not there.
+  /// (m x inputs of the form) of every row; `inputs` are found by name. Throws
+  /// std::invalid_argument naming an input not there, or where the sessions
+  /// and times that the history needs are not known.
+  Eigen::MatrixXd FormInputs(const data::Dataset& dataset) const;
+  /// Clips, predicts, clips. Throws std::invalid_argument on another number of
+  /// columns than the form has inputs.
+  Prediction PredictForm(const Eigen::MatrixXd& form_inputs) const;
+  /// Predicted error (m) of every row, in the unit of `target`. Throws as
+  /// FormInputs.
   Eigen::VectorXd Predict(const data::Dataset& dataset) const;
 };
 

@@ -44,6 +44,7 @@ class RowDigests {
     for (const std::string& label : dataset.groups().labels) {
       AddText(label, &stream);
     }
+    if (dataset.log() != nullptr) AddLog(*dataset.log(), &stream);
     columns_ = stream.Finish();
     for (Index row = 0; row < dataset.num_rows(); ++row) AddRow(row, &stream);
   }
@@ -64,6 +65,26 @@ class RowDigests {
  private:
   static constexpr std::size_t kDigestBytes = 32;
 
+  template <typename T>
+  static void AddBytes(const T& numbers, Sha256Stream* stream) {
+    stream->Add(
+        {reinterpret_cast<const char*>(numbers.data()),
+         static_cast<std::size_t>(numbers.size()) * sizeof(*numbers.data())});
+  }
+
+  // Filters run through all of it, so it counts for every row.
+  static void AddLog(const data::SessionLog& log, Sha256Stream* stream) {
+    AddText(log.sessions.column, stream);
+    for (const std::string& label : log.sessions.labels) {
+      AddText(label, stream);
+    }
+    AddText(log.time_unit, stream);
+    AddBytes(log.sessions.codes, stream);
+    AddBytes(log.first_rows, stream);
+    AddBytes(log.time, stream);
+    AddBytes(log.input_values, stream);
+  }
+
   void AddRow(Index row, Sha256Stream* stream) {
     const auto at = static_cast<std::size_t>(row);
     numbers_.clear();
@@ -75,12 +96,12 @@ class RowDigests {
       numbers_.push_back(dataset_.weights()[row]);
     }
     // Messages name rows of the file, so a row's place in it counts too.
-    const std::array<Index, 2> places = {
+    const std::array<Index, 3> places = {
         dataset_.rows()[at],
-        dataset_.has_groups() ? dataset_.groups().codes[at] : -1};
-    stream->Add({reinterpret_cast<const char*>(numbers_.data()),
-                 numbers_.size() * sizeof(double)});
-    stream->Add({reinterpret_cast<const char*>(places.data()), sizeof(places)});
+        dataset_.has_groups() ? dataset_.groups().codes[at] : -1,
+        dataset_.log() != nullptr ? dataset_.log_rows()[at] : -1};
+    AddBytes(numbers_, stream);
+    AddBytes(places, stream);
     rows_ += stream->Finish();
   }
 

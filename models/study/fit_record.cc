@@ -20,6 +20,7 @@
 #include <nlohmann/json.hpp>
 
 #include "data/input_error.h"
+#include "models/history/history.h"
 #include "models/net/feedforward_net.h"
 #include "models/polynomial/polynomial_model.h"
 #include "models/regression_report.h"
@@ -157,6 +158,15 @@ ERRMAP_MEMBERS(RegressionReport,
                mean_squared_errors,
                standard_errors,
                notes)
+ERRMAP_MEMBERS(DerivedInput, column, of, filter, tau)
+ERRMAP_MEMBERS(History, time_unit, session, derived, form_inputs)
+ERRMAP_MEMBERS(Guards,
+               input_margin,
+               error_margin,
+               input_min,
+               input_max,
+               error_min,
+               error_max)
 ERRMAP_MEMBERS(FittedModel,
                name,
                kind,
@@ -168,7 +178,9 @@ ERRMAP_MEMBERS(FittedModel,
                remarks,
                choices,
                starts,
-               regression)
+               regression,
+               history,
+               guards)
 ERRMAP_MEMBERS(Memorisation,
                train_r2,
                shuffled_r2,
@@ -375,8 +387,9 @@ class Writer {
          std::visit([](const auto& v) { return Of(v); }, value)});
   }
 
-  static Json Of(const std::shared_ptr<const RegressionReport>& report) {
-    return report == nullptr ? Json() : Of(*report);
+  template <typename T>
+  static Json Of(const std::shared_ptr<const T>& value) {
+    return value == nullptr ? Json() : Of(*value);
   }
 
   static Json Of(const std::shared_ptr<const ErrorModel>& model) {
@@ -456,12 +469,12 @@ class Reader {
     GetAlternative(json[1], index, value, std::index_sequence_for<T...>());
   }
 
-  static void Get(const Json& json,
-                  std::shared_ptr<const RegressionReport>* report) {
+  template <typename T>
+  static void Get(const Json& json, std::shared_ptr<const T>* value) {
     if (json.is_null()) return;
-    auto read = std::make_shared<RegressionReport>();
+    auto read = std::make_shared<T>();
     Get(json, read.get());
-    *report = std::move(read);
+    *value = std::move(read);
   }
 
   static void Get(const Json& json, std::shared_ptr<const ErrorModel>* model) {

@@ -1,6 +1,7 @@
 #include "data/dataset.h"
 
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -73,6 +74,64 @@ TEST(Dataset, SelectsRowsInTheOrderAsked) {
   EXPECT_EQ(selected.weights(), Eigen::Vector3d(3, 1, 3));
   EXPECT_THAT(selected.groups().codes, ElementsAre(1, 0, 1));
   EXPECT_THAT(selected.groups().labels, ElementsAre("1", "2"));
+}
+
+Dataset::Parts PartsWithLog() {
+  Dataset::Parts parts = SmallParts();
+  auto log = std::make_shared<SessionLog>();
+  log->sessions = {"day", {"a", "b"}, {0, 0, 1, 1}};
+  log->first_rows = {0, 2};
+  log->time = Eigen::Vector4d(0, 1, 10, 11);
+  log->time_unit = "s";
+  log->input_values = Eigen::MatrixXd{{1, 4}, {kNan, kNan}, {2, 5}, {3, 6}};
+  parts.log = log;
+  parts.log_rows = {0, 2, 3};
+  return parts;
+}
+
+TEST(Dataset, SelectsRowsWithTheirSessions) {
+  const Dataset dataset(PartsWithLog());
+  EXPECT_THAT(dataset.session_codes(), ElementsAre(0, 1, 1));
+  EXPECT_EQ(dataset.num_sessions(), 2);
+  EXPECT_TRUE(dataset.has_sessions());
+  const Dataset later = dataset.SelectRows({2, 1});
+  EXPECT_EQ(later.log(), dataset.log());
+  EXPECT_THAT(later.log_rows(), ElementsAre(3, 2));
+  EXPECT_EQ(later.num_sessions(), 1);
+  EXPECT_FALSE(later.has_sessions());
+  EXPECT_EQ(Dataset(SmallParts()).num_sessions(), 0);
+}
+
+TEST(Dataset, RefusesALogThatDoesNotAgree) {
+  const auto refused = [](const auto& change, const char* what) {
+    Dataset::Parts parts = PartsWithLog();
+    auto log = std::make_shared<SessionLog>(*parts.log);
+    change(&parts, log.get());
+    if (parts.log != nullptr) parts.log = log;
+    EXPECT_THAT([&] { Dataset{parts}; },
+                ThrowsMessage<std::invalid_argument>(HasSubstr(what)));
+  };
+  using Parts = Dataset::Parts;
+  refused(
+      [](Parts* parts, SessionLog*) {
+        parts->log_rows = {0, 2};
+      },
+      "log_rows: found 2, expected 3");
+  refused(
+      [](Parts* parts, SessionLog*) {
+        parts->log_rows = {0, 2, 4};
+      },
+      "log_rows: 4 is outside 0..3");
+  refused([](Parts* parts, SessionLog*) { parts->log = nullptr; },
+          "log_rows without a log");
+  refused([](Parts*, SessionLog* log) { log->sessions.codes[0] = 2; },
+          "log.sessions.codes: 2 is outside 0..1");
+  refused([](Parts*, SessionLog* log) { log->first_rows = {0}; },
+          "log.first_rows: found 1, expected 2");
+  refused([](Parts*, SessionLog* log) { log->time[1] = kNan; },
+          "log.time has a value that is not finite");
+  refused([](Parts*, SessionLog* log) { log->input_values.resize(4, 1); },
+          "columns of log.input_values: found 1, expected 2");
 }
 
 TEST(Dataset, SelectsNoRows) {

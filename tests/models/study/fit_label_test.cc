@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "models/version.h"
+#include "tests/models/history/history_data.h"
 #include "tests/models/model_test_data.h"
 #include "tests/models/study/study_test_tools.h"
 
@@ -118,6 +119,31 @@ TEST(FitLabels, ChangeWithEverythingThatAFitSeesOfItsRows) {
   for (std::size_t change = 0; change < changes.size(); ++change) {
     Dataset::Parts parts = PartsOf(QuadraticData(kRows));
     changes[change](&parts);
+    const auto changed = KeysOf(Dataset(parts));
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      EXPECT_NE(changed[i], keys[i]) << change << " " << i;
+    }
+  }
+}
+
+// Filters run through every row, kept in a fold or not.
+TEST(FitLabels, ChangeWithTheLogThatFiltersRunThrough) {
+  const std::vector<std::function<void(data::SessionLog*)>> changes = {
+      [](auto* log) { log->time[2] += 0.5; },
+      [](auto* log) { log->time_unit = "rows"; },
+      [](auto* log) { log->input_values(2, 0) += 1e-14; },
+      [](auto* log) { log->sessions.column = "run"; },
+      [](auto* log) { log->sessions.codes[44] = 0; },
+      [](auto* log) { log->first_rows[1] += 1; },
+  };
+  const Dataset dataset = errmap::testing::WanderingDays();
+  const auto keys = KeysOf(dataset);
+  for (std::size_t change = 0; change < changes.size(); ++change) {
+    auto log = std::make_shared<data::SessionLog>(*dataset.log());
+    changes[change](log.get());
+    Dataset::Parts parts = PartsOf(dataset);
+    parts.log = log;
+    parts.log_rows = dataset.log_rows();
     const auto changed = KeysOf(Dataset(parts));
     for (std::size_t i = 0; i < keys.size(); ++i) {
       EXPECT_NE(changed[i], keys[i]) << change << " " << i;

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "data/input_error.h"
+#include "models/history/history.h"
 #include "models/polynomial/polynomial_model.h"
 #include "models/recipe_catalog.h"
 #include "models/regression_report.h"
@@ -61,6 +62,9 @@ FitOutcome FullOutcome() {
   report->fit.coefficients.resize(1);
   report->fit.triangle = Eigen::MatrixXd::Identity(2, 3);
   fitted.regression = report;
+  fitted.history = std::make_shared<History>(
+      History{"s", "day", {Zeroed(fitted.inputs[0].column)}, {"zeroed()"}});
+  fitted.guards = MakeGuards(fitted.inputs, Eigen::Vector2d(-1.0, 2.0));
   outcome.fitted = std::move(fitted);
   outcome.train_predictions = Eigen::VectorXd::LinSpaced(5, 0.1, 0.7);
   return outcome;
@@ -71,6 +75,13 @@ RegressionReport& Report(FitOutcome* outcome) {
   RegressionReport& report = *copy;
   outcome->fitted->regression = std::move(copy);
   return report;
+}
+
+History& Memory(FitOutcome* outcome) {
+  auto copy = std::make_shared<History>(*outcome->fitted->history);
+  History& history = *copy;
+  outcome->fitted->history = std::move(copy);
+  return history;
 }
 
 TEST(FitRecord, BringsBackEveryKindOfModelToTheBit) {
@@ -190,6 +201,21 @@ std::vector<Mutation> MutationsOfTheModel() {
       [](auto* o) { o->fitted->starts[0].holdout_rmse = 1.0; },
       [](auto* o) { o->fitted->starts[0].chosen = true; },
       [](auto* o) { o->fitted->regression.reset(); },
+      [](auto* o) { o->fitted->history.reset(); },
+      [](auto* o) { Memory(o).time_unit = "rows"; },
+      [](auto* o) { Memory(o).session = "x"; },
+      [](auto* o) { Memory(o).derived[0].column.name = "x"; },
+      [](auto* o) { Memory(o).derived[0].of = "x"; },
+      [](auto* o) { Memory(o).derived[0].filter = Filter::kSine; },
+      [](auto* o) { Memory(o).derived[0].tau = 3.0; },
+      [](auto* o) { Memory(o).form_inputs = {"x"}; },
+      [](auto* o) { o->fitted->guards.reset(); },
+      [](auto* o) { o->fitted->guards->input_margin = 3.0; },
+      [](auto* o) { o->fitted->guards->error_margin = 3.0; },
+      [](auto* o) { o->fitted->guards->input_min[0] = 3.0; },
+      [](auto* o) { o->fitted->guards->input_max[0] = 3.0; },
+      [](auto* o) { o->fitted->guards->error_min = 3.0; },
+      [](auto* o) { o->fitted->guards->error_max = 3.0; },
   };
 }
 

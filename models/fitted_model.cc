@@ -1,0 +1,104 @@
+// FittedModel of models/error_model.h: derive, clip, predict, clip.
+
+#include <stdexcept>
+
+#include "models/error_model.h"
+#include "models/history/history.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Rows = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
+// Clips `values` to [min - m * range, max + m * range] and marks where it did;
+// a value that is NaN stays so.
+void Clip(double min,
+          double max,
+          double margin,
+          Eigen::Ref<Eigen::VectorXd> values,
+          Rows* clipped) {
+  const double widened = margin * (max - min);
+  const double low = min - widened;
+  const double high = max + widened;
+  *clipped = *clipped || values.array() < low || values.array() > high;
+  values = values.unaryExpr([low, high](double value) {
+    return value < low ? low : value > high ? high : value;
+  });
+}
+
+MatrixXd ColumnsByName(const data::Dataset& dataset,
+                       const std::string& model,
+                       const std::vector<TrainedInput>& inputs) {
+  MatrixXd values(dataset.num_rows(), static_cast<Index>(inputs.size()));
+  Index column = 0;
+  for (const TrainedInput& input : inputs) {
+    const Index index = dataset.FindInput(input.column.name);
+    if (index < 0) {
+      throw std::invalid_argument("model " + model + " reads input '" +
+                                  input.column.name + "', which " +
+                                  dataset.source() + " does not have");
+    }
+    values.col(column++) = dataset.input_values().col(index);
+  }
+  return values;
+}
+
+}  // namespace
+
+Guards MakeGuards(const std::vector<TrainedInput>& form_inputs,
+                  const Eigen::VectorXd& targets) {
+  Guards guards;
+  const auto size = static_cast<Index>(form_inputs.size());
+  guards.input_min.resize(size);
+  guards.input_max.resize(size);
+  for (Index i = 0; i < size; ++i) {
+    guards.input_min[i] = form_inputs[static_cast<std::size_t>(i)].min;
+    guards.input_max[i] = form_inputs[static_cast<std::size_t>(i)].max;
+  }
+  guards.error_min = targets.minCoeff();
+  guards.error_max = targets.maxCoeff();
+  return guards;
+}
+
+MatrixXd FittedModel::FormInputs(const data::Dataset& dataset) const {
+  return history != nullptr ? DeriveInputs(dataset, *history)
+                            : ColumnsByName(dataset, name, inputs);
+}
+
+Prediction FittedModel::PredictForm(const MatrixXd& form_inputs) const {
+  Prediction prediction;
+  prediction.clipped = Rows::Constant(form_inputs.rows(), false);
+  if (!guards) {
+    prediction.errors = model->Predict(form_inputs);
+    return prediction;
+  }
+  if (form_inputs.cols() != guards->input_min.size()) {
+    throw std::invalid_argument(
+        "PredictForm: the guards know " +
+        std::to_string(guards->input_min.size()) + " inputs, found " +
+        std::to_string(form_inputs.cols()) + " columns");
+  }
+  MatrixXd inside = form_inputs;
+  for (Index i = 0; i < inside.cols(); ++i) {
+    Clip(guards->input_min[i],
+         guards->input_max[i],
+         guards->input_margin,
+         inside.col(i),
+         &prediction.clipped);
+  }
+  prediction.errors = model->Predict(inside);
+  Clip(guards->error_min,
+       guards->error_max,
+       guards->error_margin,
+       prediction.errors,
+       &prediction.clipped);
+  return prediction;
+}
+
+Eigen::VectorXd FittedModel::Predict(const data::Dataset& dataset) const {
+  return PredictForm(FormInputs(dataset)).errors;
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,234 @@
+#include "models/history/history.h"
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "data/csv.h"
+#include "models/history/history_state.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+// What the form reads in every row of a table, and its columns.
+struct Derived {
+  std::vector<data::ColumnInfo> columns;
+  MatrixXd values;
+};
+
+std::vector<Index> FindColumns(const data::Dataset& dataset,
+                               const std::vector<std::string>& names) {
+  std::vector<Index> columns;
+  for (const std::string& name : names) {
+    columns.push_back(dataset.FindInput(name));
+    if (columns.back() >= 0) continue;
+    throw std::invalid_argument(
+        fmt::format("the map reads input '{}', which {} does not have",
+                    name,
+                    dataset.source()));
+  }
+  return columns;
+}
+
+std::vector<data::ColumnInfo> InfoOf(const data::Dataset& dataset,
+                                     const std::vector<Index>& columns) {
+  std::vector<data::ColumnInfo> info;
+  for (const Index column : columns) {
+    info.push_back(dataset.inputs()[static_cast<std::size_t>(column)]);
+  }
+  return info;
+}
+
+// Rows of every session in the order of the log.
+std::vector<std::vector<Index>> RowsOfSessions(const data::SessionLog& log) {
+  std::vector<std::vector<Index>> rows(log.sessions.labels.size());
+  Index row = 0;
+  for (const Index code : log.sessions.codes) {
+    rows[static_cast<std::size_t>(code)].push_back(row++);
+  }
+  return rows;
+}
+
+Derived DeriveLog(const data::SessionLog& log,
+                  const std::vector<Index>& columns,
+                  HistoryState state) {
+  // Readings by row, so that each stands together in memory.
+  const MatrixXd readings = log.input_values(Eigen::all, columns).transpose();
+  MatrixXd derived(static_cast<Index>(state.form_columns().size()),
+                   log.time.size());
+  const std::vector<std::vector<Index>> sessions = RowsOfSessions(log);
+  for (std::size_t s = 0; s < sessions.size(); ++s) {
+    Index before = -1;
+    for (const Index row : sessions[s]) {
+      if (before < 0) {
+        state.Start(readings.col(row));
+      } else {
+        state.Step(log.time[row] - log.time[before], readings.col(row));
+      }
+      if (row == log.first_rows[s] && before >= 0) state.TakeZero();
+      derived.col(row) = state.form_inputs();
+      before = row;
+    }
+  }
+  return {state.form_columns(), derived.transpose()};
+}
+
+// Angles alone need no log: any row by itself will do.
+Derived DeriveRows(const data::Dataset& dataset,
+                   const std::vector<Index>& columns,
+                   HistoryState state) {
+  const MatrixXd readings =
+      dataset.input_values()(Eigen::all, columns).transpose();
+  MatrixXd derived(dataset.num_rows(),
+                   static_cast<Index>(state.form_columns().size()));
+  for (Index row = 0; row < derived.rows(); ++row) {
+    state.Start(readings.col(row));
+    derived.row(row) = state.form_inputs().transpose();
+  }
+  return {state.form_columns(), std::move(derived)};
+}
+
+void RequireLog(const data::Dataset& dataset, const History& history) {
+  if (!history.needs_sessions()) return;
+  if (dataset.log() == nullptr) {
+    throw std::invalid_argument(fmt::format(
+        "the map has a memory, and the sessions of {} are not known",
+        dataset.source()));
+  }
+  const std::string& unit = dataset.log()->time_unit;
+  if (history.needs_time() && unit != history.time_unit) {
+    throw std::invalid_argument(
+        fmt::format("the map's filters run in {}, and the time of {} is in {}",
+                    history.time_unit,
+                    dataset.source(),
+                    unit));
+  }
+}
+
+// Of the log where there is one, else of the rows.
+Derived Derive(const data::Dataset& dataset, const History& history) {
+  RequireLog(dataset, history);
+  const std::vector<Index> columns = FindColumns(dataset, history.columns());
+  HistoryState state(history, InfoOf(dataset, columns));
+  return dataset.log() != nullptr
+             ? DeriveLog(*dataset.log(), columns, std::move(state))
+             : DeriveRows(dataset, columns, std::move(state));
+}
+
+DerivedInput Unitless(const data::ColumnInfo& of,
+                      const char* name,
+                      Filter filter) {
+  return {
+      .column = {fmt::format("{}({})", name, of.name), data::UnitOfSymbol("")},
+      .of = of.name,
+      .filter = filter};
+}
+
+}  // namespace
+
+std::string_view ToString(Filter filter) {
+  switch (filter) {
+    case Filter::kEma:
+      return "ema";
+    case Filter::kZero:
+      return "zero";
+    case Filter::kSine:
+      return "sine";
+    case Filter::kCosine:
+      return "cosine";
+  }
+  return "";
+}
+
+bool History::needs_time() const {
+  return std::ranges::find(derived, Filter::kEma, &DerivedInput::filter) !=
+         derived.end();
+}
+
+bool History::needs_sessions() const {
+  return std::ranges::any_of(derived, [](const DerivedInput& input) {
+    return input.filter == Filter::kEma || input.filter == Filter::kZero;
+  });
+}
+
+std::vector<std::string> History::columns() const {
+  std::vector<std::string> names;
+  // The column that `name` is, or is derived from in the end.
+  const auto add_root = [&](std::string name) {
+    // Backwards, since each derived input builds on earlier ones only.
+    for (auto input = derived.rbegin(); input != derived.rend(); ++input) {
+      if (input->column.name == name) name = input->of;
+    }
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  };
+  for (const std::string& name : form_inputs) add_root(name);
+  for (const DerivedInput& input : derived) add_root(input.of);
+  return names;
+}
+
+DerivedInput Ema(const data::ColumnInfo& of,
+                 double tau,
+                 const std::string& time_unit) {
+  return {
+      .column = {fmt::format(
+                     "ema({},{}{})", of.name, data::CsvNumber(tau), time_unit),
+                 of.unit},
+      .of = of.name,
+      .filter = Filter::kEma,
+      .tau = tau};
+}
+
+DerivedInput Zeroed(const data::ColumnInfo& of) {
+  return {.column = {fmt::format("zeroed({})", of.name), of.unit},
+          .of = of.name,
+          .filter = Filter::kZero};
+}
+
+DerivedInput SineOf(const data::ColumnInfo& angle) {
+  return Unitless(angle, "sin", Filter::kSine);
+}
+
+DerivedInput CosineOf(const data::ColumnInfo& angle) {
+  return Unitless(angle, "cos", Filter::kCosine);
+}
+
+MatrixXd DeriveInputs(const data::Dataset& dataset, const History& history) {
+  const Derived derived = Derive(dataset, history);
+  if (dataset.log() == nullptr) return derived.values;
+  return derived.values(dataset.log_rows(), Eigen::all);
+}
+
+data::Dataset DeriveDataset(const data::Dataset& dataset,
+                            const History& history) {
+  Derived derived = Derive(dataset, history);
+  data::Dataset::Parts parts{.source = dataset.source(),
+                             .inputs = std::move(derived.columns),
+                             .input_values = {},
+                             .target = dataset.target(),
+                             .target_values = dataset.target_values(),
+                             .groups = dataset.groups(),
+                             .weights = dataset.weights(),
+                             .rows = dataset.rows()};
+  if (dataset.log() == nullptr) {
+    parts.input_values = std::move(derived.values);
+    return data::Dataset(std::move(parts));
+  }
+  parts.input_values = derived.values(dataset.log_rows(), Eigen::all);
+  parts.log_rows = dataset.log_rows();
+  auto log = std::make_shared<data::SessionLog>();
+  log->sessions = dataset.log()->sessions;
+  log->first_rows = dataset.log()->first_rows;
+  log->time = dataset.log()->time;
+  log->time_unit = dataset.log()->time_unit;
+  log->input_values = std::move(derived.values);
+  parts.log = std::move(log);
+  return data::Dataset(std::move(parts));
+}
+
+}  // namespace errmap::models

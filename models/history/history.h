@@ -1,0 +1,70 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/dataset.h"
+
+namespace errmap::models {
+
+/// What is made of an input within a session.
+enum class Filter {
+  kEma,   // y += (1 - exp(-dt / tau)) (x - y), begun at y = x: a first-order
+          // lag in steady state, exact for steps of any length
+  kZero,  // less its value where the session's zero is taken
+  kSine,  // of an angle in rad, mrad, urad, deg or arcsec
+  kCosine,
+};
+
+/// "ema", "zero", "sine", "cosine".
+std::string_view ToString(Filter filter);
+
+/// An input that is computed from another: a causal function of input and time
+/// within a session, the same whichever rows are held out.
+struct DerivedInput {
+  data::ColumnInfo column;  // ema(t12_degC,1800s), zeroed(t12_degC)
+  std::string of;           // a column of the data, or an earlier derived input
+  Filter filter = Filter::kEma;
+  double tau = 0.0;  // of kEma: above 0, in the unit of time
+};
+
+/// The derived inputs of a map, and what its form reads.
+struct History {
+  std::string time_unit;  // "s" or "rows"
+  std::string session;    // column; "" where sessions are cut by time
+  std::vector<DerivedInput> derived;
+  std::vector<std::string> form_inputs;  // columns or derived inputs, in order
+
+  /// Whether any filter runs in time.
+  bool needs_time() const;
+  /// Whether any derived input depends on where sessions begin.
+  bool needs_sessions() const;
+  /// Columns of the data that it reads, in order of their first use by
+  /// `form_inputs`, then by `derived`.
+  std::vector<std::string> columns() const;
+};
+
+/// Derived inputs with their names and units.
+DerivedInput Ema(const data::ColumnInfo& of,
+                 double tau,
+                 const std::string& time_unit);
+DerivedInput Zeroed(const data::ColumnInfo& of);
+DerivedInput SineOf(const data::ColumnInfo& angle);
+DerivedInput CosineOf(const data::ColumnInfo& angle);
+
+/// What the form reads, per row of `dataset` (m x form_inputs). Filters run
+/// through all rows of its log, so a selection of rows gets what all rows get.
+/// Throws std::invalid_argument where a column is missing, the log that the
+/// history needs is, or its time has another unit.
+Eigen::MatrixXd DeriveInputs(const data::Dataset& dataset,
+                             const History& history);
+
+/// The rows of `dataset` with form_inputs for inputs, log included, so that any
+/// recipe can fit them. Throws as DeriveInputs.
+data::Dataset DeriveDataset(const data::Dataset& dataset,
+                            const History& history);
+
+}  // namespace errmap::models

@@ -1,0 +1,181 @@
+#include "models/history/history_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+[[noreturn]] void Refuse(const std::string& what) {
+  throw std::invalid_argument("HistoryState: " + what);
+}
+
+double RadiansPer(const data::ColumnInfo& angle) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  constexpr double kArcSecondsPerDegree = 3600.0;
+  const std::string& unit = angle.unit.symbol;
+  if (unit == "rad") return 1.0;
+  if (unit == "mrad") return 1e-3;
+  if (unit == "urad") return 1e-6;
+  if (unit == "deg") return kDegree;
+  if (unit == "arcsec") return kDegree / kArcSecondsPerDegree;
+  Refuse(fmt::format("'{}' is no angle in rad, mrad, urad, deg or arcsec",
+                     angle.name));
+}
+
+Index FindName(const std::vector<data::ColumnInfo>& columns,
+               const std::string& name) {
+  const auto found = std::ranges::find(columns, name, &data::ColumnInfo::name);
+  if (found == columns.end()) {
+    Refuse(fmt::format("no column or earlier derived input '{}'", name));
+  }
+  return found - columns.begin();
+}
+
+}  // namespace
+
+HistoryState::HistoryState(const History& history,
+                           const std::vector<data::ColumnInfo>& columns)
+    : num_columns_(static_cast<Index>(columns.size())) {
+  std::vector<data::ColumnInfo> known = columns;
+  for (const DerivedInput& input : history.derived) {
+    Node node{.filter = input.filter, .source = FindName(known, input.of)};
+    const data::ColumnInfo& of = known[static_cast<std::size_t>(node.source)];
+    if (std::ranges::find(known, input.column.name, &data::ColumnInfo::name) !=
+        known.end()) {
+      Refuse(fmt::format("two inputs are named '{}'", input.column.name));
+    }
+    switch (input.filter) {
+      case Filter::kEma:
+        if (!(input.tau > 0.0) || !std::isfinite(input.tau)) {
+          Refuse(fmt::format("tau of '{}' must be above 0, found {}",
+                             input.column.name,
+                             input.tau));
+        }
+        node.gain = static_cast<std::size_t>(
+            std::ranges::find(taus_, input.tau) - taus_.begin());
+        if (node.gain == taus_.size()) taus_.push_back(input.tau);
+        break;
+      case Filter::kZero:
+        break;
+      case Filter::kSine:
+      case Filter::kCosine:
+        node.factor = RadiansPer(of);
+        break;
+    }
+    nodes_.push_back(node);
+    known.push_back(input.column);
+  }
+  for (const std::string& name : history.form_inputs) {
+    form_sources_.push_back(FindName(known, name));
+    form_columns_.push_back(
+        known[static_cast<std::size_t>(form_sources_.back())]);
+  }
+  gains_.resize(taus_.size());
+  values_ = Eigen::VectorXd::Constant(static_cast<Index>(known.size()), kNaN);
+  memory_ = Eigen::VectorXd::Constant(static_cast<Index>(nodes_.size()), kNaN);
+  form_inputs_ =
+      Eigen::VectorXd::Constant(static_cast<Index>(form_sources_.size()), kNaN);
+}
+
+void HistoryState::Start(const Eigen::Ref<const Eigen::VectorXd>& readings) {
+  values_.setConstant(kNaN);
+  memory_.setConstant(kNaN);
+  SetReadings(readings);
+  std::ranges::fill(gains_, 0.0);
+  started_ = true;
+  Update();
+}
+
+void HistoryState::Step(double dt,
+                        const Eigen::Ref<const Eigen::VectorXd>& readings) {
+  if (!started_) Refuse("Step before Start");
+  if (!(dt >= 0.0)) Refuse(fmt::format("a step of {}; time goes on", dt));
+  SetReadings(readings);
+  for (std::size_t i = 0; i < taus_.size(); ++i) {
+    gains_[i] = -std::expm1(-dt / taus_[i]);
+  }
+  Update();
+}
+
+void HistoryState::TakeZero() {
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].filter == Filter::kZero) {
+      memory_[static_cast<Index>(i)] = kNaN;
+    }
+  }
+  std::ranges::fill(gains_, 0.0);
+  Update();
+}
+
+void HistoryState::SetReadings(
+    const Eigen::Ref<const Eigen::VectorXd>& readings) {
+  if (readings.size() != num_columns_) {
+    Refuse(
+        fmt::format("{} readings, expected {}", readings.size(), num_columns_));
+  }
+  for (Index i = 0; i < num_columns_; ++i) {
+    if (!std::isnan(readings[i])) values_[i] = readings[i];
+  }
+}
+
+void HistoryState::Update() {
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    const double x = values_[node.source];
+    double& memory = memory_[static_cast<Index>(i)];
+    double& value = values_[num_columns_ + static_cast<Index>(i)];
+    switch (node.filter) {
+      case Filter::kEma:
+        // The first number begins the filter in its steady state.
+        memory =
+            std::isnan(memory) ? x : memory + gains_[node.gain] * (x - memory);
+        value = memory;
+        break;
+      case Filter::kZero:
+        if (std::isnan(memory)) memory = x;
+        value = x - memory;
+        break;
+      case Filter::kSine:
+        value = std::sin(node.factor * x);
+        break;
+      case Filter::kCosine:
+        value = std::cos(node.factor * x);
+        break;
+    }
+  }
+  for (std::size_t i = 0; i < form_sources_.size(); ++i) {
+    form_inputs_[static_cast<Index>(i)] = values_[form_sources_[i]];
+  }
+}
+
+Eigen::VectorXd HistoryState::state() const {
+  if (!started_) return {};
+  Eigen::VectorXd state(num_columns_ + memory_.size());
+  state << values_.head(num_columns_), memory_;
+  return state;
+}
+
+void HistoryState::set_state(const Eigen::VectorXd& state) {
+  if (state.size() != num_columns_ + memory_.size()) {
+    Refuse(fmt::format("a state of {} numbers, expected {}",
+                       state.size(),
+                       num_columns_ + memory_.size()));
+  }
+  values_.head(num_columns_) = state.head(num_columns_);
+  memory_ = state.tail(memory_.size());
+  std::ranges::fill(gains_, 0.0);
+  started_ = true;
+  Update();
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,38 @@
+#include "models/history/with_history.h"
+
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace errmap::models {
+
+FittedModel WithHistory(FittedModel fitted,
+                        const data::Dataset& training,
+                        const History& history) {
+  auto read = std::make_shared<History>();
+  read->time_unit = history.time_unit;
+  read->session = history.session;
+  std::set<std::string> needed;
+  for (const TrainedInput& input : fitted.inputs) {
+    read->form_inputs.push_back(input.column.name);
+    needed.insert(input.column.name);
+  }
+  // Backwards, since each derived input builds on earlier ones only.
+  for (auto input = history.derived.rbegin(); input != history.derived.rend();
+       ++input) {
+    if (!needed.contains(input->column.name)) continue;
+    needed.insert(input->of);
+    read->derived.insert(read->derived.begin(), *input);
+  }
+  std::vector<Eigen::Index> columns;
+  for (const std::string& name : read->columns()) {
+    columns.push_back(training.FindInput(name));
+  }
+  fitted.inputs = DescribeInputs(training, columns);
+  fitted.history = std::move(read);
+  return fitted;
+}
+
+}  // namespace errmap::models

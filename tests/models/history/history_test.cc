@@ -1,0 +1,320 @@
+#include "models/history/history.h"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "models/history/history_state.h"
+#include "models/history/with_history.h"
+#include "models/recipe_catalog.h"
+#include "tests/models/history/history_data.h"
+
+namespace errmap::models {
+namespace {
+
+using data::Dataset;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using errmap::testing::ColumnNamed;
+using errmap::testing::WanderingDays;
+using errmap::testing::WithLog;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+constexpr double kRoundOff = 1e-13;
+
+std::vector<Index> OneSession(Index rows) {
+  return std::vector<Index>(static_cast<std::size_t>(rows), 0);
+}
+
+Dataset OneColumn(const std::string& name,
+                  const VectorXd& values,
+                  const VectorXd& time) {
+  return WithLog({ColumnNamed(name)}, values, time, OneSession(time.size()));
+}
+
+History Of(std::vector<DerivedInput> derived) {
+  History history{.time_unit = "s",
+                  .session = "day",
+                  .derived = std::move(derived),
+                  .form_inputs = {}};
+  for (const DerivedInput& input : history.derived) {
+    history.form_inputs.push_back(input.column.name);
+  }
+  return history;
+}
+
+// Everything there is: raw, filtered, zeroed, zeroed after the filter.
+History Everything() {
+  const data::ColumnInfo t1 = ColumnNamed("t1_degC");
+  const data::ColumnInfo t2 = ColumnNamed("t2_degC");
+  const DerivedInput slow = Ema(t1, 600.0, "s");
+  History history = Of({slow,
+                        Ema(t1, 60.0, "s"),
+                        Ema(t2, 600.0, "s"),
+                        Zeroed(t2),
+                        Zeroed(slow.column)});
+  history.form_inputs.insert(history.form_inputs.begin(), "t1_degC");
+  return history;
+}
+
+TEST(History, NamesWhatItDerives) {
+  const data::ColumnInfo t12 = ColumnNamed("t12_degC");
+  EXPECT_EQ(Ema(t12, 1800.0, "s").column.name, "ema(t12_degC,1800s)");
+  EXPECT_EQ(Ema(t12, 2.5, "rows").column.name, "ema(t12_degC,2.5rows)");
+  EXPECT_EQ(Zeroed(t12).column.name, "zeroed(t12_degC)");
+  EXPECT_EQ(Zeroed(t12).column.unit.symbol, "degC");
+  EXPECT_EQ(SineOf(ColumnNamed("c_deg")).column.name, "sin(c_deg)");
+  EXPECT_EQ(CosineOf(ColumnNamed("c_deg")).column.unit.symbol, "");
+}
+
+// Of a step at t = 0 the filter has 1 - exp(-t / tau) at t, however time is
+// cut into steps.
+TEST(History, FollowsAStepExactlyAtIrregularTimes) {
+  VectorXd time(6);
+  time << 0.0, 10.0, 11.0, 40.0, 400.0, 400.5;
+  VectorXd values = VectorXd::Ones(6);
+  values[0] = 0.0;
+  constexpr double kTau = 100.0;
+  const MatrixXd derived =
+      DeriveInputs(OneColumn("t1_degC", values, time),
+                   Of({Ema(ColumnNamed("t1_degC"), kTau, "s")}));
+  for (Index row = 0; row < time.size(); ++row) {
+    EXPECT_NEAR(derived(row, 0), 1.0 - std::exp(-time[row] / kTau), kRoundOff);
+  }
+}
+
+TEST(History, BeginsEverySessionInSteadyStateAndAtZero) {
+  const Dataset dataset = WanderingDays();
+  const History history = Everything();
+  const MatrixXd derived = DeriveInputs(dataset, history);
+  for (const Index row : dataset.log()->first_rows) {
+    const double t1 = dataset.input_values()(row, 0);
+    const double t2 = dataset.input_values()(row, 1);
+    EXPECT_EQ(VectorXd(derived.row(row).transpose()),
+              (VectorXd(6) << t1, t1, t1, t2, 0.0, 0.0).finished());
+  }
+}
+
+TEST(History, LetsTheLaterOfTwoRowsAtOneTimeReplaceTheEarlier) {
+  VectorXd time(4);
+  time << 0.0, 5.0, 5.0, 9.0;
+  VectorXd values(4);
+  values << 20.0, 30.0, 24.0, 24.0;
+  const History history = Of(
+      {Ema(ColumnNamed("t1_degC"), 8.0, "s"), Zeroed(ColumnNamed("t1_degC"))});
+  const MatrixXd derived =
+      DeriveInputs(OneColumn("t1_degC", values, time), history);
+  EXPECT_EQ(derived(2, 0), derived(1, 0));
+  EXPECT_EQ(derived(2, 1), 4.0);
+  EXPECT_NEAR(derived(3, 0),
+              derived(1, 0) + (1.0 - std::exp(-0.5)) * (24.0 - derived(1, 0)),
+              kRoundOff);
+}
+
+TEST(History, TurnsAnglesOfAnyUnitIntoSineAndCosine) {
+  for (const auto& [name, turn] :
+       {std::pair("c_deg", 360.0),
+        std::pair("c_rad", 2.0 * std::numbers::pi)}) {
+    Dataset::Parts parts;
+    parts.inputs = {ColumnNamed(name)};
+    parts.input_values = VectorXd::LinSpaced(4, 0.0, 0.75 * turn);
+    parts.target = ColumnNamed("error_um");
+    parts.target_values = VectorXd::Zero(4);
+    // No log: an angle has no memory.
+    const MatrixXd derived = DeriveInputs(
+        Dataset(std::move(parts)),
+        Of({SineOf(ColumnNamed(name)), CosineOf(ColumnNamed(name))}));
+    EXPECT_TRUE(derived.col(0).isApprox(Eigen::Vector4d(0, 1, 0, -1), 1e-12));
+    EXPECT_TRUE(derived.col(1).isApprox(Eigen::Vector4d(1, 0, -1, 0), 1e-12));
+  }
+}
+
+TEST(History, DerivesASelectionOfRowsAsAllRows) {
+  const Dataset dataset = WanderingDays();
+  const std::vector<Index> some = {3, 17, 41, 90, 119, 5};
+  EXPECT_EQ(DeriveInputs(dataset.SelectRows(some), Everything()),
+            DeriveInputs(dataset, Everything())(some, Eigen::all));
+}
+
+TEST(History, KnowsNothingOfLaterRowsNorOfOtherSessions) {
+  const Dataset dataset = WanderingDays();
+  const MatrixXd derived = DeriveInputs(dataset, Everything());
+  constexpr Index kChanged = 55;  // in the second of three sessions of 40 rows
+  MatrixXd values = dataset.input_values();
+  values.row(kChanged).array() += 1e3;
+  const MatrixXd after = DeriveInputs(WithLog(dataset.inputs(),
+                                              values,
+                                              dataset.log()->time,
+                                              dataset.session_codes()),
+                                      Everything());
+  for (Index row = 0; row < dataset.num_rows(); ++row) {
+    const bool may_know = row >= kChanged && row < 80;
+    if (may_know) {
+      EXPECT_NE(after.row(row), derived.row(row)) << row;
+    } else {
+      EXPECT_EQ(after.row(row), derived.row(row)) << row;
+    }
+  }
+}
+
+TEST(History, HoldsTheLastReadingWhereOneIsMissing) {
+  const double nan = std::nan("");
+  VectorXd time = VectorXd::LinSpaced(5, 0.0, 4.0);
+  VectorXd values(5);
+  values << nan, 20.0, nan, 22.0, 22.0;
+  const Dataset all = OneColumn("t1_degC", VectorXd::Constant(5, 20.0), time);
+  auto log = std::make_shared<data::SessionLog>(*all.log());
+  log->input_values = values;
+  log->first_rows = {1};
+  Dataset::Parts parts;
+  parts.inputs = all.inputs();
+  parts.input_values = Eigen::Vector2d(20.0, 22.0);
+  parts.target = all.target();
+  parts.target_values = Eigen::Vector2d::Zero();
+  parts.log = log;
+  parts.log_rows = {1, 3};  // rows with a missing cell were dropped
+  const MatrixXd derived =
+      DeriveInputs(Dataset(std::move(parts)),
+                   Of({Ema(ColumnNamed("t1_degC"), 1.0, "s"),
+                       Zeroed(ColumnNamed("t1_degC"))}));
+  EXPECT_EQ(derived.row(0), Eigen::RowVector2d(20.0, 0.0));
+  EXPECT_NEAR(derived(1, 0), 22.0 - 2.0 * std::exp(-1.0), kRoundOff);
+  EXPECT_EQ(derived(1, 1), 2.0);
+}
+
+TEST(History, TakesTheZeroAtTheFirstRowThatWasKept) {
+  const Dataset dataset = WanderingDays();
+  auto log = std::make_shared<data::SessionLog>(*dataset.log());
+  log->first_rows = {2, 43, 80};
+  Dataset::Parts parts;
+  parts.inputs = dataset.inputs();
+  parts.input_values = dataset.input_values();
+  parts.target = dataset.target();
+  parts.target_values = dataset.target_values();
+  parts.log = log;
+  parts.log_rows = dataset.log_rows();
+  const MatrixXd derived = DeriveInputs(Dataset(std::move(parts)),
+                                        Of({Zeroed(ColumnNamed("t2_degC"))}));
+  const VectorXd t2 = dataset.input_values().col(1);
+  EXPECT_EQ(derived(2, 0), 0.0);
+  EXPECT_EQ(derived(39, 0), t2[39] - t2[2]);
+  EXPECT_EQ(derived(43, 0), 0.0);
+}
+
+TEST(History, SaysWhatTheDataLack) {
+  const Dataset dataset = WanderingDays();
+  const auto message = [](const std::string& text) {
+    return ThrowsMessage<std::invalid_argument>(HasSubstr(text));
+  };
+  EXPECT_THAT(
+      [&] { DeriveInputs(dataset, Of({Zeroed(ColumnNamed("t9_degC"))})); },
+      message("reads input 't9_degC', which memory does not have"));
+  EXPECT_THAT(
+      [&] { DeriveInputs(dataset, Of({SineOf(ColumnNamed("t1_degC"))})); },
+      message("'t1_degC' is no angle"));
+  EXPECT_THAT(
+      [&] {
+        DeriveInputs(dataset, Of({Ema(ColumnNamed("t1_degC"), 0.0, "s")}));
+      },
+      message("must be above 0, found 0"));
+  History in_rows = Of({Ema(ColumnNamed("t1_degC"), 9.0, "rows")});
+  in_rows.time_unit = "rows";
+  EXPECT_THAT([&] { DeriveInputs(dataset, in_rows); },
+              message("filters run in rows, and the time of memory is in s"));
+  Dataset::Parts parts;
+  parts.source = "xdown.csv";
+  parts.inputs = dataset.inputs();
+  parts.input_values = dataset.input_values();
+  parts.target = dataset.target();
+  parts.target_values = dataset.target_values();
+  EXPECT_THAT([&] { DeriveInputs(Dataset(parts), Everything()); },
+              message("the sessions of xdown.csv are not known"));
+}
+
+TEST(History, MakesADatasetThatAnyRecipeFits) {
+  const Dataset dataset = WanderingDays();
+  const History history = Everything();
+  const Dataset derived = DeriveDataset(dataset, history);
+  ASSERT_EQ(derived.num_inputs(), 6);
+  EXPECT_EQ(derived.inputs()[1], history.derived[0].column);
+  EXPECT_EQ(derived.input_values(), DeriveInputs(dataset, history));
+  EXPECT_EQ(derived.session_codes(), dataset.session_codes());
+  EXPECT_EQ(derived.target_values(), dataset.target_values());
+  const std::vector<Index> some = {1, 50, 100};
+  EXPECT_EQ(derived.SelectRows(some).input_values(),
+            DeriveInputs(dataset.SelectRows(some), history));
+}
+
+TEST(WithHistory, MakesAMapOfTheColumnsThatItReads) {
+  const Dataset dataset = WanderingDays();
+  const History history = Everything();
+  const FittedModel of_derived =
+      MakeRecipe(
+          "poly:formula=\"ema(t1_degC,60s)\"+\"zeroed(ema(t1_degC,600s))\"")
+          ->Fit(DeriveDataset(dataset, history), {});
+  const FittedModel map = WithHistory(of_derived, dataset, history);
+  ASSERT_EQ(map.inputs.size(), 1U);
+  EXPECT_EQ(map.inputs[0].column.name, "t1_degC");
+  EXPECT_THAT(map.history->form_inputs,
+              ElementsAre("ema(t1_degC,60s)", "zeroed(ema(t1_degC,600s))"));
+  EXPECT_EQ(map.history->derived.size(), 3U);
+  EXPECT_EQ(map.Predict(dataset),
+            of_derived.Predict(DeriveDataset(dataset, history)));
+}
+
+TEST(HistoryState, StepsAsTheDatasetIsDerived) {
+  const Dataset dataset = WanderingDays();
+  const History history = Everything();
+  const MatrixXd derived = DeriveInputs(dataset, history);
+  HistoryState state(history, dataset.inputs());
+  const std::vector<Index> sessions = dataset.session_codes();
+  for (Index row = 0; row < dataset.num_rows(); ++row) {
+    const VectorXd readings = dataset.input_values().row(row).transpose();
+    const auto at = static_cast<std::size_t>(row);
+    if (row == 0 || sessions[at] != sessions[at - 1]) {
+      state.Start(readings);
+    } else {
+      // A restart of the program loses nothing.
+      HistoryState again(history, dataset.inputs());
+      again.set_state(state.state());
+      state = again;
+      state.Step(dataset.log()->time[row] - dataset.log()->time[row - 1],
+                 readings);
+    }
+    EXPECT_EQ(state.form_inputs(), derived.row(row).transpose()) << row;
+  }
+}
+
+TEST(HistoryState, RefusesWhatCannotBe) {
+  HistoryState state(Everything(),
+                     {ColumnNamed("t1_degC"), ColumnNamed("t2_degC")});
+  const Eigen::Vector2d readings(20.0, 21.0);
+  const auto message = [](const std::string& text) {
+    return ThrowsMessage<std::invalid_argument>(HasSubstr(text));
+  };
+  EXPECT_EQ(state.state().size(), 0);
+  EXPECT_THAT([&] { state.Step(1.0, readings); }, message("before Start"));
+  state.Start(readings);
+  EXPECT_THAT([&] { state.Step(-1.0, readings); }, message("a step of -1"));
+  EXPECT_THAT([&] { state.Step(std::nan(""), readings); }, message("nan"));
+  EXPECT_THAT([&] { state.Start(Eigen::Vector3d::Zero()); },
+              message("3 readings, expected 2"));
+  EXPECT_THAT([&] { state.set_state(Eigen::Vector3d::Zero()); },
+              message("a state of 3 numbers, expected 7"));
+  History twice =
+      Of({Zeroed(ColumnNamed("t1_degC")), Zeroed(ColumnNamed("t1_degC"))});
+  EXPECT_THAT([&] { HistoryState(twice, {ColumnNamed("t1_degC")}); },
+              message("two inputs are named 'zeroed(t1_degC)'"));
+}
+
+}  // namespace
+}  // namespace errmap::models
