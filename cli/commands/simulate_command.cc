@@ -93,6 +93,12 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
           "--speed", options.workload.speed, "Factor on every spindle speed")
       ->capture_default_str();
   command
+      ->add_option("--warm",
+                   options.warm_hours,
+                   "Hours of work, unmeasured, and a break before the first "
+                   "cycle of each day from the second on")
+      ->capture_default_str();
+  command
       ->add_option("--air",
                    options.air_factor,
                    "Factor on every heat conductance to the air")

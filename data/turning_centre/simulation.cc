@@ -150,6 +150,8 @@ void SimulationOptions::Validate() const {
   CheckCount("points", points_per_day, 0, kMostPoints);
   CheckFactor("duty", workload.duty, kMostFactor);
   CheckFactor("speed", workload.speed, 4.0);
+  constexpr double kHoursPerDay = 24.0;
+  CheckFactor("warm", warm_hours, kHoursPerDay);
   if (!std::isfinite(air_factor) || air_factor <= 0.0 ||
       air_factor > kMostFactor) {
     ThrowInvalid("air " + Shortest(air_factor) +
@@ -173,6 +175,12 @@ void SimulationOptions::Validate() const {
       }
     }
   }
+}
+
+std::int64_t Stop::time_s() const {
+  constexpr std::int64_t kHoursPerDay = 24;
+  return (day - 1) * kHoursPerDay * kSecondsPerHour +
+         std::llround(hours * kSecondsPerHour);
 }
 
 Slide Stop::slide() const {
@@ -215,6 +223,15 @@ Simulation Simulate(const SimulationOptions& options) {
     day.Run(kRestHours * kSecondsPerHour + programme.start_s, {});
     thermocouples.StartDay(
         day_number, day.temperatures(), day.Air(programme.start_s));
+    if (options.warm_hours > 0.0 && day_number > 1) {
+      // As on a usual day; in whole steps.
+      constexpr DriveState kAtWork = {
+          .is_on = true, .spindle_rpm = 2000.0, .x_duty = 0.3, .z_duty = 0.3};
+      day.Run(kStepSeconds * static_cast<int>(options.warm_hours *
+                                              kSecondsPerHour / kStepSeconds),
+              kAtWork);
+      day.Run(kWarmBreakSeconds, {.is_on = true});
+    }
     for (const CyclePlan& plan : programme.cycles) {
       ++cycle;
       day.Run(plan.pause_s, {.is_on = true});

@@ -16,6 +16,10 @@ struct SimulationOptions {
   int days = 2;     // 1 to 366; day 1 is ReportDay, the others are drawn
   int cycles = 35;  // warm-up cycles of each day, 1 to 1000
   Workload workload = {};
+  /// From the second day on the machine works this long, unmeasured, and then
+  /// stands for kWarmBreakSeconds before the first cycle: a session that
+  /// starts warm. Hours, 0 to 24.
+  double warm_hours = 0.0;
   double air_factor = 1.0;  // of every conductance to the air, > 0, <= 100
   /// Standard deviation of a reading of a displacement, um: a laser
   /// interferometer in a shop.
@@ -34,6 +38,8 @@ struct SimulationOptions {
   void Validate() const;
 };
 
+inline constexpr int kWarmBreakSeconds = 1200;
+
 /// The four measuring sweeps of a cycle, in their order.
 enum class Sweep { kXForward, kXReverse, kZForward, kZReverse };
 inline constexpr int kNumSweeps = 4;
@@ -45,6 +51,8 @@ struct Stop {
   Sweep sweep = Sweep::kXForward;
   int index = 0;       // place in the sweep, 0 to kStopsPerSweep - 1
   double hours = 0.0;  // from midnight
+  /// From midnight before the first day, breaks and nights included, s.
+  std::int64_t time_s() const;
   TemperatureRise rise = {};
   Thermocouples::Readings readings = {};
 

@@ -78,7 +78,7 @@ std::string ComponentCsv(const Simulation& simulation,
   const ComponentTraits& traits = TraitsOf(file.component);
   const bool has_position = traits.slide != Slide::kNone;
   const std::string unit = traits.is_angle ? "urad" : "mm";
-  std::string text = "record,day,cycle";
+  std::string text = "record,day,cycle,time_s";
   if (has_position) text += ",position_mm";
   text += SensorColumns() + ",error_" + unit;
   if (options.truth) text += ",truth_" + unit;
@@ -99,7 +99,7 @@ std::string ComponentCsv(const Simulation& simulation,
         TrueError(file.component, position, file.direction, stop.rise);
     const double reading = truth + noise_sd * noise.Normal();
     text += std::to_string(++record) + "," + std::to_string(stop.day) + "," +
-            std::to_string(stop.cycle);
+            std::to_string(stop.cycle) + "," + std::to_string(stop.time_s());
     if (has_position) text += "," + SevenDigits(position);
     AppendReadings(stop.readings, &text);
     text += "," + SevenDigits(AsDisplayed(reading, traits.is_angle));
@@ -113,17 +113,18 @@ std::string ToolTipCsv(const Simulation& simulation) {
   const auto word = [](Direction direction) {
     return direction == Direction::kForward ? "forward" : "reverse";
   };
-  std::string text = "record,day,cycle,x_mm,x_direction,z_mm,z_direction" +
-                     SensorColumns() + ",error_x_mm,error_y_mm,error_z_mm\n";
+  std::string text =
+      "record,day,cycle,time_s,x_mm,x_direction,z_mm,z_direction" +
+      SensorColumns() + ",error_x_mm,error_y_mm,error_z_mm\n";
   int record = 0;
   for (const ToolTipPoint& point : simulation.points) {
     const Stop& stop = simulation.stops[point.stop];
     const ToolTipError error = ToolTipErrorAt(
         point.x, point.x_direction, point.z, point.z_direction, stop.rise);
     text += std::to_string(++record) + "," + std::to_string(stop.day) + "," +
-            std::to_string(stop.cycle) + "," + SevenDigits(point.x) + "," +
-            word(point.x_direction) + "," + SevenDigits(point.z) + "," +
-            word(point.z_direction);
+            std::to_string(stop.cycle) + "," + std::to_string(stop.time_s()) +
+            "," + SevenDigits(point.x) + "," + word(point.x_direction) + "," +
+            SevenDigits(point.z) + "," + word(point.z_direction);
     AppendReadings(stop.readings, &text);
     text += "," + SevenDigits(error.x) + "," + SevenDigits(error.y) + "," +
             SevenDigits(error.z) + "\n";
@@ -303,6 +304,7 @@ Not measured: made by `errmap simulate turning-centre`, which describes the mode
   row("--cycles", std::to_string(run.cycles));
   row("--duty", SevenDigits(run.workload.duty));
   row("--speed", SevenDigits(run.workload.speed));
+  row("--warm", SevenDigits(run.warm_hours) + " h");
   row("--air", SevenDigits(run.air_factor));
   row("--noise", SevenDigits(run.noise_um) + " um");
   row("--angle-noise", SevenDigits(run.noise_urad) + " urad");
@@ -317,7 +319,8 @@ Not measured: made by `errmap simulate turning-centre`, which describes the mode
 ## Files
 
 Error = actual - nominal, so the compensation is -error. Temperatures `t00_degC` to
-`t39_degC` are those of Table 1 of NISTIR 5367. `cycle` counts on through the days.
+`t39_degC` are those of Table 1 of NISTIR 5367. `cycle` counts on through the days, `time_s` from
+midnight before the first, breaks and nights included; a day is a session.
 
 | file | ISO 230-1 | positive where |
 |---|---|---|

@@ -78,7 +78,7 @@ TEST(SimulationFiles, HaveTheColumnsOfTheirComponent) {
                         Case{"spindle_tilt_xz.csv", false, "urad", 4}}) {
     const CsvTable table = Table(c.name, {.truth = true});
     EXPECT_EQ(table.num_rows, kDays * kCycles * c.rows_per_cycle) << c.name;
-    std::vector<std::string> names = {"record", "day", "cycle"};
+    std::vector<std::string> names = {"record", "day", "cycle", "time_s"};
     if (c.has_position) names.emplace_back("position_mm");
     for (int i = 0; i < 40; ++i) {
       names.push_back((i < 10 ? "t0" : "t") + std::to_string(i) + "_degC");
@@ -113,6 +113,21 @@ TEST(SimulationFiles, TruthIsOptionalAndChangesNothingElse) {
   const CsvTable without = Table("x_displacement_down.csv");
   EXPECT_EQ(without.Find("truth_mm"), -1);
   EXPECT_EQ(Column(with, "error_mm"), Column(without, "error_mm"));
+}
+
+TEST(SimulationFiles, TellTheTrueTimeOfEveryDay) {
+  const CsvTable table = Table("x_displacement_down.csv");
+  const std::vector<double> time = Column(table, "time_s");
+  const std::vector<double> day = Column(table, "day");
+  EXPECT_EQ(time[1] - time[0], kSecondsPerStop);
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    EXPECT_GT(time[i], time[i - 1]);
+    EXPECT_EQ(std::floor(time[i] / 86400.0), day[i] - 1.0);
+  }
+  const PreparedDataset prepared = MakeDataset(table, {});
+  EXPECT_EQ(prepared.dataset.log()->sessions.column, "day");
+  EXPECT_EQ(prepared.time_column, "time_s");
+  EXPECT_EQ(prepared.dataset.num_sessions(), kDays);
 }
 
 TEST(SimulationFiles, AreDataSetsOfFortyOneInputsLessTheDead) {

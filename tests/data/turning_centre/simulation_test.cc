@@ -80,6 +80,23 @@ TEST(Simulation, WarmsUpThroughTheDayAndCoolsOverNight) {
   }
 }
 
+TEST(Simulation, StartsDaysWarmFromTheSecondOn) {
+  const Simulation cold = Simulate({.days = 2, .cycles = 2});
+  const Simulation warm = Simulate({.days = 2, .cycles = 2, .warm_hours = 3.0});
+  constexpr std::size_t kStopsOfDay = 2 * 4 * 17;
+  const Stop& first_cold = cold.stops[kStopsOfDay];
+  const Stop& first_warm = warm.stops[kStopsOfDay];
+  EXPECT_EQ(cold.stops[0].rise, warm.stops[0].rise);
+  EXPECT_EQ(first_warm.time_s() - first_cold.time_s(),
+            3 * 3600 + kWarmBreakSeconds);
+  const auto mean = [](const Stop& stop) {
+    double sum = 0.0;
+    for (const double reading : stop.readings) sum += reading;
+    return sum / static_cast<double>(stop.readings.size());
+  };
+  EXPECT_GT(mean(first_warm), mean(first_cold) + 0.3);
+}
+
 TEST(Simulation, MoreAirKeepsTheMachineCooler) {
   const Simulation still = Simulate({.days = 1, .air_factor = 0.5});
   const Simulation windy = Simulate({.days = 1, .air_factor = 3.0});
@@ -132,6 +149,7 @@ TEST(SimulationOptions, DefaultsPassAndEachBoundBites) {
       {[](auto* o) { o->points_per_day = -1; }, "points -1"},
       {[](auto* o) { o->workload.duty = -0.1; }, "duty -0.1"},
       {[](auto* o) { o->workload.speed = 5.0; }, "speed 5"},
+      {[](auto* o) { o->warm_hours = -1.0; }, "warm -1"},
       {[](auto* o) { o->air_factor = 0.0; }, "air 0: conductances"},
       {[](auto* o) { o->air_factor = -2.0; }, "air -2: conductances"},
       {[](auto* o) { o->noise_um = -1.0; }, "noise -1"},
