@@ -113,6 +113,10 @@ Grouping GroupByText(const CsvTable& table,
 
 }  // namespace
 
+std::string_view ToString(Alignment align) {
+  return align == Alignment::kFirst ? "first" : "none";
+}
+
 std::string ValueText(const ColumnFilter& filter) {
   const auto* const number = std::get_if<double>(&filter.value);
   return number != nullptr ? CsvNumber(*number)
@@ -196,6 +200,7 @@ Dataset Dataset::SelectRows(const std::vector<Eigen::Index>& indices) const {
                          .codes = {}},
               .weights = {},
               .rows = {},
+              .align = parts_.align,
               .log = parts_.log,
               .log_rows = {}};
   if (parts_.weights.size() != 0) parts.weights = parts_.weights(indices);
@@ -206,6 +211,14 @@ Dataset Dataset::SelectRows(const std::vector<Eigen::Index>& indices) const {
     if (has_groups()) parts.groups.codes.push_back(parts_.groups.codes[i]);
     if (parts_.log) parts.log_rows.push_back(parts_.log_rows[i]);
   }
+  return Dataset(std::move(parts));
+}
+
+Dataset Dataset::WithLog(std::shared_ptr<const SessionLog> log,
+                         std::vector<Eigen::Index> log_rows) const {
+  Parts parts = parts_;
+  parts.log = std::move(log);
+  parts.log_rows = std::move(log_rows);
   return Dataset(std::move(parts));
 }
 

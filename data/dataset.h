@@ -42,6 +42,12 @@ struct SessionLog {
   Eigen::MatrixXd input_values;  // (rows x p) NaN where a cell holds no number
 };
 
+/// What is taken off the target: the value of the session's first row, as of a
+/// shop that re-zeroes at the start.
+enum class Alignment { kNone, kFirst };
+/// "none", "first".
+std::string_view ToString(Alignment align);
+
 /// Measurements ready to be mapped: m finite rows of p inputs, one target.
 ///
 /// Immutable once built; constructed by MakeDataset, or from its parts for
@@ -57,6 +63,8 @@ class Dataset {
     Grouping groups;                 // column "" where there are none
     Eigen::VectorXd weights;         // (m) positive, or (0): all equal
     std::vector<Eigen::Index> rows;  // (m) data row in the file; empty: 0..m-1
+    /// What was taken off the target.
+    Alignment align = Alignment::kNone;
     /// Null where nothing is known of sessions and times.
     std::shared_ptr<const SessionLog> log = {};
     std::vector<Eigen::Index> log_rows = {};  // (m) rows of the log
@@ -77,6 +85,7 @@ class Dataset {
   const Grouping& groups() const { return parts_.groups; }
   const Eigen::VectorXd& weights() const { return parts_.weights; }
   const std::vector<Eigen::Index>& rows() const { return parts_.rows; }
+  Alignment align() const { return parts_.align; }
   /// Shared with every selection of rows; may be null.
   const std::shared_ptr<const SessionLog>& log() const { return parts_.log; }
   const std::vector<Eigen::Index>& log_rows() const { return parts_.log_rows; }
@@ -92,6 +101,10 @@ class Dataset {
 
   /// The rows of these indices, in this order (group labels and log kept).
   Dataset SelectRows(const std::vector<Eigen::Index>& indices) const;
+
+  /// The same rows with another log of theirs.
+  Dataset WithLog(std::shared_ptr<const SessionLog> log,
+                  std::vector<Eigen::Index> log_rows) const;
 
  private:
   Parts parts_;
@@ -118,7 +131,10 @@ struct DatasetSelection {
   std::vector<std::string> inputs = {};   // default: every other numeric column
   std::vector<std::string> exclude = {};  // never inputs
   std::string group = {};                 // default: "cycle" if there is one
-  std::string weight = {};                // default: none
+  std::string time = {};     // default: the only column "time*"; see sessions.h
+  std::string session = {};  // default: "session", "day" or "run"
+  std::string weight = {};   // default: none
+  Alignment align = Alignment::kNone;
   MissingPolicy missing = MissingPolicy::kError;
   bool keep_dead = false;
   /// Only rows that pass all of these are used and checked.
@@ -126,6 +142,8 @@ struct DatasetSelection {
   /// Rows that a fitted map is judged on: exactly the named inputs, be there
   /// none, and a target that need not vary.
   bool only_to_judge = false;
+  /// Without sessions and times the data set has no log.
+  bool with_log = true;
 };
 
 struct DroppedColumn {
@@ -138,26 +156,30 @@ struct PreparedDataset {
   Dataset dataset;
   std::vector<DroppedColumn> dropped;  // would-be inputs left out, and why
   std::vector<std::string> remarks;    // one line each, for people
+  std::string time_column = {};        // "": the numbers of the rows
 };
 
 /// Picks target, inputs, group and weight from a table and checks the columns
 /// in use (all others may hold anything).
 ///
 /// Default inputs are the numeric columns other than target, group, weight,
-/// `cycle`, `day`, `segment`, `record`, `index`, `row`, `id`, `sample` and
-/// names starting with `time` or `truth`; a column of the target's stem
+/// time, session, `cycle`, `session`, `day`, `run`, `segment`, `record`,
+/// `index`, `row`, `id`, `sample` and names starting with `time` or `truth`; a
+/// column of the target's stem
 /// (StemOfColumn) is left out with a remark unless named in `inputs`. Dead
 /// inputs (all zero, constant, or one value in at least 90 % of the rows) are
 /// dropped with a remark unless `keep_dead`; an input that repeats another
 /// value for value is named in a remark and kept. Columns of `where` are no
-/// default inputs.
+/// default inputs. The log holds the rows that `where` lets pass. kFirst takes
+/// the first value kept of each session off the target, with a remark.
 ///
 /// Throws InputError naming file, row, column and remedy: unknown column, no
 /// or several candidates for the target, a cell of a used column that is
 /// empty, NA, NaN, infinite or no number (kDropRows drops rows with empty, NA
 /// or NaN cells only), decimal commas and points mixed, constant target,
-/// non-positive weight, no rows (`where` included) or no inputs left (no inputs
-/// is allowed where the table has no other numeric column).
+/// non-positive weight, times that will not do (sessions.h), no rows (`where`
+/// included) or no inputs left (no inputs is allowed where the table has no
+/// other numeric column).
 PreparedDataset MakeDataset(const CsvTable& table,
                             const DatasetSelection& selection);
 

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
 #include "data/column_checks.h"
 #include "data/dataset.h"
+#include "data/sessions.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -41,8 +43,16 @@ std::string NameInRemark(const std::string& name) {
 
 // Columns that number or date the rows; what no controller has at hand.
 bool KeepsRecord(std::string_view name) {
-  constexpr auto kNames = std::to_array<std::string_view>(
-      {"cycle", "day", "segment", "record", "index", "row", "id", "sample"});
+  constexpr auto kNames = std::to_array<std::string_view>({"cycle",
+                                                           "session",
+                                                           "day",
+                                                           "run",
+                                                           "segment",
+                                                           "record",
+                                                           "index",
+                                                           "row",
+                                                           "id",
+                                                           "sample"});
   return std::any_of(kNames.begin(),
                      kNames.end(),
                      [&](std::string_view known) {
@@ -66,6 +76,7 @@ class DatasetBuilder {
   PreparedDataset Build() {
     ChooseWeightAndTarget();
     ChooseGroup();
+    ChooseRows();
     if (selection_.inputs.empty() && !selection_.only_to_judge) {
       ChooseDefaultInputs();
     } else {
@@ -78,10 +89,14 @@ class DatasetBuilder {
     if (roles_.group != kNone) {
       parts_.groups = GroupByColumn(table_, Name(roles_.group), parts_.rows);
     }
+    if (selection_.with_log) TakeLog();
+    if (selection_.align == Alignment::kFirst) AlignTarget();
     parts_.source = table_.file;
-    return {.dataset = Dataset(std::move(parts_)),
-            .dropped = std::move(dropped_),
-            .remarks = std::move(remarks_)};
+    return {
+        .dataset = Dataset(std::move(parts_)),
+        .dropped = std::move(dropped_),
+        .remarks = std::move(remarks_),
+        .time_column = found_.time_column >= 0 ? Name(found_.time_column) : ""};
   }
 
  private:
@@ -188,6 +203,29 @@ class DatasetBuilder {
     if (cycle != kNone && !Is(cycle, roles_.target)) roles_.group = cycle;
   }
 
+  // Those that may be used, and their sessions.
+  void ChooseRows() {
+    passes_ = RowsThatPass(table_, selection_.where);
+    if (!selection_.with_log) return;
+    for (std::size_t row = 0; row < passes_.size(); ++row) {
+      if (passes_[row]) log_rows_.push_back(static_cast<Eigen::Index>(row));
+    }
+    found_ = FindSessions(table_, selection_, log_rows_);
+    remarks_.insert(
+        remarks_.end(), found_.remarks.begin(), found_.remarks.end());
+    std::size_t num_unknown = 0;
+    for (std::size_t i = 0; i < log_rows_.size(); ++i) {
+      if (found_.known[i]) continue;
+      passes_[static_cast<std::size_t>(log_rows_[i])] = false;
+      ++num_unknown;
+    }
+    if (num_unknown > 0) {
+      remarks_.push_back(std::to_string(num_unknown) + " of " +
+                         std::to_string(log_rows_.size()) +
+                         " rows have no time or session and are dropped");
+    }
+  }
+
   void ChooseNamedInputs() {
     const std::unordered_set<std::string> excluded = ExcludedNames();
     std::unordered_set<std::string> seen;
@@ -231,6 +269,7 @@ class DatasetBuilder {
     std::vector<std::string> texts;
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       if (i == roles_.target || Is(roles_.group, i) || Is(roles_.weight, i) ||
+          Is(found_.time_column, i) || Name(i) == found_.sessions.column ||
           KeepsRecord(Name(i)) || IsFiltered(i)) {
         continue;
       }
@@ -295,10 +334,7 @@ class DatasetBuilder {
           {static_cast<std::size_t>(roles_.weight), ColumnUse::kWeight});
     }
     RefuseMixedDecimals(table_, columns);
-    KeptRows kept = CheckCells(table_,
-                               columns,
-                               RowsThatPass(table_, selection_.where),
-                               selection_.missing);
+    KeptRows kept = CheckCells(table_, columns, passes_, selection_.missing);
     if (!kept.remark.empty()) remarks_.push_back(kept.remark);
     parts_.rows = std::move(kept.rows);
   }
@@ -354,6 +390,49 @@ class DatasetBuilder {
     }
     if (used == 0 && !roles_.inputs.empty()) ThrowNoInputs();
     parts_.input_values.conservativeResize(Eigen::NoChange, used);
+  }
+
+  void TakeLog() {
+    auto log = std::make_shared<SessionLog>();
+    log->sessions = std::move(found_.sessions);
+    log->time = std::move(found_.time);
+    log->time_unit = std::move(found_.time_unit);
+    log->input_values.resize(static_cast<Eigen::Index>(log_rows_.size()),
+                             parts_.input_values.cols());
+    for (Eigen::Index i = 0; i < log->input_values.cols(); ++i) {
+      const std::string& name = parts_.inputs[static_cast<std::size_t>(i)].name;
+      log->input_values.col(i) =
+          ValuesOfRows(Column(table_.Find(name)), log_rows_);
+    }
+    // Both lists ascend, and the rows kept are among those of the log.
+    auto at = log_rows_.begin();
+    for (const Eigen::Index row : parts_.rows) {
+      at = std::lower_bound(at, log_rows_.end(), row);
+      parts_.log_rows.push_back(at - log_rows_.begin());
+    }
+    log->first_rows = FirstRows(log->sessions, parts_.log_rows);
+    parts_.log = std::move(log);
+  }
+
+  void AlignTarget() {
+    parts_.align = Alignment::kFirst;
+    const SessionLog& log = *parts_.log;
+    std::vector<double> first(log.sessions.labels.size());
+    // Backwards, so that the first row has the last word.
+    const auto session_of = [&](std::size_t i) {
+      return static_cast<std::size_t>(
+          log.sessions.codes[static_cast<std::size_t>(parts_.log_rows[i])]);
+    };
+    for (std::size_t i = parts_.rows.size(); i-- > 0;) {
+      first[session_of(i)] = parts_.target_values[static_cast<Eigen::Index>(i)];
+    }
+    for (std::size_t i = 0; i < parts_.rows.size(); ++i) {
+      parts_.target_values[static_cast<Eigen::Index>(i)] -=
+          first[session_of(i)];
+    }
+    remarks_.push_back("the first value of each session is taken off " +
+                       QuotedName(parts_.target.name) +
+                       " (--align first): the map tells the change since");
   }
 
   void ReportDead(std::size_t input, const std::string& how) {
@@ -424,6 +503,9 @@ class DatasetBuilder {
   Roles roles_;
   bool had_candidates_ = false;  // numeric columns that might have been inputs
   Dataset::Parts parts_;
+  std::vector<bool> passes_;            // (rows of the table)
+  std::vector<Eigen::Index> log_rows_;  // rows that may be used
+  FoundSessions found_;                 // of those
   std::unordered_map<std::uint64_t, std::vector<Eigen::Index>> inputs_by_hash_;
   std::vector<DroppedColumn> dropped_;
   std::vector<std::string> remarks_;

@@ -31,6 +31,7 @@ constexpr auto kKnownUnits = std::to_array<KnownUnit>({
     {"degC", "degC", Quantity::kTemperature, 1.0},
     {"K", "K", Quantity::kTemperature, 1.0},
     {"degF", "degF", Quantity::kTemperature, 1.0},
+    {"ms", "ms", Quantity::kOther, 1.0},
     {"s", "s", Quantity::kOther, 1.0},
     {"min", "min", Quantity::kOther, 1.0},
     {"h", "h", Quantity::kOther, 1.0},

@@ -24,6 +24,24 @@ std::string_view ToString(ModelKind kind) {
   return "";
 }
 
+std::string_view ToString(InnerHoldout inner) {
+  switch (inner) {
+    case InnerHoldout::kDecisive:
+      return "decisive";
+    case InnerHoldout::kWholeSessions:
+      return "sessions";
+    case InnerHoldout::kWholeGroups:
+      return "groups";
+    case InnerHoldout::kBlocks:
+      return "blocks";
+    case InnerHoldout::kRows:
+      return "rows";
+    case InnerHoldout::kForward:
+      return "forward";
+  }
+  return "";
+}
+
 Eigen::VectorXd ErrorModel::Predict(const Eigen::MatrixXd& inputs) const {
   if (inputs.cols() != num_inputs()) {
     throw std::invalid_argument(

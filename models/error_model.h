@@ -130,6 +130,7 @@ struct FittedModel {
   std::string name;  // the SPEC as given
   ModelKind kind = ModelKind::kPolynomial;
   data::ColumnInfo target;
+  data::Alignment align = data::Alignment::kNone;  // of the target
   /// Columns that the map reads, in the order of the form, which reads the
   /// inputs derived from them where there is a history.
   std::vector<TrainedInput> inputs;
@@ -160,12 +161,23 @@ struct FittedModel {
 };
 
 /// How rows are held out for the choices made inside a fit: as outside of it,
-/// so that what is chosen is what does well there (inner_folds.h).
+/// so that what is chosen is what does well there (inner_folds.h). Where the
+/// training rows have fewer than two of a kind the next finer one serves.
 enum class InnerHoldout {
-  kWholeGroups,  // where there are groups, else kRows
+  /// Of the kind that decides which map is recommended: whole sessions where
+  /// there are kFewestSessionsToDecide, else whole groups, else blocks.
+  kDecisive,
+  kWholeSessions,  // else kWholeGroups
+  kWholeGroups,    // else kBlocks
+  kBlocks,         // contiguous runs of rows
   kRows,
   kForward,
 };
+/// "decisive", "sessions", "groups", "blocks", "rows", "forward".
+std::string_view ToString(InnerHoldout inner);
+
+/// Two or three days hardly tell which map does well on another one.
+inline constexpr Eigen::Index kFewestSessionsToDecide = 4;
 
 /// What a fit may use besides the training rows.
 struct FitContext {
@@ -182,7 +194,7 @@ struct FitContext {
   /// reduced to a triangle in one pass over the rows.
   double most_design_values = 2e7;
   bool keep_trace = false;  // of an iterative fit, in its summary
-  InnerHoldout inner_holdout = InnerHoldout::kWholeGroups;
+  InnerHoldout inner_holdout = InnerHoldout::kDecisive;
 };
 
 /// How to fit one kind of model: kind and options; immutable.

@@ -2,38 +2,79 @@
 
 #include <algorithm>
 #include <set>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "stats/holdout.h"
 
 namespace errmap::models {
+namespace {
 
 using Eigen::Index;
+
+Index NumGroups(const data::Dataset& dataset) {
+  const std::vector<Index>& codes = dataset.groups().codes;
+  return static_cast<Index>(std::set<Index>(codes.begin(), codes.end()).size());
+}
+
+// The kind that the rows allow.
+InnerHoldout KindFor(const data::Dataset& training, InnerHoldout wanted) {
+  const Index sessions = training.num_sessions();
+  if (wanted == InnerHoldout::kDecisive) {
+    wanted = sessions >= kFewestSessionsToDecide ? InnerHoldout::kWholeSessions
+                                                 : InnerHoldout::kWholeGroups;
+  }
+  if (wanted == InnerHoldout::kWholeSessions && sessions < 2) {
+    wanted = InnerHoldout::kWholeGroups;
+  }
+  if (wanted == InnerHoldout::kWholeGroups && NumGroups(training) < 2) {
+    wanted = InnerHoldout::kBlocks;
+  }
+  return wanted;
+}
+
+}  // namespace
 
 InnerFolds MakeInnerFolds(const data::Dataset& training,
                           const FitContext& context) {
   constexpr Index kFolds = 5;
-  const bool forward = context.inner_holdout == InnerHoldout::kForward;
-  const std::set<Index> groups(training.groups().codes.begin(),
-                               training.groups().codes.end());
-  const bool by_group =
-      groups.size() >= 2 && context.inner_holdout != InnerHoldout::kRows;
-  const Index count = std::min(
-      kFolds,
-      by_group ? static_cast<Index>(groups.size()) : training.num_rows());
+  const InnerHoldout kind = KindFor(training, context.inner_holdout);
+  const Index groups = NumGroups(training);
+  std::vector<Index> codes;
+  Index units = training.num_rows();
+  std::string of;  // what is held out whole
+  if (kind == InnerHoldout::kWholeSessions) {
+    codes = training.session_codes();
+    units = training.num_sessions();
+    of = training.log()->sessions.column;
+  } else if (kind == InnerHoldout::kWholeGroups ||
+             (kind == InnerHoldout::kForward && groups >= 2)) {
+    codes = training.groups().codes;
+    units = groups;
+    of = training.groups().column;
+  }
+  const Index count = std::min(kFolds, units);
   InnerFolds inner;
-  // Blocks in order need one more to start from.
-  inner.text = forward && count > 1 ? fmt::format("forward:{}", count - 1)
-               : by_group           ? fmt::format("groups:{}", count)
-                                    : fmt::format("kfold:{}", count);
-  const auto made = stats::MakeFolds(
-      stats::ParseHoldout(inner.text),
-      training.num_rows(),
-      by_group ? training.groups().codes : std::vector<Index>(),
-      context.seed);
-  if (by_group) inner.text += " of " + training.groups().column;
-  inner.folds.forward = forward;
+  switch (kind) {
+    case InnerHoldout::kForward:
+      // Blocks in order need one more to start from.
+      inner.text = count > 1 ? fmt::format("forward:{}", count - 1)
+                             : fmt::format("kfold:{}", count);
+      break;
+    case InnerHoldout::kRows:
+      inner.text = fmt::format("kfold:{}", count);
+      break;
+    default:
+      inner.text = fmt::format("{}:{}", ToString(kind), count);
+      break;
+  }
+  const auto made = stats::MakeFolds(stats::ParseHoldout(inner.text),
+                                     training.num_rows(),
+                                     codes,
+                                     context.seed);
+  if (!of.empty()) inner.text += " of " + of;
+  inner.folds.forward = kind == InnerHoldout::kForward;
   inner.folds.codes.assign(static_cast<std::size_t>(training.num_rows()), 0);
   for (std::size_t fold = 0; fold < made.size(); ++fold) {
     for (const Index row : made[fold].test) {

@@ -1,12 +1,16 @@
 #include "models/model_file.h"
 
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "data/atomic_file.h"
+#include "models/history/history.h"
+#include "models/history/history_state.h"
 #include "models/net/feedforward_net.h"
 #include "models/polynomial/polynomial_model.h"
 #include "models/version.h"
@@ -55,6 +59,34 @@ Json ToJson(const NetForm& form) {
           {"w2", ToJson(form.w2)}};
 }
 
+Json ToJson(const History& history) {
+  Json derived = Json::array();
+  for (const DerivedInput& input : history.derived) {
+    Json entry = {{"name", input.column.name},
+                  {"unit", input.column.unit.symbol},
+                  {"of", input.of},
+                  {"filter", ToString(input.filter)}};
+    if (input.filter == Filter::kEma) entry["tau"] = input.tau;
+    derived.push_back(std::move(entry));
+  }
+  return {{"time_unit", history.time_unit},
+          {"session", history.session},
+          {"latest_start",
+           std::isfinite(history.latest_start) ? Json(history.latest_start)
+                                               : Json()},
+          {"derived", std::move(derived)},
+          {"form_inputs", history.form_inputs}};
+}
+
+Json ToJson(const Guards& guards) {
+  return {{"input_margin", guards.input_margin},
+          {"error_margin", guards.error_margin},
+          {"input_min", ToJson(guards.input_min)},
+          {"input_max", ToJson(guards.input_max)},
+          {"error_min", guards.error_min},
+          {"error_max", guards.error_max}};
+}
+
 // A value of a document together with its place, for messages.
 class Node {
  public:
@@ -74,6 +106,14 @@ class Node {
     const auto found = value_.find(key);
     if (found == value_.end()) Refuse("has no key '" + key + "'");
     return {*found, path_.empty() ? key : path_ + "." + key, source_};
+  }
+
+  // Nothing where the key is not there, as in older files, or null.
+  std::optional<Node> Find(const std::string& key) const {
+    if (!value_.is_object()) Refuse("must be an object");
+    const auto found = value_.find(key);
+    if (found == value_.end() || found->is_null()) return std::nullopt;
+    return At(key);
   }
 
   std::vector<Node> Elements() const {
@@ -196,6 +236,63 @@ ModelKind ReadKind(const Node& node) {
   node.Refuse("unknown kind of model '" + kind + "'");
 }
 
+Filter ReadFilter(const Node& node) {
+  const std::string filter = node.Text();
+  for (const Filter known :
+       {Filter::kEma, Filter::kZero, Filter::kSine, Filter::kCosine}) {
+    if (filter == ToString(known)) return known;
+  }
+  node.Refuse("must be 'ema', 'zero', 'sine' or 'cosine', found '" + filter +
+              "'");
+}
+
+History ReadHistory(const Node& node, const std::vector<TrainedInput>& inputs) {
+  History history;
+  history.time_unit = node.At("time_unit").Text();
+  if (history.time_unit != "s" && history.time_unit != "rows") {
+    node.At("time_unit").Refuse("must be 's' or 'rows'");
+  }
+  history.session = node.At("session").Text();
+  if (const auto start = node.Find("latest_start")) {
+    history.latest_start = start->Number();
+  }
+  for (const Node& element : node.At("derived").Elements()) {
+    DerivedInput input;
+    input.column = ReadColumn(element);
+    input.of = element.At("of").Text();
+    input.filter = ReadFilter(element.At("filter"));
+    if (input.filter == Filter::kEma) input.tau = element.At("tau").Number();
+    history.derived.push_back(std::move(input));
+  }
+  for (const Node& name : node.At("form_inputs").Elements()) {
+    history.form_inputs.push_back(name.Text());
+  }
+  std::vector<data::ColumnInfo> columns;
+  for (const TrainedInput& input : inputs) columns.push_back(input.column);
+  try {
+    const HistoryState check(history, columns);
+  } catch (const std::invalid_argument& error) {
+    node.Refuse(error.what());
+  }
+  return history;
+}
+
+Guards ReadGuards(const Node& node, Index num_inputs) {
+  Guards guards;
+  guards.input_margin = node.At("input_margin").Number();
+  guards.error_margin = node.At("error_margin").Number();
+  guards.input_min = node.At("input_min").Vector();
+  guards.input_max = node.At("input_max").Vector();
+  guards.error_min = node.At("error_min").Number();
+  guards.error_max = node.At("error_max").Number();
+  if (guards.input_min.size() != num_inputs ||
+      guards.input_max.size() != num_inputs) {
+    node.Refuse(
+        fmt::format("needs {} numbers in input_min and input_max", num_inputs));
+  }
+  return guards;
+}
+
 FittedModel ReadModel(const Node& root) {
   const std::string schema = root.At("schema").Text();
   if (schema != kSchema) {
@@ -205,7 +302,14 @@ FittedModel ReadModel(const Node& root) {
   FittedModel fitted;
   fitted.name = root.At("name").Text();
   fitted.kind = ReadKind(root.At("kind"));
-  fitted.target = ReadColumn(root.At("target"));
+  const Node target = root.At("target");
+  fitted.target = ReadColumn(target);
+  if (const auto align = target.Find("align")) {
+    if (align->Text() != ToString(data::Alignment::kFirst)) {
+      align->Refuse("must be 'first' or null");
+    }
+    fitted.align = data::Alignment::kFirst;
+  }
   for (const Node& element : root.At("inputs").Elements()) {
     fitted.inputs.push_back({ReadColumn(element),
                              element.At("min").Number(),
@@ -227,10 +331,20 @@ FittedModel ReadModel(const Node& root) {
   } catch (const std::invalid_argument& error) {
     form.Refuse(error.what());
   }
-  if (fitted.model->num_inputs() != static_cast<Index>(fitted.inputs.size())) {
-    root.At("inputs").Refuse(fmt::format("names {} inputs, the model reads {}",
-                                         fitted.inputs.size(),
-                                         fitted.model->num_inputs()));
+  std::size_t form_inputs = fitted.inputs.size();
+  if (const auto history = root.Find("history")) {
+    fitted.history =
+        std::make_shared<History>(ReadHistory(*history, fitted.inputs));
+    form_inputs = fitted.history->form_inputs.size();
+  }
+  if (fitted.model->num_inputs() != static_cast<Index>(form_inputs)) {
+    root.At(fitted.history != nullptr ? "history" : "inputs")
+        .Refuse(fmt::format("names {} inputs, the model reads {}",
+                            form_inputs,
+                            fitted.model->num_inputs()));
+  }
+  if (const auto guards = root.Find("guards")) {
+    fitted.guards = ReadGuards(*guards, fitted.model->num_inputs());
   }
   if (fitted.model->num_parameters() != parameters.Count()) {
     parameters.Refuse(fmt::format("is {}, the model has {}",
@@ -269,6 +383,12 @@ std::string ModelToJson(const FittedModel& fitted,
   } else {
     document["net"] = ToJson(std::get<NetForm>(description));
   }
+  if (fitted.align != data::Alignment::kNone) {
+    document["target"]["align"] = data::ToString(fitted.align);
+  }
+  document["history"] =
+      fitted.history != nullptr ? ToJson(*fitted.history) : Json();
+  document["guards"] = fitted.guards ? ToJson(*fitted.guards) : Json();
   document["interval"] = nullptr;
   document["provenance"] = Json::object();
   for (const auto& [key, value] : provenance) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -14,8 +15,9 @@ namespace {
 using Eigen::Index;
 
 constexpr std::string_view kForms =
-    "every:K, groups:K[:repeats=R], leave-one-group-out, kfold:K, "
-    "forward:K[:gap=G], random:F or file:TEST.csv";
+    "every:K, groups:K[:repeats=R], sessions:K[:repeats=R], blocks:K, "
+    "leave-one-group-out, kfold:K, forward:K[:gap=G], random:F or "
+    "file:TEST.csv";
 
 [[noreturn]] void Refuse(std::string_view text, const std::string& why) {
   throw std::invalid_argument("hold-out '" + std::string(text) + "': " + why);
@@ -233,10 +235,15 @@ HoldoutSpec ParseHoldout(std::string_view text) {
     spec.kind = HoldoutKind::kEvery;
     spec.k = ParseCount(text, "K", value, 2);
     refuse_option();
-  } else if (kind == "groups") {
-    spec.kind = HoldoutKind::kGroups;
+  } else if (kind == "groups" || kind == "sessions") {
+    spec.kind =
+        kind == "groups" ? HoldoutKind::kGroups : HoldoutKind::kSessions;
     spec.k = ParseCount(text, "K", value, 2);
     spec.repeats = take_option("repeats", 1);
+  } else if (kind == "blocks") {
+    spec.kind = HoldoutKind::kBlocks;
+    spec.k = ParseCount(text, "K", value, 2);
+    refuse_option();
   } else if (kind == "leave-one-group-out") {
     spec.kind = HoldoutKind::kLeaveOneGroupOut;
     if (colon != std::string_view::npos) Refuse(text, "takes no options");
@@ -300,6 +307,26 @@ std::vector<Fold> MakeFolds(const HoldoutSpec& spec,
       require_groups(spec.k);
       folds = GroupFolds(spec, groups, seed);
       break;
+    case HoldoutKind::kSessions:
+      RequireUnits(
+          spec,
+          group_codes.empty() ? 0 : groups.count(),
+          spec.k,
+          "sessions",
+          group_codes.empty()
+              ? "name their column with --session, or hold out rows "
+                "(blocks:5)"
+          : groups.count() >= 2
+              ? "sessions:" + std::to_string(groups.count()) + " is possible"
+              : "of one run only groups or rows can be held out "
+                "(groups:5, blocks:5), which says nothing about "
+                "another day");
+      folds = GroupFolds(spec, groups, seed);
+      break;
+    case HoldoutKind::kBlocks:
+      RequireUnits(spec, num_rows, spec.k, "rows", "use a smaller K");
+      folds = HoldOutRuns(Units(num_rows, {}), Range(num_rows), spec.k);
+      break;
     case HoldoutKind::kLeaveOneGroupOut:
       require_groups(2);
       folds = HoldOutRuns(groups, Range(groups.count()), groups.count());
@@ -338,6 +365,20 @@ std::vector<Fold> MakeFolds(const HoldoutSpec& spec,
     }
   }
   return folds;
+}
+
+bool KeepsWhole(const std::vector<Fold>& folds,
+                const std::vector<Index>& codes) {
+  for (const Fold& fold : folds) {
+    std::set<Index> trained;
+    for (const Index row : fold.train) {
+      trained.insert(codes[static_cast<std::size_t>(row)]);
+    }
+    for (const Index row : fold.test) {
+      if (trained.contains(codes[static_cast<std::size_t>(row)])) return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace errmap::stats

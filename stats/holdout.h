@@ -13,6 +13,8 @@ namespace errmap::stats {
 enum class HoldoutKind {
   kEvery,             // every:K          rows i with i % K == K-1
   kGroups,            // groups:K[:repeats=R]  runs of whole groups
+  kSessions,          // sessions:K[:repeats=R]  the same of sessions
+  kBlocks,            // blocks:K         contiguous runs of rows
   kLeaveOneGroupOut,  // leave-one-group-out
   kKFold,             // kfold:K          seeded shuffle of rows
   kForward,           // forward:K[:gap=G]     earlier blocks predict the next
@@ -24,9 +26,9 @@ enum class HoldoutKind {
 struct HoldoutSpec {
   HoldoutKind kind = HoldoutKind::kEvery;
   std::string text;          // as given: the name in every output
-  Eigen::Index k = 0;        // every, groups, kfold, forward; at least 2
-                             // (forward: at least 1)
-  Eigen::Index repeats = 0;  // groups: 0 = one cut of the sorted groups
+  Eigen::Index k = 0;        // every, groups, sessions, blocks, kfold,
+                             // forward; at least 2 (forward: at least 1)
+  Eigen::Index repeats = 0;  // groups, sessions: 0 = one cut, in their order
   Eigen::Index gap = 0;      // forward: groups left out before the test block
   double share = 0.0;        // random: 0 < share < 1
   std::string file;          // file
@@ -45,16 +47,20 @@ struct Fold {
 /// Folds of `spec` over rows 0 .. num_rows-1.
 ///
 /// `group_codes` (num_rows, or empty: no groups) numbers the group of each row
-/// in the order of the groups; numbers that no row has are passed over. `seed`
-/// serves kfold, random and repeats. kFile gives one fold that trains on every
-/// row and tests none here.
+/// in the order of the groups, for sessions:K the session likewise; numbers
+/// that no row has are passed over. `seed` serves kfold, random and repeats.
+/// kFile gives one fold that trains on every row and tests none here.
 ///
 /// Throws std::invalid_argument, with what is possible instead, where the data
-/// do not allow it: groups asked for and none or too few there, more folds
-/// than rows, an empty training or test side.
+/// do not allow it: groups or sessions asked for and none or too few, more
+/// folds than rows, an empty training or test side.
 std::vector<Fold> MakeFolds(const HoldoutSpec& spec,
                             Eigen::Index num_rows,
                             const std::vector<Eigen::Index>& group_codes,
                             std::uint64_t seed);
+
+/// Whether no code (one per row: group or session) is on both sides of a fold.
+bool KeepsWhole(const std::vector<Fold>& folds,
+                const std::vector<Eigen::Index>& codes);
 
 }  // namespace errmap::stats

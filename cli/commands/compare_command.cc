@@ -112,6 +112,9 @@ StudyConfig ConfigOf(const CompareArguments& arguments) {
   component.inputs = SplitNames(data.inputs, "--inputs");
   component.exclude = SplitNames(data.exclude, "--exclude");
   component.group = data.group;
+  component.time = data.time;
+  component.session = data.session;
+  component.align = AlignOf(data.align);
   component.weight = data.weight;
   component.missing = data.missing == "error" ? data::MissingPolicy::kError
                                               : data::MissingPolicy::kDropRows;
@@ -230,6 +233,8 @@ StudyFile ConfigOfFile(const CompareArguments& arguments) {
                            "--inputs",
                            "--exclude",
                            "--group",
+                           "--time",
+                           "--session",
                            "--weight",
                            "--split",
                            "--save-split",
@@ -247,6 +252,9 @@ StudyFile ConfigOfFile(const CompareArguments& arguments) {
     if (given("--inputs")) component.inputs = from.inputs;
     if (given("--exclude")) component.exclude = from.exclude;
     if (given("--group")) component.group = from.group;
+    if (given("--time")) component.time = from.time;
+    if (given("--session")) component.session = from.session;
+    if (given("--align")) component.align = from.align;
     if (given("--weight")) component.weight = from.weight;
     if (given("--missing")) component.missing = from.missing;
     if (given("--keep-dead")) component.keep_dead = from.keep_dead;
@@ -389,9 +397,11 @@ void AddCompareCommand(CLI::App* app, Run* run) {
       ->add_option("--holdout",
                    arguments->holdouts,
                    "Rows to judge by, may be repeated: every:K, "
-                   "groups:K[:repeats=R], leave-one-group-out, kfold:K, "
-                   "forward:K[:gap=G], random:F, file:TEST.csv (default: "
-                   "every:3 and, with groups, groups:5)")
+                   "groups:K[:repeats=R], sessions:K[:repeats=R], blocks:K, "
+                   "leave-one-group-out, kfold:K, forward:K[:gap=G], "
+                   "random:F, file:TEST.csv (default: every:3, groups:5 where "
+                   "there are groups, sessions:5 where there are sessions, "
+                   "blocks:5 without groups)")
       ->type_name("SPEC")
       ->allow_extra_args(false);
   command

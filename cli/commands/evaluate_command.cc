@@ -9,6 +9,7 @@
 #include "cli/report/summary_text.h"
 #include "cli/shell/number_text.h"
 #include "cli/study_file/data_arguments.h"
+#include "cli/study_file/map_log.h"
 #include "cli/study_file/provenance.h"
 #include "models/model_file.h"
 #include "models/study/fold_pool.h"
@@ -22,8 +23,19 @@ struct EvaluateArguments {
   std::string file;
   std::string missing = "error";
   std::string format = "table";
+  MapLogArguments log;
   bool quiet = false;
 };
+
+// The rows with what the map's filters run through.
+data::Dataset RowsToJudge(const data::Dataset& dataset, const MapLog& map) {
+  if (map.log == nullptr) return dataset;
+  std::vector<Eigen::Index> log_rows;
+  for (const Eigen::Index row : dataset.rows()) {
+    log_rows.push_back(map.first_row + row);
+  }
+  return dataset.WithLog(map.log, std::move(log_rows));
+}
 
 int RunEvaluate(const EvaluateArguments& arguments,
                 const std::string& command_line) {
@@ -33,21 +45,35 @@ int RunEvaluate(const EvaluateArguments& arguments,
       .inputs = {},
       .exclude = {},
       .group = "",
+      .time = arguments.log.time,
+      .session = arguments.log.session,
       .weight = "",
+      .align = fitted.align,
       .missing = arguments.missing == "error" ? data::MissingPolicy::kError
                                               : data::MissingPolicy::kDropRows,
       .keep_dead = true,
-      .only_to_judge = true};
+      .only_to_judge = true,
+      .with_log = fitted.align != data::Alignment::kNone};
   for (const models::TrainedInput& input : fitted.inputs) {
     selection.inputs.push_back(input.column.name);
   }
-  const data::PreparedDataset prepared =
-      data::MakeDataset(data::ReadCsv(arguments.file), selection);
+  const data::CsvTable table = data::ReadCsv(arguments.file);
+  const data::PreparedDataset prepared = data::MakeDataset(table, selection);
+  const MapLog map =
+      MakeMapLog(fitted, table, prepared.dataset.rows(), arguments.log);
   if (!arguments.quiet) {
     for (const std::string& remark : prepared.remarks) Say(remark);
+    for (const std::string& warning : map.warnings) Say(warning);
   }
-  const data::Dataset& dataset = prepared.dataset;
-  const Eigen::VectorXd predicted = fitted.Predict(dataset);
+  const data::Dataset dataset = RowsToJudge(prepared.dataset, map);
+  const models::Prediction prediction =
+      fitted.PredictForm(fitted.FormInputs(dataset));
+  const Eigen::VectorXd& predicted = prediction.errors;
+  const Eigen::Index clipped = prediction.clipped.count();
+  if (clipped > 0 && !arguments.quiet) {
+    Say(fmt::format("warning: {} clipped by the map's guards",
+                    Count(clipped, "row")));
+  }
   const Eigen::VectorXd residuals = dataset.target_values() - predicted;
   const stats::ErrorMetrics metrics = models::Judge(dataset, predicted);
   const double ks_d = stats::KsDistanceFromNormal(
@@ -62,6 +88,8 @@ int RunEvaluate(const EvaluateArguments& arguments,
              {"file", arguments.file},
              {"target", fitted.target.name},
              {"unit", fitted.target.unit.symbol},
+             {"align", data::ToString(fitted.align)},
+             {"clipped", clipped},
              {"summary", MetricsJson(metrics)},
              {"normality",
               NormalityJson(
@@ -77,7 +105,7 @@ int RunEvaluate(const EvaluateArguments& arguments,
              arguments.model,
              fitted.name,
              arguments.file,
-             fitted.target.name,
+             TargetText(dataset),
              SummaryText(metrics, fitted.target.unit, ks_d, ks_p));
   return kDone;
 }
@@ -106,6 +134,7 @@ void AddEvaluateCommand(CLI::App* app, Run* run) {
       ->check(CLI::IsMember({"table", "json"}))
       ->type_name("table|json")
       ->capture_default_str();
+  AddMapLogArguments(command, &arguments->log);
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
   command->callback([arguments, run] {
     run->status = RunEvaluate(*arguments, run->command_line);

@@ -8,6 +8,7 @@
 #include "cli/command.h"
 #include "cli/shell/number_text.h"
 #include "cli/study_file/data_arguments.h"
+#include "cli/study_file/map_log.h"
 #include "data/atomic_file.h"
 #include "data/csv.h"
 #include "data/dataset.h"
@@ -20,6 +21,7 @@ struct PredictArguments {
   std::string model;
   std::string file;
   std::string out;
+  MapLogArguments log;
   bool quiet = false;
 };
 
@@ -55,11 +57,39 @@ bool IsInside(const models::FittedModel& fitted,
   return true;
 }
 
+// The rows as a data set whose target is not known, and so 0.
+data::Dataset RowsToPredict(const models::FittedModel& fitted,
+                            const data::CsvTable& table,
+                            Eigen::MatrixXd inputs,
+                            const MapLog& map) {
+  data::Dataset::Parts parts;
+  parts.source = table.file;
+  for (const models::TrainedInput& input : fitted.inputs) {
+    parts.inputs.push_back(input.column);
+  }
+  parts.target = fitted.target;
+  parts.target_values = Eigen::VectorXd::Zero(inputs.rows());
+  parts.input_values = std::move(inputs);
+  parts.log = map.log;
+  if (map.log != nullptr) {
+    parts.log_rows.resize(table.num_rows);
+    std::iota(parts.log_rows.begin(), parts.log_rows.end(), map.first_row);
+  }
+  return data::Dataset(std::move(parts));
+}
+
 int RunPredict(const PredictArguments& arguments) {
   const models::FittedModel fitted = models::LoadModel(arguments.model);
   const data::CsvTable table = data::ReadCsv(arguments.file);
   const Eigen::MatrixXd inputs = InputsOf(fitted, table);
-  const Eigen::VectorXd predicted = fitted.model->Predict(inputs);
+  std::vector<Eigen::Index> all_rows(table.num_rows);
+  std::iota(all_rows.begin(), all_rows.end(), Eigen::Index{0});
+  const MapLog map = MakeMapLog(fitted, table, all_rows, arguments.log);
+  const data::Dataset rows = RowsToPredict(fitted, table, inputs, map);
+  const models::Prediction prediction =
+      fitted.PredictForm(fitted.FormInputs(rows));
+  const Eigen::VectorXd& predicted = prediction.errors;
+  const std::vector<Eigen::Index> sessions = rows.session_codes();
 
   // The columns that tell a row apart, where the file has them.
   std::vector<const data::CsvColumn*> ids;
@@ -78,8 +108,12 @@ int RunPredict(const PredictArguments& arguments) {
           data::CsvField(table.CellText(*id, static_cast<std::size_t>(row))) +
           ",";
     }
-    const bool inside = IsInside(fitted, inputs, row);
-    outside += inside ? 0 : 1;
+    const auto at = static_cast<std::size_t>(row);
+    const bool whole =
+        map.log == nullptr ||
+        !map.begin_inside[static_cast<std::size_t>(sessions[at])];
+    const bool inside = whole && IsInside(fitted, inputs, row);
+    outside += whole && !inside ? 1 : 0;
     text += fmt::format(
         "{},,,,,{}\n", data::CsvNumber(predicted[row]), inside ? 1 : 0);
   }
@@ -90,15 +124,24 @@ int RunPredict(const PredictArguments& arguments) {
   }
   if (!arguments.quiet) {
     const std::string& unit = fitted.target.unit.symbol;
-    Say(fmt::format("{} predicted as {}{}; compensate by minus that",
+    const bool aligned = fitted.align == data::Alignment::kFirst;
+    Say(fmt::format("{} predicted as {}{}{}; compensate by minus that",
                     Count(predicted.size(), "row"),
                     fitted.target.name,
-                    unit.empty() ? "" : " in " + unit));
+                    unit.empty() ? "" : " in " + unit,
+                    aligned ? " since the session's first row" : ""));
+    for (const std::string& warning : map.warnings) Say(warning);
     if (outside > 0) {
       Say(fmt::format(
           "warning: {} outside the trained range of the inputs (inside = 0): "
           "there the map extrapolates",
           Count(outside, "row")));
+    }
+    if (const Eigen::Index clipped = prediction.clipped.count(); clipped > 0) {
+      Say(
+          fmt::format("warning: {} clipped by the map's guards, since an input "
+                      "or the error went far beyond its trained range",
+                      Count(clipped, "row")));
     }
   }
   return kDone;
@@ -120,11 +163,13 @@ void AddPredictCommand(CLI::App* app, Run* run) {
       ->add_option(
           "-o,--output", arguments->out, "File to write (default: stdout)")
       ->type_name("FILE.csv");
+  AddMapLogArguments(command, &arguments->log);
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
   command->footer(
       "Columns: record and cycle where the data have them, predicted (in the "
       "target's unit),\nlower_90 ... upper_95 (empty without an interval), "
-      "inside (1 within the trained range).");
+      "inside (1 within the trained range, 0 not, or where a session's "
+      "first\nrows are missing).");
   command->callback([arguments, run] { run->status = RunPredict(*arguments); });
 }
 

@@ -28,9 +28,12 @@ bool SpansDecades(double low, double high) {
 std::string HoldoutLabel(const ReportView& view, const std::string& holdout) {
   const Json& entry = Find(At(*view.component, "holdouts"), "name", holdout);
   const std::string name = Shortened(holdout, kNameLength);
-  const bool whole = IsTrue(entry, "whole_groups") ||
+  const bool sessions = IsTrue(entry, "whole_sessions");
+  const bool whole = sessions || IsTrue(entry, "whole_groups") ||
                      (view.decisive_is_unseen && holdout == view.decisive);
-  return name + (whole ? " (unseen groups)" : " (neighbours known)");
+  return name + (sessions ? " (unseen sessions)"
+                 : whole  ? " (unseen groups)"
+                          : " (neighbours known)");
 }
 
 std::string GapWords(const ReportView& view,

@@ -37,6 +37,11 @@ Json ComponentJson(const ComponentConfig& component) {
   AddList("inputs", component.inputs, &json);
   AddList("exclude", component.exclude, &json);
   AddText("group", component.group, &json);
+  AddText("time", component.time, &json);
+  AddText("session", component.session, &json);
+  if (component.align != data::Alignment::kNone) {
+    json["align"] = data::ToString(component.align);
+  }
   AddText("weight", component.weight, &json);
   json["missing"] =
       component.missing == data::MissingPolicy::kError ? "error" : "drop-rows";

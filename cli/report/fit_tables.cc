@@ -329,6 +329,10 @@ std::string HoldoutWords(const std::string& name) {
   if (kind == "groups") {
     return "whole groups are held out in turn, K runs of them";
   }
+  if (kind == "sessions") {
+    return "whole sessions are held out in turn, K runs of them";
+  }
+  if (kind == "blocks") return "K runs of rows are held out in turn";
   if (kind == "leave-one-group-out") return "each group is held out in turn";
   if (kind == "kfold") {
     return "rows are shuffled and held out in K parts; their neighbours are in "

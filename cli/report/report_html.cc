@@ -337,14 +337,20 @@ std::string Page::Data(const ReportView& view,
   const std::string file = TextAt(data, "file");
   const std::string target = TextAt(data, "target");
   const std::string group = TextAt(data, "group");
+  const std::string session = TextAt(data, "session");
   html += "<p>" +
-          fmt::format("{}: {} rows, target {}{}{}.",
-                      file.empty() ? "File not known" : HtmlName(file),
-                      CountText(NumberAt(data, "rows")),
-                      target.empty() ? "not known" : HtmlName(target),
-                      view.unit.empty() ? "" : " in " + HtmlText(view.unit),
-                      group.empty() ? ", no groups"
-                                    : ", groups by " + HtmlName(group)) +
+          fmt::format(
+              "{}: {} rows, target {}{}{}{}{}.",
+              file.empty() ? "File not known" : HtmlName(file),
+              CountText(NumberAt(data, "rows")),
+              target.empty() ? "not known" : HtmlName(target),
+              view.unit.empty() ? "" : " in " + HtmlText(view.unit),
+              group.empty() ? ", no groups" : ", groups by " + HtmlName(group),
+              session.empty() ? "" : ", sessions by " + HtmlName(session),
+              TextAt(data, "align") == "first"
+                  ? "; each session's first value is taken off the "
+                    "target"
+                  : "") +
           "</p>\n";
   const std::vector<std::string> inputs = TextsOf(At(data, "inputs"));
   std::string names;

@@ -9,6 +9,7 @@ namespace errmap::cli {
 namespace {
 
 bool HoldsOutWholeGroups(const Json& holdout) {
+  if (IsTrue(holdout, "whole_sessions")) return true;
   const Json& flag = At(holdout, "whole_groups");
   if (flag.is_boolean()) return flag.get<bool>();
   // Older documents tell by the name only.

@@ -12,6 +12,7 @@
 #include "cli/report/residual_report.h"
 #include "cli/report/start_report.h"
 #include "cli/report/verdict_json.h"
+#include "models/inner_folds.h"
 
 namespace errmap::cli {
 namespace {
@@ -27,6 +28,10 @@ Json RowsJson(const std::vector<Eigen::Index>& indices,
     rows.push_back(dataset.rows()[static_cast<std::size_t>(index)]);
   }
   return rows;
+}
+
+Json NameOrNull(const std::string& name) {
+  return name.empty() ? Json() : Json(name);
 }
 
 Json DataJson(const Comparison& comparison) {
@@ -47,7 +52,23 @@ Json DataJson(const Comparison& comparison) {
       {"unit", dataset.target().unit.symbol},
       {"inputs", std::move(inputs)},
       {"group", dataset.has_groups() ? Json(dataset.groups().column) : Json()},
+      {"session", NameOrNull(dataset.log()->sessions.column)},
+      {"time", NameOrNull(comparison.data.time_column)},
+      {"time_unit", dataset.log()->time_unit},
+      {"sessions", dataset.num_sessions()},
+      {"align", data::ToString(dataset.align())},
       {"dropped", std::move(dropped)}};
+}
+
+// How each fold's training rows are held out for the choices made in a fit.
+Json InnerTexts(const models::Holdout& holdout, const data::Dataset& dataset) {
+  Json texts = Json::array();
+  for (const stats::Fold& fold : holdout.folds) {
+    texts.push_back(models::MakeInnerFolds(dataset.SelectRows(fold.train),
+                                           {.inner_holdout = holdout.inner})
+                        .text);
+  }
+  return texts;
 }
 
 Json HoldoutsJson(const Comparison& comparison) {
@@ -67,8 +88,10 @@ Json HoldoutsJson(const Comparison& comparison) {
     Json entry = {{"name", holdout.name},
                   {"folds", holdout.folds.size()},
                   {"whole_groups", holdout.whole_groups},
+                  {"whole_sessions", holdout.whole_sessions},
                   {"among_neighbours", holdout.among_neighbours},
                   {"repeats", holdout.repeats},
+                  {"inner", InnerTexts(holdout, comparison.data.dataset)},
                   {"train_rows", std::move(train)},
                   {"test_rows", std::move(test)}};
     entry.update(UnitsJson(comparison, h));

@@ -9,6 +9,7 @@
 
 #include "cli/report/verdict_text.h"
 #include "cli/shell/number_text.h"
+#include "cli/study_file/data_arguments.h"
 #include "data/text.h"
 
 namespace errmap::cli {
@@ -36,19 +37,12 @@ std::string Header(const Comparison& comparison) {
   const std::size_t more =
       inputs.size() - std::min(inputs.size(), kMostInputsNamed);
   inputs.resize(inputs.size() - more);
-  const std::string groups =
-      dataset.has_groups()
-          ? ", " +
-                Count(static_cast<long long>(dataset.groups().labels.size()),
-                      "group") +
-                " (" + dataset.groups().column + ")"
-          : ", no groups";
   return fmt::format(
       "{}: {}{}\ntarget {} from {}{}\n",
       comparison.file,
       Count(dataset.num_rows(), "row"),
-      groups,
-      dataset.target().name,
+      UnitsText(dataset),
+      TargetText(dataset),
       inputs.empty() ? "no inputs" : fmt::format("{}", fmt::join(inputs, ", ")),
       more > 0 ? fmt::format(" and {} more", more) : "");
 }

@@ -142,7 +142,7 @@ std::string NamesOf(const Comparison& comparison,
 // "on cycles never seen (groups:5)", "on the rows of test.csv", ...
 std::string WhereJudged(const Comparison& comparison, std::size_t h) {
   const models::Holdout& holdout = comparison.holdouts[h];
-  if (holdout.whole_groups) {
+  if (holdout.whole_groups || holdout.whole_sessions) {
     return fmt::format("on {} never seen ({})",
                        PluralOfUnit(Tests(comparison, h).units),
                        holdout.name);
@@ -297,7 +297,11 @@ std::string ResidualReason(const Comparison& comparison,
 std::string UnseenCaveat(const Comparison& comparison,
                          const models::Recommendation& advice) {
   const models::Holdout& holdout = comparison.holdouts[advice.holdout];
-  if (holdout.whole_groups || holdout.test_data != nullptr) return "";
+  if (holdout.test_data != nullptr) return "";
+  if (comparison.data.dataset.num_sessions() == 1) {
+    return "One run only: nothing is known of another day.";
+  }
+  if (holdout.whole_groups || holdout.whole_sessions) return "";
   const bool held_out_whole = std::ranges::any_of(
       comparison.holdouts,
       [](const models::Holdout& other) { return other.whole_groups; });

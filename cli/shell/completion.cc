@@ -209,6 +209,8 @@ const std::vector<std::string>& HoldoutExamples() {
   static const std::vector<std::string> examples = {"every:3",
                                                     "groups:5",
                                                     "groups:5:repeats=20",
+                                                    "sessions:5",
+                                                    "blocks:5",
                                                     "leave-one-group-out",
                                                     "kfold:10",
                                                     "forward:4",

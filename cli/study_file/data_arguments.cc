@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/shell/number_text.h"
 #include "models/model_spec.h"
 #include "models/recipe_catalog.h"
 
@@ -34,6 +35,25 @@ void AddDataArguments(CLI::App* command, DataArguments* arguments) {
                    "Column that tells warm-up cycles, days or segments apart "
                    "(default: cycle)")
       ->type_name("COL");
+  command
+      ->add_option("--time",
+                   arguments->time,
+                   "Column of times or dates (default: the only time*; none: "
+                   "the number of the row)")
+      ->type_name("COL");
+  command
+      ->add_option("--session",
+                   arguments->session,
+                   "Column that tells uninterrupted runs apart (default: "
+                   "session, day or run; none: cut where time breaks off)")
+      ->type_name("COL");
+  command
+      ->add_option("--align",
+                   arguments->align,
+                   "first: take each session's first value off the target")
+      ->check(CLI::IsMember({"first", "none"}))
+      ->type_name("first|none")
+      ->capture_default_str();
   command
       ->add_option("--weight", arguments->weight, "Column of row weights > 0")
       ->type_name("COL");
@@ -77,7 +97,10 @@ data::PreparedDataset ReadData(const DataArguments& arguments) {
       .inputs = SplitNames(arguments.inputs, "--inputs"),
       .exclude = SplitNames(arguments.exclude, "--exclude"),
       .group = arguments.group,
+      .time = arguments.time,
+      .session = arguments.session,
       .weight = arguments.weight,
+      .align = AlignOf(arguments.align),
       .missing = arguments.missing == "error" ? data::MissingPolicy::kError
                                               : data::MissingPolicy::kDropRows,
       .keep_dead = arguments.keep_dead};
@@ -89,21 +112,47 @@ data::PreparedDataset ReadData(const DataArguments& arguments) {
   return prepared;
 }
 
+std::string UnitsText(const data::Dataset& dataset) {
+  std::string text = ", no groups";
+  if (dataset.has_groups()) {
+    text = fmt::format(
+        ", {} ({})",
+        Count(static_cast<long long>(dataset.groups().labels.size()), "group"),
+        dataset.groups().column);
+  }
+  if (!dataset.has_sessions()) return text + ", one run";
+  const std::string& column = dataset.log()->sessions.column;
+  return text + ", " + Count(dataset.num_sessions(), "session") +
+         (column.empty() ? "" : " (" + column + ")");
+}
+
+std::string TargetText(const data::Dataset& dataset) {
+  return dataset.target().name + (dataset.align() == data::Alignment::kFirst
+                                      ? " less each session's first value"
+                                      : "");
+}
+
+data::Alignment AlignOf(const std::string& text) {
+  return text == "first" ? data::Alignment::kFirst : data::Alignment::kNone;
+}
+
 data::Dataset MakeDataLike(const data::CsvTable& table,
-                           const data::Dataset& like,
-                           const std::string& weight,
-                           data::MissingPolicy missing,
-                           const std::vector<data::ColumnFilter>& where) {
-  data::DatasetSelection selection{.target = like.target().name,
+                           const data::PreparedDataset& like,
+                           const ComponentConfig& component) {
+  const data::Dataset& dataset = like.dataset;
+  data::DatasetSelection selection{.target = dataset.target().name,
                                    .inputs = {},
                                    .exclude = {},
-                                   .group = like.groups().column,
-                                   .weight = weight,
-                                   .missing = missing,
+                                   .group = dataset.groups().column,
+                                   .time = component.time,
+                                   .session = component.session,
+                                   .weight = component.weight,
+                                   .align = component.align,
+                                   .missing = component.missing,
                                    .keep_dead = true,
-                                   .where = where,
+                                   .where = component.where,
                                    .only_to_judge = true};
-  for (const data::ColumnInfo& input : like.inputs()) {
+  for (const data::ColumnInfo& input : dataset.inputs()) {
     selection.inputs.push_back(input.name);
   }
   return data::MakeDataset(table, selection).dataset;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/study_file/study_config.h"
 #include "data/dataset.h"
 #include "models/error_model.h"
 
@@ -21,6 +22,9 @@ struct DataArguments {
   std::string inputs;   // comma-separated
   std::string exclude;  // comma-separated
   std::string group;
+  std::string time;
+  std::string session;
+  std::string align = "none";
   std::string weight;
   std::string missing = "error";
   bool keep_dead = false;
@@ -33,12 +37,21 @@ void AddDataArguments(CLI::App* command, DataArguments* arguments);
 /// Reads the file and picks its columns; remarks go to stderr unless quiet.
 data::PreparedDataset ReadData(const DataArguments& arguments);
 
-/// Rows of another table with the columns of `like` (target, inputs, groups).
+/// ", 70 groups (cycle), 2 sessions (day)" or ", ... one run", to follow a
+/// number of rows.
+std::string UnitsText(const data::Dataset& dataset);
+
+/// The target's name, and what was taken off it.
+std::string TargetText(const data::Dataset& dataset);
+
+/// Of "none" or "first".
+data::Alignment AlignOf(const std::string& text);
+
+/// Rows of another table with the columns of `like` (target, inputs, groups,
+/// time and sessions) and of `component` (weight, missing, where).
 data::Dataset MakeDataLike(const data::CsvTable& table,
-                           const data::Dataset& like,
-                           const std::string& weight,
-                           data::MissingPolicy missing,
-                           const std::vector<data::ColumnFilter>& where);
+                           const data::PreparedDataset& like,
+                           const ComponentConfig& component);
 
 /// Splits "A,B" at commas outside double quotes and takes the quotes off.
 /// Throws UsageError naming `flag`.

@@ -25,6 +25,9 @@ struct ComponentConfig {
   std::vector<std::string> inputs;
   std::vector<std::string> exclude;
   std::string group;
+  std::string time;
+  std::string session;
+  data::Alignment align = data::Alignment::kNone;
   std::string weight;
   data::MissingPolicy missing = data::MissingPolicy::kError;
   bool keep_dead = false;
@@ -45,7 +48,7 @@ struct StudyConfig {
   double goal = std::numeric_limits<double>::quiet_NaN();
   /// For components without their own; NaN: 0.02 um for lengths, else 0.
   double indifference = std::numeric_limits<double>::quiet_NaN();
-  std::vector<std::string> holdouts;  // SPECs; empty: every:3 and groups:5
+  std::vector<std::string> holdouts;  // SPECs; empty: those that the data allow
   std::vector<std::string> models;    // SPECs; empty: all that suit
   std::vector<ComponentConfig> components;
 };

@@ -283,6 +283,9 @@ class StudyFileReader {
                     "inputs",
                     "exclude",
                     "group",
+                    "time",
+                    "session",
+                    "align",
                     "weight",
                     "missing",
                     "keep_dead",
@@ -300,12 +303,25 @@ class StudyFileReader {
     keys.TakeList("inputs", &component.inputs);
     keys.TakeList("exclude", &component.exclude);
     keys.TakeText("group", &component.group);
+    keys.TakeText("time", &component.time);
+    keys.TakeText("session", &component.session);
+    component.align = ReadAlign(keys);
     keys.TakeText("weight", &component.weight);
     component.missing = ReadMissing(keys);
     keys.TakeFlag("keep_dead", &component.keep_dead);
     keys.TakeNumber("goal", false, &component.goal);
     keys.TakeNumber("indifference", true, &component.indifference);
     return component;
+  }
+
+  static data::Alignment ReadAlign(const Keys& keys) {
+    std::string align = "none";
+    keys.TakeText("align", &align);
+    if (align == "first") return data::Alignment::kFirst;
+    if (align != "none") {
+      keys.RefuseType("align", *keys.Find("align"), "\"first\" or \"none\"");
+    }
+    return data::Alignment::kNone;
   }
 
   static data::MissingPolicy ReadMissing(const Keys& keys) {

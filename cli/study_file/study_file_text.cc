@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/shell/number_text.h"
+#include "cli/study_file/data_arguments.h"
 #include "cli/study_file/toml_text.h"
 #include "data/text.h"
 
@@ -106,10 +107,10 @@ std::string StudyKeys(const StudyPlan& plan) {
   std::string text = fmt::format(
       "seed = {}   # of all random choices\n\n"
       "# Rows to judge by: every:K, groups:K[:repeats=R], "
-      "leave-one-group-out,\n"
-      "# kfold:K, forward:K[:gap=G], random:F, file:TEST.csv. Whole groups "
-      "held\n"
-      "# out tell how a map does on another day.\n",
+      "sessions:K[:repeats=R],\n"
+      "# blocks:K, leave-one-group-out, kfold:K, forward:K[:gap=G], random:F,\n"
+      "# file:TEST.csv. Whole sessions held out tell how a map does on another "
+      "day.\n",
       plan.config.seed);
   text += ListKey(
       "holdouts", plan.config.holdouts, plan.components.front().HoldoutNames());
@@ -124,20 +125,32 @@ std::string StudyKeys(const StudyPlan& plan) {
 std::string FoundText(const ComponentPlan& component) {
   const data::PreparedDataset& prepared = component.comparison.data;
   const data::Dataset& dataset = prepared.dataset;
-  std::string text = "# " + Count(dataset.num_rows(), "row");
-  if (dataset.has_groups()) {
-    text += fmt::format(
-        ", {}",
-        Count(static_cast<long long>(dataset.groups().labels.size()), "group"));
-  } else {
-    text += ", no groups: name the column of cycles or days with group";
-  }
+  std::string text =
+      "# " + Count(dataset.num_rows(), "row") + Shown(UnitsText(dataset));
+  if (!dataset.has_groups()) text += ": name the column of cycles with group";
   text += "\n";
   for (const data::DroppedColumn& dropped : prepared.dropped) {
     text += fmt::format(
         "# {} is left out: {}\n", Shown(dropped.column), Shown(dropped.why));
   }
   return text;
+}
+
+// What tells sessions and times, or what might.
+std::string SessionKeys(const data::PreparedDataset& prepared) {
+  const auto key =
+      [](const char* name, const std::string& found, const char* example) {
+        return found.empty() ? fmt::format("# {} = \"{}\"\n", name, example)
+                             : fmt::format("{} = {}\n", name, TomlText(found));
+      };
+  const data::Dataset& dataset = prepared.dataset;
+  const bool aligned = dataset.align() == data::Alignment::kFirst;
+  return key("session", dataset.log()->sessions.column, "day") +
+         key("time", prepared.time_column, "time_s") +
+         fmt::format(
+             "{}align = \"first\"   # each session's first value off "
+             "the target\n",
+             aligned ? "" : "# ");
 }
 
 std::string LengthKey(const char* key,
@@ -181,6 +194,7 @@ std::string ComponentText(const ComponentPlan& component,
   text += dataset.has_groups()
               ? "group = " + TomlText(dataset.groups().column) + "\n"
               : std::string("# group = \"cycle\"\n");
+  text += SessionKeys(component.comparison.data);
   text += "# weight = \"weight\"\n";
   text += "# missing = \"error\"   # or \"drop-rows\"\n";
   text += "# keep_dead = false   # true keeps sensors that hold one value\n";

@@ -55,7 +55,7 @@ class ComponentPlanner {
     data::PreparedDataset prepared = PrepareData();
     const data::Dataset& dataset = prepared.dataset;
     const data::Unit& unit = dataset.target().unit;
-    std::vector<models::Holdout> holdouts = MakeHoldouts(dataset);
+    std::vector<models::Holdout> holdouts = MakeHoldouts(prepared);
     if (holdouts.empty()) {
       throw data::InputError(
           fmt::format("{}: names no hold-out", component_.split));
@@ -95,7 +95,10 @@ class ComponentPlanner {
                            .inputs = component_.inputs,
                            .exclude = component_.exclude,
                            .group = component_.group,
+                           .time = component_.time,
+                           .session = component_.session,
                            .weight = component_.weight,
+                           .align = component_.align,
                            .missing = component_.missing,
                            .keep_dead = component_.keep_dead,
                            .where = component_.where});
@@ -105,26 +108,38 @@ class ComponentPlanner {
     return prepared;
   }
 
-  // every:3, and whole groups where there are at least two.
+  // Rows, and whatever can be held out whole. Two or three sessions are too
+  // few to decide, so without groups blocks stand beside them.
   std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset) const {
-    constexpr std::size_t kGroupFolds = 5;
+    constexpr Eigen::Index kFolds = 5;
     std::vector<std::string> specs{"every:3"};
-    if (!dataset.has_groups()) return specs;
-    const std::size_t groups = dataset.groups().labels.size();
+    const auto groups =
+        static_cast<Eigen::Index>(dataset.groups().labels.size());
+    const Eigen::Index sessions = dataset.num_sessions();
     if (groups >= 2) {
-      specs.push_back(fmt::format("groups:{}", std::min(groups, kGroupFolds)));
-    } else {
+      specs.push_back(fmt::format("groups:{}", std::min(groups, kFolds)));
+    } else if (dataset.has_groups()) {
       Remark(
-          fmt::format("column '{}' has one group only, so nothing can be said "
-                      "about another day; more cycles are needed for that",
+          fmt::format("column '{}' has one group only; more cycles are needed "
+                      "to hold them out whole",
                       dataset.groups().column));
+    }
+    const bool same_units =
+        dataset.groups().column == dataset.log()->sessions.column;
+    if (sessions >= 2 && !(groups >= 2 && same_units)) {
+      specs.push_back(fmt::format("sessions:{}", std::min(sessions, kFolds)));
+    }
+    if (groups < 2 && sessions < models::kFewestSessionsToDecide) {
+      specs.push_back(
+          fmt::format("blocks:{}", std::min(dataset.num_rows(), kFolds)));
     }
     return specs;
   }
 
   // Those of the split file first; it takes the place of the default ones.
   std::vector<models::Holdout> MakeHoldouts(
-      const data::Dataset& dataset) const {
+      const data::PreparedDataset& prepared) const {
+    const data::Dataset& dataset = prepared.dataset;
     std::vector<models::Holdout> holdouts;
     std::vector<std::string> specs = study_.holdouts;
     if (!component_.split.empty()) {
@@ -145,11 +160,7 @@ class ComponentPlanner {
       std::shared_ptr<const data::Dataset> test_data;
       if (spec.kind == stats::HoldoutKind::kFile) {
         test_data = std::make_shared<const data::Dataset>(
-            MakeDataLike(reader_->Read(spec.file),
-                         dataset,
-                         component_.weight,
-                         component_.missing,
-                         component_.where));
+            MakeDataLike(reader_->Read(spec.file), prepared, component_));
       }
       try {
         holdouts.push_back(models::MakeHoldout(
@@ -287,6 +298,11 @@ void FillInDefaults(StudyPlan* plan) {
     ComponentConfig& component = plan->config.components[i];
     component.target = dataset.target().name;
     component.group = dataset.groups().column;
+    // "none" stays where nothing was found.
+    const std::string& session = dataset.log()->sessions.column;
+    if (!session.empty()) component.session = session;
+    const std::string& time = planned.data.time_column;
+    if (!time.empty()) component.time = time;
     component.goal = planned.goal;
     component.indifference = planned.indifference;
     component.inputs.clear();

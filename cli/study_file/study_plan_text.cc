@@ -9,6 +9,7 @@
 
 #include "cli/shell/number_text.h"
 #include "cli/shell/wrap_text.h"
+#include "cli/study_file/data_arguments.h"
 #include "cli/study_file/rough_time.h"
 #include "data/text.h"
 
@@ -52,16 +53,10 @@ std::string ComponentText(const ComponentPlan& component,
     text += fmt::format(
         " where {} = {}", Shown(filter.column), Shown(ValueText(filter)));
   }
-  text += fmt::format(
-      "\n  rows      {}{}\n",
-      Count(dataset.num_rows(), "row"),
-      dataset.has_groups()
-          ? ", " +
-                Count(static_cast<long long>(dataset.groups().labels.size()),
-                      "group") +
-                " (" + Shown(dataset.groups().column) + ")"
-          : ", no groups");
-  text += fmt::format("  target    {}\n", Shown(dataset.target().name));
+  text += fmt::format("\n  rows      {}{}\n",
+                      Count(dataset.num_rows(), "row"),
+                      Shown(UnitsText(dataset)));
+  text += fmt::format("  target    {}\n", Shown(TargetText(dataset)));
   text += fmt::format("  inputs    {}\n", dataset.num_inputs());
   if (std::isfinite(component.comparison.goal)) {
     text +=

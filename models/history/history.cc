@@ -1,6 +1,7 @@
 #include "models/history/history.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "data/csv.h"
+#include "data/sessions.h"
 #include "models/history/history_state.h"
 
 namespace errmap::models {
@@ -53,6 +55,27 @@ std::vector<std::vector<Index>> RowsOfSessions(const data::SessionLog& log) {
     rows[static_cast<std::size_t>(code)].push_back(row++);
   }
   return rows;
+}
+
+// The time of the first row of every session.
+std::vector<double> StartsOf(const data::SessionLog& log) {
+  std::vector<double> starts;
+  for (const std::vector<Index>& rows : RowsOfSessions(log)) {
+    starts.push_back(rows.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                  : log.time[rows.front()]);
+  }
+  return starts;
+}
+
+// A step that is more than this begins another session.
+double LeapOf(const data::SessionLog& log) {
+  std::vector<double> steps;
+  for (const std::vector<Index>& rows : RowsOfSessions(log)) {
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      steps.push_back(log.time[rows[i]] - log.time[rows[i - 1]]);
+    }
+  }
+  return data::kLeapSteps * data::MedianStep(std::move(steps));
 }
 
 Derived DeriveLog(const data::SessionLog& log,
@@ -198,6 +221,30 @@ DerivedInput CosineOf(const data::ColumnInfo& angle) {
   return Unitless(angle, "cos", Filter::kCosine);
 }
 
+double LatestStart(const data::Dataset& training) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  if (training.log() == nullptr) return kUnknown;
+  const data::SessionLog& log = *training.log();
+  const std::vector<double> starts = StartsOf(log);
+  double earliest = std::numeric_limits<double>::infinity();
+  double latest = -earliest;
+  for (const Index code : training.session_codes()) {
+    earliest = std::min(earliest, starts[static_cast<std::size_t>(code)]);
+    latest = std::max(latest, starts[static_cast<std::size_t>(code)]);
+  }
+  return latest - earliest <= LeapOf(log) ? latest : kUnknown;
+}
+
+std::vector<bool> BeginInside(const data::SessionLog& log,
+                              const History& history) {
+  std::vector<bool> inside;
+  const double leap = LeapOf(log);
+  for (const double start : StartsOf(log)) {
+    inside.push_back(start > history.latest_start + leap);
+  }
+  return inside;
+}
+
 MatrixXd DeriveInputs(const data::Dataset& dataset, const History& history) {
   const Derived derived = Derive(dataset, history);
   if (dataset.log() == nullptr) return derived.values;
@@ -214,7 +261,8 @@ data::Dataset DeriveDataset(const data::Dataset& dataset,
                              .target_values = dataset.target_values(),
                              .groups = dataset.groups(),
                              .weights = dataset.weights(),
-                             .rows = dataset.rows()};
+                             .rows = dataset.rows(),
+                             .align = dataset.align()};
   if (dataset.log() == nullptr) {
     parts.input_values = std::move(derived.values);
     return data::Dataset(std::move(parts));

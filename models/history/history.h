@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,9 @@ struct History {
   std::string session;    // column; "" where sessions are cut by time
   std::vector<DerivedInput> derived;
   std::vector<std::string> form_inputs;  // columns or derived inputs, in order
+  /// Latest time at which a session of training began, where all began within
+  /// kLeapSteps median steps of another; NaN where clocks tell nothing.
+  double latest_start = std::numeric_limits<double>::quiet_NaN();
 
   /// Whether any filter runs in time.
   bool needs_time() const;
@@ -54,6 +58,14 @@ DerivedInput Ema(const data::ColumnInfo& of,
 DerivedInput Zeroed(const data::ColumnInfo& of);
 DerivedInput SineOf(const data::ColumnInfo& angle);
 DerivedInput CosineOf(const data::ColumnInfo& angle);
+
+/// latest_start of the sessions of these rows.
+double LatestStart(const data::Dataset& training);
+
+/// For each session of a log, whether it begins later than `history` knows
+/// sessions to begin: its earlier rows are missing. Never in rows for time.
+std::vector<bool> BeginInside(const data::SessionLog& log,
+                              const History& history);
 
 /// What the form reads, per row of `dataset` (m x form_inputs). Filters run
 /// through all rows of its log, so a selection of rows gets what all rows get.

@@ -14,6 +14,7 @@ FittedModel WithHistory(FittedModel fitted,
   auto read = std::make_shared<History>();
   read->time_unit = history.time_unit;
   read->session = history.session;
+  read->latest_start = LatestStart(training);
   std::set<std::string> needed;
   for (const TrainedInput& input : fitted.inputs) {
     read->form_inputs.push_back(input.column.name);

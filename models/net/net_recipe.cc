@@ -220,6 +220,7 @@ class SpecNetRecipe final : public NetRecipe {
     fitted.name = name_;
     fitted.kind = ModelKind::kNet;
     fitted.target = training.target();
+    fitted.align = training.align();
     std::vector<Index> columns(static_cast<std::size_t>(training.num_inputs()));
     std::iota(columns.begin(), columns.end(), Index{0});
     fitted.inputs = DescribeInputs(training, columns);

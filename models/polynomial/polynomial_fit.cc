@@ -90,6 +90,7 @@ FittedModel PolynomialRecipe::NewModel(const Dataset& training) const {
   fitted.name = name_;
   fitted.kind = kind();
   fitted.target = training.target();
+  fitted.align = training.align();
   fitted.summary.termination = fitting::Termination::kDirect;
   fitted.summary.message = "solved by pivoted QR";
   return fitted;

@@ -37,6 +37,7 @@ class RowDigests {
   explicit RowDigests(const Dataset& dataset) : dataset_(dataset) {
     Sha256Stream stream;
     AddColumn(dataset.target(), &stream);
+    AddText(data::ToString(dataset.align()), &stream);
     for (const data::ColumnInfo& input : dataset.inputs()) {
       AddColumn(input, &stream);
     }
@@ -164,8 +165,11 @@ std::string ContextText(const FitContext& context) {
   if (explain) text += " explained";
   if (explain && !default_bootstraps) text += " without bootstraps";
   if (keep_trace) text += " traced";
-  if (inner_holdout == InnerHoldout::kRows) text += " inner=rows";
-  if (inner_holdout == InnerHoldout::kForward) text += " inner=forward";
+  // The fit to all rows and those of whole groups never share their rows.
+  if (inner_holdout != InnerHoldout::kDecisive &&
+      inner_holdout != InnerHoldout::kWholeGroups) {
+    text += fmt::format(" inner={}", ToString(inner_holdout));
+  }
   if (most_design_values != FitContext().most_design_values) {
     text += fmt::format(" design={}", most_design_values);
   }

@@ -159,7 +159,7 @@ ERRMAP_MEMBERS(RegressionReport,
                standard_errors,
                notes)
 ERRMAP_MEMBERS(DerivedInput, column, of, filter, tau)
-ERRMAP_MEMBERS(History, time_unit, session, derived, form_inputs)
+ERRMAP_MEMBERS(History, time_unit, session, derived, form_inputs, latest_start)
 ERRMAP_MEMBERS(Guards,
                input_margin,
                error_margin,
@@ -171,6 +171,7 @@ ERRMAP_MEMBERS(FittedModel,
                name,
                kind,
                target,
+               align,
                inputs,
                model,
                summary,

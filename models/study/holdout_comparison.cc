@@ -62,30 +62,44 @@ MatrixXd GatherResiduals(const HeldOut& held,
   return residuals;
 }
 
-std::size_t CountGroups(const HeldOut& held) {
-  std::set<Index> present;
+// Takes the units that `codes`, one per row of the source, number. One unit
+// alone is none: its rows are all that there is to resample.
+bool TakeUnits(const HeldOut& held,
+               const std::vector<Index>& codes,
+               const data::Grouping& grouping,
+               std::vector<Index>* of_held,
+               UnitsOfAnalysis* units) {
+  std::vector<Index> found;
   for (const Index row : held.rows) {
-    present.insert(held.source->groups().codes[static_cast<std::size_t>(row)]);
+    found.push_back(codes[static_cast<std::size_t>(row)]);
   }
-  return present.size();
+  const std::set<Index> present(found.begin(), found.end());
+  if (present.size() < 2) return false;
+  units->name = grouping.column.empty() ? "session" : grouping.column;
+  units->are_groups = true;
+  for (const Index code : present) {
+    units->labels.push_back(grouping.labels[static_cast<std::size_t>(code)]);
+  }
+  *of_held = std::move(found);
+  return true;
 }
 
 // Codes of the units of the held-out rows; `units` gets name and labels.
-std::vector<Index> AssignUnits(const HeldOut& held, UnitsOfAnalysis* units) {
+std::vector<Index> AssignUnits(const Holdout& holdout,
+                               const HeldOut& held,
+                               UnitsOfAnalysis* units) {
   std::vector<Index> codes;
-  // One group is no grouping: its rows are all that there is to resample.
-  if (held.source->has_groups() && CountGroups(held) > 1) {
-    const data::Grouping& groups = held.source->groups();
-    units->name = groups.column;
-    units->are_groups = true;
-    std::set<Index> present;
-    for (const Index row : held.rows) {
-      codes.push_back(groups.codes[static_cast<std::size_t>(row)]);
-      present.insert(codes.back());
-    }
-    for (const Index code : present) {
-      units->labels.push_back(groups.labels[static_cast<std::size_t>(code)]);
-    }
+  const data::Dataset& source = *held.source;
+  if (holdout.whole_sessions && TakeUnits(held,
+                                          source.session_codes(),
+                                          source.log()->sessions,
+                                          &codes,
+                                          units)) {
+    units->are_sessions = true;
+    return codes;
+  }
+  if (source.has_groups() &&
+      TakeUnits(held, source.groups().codes, source.groups(), &codes, units)) {
     return codes;
   }
   units->name = "block of rows";
@@ -173,7 +187,8 @@ HoldoutComparison CompareOne(const data::Dataset& dataset,
   const HeldOut held = GatherHeldOut(dataset, holdout);
   const MatrixXd residuals =
       GatherResiduals(held, study, comparison.models, index);
-  const std::vector<Index> codes = AssignUnits(held, &comparison.units);
+  const std::vector<Index> codes =
+      AssignUnits(holdout, held, &comparison.units);
   stats::UnitLosses losses = stats::GatherByUnit(residuals, codes);
   losses.time_ordered = holdout.forward;
   comparison.unit_rmse = losses.mean_squares.cwiseSqrt();

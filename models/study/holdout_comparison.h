@@ -14,8 +14,9 @@ namespace errmap::models {
 
 /// What is met as a whole and so counts as one observation in every test.
 struct UnitsOfAnalysis {
-  std::string name;                 // "cycle", ...; "block of rows"
-  bool are_groups = false;          // else blocks of held-out rows in order
+  std::string name;         // "cycle", "day", ...; "session"; "block of rows"
+  bool are_groups = false;  // groups or sessions, else blocks of held-out rows
+  bool are_sessions = false;        // what is held out whole is sessions
   std::vector<std::string> labels;  // (units) group, or "rows 0-16"
 };
 
@@ -42,8 +43,8 @@ struct HoldoutComparison {
 
 /// Compares the models of a study hold-out by hold-out, on one mean squared
 /// residual per unit (stats/comparison/paired_comparison.h): units are the
-/// groups of the held-out rows, or blocks of them in order. `indifference`
-/// (target's unit) is the difference in RMSE that never matters.
+/// sessions or groups of the held-out rows, or blocks of them in order.
+/// `indifference` (target's unit) is the difference in RMSE that never matters.
 std::vector<HoldoutComparison> CompareHoldouts(
     const data::Dataset& dataset,
     const std::vector<Holdout>& holdouts,

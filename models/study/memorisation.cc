@@ -126,7 +126,10 @@ Dataset ShuffleTargets(const Dataset& dataset, std::uint64_t seed) {
                   .target_values = dataset.target_values()(order),
                   .groups = dataset.groups(),
                   .weights = dataset.weights(),
-                  .rows = dataset.rows()});
+                  .rows = dataset.rows(),
+                  .align = dataset.align(),
+                  .log = dataset.log(),
+                  .log_rows = dataset.log_rows()});
 }
 
 }  // namespace errmap::models

@@ -20,23 +20,6 @@ struct RawHoldout {
   std::set<std::pair<Index, Index>> seen;  // (fold, index)
 };
 
-bool KeepsGroupsWhole(const std::vector<stats::Fold>& folds,
-                      const data::Dataset& dataset) {
-  if (!dataset.has_groups()) return false;
-  const std::vector<Index>& codes = dataset.groups().codes;
-  for (const stats::Fold& fold : folds) {
-    std::vector<bool> trained(dataset.groups().labels.size());
-    const auto code = [&](Index row) {
-      return static_cast<std::size_t>(codes[static_cast<std::size_t>(row)]);
-    };
-    for (const Index row : fold.train) trained[code(row)] = true;
-    for (const Index row : fold.test) {
-      if (trained[code(row)]) return false;
-    }
-  }
-  return true;
-}
-
 Holdout FinishHoldout(RawHoldout raw,
                       const data::Dataset& dataset,
                       const std::string& path) {
@@ -64,10 +47,16 @@ Holdout FinishHoldout(RawHoldout raw,
     std::ranges::sort(fold.test);
     holdout.folds.push_back(std::move(fold));
   }
-  holdout.whole_groups = KeepsGroupsWhole(holdout.folds, dataset);
-  holdout.among_neighbours = !holdout.whole_groups;
-  holdout.inner =
-      holdout.whole_groups ? InnerHoldout::kWholeGroups : InnerHoldout::kRows;
+  holdout.whole_groups =
+      dataset.has_groups() &&
+      stats::KeepsWhole(holdout.folds, dataset.groups().codes);
+  holdout.whole_sessions =
+      dataset.has_sessions() &&
+      stats::KeepsWhole(holdout.folds, dataset.session_codes());
+  holdout.among_neighbours = !holdout.whole_groups && !holdout.whole_sessions;
+  holdout.inner = holdout.whole_sessions ? InnerHoldout::kWholeSessions
+                  : holdout.whole_groups ? InnerHoldout::kWholeGroups
+                                         : InnerHoldout::kRows;
   return holdout;
 }
 

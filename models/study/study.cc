@@ -99,7 +99,7 @@ double MeasurePrediction(const FittedModel& fitted, const Dataset& dataset) {
 }
 
 // Of rows where rows are held out, so that every fold tunes for what it is
-// judged by; a test file says nothing, so groups stay whole.
+// judged by; a test file says nothing, so as what decides.
 InnerHoldout InnerHoldoutLike(stats::HoldoutKind kind) {
   switch (kind) {
     case stats::HoldoutKind::kEvery:
@@ -110,10 +110,15 @@ InnerHoldout InnerHoldoutLike(stats::HoldoutKind kind) {
       return InnerHoldout::kForward;
     case stats::HoldoutKind::kGroups:
     case stats::HoldoutKind::kLeaveOneGroupOut:
+      return InnerHoldout::kWholeGroups;
+    case stats::HoldoutKind::kSessions:
+      return InnerHoldout::kWholeSessions;
+    case stats::HoldoutKind::kBlocks:
+      return InnerHoldout::kBlocks;
     case stats::HoldoutKind::kFile:
       break;
   }
-  return InnerHoldout::kWholeGroups;
+  return InnerHoldout::kDecisive;
 }
 
 }  // namespace
@@ -145,8 +150,15 @@ Holdout MakeHoldout(const stats::HoldoutSpec& spec,
                              spec.kind == stats::HoldoutKind::kRandom;
   holdout.forward = spec.kind == stats::HoldoutKind::kForward;
   holdout.repeats = std::max<Index>(1, spec.repeats);
+  const bool by_session = spec.kind == stats::HoldoutKind::kSessions;
+  const std::vector<Index> sessions = dataset.session_codes();
   holdout.folds =
-      stats::MakeFolds(spec, dataset.num_rows(), dataset.groups().codes, seed);
+      stats::MakeFolds(spec,
+                       dataset.num_rows(),
+                       by_session ? sessions : dataset.groups().codes,
+                       seed);
+  holdout.whole_sessions = test_data == nullptr && dataset.has_sessions() &&
+                           stats::KeepsWhole(holdout.folds, sessions);
   holdout.test_data = std::move(test_data);
   holdout.inner = InnerHoldoutLike(spec.kind);
   return holdout;

@@ -18,8 +18,9 @@ namespace errmap::models {
 
 /// A way of holding rows out, ready for one data set.
 struct Holdout {
-  std::string name;           // its SPEC
-  bool whole_groups = false;  // no group is on both sides of a fold
+  std::string name;             // its SPEC
+  bool whole_groups = false;    // no group is on both sides of a fold
+  bool whole_sessions = false;  // likewise of two sessions or more
   /// Rows between which others were fitted are judged: interpolation.
   bool among_neighbours = false;
   bool forward = false;            // earlier rows predict later ones
@@ -28,7 +29,7 @@ struct Holdout {
   /// Rows judged instead of the folds' own (file:TEST.csv), or null.
   std::shared_ptr<const data::Dataset> test_data;
   /// Of the choices made inside the training rows of a fold.
-  InnerHoldout inner = InnerHoldout::kWholeGroups;
+  InnerHoldout inner = InnerHoldout::kDecisive;
 };
 
 /// Folds of `spec` over `dataset`; `test_data` for file:TEST.csv only. Throws

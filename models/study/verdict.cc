@@ -1,7 +1,6 @@
 #include "models/study/verdict.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <tuple>
@@ -93,17 +92,50 @@ Verdict JudgeHoldout(const HoldoutComparison& comparison,
   return verdict;
 }
 
+// How much a hold-out tells of another day, from 0: enough whole sessions,
+// whole groups, another file, whole blocks, few sessions, rows.
+int RankOf(const Holdout& holdout, const HoldoutComparison& comparison) {
+  if (comparison.units.are_sessions &&
+      static_cast<Index>(comparison.units.labels.size()) >=
+          kFewestSessionsToDecide) {
+    return 0;
+  }
+  if (holdout.whole_groups && holdout.test_data == nullptr) return 1;
+  if (holdout.test_data != nullptr) return 2;
+  if (holdout.inner == InnerHoldout::kBlocks) return 3;
+  if (holdout.whole_sessions) return 4;
+  return 5;
+}
+
+// The hold-out to go by: the first of those that tell most.
+std::optional<std::size_t> DecisiveHoldout(
+    const std::vector<Holdout>& holdouts,
+    const std::vector<HoldoutComparison>& comparisons) {
+  std::optional<std::size_t> decisive;
+  for (std::size_t h = 0; h < holdouts.size(); ++h) {
+    if (comparisons[h].models.empty()) continue;
+    if (!decisive || RankOf(holdouts[h], comparisons[h]) <
+                         RankOf(holdouts[*decisive], comparisons[*decisive])) {
+      decisive = h;
+    }
+  }
+  return decisive;
+}
+
 std::optional<InterpolationGap> MeasureGap(
     const std::vector<Holdout>& holdouts,
     const std::vector<HoldoutComparison>& comparisons) {
   std::optional<std::size_t> neighbours;
-  std::optional<std::size_t> unseen;
   for (std::size_t h = 0; h < holdouts.size(); ++h) {
     if (comparisons[h].models.empty()) continue;
     if (!neighbours && holdouts[h].among_neighbours) neighbours = h;
-    if (!unseen && holdouts[h].whole_groups) unseen = h;
   }
-  if (!neighbours || !unseen) return std::nullopt;
+  const auto unseen = DecisiveHoldout(holdouts, comparisons);
+  if (!unseen ||
+      !(holdouts[*unseen].whole_groups || holdouts[*unseen].whole_sessions)) {
+    return std::nullopt;
+  }
+  if (!neighbours) return std::nullopt;
   InterpolationGap gap{*neighbours, *unseen, {}};
   for (const std::size_t model : comparisons[*neighbours].models) {
     if (!comparisons[*unseen].PlaceOf(model)) continue;
@@ -112,24 +144,6 @@ std::optional<InterpolationGap> MeasureGap(
                         RmseOf(comparisons[*unseen], model)});
   }
   return gap;
-}
-
-// The hold-out to go by: whole unseen groups, else another file, else any.
-std::optional<std::size_t> DecisiveHoldout(
-    const std::vector<Holdout>& holdouts,
-    const std::vector<HoldoutComparison>& comparisons) {
-  const std::array<std::function<bool(const Holdout&)>, 3> preferences = {
-      [](const Holdout& holdout) {
-        return holdout.whole_groups && holdout.test_data == nullptr;
-      },
-      [](const Holdout& holdout) { return holdout.test_data != nullptr; },
-      [](const Holdout&) { return true; }};
-  for (const auto& preferred : preferences) {
-    for (std::size_t h = 0; h < holdouts.size(); ++h) {
-      if (preferred(holdouts[h]) && !comparisons[h].models.empty()) return h;
-    }
-  }
-  return std::nullopt;
 }
 
 // Share of the held-out rows with an input outside what its fold trained on.

@@ -84,11 +84,12 @@ struct Judgement {
 /// Judges a study. `indifference` (target's unit) is the difference in RMSE
 /// that never matters.
 ///
-/// The recommendation follows the first hold-out of whole unseen groups, else
-/// of another file, else the first; within its first tier the simplest map
-/// wins: fewest sensors (inputs other than position), then fewest parameters,
-/// then the lower RMSE. Where a baseline is in the first tier it is the
-/// simplest baseline there: nothing better is known.
+/// The recommendation follows the first hold-out of kFewestSessionsToDecide
+/// whole sessions or more, else of whole unseen groups, else of another file,
+/// else of blocks, else of fewer sessions, else the first; within its first
+/// tier the simplest map wins: fewest sensors (inputs other than position),
+/// then fewest parameters, then the lower RMSE. Where a baseline is in the
+/// first tier it is the simplest baseline there: nothing better is known.
 Judgement JudgeStudy(const data::Dataset& dataset,
                      const std::vector<Holdout>& holdouts,
                      const StudyResult& study,

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/models/history/history_data.h"
+
 namespace errmap::models {
 namespace {
 
@@ -44,7 +46,9 @@ TEST(InnerFolds, FollowTheKindOfHoldOutOutside) {
   EXPECT_EQ(text(days, InnerHoldout::kWholeGroups), "groups:5 of day");
   EXPECT_EQ(text(days, InnerHoldout::kRows), "kfold:5");
   EXPECT_EQ(text(days, InnerHoldout::kForward), "forward:4 of day");
-  EXPECT_EQ(text(rows, InnerHoldout::kWholeGroups), "kfold:5");
+  EXPECT_EQ(text(days, InnerHoldout::kBlocks), "blocks:5");
+  EXPECT_EQ(text(rows, InnerHoldout::kWholeGroups), "blocks:5");
+  EXPECT_EQ(text(rows, InnerHoldout::kWholeSessions), "blocks:5");
   EXPECT_EQ(text(rows, InnerHoldout::kRows), "kfold:5");
   EXPECT_EQ(text(rows, InnerHoldout::kForward), "forward:4");
   // What a fit uses unless told otherwise.
@@ -87,9 +91,50 @@ TEST(InnerFolds, KeepEveryGroupOnOneSide) {
   }
 }
 
-TEST(InnerFolds, HoldOutRowsWhereThereIsOneGroup) {
-  EXPECT_EQ(MakeInnerFolds(Grouped({20}), {}).text, "kfold:5");
-  EXPECT_EQ(MakeInnerFolds(Grouped({}, 3), {}).text, "kfold:3");
+TEST(InnerFolds, HoldOutBlocksWhereThereIsOneGroup) {
+  EXPECT_EQ(MakeInnerFolds(Grouped({20}), {}).text, "blocks:5");
+  EXPECT_EQ(MakeInnerFolds(Grouped({}, 3), {}).text, "blocks:3");
+}
+
+// Sessions of 10 rows, each of two groups.
+data::Dataset OfSessions(Index sessions) {
+  std::vector<Index> codes;
+  for (Index row = 0; row < 10 * sessions; ++row) codes.push_back(row / 10);
+  const Index rows = 10 * sessions;
+  const data::Dataset dataset =
+      errmap::testing::WithLog({{"position_mm", {}}},
+                               Eigen::MatrixXd::Zero(rows, 1),
+                               Eigen::VectorXd::LinSpaced(rows, 0.0, 1.0),
+                               codes);
+  data::Dataset::Parts parts;
+  parts.inputs = dataset.inputs();
+  parts.input_values = dataset.input_values();
+  parts.target = dataset.target();
+  parts.target_values = dataset.target_values();
+  parts.groups.column = "cycle";
+  for (Index row = 0; row < rows; ++row) {
+    parts.groups.codes.push_back(row / 5);
+    parts.groups.labels.push_back("c");
+  }
+  parts.log = dataset.log();
+  parts.log_rows = dataset.log_rows();
+  return data::Dataset(std::move(parts));
+}
+
+TEST(InnerFolds, HoldOutSessionsWhereTheyDecide) {
+  const auto text = [](Index sessions, InnerHoldout kind) {
+    return MakeInnerFolds(OfSessions(sessions), {.inner_holdout = kind}).text;
+  };
+  EXPECT_EQ(text(7, InnerHoldout::kDecisive), "sessions:5 of day");
+  EXPECT_EQ(text(4, InnerHoldout::kDecisive), "sessions:4 of day");
+  EXPECT_EQ(text(3, InnerHoldout::kDecisive), "groups:5 of cycle");
+  EXPECT_EQ(text(3, InnerHoldout::kWholeSessions), "sessions:3 of day");
+  EXPECT_EQ(text(1, InnerHoldout::kWholeSessions), "groups:2 of cycle");
+  EXPECT_EQ(text(7, InnerHoldout::kWholeGroups), "groups:5 of cycle");
+  const InnerFolds inner = MakeInnerFolds(OfSessions(4), {});
+  for (std::size_t row = 0; row < inner.folds.codes.size(); ++row) {
+    EXPECT_EQ(inner.folds.codes[row], static_cast<Index>(row / 10));
+  }
 }
 
 TEST(InnerFolds, NeedTwoRows) {

@@ -7,7 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "data/input_error.h"
+#include "models/history/history.h"
+#include "models/history/with_history.h"
 #include "models/recipe_catalog.h"
+#include "tests/models/history/history_data.h"
 #include "tests/models/model_test_data.h"
 
 namespace errmap::models {
@@ -100,6 +103,78 @@ TEST(ModelFile, RefusesWrongShapesMissingKeysAndNonFiniteNumbers) {
       {net, [](Json* j) { (*j)["parameters"] = 80; }, "is 80, the model has"}};
   for (const Case& c : cases) {
     EXPECT_THAT(Refusal(c.spec, c.damage), HasSubstr(c.expected));
+  }
+}
+
+// A map with filters, a zero and guards.
+FittedModel MapWithMemory(const data::Dataset& dataset) {
+  const History history{
+      .time_unit = "s",
+      .session = "day",
+      .derived = {Ema(dataset.inputs()[0], 600.0, "s"),
+                  Zeroed(dataset.inputs()[1])},
+      .form_inputs = {"ema(t1_degC,600s)", "zeroed(t2_degC)"}};
+  const data::Dataset derived = DeriveDataset(dataset, history);
+  FittedModel fitted = MakeRecipe(
+                           "poly:formula=\"ema(t1_degC,600s)\"+\"zeroed(t2_"
+                           "degC)\"")
+                           ->Fit(derived, {});
+  fitted.guards = MakeGuards(fitted.inputs, dataset.target_values());
+  return WithHistory(std::move(fitted), dataset, history);
+}
+
+TEST(ModelFile, ReproducesAMapWithAMemory) {
+  const data::Dataset dataset = errmap::testing::WanderingDays();
+  FittedModel fitted = MapWithMemory(dataset);
+  fitted.align = data::Alignment::kFirst;
+  const std::string text = ModelToJson(fitted, {});
+  const FittedModel loaded = ModelFromJson(text, "saved.json");
+  EXPECT_EQ(loaded.Predict(dataset), fitted.Predict(dataset));
+  EXPECT_EQ(loaded.align, data::Alignment::kFirst);
+  EXPECT_EQ(ModelToJson(loaded, {}), text);
+  const Json document = Json::parse(text);
+  EXPECT_EQ(document["history"]["derived"][0]["tau"], 600.0);
+  EXPECT_EQ(document["history"]["form_inputs"].size(), 2U);
+  EXPECT_EQ(document["guards"]["input_margin"], 0.5);
+  EXPECT_EQ(document["inputs"][0]["name"], "t1_degC");
+}
+
+TEST(ModelFile, ReadsFilesFromBeforeThereWereMemories) {
+  Json document = Json::parse(SavedModel("poly:eq8"));
+  document.erase("history");
+  document.erase("guards");
+  EXPECT_EQ(ModelFromJson(document.dump(), "old.json").history, nullptr);
+}
+
+TEST(ModelFile, RefusesAHistoryThatCannotRun) {
+  const std::string text =
+      ModelToJson(MapWithMemory(errmap::testing::WanderingDays()), {});
+  const auto refusal = [&](const std::function<void(Json*)>& damage) {
+    Json document = Json::parse(text);
+    damage(&document);
+    try {
+      ModelFromJson(document.dump(), "saved.json");
+    } catch (const data::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  using Damage = std::function<void(Json*)>;
+  const std::vector<std::pair<Damage, std::string>> cases = {
+      {[](Json* j) { (*j)["history"]["derived"][0]["tau"] = 0.0; },
+       "must be above 0"},
+      {[](Json* j) { (*j)["history"]["derived"][0]["of"] = "t9"; },
+       "no column or earlier derived input 't9'"},
+      {[](Json* j) { (*j)["history"]["derived"][0]["filter"] = "iir"; },
+       "found 'iir'"},
+      {[](Json* j) { (*j)["history"]["time_unit"] = "h"; },
+       "must be 's' or 'rows'"},
+      {[](Json* j) { (*j)["history"]["form_inputs"].erase(1); },
+       "names 1 inputs, the model reads 2"},
+      {[](Json* j) { (*j)["guards"]["input_min"].erase(1); },
+       "needs 2 numbers"}};
+  for (const auto& [damage, expected] : cases) {
+    EXPECT_THAT(refusal(damage), HasSubstr(expected));
   }
 }
 

@@ -167,15 +167,17 @@ TEST(ParseHoldout, ReadsEveryKind) {
 
 TEST(ParseHoldout, RefusesAnUnknownKindAndListsTheForms) {
   const std::string forms =
-      "unknown; use every:K, groups:K[:repeats=R], leave-one-group-out, "
-      "kfold:K, forward:K[:gap=G], random:F or file:TEST.csv";
+      "unknown; use every:K, groups:K[:repeats=R], sessions:K[:repeats=R], "
+      "blocks:K, leave-one-group-out, kfold:K, forward:K[:gap=G], random:F or "
+      "file:TEST.csv";
   for (const char* text : {"", ":", "evry:3", "Every:3", "every 3", "5"}) {
     ExpectParseError(text, forms);
   }
 }
 
 TEST(ParseHoldout, RefusesCountsThatAreNone) {
-  for (const std::string kind : {"every", "groups", "kfold"}) {
+  for (const std::string kind :
+       {"every", "groups", "sessions", "blocks", "kfold"}) {
     for (const std::string value : {"",
                                     "1",
                                     "0",
@@ -478,6 +480,49 @@ TEST(MakeFolds, RefusesMoreRunsThanGroupsAndSaysWhatIsPossible) {
                   "can be held out (every:3, kfold:5), which says nothing "
                   "about another day");
   }
+}
+
+TEST(MakeFolds, HoldsOutSessionsAsGroups) {
+  const Rows codes = EqualGroups(7, 3);
+  EXPECT_EQ(TestRows(Folds("sessions:5", 21, codes)),
+            TestRows(Folds("groups:5", 21, codes)));
+  EXPECT_EQ(TestRows(Folds("sessions:3:repeats=4", 21, codes)),
+            TestRows(Folds("groups:3:repeats=4", 21, codes)));
+  ExpectRefused("sessions:5",
+                6,
+                EqualGroups(3, 2),
+                "needs at least 5 sessions, found 3; sessions:3 is possible");
+  ExpectRefused("sessions:2",
+                3,
+                {0, 0, 0},
+                "needs at least 2 sessions, found 1; of one run only groups or "
+                "rows can be held out (groups:5, blocks:5), which says nothing "
+                "about another day");
+  ExpectRefused("sessions:2",
+                3,
+                {},
+                "found 0; name their column with "
+                "--session, or hold out rows (blocks:5)");
+}
+
+TEST(MakeFolds, HoldsOutContiguousBlocksLongerFirst) {
+  EXPECT_THAT(
+      TestRows(Folds("blocks:3", 8)),
+      ElementsAre(
+          ElementsAre(0, 1, 2), ElementsAre(3, 4, 5), ElementsAre(6, 7)));
+  // Whatever the groups.
+  EXPECT_EQ(TestRows(Folds("blocks:3", 8, {0, 1, 0, 1, 0, 1, 0, 1})),
+            TestRows(Folds("blocks:3", 8)));
+  ExpectRefused(
+      "blocks:4", 3, {}, "needs at least 4 rows, found 3; use a smaller K");
+}
+
+TEST(KeepsWhole, SeesACodeOnBothSides) {
+  const Rows codes = EqualGroups(4, 2);
+  EXPECT_TRUE(KeepsWhole(Folds("groups:2", 8, codes), codes));
+  EXPECT_TRUE(KeepsWhole(Folds("blocks:4", 8), codes));
+  EXPECT_FALSE(KeepsWhole(Folds("blocks:3", 8), codes));
+  EXPECT_FALSE(KeepsWhole(Folds("every:2", 8), codes));
 }
 
 TEST(MakeFolds, RefusesMoreFoldsThanRows) {

@@ -254,6 +254,27 @@ TEST(History, MakesADatasetThatAnyRecipeFits) {
             DeriveInputs(dataset.SelectRows(some), history));
 }
 
+TEST(History, TellsASessionWhoseFirstRowsAreMissing) {
+  const auto data = [](double start, double offset) {
+    VectorXd time(6);
+    time << start, start + 10, start + 20, offset, offset + 10, offset + 20;
+    return WithLog(
+        {ColumnNamed("t1_degC")}, VectorXd::Ones(6), time, {0, 0, 0, 1, 1, 1});
+  };
+  History history = Everything();
+  history.latest_start = LatestStart(data(0.0, 5.0));
+  EXPECT_EQ(history.latest_start, 5.0);
+  EXPECT_THAT(BeginInside(*data(0.0, 205.0).log(), history),
+              ElementsAre(false, false));
+  EXPECT_THAT(BeginInside(*data(0.0, 206.0).log(), history),
+              ElementsAre(false, true));
+  // Sessions by the clock on the wall: the start of a session tells nothing.
+  history.latest_start = LatestStart(data(0.0, 86400.0));
+  EXPECT_TRUE(std::isnan(history.latest_start));
+  EXPECT_THAT(BeginInside(*data(1e6, 2e6).log(), history),
+              ElementsAre(false, false));
+}
+
 TEST(WithHistory, MakesAMapOfTheColumnsThatItReads) {
   const Dataset dataset = WanderingDays();
   const History history = Everything();

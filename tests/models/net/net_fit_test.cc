@@ -163,7 +163,7 @@ TEST(Wfactor, ByCrossValidationPrefersMuchOfItWhereThereIsOnlyNoise) {
   const FittedModel fitted = FitOf("net:scg:hidden=8:iterations=300:wfactor=cv",
                                    data::Dataset(std::move(parts)));
   EXPECT_GE(std::get<double>(fitted.choices[0].value), 1e-3);
-  EXPECT_THAT(fitted.remarks, ElementsAre(HasSubstr("kfold:5")));
+  EXPECT_THAT(fitted.remarks, ElementsAre(HasSubstr("blocks:5")));
 }
 
 TEST(Wfactor, RefusesOptionsThatContradict) {

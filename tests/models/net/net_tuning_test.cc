@@ -56,7 +56,7 @@ TEST(NetTuning, TakesTheFewestNodesThatDoAsWell) {
             3 * std::get<std::int64_t>(fitted.choices[0].value) + 1);
   EXPECT_THAT(fitted.remarks,
               ElementsAre(HasSubstr("hidden nodes by cross-validation over "
-                                    "kfold:5: RMSE ")));
+                                    "blocks:5: RMSE ")));
   EXPECT_THAT(fitted.remarks[0], HasSubstr("(tried 5: "));
   EXPECT_THAT(fitted.remarks[0], HasSubstr(", 20: "));
 }

@@ -63,7 +63,10 @@ FitOutcome FullOutcome() {
   report->fit.triangle = Eigen::MatrixXd::Identity(2, 3);
   fitted.regression = report;
   fitted.history = std::make_shared<History>(
-      History{"s", "day", {Zeroed(fitted.inputs[0].column)}, {"zeroed()"}});
+      History{.time_unit = "s",
+              .session = "day",
+              .derived = {Zeroed(fitted.inputs[0].column)},
+              .form_inputs = {"zeroed()"}});
   fitted.guards = MakeGuards(fitted.inputs, Eigen::Vector2d(-1.0, 2.0));
   outcome.fitted = std::move(fitted);
   outcome.train_predictions = Eigen::VectorXd::LinSpaced(5, 0.1, 0.7);
@@ -209,6 +212,8 @@ std::vector<Mutation> MutationsOfTheModel() {
       [](auto* o) { Memory(o).derived[0].filter = Filter::kSine; },
       [](auto* o) { Memory(o).derived[0].tau = 3.0; },
       [](auto* o) { Memory(o).form_inputs = {"x"}; },
+      [](auto* o) { Memory(o).latest_start = 3.0; },
+      [](auto* o) { o->fitted->align = data::Alignment::kFirst; },
       [](auto* o) { o->fitted->guards.reset(); },
       [](auto* o) { o->fitted->guards->input_margin = 3.0; },
       [](auto* o) { o->fitted->guards->error_margin = 3.0; },

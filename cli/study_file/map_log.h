@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/csv.h"
+#include "data/dataset.h"
+#include "models/error_model.h"
+
+namespace CLI {
+class App;
+}
+
+namespace errmap::cli {
+
+/// What a command is told about the sessions of rows that a map is to predict.
+struct MapLogArguments {
+  std::string after;  // file of earlier rows
+  std::string time;
+  std::string session;
+};
+
+/// Adds --after, --time and --session to a command.
+void AddMapLogArguments(CLI::App* command, MapLogArguments* arguments);
+
+/// What the filters of a map run through: a file's rows, those before it first.
+struct MapLog {
+  std::shared_ptr<const data::SessionLog> log;  // null: the map has no memory
+  Eigen::Index first_row = 0;                   // of the file, in the log
+  std::vector<bool> begin_inside;     // (sessions) their first rows are missing
+  std::vector<std::string> warnings;  // one line each
+};
+
+/// `kept`: the rows of the table that are predicted. Throws data::InputError
+/// where the tables lack the column of sessions or times that the map needs, or
+/// where those will not do (data/sessions.h).
+MapLog MakeMapLog(const models::FittedModel& fitted,
+                  const data::CsvTable& table,
+                  const std::vector<Eigen::Index>& kept,
+                  const MapLogArguments& arguments);
+
+}  // namespace errmap::cli

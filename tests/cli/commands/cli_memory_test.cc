@@ -1,0 +1,245 @@
+// Sessions and times on the command line, and maps with a memory.
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/command.h"
+#include "data/csv.h"
+#include "models/history/history.h"
+#include "models/history/with_history.h"
+#include "models/model_file.h"
+#include "models/recipe_catalog.h"
+#include "tests/cli/cli_runner.h"
+
+namespace errmap {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr int kUnusable = cli::kUnusableInput;
+constexpr int kRowsPerDay = 30;
+
+// `days` days of 30 rows, a row a minute, each day's clock from 0; the error
+// lags behind t1 by ten minutes.
+std::string Days(int days, int first_row = 0, int end_row = kRowsPerDay) {
+  std::string text = "day,time_s,t1_degC,error_um\n";
+  for (int day = 1; day <= days; ++day) {
+    double lagged = 20.0 + 0.1 * day;
+    double t1 = lagged;
+    for (int row = 0; row < kRowsPerDay; ++row) {
+      if (row > 0) {
+        t1 += 0.3 * std::sin(0.3 * row + day);
+        lagged += (1.0 - std::exp(-60.0 / 600.0)) * (t1 - lagged);
+      }
+      if (row < first_row || row >= end_row) continue;
+      text += std::to_string(day) + "," + std::to_string(60 * row) + "," +
+              data::CsvNumber(t1) + "," + data::CsvNumber(2.0 * lagged) + "\n";
+    }
+  }
+  return text;
+}
+
+class CliMemory : public CliTest {
+ protected:
+  // A map of the lag, as it is, and guarded at what these days show.
+  void WriteMap(const std::string& name, const std::string& csv) const {
+    const data::Dataset dataset =
+        data::MakeDataset(data::ParseCsv(csv, "train.csv"), {}).dataset;
+    const models::History history{
+        .time_unit = "s",
+        .session = "day",
+        .derived = {models::Ema(dataset.inputs()[0], 600.0, "s")},
+        .form_inputs = {"ema(t1_degC,600s)"}};
+    models::FittedModel fitted =
+        models::MakeRecipe("poly:formula=\"ema(t1_degC,600s)\"")
+            ->Fit(models::DeriveDataset(dataset, history), {});
+    fitted.guards = models::MakeGuards(fitted.inputs, dataset.target_values());
+    models::SaveModel(models::WithHistory(std::move(fitted), dataset, history),
+                      {},
+                      (scratch_ / name).string());
+  }
+
+  // The column of a CSV file that the program wrote to stdout.
+  static std::vector<double> ColumnOf(const Outcome& outcome,
+                                      const std::string& name) {
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    const data::CsvTable table = data::ParseCsv(outcome.out, "stdout");
+    return table.columns[static_cast<std::size_t>(table.Find(name))].values;
+  }
+};
+
+TEST_F(CliMemory, PredictsFromASessionsFirstRow) {
+  Write("days.csv", Days(3));
+  WriteMap("map.json", Days(3));
+  const Outcome outcome = Run({"predict", "map.json", "days.csv"});
+  const std::vector<double> predicted = ColumnOf(outcome, "predicted");
+  const data::CsvTable table = data::ParseCsv(Days(3), "days.csv");
+  ASSERT_EQ(predicted.size(), table.num_rows);
+  for (std::size_t i = 0; i < predicted.size(); ++i) {
+    EXPECT_NEAR(predicted[i], table.columns[3].values[i], 1e-9) << i;
+  }
+  EXPECT_THAT(outcome.err, Not(HasSubstr("warning")));
+}
+
+TEST_F(CliMemory, RunsThroughEarlierRowsFirst) {
+  WriteMap("map.json", Days(3));
+  Write("all.csv", Days(3));
+  Write("earlier.csv", Days(3, 0, 12));
+  Write("later.csv", Days(3, 12));
+  const std::vector<double> whole =
+      ColumnOf(Run({"predict", "map.json", "all.csv"}), "predicted");
+  const Outcome outcome =
+      Run({"predict", "map.json", "later.csv", "--after", "earlier.csv"});
+  const std::vector<double> later = ColumnOf(outcome, "predicted");
+  std::vector<double> expected;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    if (i % kRowsPerDay >= 12) expected.push_back(whole[i]);
+  }
+  EXPECT_EQ(later, expected);
+  EXPECT_THAT(ColumnOf(outcome, "inside"), ::testing::Each(1.0));
+  const Json judged = RunJson({"evaluate",
+                               "map.json",
+                               "later.csv",
+                               "--after",
+                               "earlier.csv",
+                               "--format",
+                               "json"});
+  EXPECT_LT(judged["summary"]["rmse"].get<double>(), 1e-9);
+  EXPECT_EQ(judged["clipped"], 0);
+}
+
+TEST_F(CliMemory, WarnsOncePerSessionThatBeginsInside) {
+  WriteMap("map.json", Days(3));
+  Write("later.csv", Days(2, 25));
+  const Outcome outcome = Run({"predict", "map.json", "later.csv"});
+  EXPECT_THAT(
+      outcome.err,
+      AllOf(HasSubstr("warning: session '1' begins inside: its first row is at "
+                      "1500 s, sessions of training began at 0 s"),
+            HasSubstr("warning: session '2' begins inside")));
+  EXPECT_THAT(ColumnOf(outcome, "inside"), ::testing::Each(0.0));
+  EXPECT_THAT(
+      Run({"predict", "map.json", "later.csv", "--after", "later.csv"}).err,
+      HasSubstr("time goes back"));
+}
+
+TEST_F(CliMemory, RefusesDataWithoutSessionsOrTimes) {
+  WriteMap("map.json", Days(3));
+  Write("no_day.csv", "time_s,t1_degC,error_um\n0,20,40\n60,21,41\n");
+  Write("no_time.csv", "day,t1_degC,error_um\n1,20,40\n1,21,41\n");
+  for (const char* command : {"predict", "evaluate"}) {
+    EXPECT_THAT(RefusalOf(Run({command, "map.json", "no_day.csv"}), kUnusable),
+                HasSubstr("no_day.csv: no column 'day', which tells the map's "
+                          "memory where a session begins"));
+    EXPECT_THAT(RefusalOf(Run({command, "map.json", "no_time.csv"}), kUnusable),
+                HasSubstr("no_time.csv: no column of times, which the map's "
+                          "filters need"));
+  }
+}
+
+TEST_F(CliMemory, CountsWhatIsClipped) {
+  WriteMap("map.json", Days(3));
+  Write("hot.csv", "day,time_s,t1_degC\n9,0,20\n9,60,21\n9,120,5000\n");
+  const Outcome outcome = Run({"predict", "map.json", "hot.csv"});
+  EXPECT_THAT(outcome.err, HasSubstr("1 row clipped by the map's guards"));
+  EXPECT_LT(ColumnOf(outcome, "predicted")[2], 60.0);
+}
+
+TEST_F(CliMemory, ComparesByWholeSessions) {
+  Write("days.csv", Days(5));
+  const Json document = RunJson({"compare",
+                                 "days.csv",
+                                 "--models",
+                                 "mean,poly:temperature",
+                                 "--format",
+                                 "json"});
+  const Json& component = document["components"][0];
+  EXPECT_EQ(component["data"]["session"], "day");
+  EXPECT_EQ(component["data"]["time"], "time_s");
+  EXPECT_EQ(component["data"]["sessions"], 5);
+  EXPECT_EQ(component["data"]["inputs"], Json({"t1_degC"}));
+  ASSERT_EQ(component["holdouts"].size(), 2U);
+  const Json& sessions = component["holdouts"][1];
+  EXPECT_EQ(sessions["name"], "sessions:5");
+  EXPECT_EQ(sessions["unit_of_analysis"], "day");
+  EXPECT_EQ(sessions["inner"][0], "sessions:4 of day");
+  EXPECT_EQ(component["recommendation"]["holdout"], "sessions:5");
+}
+
+TEST_F(CliMemory, AddsBlocksWhereSessionsAreTooFewToDecide) {
+  Write("days.csv", Days(2));
+  const Outcome outcome =
+      Run({"compare", "days.csv", "--models", "mean", "--format", "csv"});
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("sessions:2"), HasSubstr("blocks:5")));
+  EXPECT_THAT(outcome.err,
+              HasSubstr("errmap: 2 sessions by 'day'; time by 'time_s'"));
+  Write("one.csv", Days(1));
+  EXPECT_THAT(Run({"compare", "one.csv", "--models", "mean"}).out,
+              AllOf(HasSubstr("no groups, one run"),
+                    HasSubstr("One run only: nothing is known of another")));
+}
+
+TEST_F(CliMemory, SaysThatEachSessionsFirstValueIsTakenOff) {
+  Write("days.csv", Days(4));
+  const Outcome outcome =
+      Run({"compare", "days.csv", "--models", "mean", "--align", "first"});
+  EXPECT_THAT(outcome.out,
+              HasSubstr("target error_um less each session's first value"));
+  EXPECT_EQ(Run({"fit",
+                 "days.csv",
+                 "--model",
+                 "poly:temperature",
+                 "--align",
+                 "first",
+                 "-o",
+                 "m.json"})
+                .status,
+            0);
+  EXPECT_EQ(Json::parse(Read("m.json"))["target"]["align"], "first");
+  EXPECT_THAT(Run({"evaluate", "m.json", "days.csv"}).out,
+              HasSubstr("error_um less each session's first value"));
+  EXPECT_THAT(Run({"predict", "m.json", "days.csv"}).err,
+              HasSubstr("since the session's first row"));
+}
+
+TEST_F(CliMemory, WritesRolesIntoTheStudyFile) {
+  Write("days.csv", Days(4));
+  ASSERT_EQ(Run({"init", "days.csv", "-o", "study.toml"}).status, 0);
+  EXPECT_THAT(Read("study.toml"),
+              AllOf(HasSubstr("session = \"day\""),
+                    HasSubstr("time = \"time_s\""),
+                    HasSubstr("# align = \"first\"")));
+  EXPECT_EQ(Run({"compare",
+                 "--config",
+                 "study.toml",
+                 "--models",
+                 "mean",
+                 "--set",
+                 "component.0.align=first"})
+                .status,
+            0);
+  EXPECT_THAT(RefusalOf(Run({"compare",
+                             "--config",
+                             "study.toml",
+                             "--set",
+                             "component.0.align=last"}),
+                        cli::kWrongCommandLine),
+              HasSubstr("'align' in [[component]] must be"));
+}
+
+TEST_F(CliMemory, RefusesTimeThatGoesBack) {
+  Write("back.csv", "day,time_s,t1_degC,error_um\n1,60,20,1\n1,0,21,2\n");
+  EXPECT_THAT(RefusalOf(Run({"compare", "back.csv"}), kUnusable),
+              HasSubstr("time goes back by 60 s within 'day' '1'"));
+}
+
+}  // namespace
+}  // namespace errmap

@@ -1,0 +1,115 @@
+// Hold-outs of sessions, what decides, and what counts as a unit.
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "models/study/verdict.h"
+#include "tests/models/history/history_data.h"
+#include "tests/models/study/study_test_tools.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using errmap::testing::MakeHoldouts;
+using errmap::testing::MakeRecipes;
+using ::testing::ElementsAre;
+
+// `days` of 24 rows, each of four cycles, whose offset differs by the day.
+data::Dataset Days(Index days, bool with_cycles) {
+  constexpr Index kRows = 24;
+  const Index rows = days * kRows;
+  Eigen::MatrixXd values(rows, 1);
+  std::vector<Index> codes;
+  for (Index row = 0; row < rows; ++row) {
+    values(row, 0) = 20.0 + std::sin(0.7 * static_cast<double>(row));
+    codes.push_back(row / kRows);
+  }
+  const data::Dataset dataset = errmap::testing::WithLog(
+      {errmap::testing::ColumnNamed("t1_degC")},
+      values,
+      Eigen::VectorXd::LinSpaced(
+          rows, 0.0, 60.0 * static_cast<double>(rows - 1)),
+      codes);
+  data::Dataset::Parts parts;
+  parts.source = "days";
+  parts.inputs = dataset.inputs();
+  parts.input_values = values;
+  parts.target = dataset.target();
+  parts.target_values = 3.0 * values.col(0);
+  for (Index row = 0; row < rows; ++row) {
+    parts.target_values[row] += 0.5 * static_cast<double>(row / kRows % 3);
+    if (!with_cycles) continue;
+    parts.groups.column = "cycle";
+    parts.groups.codes.push_back(row / 6);
+    if (row % 6 == 0) parts.groups.labels.push_back(std::to_string(row / 6));
+  }
+  parts.log = dataset.log();
+  parts.log_rows = dataset.log_rows();
+  return data::Dataset(std::move(parts));
+}
+
+std::string Decisive(const data::Dataset& dataset,
+                     const std::vector<std::string>& specs) {
+  const auto holdouts = MakeHoldouts(dataset, specs);
+  const StudyResult study = RunStudy(
+      dataset, holdouts, MakeRecipes({"mean", "poly:temperature"}), {});
+  const Judgement judgement = JudgeStudy(dataset, holdouts, study, 0.0, 1);
+  return holdouts[judgement.recommendation->holdout].name;
+}
+
+TEST(SessionHoldouts, DecideFromFourSessionsOn) {
+  const std::vector<std::string> grouped = {
+      "every:3", "groups:5", "sessions:3"};
+  EXPECT_EQ(Decisive(Days(3, true), grouped), "groups:5");
+  EXPECT_EQ(Decisive(Days(4, true), grouped), "sessions:3");
+  const std::vector<std::string> plain = {"every:3", "sessions:3", "blocks:5"};
+  EXPECT_EQ(Decisive(Days(3, false), plain), "blocks:5");
+  EXPECT_EQ(Decisive(Days(4, false), plain), "sessions:3");
+  EXPECT_EQ(Decisive(Days(3, false), {"every:3", "sessions:3"}), "sessions:3");
+}
+
+TEST(SessionHoldouts, CountSessionsInTheTests) {
+  const data::Dataset dataset = Days(5, true);
+  const auto holdouts = MakeHoldouts(dataset, {"groups:5", "sessions:5"});
+  EXPECT_FALSE(holdouts[0].among_neighbours);
+  EXPECT_TRUE(holdouts[1].whole_sessions);
+  const StudyResult study = RunStudy(
+      dataset, holdouts, MakeRecipes({"mean", "poly:temperature"}), {});
+  const auto comparisons = CompareHoldouts(dataset, holdouts, study, 0.0, 1);
+  EXPECT_EQ(comparisons[1].units.name, "day");
+  EXPECT_TRUE(comparisons[1].units.are_sessions);
+  EXPECT_THAT(comparisons[1].units.labels,
+              ElementsAre("1", "2", "3", "4", "5"));
+}
+
+TEST(SessionHoldouts, TellWhetherFoldsKeepSessionsWhole) {
+  const data::Dataset dataset = Days(4, true);
+  const auto holdouts = MakeHoldouts(
+      dataset, {"every:3", "groups:4", "groups:5", "blocks:4", "blocks:5"});
+  EXPECT_FALSE(holdouts[0].whole_sessions);
+  EXPECT_TRUE(holdouts[1].whole_sessions);  // four runs of four cycles: days
+  EXPECT_FALSE(holdouts[2].whole_sessions);
+  EXPECT_TRUE(holdouts[3].whole_sessions);
+  EXPECT_FALSE(holdouts[4].whole_sessions);
+  // One session is no two: nothing is held out whole.
+  EXPECT_FALSE(MakeHoldouts(Days(1, true), {"groups:2"})[0].whole_sessions);
+}
+
+TEST(SessionHoldouts, RefuseDataWithoutSessions) {
+  data::Dataset::Parts parts;
+  parts.inputs = {errmap::testing::ColumnNamed("t1_degC")};
+  parts.input_values = Eigen::VectorXd::LinSpaced(9, 0.0, 1.0);
+  parts.target = errmap::testing::ColumnNamed("error_um");
+  parts.target_values = Eigen::VectorXd::LinSpaced(9, 0.0, 1.0);
+  EXPECT_THROW(MakeHoldouts(data::Dataset(parts), {"sessions:2"}),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace errmap::models
