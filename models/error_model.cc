@@ -1,5 +1,6 @@
 #include "models/error_model.h"
 
+#include <numeric>
 #include <stdexcept>
 
 #include "stats/summary.h"
@@ -18,6 +19,8 @@ std::string_view ToString(ModelKind kind) {
       return "polynomial";
     case ModelKind::kNet:
       return "net";
+    case ModelKind::kBlend:
+      return "blend";
     case ModelKind::kFile:
       return "file";
   }
@@ -40,6 +43,34 @@ std::string_view ToString(InnerHoldout inner) {
       return "forward";
   }
   return "";
+}
+
+PredictionCost CostOf(const PolynomialForm& form) {
+  PredictionCost cost;
+  for (const PolynomialTerm& term : form.terms) {
+    cost.multiplications += std::accumulate(
+        term.powers.begin(), term.powers.end(), Eigen::Index{0});
+  }
+  return cost;
+}
+
+PredictionCost CostOf(const NetForm& form) {
+  return {form.w1.size() + form.w2.size(), form.w1.rows() + form.w2.rows()};
+}
+
+PredictionCost CostOf(const BlendForm& form) {
+  PredictionCost sum;
+  for (const BlendForm::Member& member : form.members) {
+    const PredictionCost cost = std::visit(
+        [](const auto& known) { return CostOf(known); }, member.form);
+    sum.multiplications += cost.multiplications + 1;  // by its weight
+    sum.exponentials += cost.exponentials;
+  }
+  return sum;
+}
+
+PredictionCost CostOf(const ModelDescription& form) {
+  return std::visit([](const auto& known) { return CostOf(known); }, form);
 }
 
 Eigen::VectorXd ErrorModel::Predict(const Eigen::MatrixXd& inputs) const {

@@ -47,8 +47,34 @@ struct NetForm {
   Eigen::VectorXd target_offset;  // (J)
 };
 
+/// Weighted mean of maps, each kept within bounds of its own.
+struct BlendForm {
+  struct Member {
+    std::string name;
+    double weight = 0.0;               // of all members: sum 1
+    std::vector<Eigen::Index> inputs;  // of the blend, that the member reads
+    double lowest = 0.0;               // target's unit; may be infinite
+    double highest = 0.0;
+    Eigen::Index parameters = 0;
+    std::variant<PolynomialForm, NetForm> form;
+  };
+  Eigen::Index num_inputs = 0;
+  std::string rule;  // where the weights come from
+  std::vector<Member> members;
+};
+
 /// What a model is, as plain data: for model files and exporters.
-using ModelDescription = std::variant<PolynomialForm, NetForm>;
+using ModelDescription = std::variant<PolynomialForm, NetForm, BlendForm>;
+
+/// Work of one prediction, counted rather than timed: the same on any machine.
+struct PredictionCost {
+  Eigen::Index multiplications = 0;
+  Eigen::Index exponentials = 0;
+};
+PredictionCost CostOf(const PolynomialForm& form);
+PredictionCost CostOf(const NetForm& form);
+PredictionCost CostOf(const BlendForm& form);
+PredictionCost CostOf(const ModelDescription& form);
 
 /// A fitted map from p inputs to one predicted error; immutable, and safe to
 /// use from several threads.
@@ -68,7 +94,7 @@ class ErrorModel {
 };
 
 /// kFile: a map, or predictions, made elsewhere.
-enum class ModelKind { kBaseline, kPolynomial, kNet, kFile };
+enum class ModelKind { kBaseline, kPolynomial, kNet, kBlend, kFile };
 std::string_view ToString(ModelKind kind);
 
 /// An input of a model and where it was trained.
@@ -147,6 +173,9 @@ struct FittedModel {
   /// the form reads `inputs` as they are.
   std::shared_ptr<const History> history;
   std::optional<Guards> guards;  // nothing is clipped without them
+  /// RMSE on the inner hold-outs of what the fit chose there (target's unit);
+  /// NaN where it chose nothing.
+  double inner_rmse = std::numeric_limits<double>::quiet_NaN();
 
   /// (m x inputs of the form) of every row; `inputs` are found by name. Throws
   /// std::invalid_argument naming an input not there, or where the sessions
@@ -179,6 +208,8 @@ std::string_view ToString(InnerHoldout inner);
 /// Two or three days hardly tell which map does well on another one.
 inline constexpr Eigen::Index kFewestSessionsToDecide = 4;
 
+class SharedWork;
+
 /// What a fit may use besides the training rows.
 struct FitContext {
   std::uint64_t seed = 1;
@@ -195,6 +226,11 @@ struct FitContext {
   double most_design_values = 2e7;
   bool keep_trace = false;  // of an iterative fit, in its summary
   InnerHoldout inner_holdout = InnerHoldout::kDecisive;
+  /// The difference in error that never matters (target's unit).
+  double indifference = 0.0;
+  /// Of the rows that are fitted: what several recipes need is made once. May
+  /// be null.
+  SharedWork* shared = nullptr;
 };
 
 /// How to fit one kind of model: kind and options; immutable.

@@ -1,6 +1,7 @@
 #include "models/model_file.h"
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -9,10 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "data/atomic_file.h"
+#include "models/blend/form_to_model.h"
 #include "models/history/history.h"
 #include "models/history/history_state.h"
-#include "models/net/feedforward_net.h"
-#include "models/polynomial/polynomial_model.h"
 #include "models/version.h"
 
 namespace errmap::models {
@@ -85,6 +85,30 @@ Json ToJson(const Guards& guards) {
           {"input_max", ToJson(guards.input_max)},
           {"error_min", guards.error_min},
           {"error_max", guards.error_max}};
+}
+
+// Bounds may be infinite, which JSON has no word for: null.
+Json BoundToJson(double bound) {
+  return std::isfinite(bound) ? Json(bound) : Json(nullptr);
+}
+
+Json ToJson(const BlendForm& form) {
+  Json members = Json::array();
+  for (const BlendForm::Member& member : form.members) {
+    Json json = {{"name", member.name},
+                 {"weight", member.weight},
+                 {"inputs", member.inputs},
+                 {"lowest", BoundToJson(member.lowest)},
+                 {"highest", BoundToJson(member.highest)},
+                 {"parameters", member.parameters}};
+    if (const auto* polynomial = std::get_if<PolynomialForm>(&member.form)) {
+      json["polynomial"] = ToJson(*polynomial, "");
+    } else {
+      json["net"] = ToJson(std::get<NetForm>(member.form));
+    }
+    members.push_back(std::move(json));
+  }
+  return {{"rule", form.rule}, {"members", std::move(members)}};
 }
 
 // A value of a document together with its place, for messages.
@@ -223,14 +247,43 @@ NetForm ReadNet(const Node& node) {
   return form;
 }
 
+BlendForm ReadBlend(const Node& node, Index num_inputs) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  BlendForm form;
+  form.num_inputs = num_inputs;
+  form.rule = node.At("rule").Text();
+  for (const Node& element : node.At("members").Elements()) {
+    BlendForm::Member member;
+    member.name = element.At("name").Text();
+    member.weight = element.At("weight").Number();
+    for (const Node& input : element.At("inputs").Elements()) {
+      member.inputs.push_back(input.Count());
+    }
+    const auto lowest = element.Find("lowest");
+    member.lowest = lowest ? lowest->Number() : -kInfinity;
+    const auto highest = element.Find("highest");
+    member.highest = highest ? highest->Number() : kInfinity;
+    member.parameters = element.At("parameters").Count();
+    if (const auto net = element.Find("net")) {
+      member.form = ReadNet(*net);
+    } else {
+      member.form = ReadPolynomial(element.At("polynomial"));
+    }
+    form.members.push_back(std::move(member));
+  }
+  return form;
+}
+
 data::ColumnInfo ReadColumn(const Node& node) {
   return {node.At("name").Text(), data::UnitOfSymbol(node.At("unit").Text())};
 }
 
 ModelKind ReadKind(const Node& node) {
   const std::string kind = node.Text();
-  for (const ModelKind known :
-       {ModelKind::kBaseline, ModelKind::kPolynomial, ModelKind::kNet}) {
+  for (const ModelKind known : {ModelKind::kBaseline,
+                                ModelKind::kPolynomial,
+                                ModelKind::kNet,
+                                ModelKind::kBlend}) {
     if (kind == ToString(known)) return known;
   }
   node.Refuse("unknown kind of model '" + kind + "'");
@@ -317,25 +370,30 @@ FittedModel ReadModel(const Node& root) {
                              element.At("mean").Number(),
                              element.At("sd").Number()});
   }
-  const Node parameters = root.At("parameters");
-  const bool is_net = fitted.kind == ModelKind::kNet;
-  const Node form = root.At(is_net ? "net" : "polynomial");
-  try {
-    if (is_net) {
-      fitted.model = std::make_shared<FeedforwardNet>(ReadNet(form));
-    } else {
-      fitted.equation = form.At("equation").Text();
-      fitted.model = std::make_shared<PolynomialModel>(ReadPolynomial(form),
-                                                       parameters.Count());
-    }
-  } catch (const std::invalid_argument& error) {
-    form.Refuse(error.what());
-  }
   std::size_t form_inputs = fitted.inputs.size();
   if (const auto history = root.Find("history")) {
     fitted.history =
         std::make_shared<History>(ReadHistory(*history, fitted.inputs));
     form_inputs = fitted.history->form_inputs.size();
+  }
+  const Node parameters = root.At("parameters");
+  const bool is_blend =
+      fitted.kind == ModelKind::kBlend || root.Find("blend").has_value();
+  const bool is_net = fitted.kind == ModelKind::kNet;
+  const Node form = root.At(is_blend ? "blend" : is_net ? "net" : "polynomial");
+  try {
+    ModelDescription description;
+    if (is_blend) {
+      description = ReadBlend(form, static_cast<Index>(form_inputs));
+    } else if (is_net) {
+      description = ReadNet(form);
+    } else {
+      fitted.equation = form.At("equation").Text();
+      description = ReadPolynomial(form);
+    }
+    fitted.model = ModelOfForm(std::move(description), parameters.Count());
+  } catch (const std::invalid_argument& error) {
+    form.Refuse(error.what());
   }
   if (fitted.model->num_inputs() != static_cast<Index>(form_inputs)) {
     root.At(fitted.history != nullptr ? "history" : "inputs")
@@ -380,8 +438,10 @@ std::string ModelToJson(const FittedModel& fitted,
   const ModelDescription description = fitted.model->Describe();
   if (const auto* polynomial = std::get_if<PolynomialForm>(&description)) {
     document["polynomial"] = ToJson(*polynomial, fitted.equation);
+  } else if (const auto* net = std::get_if<NetForm>(&description)) {
+    document["net"] = ToJson(*net);
   } else {
-    document["net"] = ToJson(std::get<NetForm>(description));
+    document["blend"] = ToJson(std::get<BlendForm>(description));
   }
   if (fitted.align != data::Alignment::kNone) {
     document["target"]["align"] = data::ToString(fitted.align);

@@ -55,6 +55,7 @@ class SpecOptions {
                     double least,
                     double most);
   std::string TakeText(const std::string& key, const std::string& fallback);
+  bool Has(const std::string& key) { return Find(key) != nullptr; }
   /// True where the value of `key` is `word`, such as the cv of hidden=cv.
   bool IsWord(const std::string& key, std::string_view word);
   /// One of `allowed`, as its index.

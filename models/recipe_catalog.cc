@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "models/blend/blend_recipe.h"
 #include "models/file_recipe.h"
 #include "models/model_spec.h"
 #include "models/net/net_recipe.h"
@@ -33,7 +34,8 @@ const std::vector<std::string>& ModelTypes() {
                                                  "net:cg",
                                                  "net:backprop",
                                                  "net:ceres",
-                                                 "net:nlopt"};
+                                                 "net:nlopt",
+                                                 "blend"};
   return types;
 }
 
@@ -42,6 +44,7 @@ std::unique_ptr<ModelRecipe> MakeRecipe(std::string_view spec_text) {
   const ModelSpec spec = ParseModelSpec(spec_text);
   if (auto recipe = MakePolynomialRecipe(spec)) return recipe;
   if (auto recipe = MakeNetRecipe(spec)) return recipe;
+  if (auto recipe = MakeBlendRecipe(spec)) return recipe;
   throw std::invalid_argument(
       fmt::format("model '{}': unknown; there are {}, poly:formula=..., "
                   "file:model.json",
@@ -64,9 +67,7 @@ DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
                                   Eigen::Index fewest_training_rows) {
   constexpr int kHighestFullDegree = 6;
   constexpr Eigen::Index kRowsPerCoefficient = 5;
-  constexpr std::array<std::string_view, 8> kWhenNamed = {"poly:best",
-                                                          "poly:ridge",
-                                                          "poly:lasso",
+  constexpr std::array<std::string_view, 6> kWhenNamed = {"poly:best",
                                                           "net:lm",
                                                           "net:cg",
                                                           "net:backprop",
@@ -75,8 +76,15 @@ DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
   DefaultRecipes defaults;
   for (const std::string& type : ModelTypes()) {
     if (std::ranges::find(kWhenNamed, type) != kWhenNamed.end()) continue;
+    // The report's net, and one that is tuned for what it will not have seen.
+    if (type == "blend" && dataset.num_inputs() > 0) {
+      defaults.recipes.push_back(MakeRecipe(kTunedNet));
+    }
     if (type == "poly:full") {
-      for (int degree = 2; degree <= kHighestFullDegree; ++degree) {
+      // Without a position the equations of the report are not there to stand
+      // for a linear map.
+      const int lowest = FindPosition(dataset, "") < 0 ? 1 : 2;
+      for (int degree = lowest; degree <= kHighestFullDegree; ++degree) {
         auto recipe = MakeRecipe(fmt::format("poly:full:degree={}", degree));
         const Eigen::Index coefficients = *recipe->NumCoefficients(dataset);
         if (dataset.num_inputs() > 0 &&
@@ -86,7 +94,9 @@ DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
       }
       continue;
     }
-    auto recipe = MakeRecipe(type);
+    auto recipe = MakeRecipe(type == "poly:ridge" || type == "poly:lasso"
+                                 ? type + ":view=auto"
+                                 : type);
     if (const auto missing = recipe->WhatIsMissing(dataset)) {
       defaults.left_out.push_back(
           fmt::format("{} is left out: the data lack {}", type, *missing));

@@ -1,5 +1,6 @@
 #include "models/scaling.h"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "stats/summary.h"
@@ -49,6 +50,15 @@ ColumnScaling StandardScaling(const Eigen::MatrixXd& values) {
   return ScaleColumns(values, [](const stats::SampleSummary& column) {
     return std::pair(column.mean, column.n > 1 ? column.sd : 0.0);
   });
+}
+
+ColumnScaling RootMeanSquareScaling(const Eigen::MatrixXd& values) {
+  ColumnScaling scaling = IdentityScaling(values.cols());
+  for (Eigen::Index j = 0; j < values.cols(); ++j) {
+    scaling.scale[j] = InverseOf(values.col(j).norm() /
+                                 std::sqrt(static_cast<double>(values.rows())));
+  }
+  return scaling;
 }
 
 TargetScaling SigmoidTargetScaling(

@@ -25,6 +25,9 @@ ColumnScaling UnitRangeScaling(const Eigen::MatrixXd& values);
 /// Maps each column to mean 0 and sd 1 (n - 1); a constant column to 0.
 ColumnScaling StandardScaling(const Eigen::MatrixXd& values);
 
+/// Maps each column to mean square 1, its zero kept; a column of zeros to 0.
+ColumnScaling RootMeanSquareScaling(const Eigen::MatrixXd& values);
+
 /// z = slope t + offset, from error in the target's unit to a net's output.
 struct TargetScaling {
   double slope = 1.0;

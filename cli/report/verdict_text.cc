@@ -10,6 +10,7 @@
 
 #include "cli/report/held_out_residuals.h"
 #include "cli/shell/wrap_text.h"
+#include "models/history/history.h"
 
 namespace errmap::cli {
 namespace {
@@ -175,8 +176,15 @@ std::string SensorText(const models::FittedModel& map) {
 
 std::string SimplestReason(const Comparison& comparison,
                            const models::Recommendation& advice) {
-  if (advice.first_tier.size() < 2) return "";
   const ErrorText error = ErrorTextFor(comparison);
+  if (advice.simplest_single) {
+    return fmt::format(
+        "It averages maps that see the inputs differently, which gambles less "
+        "than the choice of one; the simplest single map is {} ({}).",
+        Model(comparison, *advice.simplest_single).name,
+        error(Rmse(comparison, *advice.simplest_single, advice.holdout)));
+  }
+  if (advice.first_tier.size() < 2) return "";
   const HoldoutComparison& tests = Tests(comparison, advice.holdout);
   if (advice.model == advice.first_tier.front()) {
     return fmt::format(
@@ -241,29 +249,51 @@ std::string GoalReason(const Comparison& comparison,
       ErrorTextFor(comparison).WithUnit(result.test.residuals.sd));
 }
 
-// Work of one prediction, counted rather than timed: the same on any machine.
-std::string PredictionCost(const models::FittedModel& map) {
-  const models::ModelDescription form = map.model->Describe();
-  if (const auto* net = std::get_if<models::NetForm>(&form)) {
-    return fmt::format("{} and {}",
-                       Count(net->w1.size() + net->w2.size(), "multiplication"),
-                       Count(net->w1.rows() + net->w2.rows(), "exponential"));
+// How far back a map looks, and what it starts from.
+std::string MemoryText(const models::FittedModel& map) {
+  if (map.history == nullptr) return "";
+  double longest = 0.0;
+  bool zeroes = false;
+  for (const models::DerivedInput& input : map.history->derived) {
+    longest = std::max(longest, input.tau);
+    zeroes = zeroes || input.filter == models::Filter::kZero;
   }
-  const auto& polynomial = std::get<models::PolynomialForm>(form);
-  long long multiplications = 0;
-  for (const models::PolynomialTerm& term : polynomial.terms) {
-    multiplications +=
-        std::accumulate(term.powers.begin(), term.powers.end(), 0);
+  // After three time constants 5 % of a step is left.
+  constexpr double kForgotten = 3.0;
+  constexpr double kSecondsPerMinute = 60.0;
+  constexpr double kMinutesPerHour = 60.0;
+  std::string text;
+  if (longest > 0.0) {
+    const double span = kForgotten * longest;
+    const double minutes = span / kSecondsPerMinute;
+    text +=
+        map.history->time_unit != "s"
+            ? fmt::format(" over the last {:.0f} rows", span)
+        : minutes < 2.0 * kMinutesPerHour
+            ? fmt::format(" over the last {:.0f} min", minutes)
+            : fmt::format(" over the last {:.2g} h", minutes / kMinutesPerHour);
   }
-  return Count(multiplications, "multiplication");
+  if (zeroes) text += ", zeroed at the start of a session";
+  return text;
+}
+
+std::string CostText(const models::FittedModel& map) {
+  const models::PredictionCost cost = models::CostOf(map.model->Describe());
+  const std::string products = Count(cost.multiplications, "multiplication");
+  return cost.exponentials == 0
+             ? products
+             : fmt::format("{} and {}",
+                           products,
+                           Count(cost.exponentials, "exponential"));
 }
 
 std::string CostReason(const Comparison& comparison,
                        const models::Recommendation& advice) {
   const models::FittedModel& map = *Model(comparison, advice.model).final_fit;
-  return fmt::format("It needs {}; a prediction costs {}.",
+  return fmt::format("It needs {}{}; a prediction costs {}.",
                      SensorText(map),
-                     PredictionCost(map));
+                     MemoryText(map),
+                     CostText(map));
 }
 
 // What is left in its held-out residuals.

@@ -53,6 +53,7 @@ StudyRun RunPlan(StudyPlan plan,
         .seed = run.seed,
         .jobs = options.jobs,
         .stop = options.stop,
+        .indifference = comparison.indifference,
         .progress = [&](int done, int /*of_component*/) {
           if (options.progress) options.progress(before + done, all);
         }};

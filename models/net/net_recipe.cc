@@ -9,12 +9,16 @@
 
 #include <fmt/format.h>
 
+#include "models/averaged_model.h"
+#include "models/history/view.h"
+#include "models/history/with_history.h"
 #include "models/net/feedforward_net.h"
 #include "models/net/net_effective_parameters.h"
 #include "models/net/net_fit.h"
 #include "models/net/net_trainer.h"
 #include "models/net/net_tuning.h"
 #include "models/net/net_wfactor.h"
+#include "models/shared_work.h"
 
 namespace errmap::models {
 namespace {
@@ -23,12 +27,11 @@ using data::Dataset;
 using Eigen::Index;
 
 // Budgets and stops under the report's names.
-fitting::StoppingRules TakeStoppingRules(const std::string& type,
+fitting::StoppingRules TakeStoppingRules(fitting::StoppingRules rules,
                                          SpecOptions* options) {
   constexpr std::int64_t kMostSteps = 1'000'000'000;
   constexpr double kMost = 1e12;
   constexpr double kLeastSeconds = 1e-3;
-  fitting::StoppingRules rules = DefaultStoppingRules(type);
   rules.iterations =
       options->TakeInteger("iterations", rules.iterations, 1, kMostSteps);
   rules.evaluations =
@@ -125,13 +128,32 @@ class SpecNetRecipe final : public NetRecipe {
     constexpr double kLeastSlope = 1e-3;
     constexpr double kMostSlope = 1e3;
     constexpr std::int64_t kMostStarts = 10'000;
+    constexpr std::int64_t kMostMembers = 100;
     SpecOptions options(spec);
     tunes_hidden_ = options.IsWord("hidden", "cv");
+    view_ = ViewOptions::Take(&options);
+    clips_ = options.TakeChoice("clip", 0, {"auto", "none"}) == 0;
+    // A net with a view is to hold where it was not trained.
+    constexpr std::int64_t kFewNodes = 10;
+    constexpr std::int64_t kFewSteps = 500;
+    constexpr std::int64_t kSomeMembers = 3;
+    if (view_.given) design_.hidden = kFewNodes;
+    const bool one_start =
+        options.Has("starts") || options.Has("discrepancy") || !view_.given;
+    members_ = options.TakeInteger(
+        "members", one_start ? 1 : kSomeMembers, 1, kMostMembers);
     if (!tunes_hidden_) {
       design_.hidden = options.TakeInteger("hidden", design_.hidden, 1, 10'000);
     }
     wfactor_ = WfactorOption::Take(spec, &options);
-    stopping_ = TakeStoppingRules(spec.type, &options);
+    if (view_.given && !options.Has("wfactor") && !options.Has("discrepancy")) {
+      wfactor_.rule = WfactorRule::kCrossValidation;
+    }
+    fitting::StoppingRules defaults = DefaultStoppingRules(spec.type);
+    if (view_.given) {
+      defaults.iterations = std::min(defaults.iterations, kFewSteps);
+    }
+    stopping_ = TakeStoppingRules(defaults, &options);
     design_.scaling = static_cast<InputScaling>(
         options.TakeChoice("scale", 0, InputScalingNames()));
     design_.output = static_cast<OutputFunction>(
@@ -156,6 +178,13 @@ class SpecNetRecipe final : public NetRecipe {
       throw std::invalid_argument(fmt::format(
           "model '{}': discrepancy= follows one start; take its wfactor to "
           "starts=",
+          spec.text));
+    }
+    if (members_ > 1 &&
+        (starts_ > 1 || wfactor_.rule == WfactorRule::kDiscrepancy)) {
+      throw std::invalid_argument(fmt::format(
+          "model '{}': members= averages several starts; starts= and "
+          "discrepancy= choose one",
           spec.text));
     }
     trainer_ = MakeNetTrainer(spec.type, stopping_, &options);
@@ -196,6 +225,11 @@ class SpecNetRecipe final : public NetRecipe {
       all.push_back({"starts", starts_});
       all.push_back({"choose", StartRules()[chooses_start_by_cv_ ? 1 : 0]});
     }
+    if (members_ > 1) all.push_back({"members", members_});
+    view_.Describe(&all);
+    if (view_.given && !clips_) {
+      all.push_back({"clip", std::string("none")});
+    }
     std::ranges::move(trainer_->options(), std::back_inserter(all));
     return all;
   }
@@ -216,6 +250,114 @@ class SpecNetRecipe final : public NetRecipe {
     if (const auto missing = WhatIsMissing(training)) {
       throw std::invalid_argument("the data lack " + *missing);
     }
+    // A net with a memory is a blend's as well as its own.
+    if (context.shared == nullptr || !view_.given || context.keep_trace) {
+      return FitAlone(training, context);
+    }
+    return *context.shared->Get<FittedModel>(name_, [&] {
+      return std::make_shared<const FittedModel>(FitAlone(training, context));
+    });
+  }
+
+  std::unique_ptr<NetRecipe> WithChoicesOf(
+      const FittedModel& fitted) const override {
+    return std::make_unique<SpecNetRecipe>(FixedTo(fitted));
+  }
+
+  double EffectiveParametersOf(const FittedModel& fitted,
+                               const Dataset& training) const override {
+    const SpecNetRecipe fixed = FixedTo(fitted);
+    const Dataset viewed = fitted.history != nullptr
+                               ? DeriveDataset(training, *fitted.history)
+                               : training;
+    const NetRows rows = ScaleRows(fixed.design_, viewed);
+    const ModelDescription description = fitted.model->Describe();
+    // Of averaged starts the first speaks for the others.
+    const auto* blend = std::get_if<BlendForm>(&description);
+    const NetForm& form = blend != nullptr
+                              ? std::get<NetForm>(blend->members.front().form)
+                              : std::get<NetForm>(description);
+    NetTraining at_minimum = rows.training;
+    at_minimum.wfactor = fixed.wfactor_.wfactor;
+    return EffectiveParameters(at_minimum, rows.WeightsOf(form));
+  }
+
+ private:
+  FittedModel FitAlone(const Dataset& training,
+                       const FitContext& context) const {
+    const std::vector<ViewedRows> views =
+        MakeViews(training, view_, context.indifference);
+    std::vector<double> scores;
+    const ViewedRows& viewed = ChooseView(views, context, &scores);
+    FittedModel fitted = FitView(*viewed.rows, context);
+    if (view_.given) {
+      fitted.choices.push_back({"view", std::string(ToString(viewed.view))});
+      if (clips_) {
+        fitted.guards = MakeGuards(fitted.inputs, training.target_values());
+      }
+    }
+    if (views.size() > 1) {
+      std::string tried;
+      for (std::size_t i = 0; i < views.size(); ++i) {
+        if (i > 0) tried += ", ";
+        tried += fmt::format("{}: {:.4g}", ToString(views[i].view), scores[i]);
+      }
+      fitted.remarks.push_back(
+          fmt::format("view {} by inner hold-outs (tried {})",
+                      ToString(viewed.view),
+                      tried));
+    }
+    if (viewed.history != nullptr) {
+      fitted = WithHistory(std::move(fitted), training, *viewed.history);
+    }
+    return fitted;
+  }
+
+  SpecNetRecipe FixedTo(const FittedModel& fitted) const {
+    SpecNetRecipe fixed = *this;
+    fixed.starts_ = 1;
+    fixed.members_ = 1;
+    fixed.chooses_start_by_cv_ = false;
+    fixed.tunes_hidden_ = false;
+    fixed.wfactor_.rule = WfactorRule::kGiven;
+    for (const EffectiveOption& choice : fitted.choices) {
+      if (choice.key == "hidden") {
+        fixed.design_.hidden = std::get<std::int64_t>(choice.value);
+      } else if (choice.key == "wfactor") {
+        fixed.wfactor_.wfactor = std::get<double>(choice.value);
+      } else if (choice.key == "view") {
+        fixed.view_.view = ViewOf(std::get<std::string>(choice.value));
+      }
+    }
+    return fixed;
+  }
+
+  // The view with the least error on inner hold-outs, at one wfactor for all:
+  // the penalty is tuned in the view that was chosen.
+  const ViewedRows& ChooseView(const std::vector<ViewedRows>& views,
+                               const FitContext& context,
+                               std::vector<double>* scores) const {
+    if (views.size() == 1) return views.front();
+    constexpr double kMiddling = 1e-3;
+    const bool tunes = wfactor_.rule == WfactorRule::kCrossValidation;
+    const double wfactor = tunes ? kMiddling : wfactor_.wfactor;
+    for (const ViewedRows& viewed : views) {
+      const InnerFolds inner = MakeInnerFolds(*viewed.rows, context);
+      scores->push_back(
+          InnerHoldoutRmse(design_,
+                           *trainer_,
+                           *viewed.rows,
+                           inner,
+                           {{design_.hidden, wfactor, context.seed}},
+                           context)
+              .front());
+    }
+    return views[IndexOfLowest(*scores)];
+  }
+
+  // The net, or the average of several, on rows as they stand.
+  FittedModel FitView(const Dataset& training,
+                      const FitContext& context) const {
     FittedModel fitted;
     fitted.name = name_;
     fitted.kind = ModelKind::kNet;
@@ -230,6 +372,10 @@ class SpecNetRecipe final : public NetRecipe {
       Tune(training, context, &design, &wfactor, &fitted);
     }
     const NetRows rows = ScaleRows(design, training);
+    if (members_ > 1) {
+      AverageStarts(rows, wfactor, columns, context, &fitted);
+      return fitted;
+    }
     fitting::Minimum minimum =
         wfactor_.rule == WfactorRule::kDiscrepancy
             ? FitToDiscrepancy(training, rows, context, &fitted)
@@ -239,37 +385,33 @@ class SpecNetRecipe final : public NetRecipe {
     return fitted;
   }
 
-  std::unique_ptr<NetRecipe> WithChoicesOf(
-      const FittedModel& fitted) const override {
-    return std::make_unique<SpecNetRecipe>(FixedTo(fitted));
-  }
-
-  double EffectiveParametersOf(const FittedModel& fitted,
-                               const Dataset& training) const override {
-    const SpecNetRecipe fixed = FixedTo(fitted);
-    const NetRows rows = ScaleRows(fixed.design_, training);
-    const ModelDescription description = fitted.model->Describe();
-    NetTraining at_minimum = rows.training;
-    at_minimum.wfactor = fixed.wfactor_.wfactor;
-    return EffectiveParameters(at_minimum,
-                               rows.WeightsOf(std::get<NetForm>(description)));
-  }
-
- private:
-  SpecNetRecipe FixedTo(const FittedModel& fitted) const {
-    SpecNetRecipe fixed = *this;
-    fixed.starts_ = 1;
-    fixed.chooses_start_by_cv_ = false;
-    fixed.tunes_hidden_ = false;
-    fixed.wfactor_.rule = WfactorRule::kGiven;
-    for (const EffectiveOption& choice : fitted.choices) {
-      if (choice.key == "hidden") {
-        fixed.design_.hidden = std::get<std::int64_t>(choice.value);
-      } else if (choice.key == "wfactor") {
-        fixed.wfactor_.wfactor = std::get<double>(choice.value);
-      }
+  void AverageStarts(const NetRows& rows,
+                     double wfactor,
+                     const std::vector<Index>& columns,
+                     const FitContext& context,
+                     FittedModel* fitted) const {
+    std::vector<std::uint64_t> seeds;
+    for (std::int64_t k = 0; k < members_; ++k) {
+      seeds.push_back(SeedOfStart(context.seed, k));
     }
-    return fixed;
+    std::vector<fitting::Minimum> minima =
+        TrainFromStarts(rows, *trainer_, wfactor, seeds, context);
+    fitted->starts = DescribeStarts(seeds, minima);
+    std::vector<AveragedMember> members;
+    for (std::size_t i = 0; i < minima.size(); ++i) {
+      fitted->starts[i].chosen = true;
+      members.push_back({.name = fmt::format("start {}", i + 1),
+                         .weight = 1.0,
+                         .inputs = columns,
+                         .lowest = -std::numeric_limits<double>::infinity(),
+                         .highest = std::numeric_limits<double>::infinity(),
+                         .model = std::make_shared<FeedforwardNet>(
+                             rows.FormOf(minima[i].x))});
+    }
+    fitted->model = std::make_shared<AveragedModel>(
+        static_cast<Index>(columns.size()), "equal", std::move(members));
+    // What the first start did stands for all; each is in `starts`.
+    fitted->summary = std::move(minima.front().summary);
   }
 
   void Tune(const Dataset& training,
@@ -288,6 +430,7 @@ class SpecNetRecipe final : public NetRecipe {
     design->hidden = tuned.hidden;
     *wfactor = tuned.wfactor;
     for (const TunedValue& value : tuned.chosen) {
+      fitted->inner_rmse = value.rmse;
       const bool is_hidden = value.choice.key == "hidden";
       fitted->choices.push_back(value.choice);
       fitted->remarks.push_back(fmt::format(
@@ -409,6 +552,9 @@ class SpecNetRecipe final : public NetRecipe {
   }
 
   std::string name_;
+  ViewOptions view_;
+  bool clips_ = true;
+  std::int64_t members_ = 1;
   NetDesign design_;
   WfactorOption wfactor_;
   bool tunes_hidden_;

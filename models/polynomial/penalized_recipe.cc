@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "fitting/least_squares/penalized_regression.h"
 #include "models/inner_folds.h"
+#include "models/polynomial/penalized_candidates.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/polynomial/selection_recipe.h"
 #include "models/polynomial/term_dictionary.h"
@@ -17,40 +17,50 @@ namespace {
 
 using data::Dataset;
 using Eigen::Index;
+using fitting::Penalty;
 
-// All terms, their coefficients shrunk.
+// All terms of a basis, their coefficients shrunk.
 class PenalizedRecipe final : public PolynomialRecipe {
  public:
   explicit PenalizedRecipe(const ModelSpec& spec)
-      : PolynomialRecipe(spec.text) {
-    rules_.penalty = spec.type == "poly:ridge" ? fitting::Penalty::kRidge
-                                               : fitting::Penalty::kLasso;
+      : PolynomialRecipe(spec.text),
+        penalty_(spec.type == "poly:ridge" ? Penalty::kRidge
+                                           : Penalty::kLasso) {
     SpecOptions options(spec);
-    terms_ = TermOptions::Take(&options, false);
-    rules_.strength =
+    choices_ = PenalizedChoices::Take(&options);
+    const double strength =
         options.TakeNumber("penalty",
                            std::numeric_limits<double>::quiet_NaN(),
                            0.0,
                            std::numeric_limits<double>::max());
-    rules_.one_standard_error =
+    if (!std::isnan(strength)) choices_.rule.strength = strength;
+    choices_.rule.one_standard_error =
         options.TakeChoice("rule", 0, {"min", "1se"}) == 1;
-    if (rules_.one_standard_error && !std::isnan(rules_.strength)) {
-      throw std::invalid_argument(fmt::format(
-          "model '{}': rule= chooses the penalty, which penalty= fixes",
-          spec.text));
+    if (choices_.rule.strength) {
+      if (choices_.rule.one_standard_error) {
+        throw std::invalid_argument(fmt::format(
+            "model '{}': rule= chooses the penalty, which penalty= fixes",
+            spec.text));
+      }
+      if (choices_.chooses_basis()) {
+        throw std::invalid_argument(fmt::format(
+            "model '{}': penalty= is of one basis; name view= and terms= too",
+            spec.text));
+      }
     }
     options.RefuseOthers();
   }
 
   std::vector<EffectiveOption> options() const override {
     std::vector<EffectiveOption> options;
-    if (std::isnan(rules_.strength)) {
-      options.push_back(
-          {"rule", std::string(rules_.one_standard_error ? "1se" : "min")});
+    if (choices_.rule.strength) {
+      options.push_back({"penalty", *choices_.rule.strength});
     } else {
-      options.push_back({"penalty", rules_.strength});
+      options.push_back(
+          {"rule",
+           std::string(choices_.rule.one_standard_error ? "1se" : "min")});
     }
-    terms_.Describe(&options);
+    choices_.Describe(&options);
     return options;
   }
 
@@ -64,80 +74,76 @@ class PenalizedRecipe final : public PolynomialRecipe {
       throw std::invalid_argument(
           fmt::format("needs at least 3 rows, found {}", training.num_rows()));
     }
-    const int degree = terms_.degree > 0 ? terms_.degree
-                                         : DefaultDegree(training.num_inputs());
-    const TermDictionary dictionary(training, degree, terms_);
-    InnerFolds folds;
-    if (std::isnan(rules_.strength)) {
-      folds = MakeInnerFolds(training, context);
-    }
-    DesignRows rows = CollectRows(dictionary.design,
-                                  folds.folds.codes,
-                                  context.most_design_values,
-                                  context.threads);
-    // A column of zeros takes no part.
-    for (Index j = 0; j < rows.terms.cols(); ++j) {
-      if (dictionary.excluded[static_cast<std::size_t>(j)]) {
-        rows.terms.col(j).setZero();
-      }
-    }
-    const fitting::RegressionProblem problem{rows.terms,
-                                             rows.response,
-                                             rows.weights,
-                                             rows.intercept,
-                                             rows.observations};
-    const fitting::PenalizedFit fit = fitting::FitPenalized(
-        problem, {rows.parts, folds.folds.forward}, rules_);
+    const InnerFolds folds = choices_.rule.strength
+                                 ? InnerFolds()
+                                 : MakeInnerFolds(training, context);
+    const std::vector<BasisCandidate> candidates =
+        JudgeBases(training, choices_, {penalty_}, folds, context);
+    const BasisCandidate& best =
+        *std::ranges::min_element(candidates, [](const auto& a, const auto& b) {
+          return a.candidate->held_out_rmse < b.candidate->held_out_rmse;
+        });
+    const PenalizedCandidate& chosen = *best.candidate;
     FittedModel fitted =
-        MapOf(dictionary.design, fit.intercept, fit.coefficients);
-    fitted.summary.final_cost = 0.5 * fit.residual_sum_of_squares;
+        MapOfCandidate(name(), training, *best.fits, chosen, best.guarded);
     fitted.summary.message = fmt::format(
         "penalty {:.3g}{}, {:.1f} effective parameters, {} of {} terms up to "
         "degree {}",
-        fit.strength,
+        chosen.strength,
         folds.text.empty() ? "" : " by cross-validation over " + folds.text,
-        fit.degrees_of_freedom,
-        (fit.coefficients.array() != 0.0).count(),
-        fit.coefficients.size(),
-        degree);
-    if (rules_.penalty == fitting::Penalty::kLasso) {
-      fitted.remarks.push_back("chosen: " + ChosenNames(dictionary, fit));
+        chosen.degrees_of_freedom,
+        (chosen.coefficients.array() != 0.0).count(),
+        chosen.coefficients.size(),
+        best.degree);
+    if (choices_.view.given) {
+      fitted.choices.push_back(
+          {"view", std::string(ToString(best.fits->viewed->view))});
     }
-    if (context.explain) Explain(dictionary, rows, folds, fit, &fitted);
+    if (choices_.chooses_basis()) {
+      fitted.choices.push_back({"terms", std::string(ToString(best.terms))});
+      fitted.remarks.push_back(
+          fmt::format("{} by cross-validation over {} of {} bases",
+                      best.label,
+                      folds.text,
+                      candidates.size()));
+    }
+    if (penalty_ == Penalty::kLasso) {
+      fitted.remarks.push_back("chosen: " + ChosenNames(best));
+    }
+    if (context.explain) Explain(training, best, folds, &fitted);
     return fitted;
   }
 
  private:
-  static std::string ChosenNames(const TermDictionary& dictionary,
-                                 const fitting::PenalizedFit& fit) {
-    const std::vector<std::string> names = dictionary.design.TermNames();
+  static std::string ChosenNames(const BasisCandidate& best) {
+    const std::vector<std::string> names = best.fits->design.TermNames();
     std::string chosen;
-    for (Index j = 0; j < fit.coefficients.size(); ++j) {
-      if (fit.coefficients[j] == 0.0) continue;
+    for (Index j = 0; j < best.candidate->coefficients.size(); ++j) {
+      if (best.candidate->coefficients[j] == 0.0) continue;
       if (!chosen.empty()) chosen += ", ";
       chosen += names[static_cast<std::size_t>(j)];
     }
     return chosen.empty() ? "none" : chosen;
   }
 
-  void Explain(const TermDictionary& dictionary,
-               const DesignRows& rows,
+  void Explain(const Dataset& training,
+               const BasisCandidate& best,
                const InnerFolds& folds,
-               const fitting::PenalizedFit& fit,
                FittedModel* fitted) const {
     auto report = std::make_shared<RegressionReport>();
-    const bool ridge = rules_.penalty == fitting::Penalty::kRidge;
+    const PolynomialDesign& design = best.fits->design;
+    const PenalizedCandidate& fit = *best.candidate;
     report->method = fmt::format(
         "{} over {} terms up to degree {}, penalty {:.6g}{} on columns of "
         "variance 1",
-        ridge ? "ridge" : "lasso",
-        dictionary.NumOpen(),
-        dictionary.degree,
+        fitting::ToString(penalty_),
+        design.num_terms() - best.num_excluded,
+        best.degree,
         fit.strength,
         folds.text.empty() ? "" : " by cross-validation over " + folds.text);
     report->penalised = true;
-    report->weighted = dictionary.design.dataset().weights().size() != 0;
-    report->candidates = dictionary.design.num_terms();
+    report->weighted = training.weights().size() != 0;
+    report->candidates = design.num_terms();
     report->cross_validation = folds.text;
     report->strength = fit.strength;
     report->degrees_of_freedom = fit.degrees_of_freedom;
@@ -145,8 +151,12 @@ class PenalizedRecipe final : public PolynomialRecipe {
     report->mean_squared_errors = fit.mean_squared_errors;
     report->standard_errors = fit.standard_errors;
     // The table needs estimates only, so the fit is filled by hand.
-    report->fit.observations = rows.observations;
-    report->fit.residual_sum_of_squares = fit.residual_sum_of_squares;
+    const Eigen::VectorXd residual =
+        training.target_values() - fitted->Predict(training);
+    report->fit.observations = static_cast<double>(design.rows());
+    report->fit.residual_sum_of_squares =
+        report->weighted ? residual.cwiseAbs2().dot(training.weights())
+                         : residual.squaredNorm();
     report->fit.intercept.estimate = fit.intercept;
     report->fit.coefficients.resize(
         static_cast<std::size_t>(fit.coefficients.size()));
@@ -154,15 +164,15 @@ class PenalizedRecipe final : public PolynomialRecipe {
       report->fit.coefficients[static_cast<std::size_t>(j)].estimate =
           fit.coefficients[j];
     }
-    FillCoefficientTable(dictionary.design, report.get());
+    FillCoefficientTable(design, report.get());
     std::erase_if(report->terms, [](const ReportTerm& term) {
       return term.numbers.estimate == 0.0;
     });
     fitted->regression = std::move(report);
   }
 
-  TermOptions terms_;
-  fitting::PenalizedOptions rules_;
+  Penalty penalty_;
+  PenalizedChoices choices_;
 };
 
 }  // namespace

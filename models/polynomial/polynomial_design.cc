@@ -34,6 +34,9 @@ ColumnScaling PolynomialScaling(const Dataset& training,
                                 const std::vector<Index>& inputs,
                                 const std::vector<TermPowers>& terms,
                                 Centring centring) {
+  if (centring == Centring::kStandardised) {
+    return StandardScaling(training.input_values()(Eigen::all, inputs));
+  }
   const auto count = static_cast<Index>(inputs.size());
   ColumnScaling scaling{VectorXd(count), VectorXd(count)};
   const std::set<TermPowers> set(terms.begin(), terms.end());

@@ -15,13 +15,15 @@ namespace errmap::models {
 /// Which inputs are moved to the middle of their range before products and
 /// powers are formed.
 enum class Centring {
-  kAll,       // each
-  kNone,      // none: products of the inputs as they are
-  kHarmless,  // those where it does not change what the terms can express
+  kStandardised,  // each to its mean, and scaled to sd 1
+  kAll,           // each
+  kNone,          // none: products of the inputs as they are
+  kHarmless,      // those where it does not change what the terms can express
 };
 
 /// Scaling of the columns `inputs` of `training` for `terms`: each input's
-/// largest size, after centring or not, becomes 1.
+/// largest size, after centring or not, becomes 1 (its sd, where it is
+/// standardised).
 ColumnScaling PolynomialScaling(const data::Dataset& training,
                                 const std::vector<Eigen::Index>& inputs,
                                 const std::vector<TermPowers>& terms,

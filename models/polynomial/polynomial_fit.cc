@@ -55,6 +55,17 @@ fitting::RowDiagnostics JudgeRows(const PolynomialDesign& design,
   return judged;
 }
 
+FittedModel NewMap(const std::string& name, const Dataset& training) {
+  FittedModel fitted;
+  fitted.name = name;
+  fitted.kind = ModelKind::kPolynomial;
+  fitted.target = training.target();
+  fitted.align = training.align();
+  fitted.summary.termination = fitting::Termination::kDirect;
+  fitted.summary.message = "solved by pivoted QR";
+  return fitted;
+}
+
 }  // namespace
 
 std::vector<Index> AllColumns(const Dataset& dataset) {
@@ -86,13 +97,8 @@ UsedTerms KeepUsedInputs(const std::vector<TermPowers>& terms,
 }
 
 FittedModel PolynomialRecipe::NewModel(const Dataset& training) const {
-  FittedModel fitted;
-  fitted.name = name_;
+  FittedModel fitted = NewMap(name_, training);
   fitted.kind = kind();
-  fitted.target = training.target();
-  fitted.align = training.align();
-  fitted.summary.termination = fitting::Termination::kDirect;
-  fitted.summary.message = "solved by pivoted QR";
   return fitted;
 }
 
@@ -215,15 +221,16 @@ void FillCoefficientTable(const PolynomialDesign& design,
   }
 }
 
-FittedModel PolynomialRecipe::MapOf(const PolynomialDesign& design,
-                                    double intercept,
-                                    const VectorXd& coefficients) const {
+FittedModel MapOfTerms(const std::string& name,
+                       const PolynomialDesign& design,
+                       double intercept,
+                       const VectorXd& coefficients) {
   std::vector<Index> chosen;
   for (Index j = 0; j < coefficients.size(); ++j) {
     if (coefficients[j] != 0.0) chosen.push_back(j);
   }
   const UsedTerms used = KeepUsedInputs(design.terms(), chosen);
-  FittedModel fitted = NewModel(design.dataset());
+  FittedModel fitted = NewMap(name, design.dataset());
   std::vector<Index> columns;
   PolynomialForm form{VectorXd(static_cast<Index>(used.inputs.size())),
                       VectorXd(static_cast<Index>(used.inputs.size())),

@@ -40,15 +40,16 @@ class PolynomialRecipe : public ModelRecipe {
                        Centring centring = Centring::kAll,
                        RegressionReport* report = nullptr) const;
 
-  /// A map of given coefficients of the scaled terms, zeros left out, that
-  /// reads only the inputs which it needs.
-  FittedModel MapOf(const PolynomialDesign& design,
-                    double intercept,
-                    const Eigen::VectorXd& coefficients) const;
-
  private:
   std::string name_;
 };
+
+/// A map of given coefficients of the scaled terms, zeros left out, that reads
+/// only the inputs which it needs.
+FittedModel MapOfTerms(const std::string& name,
+                       const PolynomialDesign& design,
+                       double intercept,
+                       const Eigen::VectorXd& coefficients);
 
 /// The terms `chosen` of a design over all inputs, over only those inputs that
 /// one of them has.

@@ -148,7 +148,8 @@ std::string OptionsText(const std::vector<EffectiveOption>& options) {
   return text;
 }
 
-// What of the context changes a figure: all but `stop` and `threads`. Every
+// What of the context changes a figure: all but `stop`, `threads` and `shared`.
+// Every
 // member is named, so that a new one has to be thought of here.
 std::string ContextText(const FitContext& context) {
   const auto& [seed,
@@ -158,9 +159,12 @@ std::string ContextText(const FitContext& context) {
                threads,
                most_design_values,
                keep_trace,
-               inner_holdout] = context;
+               inner_holdout,
+               indifference,
+               shared] = context;
   std::ignore = stop;
   std::ignore = threads;
+  std::ignore = shared;
   std::string text = fmt::format("seed={}", seed);
   if (explain) text += " explained";
   if (explain && !default_bootstraps) text += " without bootstraps";
@@ -169,6 +173,9 @@ std::string ContextText(const FitContext& context) {
   if (inner_holdout != InnerHoldout::kDecisive &&
       inner_holdout != InnerHoldout::kWholeGroups) {
     text += fmt::format(" inner={}", ToString(inner_holdout));
+  }
+  if (indifference != 0.0) {
+    text += fmt::format(" indifference={}", indifference);
   }
   if (most_design_values != FitContext().most_design_values) {
     text += fmt::format(" design={}", most_design_values);

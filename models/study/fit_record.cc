@@ -20,9 +20,8 @@
 #include <nlohmann/json.hpp>
 
 #include "data/input_error.h"
+#include "models/blend/form_to_model.h"
 #include "models/history/history.h"
-#include "models/net/feedforward_net.h"
-#include "models/polynomial/polynomial_model.h"
 #include "models/regression_report.h"
 
 namespace errmap::models {
@@ -54,6 +53,9 @@ ERRMAP_MEMBERS(NetForm,
                output,
                target_slope,
                target_offset)
+ERRMAP_MEMBERS(
+    BlendForm::Member, name, weight, inputs, lowest, highest, parameters, form)
+ERRMAP_MEMBERS(BlendForm, num_inputs, rule, members)
 ERRMAP_MEMBERS(fitting::TracePoint, iteration, rms_error, gradient_norm)
 ERRMAP_MEMBERS(fitting::FitSummary,
                termination,
@@ -181,7 +183,8 @@ ERRMAP_MEMBERS(FittedModel,
                starts,
                regression,
                history,
-               guards)
+               guards,
+               inner_rmse)
 ERRMAP_MEMBERS(Memorisation,
                train_r2,
                shuffled_r2,
@@ -483,13 +486,7 @@ class Reader {
     RequireSize(json, 2);
     ModelDescription description;
     Get(json[1], &description);
-    if (auto* form = std::get_if<PolynomialForm>(&description)) {
-      *model = std::make_shared<PolynomialModel>(std::move(*form),
-                                                 json[0].get<Index>());
-    } else {
-      *model = std::make_shared<FeedforwardNet>(
-          std::get<NetForm>(std::move(description)));
-    }
+    *model = ModelOfForm(std::move(description), json[0].get<Index>());
   }
 
   template <Structure T>

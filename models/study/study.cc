@@ -4,7 +4,9 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
@@ -12,6 +14,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "models/recipe_catalog.h"
+#include "models/shared_work.h"
 #include "models/study/fold_pool.h"
 
 namespace errmap::models {
@@ -170,7 +173,10 @@ std::vector<StudyTask> StudyTasks(
   std::vector<StudyTask> tasks;
   for (const bool nets : {false, true}) {
     for (std::size_t model = 0; model < recipes.size(); ++model) {
-      if ((recipes[model]->kind() == ModelKind::kNet) != nets) continue;
+      const ModelKind kind = recipes[model]->kind();
+      if ((kind == ModelKind::kNet || kind == ModelKind::kBlend) != nets) {
+        continue;
+      }
       tasks.push_back({model, -1, 0});
       for (std::size_t h = 0; h < holdouts.size(); ++h) {
         for (std::size_t fold = 0; fold < holdouts[h].folds.size(); ++fold) {
@@ -185,7 +191,9 @@ std::vector<StudyTask> StudyTasks(
 FitContext ContextOfTask(const StudyTask& task,
                          const std::vector<Holdout>& holdouts,
                          const StudyOptions& options) {
-  FitContext context{.seed = options.seed, .stop = options.stop};
+  FitContext context{.seed = options.seed,
+                     .stop = options.stop,
+                     .indifference = options.indifference};
   if (task.holdout >= 0) {
     context.inner_holdout =
         holdouts[static_cast<std::size_t>(task.holdout)].inner;
@@ -209,9 +217,17 @@ StudyResult RunStudy(const Dataset& dataset,
   for (auto& of_model : outcomes) {
     for (const auto& folds : prepared) of_model.emplace_back(folds.size());
   }
+  // What the recipes share of the same rows: all rows, then fold by fold.
+  SharedWork of_all_rows;
+  std::map<std::pair<std::ptrdiff_t, std::size_t>, SharedWork> of_folds;
+  for (const StudyTask& task : tasks) {
+    if (task.holdout >= 0) of_folds[{task.holdout, task.fold}];
+  }
   const auto fit = [&](const StudyTask& task) {
     const ModelRecipe& recipe = *recipes[task.model];
-    const FitContext context = ContextOfTask(task, holdouts, options);
+    FitContext context = ContextOfTask(task, holdouts, options);
+    context.shared = task.holdout < 0 ? &of_all_rows
+                                      : &of_folds.at({task.holdout, task.fold});
     if (task.holdout < 0) return FitAllRows(recipe, dataset, context);
     const PreparedFold& fold =
         prepared[static_cast<std::size_t>(task.holdout)][task.fold];

@@ -83,6 +83,8 @@ struct StudyOptions {
   std::uint64_t seed = 1;
   int jobs = 1;  // at least 1
   const std::atomic<bool>* stop = nullptr;
+  /// The difference in error that never matters (target's unit).
+  double indifference = 0.0;
   /// Told (fits done, fits in all) from any thread; may be empty.
   std::function<void(int, int)> progress = {};
   /// Keeps finished fits and gives back those of an earlier run; may be null.

@@ -71,7 +71,9 @@ Verdict JudgeHoldout(const HoldoutComparison& comparison,
   });
   verdict.rival = BestWhere(comparison, [&](std::size_t model) {
     const Choice choice = ChoiceOf(study.models[model]);
-    return choice != of_best && choice != Choice::kBaseline;
+    // A blend is made of the others: it settles nothing between them.
+    return choice != of_best && choice != Choice::kBaseline &&
+           choice != Choice::kBlend;
   });
   if (!verdict.rival && of_best != Choice::kBaseline) {
     verdict.rival = best_baseline;
@@ -193,6 +195,31 @@ std::vector<std::size_t> NearTheBest(
   return near;
 }
 
+// One choice among near-equals is a gamble, which an average of maps that see
+// the inputs differently is not: it is used unless a single map's error is
+// lower by more than what never matters.
+std::optional<std::size_t> BlendToUse(
+    const HoldoutComparison& comparison,
+    const StudyResult& study,
+    const std::function<bool(std::size_t)>& is_map,
+    double indifference) {
+  const auto is_blend = [&](std::size_t model) {
+    return ChoiceOf(study.models[model]) == Choice::kBlend;
+  };
+  const auto blend = BestWhere(comparison, [&](std::size_t model) {
+    return is_blend(model) && is_map(model);
+  });
+  if (!blend) return std::nullopt;
+  const auto single = BestWhere(comparison, [&](std::size_t model) {
+    return !is_blend(model) && is_map(model);
+  });
+  if (single &&
+      RmseOf(comparison, *single) + indifference < RmseOf(comparison, *blend)) {
+    return std::nullopt;
+  }
+  return blend;
+}
+
 std::optional<Recommendation> Recommend(
     const data::Dataset& dataset,
     const std::vector<Holdout>& holdouts,
@@ -245,6 +272,10 @@ std::optional<Recommendation> Recommend(
                           map.model->num_parameters(),
                           RmseOf(comparison, model));
       });
+  if (const auto blend = BlendToUse(comparison, study, is_map, indifference)) {
+    advice.simplest_single = advice.model;
+    advice.model = *blend;
+  }
   const auto best_baseline = BestWhere(comparison, [&](std::size_t model) {
     return ChoiceOf(study.models[model]) == Choice::kBaseline;
   });
@@ -275,6 +306,8 @@ std::string_view ToString(Choice choice) {
       return "neural";
     case Choice::kNoPracticalDifference:
       return "no practical difference";
+    case Choice::kBlend:
+      return "blend";
     case Choice::kBaseline:
       return "baseline";
     case Choice::kGiven:
@@ -297,6 +330,8 @@ Choice ChoiceOf(const ModelResult& model) {
       return Choice::kPolynomial;
     case ModelKind::kNet:
       return Choice::kNeural;
+    case ModelKind::kBlend:
+      return Choice::kBlend;
     case ModelKind::kFile:
       return Choice::kGiven;
   }

@@ -14,12 +14,14 @@ namespace errmap::models {
 enum class Choice {
   kPolynomial,
   kNeural,
+  kBlend,
   kNoPracticalDifference,  // a polynomial and a net share the first tier
   kBaseline,               // a baseline is in the first tier
   kGiven,
 };
 
-/// "polynomial", "neural", "no practical difference", "baseline", "given".
+/// "polynomial", "neural", "blend", "no practical difference", "baseline",
+/// "given".
 std::string_view ToString(Choice choice);
 
 /// The class of a model by what it is; never kNoPracticalDifference.
@@ -66,6 +68,8 @@ struct Recommendation {
   std::vector<std::size_t> first_tier;
   std::size_t best_baseline = 0;  // by RMSE, under that hold-out
   bool has_baseline = false;
+  /// Where a blend is to be used, the simplest single map of the first tier.
+  std::optional<std::size_t> simplest_single;
   /// Predictions without a map that were better than every map, if any.
   std::optional<std::size_t> better_but_no_map;
   /// Of the held-out rows, those with an input of the model outside what the
@@ -89,7 +93,9 @@ struct Judgement {
 /// else of blocks, else of fewer sessions, else the first; within its first
 /// tier the simplest map wins: fewest sensors (inputs other than position),
 /// then fewest parameters, then the lower RMSE. Where a baseline is in the
-/// first tier it is the simplest baseline there: nothing better is known.
+/// first tier it is the simplest baseline there: nothing better is known. A
+/// blend comes before all of these, unless a single map's RMSE is lower by more
+/// than the indifference.
 Judgement JudgeStudy(const data::Dataset& dataset,
                      const std::vector<Holdout>& holdouts,
                      const StudyResult& study,

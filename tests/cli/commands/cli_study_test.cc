@@ -305,7 +305,7 @@ TEST_F(CliStudy, DryRunShowsThePlanAndTouchesNothing) {
                     HasSubstr("models/COMPONENT/MODEL.json")));
   EXPECT_FALSE(Exists("o"));
   const Outcome plain = Run({"compare", kDown, "--dry-run"});
-  EXPECT_THAT(plain.out, HasSubstr("98 fits in all"));
+  EXPECT_THAT(plain.out, HasSubstr("126 fits in all"));
 }
 
 // ---- init.

@@ -15,7 +15,7 @@ TEST_F(Cli, RecommendsWhatHoldsOnUnseenCyclesAndSaysWhy) {
   const Json& verdicts = component["verdict"];
   EXPECT_EQ(verdicts[0]["choice"], "neural");
   EXPECT_EQ(verdicts[1]["choice"], "polynomial");
-  EXPECT_EQ(verdicts[1]["model"], "poly:full:degree=3");
+  EXPECT_EQ(verdicts[1]["model"], "poly:ridge:view=auto");
   // Neighbouring cycles resemble each other too much for more.
   EXPECT_EQ(verdicts[1]["established"], false);
   EXPECT_THAT(verdicts[1]["why"].get<std::string>(),
@@ -23,8 +23,8 @@ TEST_F(Cli, RecommendsWhatHoldsOnUnseenCyclesAndSaysWhy) {
   const Json& advice = component["recommendation"];
   EXPECT_EQ(advice["holdout"], "groups:5");
   EXPECT_EQ(advice["choice"], "polynomial");
-  EXPECT_EQ(advice["model"], "poly:stepwise");
-  EXPECT_NEAR(advice["rmse"].get<double>() * kUmPerMm, 0.938, 5e-4);
+  EXPECT_EQ(advice["model"], "poly:ridge:view=auto");
+  EXPECT_NEAR(advice["rmse"].get<double>() * kUmPerMm, 0.865, 5e-4);
   EXPECT_LT(advice["ci95"][0], advice["rmse"]);
   EXPECT_GT(advice["ci95"][1], advice["rmse"]);
   EXPECT_EQ(advice["meets_goal"], false);

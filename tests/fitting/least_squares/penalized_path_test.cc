@@ -1,6 +1,8 @@
-#include "fitting/least_squares/penalized_regression.h"
+#include "fitting/least_squares/penalized_path.h"
 
-#include <stdexcept>
+#include <cmath>
+#include <tuple>
+#include <vector>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -38,6 +40,10 @@ Sample MakeSample(Index rows, Index cols, bool weighted, std::uint64_t seed) {
   return sample;
 }
 
+CrossProducts SumsOf(const Sample& sample) {
+  return SumProducts(sample.terms, sample.response, sample.weights);
+}
+
 // Weighted, centred columns of variance 1 and the residual, by definition.
 void Standardise(const Sample& sample,
                  const VectorXd& coefficients,
@@ -59,18 +65,22 @@ void Standardise(const Sample& sample,
   residual->array() -= w->dot(*residual);
 }
 
-TEST(PenalizedRegression, LassoMeetsItsOptimalityConditionsAlongThePath) {
+TEST(PenalizedPath, LassoMeetsItsOptimalityConditionsAlongThePath) {
   constexpr double kSlack = 1e-10;
   for (const auto& [rows, cols, weighted] :
        {std::tuple<Index, Index, bool>{40, 8, false},
         {40, 8, true},
         {20, 50, false}}) {
     const Sample sample = MakeSample(rows, cols, weighted, 20);
-    const auto path = MakePath(Penalty::kLasso,
-                               {sample.terms, sample.response, sample.weights});
-    for (const double share : {0.9, 0.3, 0.05, 0.01}) {
-      const double strength = share * path->largest_strength();
-      const VectorXd coefficients = path->Coefficients(strength);
+    const PenalizedPath path(Penalty::kLasso, SumsOf(sample), true);
+    const double largest = path.Grid().front();
+    const std::vector<double> strengths = {
+        largest, 0.9 * largest, 0.3 * largest, 0.05 * largest, 0.01 * largest};
+    const auto solutions = path.Solve(strengths);
+    EXPECT_TRUE(solutions.coefficients.col(0).isZero());
+    for (Index s = 1; s < solutions.coefficients.cols(); ++s) {
+      const double strength = strengths[static_cast<std::size_t>(s)];
+      const VectorXd coefficients = solutions.coefficients.col(s);
       MatrixXd x;
       VectorXd residual;
       VectorXd w;
@@ -86,21 +96,22 @@ TEST(PenalizedRegression, LassoMeetsItsOptimalityConditionsAlongThePath) {
         }
       }
     }
-    EXPECT_TRUE(path->Coefficients(path->largest_strength()).isZero());
   }
 }
 
-TEST(PenalizedRegression, RidgeSolvesItsNormalEquations) {
+TEST(PenalizedPath, RidgeSolvesItsNormalEquations) {
   constexpr double kSlack = 1e-10;
   for (const auto& [rows, cols, weighted] :
        {std::tuple<Index, Index, bool>{40, 8, false},
         {40, 8, true},
         {20, 50, false}}) {
     const Sample sample = MakeSample(rows, cols, weighted, 30);
-    const auto path = MakePath(Penalty::kRidge,
-                               {sample.terms, sample.response, sample.weights});
-    for (const double strength : {10.0, 0.1, 1e-4}) {
-      const VectorXd coefficients = path->Coefficients(strength);
+    const std::vector<double> strengths = {10.0, 0.1, 1e-4};
+    const auto solutions =
+        PenalizedPath(Penalty::kRidge, SumsOf(sample), true).Solve(strengths);
+    for (Index s = 0; s < solutions.coefficients.cols(); ++s) {
+      const double strength = strengths[static_cast<std::size_t>(s)];
+      const VectorXd coefficients = solutions.coefficients.col(s);
       MatrixXd x;
       VectorXd residual;
       VectorXd w;
@@ -113,7 +124,7 @@ TEST(PenalizedRegression, RidgeSolvesItsNormalEquations) {
   }
 }
 
-TEST(PenalizedRegression, NoPenaltyIsLeastSquares) {
+TEST(PenalizedPath, NoPenaltyIsLeastSquares) {
   constexpr double kRelative = 1e-8;
   const Sample sample = MakeSample(60, 5, true, 40);
   MatrixXd design(60, 6);
@@ -121,51 +132,58 @@ TEST(PenalizedRegression, NoPenaltyIsLeastSquares) {
   const VectorXd expected =
       SolveLeastSquares(design, sample.response, sample.weights).coefficients;
   for (const Penalty penalty : {Penalty::kRidge, Penalty::kLasso}) {
-    PenalizedOptions options;
-    options.penalty = penalty;
-    options.strength = 0.0;
-    const PenalizedFit fit = FitPenalized(
-        {sample.terms, sample.response, sample.weights}, {}, options);
-    // The lasso's path is followed down to 1e-7 of its largest strength.
-    const double tolerance = penalty == Penalty::kRidge ? kRelative : 1e-5;
-    EXPECT_TRUE(fit.coefficients.isApprox(expected.tail(5), tolerance));
-    EXPECT_NEAR(
-        fit.intercept, expected[0], 100.0 * tolerance * std::abs(expected[0]));
+    const auto fit = PenalizedPath(penalty, SumsOf(sample), true).Solve({0.0});
+    EXPECT_TRUE(fit.coefficients.col(0).isApprox(expected.tail(5), kRelative));
+    EXPECT_NEAR(fit.intercepts[0],
+                expected[0],
+                100.0 * kRelative * std::abs(expected[0]));
   }
 }
 
-TEST(PenalizedRegression, CopiesAndConstantsDoNoHarm) {
+TEST(PenalizedPath, CopiesAndConstantsDoNoHarm) {
   Sample sample = MakeSample(30, 4, false, 50);
   sample.terms.col(2) = sample.terms.col(1);
   sample.terms.col(3).setConstant(3.0);
   for (const Penalty penalty : {Penalty::kRidge, Penalty::kLasso}) {
-    const auto path =
-        MakePath(penalty, {sample.terms, sample.response, sample.weights});
+    const PenalizedPath path(penalty, SumsOf(sample), true);
     const VectorXd coefficients =
-        path->Coefficients(0.01 * path->largest_strength());
+        path.Solve({0.01 * path.Grid().front()}).coefficients.col(0);
     EXPECT_TRUE(coefficients.allFinite());
     EXPECT_EQ(coefficients[3], 0.0);
   }
 }
 
-TEST(PenalizedRegression, CrossValidationPrefersAPenaltyWhereNoiseRules) {
-  const Sample sample = MakeSample(40, 30, false, 60);
-  FoldCodes folds;
-  for (Index i = 0; i < 40; ++i) folds.codes.push_back(i % 5);
+TEST(PenalizedPath, FoldsAreTakenAwayFromTheSumsOfAllRows) {
+  constexpr double kRelative = 1e-10;
+  const Sample sample = MakeSample(50, 6, true, 60);
+  CrossProducts others =
+      SumProducts(sample.terms, sample.response, sample.weights);
+  others -= SumProducts(MatrixXd(sample.terms.topRows(10)),
+                        sample.response.head(10),
+                        sample.weights.head(10));
+  const CrossProducts alone = SumProducts(MatrixXd(sample.terms.bottomRows(40)),
+                                          sample.response.tail(40),
+                                          sample.weights.tail(40));
   for (const Penalty penalty : {Penalty::kRidge, Penalty::kLasso}) {
-    PenalizedOptions options;
-    options.penalty = penalty;
-    const RegressionProblem problem{
-        sample.terms, sample.response, sample.weights};
-    const PenalizedFit fit = FitPenalized(problem, folds, options);
-    ASSERT_EQ(fit.strengths.size(), fit.mean_squared_errors.size());
-    EXPECT_GT(fit.strength, fit.strengths.back());
-    options.one_standard_error = true;
-    EXPECT_GE(FitPenalized(problem, folds, options).strength, fit.strength);
-    EXPECT_THROW(FitPenalized(problem, {}, options), std::invalid_argument);
-    options.strength = -1.0;
-    EXPECT_THROW(FitPenalized(problem, folds, options), std::invalid_argument);
+    const std::vector<double> strengths = {0.1, 1e-3};
+    const auto left =
+        PenalizedPath(penalty, others, true).Solve(strengths).coefficients;
+    const auto made =
+        PenalizedPath(penalty, alone, true).Solve(strengths).coefficients;
+    EXPECT_TRUE(left.isApprox(made, kRelative));
   }
+}
+
+TEST(PenalizedPath, GoesThroughZeroWithoutAnIntercept) {
+  const Sample sample = MakeSample(40, 3, false, 70);
+  const CrossProducts sums =
+      SumProducts(sample.terms, sample.response, sample.weights);
+  const PenalizedPath path(Penalty::kRidge, sums, false);
+  const auto solutions = path.Solve({1e-12});
+  EXPECT_EQ(solutions.intercepts[0], 0.0);
+  const VectorXd expected =
+      SolveLeastSquares(sample.terms, sample.response, {}).coefficients;
+  EXPECT_TRUE(solutions.coefficients.col(0).isApprox(expected, 1e-6));
 }
 
 }  // namespace

@@ -1,0 +1,308 @@
+#include "fitting/least_squares/penalized_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Dense>
+
+#include "fitting/matrix_product.h"
+
+namespace errmap::fitting {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+std::vector<double> FallingGrid(double largest, int decades, int per_decade) {
+  std::vector<double> grid;
+  for (int i = 0; i <= decades * per_decade; ++i) {
+    grid.push_back(largest *
+                   std::pow(10.0, -static_cast<double>(i) / per_decade));
+  }
+  return grid;
+}
+
+// The lasso's path: between knots its coefficients are linear in the strength
+// and the active columns keep one correlation with the residual, which falls.
+class LassoPathFollower {
+ public:
+  LassoPathFollower(const MatrixXd& correlation, const VectorXd& covariance)
+      : correlation_(correlation),
+        covariance_(covariance),
+        coefficients_(VectorXd::Zero(covariance.size())),
+        residual_(covariance),
+        may_join_(static_cast<std::size_t>(covariance.size()), true) {
+    // Columns that do not vary.
+    for (Index j = 0; j < correlation.rows(); ++j) {
+      if (!(correlation(j, j) > 0.0)) {
+        may_join_[static_cast<std::size_t>(j)] = false;
+      }
+    }
+    fixed_out_ = may_join_;
+  }
+
+  // Coefficients at each of the falling `strengths`.
+  MatrixXd Follow(const std::vector<double>& strengths) {
+    MatrixXd solutions = MatrixXd::Zero(coefficients_.size(),
+                                        static_cast<Index>(strengths.size()));
+    std::size_t at = 0;
+    const auto record_down_to = [&](double from,
+                                    double to,
+                                    const VectorXd& start,
+                                    const VectorXd& end) {
+      for (; at < strengths.size() && strengths[at] >= to; ++at) {
+        const double share =
+            from > to ? std::min(1.0, (from - strengths[at]) / (from - to))
+                      : 1.0;
+        solutions.col(static_cast<Index>(at)) =
+            start + std::max(0.0, share) * (end - start);
+      }
+    };
+    Index joining = -1;
+    double strength = 0.0;
+    for (Index j = 0; j < residual_.size(); ++j) {
+      if (may_join_[static_cast<std::size_t>(j)] &&
+          std::abs(residual_[j]) > strength) {
+        strength = std::abs(residual_[j]);
+        joining = j;
+      }
+    }
+    record_down_to(std::numeric_limits<double>::infinity(),
+                   strength,
+                   coefficients_,
+                   coefficients_);
+    Index dropped = -1;
+    const Index most_knots = 20 * coefficients_.size() + 20;
+    for (Index knot = 0; knot < most_knots && at < strengths.size(); ++knot) {
+      if (joining >= 0) Join(joining);
+      if (active_.empty()) break;
+      const VectorXd step = Direction();
+      VectorXd slope = VectorXd::Zero(residual_.size());
+      for (std::size_t i = 0; i < active_.size(); ++i) {
+        slope += step[static_cast<Index>(i)] * correlation_.col(active_[i]);
+      }
+      double length = strength;
+      joining = -1;
+      Index leaving = -1;
+      for (Index j = 0; j < residual_.size(); ++j) {
+        if (!may_join_[static_cast<std::size_t>(j)] || j == dropped) continue;
+        for (const double sign : {1.0, -1.0}) {
+          const double closing = 1.0 - sign * slope[j];
+          if (!(closing > kTiny)) continue;
+          const double reached =
+              std::max(0.0, (strength - sign * residual_[j]) / closing);
+          if (reached < length) {
+            length = reached;
+            joining = j;
+          }
+        }
+      }
+      for (std::size_t i = 0; i < active_.size(); ++i) {
+        const double reached =
+            -coefficients_[active_[i]] / step[static_cast<Index>(i)];
+        if (reached > 0.0 && reached < length) {
+          length = reached;
+          leaving = static_cast<Index>(i);
+          joining = -1;
+        }
+      }
+      const VectorXd before = coefficients_;
+      for (std::size_t i = 0; i < active_.size(); ++i) {
+        coefficients_[active_[i]] += length * step[static_cast<Index>(i)];
+      }
+      dropped = -1;
+      if (leaving >= 0) {
+        dropped = active_[static_cast<std::size_t>(leaving)];
+        coefficients_[dropped] = 0.0;
+      }
+      record_down_to(strength, strength - length, before, coefficients_);
+      strength -= length;
+      if (leaving >= 0) Leave(leaving);
+      residual_ = covariance_;
+      for (const Index j : active_) {
+        residual_ -= coefficients_[j] * correlation_.col(j);
+      }
+      if (joining < 0 && leaving < 0) break;  // reached no penalty at all
+    }
+    for (; at < strengths.size(); ++at) {
+      solutions.col(static_cast<Index>(at)) = coefficients_;
+    }
+    return solutions;
+  }
+
+ private:
+  static constexpr double kTiny = 1e-12;
+  // A column of which less is new than this share of its variance repeats the
+  // active ones: it stays at 0.
+  static constexpr double kCollinear = 1e-10;
+
+  Index num_active() const { return static_cast<Index>(active_.size()); }
+
+  void Join(Index column) {
+    may_join_[static_cast<std::size_t>(column)] = false;
+    const Index n = num_active();
+    VectorXd along(n);
+    for (Index i = 0; i < n; ++i) {
+      along[i] = correlation_(active_[static_cast<std::size_t>(i)], column);
+    }
+    factor_.topLeftCorner(n, n).triangularView<Eigen::Lower>().solveInPlace(
+        along);
+    const double rest = correlation_(column, column) - along.squaredNorm();
+    if (!(rest > kCollinear)) return;
+    if (factor_.rows() < n + 1) {
+      factor_.conservativeResize(2 * n + 8, 2 * n + 8);
+    }
+    factor_.row(n).head(n) = along.transpose();
+    factor_(n, n) = std::sqrt(rest);
+    active_.push_back(column);
+    signs_.push_back(residual_[column] >= 0.0 ? 1.0 : -1.0);
+  }
+
+  void Leave(Index place) {
+    active_.erase(active_.begin() + place);
+    signs_.erase(signs_.begin() + place);
+    const Index n = num_active();
+    MatrixXd products(n, n);
+    for (Index i = 0; i < n; ++i) {
+      for (Index j = 0; j <= i; ++j) {
+        products(i, j) = correlation_(active_[static_cast<std::size_t>(i)],
+                                      active_[static_cast<std::size_t>(j)]);
+      }
+    }
+    factor_.topLeftCorner(n, n) =
+        products.selfadjointView<Eigen::Lower>().llt().matrixL();
+    // Copies of what has left may come in again.
+    may_join_ = fixed_out_;
+    for (const Index j : active_)
+      may_join_[static_cast<std::size_t>(j)] = false;
+  }
+
+  // w = R_AA^-1 s: along it all active columns lose correlation alike.
+  VectorXd Direction() const {
+    const Index n = num_active();
+    VectorXd step = Eigen::Map<const VectorXd>(signs_.data(), n);
+    factor_.topLeftCorner(n, n).triangularView<Eigen::Lower>().solveInPlace(
+        step);
+    factor_.topLeftCorner(n, n)
+        .transpose()
+        .triangularView<Eigen::Upper>()
+        .solveInPlace(step);
+    return step;
+  }
+
+  const MatrixXd& correlation_;
+  const VectorXd& covariance_;
+  VectorXd coefficients_;
+  VectorXd residual_;  // (k) covariance of each column with the residual
+  std::vector<bool> may_join_;
+  std::vector<bool> fixed_out_;  // false for columns that never join
+  std::vector<Index> active_;
+  std::vector<double> signs_;
+  MatrixXd factor_;  // Cholesky factor of the active columns' correlation
+};
+
+}  // namespace
+
+std::string_view ToString(Penalty penalty) {
+  return penalty == Penalty::kRidge ? "ridge" : "lasso";
+}
+
+PenalizedPath::PenalizedPath(Penalty penalty,
+                             const CrossProducts& sums,
+                             bool intercept)
+    : penalty_(penalty), intercept_(intercept), weight_(sums.weight) {
+  // What is left of a constant column is rounding of its mean square.
+  constexpr double kConstant = 1e-12;
+  const Index k = sums.columns.size();
+  means_ = intercept ? VectorXd(sums.columns / weight_) : VectorXd::Zero(k);
+  mean_response_ = intercept ? sums.response / weight_ : 0.0;
+  correlation_ = sums.products.selfadjointView<Eigen::Lower>();
+  correlation_ /= weight_;
+  const VectorXd mean_squares = correlation_.diagonal();
+  correlation_.noalias() -= means_ * means_.transpose();
+  covariance_ = sums.with_response / weight_ - mean_response_ * means_;
+  scales_.setZero(k);
+  for (Index j = 0; j < k; ++j) {
+    if (correlation_(j, j) > kConstant * mean_squares[j]) {
+      scales_[j] = 1.0 / std::sqrt(correlation_(j, j));
+    }
+  }
+  correlation_ = scales_.asDiagonal() * correlation_ * scales_.asDiagonal();
+  covariance_.array() *= scales_.array();
+}
+
+std::vector<double> PenalizedPath::Grid() const {
+  if (penalty_ == Penalty::kRidge) return FallingGrid(10.0, 10, 1);
+  const double largest =
+      covariance_.size() > 0 ? covariance_.cwiseAbs().maxCoeff() : 0.0;
+  if (!(largest > 0.0)) return {0.0};
+  return FallingGrid(largest, 5, 4);
+}
+
+// R + strength I; constant columns, which R has as zeros, stand by themselves.
+MatrixXd PenalizedPath::Shifted(double strength) const {
+  MatrixXd shifted = correlation_;
+  shifted.diagonal().array() += strength;
+  for (Index j = 0; j < scales_.size(); ++j) {
+    if (scales_[j] == 0.0) shifted(j, j) = 1.0;
+  }
+  return shifted;
+}
+
+MatrixXd PenalizedPath::RidgeSolutions(
+    const std::vector<double>& strengths) const {
+  const Index k = covariance_.size();
+  MatrixXd solutions = MatrixXd::Zero(k, static_cast<Index>(strengths.size()));
+  // Columns that depend on each other, without a penalty, have the limit of
+  // weak ones.
+  constexpr double kWeak = 1e-11;
+  for (std::size_t s = 0; s < strengths.size() && k > 0; ++s) {
+    MatrixXd factor = Shifted(strengths[s]);
+    if (!FactorizeCholesky(factor)) {
+      factor = Shifted(strengths[s] + kWeak);
+      FactorizeCholesky(factor);
+    }
+    VectorXd solution = covariance_;
+    SolveCholesky(factor, &solution);
+    solutions.col(static_cast<Index>(s)) = solution;
+  }
+  return solutions;
+}
+
+MatrixXd PenalizedPath::LassoSolutions(
+    const std::vector<double>& strengths) const {
+  return LassoPathFollower(correlation_, covariance_).Follow(strengths);
+}
+
+PenalizedPath::Solutions PenalizedPath::Solve(
+    const std::vector<double>& strengths) const {
+  Solutions solutions;
+  const MatrixXd scaled = penalty_ == Penalty::kRidge
+                              ? RidgeSolutions(strengths)
+                              : LassoSolutions(strengths);
+  solutions.coefficients = scales_.asDiagonal() * scaled;
+  solutions.intercepts = VectorXd::Constant(scaled.cols(), mean_response_) -
+                         solutions.coefficients.transpose() * means_;
+  return solutions;
+}
+
+double PenalizedPath::DegreesOfFreedom(double strength,
+                                       const VectorXd& coefficients) const {
+  const double of_intercept = intercept_ ? 1.0 : 0.0;
+  if (penalty_ == Penalty::kLasso) {
+    return of_intercept +
+           static_cast<double>((coefficients.array() != 0.0).count());
+  }
+  // The trace of R (R + s I)^-1.
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(correlation_,
+                                                      Eigen::EigenvaluesOnly);
+  double trace = 0.0;
+  for (const double value : eigen.eigenvalues()) {
+    if (value > 0.0) trace += value / (value + strength);
+  }
+  return of_intercept + trace;
+}
+
+}  // namespace errmap::fitting

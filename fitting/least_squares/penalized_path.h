@@ -1,0 +1,64 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fitting/least_squares/cross_products.h"
+
+namespace errmap::fitting {
+
+enum class Penalty { kRidge, kLasso };
+std::string_view ToString(Penalty penalty);  // "ridge", "lasso"
+
+/// Solutions of
+///
+///   min  sum w (y - b0 - X b)^2 / (2 sum w) + strength * P(b)
+///
+/// with P = |b|^2 / 2 (ridge: Hoerl and Kennard 1970) or the sum of |b_j|
+/// (lasso: Tibshirani 1996), b being of columns scaled to (weighted) variance
+/// 1, from cross-products alone. The intercept is not penalised; constant
+/// columns have coefficient 0. Without an intercept columns are scaled to mean
+/// square 1 in place of variance 1, and b0 = 0.
+class PenalizedPath {
+ public:
+  PenalizedPath(Penalty penalty, const CrossProducts& sums, bool intercept);
+
+  /// Strengths worth trying, falling: for ridge from 10 times a column's
+  /// variance down to where rounding begins, for the lasso from where every
+  /// coefficient is 0 down to a share of it.
+  std::vector<double> Grid() const;
+
+  struct Solutions {
+    Eigen::MatrixXd coefficients;  // (k x strengths) of the columns as given
+    Eigen::VectorXd intercepts;    // (strengths)
+  };
+  /// Solutions for `strengths`, falling and at least 0; a ridge needs more
+  /// than 0 where columns depend on each other. Ridge by Cholesky factors; the
+  /// lasso follows its piecewise linear path knot by knot (Osborne, Presnell
+  /// and Turlach 2000): exact, with no iteration. A lasso's path that comes to
+  /// more knots than there are chances to leave it stops there.
+  Solutions Solve(const std::vector<double>& strengths) const;
+
+  /// Of one solution, intercept included: the trace of the hat matrix (ridge),
+  /// the number of terms (lasso: Zou, Hastie and Tibshirani 2007).
+  double DegreesOfFreedom(double strength,
+                          const Eigen::VectorXd& coefficients) const;
+
+ private:
+  Eigen::MatrixXd Shifted(double strength) const;
+  Eigen::MatrixXd RidgeSolutions(const std::vector<double>& strengths) const;
+  Eigen::MatrixXd LassoSolutions(const std::vector<double>& strengths) const;
+
+  Penalty penalty_;
+  bool intercept_;
+  double weight_;                // sum of w
+  Eigen::VectorXd means_;        // (k) 0 without an intercept
+  Eigen::VectorXd scales_;       // (k) 1 / spread; 0 for constant columns
+  double mean_response_ = 0.0;   // 0 without an intercept
+  Eigen::MatrixXd correlation_;  // (k x k) of the scaled columns
+  Eigen::VectorXd covariance_;   // (k) of the scaled columns and the response
+};
+
+}  // namespace errmap::fitting

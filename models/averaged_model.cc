@@ -1,0 +1,85 @@
+#include "models/averaged_model.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace errmap::models {
+
+using Eigen::Index;
+
+AveragedModel::AveragedModel(Index num_inputs,
+                             std::string rule,
+                             std::vector<AveragedMember> members)
+    : num_inputs_(num_inputs),
+      rule_(std::move(rule)),
+      members_(std::move(members)) {
+  const auto refuse = [](const std::string& why) {
+    throw std::invalid_argument("AveragedModel: " + why);
+  };
+  if (members_.empty()) refuse("has no members");
+  double total = 0.0;
+  for (const AveragedMember& member : members_) {
+    if (!(member.weight > 0.0 && std::isfinite(member.weight))) {
+      refuse("weights must be above 0 and finite");
+    }
+    if (static_cast<Index>(member.inputs.size()) !=
+        member.model->num_inputs()) {
+      refuse(member.name + " reads " +
+             std::to_string(member.model->num_inputs()) + " inputs, " +
+             std::to_string(member.inputs.size()) + " are named");
+    }
+    for (const Index input : member.inputs) {
+      if (input < 0 || input >= num_inputs_) {
+        refuse(member.name + " reads an input that is not there");
+      }
+    }
+    if (!(member.lowest <= member.highest)) {
+      refuse(member.name + " has bounds that are no range");
+    }
+    total += member.weight;
+  }
+  for (AveragedMember& member : members_) member.weight /= total;
+}
+
+Index AveragedModel::num_parameters() const {
+  Index parameters = 0;
+  for (const AveragedMember& member : members_) {
+    parameters += member.model->num_parameters();
+  }
+  return parameters;
+}
+
+ModelDescription AveragedModel::Describe() const {
+  BlendForm form{num_inputs_, rule_, {}};
+  for (const AveragedMember& member : members_) {
+    const ModelDescription description = member.model->Describe();
+    BlendForm::Member described{member.name,
+                                member.weight,
+                                member.inputs,
+                                member.lowest,
+                                member.highest,
+                                member.model->num_parameters(),
+                                {}};
+    if (const auto* polynomial = std::get_if<PolynomialForm>(&description)) {
+      described.form = *polynomial;
+    } else {
+      described.form = std::get<NetForm>(description);
+    }
+    form.members.push_back(std::move(described));
+  }
+  return form;
+}
+
+Eigen::VectorXd AveragedModel::DoPredict(const Eigen::MatrixXd& inputs) const {
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(inputs.rows());
+  for (const AveragedMember& member : members_) {
+    const Eigen::VectorXd predicted =
+        member.model->Predict(inputs(Eigen::all, member.inputs));
+    mean += member.weight *
+            predicted.cwiseMax(member.lowest).cwiseMin(member.highest);
+  }
+  return mean;
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,318 @@
+#include "models/blend/blend_recipe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+
+#include "models/averaged_model.h"
+#include "models/blend/form_to_model.h"
+#include "models/blend/stacking.h"
+#include "models/history/view.h"
+#include "models/history/with_history.h"
+#include "models/inner_folds.h"
+#include "models/net/net_recipe.h"
+#include "models/polynomial/penalized_candidates.h"
+#include "models/polynomial/polynomial_model.h"
+
+namespace errmap::models {
+namespace {
+
+using data::Dataset;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+enum class WeightRule { kPower4, kWithin20, kStack };
+
+const std::vector<std::string>& RuleWords() {
+  static const std::vector<std::string> words = {"power4", "within20", "stack"};
+  return words;
+}
+
+// What inner hold-outs say of a candidate.
+struct Score {
+  double rmse = 0.0;
+  const VectorXd* held_out = nullptr;  // null where not known
+};
+
+VectorXd WeightsFrom(WeightRule rule,
+                     const std::vector<Score>& scores,
+                     const VectorXd& targets) {
+  const auto count = static_cast<Index>(scores.size());
+  VectorXd weights(count);
+  double least = std::numeric_limits<double>::infinity();
+  for (const Score& score : scores) {
+    if (score.rmse < least) least = score.rmse;
+  }
+  if (rule == WeightRule::kStack) {
+    MatrixXd predictions(targets.size(), count);
+    for (Index i = 0; i < count; ++i) {
+      predictions.col(i) = *scores[static_cast<std::size_t>(i)].held_out;
+    }
+    return StackingWeights(predictions, targets);
+  }
+  // A candidate without error leaves nothing to the others.
+  const double floor = std::max(least, std::numeric_limits<double>::min());
+  for (Index i = 0; i < count; ++i) {
+    const double ratio = scores[static_cast<std::size_t>(i)].rmse / floor;
+    if (rule == WeightRule::kPower4) {
+      constexpr double kPower = -4.0;
+      weights[i] = std::isnan(ratio) ? 0.0 : std::pow(ratio, kPower);
+    } else {
+      constexpr double kNear = 1.2;
+      weights[i] = ratio <= kNear ? 1.0 : 0.0;
+    }
+  }
+  return weights / weights.sum();
+}
+
+// A member before it knows its place among the inputs of all.
+struct Part {
+  std::string name;
+  double weight = 0.0;
+  FittedModel map;  // its form reads columns of its own view
+};
+
+class BlendRecipe final : public ModelRecipe {
+ public:
+  explicit BlendRecipe(const ModelSpec& spec) : name_(spec.text) {
+    SpecOptions options(spec);
+    rule_ = static_cast<WeightRule>(options.TakeChoice("rule", 0, RuleWords()));
+    with_net_ = options.TakeChoice("net", 0, {"no", "yes"}) == 1;
+    choices_ = PenalizedChoices::Take(&options);
+    // Views are what averaging lives on.
+    choices_.view.given = true;
+    options.RefuseOthers();
+  }
+
+  std::string name() const override { return name_; }
+  ModelKind kind() const override { return ModelKind::kBlend; }
+
+  std::vector<EffectiveOption> options() const override {
+    std::vector<EffectiveOption> all;
+    all.push_back({"rule", RuleWords()[static_cast<std::size_t>(rule_)]});
+    all.push_back({"net", std::string(with_net_ ? "yes" : "no")});
+    choices_.Describe(&all);
+    return all;
+  }
+
+  std::optional<std::string> WhatIsMissing(
+      const Dataset& dataset) const override {
+    if (dataset.num_inputs() > 0) return std::nullopt;
+    return "inputs: a blend needs at least one";
+  }
+
+  std::optional<Index> NumCoefficients(const Dataset&) const override {
+    return std::nullopt;
+  }
+
+  FittedModel Fit(const Dataset& training,
+                  const FitContext& context) const override {
+    if (const auto missing = WhatIsMissing(training)) {
+      throw std::invalid_argument("the data lack " + *missing);
+    }
+    const InnerFolds folds = MakeInnerFolds(training, context);
+    const std::vector<BasisCandidate> bases =
+        JudgeBases(training,
+                   choices_,
+                   {fitting::Penalty::kRidge, fitting::Penalty::kLasso},
+                   folds,
+                   context);
+    std::vector<Score> scores;
+    for (const BasisCandidate& basis : bases) {
+      scores.push_back(
+          {basis.candidate->held_out_rmse, &basis.candidate->held_out});
+    }
+    std::optional<FittedModel> net;
+    if (with_net_ && rule_ != WeightRule::kStack) {
+      net = FitNet(training, context);
+      scores.push_back({net->inner_rmse, nullptr});
+    }
+    const VectorXd weights =
+        WeightsFrom(rule_, scores, training.target_values());
+
+    std::vector<Part> parts = CollapseBases(training, bases, weights);
+    if (net && weights[weights.size() - 1] > kLeastWeight) {
+      parts.push_back({net->name, weights[weights.size() - 1], *net});
+    }
+    FittedModel fitted = Average(training, std::move(parts));
+    fitted.summary.message = fmt::format(
+        "{} candidates weighted by {} on inner hold-outs ({})",
+        scores.size(),
+        rule_ == WeightRule::kPower4     ? "error^-4"
+        : rule_ == WeightRule::kWithin20 ? "equal weights within 20 % of the "
+                                           "best"
+                                         : "stacking",
+        folds.text);
+    return fitted;
+  }
+
+ private:
+  // Less than this changes no digit that anyone prints.
+  static constexpr double kLeastWeight = 1e-4;
+
+  static FittedModel FitNet(const Dataset& training,
+                            const FitContext& context) {
+    FitContext alone = context;
+    alone.explain = false;
+    alone.keep_trace = false;
+    return MakeNetRecipe(ParseModelSpec(kTunedNet))->Fit(training, alone);
+  }
+
+  // Members of one basis are polynomials of the same terms: one equation.
+  static std::vector<Part> CollapseBases(
+      const Dataset& training,
+      const std::vector<BasisCandidate>& bases,
+      const VectorXd& weights) {
+    std::vector<Part> parts;
+    std::map<std::pair<View, TermSet>, std::vector<std::size_t>> alike;
+    for (std::size_t i = 0; i < bases.size(); ++i) {
+      alike[{bases[i].fits->viewed->view, bases[i].terms}].push_back(i);
+    }
+    for (const auto& [basis, members] : alike) {
+      double weight = 0.0;
+      PenalizedCandidate mean;
+      mean.coefficients =
+          VectorXd::Zero(bases[members.front()].candidate->coefficients.size());
+      for (const std::size_t i : members) {
+        const double share = weights[static_cast<Index>(i)];
+        weight += share;
+        mean.intercept += share * bases[i].candidate->intercept;
+        mean.coefficients += share * bases[i].candidate->coefficients;
+      }
+      if (!(weight > kLeastWeight)) continue;
+      mean.intercept /= weight;
+      mean.coefficients /= weight;
+      const std::string name = fmt::format("ridge and lasso, {}, {}",
+                                           ToString(basis.first),
+                                           ToString(basis.second));
+      parts.push_back({name,
+                       weight,
+                       MapOfCandidate(name,
+                                      training,
+                                      *bases[members.front()].fits,
+                                      mean,
+                                      bases[members.front()].guarded)});
+    }
+    return parts;
+  }
+
+  // An average among the members gives its own members in its place.
+  static void AddMember(AveragedMember member,
+                        std::vector<AveragedMember>* members) {
+    const ModelDescription description = member.model->Describe();
+    const auto* average = std::get_if<BlendForm>(&description);
+    if (average == nullptr) {
+      members->push_back(std::move(member));
+      return;
+    }
+    for (const BlendForm::Member& inner : average->members) {
+      AveragedMember own = member;
+      own.name = fmt::format("{}, {}", member.name, inner.name);
+      own.weight = member.weight * inner.weight;
+      own.inputs.clear();
+      for (const Index input : inner.inputs) {
+        own.inputs.push_back(member.inputs[static_cast<std::size_t>(input)]);
+      }
+      own.model = std::visit(
+          [&](const auto& form) { return ModelOfForm(form, inner.parameters); },
+          inner.form);
+      members->push_back(std::move(own));
+    }
+  }
+
+  // One map that reads what any of the parts reads.
+  FittedModel Average(const Dataset& training, std::vector<Part> parts) const {
+    History history;
+    std::vector<std::string> columns;
+    const auto place_of = [&](const std::string& column) {
+      const auto found = std::ranges::find(columns, column);
+      if (found == columns.end()) columns.push_back(column);
+      return static_cast<Index>(std::ranges::find(columns, column) -
+                                columns.begin());
+    };
+    FittedModel fitted;
+    std::vector<AveragedMember> members;
+    for (Part& part : parts) {
+      AveragedMember member{.name = part.name,
+                            .weight = part.weight,
+                            .inputs = {},
+                            .lowest = -std::numeric_limits<double>::infinity(),
+                            .highest = std::numeric_limits<double>::infinity(),
+                            .model = part.map.model};
+      if (part.map.history != nullptr) {
+        const History& own = *part.map.history;
+        history.time_unit = own.time_unit;
+        history.session = own.session;
+        for (const DerivedInput& input : own.derived) {
+          if (std::ranges::none_of(
+                  history.derived, [&](const DerivedInput& known) {
+                    return known.column.name == input.column.name;
+                  })) {
+            history.derived.push_back(input);
+          }
+        }
+        for (const std::string& column : own.form_inputs) {
+          member.inputs.push_back(place_of(column));
+        }
+      } else {
+        for (const TrainedInput& input : part.map.inputs) {
+          member.inputs.push_back(place_of(input.column.name));
+        }
+      }
+      if (part.map.guards) {
+        const Guards& guards = *part.map.guards;
+        const double widened =
+            guards.error_margin * (guards.error_max - guards.error_min);
+        member.lowest = guards.error_min - widened;
+        member.highest = guards.error_max + widened;
+      }
+      fitted.remarks.push_back(
+          fmt::format("{:.3f} x {}", member.weight, member.name));
+      AddMember(std::move(member), &members);
+    }
+    history.form_inputs = columns;
+    const Dataset read = DeriveDataset(training, history);
+    std::vector<Index> all(columns.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Index>(i);
+    fitted.name = name_;
+    fitted.kind = ModelKind::kBlend;
+    fitted.align = training.align();
+    fitted.target = training.target();
+    fitted.summary.termination = fitting::Termination::kDirect;
+    fitted.inputs = DescribeInputs(read, all);
+    if (choices_.guarded()) {
+      fitted.guards = MakeGuards(fitted.inputs, training.target_values());
+    }
+    fitted.model = std::make_shared<AveragedModel>(
+        static_cast<Index>(columns.size()),
+        RuleWords()[static_cast<std::size_t>(rule_)],
+        std::move(members));
+    if (!history.derived.empty()) {
+      fitted = WithHistory(std::move(fitted), training, history);
+    }
+    return fitted;
+  }
+
+  std::string name_;
+  WeightRule rule_;
+  bool with_net_;
+  PenalizedChoices choices_;
+};
+
+}  // namespace
+
+std::unique_ptr<ModelRecipe> MakeBlendRecipe(const ModelSpec& spec) {
+  if (spec.type != "blend") return nullptr;
+  return std::make_unique<BlendRecipe>(spec);
+}
+
+}  // namespace errmap::models

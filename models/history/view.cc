@@ -1,0 +1,302 @@
+#include "models/history/view.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace errmap::models {
+namespace {
+
+using data::Dataset;
+using Eigen::Index;
+
+const std::vector<std::string>& ViewWords() {
+  static const std::vector<std::string> words = {
+      "raw", "history", "zero", "history+zero"};
+  return words;
+}
+
+bool Filters(View view) {
+  return view == View::kHistory || view == View::kHistoryAndZero;
+}
+
+bool TakesZero(View view) {
+  return view == View::kZero || view == View::kHistoryAndZero;
+}
+
+std::vector<double> ParseTimeConstants(const std::string& text) {
+  std::vector<double> constants;
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t end = std::min(text.find('+', begin), text.size());
+    const std::string item = text.substr(begin, end - begin);
+    std::size_t used = 0;
+    double value = 0.0;
+    try {
+      value = std::stod(item, &used);
+    } catch (const std::exception&) {
+      used = 0;
+    }
+    if (item.empty() || used != item.size() || !(value > 0.0) ||
+        !std::isfinite(value)) {
+      throw std::invalid_argument(fmt::format(
+          "history={}: must be auto, none or time constants above 0 joined by "
+          "+",
+          text));
+    }
+    constants.push_back(value);
+    begin = end + 1;
+  }
+  return constants;
+}
+
+bool IsAngle(const data::ColumnInfo& column) {
+  return column.unit.quantity == data::Quantity::kAngle;
+}
+
+// The definitions of a view over the inputs of `training`.
+History DefineView(const Dataset& training,
+                   View view,
+                   const std::vector<double>& time_constants,
+                   bool sine_and_cosine) {
+  History history;
+  if (training.log() != nullptr) {
+    history.time_unit = training.log()->time_unit;
+    history.session = training.log()->sessions.column;
+  }
+  // Columns that filters and zeros are taken of, and columns that stay.
+  std::vector<data::ColumnInfo> varying;
+  for (const data::ColumnInfo& input : training.inputs()) {
+    if (sine_and_cosine && IsAngle(input)) {
+      for (const DerivedInput& part : {SineOf(input), CosineOf(input)}) {
+        history.derived.push_back(part);
+        history.form_inputs.push_back(part.column.name);
+      }
+    } else if (IsPosition(input)) {
+      history.form_inputs.push_back(input.name);
+    } else {
+      varying.push_back(input);
+    }
+  }
+  if (Filters(view)) {
+    const std::vector<data::ColumnInfo> measured = varying;
+    for (const double tau : time_constants) {
+      for (const data::ColumnInfo& input : measured) {
+        history.derived.push_back(Ema(input, tau, history.time_unit));
+        varying.push_back(history.derived.back().column);
+      }
+    }
+  }
+  for (const data::ColumnInfo& column : varying) {
+    if (TakesZero(view)) {
+      history.derived.push_back(Zeroed(column));
+      history.form_inputs.push_back(history.derived.back().column.name);
+    } else {
+      history.form_inputs.push_back(column.name);
+    }
+  }
+  return history;
+}
+
+// Why these rows have no such view; "" where they have.
+std::string WhyNot(const Dataset& training,
+                   View view,
+                   const std::vector<double>& time_constants) {
+  const bool only_positions = std::ranges::all_of(
+      training.inputs(),
+      [](const data::ColumnInfo& input) { return IsPosition(input); });
+  if (view == View::kRaw) return "";
+  if (only_positions) return "there is no input besides positions";
+  if (training.log() == nullptr) return "no sessions and times are known";
+  if (Filters(view) && time_constants.empty()) {
+    return "no session has a length";
+  }
+  if (TakesZero(view) && !training.has_sessions()) {
+    return "a zero needs two sessions or more";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string_view ToString(View view) {
+  return ViewWords()[static_cast<std::size_t>(view)];
+}
+
+View ViewOf(std::string_view word) {
+  return static_cast<View>(std::ranges::find(ViewWords(), word) -
+                           ViewWords().begin());
+}
+
+ViewOptions ViewOptions::Take(SpecOptions* options) {
+  ViewOptions taken;
+  const std::string view = options->TakeText("view", "");
+  const std::string history = options->TakeText("history", "");
+  const std::string zero = options->TakeText("zero", "");
+  const std::string angles = options->TakeText("angles", "");
+  taken.never_intercept =
+      options->TakeChoice("intercept", 0, {"yes", "no"}) == 1;
+  taken.given = !view.empty() || !history.empty() || !zero.empty() ||
+                !angles.empty() || taken.never_intercept;
+  if (!history.empty() && history != "auto" && history != "none") {
+    taken.time_constants = ParseTimeConstants(history);
+  }
+  taken.with_history = history != "none";
+  taken.with_zero = options->TakeChoice("zero", 0, {"session", "none"}) == 0;
+  taken.sine_and_cosine =
+      options->TakeChoice("angles", 1, {"sincos", "none"}) == 0;
+  std::vector<std::string> words = {"auto"};
+  std::ranges::copy(ViewWords(), std::back_inserter(words));
+  const std::size_t word = options->TakeChoice("view", 0, words);
+  if (word > 0) {
+    taken.view = static_cast<View>(word - 1);
+  } else if (view.empty() && taken.given) {
+    // Named by what it is made of: history=600+3600, zero=session.
+    const bool filters = !history.empty() && taken.with_history;
+    const bool zeroes = !zero.empty() && taken.with_zero;
+    taken.view = filters && zeroes ? View::kHistoryAndZero
+                 : filters         ? View::kHistory
+                 : zeroes          ? View::kZero
+                                   : View::kRaw;
+  }
+  return taken;
+}
+
+void ViewOptions::Describe(std::vector<EffectiveOption>* options) const {
+  if (!given) return;
+  options->push_back({"view", std::string(view ? ToString(*view) : "auto")});
+  if (!time_constants.empty()) {
+    options->push_back(
+        {"history", fmt::format("{}", fmt::join(time_constants, "+"))});
+  } else if (!with_history) {
+    options->push_back({"history", std::string("none")});
+  }
+  if (!with_zero) options->push_back({"zero", std::string("none")});
+  if (never_intercept) options->push_back({"intercept", std::string("no")});
+  if (sine_and_cosine) {
+    options->push_back({"angles", std::string("sincos")});
+  }
+}
+
+bool IsPosition(const data::ColumnInfo& column) {
+  constexpr std::string_view kWord = "position";
+  return std::ranges::equal(
+      column.name.substr(0, kWord.size()), kWord, [](char a, char b) {
+        return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b;
+      });
+}
+
+std::vector<double> MakeTimeConstants(const Dataset& training) {
+  if (training.log() == nullptr) return {};
+  const data::SessionLog& log = *training.log();
+  const std::vector<Index> codes = training.session_codes();
+  const std::set<Index> trained(codes.begin(), codes.end());
+  std::map<Index, std::pair<double, double>> spans;
+  for (std::size_t row = 0; row < log.sessions.codes.size(); ++row) {
+    const Index session = log.sessions.codes[row];
+    if (!trained.contains(session)) continue;
+    const double time = log.time[static_cast<Index>(row)];
+    const auto [span, is_new] = spans.try_emplace(session, time, time);
+    if (is_new) continue;
+    span->second.first = std::min(span->second.first, time);
+    span->second.second = std::max(span->second.second, time);
+  }
+  std::vector<double> lengths;
+  for (const auto& [session, span] : spans) {
+    lengths.push_back(span.second - span.first);
+  }
+  if (lengths.empty()) return {};
+  const auto middle =
+      lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::ranges::nth_element(lengths, middle);
+  if (!(*middle > 0.0)) return {};
+  // Three digits: they stand in names, and more would mean nothing.
+  const auto rounded = [](double value) {
+    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+    return std::round(value / unit) * unit;
+  };
+  constexpr std::array<double, 3> kShares = {100.0, 30.0, 10.0};
+  std::vector<double> constants;
+  for (const double share : kShares)
+    constants.push_back(rounded(*middle / share));
+  return constants;
+}
+
+double LargestFirstError(const Dataset& training) {
+  double largest = std::numeric_limits<double>::quiet_NaN();
+  if (training.log() == nullptr) return largest;
+  const data::SessionLog& log = *training.log();
+  const std::set<Index> firsts(log.first_rows.begin(), log.first_rows.end());
+  for (Index row = 0; row < training.num_rows(); ++row) {
+    if (!firsts.contains(training.log_rows()[static_cast<std::size_t>(row)])) {
+      continue;
+    }
+    const double size = std::abs(training.target_values()[row]);
+    if (!(largest >= size)) largest = size;
+  }
+  return largest;
+}
+
+std::vector<ViewedRows> MakeViews(const Dataset& training,
+                                  const ViewOptions& options,
+                                  double indifference) {
+  const std::vector<double> time_constants = options.time_constants.empty()
+                                                 ? MakeTimeConstants(training)
+                                                 : options.time_constants;
+  std::vector<View> wanted;
+  if (!options.given) {
+    wanted = {View::kRaw};
+  } else if (options.view) {
+    const std::string why = WhyNot(training, *options.view, time_constants);
+    if (!why.empty()) {
+      throw std::invalid_argument(
+          fmt::format("view={}: {}", ToString(*options.view), why));
+    }
+    wanted = {*options.view};
+  } else {
+    for (const View view :
+         {View::kRaw, View::kHistory, View::kZero, View::kHistoryAndZero}) {
+      if (Filters(view) && !options.with_history) continue;
+      if (TakesZero(view) && !options.with_zero) continue;
+      // A zero alone is part of a zero with history.
+      if (view == View::kZero && options.with_history) continue;
+      if (WhyNot(training, view, time_constants).empty()) {
+        wanted.push_back(view);
+      }
+    }
+  }
+  const double first_error = LargestFirstError(training);
+  std::vector<ViewedRows> views;
+  for (const View view : wanted) {
+    ViewedRows viewed;
+    viewed.view = view;
+    const bool derives = view != View::kRaw || options.sine_and_cosine;
+    if (derives) {
+      viewed.history = std::make_shared<const History>(
+          DefineView(training, view, time_constants, options.sine_and_cosine));
+      viewed.rows = std::make_shared<const Dataset>(
+          DeriveDataset(training, *viewed.history));
+    } else {
+      viewed.rows = std::make_shared<const Dataset>(training);
+    }
+    for (const data::ColumnInfo& input : viewed.rows->inputs()) {
+      viewed.is_position.push_back(IsPosition(input));
+    }
+    // Inputs that are zero where a session begins give an error that is zero
+    // there, if that is what was measured.
+    viewed.intercept = !options.never_intercept &&
+                       !(TakesZero(view) && first_error <= indifference);
+    views.push_back(std::move(viewed));
+  }
+  return views;
+}
+
+}  // namespace errmap::models

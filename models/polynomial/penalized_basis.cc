@@ -1,0 +1,430 @@
+#include "models/polynomial/penalized_basis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "fitting/least_squares/cross_products.h"
+#include "models/history/with_history.h"
+#include "models/polynomial/polynomial_fit.h"
+
+namespace errmap::models {
+namespace {
+
+using data::Dataset;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using fitting::CrossProducts;
+using fitting::Penalty;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr Index kBlockRows = 4096;
+// Predictions of held-out rows are kept for stacking up to this many.
+constexpr Index kMostKept = 100'000;
+
+// Where a set of rows lies: their scaled inputs and their target.
+struct Ranges {
+  explicit Ranges(Index inputs)
+      : input_min(VectorXd::Constant(inputs, kNaN)),
+        input_max(VectorXd::Constant(inputs, kNaN)) {}
+
+  void Include(const MatrixXd& inputs, const VectorXd& targets) {
+    WidenInputs(inputs.colwise().minCoeff(), inputs.colwise().maxCoeff());
+    WidenErrors(targets.minCoeff(), targets.maxCoeff());
+  }
+  void Include(const Ranges& other) {
+    if (std::isnan(other.error_min)) return;
+    WidenInputs(other.input_min, other.input_max);
+    WidenErrors(other.error_min, other.error_max);
+  }
+
+  VectorXd input_min;
+  VectorXd input_max;
+  double error_min = kNaN;
+  double error_max = kNaN;
+
+ private:
+  void WidenInputs(const VectorXd& low, const VectorXd& high) {
+    for (Index j = 0; j < input_min.size(); ++j) {
+      if (!(input_min[j] <= low[j])) input_min[j] = low[j];
+      if (!(input_max[j] >= high[j])) input_max[j] = high[j];
+    }
+  }
+  void WidenErrors(double low, double high) {
+    if (!(error_min <= low)) error_min = low;
+    if (!(error_max >= high)) error_max = high;
+  }
+};
+
+void ClipColumns(const VectorXd& min,
+                 const VectorXd& max,
+                 double margin,
+                 MatrixXd* values) {
+  for (Index j = 0; j < values->cols(); ++j) {
+    const double widened = margin * (max[j] - min[j]);
+    values->col(j) =
+        values->col(j).cwiseMax(min[j] - widened).cwiseMin(max[j] + widened);
+  }
+}
+
+// The rows of one basis: sums and ranges of each inner fold.
+class BasisRows {
+ public:
+  BasisRows(const PolynomialDesign& design,
+            const std::vector<bool>& excluded,
+            const InnerFolds* folds,
+            const FitContext& context)
+      : design_(design),
+        excluded_(excluded),
+        folds_(folds),
+        context_(context),
+        inputs_(design.ScaledInputs()) {
+    const Index n = design.rows();
+    members_.resize(
+        folds == nullptr ? 1 : static_cast<std::size_t>(folds->folds.count()));
+    for (Index row = 0; row < n; ++row) {
+      const Index fold =
+          folds == nullptr ? 0
+                           : folds->folds.codes[static_cast<std::size_t>(row)];
+      members_[static_cast<std::size_t>(fold)].push_back(row);
+    }
+    for (const std::vector<Index>& rows : members_) {
+      sums_.push_back(fitting::NoRows(design.num_terms()));
+      ranges_.emplace_back(inputs_.cols());
+      ForBlocks(rows, [&](const std::vector<Index>& block) {
+        const MatrixXd inputs = inputs_(block, Eigen::all);
+        const VectorXd targets = Targets(block);
+        ranges_.back().Include(inputs, targets);
+        sums_.back() +=
+            fitting::SumProducts(Terms(inputs), targets, Weights(block));
+      });
+    }
+  }
+
+  CrossProducts All() const {
+    CrossProducts all = sums_.front();
+    for (std::size_t fold = 1; fold < sums_.size(); ++fold) all += sums_[fold];
+    return all;
+  }
+
+  // Of the rows that predict a fold.
+  CrossProducts TrainingOf(Index fold, const CrossProducts& all) const {
+    if (!folds_->folds.forward) {
+      CrossProducts others = all;
+      others -= sums_[static_cast<std::size_t>(fold)];
+      return others;
+    }
+    CrossProducts earlier = fitting::NoRows(design_.num_terms());
+    for (Index f = 0; f < fold; ++f) {
+      earlier += sums_[static_cast<std::size_t>(f)];
+    }
+    return earlier;
+  }
+
+  // Predictions (rows of the fold x solutions), clipped where `guarded`.
+  template <typename Take>
+  void PredictFold(Index fold,
+                   const fitting::PenalizedPath::Solutions& solutions,
+                   bool guarded,
+                   Take&& take) const {
+    const Guards margins;
+    Ranges trained(inputs_.cols());
+    for (Index f = 0; f < folds_->folds.count(); ++f) {
+      if (f != fold && (!folds_->folds.forward || f < fold)) {
+        trained.Include(ranges_[static_cast<std::size_t>(f)]);
+      }
+    }
+    const double widened =
+        margins.error_margin * (trained.error_max - trained.error_min);
+    ForBlocks(members_[static_cast<std::size_t>(fold)],
+              [&](const std::vector<Index>& block) {
+                MatrixXd inputs = inputs_(block, Eigen::all);
+                if (guarded) {
+                  ClipColumns(trained.input_min,
+                              trained.input_max,
+                              margins.input_margin,
+                              &inputs);
+                }
+                MatrixXd predicted = Terms(inputs) * solutions.coefficients;
+                predicted.rowwise() += solutions.intercepts.transpose();
+                if (guarded) {
+                  predicted = predicted.cwiseMax(trained.error_min - widened)
+                                  .cwiseMin(trained.error_max + widened);
+                }
+                take(block, predicted);
+              });
+  }
+
+  VectorXd Targets(const std::vector<Index>& rows) const {
+    return design_.dataset().target_values()(rows);
+  }
+  VectorXd Weights(const std::vector<Index>& rows) const {
+    const VectorXd& weights = design_.dataset().weights();
+    return weights.size() == 0 ? VectorXd() : VectorXd(weights(rows));
+  }
+
+ private:
+  MatrixXd Terms(const MatrixXd& inputs) const {
+    MatrixXd terms = TermMatrix(inputs, design_.terms());
+    // A column of zeros takes no part.
+    for (Index j = 0; j < terms.cols(); ++j) {
+      if (excluded_[static_cast<std::size_t>(j)]) terms.col(j).setZero();
+    }
+    return terms;
+  }
+
+  template <typename Work>
+  void ForBlocks(const std::vector<Index>& rows, Work&& work) const {
+    for (std::size_t first = 0; first < rows.size(); first += kBlockRows) {
+      if (context_.stop != nullptr && context_.stop->load()) {
+        throw std::invalid_argument("interrupted");
+      }
+      const std::size_t last =
+          std::min(rows.size(), first + static_cast<std::size_t>(kBlockRows));
+      work(
+          std::vector<Index>(rows.begin() + static_cast<std::ptrdiff_t>(first),
+                             rows.begin() + static_cast<std::ptrdiff_t>(last)));
+    }
+  }
+
+  const PolynomialDesign& design_;
+  const std::vector<bool>& excluded_;
+  const InnerFolds* folds_;  // null: none
+  const FitContext& context_;
+  MatrixXd inputs_;  // (n x p) scaled
+  std::vector<std::vector<Index>> members_;
+  std::vector<CrossProducts> sums_;
+  std::vector<Ranges> ranges_;
+};
+
+// What the inner hold-outs say of each strength tried.
+class StrengthSearch {
+ public:
+  StrengthSearch(const BasisRows& rows,
+                 const CrossProducts& all,
+                 const InnerFolds& folds,
+                 Penalty penalty,
+                 bool intercept,
+                 bool guarded,
+                 Index num_rows)
+      : rows_(rows),
+        folds_(folds.folds),
+        guarded_(guarded),
+        keeps_(num_rows <= kMostKept),
+        num_rows_(num_rows) {
+    for (Index fold = folds_.first_judged(); fold < folds_.count(); ++fold) {
+      paths_.emplace_back(penalty, rows.TrainingOf(fold, all), intercept);
+    }
+  }
+
+  // Judges `strengths`, falling.
+  void Judge(const std::vector<double>& strengths) {
+    const auto count = static_cast<Index>(strengths.size());
+    const auto judged = static_cast<Index>(paths_.size());
+    MatrixXd errors = MatrixXd::Zero(judged, count);  // sums of squares
+    VectorXd weights = VectorXd::Zero(judged);
+    MatrixXd held_out;
+    if (keeps_) held_out = MatrixXd::Constant(num_rows_, count, kNaN);
+    for (Index i = 0; i < judged; ++i) {
+      rows_.PredictFold(
+          i + folds_.first_judged(),
+          paths_[static_cast<std::size_t>(i)].Solve(strengths),
+          guarded_,
+          [&](const std::vector<Index>& block, const MatrixXd& predicted) {
+            VectorXd w = rows_.Weights(block);
+            if (w.size() == 0) w = VectorXd::Ones(predicted.rows());
+            const MatrixXd residuals =
+                (-predicted).colwise() + rows_.Targets(block);
+            errors.row(i) += w.transpose() * residuals.cwiseAbs2();
+            weights[i] += w.sum();
+            if (keeps_) held_out(block, Eigen::all) = predicted;
+          });
+    }
+    const VectorXd shares = weights / weights.sum();
+    for (Index s = 0; s < count; ++s) {
+      Judged result;
+      const VectorXd means = errors.col(s).cwiseQuotient(weights);
+      result.mean = shares.dot(means);
+      const double variance =
+          shares.dot(VectorXd((means.array() - result.mean).square()));
+      result.standard_error =
+          judged > 1 ? std::sqrt(variance / static_cast<double>(judged - 1))
+                     : kNaN;
+      if (keeps_) result.held_out = held_out.col(s);
+      judged_[-strengths[static_cast<std::size_t>(s)]] = std::move(result);
+    }
+  }
+
+  double Best() const { return -Lowest()->first; }
+
+  // The chosen strength and all that was found, into `candidate`.
+  void Report(bool one_standard_error, PenalizedCandidate* candidate) const {
+    auto chosen = Lowest();
+    if (one_standard_error && !std::isnan(chosen->second.standard_error)) {
+      const double enough = chosen->second.mean + chosen->second.standard_error;
+      chosen =
+          std::find_if(judged_.begin(), judged_.end(), [&](const auto& judged) {
+            return judged.second.mean <= enough;
+          });
+    }
+    for (const auto& [strength, judged] : judged_) {
+      candidate->strengths.push_back(-strength);
+      candidate->mean_squared_errors.push_back(judged.mean);
+      candidate->standard_errors.push_back(judged.standard_error);
+    }
+    candidate->strength = -chosen->first;
+    candidate->held_out_rmse = std::sqrt(chosen->second.mean);
+    candidate->held_out = chosen->second.held_out;
+  }
+
+ private:
+  struct Judged {
+    double mean = 0.0;
+    double standard_error = kNaN;
+    VectorXd held_out;
+  };
+  // By falling strength: the key is its negative.
+  using Results = std::map<double, Judged>;
+
+  // Of equal errors the stronger penalty.
+  Results::const_iterator Lowest() const {
+    return std::ranges::min_element(
+        judged_, {}, [](const auto& judged) { return judged.second.mean; });
+  }
+
+  const BasisRows& rows_;
+  const fitting::FoldCodes& folds_;
+  bool guarded_;
+  bool keeps_;
+  Index num_rows_;
+  std::vector<fitting::PenalizedPath> paths_;  // of the judged folds
+  Results judged_;
+};
+
+std::vector<bool> ExcludedTerms(const PenalizedBasis& basis,
+                                const PolynomialDesign& design) {
+  std::vector<bool> excluded(static_cast<std::size_t>(design.num_terms()),
+                             false);
+  std::vector<std::string> names;
+  for (const data::ColumnInfo& input : design.dataset().inputs()) {
+    names.push_back(input.name);
+  }
+  for (const TermPowers& powers :
+       ResolveTerms(basis.exclude, names, "exclude")) {
+    const auto at = std::ranges::find(design.terms(), powers);
+    if (at == design.terms().end()) {
+      throw std::invalid_argument(
+          fmt::format("exclude: {} is not among the {} terms up to degree {}",
+                      TermName(powers, names),
+                      ToString(basis.terms),
+                      basis.degree));
+    }
+    excluded[static_cast<std::size_t>(at - design.terms().begin())] = true;
+  }
+  return excluded;
+}
+
+PolynomialDesign MakeDesign(const ViewedRows& viewed,
+                            const PenalizedBasis& basis) {
+  constexpr Index kMostTerms = 4000;  // 128 MB of products for each inner fold
+  const auto count = CountTerms(basis.terms, viewed.is_position, basis.degree);
+  if (!count || *count > kMostTerms) {
+    throw std::invalid_argument(fmt::format(
+        "degree {} in {} inputs makes {} terms, at most {} can be held; use a "
+        "lower degree, fewer inputs or terms=squares",
+        basis.degree,
+        viewed.is_position.size(),
+        count ? std::to_string(*count) : "countless",
+        kMostTerms));
+  }
+  const Dataset& rows = *viewed.rows;
+  std::vector<TermPowers> terms =
+      MakeTerms(basis.terms, viewed.is_position, basis.degree);
+  std::vector<Index> inputs = AllColumns(rows);
+  ColumnScaling scaling;
+  if (basis.centring != Centring::kStandardised) {
+    scaling = PolynomialScaling(rows, inputs, terms, basis.centring);
+  } else if (viewed.intercept) {
+    scaling = StandardScaling(rows.input_values());
+  } else {
+    scaling = RootMeanSquareScaling(rows.input_values());
+  }
+  return {rows, std::move(inputs), std::move(scaling), std::move(terms)};
+}
+
+}  // namespace
+
+std::shared_ptr<const PenalizedFits> FitPenalizedBasis(
+    std::shared_ptr<const ViewedRows> viewed,
+    const PenalizedBasis& basis,
+    const std::vector<Penalty>& penalties,
+    const PenaltyRule& rule,
+    const InnerFolds& folds,
+    const FitContext& context) {
+  auto fits = std::make_shared<PenalizedFits>(
+      PenalizedFits{viewed, MakeDesign(*viewed, basis), {}});
+  const Index n = fits->design.rows();
+  if (!rule.strength && (static_cast<Index>(folds.folds.codes.size()) != n ||
+                         folds.folds.count() < 2)) {
+    throw std::invalid_argument(
+        "the penalty is chosen by cross-validation, which needs a fold for "
+        "each row and at least 2 folds");
+  }
+  const std::vector<bool> excluded = ExcludedTerms(basis, fits->design);
+  const BasisRows rows(
+      fits->design, excluded, rule.strength ? nullptr : &folds, context);
+  const CrossProducts all = rows.All();
+  for (const Penalty penalty : penalties) {
+    PenalizedCandidate candidate;
+    candidate.penalty = penalty;
+    candidate.held_out_rmse = kNaN;
+    if (rule.strength) {
+      candidate.strength = *rule.strength;
+    } else {
+      StrengthSearch search(
+          rows, all, folds, penalty, viewed->intercept, basis.guarded, n);
+      search.Judge(
+          fitting::PenalizedPath(penalty, all, viewed->intercept).Grid());
+      if (penalty == Penalty::kRidge) {
+        // Its grid is coarse, since each strength costs a factorisation.
+        const double half_a_decade = std::sqrt(10.0);
+        const double best = search.Best();
+        search.Judge({best * half_a_decade, best / half_a_decade});
+      }
+      search.Report(rule.one_standard_error, &candidate);
+    }
+    const fitting::PenalizedPath path(penalty, all, viewed->intercept);
+    const auto solutions = path.Solve({candidate.strength});
+    candidate.coefficients = solutions.coefficients.col(0);
+    candidate.intercept = solutions.intercepts[0];
+    candidate.degrees_of_freedom =
+        path.DegreesOfFreedom(candidate.strength, candidate.coefficients);
+    fits->candidates.push_back(std::move(candidate));
+  }
+  return fits;
+}
+
+FittedModel MapOfCandidate(const std::string& name,
+                           const Dataset& raw,
+                           const PenalizedFits& fits,
+                           const PenalizedCandidate& candidate,
+                           bool guarded) {
+  FittedModel fitted = MapOfTerms(
+      name, fits.design, candidate.intercept, candidate.coefficients);
+  fitted.inner_rmse = candidate.held_out_rmse;
+  if (guarded) {
+    fitted.guards = MakeGuards(fitted.inputs, raw.target_values());
+  }
+  if (fits.viewed->history != nullptr) {
+    fitted = WithHistory(std::move(fitted), raw, *fits.viewed->history);
+  }
+  return fitted;
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fitting/least_squares/penalized_path.h"
+#include "models/error_model.h"
+#include "models/history/view.h"
+#include "models/inner_folds.h"
+#include "models/polynomial/formula.h"
+#include "models/polynomial/polynomial_design.h"
+#include "models/polynomial/term_set.h"
+
+namespace errmap::models {
+
+/// Terms over rows in one view, for ridge and lasso. Products are of inputs
+/// standardised over the training rows (mean 0, sd 1) unless `centring` says
+/// otherwise, and the columns are standardised again in each fit.
+struct PenalizedBasis {
+  TermSet terms = TermSet::kLinear;
+  int degree = 1;
+  Centring centring = Centring::kStandardised;
+  std::vector<NamedTerm> exclude;
+  bool guarded = false;  // inputs and predictions clipped at the trained range
+};
+
+/// How a penalty is chosen.
+struct PenaltyRule {
+  std::optional<double> strength;   // given; empty: by inner hold-outs
+  bool one_standard_error = false;  // the strongest within one standard error
+                                    // of the least (Breiman et al. 1984)
+};
+
+/// Held-out errors along the penalties of one family, and its fit to all rows
+/// at the one chosen.
+struct PenalizedCandidate {
+  fitting::Penalty penalty = fitting::Penalty::kRidge;
+  double strength = 0.0;
+  double degrees_of_freedom = 0.0;
+  // The inner hold-outs, falling strengths; empty where the strength was given.
+  std::vector<double> strengths;
+  std::vector<double> mean_squared_errors;
+  std::vector<double> standard_errors;  // of those means, over folds
+  /// Root of the least mean squared error (of the chosen strength); NaN
+  /// without inner hold-outs.
+  double held_out_rmse = 0.0;
+  /// (n) predictions of the rows held out, at the chosen strength; NaN for
+  /// rows never held out; (0) where they were not kept.
+  Eigen::VectorXd held_out;
+  double intercept = 0.0;
+  Eigen::VectorXd coefficients;  // (terms) in the scaled inputs of the design
+};
+
+/// A basis with its candidates, one per penalty asked for.
+struct PenalizedFits {
+  std::shared_ptr<const ViewedRows> viewed;
+  PolynomialDesign design;  // of viewed->rows
+  std::vector<PenalizedCandidate> candidates;
+};
+
+/// Fits all `penalties` to one basis from one pass over the rows,
+/// cross-products of each inner fold kept apart. Held-out rows are clipped as
+/// `basis` says, at what their own fold trained on. `folds` are not needed
+/// where the strength is given. Throws std::invalid_argument on too many terms
+/// or folds that are missing; interrupted by context.stop with FitInterrupted's
+/// message.
+std::shared_ptr<const PenalizedFits> FitPenalizedBasis(
+    std::shared_ptr<const ViewedRows> viewed,
+    const PenalizedBasis& basis,
+    const std::vector<fitting::Penalty>& penalties,
+    const PenaltyRule& rule,
+    const InnerFolds& folds,
+    const FitContext& context);
+
+/// The map of a candidate, history and guards attached. `raw` are the training
+/// rows before any view.
+FittedModel MapOfCandidate(const std::string& name,
+                           const data::Dataset& raw,
+                           const PenalizedFits& fits,
+                           const PenalizedCandidate& candidate,
+                           bool guarded);
+
+}  // namespace errmap::models

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+
+namespace errmap::models {
+
+/// Results that several recipes need of the same training rows, each made once
+/// by whoever asks first; the others wait for it. What is made must depend on
+/// its key and the rows alone, and its making must neither ask for the same
+/// key nor run other fits meanwhile. Safe to use from several threads.
+class SharedWork {
+ public:
+  template <typename Result>
+  std::shared_ptr<const Result> Get(
+      const std::string& key,
+      const std::function<std::shared_ptr<const Result>()>& make) {
+    std::promise<std::shared_ptr<const void>> promise;
+    std::shared_future<std::shared_ptr<const void>> result;
+    bool is_mine = false;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      const auto found = results_.find(key);
+      if (found != results_.end()) {
+        result = found->second;
+      } else {
+        is_mine = true;
+        result = promise.get_future().share();
+        results_.emplace(key, result);
+      }
+    }
+    if (is_mine) {
+      try {
+        promise.set_value(make());
+      } catch (...) {
+        promise.set_exception(std::current_exception());
+      }
+    }
+    return std::static_pointer_cast<const Result>(result.get());
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::shared_future<std::shared_ptr<const void>>>
+      results_;
+};
+
+}  // namespace errmap::models

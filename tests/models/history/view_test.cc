@@ -1,0 +1,122 @@
+#include "models/history/view.h"
+
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/models/history/history_data.h"
+
+namespace errmap::models {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+ViewOptions OptionsOf(const std::string& text) {
+  const ModelSpec spec = ParseModelSpec("poly:ridge" + text);
+  SpecOptions options(spec);
+  return ViewOptions::Take(&options);
+}
+
+std::vector<std::string> NamesOf(const data::Dataset& dataset) {
+  std::vector<std::string> names;
+  for (const data::ColumnInfo& input : dataset.inputs()) {
+    names.push_back(input.name);
+  }
+  return names;
+}
+
+TEST(View, AModelWithoutAWordOfViewsReadsItsInputsAsTheyAre) {
+  const auto views =
+      MakeViews(errmap::testing::WanderingDays(), OptionsOf(""), 0.0);
+  ASSERT_EQ(views.size(), 1U);
+  EXPECT_EQ(views[0].view, View::kRaw);
+  EXPECT_EQ(views[0].history, nullptr);
+  EXPECT_TRUE(views[0].intercept);
+}
+
+TEST(View, AutoOffersRawHistoryAndHistoryWithZero) {
+  const auto views =
+      MakeViews(errmap::testing::WanderingDays(), OptionsOf(":view=auto"), 0.0);
+  ASSERT_EQ(views.size(), 3U);
+  EXPECT_EQ(views[0].view, View::kRaw);
+  EXPECT_EQ(views[1].view, View::kHistory);
+  EXPECT_EQ(views[2].view, View::kHistoryAndZero);
+  // Two inputs, and each through three filters.
+  EXPECT_EQ(views[1].rows->num_inputs(), 8);
+  EXPECT_EQ(views[2].rows->num_inputs(), 8);
+}
+
+TEST(View, NamesAndUnitsSayWhatADerivedInputIs) {
+  const auto views = MakeViews(errmap::testing::WanderingDays(),
+                               OptionsOf(":history=300:zero=session"),
+                               0.0);
+  ASSERT_EQ(views.size(), 1U);
+  EXPECT_THAT(NamesOf(*views[0].rows),
+              ElementsAre("zeroed(t1_degC)",
+                          "zeroed(t2_degC)",
+                          "zeroed(ema(t1_degC,300s))",
+                          "zeroed(ema(t2_degC,300s))"));
+  EXPECT_EQ(views[0].rows->inputs()[2].unit.symbol, "degC");
+}
+
+TEST(View, TimeConstantsAreSharesOfTheMedianSession) {
+  // Sessions of some 3900 s.
+  const std::vector<double> constants =
+      MakeTimeConstants(errmap::testing::WanderingDays());
+  ASSERT_EQ(constants.size(), 3U);
+  EXPECT_NEAR(constants[0], 39.0, 1.0);
+  EXPECT_NEAR(constants[1], 130.0, 3.0);
+  EXPECT_NEAR(constants[2], 390.0, 10.0);
+}
+
+TEST(View, AZeroNeedsTwoSessionsAndAFilterMoreThanPositions) {
+  const data::Dataset days = errmap::testing::WanderingDays();
+  std::vector<Eigen::Index> first(40);
+  for (Eigen::Index i = 0; i < 40; ++i) {
+    first[static_cast<std::size_t>(i)] = i;
+  }
+  const data::Dataset one = days.SelectRows(first);
+  const auto views = MakeViews(one, OptionsOf(":view=auto"), 0.0);
+  ASSERT_EQ(views.size(), 2U);
+  EXPECT_EQ(views[1].view, View::kHistory);
+  try {
+    MakeViews(one, OptionsOf(":view=zero"), 0.0);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("two sessions"));
+  }
+}
+
+TEST(View, AZeroedMapHasNoInterceptOnlyWhereSessionsBeginAtZero) {
+  // The target is the row's number: day 1 begins at 0, days 2 and 3 do not.
+  const data::Dataset days = errmap::testing::WanderingDays();
+  EXPECT_EQ(LargestFirstError(days), 80.0);
+  const ViewOptions zero = OptionsOf(":view=history+zero");
+  EXPECT_TRUE(MakeViews(days, zero, 1.0)[0].intercept);
+  EXPECT_FALSE(MakeViews(days, zero, 80.0)[0].intercept);
+  EXPECT_FALSE(
+      MakeViews(days, OptionsOf(":view=zero:intercept=no"), 1.0)[0].intercept);
+}
+
+TEST(View, RefusesTimeConstantsThatAreNone) {
+  for (const char* text : {":history=0",
+                           ":history=-3",
+                           ":history=10+x",
+                           ":history=10+",
+                           ":history=inf"}) {
+    EXPECT_THROW(OptionsOf(text), std::invalid_argument) << text;
+  }
+}
+
+TEST(View, PositionsStayAsTheyAreInAnyCase) {
+  EXPECT_TRUE(IsPosition({"Position_mm", {}}));
+  EXPECT_TRUE(IsPosition({"position", {}}));
+  EXPECT_FALSE(IsPosition({"posit", {}}));
+  EXPECT_FALSE(IsPosition({"t_position", {}}));
+}
+
+}  // namespace
+}  // namespace errmap::models
