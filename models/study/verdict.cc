@@ -197,8 +197,10 @@ std::vector<std::size_t> NearTheBest(
 
 // One choice among near-equals is a gamble, which an average of maps that see
 // the inputs differently is not: it is used unless a single map's error is
-// lower by more than what never matters.
+// lower by more than what never matters. Of a few days, or of pieces of one
+// run, the lowest of many errors is chance: they never speak for a single map.
 std::optional<std::size_t> BlendToUse(
+    const Holdout& holdout,
     const HoldoutComparison& comparison,
     const StudyResult& study,
     const std::function<bool(std::size_t)>& is_map,
@@ -213,7 +215,10 @@ std::optional<std::size_t> BlendToUse(
   const auto single = BestWhere(comparison, [&](std::size_t model) {
     return !is_blend(model) && is_map(model);
   });
-  if (single &&
+  const bool can_tell =
+      (holdout.whole_groups || holdout.whole_sessions) &&
+      comparison.tests.num_units >= stats::kFewestUnitsToEstablish;
+  if (single && can_tell &&
       RmseOf(comparison, *single) + indifference < RmseOf(comparison, *blend)) {
     return std::nullopt;
   }
@@ -272,7 +277,8 @@ std::optional<Recommendation> Recommend(
                           map.model->num_parameters(),
                           RmseOf(comparison, model));
       });
-  if (const auto blend = BlendToUse(comparison, study, is_map, indifference)) {
+  if (const auto blend = BlendToUse(
+          holdouts[*decisive], comparison, study, is_map, indifference)) {
     advice.simplest_single = advice.model;
     advice.model = *blend;
   }

@@ -95,7 +95,7 @@ struct Judgement {
 /// then fewest parameters, then the lower RMSE. Where a baseline is in the
 /// first tier it is the simplest baseline there: nothing better is known. A
 /// blend comes before all of these, unless a single map's RMSE is lower by more
-/// than the indifference.
+/// than the indifference over six whole groups or sessions at least.
 Judgement JudgeStudy(const data::Dataset& dataset,
                      const std::vector<Holdout>& holdouts,
                      const StudyResult& study,

@@ -13,8 +13,10 @@
 #include "models/model_file.h"
 #include "models/recipe_catalog.h"
 #include "models/shared_work.h"
+#include "models/study/verdict.h"
 #include "stats/random.h"
 #include "tests/models/history/history_data.h"
+#include "tests/models/study/study_test_tools.h"
 
 namespace errmap::models {
 namespace {
@@ -179,6 +181,20 @@ TEST(BlendRecipe, ALaterColumnThatHardlyMovedInTrainingDoesNotExplode) {
        {"poly:ridge:view=auto", "poly:lasso:view=auto", "blend"}) {
     EXPECT_LT(RmseOn(Fitted(spec, first), last), 2.0 * mean) << spec;
   }
+}
+
+TEST(BlendRecipe, IsRecommendedWhereDaysAreTooFewToTellMapsApart) {
+  const data::Dataset days = Split(LaggingDays(2.0), 4).first;
+  const auto holdouts =
+      errmap::testing::MakeHoldouts(days, {"every:3", "sessions:4"});
+  const auto recipes = errmap::testing::MakeRecipes(
+      {"mean", "poly:ridge:view=auto", "poly:lasso:view=auto", "blend"});
+  const StudyResult study = RunStudy(days, holdouts, recipes, {});
+  const Judgement judgement = JudgeStudy(days, holdouts, study, 0.02, 1);
+  ASSERT_TRUE(judgement.recommendation.has_value());
+  EXPECT_EQ(judgement.recommendation->holdout, 1U);
+  EXPECT_EQ(study.models[judgement.recommendation->model].name, "blend");
+  EXPECT_TRUE(judgement.recommendation->simplest_single.has_value());
 }
 
 TEST(BlendRecipe, RefusesWhatItDoesNotKnow) {
