@@ -104,10 +104,23 @@ std::string Report1995Sentence(const stats::Normality& normality,
       figures,
       said_normal ? "normal" : "not normal");
   if (said_normal == is_normal) return said + "; Lilliefors' test agrees.";
+  // What its own test says with the right divisors tells what they are to
+  // blame for.
+  if ((normality.ks.p > kHint) == said_normal) {
+    return said + fmt::format(
+                      ", as it would with the right divisors (p {:.2g}): it "
+                      "takes mean and sd as given. Allowing for their estimate "
+                      "D has p {:.2g} (Lilliefors).",
+                      normality.ks.p,
+                      normality.lilliefors.p);
+  }
   return said + fmt::format(
                     "; with the right divisors D has p {:.2g} "
-                    "(Lilliefors): the slip decided.",
-                    normality.lilliefors.p);
+                    "(Lilliefors){}.",
+                    normality.lilliefors.p,
+                    CountRejections(normality).at_evidence > 0
+                        ? ", but other tests reject at 1 %"
+                        : ": the slip decided");
 }
 
 std::string MemorySentence(const ResidualReport& report,

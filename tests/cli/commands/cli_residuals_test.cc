@@ -1,5 +1,6 @@
 // errmap residuals, and the blocks that results.json shares with it.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -8,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "stats/distributions.h"
 #include "tests/cli/cli_fixture.h"
 
 namespace errmap {
@@ -71,6 +73,36 @@ TEST_F(CliResiduals, OneScreenSaysWhatTheReportSawAndWhatIsThere) {
   for (std::size_t i = 1; i < lines.size(); ++i) {  // the first has the path
     EXPECT_LE(lines[i].size(), 80U) << lines[i];
   }
+}
+
+// Normal but for two outliers: the slip changes what Eq. 140 says of D, but it
+// did not decide on the shape, which other tests reject.
+TEST_F(CliResiduals, BlamesTheSlipOnlyWhereNoTestRejects) {
+  std::vector<std::string> values{"-6", "6"};
+  for (int i = 0; i < 1000; ++i) {
+    values.push_back(std::to_string(stats::NormalQuantile((i + 0.5) / 1000.0)));
+  }
+  std::string text = TextOf(values);
+  std::ranges::replace(text, '\n', ' ');
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("so calls them not normal"),
+                    HasSubstr("(Lilliefors), but other tests reject at 1 %."),
+                    Not(HasSubstr("the slip decided"))));
+}
+
+// With the right divisors Eq. 140 says the same, so they are not to blame.
+TEST_F(CliResiduals, BlamesTheGivenMeanAndSdWhereTheDivisorsChangeNothing) {
+  std::vector<std::string> values;
+  for (int i = 0; i < 25; ++i) {
+    values.push_back(std::to_string(std::pow((i + 0.5) / 25.0, 3.0) - 0.2495));
+  }
+  std::string text = TextOf(values);
+  std::ranges::replace(text, '\n', ' ');
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("so calls them normal, as it would with the "
+                              "right divisors (p 0.3"),
+                    HasSubstr("(Lilliefors)."),
+                    Not(HasSubstr("the slip decided"))));
 }
 
 TEST_F(CliResiduals, JsonHasEveryStatistic) {
