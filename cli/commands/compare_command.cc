@@ -418,7 +418,7 @@ void AddCompareCommand(CLI::App* app, Run* run) {
   command
       ->add_option("--goal",
                    arguments->goal,
-                   "sd wanted on held-out rows, in the target's unit "
+                   "RMSE wanted on held-out rows, in the target's unit "
                    "(default for lengths: 0.5 um)")
       ->type_name("X");
   AddSeedOption(command, &arguments->seed);

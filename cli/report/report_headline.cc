@@ -1,11 +1,13 @@
 #include "cli/report/report_headline.h"
 
+#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "cli/report/report_tables.h"
+#include "cli/report/verdict_text.h"
 
 namespace errmap::cli {
 
@@ -37,23 +39,19 @@ void SayGoal(const ReportView& view, const ErrorText& error, Headline* line) {
     line->goal = "No goal was set; --goal sets one.";
     return;
   }
-  line->has_goal = true;
-  const double sd = NumberOf(
-      At(ResultOf(view, view.recommended, view.decisive), {"test", "sd"}));
-  const Json& flag = At(*view.component, {"recommendation", "meets_goal"});
-  line->meets_goal = flag.is_boolean() ? flag.get<bool>()
-                                       : std::isfinite(sd) && sd < view.goal;
+  const models::GoalJudgement judged = GoalOf(view, view.recommended);
+  line->goal_standing = judged.standing;
   const std::string goal = fmt::format("{:.3g}{}{}",
                                        view.goal * view.scale,
                                        view.shown_unit.empty() ? "" : " ",
                                        view.shown_unit);
-  line->goal = fmt::format("Goal: sd below {}. ", goal);
-  if (!std::isfinite(sd)) {
-    line->goal += "Whether it is met is not known.";
-  } else {
-    line->goal += fmt::format(
-        "{}: sd {}.", line->meets_goal ? "Met" : "Not met", error.WithUnit(sd));
-  }
+  std::string standing(models::ToString(judged.standing));
+  standing.front() =
+      static_cast<char>(std::toupper(static_cast<unsigned char>(standing[0])));
+  line->goal = fmt::format("Goal: RMSE at most {}. {}: {}.",
+                           goal,
+                           standing,
+                           GoalFigures(judged, error));
 }
 
 std::string CostWords(const ReportView& view) {

@@ -14,9 +14,8 @@ struct Headline {
   std::string interval;  // "95 % interval 0.81 to 1.06 µm", "" likewise
   std::string where;     // "RMSE on whole groups never seen (groups:5)"
   std::string beside;    // the other hold-out's error, "" where there is none
-  std::string goal;      // "Goal: sd below 0.5 µm. Not met: sd 0.896 µm."
-  bool has_goal = false;
-  bool meets_goal = false;
+  std::string goal;  // "Goal: RMSE at most 0.5 µm. Not met: RMSE 0.938 µm."
+  models::GoalStanding goal_standing = models::GoalStanding::kNone;
   std::string cost;     // sensors, parameters, time
   std::string sensors;  // their names, "" where they are not known
   std::string why;

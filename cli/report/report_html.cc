@@ -185,9 +185,10 @@ std::string Page::Index(const std::vector<ReportView>& views) const {
       "</tr></thead><tbody>\n";
   for (std::size_t i = 0; i < views.size(); ++i) {
     const Headline line = HeadlineOf(views[i]);
-    const std::string goal = !line.has_goal    ? "none"
-                             : line.meets_goal ? "met"
-                                               : "not met";
+    const std::string_view goal =
+        line.goal_standing == models::GoalStanding::kNone
+            ? "none"
+            : models::ToString(line.goal_standing);
     html += fmt::format(
         "<tr><td class=\"t\"><a href=\"#c{}\">{}</a></td><td "
         "class=\"t\">{}</td><td class=\"t\">{}</td><td class=\"t\">{}</td>"
@@ -213,11 +214,12 @@ std::string Page::Card(const ReportView& view) const {
                       (line.interval.empty() ? "" : "; " + line.interval));
   }
   if (!line.goal.empty()) {
-    html += fmt::format("<p class=\"goal{}\">{}</p>\n",
-                        !line.has_goal    ? " none"
-                        : line.meets_goal ? " met"
-                                          : "",
-                        HtmlText(line.goal));
+    html +=
+        fmt::format("<p class=\"goal{}\">{}</p>\n",
+                    line.goal_standing == models::GoalStanding::kNone  ? " none"
+                    : line.goal_standing == models::GoalStanding::kMet ? " met"
+                                                                       : "",
+                    HtmlText(line.goal));
   }
   if (!line.beside.empty())
     html += Paragraph("Beside it: " + line.beside + ".");

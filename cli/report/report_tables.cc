@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/report/verdict_text.h"
+
 namespace errmap::cli {
 namespace {
 
@@ -59,12 +61,16 @@ std::string TierText(const ReportView& view, const std::string& model) {
 }
 
 std::string GoalText(const ReportView& view, const std::string& model) {
-  const Json& flag = At(ResultOf(view, model, view.decisive), "meets_goal");
-  if (flag.is_boolean()) return flag.get<bool>() ? "yes" : "no";
-  const double sd =
-      NumberOf(At(ResultOf(view, model, view.decisive), {"test", "sd"}));
-  if (!std::isfinite(view.goal) || !std::isfinite(sd)) return "-";
-  return sd < view.goal ? "yes" : "no";
+  switch (GoalOf(view, model).standing) {
+    case models::GoalStanding::kMet:
+      return "yes";
+    case models::GoalStanding::kMetAfterRezeroing:
+      return "after re-zeroing";
+    case models::GoalStanding::kMissed:
+      return "no";
+    default:
+      return "-";
+  }
 }
 
 std::string SensorCount(const ViewedModel& model) {
@@ -178,6 +184,8 @@ ReportTable LeaderboardTable(const ReportView& view) {
           "{}{} failed: {}.", table.note.empty() ? "" : " ", model.name, why);
     }
   }
+  table.note +=
+      fmt::format("{}{}.", table.note.empty() ? "" : " ", kIntervalCoverage);
   SayIfEmpty("No model was fitted.", &table);
   return table;
 }

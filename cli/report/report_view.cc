@@ -125,6 +125,21 @@ ReportView ViewOf(const Json& component) {
   return view;
 }
 
+models::GoalJudgement GoalOf(const ReportView& view, const std::string& model) {
+  const Json& result = ResultOf(view, model, view.decisive);
+  const Json& test = At(result, "test");
+  stats::ErrorMetrics metrics;
+  metrics.rmse = NumberAt(test, "rmse");
+  metrics.residuals.sd = NumberAt(test, "sd");
+  metrics.residuals.mean = NumberAt(test, "mean");
+  models::GoalJudgement judged = models::JudgeGoal(view.goal, metrics, true);
+  // Older documents hold the figures only.
+  judged.standing =
+      models::GoalStandingFromString(TextAt(result, "goal_standing"))
+          .value_or(judged.standing);
+  return judged;
+}
+
 ErrorText ErrorTextOf(const ReportView& view) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const ViewedModel& model : view.models) {

@@ -7,6 +7,7 @@
 #include "cli/report/json_access.h"
 #include "cli/report/plot.h"
 #include "cli/shell/number_text.h"
+#include "models/study/goal.h"
 
 namespace errmap::cli {
 
@@ -52,6 +53,9 @@ const Json& ResultOf(const ReportView& view,
 double TestRmse(const ReportView& view,
                 const std::string& model,
                 const std::string& holdout);
+
+/// How `model` stands to the goal under the decisive hold-out.
+models::GoalJudgement GoalOf(const ReportView& view, const std::string& model);
 
 /// Errors as the report shows them.
 ErrorText ErrorTextOf(const ReportView& view);

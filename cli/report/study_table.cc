@@ -111,11 +111,20 @@ std::string GapText(const Comparison& comparison, std::size_t model) {
   return "-";
 }
 
-std::string GoalMark(const Comparison& comparison, const ModelResult& model) {
+// "sd": only the scatter is within it, so that it is met after re-zeroing.
+std::string GoalMark(const Comparison& comparison, std::size_t index) {
   const auto& advice = comparison.judgement.recommendation;
-  if (!advice || !model.holdouts[advice->holdout].ok()) return "-";
-  const auto met = MeetsGoal(comparison, model.holdouts[advice->holdout]);
-  return !met ? "-" : *met ? "yes" : "no";
+  if (!advice) return "-";
+  switch (comparison.judgement.goals[index][advice->holdout].standing) {
+    case models::GoalStanding::kMet:
+      return "yes";
+    case models::GoalStanding::kMetAfterRezeroing:
+      return "sd";
+    case models::GoalStanding::kMissed:
+      return "no";
+    default:
+      return "-";
+  }
 }
 
 std::string SensorCount(const ModelResult& model) {
@@ -187,7 +196,7 @@ std::string RowText(const Comparison& comparison,
     text += fmt::format(" {:>6}", GapText(comparison, index));
   }
   if (std::isfinite(comparison.goal)) {
-    text += fmt::format(" {:>5}", GoalMark(comparison, model));
+    text += fmt::format(" {:>5}", GoalMark(comparison, index));
   }
   return text + fmt::format(" {:>8.3f} {:>8}\n",
                             FitSeconds(model),
@@ -207,8 +216,9 @@ std::string ComponentTable(const Comparison& comparison) {
   std::string text = Header(comparison);
   text += fmt::format(
       "RMSE of target - predicted{}; models of one tier do not differ in "
-      "practice\n\n",
-      error.symbol().empty() ? "" : " in " + error.symbol());
+      "practice\n{}\n\n",
+      error.symbol().empty() ? "" : " in " + error.symbol(),
+      kIntervalCoverage);
   text += Headings(comparison, name_width);
   std::string notes;
   for (std::size_t i = 0; i < comparison.study.models.size(); ++i) {

@@ -41,9 +41,23 @@ Json MeanTestJson(const std::optional<stats::MeanDifferenceTest>& test) {
           {"p", test->test.p}};
 }
 
+Json MeetsGoalJson(const models::GoalJudgement& judged) {
+  switch (judged.standing) {
+    case models::GoalStanding::kMet:
+      return true;
+    case models::GoalStanding::kMetAfterRezeroing:
+    case models::GoalStanding::kMissed:
+      return false;
+    default:
+      return nullptr;
+  }
+}
+
 Json PairJson(const Comparison& comparison,
               const HoldoutComparison& tests,
-              const stats::PairComparison& pair) {
+              std::size_t index) {
+  const stats::PairComparison& pair = tests.tests.pairs[index];
+  const models::Confidence confidence = tests.differ[index];
   const auto model = [&](Eigen::Index place) {
     return tests.models[static_cast<std::size_t>(place)];
   };
@@ -63,12 +77,20 @@ Json PairJson(const Comparison& comparison,
           {"units", tests.tests.num_units},
           {"lag1", pair.lag1.statistic},
           {"correlated", pair.correlated},
-          {"established", pair.established},
+          {"established", confidence == models::Confidence::kEstablished},
+          {"confidence", models::ToString(confidence)},
           {"tests",
            {{"wilcoxon",
              {{"statistic", pair.wilcoxon.test.statistic},
               {"p", pair.wilcoxon.test.p},
               {"exact", pair.wilcoxon.exact}}},
+            {"memory_t",
+             {{"statistic", pair.memory.test.statistic},
+              {"df", pair.memory.effective_units - 1.0},
+              {"p", pair.memory.test.p},
+              {"p_holm", pair.p_memory_holm},
+              {"memory", pair.memory.memory}}},
+            {"block_t", MeanTestJson(pair.block_t)},
             {"corrected_t", MeanTestJson(pair.corrected_t)},
             {"diebold_mariano", MeanTestJson(pair.diebold_mariano)}}}};
 }
@@ -96,11 +118,11 @@ Json StandingJson(const Comparison& comparison,
   for (const double rmse : tests.unit_rmse.col(place)) {
     unit_rmse.push_back(rmse);
   }
-  const auto met =
-      MeetsGoal(comparison, comparison.study.models[model].holdouts[h]);
+  const models::GoalJudgement& goal = comparison.judgement.goals[model][h];
   return {{"ci95", RmseBoundsJson(comparison, model, h)},
           {"tier", tests.TierOf(model)},
-          {"meets_goal", met ? Json(*met) : Json()},
+          {"meets_goal", MeetsGoalJson(goal)},
+          {"goal_standing", models::ToString(goal.standing)},
           {"unit_rmse", std::move(unit_rmse)}};
 }
 
@@ -136,8 +158,8 @@ Json GapJson(const Comparison& comparison) {
 Json ComparisonsJson(const Comparison& comparison) {
   Json pairs = Json::array();
   for (const HoldoutComparison& tests : comparison.judgement.comparisons) {
-    for (const stats::PairComparison& pair : tests.tests.pairs) {
-      pairs.push_back(PairJson(comparison, tests, pair));
+    for (std::size_t i = 0; i < tests.tests.pairs.size(); ++i) {
+      pairs.push_back(PairJson(comparison, tests, i));
     }
   }
   return pairs;
@@ -185,7 +207,8 @@ Json VerdictsJson(const Comparison& comparison) {
                         {"choice", models::ToString(verdict->choice)},
                         {"model", NameOf(comparison, verdict->best)},
                         {"rival", NameOrNull(comparison, verdict->rival)},
-                        {"established", verdict->established},
+                        {"established", verdict->established()},
+                        {"confidence", models::ToString(verdict->confidence)},
                         {"why", VerdictSentence(comparison, h)}});
   }
   return verdicts;
@@ -196,7 +219,8 @@ Json RecommendationJson(const Comparison& comparison) {
   if (!advice) return nullptr;
   const models::ModelResult& model = comparison.study.models[advice->model];
   const models::HoldoutResult& result = model.holdouts[advice->holdout];
-  const auto met = MeetsGoal(comparison, result);
+  const models::GoalJudgement& goal =
+      comparison.judgement.goals[advice->model][advice->holdout];
   Json tier = Json::array();
   for (const std::size_t member : advice->first_tier) {
     tier.push_back(NameOf(comparison, member));
@@ -216,7 +240,11 @@ Json RecommendationJson(const Comparison& comparison) {
       {"sensors", models::SensorsOf(*model.final_fit)},
       {"parameters", model.final_fit->model->num_parameters()},
       {"predict_ns", model.predict_ns},
-      {"meets_goal", met ? Json(*met) : Json()},
+      {"against_baseline",
+       advice->has_baseline ? Json(models::ToString(advice->against_baseline))
+                            : Json()},
+      {"meets_goal", MeetsGoalJson(goal)},
+      {"goal_standing", models::ToString(goal.standing)},
       {"extrapolated_share", advice->extrapolated_share},
       {"sentence", RecommendationSentence(comparison)},
       {"why", std::move(why)},

@@ -16,7 +16,8 @@ Json DisplayJson(const Comparison& comparison);
 /// {"unit_of_analysis", "units", "unit_labels"} of hold-out `h`.
 Json UnitsJson(const Comparison& comparison, std::size_t h);
 
-/// {"ci95", "tier", "meets_goal", "unit_rmse"} of a model under hold-out `h`.
+/// {"ci95", "tier", "meets_goal", "goal_standing", "unit_rmse"} of a model
+/// under hold-out `h`.
 Json StandingJson(const Comparison& comparison,
                   std::size_t model,
                   std::size_t h);

@@ -13,10 +13,18 @@
 #include "models/history/history.h"
 
 namespace errmap::cli {
+
+const char* const kIntervalCoverage =
+    "95 % is nominal: simulated, 90-94 % (normal errors), 70-86 % (heavy "
+    "tails)";
+
 namespace {
 
 using models::Choice;
+using models::Confidence;
+using models::GoalStanding;
 using models::HoldoutComparison;
+using Kind = models::Obstacle::Kind;
 using models::HoldoutResult;
 using models::ModelResult;
 using models::Verdict;
@@ -91,38 +99,99 @@ std::string TestSentence(const Comparison& comparison,
                 "{} {}", tests.tests.num_units, PluralOfUnit(tests.units)),
       ProbabilityText(pair.p_holm),
       Count(static_cast<long long>(tests.tests.pairs.size()), "pair"));
-  if (pair.established && pair.correlated) {
-    return text + fmt::format(
-                      ", as if {} were independent; neighbouring ones resemble "
-                      "each other: not established.",
-                      PluralOfUnit(tests.units));
+  switch (tests.ThatItIsBetter(better, worse)) {
+    case Confidence::kEstablished:
+      return text + ": established.";
+    case Confidence::kUnitsCorrelated:
+      return text + fmt::format(
+                        ", as if {} were independent; neighbouring ones "
+                        "resemble each other: not established.",
+                        PluralOfUnit(tests.units));
+    case Confidence::kMemoryNotExcluded:
+      return text + fmt::format(
+                        ", as if {} were independent; with the memory that "
+                        "their order cannot exclude {}: not established.",
+                        PluralOfUnit(tests.units),
+                        ProbabilityText(pair.p_memory_holm));
+    case Confidence::kBlocksDisagree:
+      return text + fmt::format(
+                        ", as if {} were independent; {} runs of neighbouring "
+                        "ones differ too much (p {}): not established.",
+                        PluralOfUnit(tests.units),
+                        stats::kBlocksOfUnits,
+                        ProbabilityText(pair.block_t.test.p));
+    default:
+      return text + ": not established.";
   }
-  if (pair.established) return text + ": established.";
-  return text + ": not established.";
+}
+
+// "10 cycles, at least 12 are needed where they may be of one session"; ""
+// where something could be established.
+std::string ObstacleText(const models::Obstacle& obstacle) {
+  const std::string found = Count(obstacle.units, "unit");
+  switch (obstacle.kind) {
+    case Kind::kNone:
+      return "";
+    case Kind::kTooFewUnits:
+      return fmt::format(
+          "{}, at least {} are needed: with fewer, no sign-flip p can be below "
+          "0.05",
+          found,
+          obstacle.needed);
+    case Kind::kPerhapsOneSession:
+      return fmt::format(
+          "{}, not known to be separate sessions: at least {} are needed to "
+          "see whether they resemble each other",
+          found,
+          obstacle.needed);
+    case Kind::kTooManyPairs:
+      return fmt::format(
+          "{} for {} pairs: at least {} are needed for a p below 0.05 after "
+          "Holm's adjustment",
+          found,
+          obstacle.pairs,
+          obstacle.needed);
+    case Kind::kTooFewSignPatterns:
+      return fmt::format("the sign patterns drawn are too few for {} pairs",
+                         obstacle.pairs);
+  }
+  return "";
 }
 
 std::string ChoiceSentence(const Comparison& comparison,
                            std::size_t h,
                            const Verdict& verdict) {
   const HoldoutComparison& tests = Tests(comparison, h);
-  const auto& why_none = tests.tests.why_nothing_can_be_established;
   switch (verdict.choice) {
     case Choice::kNoPracticalDifference:
-      return "A polynomial and a net share its first tier: no practical "
-             "difference.";
+      return fmt::format(
+          "A polynomial and a net share its first tier: no practical "
+          "difference, {}established.",
+          verdict.established() ? "" : "not ");
     case Choice::kBaseline:
-      return "A baseline shares its first tier: no map is worth more there.";
+      return verdict.established()
+                 ? "A baseline shares its first tier: no map is worth more "
+                   "there, established."
+                 : "A baseline shares its first tier: no map is known to be "
+                   "worth more there.";
     default:
       break;
   }
-  if (!why_none.empty()) {
+  if (tests.obstacle.exists()) {
     return fmt::format(
         "Whether that is more than chance cannot be "
         "established: {}.",
-        why_none);
+        ObstacleText(tests.obstacle));
   }
   if (!verdict.rival) return "";
-  return TestSentence(comparison, h, verdict.best, *verdict.rival);
+  std::string text = TestSentence(comparison, h, verdict.best, *verdict.rival);
+  if (!verdict.established() &&
+      tests.ThatItIsBetter(verdict.best, *verdict.rival) ==
+          Confidence::kEstablished) {
+    text += fmt::format(" That it beats the best baseline, {}, is not.",
+                        Model(comparison, *verdict.best_baseline).name);
+  }
+  return text;
 }
 
 const models::Recommendation* Advice(const Comparison& comparison) {
@@ -203,15 +272,37 @@ std::string SimplestReason(const Comparison& comparison,
       *tests.PlaceOf(advice.model), *tests.PlaceOf(advice.first_tier.front()));
   return fmt::format(
       "It is the simplest of a tier without practical difference: {} has the "
-      "lowest error ({}), and with 95 % certainty it loses at most {} to it.",
+      "lowest error ({}), and with 95 % certainty{} it loses at most {} to it.",
       Model(comparison, advice.first_tier.front()).name,
       error(Rmse(comparison, advice.first_tier.front(), advice.holdout)),
+      advice.within_tier != Confidence::kEstablished
+          ? fmt::format(", as if {} were independent,",
+                        PluralOfUnit(tests.units))
+          : "",
       error.WithUnit(std::max(0.0, excess)));
+}
+
+// What the headline owes where the map is not surely worth its sensors.
+std::string BaselineDoubt(const Comparison& comparison,
+                          const models::Recommendation& advice) {
+  if (!advice.has_baseline || advice.choice == Choice::kBaseline ||
+      advice.against_baseline == Confidence::kEstablished) {
+    return "";
+  }
+  const ErrorText error = ErrorTextFor(comparison);
+  return fmt::format(
+      " That it beats the best baseline, {} ({}), is not established.",
+      Model(comparison, advice.best_baseline).name,
+      error.WithUnit(Rmse(comparison, advice.best_baseline, advice.holdout)));
 }
 
 std::string BaselineReason(const Comparison& comparison,
                            const models::Recommendation& advice) {
-  if (!advice.has_baseline || advice.choice == Choice::kBaseline) return "";
+  // Where that is not sure, the headline says it.
+  if (!advice.has_baseline || advice.choice == Choice::kBaseline ||
+      advice.against_baseline != Confidence::kEstablished) {
+    return "";
+  }
   const ErrorText error = ErrorTextFor(comparison);
   return fmt::format(
       "The best baseline, {}, has {}.",
@@ -238,15 +329,13 @@ std::string GapReason(const Comparison& comparison,
 
 std::string GoalReason(const Comparison& comparison,
                        const models::Recommendation& advice) {
-  const HoldoutResult& result =
-      Model(comparison, advice.model).holdouts[advice.holdout];
-  const auto met = MeetsGoal(comparison, result);
-  if (!met) return "";
-  return fmt::format(
-      "The goal (sd below {}) is {}: sd {}.",
-      GoalText(comparison),
-      *met ? "met" : "not met",
-      ErrorTextFor(comparison).WithUnit(result.test.residuals.sd));
+  const models::GoalJudgement& judged =
+      comparison.judgement.goals[advice.model][advice.holdout];
+  if (judged.standing == GoalStanding::kNone) return "";
+  return fmt::format("The goal (RMSE at most {}) is {}: {}.",
+                     GoalText(comparison),
+                     models::ToString(judged.standing),
+                     GoalFigures(judged, ErrorTextFor(comparison)));
 }
 
 // How far back a map looks, and what it starts from.
@@ -352,10 +441,11 @@ std::string UnitsCaveat(const Comparison& comparison,
         "which may still resemble each other.",
         Count(tests.tests.num_units, "block"));
   }
-  if (tests.tests.num_units < stats::kFewestUnitsToEstablish) {
+  if (tests.obstacle.kind == Kind::kTooFewUnits ||
+      tests.obstacle.kind == Kind::kPerhapsOneSession) {
     return fmt::format("With {} nothing can be established: {}.",
                        Count(tests.tests.num_units, tests.units.name),
-                       tests.tests.why_nothing_can_be_established);
+                       ObstacleText(tests.obstacle));
   }
   return "";
 }
@@ -368,13 +458,21 @@ std::string CorrelationCaveat(const Comparison& comparison,
   const stats::PairComparison& pair = tests.tests.Pair(
       *tests.PlaceOf(verdict->best), *tests.PlaceOf(*verdict->rival));
   if (!pair.correlated) return "";
+  const auto established =
+      std::ranges::count(tests.differ, Confidence::kEstablished);
   return fmt::format(
       "Neighbouring {} resemble each other (lag-1 correlation {:.2f} of the "
-      "loss differences), so p and intervals are too sure and nothing is "
-      "called "
-      "established; more days, held out whole, would tell.",
+      "loss differences), so p and intervals are too sure and {} under {} is "
+      "called established; more days, held out whole, would tell.",
       PluralOfUnit(tests.units),
-      pair.lag1.statistic);
+      pair.lag1.statistic,
+      established == 0
+          ? "nothing"
+          : fmt::format("only what is free of that, {} of {},",
+                        established,
+                        Count(static_cast<long long>(tests.differ.size()),
+                              "difference")),
+      tests.holdout);
 }
 
 std::string ExtrapolationCaveat(const models::Recommendation& advice) {
@@ -471,11 +569,23 @@ std::string PluralOfUnit(const models::UnitsOfAnalysis& units) {
   return units.are_groups ? units.name + "s" : "blocks of rows";
 }
 
-std::optional<bool> MeetsGoal(const Comparison& comparison,
-                              const HoldoutResult& result) {
-  const double sd = result.test.residuals.sd;
-  if (!std::isfinite(comparison.goal) || !std::isfinite(sd)) return {};
-  return sd < comparison.goal;
+std::string GoalFigures(const models::GoalJudgement& judged,
+                        const ErrorText& error) {
+  switch (judged.standing) {
+    case GoalStanding::kNone:
+      return "";
+    case GoalStanding::kNotJudged:
+      return "the run was interrupted or a fit failed";
+    case GoalStanding::kMetAfterRezeroing:
+      return fmt::format("RMSE {}, sd {} about an offset of {}",
+                         error.WithUnit(judged.rmse),
+                         error.WithUnit(judged.sd),
+                         error.WithUnit(judged.offset));
+    case GoalStanding::kMet:
+    case GoalStanding::kMissed:
+      break;
+  }
+  return "RMSE " + error.WithUnit(judged.rmse);
 }
 
 std::string MemorisationSentence(const ModelResult& model) {
@@ -554,27 +664,32 @@ std::string RecommendationSentence(const Comparison& comparison) {
       fmt::format("{} {}",
                   RmseWithInterval(comparison, advice->model, advice->holdout),
                   WhereJudged(comparison, advice->holdout));
+  const std::string doubt = BaselineDoubt(comparison, *advice);
   switch (advice->choice) {
     case Choice::kBaseline:
       if (model.name == "zero") {
         return fmt::format(
-            "Compensate with nothing: no map does better than "
-            "none, {}.",
+            "Compensate with nothing: no map {} better than none, {}.",
+            advice->against_baseline == Confidence::kEstablished
+                ? "does"
+                : "is known to do",
             error);
       }
       return fmt::format(
           "Compensate with nothing better than {}: {}.", model.name, error);
     case Choice::kNoPracticalDifference:
       return fmt::format(
-          "Polynomial or net makes no practical difference: "
-          "use {}, {}.",
-          model.name,
-          error);
+                 "Polynomial or net makes no practical difference: "
+                 "use {}, {}.",
+                 model.name,
+                 error) +
+             doubt;
     default:
       return fmt::format("Use {} ({}): {}.",
                          model.name,
                          models::ToString(advice->choice),
-                         error);
+                         error) +
+             doubt;
   }
 }
 

@@ -63,11 +63,11 @@ StudyRun RunPlan(StudyPlan plan,
       comparison.study.models.push_back(
           models::JudgeGivenPredictions(given, dataset, comparison.holdouts));
     }
-    comparison.judgement = models::JudgeStudy(dataset,
-                                              comparison.holdouts,
-                                              comparison.study,
-                                              comparison.indifference,
-                                              run.seed);
+    comparison.judgement = models::JudgeStudy(
+        dataset,
+        comparison.holdouts,
+        comparison.study,
+        {comparison.indifference, comparison.goal, run.seed});
     run.interrupted = comparison.study.interrupted;
     before += component.num_fits();
     run.components.push_back(std::move(comparison));

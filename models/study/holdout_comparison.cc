@@ -125,6 +125,25 @@ std::vector<Index> AssignUnits(const Holdout& holdout,
   return codes;
 }
 
+// Whether no two units of the held-out rows share a session, and none spans
+// two. Sessions that were cut by time alone are a guess: a clock may start anew
+// with each cycle.
+bool AreSeparateSessions(const HeldOut& held, const std::vector<Index>& units) {
+  const data::SessionLog* log = held.source->log().get();
+  if (log == nullptr || log->sessions.column.empty()) return false;
+  const std::vector<Index> sessions = held.source->session_codes();
+  std::map<Index, Index> session_of;
+  std::map<Index, Index> unit_of;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const Index session = sessions[static_cast<std::size_t>(held.rows[i])];
+    if (session_of.try_emplace(units[i], session).first->second != session ||
+        unit_of.try_emplace(session, units[i]).first->second != units[i]) {
+      return false;
+    }
+  }
+  return true;
+}
+
 stats::FoldLosses GatherFolds(const Holdout& holdout,
                               const HeldOut& held,
                               const MatrixXd& residuals) {
@@ -189,12 +208,19 @@ HoldoutComparison CompareOne(const data::Dataset& dataset,
       GatherResiduals(held, study, comparison.models, index);
   const std::vector<Index> codes =
       AssignUnits(holdout, held, &comparison.units);
+  comparison.units.separate_sessions = AreSeparateSessions(held, codes);
   stats::UnitLosses losses = stats::GatherByUnit(residuals, codes);
   losses.time_ordered = holdout.forward;
   comparison.unit_rmse = losses.mean_squares.cwiseSqrt();
   const stats::FoldLosses folds = GatherFolds(holdout, held, residuals);
   comparison.tests = stats::CompareModels(
       losses, folds.test_rows.size() > 1 ? &folds : nullptr, options);
+  const bool separate = comparison.units.separate_sessions;
+  comparison.obstacle = FindObstacle(comparison.tests, separate);
+  for (const stats::PairComparison& pair : comparison.tests.pairs) {
+    comparison.differ.push_back(
+        ThatTheyDiffer(comparison.tests, pair, separate));
+  }
   if (holdout.repeats > 1) {
     comparison.wins = CountWins(folds, holdout.repeats, comparison.models);
   }
@@ -219,6 +245,26 @@ int HoldoutComparison::TierOf(std::size_t model) const {
     }
   }
   return 0;
+}
+
+Confidence HoldoutComparison::ThatItIsBetter(std::size_t model,
+                                             std::size_t than) const {
+  const Index place = PlaceOf(model).value();
+  const stats::PairComparison& pair = tests.Pair(place, PlaceOf(than).value());
+  const bool is_better = (pair.difference < 0.0) == (pair.a == place);
+  return is_better
+             ? differ[static_cast<std::size_t>(&pair - tests.pairs.data())]
+             : Confidence::kNotShown;
+}
+
+Confidence HoldoutComparison::ThatItLosesAtMost(double margin,
+                                                std::size_t model,
+                                                std::size_t than) const {
+  return models::ThatItLosesAtMost(margin,
+                                   tests,
+                                   PlaceOf(model).value(),
+                                   PlaceOf(than).value(),
+                                   units.separate_sessions);
 }
 
 std::vector<HoldoutComparison> CompareHoldouts(

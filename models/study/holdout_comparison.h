@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "models/study/confidence.h"
 #include "models/study/study.h"
 #include "stats/comparison/paired_comparison.h"
 
@@ -17,6 +18,7 @@ struct UnitsOfAnalysis {
   std::string name;         // "cycle", "day", ...; "session"; "block of rows"
   bool are_groups = false;  // groups or sessions, else blocks of held-out rows
   bool are_sessions = false;        // what is held out whole is sessions
+  bool separate_sessions = false;   // units are, by a column; confidence.h
   std::vector<std::string> labels;  // (units) group, or "rows 0-16"
 };
 
@@ -33,12 +35,22 @@ struct HoldoutComparison {
   std::vector<std::size_t> models;  // (m) index into StudyResult::models
   Eigen::MatrixXd unit_rmse;        // (units x m) target's unit
   stats::Comparison tests;          // its indices count `models`
+  Obstacle obstacle;                // to establishing any difference
+  std::vector<Confidence> differ;   // (pairs) as tests.pairs: that they do
   std::vector<WinShare> wins;       // falling; empty without repeats
 
   /// Place of a model of the study in `models`, or nothing if it failed.
   std::optional<Eigen::Index> PlaceOf(std::size_t model) const;
   /// 1-based tier of a model of the study, 0 if it failed.
   int TierOf(std::size_t model) const;
+  /// That one model of the study has less error than another. Both must have
+  /// been judged.
+  Confidence ThatItIsBetter(std::size_t model, std::size_t than) const;
+  /// That one model of the study has at most `margin` more RMSE than another.
+  /// Both must have been judged.
+  Confidence ThatItLosesAtMost(double margin,
+                               std::size_t model,
+                               std::size_t than) const;
 };
 
 /// Compares the models of a study hold-out by hold-out, on one mean squared

@@ -36,19 +36,64 @@ std::vector<std::size_t> FirstTier(const HoldoutComparison& comparison) {
   return models;
 }
 
-// Where neighbouring units resemble each other, every p is too small: what they
-// establish would be noise in a third of the cases
-// (paired_comparison_null_test).
-bool BeatsForSure(const HoldoutComparison& comparison,
-                  std::size_t better,
-                  std::size_t worse) {
-  const stats::PairComparison& pair = comparison.tests.Pair(
-      *comparison.PlaceOf(better), *comparison.PlaceOf(worse));
-  return pair.established && !pair.correlated;
+// That both statements hold: what the first lacks, else the second.
+Confidence Both(Confidence first, Confidence second) {
+  return first == Confidence::kEstablished ? second : first;
+}
+
+std::optional<std::size_t> BestOf(const HoldoutComparison& comparison,
+                                  const StudyResult& study,
+                                  Choice choice) {
+  return BestWhere(comparison, [&](std::size_t model) {
+    return ChoiceOf(study.models[model]) == choice;
+  });
+}
+
+// What does not matter beside the lowest error of all.
+double MarginOf(const HoldoutComparison& comparison, double indifference) {
+  return stats::Margin{.indifference = indifference}.Of(
+      comparison.tests.rmse.minCoeff());
+}
+
+// That no model is better than `baseline` by more than the margin. A baseline
+// of the lowest error may owe that to chance, so the bound is asked for there
+// too. Without another model there is nothing to hold it against.
+Confidence ThatNothingIsBetter(const HoldoutComparison& comparison,
+                               const StudyResult& study,
+                               std::size_t baseline,
+                               double margin) {
+  const auto best = BestWhere(comparison, [&](std::size_t model) {
+    return ChoiceOf(study.models[model]) != Choice::kBaseline;
+  });
+  return best ? comparison.ThatItLosesAtMost(margin, baseline, *best)
+              : Confidence::kNotShown;
+}
+
+Confidence ConfidenceOf(const Verdict& verdict,
+                        const HoldoutComparison& comparison,
+                        const StudyResult& study,
+                        double margin) {
+  const auto& baseline = verdict.best_baseline;
+  if (verdict.choice == Choice::kBaseline) {
+    return ThatNothingIsBetter(comparison, study, *baseline, margin);
+  }
+  if (verdict.choice == Choice::kNoPracticalDifference) {
+    const std::size_t one = *BestOf(comparison, study, Choice::kPolynomial);
+    const std::size_t other = *BestOf(comparison, study, Choice::kNeural);
+    return Both(comparison.ThatItLosesAtMost(margin, one, other),
+                comparison.ThatItLosesAtMost(margin, other, one));
+  }
+  if (!verdict.rival) return Confidence::kNotShown;
+  const Confidence against_rival =
+      comparison.ThatItIsBetter(verdict.best, *verdict.rival);
+  return baseline ? Both(against_rival,
+                         comparison.ThatItIsBetter(verdict.best, *baseline))
+                  : against_rival;
 }
 
 Verdict JudgeHoldout(const HoldoutComparison& comparison,
-                     const StudyResult& study) {
+                     const StudyResult& study,
+                     double indifference) {
   Verdict verdict;
   verdict.holdout = comparison.holdout;
   const std::vector<std::size_t> tier = FirstTier(comparison);
@@ -66,9 +111,7 @@ Verdict JudgeHoldout(const HoldoutComparison& comparison,
   } else {
     verdict.choice = of_best;
   }
-  const auto best_baseline = BestWhere(comparison, [&](std::size_t model) {
-    return ChoiceOf(study.models[model]) == Choice::kBaseline;
-  });
+  verdict.best_baseline = BestOf(comparison, study, Choice::kBaseline);
   verdict.rival = BestWhere(comparison, [&](std::size_t model) {
     const Choice choice = ChoiceOf(study.models[model]);
     // A blend is made of the others: it settles nothing between them.
@@ -76,21 +119,10 @@ Verdict JudgeHoldout(const HoldoutComparison& comparison,
            choice != Choice::kBlend;
   });
   if (!verdict.rival && of_best != Choice::kBaseline) {
-    verdict.rival = best_baseline;
+    verdict.rival = verdict.best_baseline;
   }
-  const bool enough_units =
-      comparison.tests.num_units >= stats::kFewestUnitsToEstablish;
-  if (verdict.choice == Choice::kBaseline ||
-      verdict.choice == Choice::kNoPracticalDifference) {
-    // Sharing a tier is a bound on the difference, not a lack of evidence.
-    verdict.established = enough_units;
-  } else {
-    verdict.established =
-        enough_units && verdict.rival &&
-        BeatsForSure(comparison, verdict.best, *verdict.rival) &&
-        (!best_baseline ||
-         BeatsForSure(comparison, verdict.best, *best_baseline));
-  }
+  verdict.confidence = ConfidenceOf(
+      verdict, comparison, study, MarginOf(comparison, indifference));
   return verdict;
 }
 
@@ -215,9 +247,8 @@ std::optional<std::size_t> BlendToUse(
   const auto single = BestWhere(comparison, [&](std::size_t model) {
     return !is_blend(model) && is_map(model);
   });
-  const bool can_tell =
-      (holdout.whole_groups || holdout.whole_sessions) &&
-      comparison.tests.num_units >= stats::kFewestUnitsToEstablish;
+  const bool can_tell = (holdout.whole_groups || holdout.whole_sessions) &&
+                        comparison.tests.num_units >= kFewestUnits;
   if (single && can_tell &&
       RmseOf(comparison, *single) + indifference < RmseOf(comparison, *blend)) {
     return std::nullopt;
@@ -282,12 +313,22 @@ std::optional<Recommendation> Recommend(
     advice.simplest_single = advice.model;
     advice.model = *blend;
   }
-  const auto best_baseline = BestWhere(comparison, [&](std::size_t model) {
-    return ChoiceOf(study.models[model]) == Choice::kBaseline;
-  });
+  const auto best_baseline = BestOf(comparison, study, Choice::kBaseline);
   advice.has_baseline = best_baseline.has_value();
   advice.best_baseline = best_baseline.value_or(0);
   advice.choice = ChoiceOf(study.models[advice.model]);
+  const double margin = MarginOf(comparison, indifference);
+  if (advice.choice == Choice::kBaseline) {
+    advice.against_baseline =
+        ThatNothingIsBetter(comparison, study, advice.model, margin);
+  } else if (best_baseline) {
+    advice.against_baseline =
+        comparison.ThatItIsBetter(advice.model, *best_baseline);
+  }
+  if (advice.model != advice.first_tier.front()) {
+    advice.within_tier = comparison.ThatItLosesAtMost(
+        margin, advice.model, advice.first_tier.front());
+  }
   const auto in_tier = [&](Choice choice) {
     return std::ranges::any_of(advice.first_tier, [&](std::size_t model) {
       return ChoiceOf(study.models[model]) == choice;
@@ -347,20 +388,27 @@ Choice ChoiceOf(const ModelResult& model) {
 Judgement JudgeStudy(const data::Dataset& dataset,
                      const std::vector<Holdout>& holdouts,
                      const StudyResult& study,
-                     double indifference,
-                     std::uint64_t seed) {
+                     const JudgeOptions& options) {
   Judgement judgement;
-  judgement.comparisons =
-      CompareHoldouts(dataset, holdouts, study, indifference, seed);
+  judgement.comparisons = CompareHoldouts(
+      dataset, holdouts, study, options.indifference, options.seed);
   for (const HoldoutComparison& comparison : judgement.comparisons) {
     judgement.verdicts.push_back(
         comparison.models.empty()
             ? std::nullopt
-            : std::optional(JudgeHoldout(comparison, study)));
+            : std::optional(
+                  JudgeHoldout(comparison, study, options.indifference)));
   }
   judgement.gap = MeasureGap(holdouts, judgement.comparisons);
-  judgement.recommendation =
-      Recommend(dataset, holdouts, study, judgement.comparisons, indifference);
+  judgement.recommendation = Recommend(
+      dataset, holdouts, study, judgement.comparisons, options.indifference);
+  for (const ModelResult& model : study.models) {
+    std::vector<GoalJudgement>& goals = judgement.goals.emplace_back();
+    for (const HoldoutResult& result : model.holdouts) {
+      goals.push_back(JudgeGoal(
+          options.goal, result.test, result.ok() && !study.interrupted));
+    }
+  }
   return judgement;
 }
 

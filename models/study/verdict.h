@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "models/study/goal.h"
 #include "models/study/holdout_comparison.h"
 #include "models/study/study.h"
 
@@ -35,11 +36,14 @@ struct Verdict {
   /// The best model of another class, or the best baseline where the table has
   /// no other class: what the choice was made against.
   std::optional<std::size_t> rival;
-  /// The choice is more than chance (kPolynomial, kNeural: best against rival
-  /// and against the best baseline by Holm's sign-flip p and the interval, with
-  /// no sign that neighbouring units resemble each other) or, for the other
-  /// choices, the difference is known to be within the margin.
-  bool established = false;
+  std::optional<std::size_t> best_baseline;  // by RMSE
+  /// kPolynomial, kNeural, kGiven: that the best is better than its rival and
+  /// than the best baseline. kBaseline: that the best baseline loses at most
+  /// the margin to the best of all others. kNoPracticalDifference: that the
+  /// best polynomial and the best net lose at most the margin to each other.
+  Confidence confidence = Confidence::kOutOfReach;
+
+  bool established() const { return confidence == Confidence::kEstablished; }
 };
 
 /// The error of each model among neighbours beside that on unseen groups.
@@ -68,6 +72,11 @@ struct Recommendation {
   std::vector<std::size_t> first_tier;
   std::size_t best_baseline = 0;  // by RMSE, under that hold-out
   bool has_baseline = false;
+  /// That the map is better than the best baseline; of a baseline, that it
+  /// loses at most the margin to the best of all others.
+  Confidence against_baseline = Confidence::kOutOfReach;
+  /// That it loses at most the margin to the lowest error of its tier.
+  Confidence within_tier = Confidence::kOutOfReach;
   /// Where a blend is to be used, the simplest single map of the first tier.
   std::optional<std::size_t> simplest_single;
   /// Predictions without a map that were better than every map, if any.
@@ -83,10 +92,17 @@ struct Judgement {
   std::vector<std::optional<Verdict>> verdicts;  // nothing where all failed
   std::optional<InterpolationGap> gap;  // where both kinds of hold-out are
   std::optional<Recommendation> recommendation;
+  std::vector<std::vector<GoalJudgement>> goals;  // (models x hold-outs)
 };
 
-/// Judges a study. `indifference` (target's unit) is the difference in RMSE
-/// that never matters.
+struct JudgeOptions {
+  /// The difference in RMSE that never matters; target's unit, at least 0.
+  double indifference = 0.0;
+  double goal = GoalJudgement::kNaN;  // target's unit; NaN: none
+  std::uint64_t seed = 1;
+};
+
+/// Judges a study.
 ///
 /// The recommendation follows the first hold-out of kFewestSessionsToDecide
 /// whole sessions or more, else of whole unseen groups, else of another file,
@@ -99,8 +115,7 @@ struct Judgement {
 Judgement JudgeStudy(const data::Dataset& dataset,
                      const std::vector<Holdout>& holdouts,
                      const StudyResult& study,
-                     double indifference,
-                     std::uint64_t seed);
+                     const JudgeOptions& options);
 
 /// Inputs of the model other than positions, in its order.
 std::vector<std::string> SensorsOf(const FittedModel& fitted);

@@ -2,12 +2,12 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "stats/comparison/mean_difference.h"
+#include "stats/comparison/memory_bounds.h"
 #include "stats/comparison/sign_flip.h"
 #include "stats/comparison/signed_rank.h"
 #include "stats/comparison/tiers.h"
@@ -16,12 +16,11 @@
 
 namespace errmap::stats {
 
-/// Fewer units establish nothing: with 5, the two of 2^5 sign patterns that
-/// are most extreme already have p = 0.0625.
-inline constexpr Eigen::Index kFewestUnitsToEstablish = 6;
-
 /// Level of every test, after Holm's adjustment where one is made.
 inline constexpr double kSignificance = 0.05;
+
+/// Runs of neighbouring units, as equal as can be, longer ones first.
+inline constexpr Eigen::Index kBlocksOfUnits = 5;
 
 /// Mean held-out losses by fold, for the corrected resampled t.
 struct FoldLosses {
@@ -42,15 +41,24 @@ struct ComparisonOptions {
 };
 
 /// Model a against model b; d = loss of a - loss of b, one mean per unit, so
-/// below 0 where a is better.
+/// below 0 where a is better. What these figures establish is decided in one
+/// place, models/study/confidence.h.
 struct PairComparison {
   Eigen::Index a = 0;
   Eigen::Index b = 0;
   double difference = 0.0;  // pooled RMSE of a less that of b
   Bounds95 bounds;          // of `difference`, bootstrap over units
-  SignFlipTest sign_flip;   // of d: the test that decides
+  SignFlipTest sign_flip;   // of d
   double p_holm = 1.0;      // sign_flip's p among all pairs
-  SignedRankTest wilcoxon;  // of d
+  /// Of `difference`, with the memory from unit to unit that their order cannot
+  /// exclude, and its p among all pairs.
+  MemoryTest memory;
+  double p_memory_holm = 1.0;
+  /// Corrected resampled t of d on kBlocksOfUnits runs of neighbouring units,
+  /// as if each were held out in turn, whatever the hold-out was: it sees
+  /// memory that noise hides from the correlation of neighbours.
+  MeanDifferenceTest block_t;
+  SignedRankTest wilcoxon;                            // of d
   std::optional<MeanDifferenceTest> corrected_t;      // where folds are given
   std::optional<MeanDifferenceTest> diebold_mariano;  // where time-ordered
   /// Lag-1 correlation of d in the order of units, p two-sided.
@@ -58,9 +66,6 @@ struct PairComparison {
   /// It is larger than chance (p <= 5 %) and positive: neighbouring units
   /// resemble each other, and every p here is too small.
   bool correlated = false;
-  /// At least kFewestUnitsToEstablish units, p_holm <= 5 %, and the interval of
-  /// the RMSE difference lies wholly on the side of the mean of d.
-  bool established = false;
 };
 
 /// All models against each other on the same units.
@@ -70,9 +75,6 @@ struct Comparison {
   std::vector<Bounds95> rmse_bounds;  // (models)
   std::vector<PairComparison> pairs;  // (0,1), (0,2), ..., (1,2), ...
   std::vector<std::vector<Eigen::Index>> tiers;  // see FormTiers
-  /// Why not even the clearest difference could be established: too few units,
-  /// at all or for so many pairs; "" where it could.
-  std::string why_nothing_can_be_established;
 
   /// The pair of two different models, whichever is a. Throws
   /// std::out_of_range where there is none.

@@ -69,21 +69,6 @@ MatrixXd Resample(const UnitLosses& losses,
   return rmse;
 }
 
-// What one unit adds to the RMSE, to first order (units x models):
-// w (L - M) / (2 sqrt(M) mean(w)) for rows w, loss L and pooled mean M.
-MatrixXd Influence(const UnitLosses& losses, const VectorXd& rmse) {
-  MatrixXd influence = MatrixXd::Zero(losses.num_units(), losses.num_models());
-  const VectorXd share = losses.rows / losses.rows.mean();
-  for (Index model = 0; model < losses.num_models(); ++model) {
-    const double r = rmse[model];
-    if (r == 0.0) continue;  // every loss is 0
-    influence.col(model) = share.array() *
-                           (losses.mean_squares.col(model).array() - r * r) /
-                           (2.0 * r);
-  }
-  return influence;
-}
-
 // What is `t` standard errors off the estimate.
 using ByT = std::function<double(double t)>;
 
@@ -125,7 +110,7 @@ UnitBootstrap::UnitBootstrap(const UnitLosses& losses,
   losses.Validate();
   if (units_ < kFewestUnits) return;
   rmse_ = PooledRmse(losses);
-  influence_ = Influence(losses, rmse_);
+  influence_ = InfluenceOnRmse(losses, rmse_);
   resampled_ = Resample(losses, resamples, seed);
 }
 

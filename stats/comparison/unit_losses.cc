@@ -107,4 +107,17 @@ VectorXd PooledRmse(const UnitLosses& losses) {
       .cwiseSqrt();
 }
 
+MatrixXd InfluenceOnRmse(const UnitLosses& losses, const VectorXd& rmse) {
+  MatrixXd influence = MatrixXd::Zero(losses.num_units(), losses.num_models());
+  const VectorXd share = losses.rows / losses.rows.mean();
+  for (Index model = 0; model < losses.num_models(); ++model) {
+    const double r = rmse[model];
+    if (r == 0.0) continue;  // every loss is 0
+    influence.col(model) = share.array() *
+                           (losses.mean_squares.col(model).array() - r * r) /
+                           (2.0 * r);
+  }
+  return influence;
+}
+
 }  // namespace errmap::stats

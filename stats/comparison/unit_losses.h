@@ -39,4 +39,10 @@ std::vector<Eigen::Index> BlocksInOrder(Eigen::Index num_rows);
 /// sqrt(sum(rows * mean_square) / sum(rows)). NaN without units.
 Eigen::VectorXd PooledRmse(const UnitLosses& losses);
 
+/// What each unit adds to the pooled `rmse` (models), to first order (units x
+/// models): w (L - M) / (2 sqrt(M) mean(w)) for rows w, loss L and pooled mean
+/// square M. Each column's mean is 0.
+Eigen::MatrixXd InfluenceOnRmse(const UnitLosses& losses,
+                                const Eigen::VectorXd& rmse);
+
 }  // namespace errmap::stats

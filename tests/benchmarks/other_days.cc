@@ -149,8 +149,7 @@ void ScoreSeed(int training_days,
         models::JudgeStudy(rule == 2 ? by_day : split.first,
                            {holdouts[rule]},
                            OnlyHoldout(study, rule),
-                           kIndifference,
-                           seed);
+                           {.indifference = kIndifference, .seed = seed});
     const std::size_t model = judgement.recommendation->model;
     const double promised = study.models[model].holdouts[rule].test.rmse;
     const double ratio = rmse(model) / best;

@@ -140,6 +140,8 @@ TEST_F(Cli, InterruptedRunShowsAndWritesWhatItHas) {
                    endless,
                    "--holdout",
                    "every:3",
+                   "--goal",
+                   "1",  // mm: any map would do
                    "--out",
                    "o",
                    "--format",
@@ -153,6 +155,10 @@ TEST_F(Cli, InterruptedRunShowsAndWritesWhatItHas) {
   EXPECT_THAT(outcome.err, HasSubstr("errmap: interrupted"));
   const Json results = Json::parse(Read("o/results.json"));
   EXPECT_EQ(results["interrupted"], true);
+  // What an interrupted run leaves is held against no goal.
+  const Json& advice = results["components"][0]["recommendation"];
+  EXPECT_EQ(advice["meets_goal"], nullptr);
+  EXPECT_EQ(advice["goal_standing"], "not judged");
   const Json& fold =
       results["components"][0]["models"][0]["results"]["every:3"]["folds"][0];
   EXPECT_EQ(fold["stop"], "interrupted");

@@ -1,5 +1,7 @@
 // The verdict of `errmap compare`, and models made elsewhere.
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "tests/cli/cli_fixture.h"
@@ -8,6 +10,7 @@ namespace errmap {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 TEST_F(Cli, RecommendsWhatHoldsOnUnseenCyclesAndSaysWhy) {
@@ -28,6 +31,12 @@ TEST_F(Cli, RecommendsWhatHoldsOnUnseenCyclesAndSaysWhy) {
   EXPECT_LT(advice["ci95"][0], advice["rmse"]);
   EXPECT_GT(advice["ci95"][1], advice["rmse"]);
   EXPECT_EQ(advice["meets_goal"], false);
+  EXPECT_EQ(advice["goal_standing"], "not met");
+  // The headline says that even the best baseline is not surely beaten.
+  EXPECT_EQ(advice["against_baseline"], "units correlated");
+  EXPECT_THAT(advice["sentence"].get<std::string>(),
+              HasSubstr("That it beats the best baseline, poly:position (2.165 "
+                        "um), is not established."));
   EXPECT_FALSE(advice["reasons"].empty());
   EXPECT_FALSE(advice["caveats"].empty());
   for (const Json& row : component["gap"]["models"]) {
@@ -42,7 +51,15 @@ TEST_F(Cli, RecommendsWhatHoldsOnUnseenCyclesAndSaysWhy) {
     EXPECT_EQ(pair["unit_of_analysis"], "cycle");
     EXPECT_EQ(pair["units"], 35);
     EXPECT_GE(pair["p_holm"], pair["p"]);
+    // One definition: what neighbours that resemble each other show is never
+    // called established, here or in any sentence.
+    EXPECT_EQ(pair["established"], pair["confidence"] == "established");
+    if (pair["correlated"] == true || pair["holdout"] == "groups:5") {
+      EXPECT_EQ(pair["established"], false) << pair;
+    }
   }
+  EXPECT_THAT(advice["caveats"].dump(),
+              HasSubstr("nothing under groups:5 is called established"));
   std::set<std::string> tiered;
   for (const Json& tier : component["tiers"]["groups:5"]) {
     for (const Json& name : tier) tiered.insert(name);
@@ -159,6 +176,70 @@ TEST_F(Cli, SaysWhereHoldOutsOfUnseenCyclesDisagree) {
   EXPECT_THAT(component["recommendation"]["caveats"].dump(),
               AllOf(HasSubstr("disagree: under forward:5 it has"),
                     HasSubstr("poly:position has")));
+}
+
+// A map of yesterday's zero: 0.2 um of scatter about 5 um is not met by 0.5 um.
+TEST_F(Cli, MeetsAGoalByItsRmseAndSaysWhereAnOffsetHidesIt) {
+  const auto write = [&](const std::string& name, double offset) {
+    std::string text = "cycle,position_mm,t1_degC,error_mm\n";
+    for (int i = 0; i < 240; ++i) {
+      const int cycle = i / 10;
+      const double warm = 5.0 * std::sin(cycle);
+      text += std::to_string(cycle) + "," + std::to_string(i % 10) + "," +
+              std::to_string(20.0 + warm) + "," +
+              std::to_string(offset + 0.002 * (i % 10) * warm +
+                             3e-4 * std::sin(12.9898 * i * i)) +
+              "\n";
+    }
+    Write(name, text);
+  };
+  write("yesterday.csv", 0.0);
+  write("today.csv", 0.005);
+  ASSERT_EQ(Run({"fit",
+                 "yesterday.csv",
+                 "--model",
+                 "poly:full:degree=2",
+                 "-o",
+                 "map.json",
+                 "--quiet"})
+                .status,
+            0);
+  const auto compare = [&](const std::string& file,
+                           const std::string& goal,
+                           const std::string& format) {
+    return std::vector<std::string>{"compare",
+                                    file,
+                                    "--models",
+                                    "zero,file:map.json",
+                                    "--holdout",
+                                    "groups:5",
+                                    "--goal",
+                                    goal,
+                                    "--format",
+                                    format,
+                                    "--quiet"};
+  };
+  const auto result = [&](const Json& component) {
+    return Model(component, "file:map.json")["results"]["groups:5"];
+  };
+  const Json offset =
+      RunJson(compare("today.csv", "0.0005", "json"))["components"][0];
+  EXPECT_EQ(result(offset)["meets_goal"], false);
+  EXPECT_EQ(result(offset)["goal_standing"], "met after re-zeroing");
+  const Json met =
+      RunJson(compare("yesterday.csv", "0.0005", "json"))["components"][0];
+  EXPECT_EQ(result(met)["meets_goal"], true);
+  EXPECT_EQ(result(met)["goal_standing"], "met");
+  const Json missed =
+      RunJson(compare("today.csv", "0.0001", "json"))["components"][0];
+  EXPECT_EQ(result(missed)["goal_standing"], "not met");
+  std::string screen = Run(compare("today.csv", "0.0005", "table")).out;
+  std::ranges::replace(screen, '\n', ' ');
+  EXPECT_THAT(screen, ContainsRegex("file:map.json .* sd +[0-9.]+ +[0-9]+ "));
+  EXPECT_THAT(screen,
+              ContainsRegex("The goal .RMSE at most 0.5 um. is met after "
+                            "re-zeroing: RMSE 5.0[0-9]+ um, sd 0.2[0-9]+ um "
+                            "about an offset of 5.0[0-9]+ um."));
 }
 
 TEST_F(Cli, EstablishesNothingFromFiveCycles) {

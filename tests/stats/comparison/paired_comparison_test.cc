@@ -49,37 +49,51 @@ FoldLosses MakeFolds(Index folds, Index models) {
   return losses;
 }
 
-TEST(CompareModels, EstablishesAClearDifference) {
+TEST(CompareModels, FindsAClearDifference) {
   const UnitLosses losses = MakeLosses(12, VectorXd{{1.0, 1.02, 2.0}});
   const Comparison found = CompareModels(losses, nullptr, {});
   EXPECT_EQ(found.num_units, 12);
-  EXPECT_EQ(found.why_nothing_can_be_established, "");
   ASSERT_EQ(found.pairs.size(), 3U);
   ASSERT_EQ(found.rmse_bounds.size(), 3U);
   const PairComparison& clear = found.Pair(2, 0);
   EXPECT_EQ(clear.a, 0);
   EXPECT_EQ(clear.b, 2);
-  EXPECT_TRUE(clear.established);
   EXPECT_LT(clear.bounds.upper, 0.0);
   EXPECT_DOUBLE_EQ(clear.difference, found.rmse[0] - found.rmse[2]);
   EXPECT_DOUBLE_EQ(clear.sign_flip.test.p, 2.0 / 4096.0);
   EXPECT_DOUBLE_EQ(clear.p_holm, 6.0 / 4096.0);
-  EXPECT_FALSE(found.Pair(0, 1).established);
   EXPECT_GT(found.Pair(0, 1).p_holm, kSignificance);
   // Not told apart is no reason to be alike.
   EXPECT_THAT(found.tiers, testing::SizeIs(3));
 }
 
-TEST(CompareModels, AdjustsBySignFlipsOverAllPairs) {
+TEST(CompareModels, TestsFiveRunsOfUnitsAsIfEachWereHeldOut) {
+  const UnitLosses losses = MakeLosses(12, VectorXd{{1.0, 1.5}});
+  const VectorXd d = losses.mean_squares.col(0) - losses.mean_squares.col(1);
+  const VectorXd runs{{d.segment(0, 3).mean(),
+                       d.segment(3, 3).mean(),
+                       d.segment(6, 2).mean(),
+                       d.segment(8, 2).mean(),
+                       d.segment(10, 2).mean()}};
+  EXPECT_NEAR(CompareModels(losses, nullptr, {}).pairs[0].block_t.test.p,
+              CorrectedResampledT(runs, 0.3).test.p,
+              1e-12);
+}
+
+TEST(CompareModels, AdjustsOverAllPairs) {
   const Comparison found =
       CompareModels(MakeLosses(9, VectorXd{{1.0, 1.2, 1.4, 1.6}}), nullptr, {});
   std::vector<double> p;
+  std::vector<double> p_memory;
   for (const PairComparison& pair : found.pairs) {
     p.push_back(pair.sign_flip.test.p);
+    p_memory.push_back(pair.memory.test.p);
   }
   const std::vector<double> adjusted = AdjustByHolm(p);
+  const std::vector<double> memory_adjusted = AdjustByHolm(p_memory);
   for (std::size_t i = 0; i < p.size(); ++i) {
     EXPECT_EQ(found.pairs[i].p_holm, adjusted[i]);
+    EXPECT_EQ(found.pairs[i].p_memory_holm, memory_adjusted[i]);
   }
 }
 
@@ -130,43 +144,18 @@ TEST(CompareModels, KeepsItsAnswerWithOtherOrderAndScale) {
       EXPECT_EQ(one.sign_flip.test.p, other.sign_flip.test.p);
       EXPECT_EQ(one.p_holm, other.p_holm);
       EXPECT_EQ(one.wilcoxon.test.p, other.wilcoxon.test.p);
-      EXPECT_EQ(one.established, other.established);
+      EXPECT_NEAR(one.p_memory_holm, other.p_memory_holm, kRounding);
     }
   }
 }
 
-TEST(CompareModels, EstablishesNothingBelowSixUnits) {
+TEST(CompareModels, BoundsDifferencesFromTwoUnitsOnAndWithMemoryFromFour) {
   for (const Index units : {1, 2, 3, 5}) {
     const Comparison found =
         CompareModels(MakeLosses(units, VectorXd{{1.0, 100.0}}), nullptr, {});
-    EXPECT_FALSE(found.pairs[0].established);
-    EXPECT_THAT(found.why_nothing_can_be_established,
-                HasSubstr(std::to_string(units) + " unit"));
-    EXPECT_THAT(found.why_nothing_can_be_established,
-                HasSubstr("at least 6 are needed"));
     EXPECT_EQ(found.pairs[0].bounds.exist(), units >= 2);
+    EXPECT_EQ(found.pairs[0].memory.bounds.exist(), units >= 4);
   }
-  const Comparison six =
-      CompareModels(MakeLosses(6, VectorXd{{1.0, 100.0}}), nullptr, {});
-  EXPECT_TRUE(six.pairs[0].established);
-  EXPECT_EQ(six.why_nothing_can_be_established, "");
-}
-
-// 2/2^10 * 66 pairs is above 5 %, 2/2^12 * 66 below.
-TEST(CompareModels, SaysWhenThereAreTooFewUnitsForSoManyPairs) {
-  VectorXd scale = VectorXd::LinSpaced(12, 0.0, 11.0);
-  for (double& value : scale) value = std::pow(10.0, value);
-  const Comparison ten = CompareModels(MakeLosses(10, scale), nullptr, {});
-  EXPECT_THAT(ten.why_nothing_can_be_established,
-              HasSubstr("10 units for 66 pairs: at least 12 are needed"));
-  for (const PairComparison& pair : ten.pairs) EXPECT_FALSE(pair.established);
-  const Comparison twelve = CompareModels(MakeLosses(12, scale), nullptr, {});
-  EXPECT_EQ(twelve.why_nothing_can_be_established, "");
-  EXPECT_TRUE(twelve.Pair(0, 11).established);
-  const Comparison few_draws =
-      CompareModels(MakeLosses(40, scale), nullptr, {.flips = 99});
-  EXPECT_THAT(few_draws.why_nothing_can_be_established,
-              HasSubstr("99 sign patterns are too few for 66 pairs"));
 }
 
 TEST(CompareModels, PutsModelsAloneWhereNoBoundExists) {
@@ -190,31 +179,13 @@ TEST(CompareModels, CallsEqualModelsEqual) {
   EXPECT_EQ(pair.p_holm, 1.0);
   EXPECT_EQ(pair.wilcoxon.test.p, 1.0);
   EXPECT_EQ(pair.corrected_t->test.p, 1.0);
+  EXPECT_EQ(pair.block_t.test.p, 1.0);
   EXPECT_EQ(pair.diebold_mariano->test.p, 1.0);
   EXPECT_EQ(pair.bounds.upper, 0.0);
   EXPECT_FALSE(pair.lag1.ok());
   EXPECT_FALSE(pair.correlated);
-  EXPECT_FALSE(pair.established);
+  EXPECT_EQ(pair.p_memory_holm, 1.0);
   EXPECT_THAT(found.tiers, ElementsAre(ElementsAre(0, 1)));
-}
-
-// One unit of 1000 rows outweighs eleven of 5: the pooled RMSE and the mean
-// over units point in opposite directions, so nothing is established.
-TEST(CompareModels, EstablishesNothingWhereRowsAndUnitsDisagree) {
-  UnitLosses losses;
-  losses.mean_squares = MatrixXd::Constant(12, 2, 1.0);
-  losses.rows = VectorXd::Constant(12, 5.0);
-  for (Index unit = 0; unit < 12; ++unit) {
-    losses.mean_squares(unit, 1) = 2.0 + 0.01 * static_cast<double>(unit);
-  }
-  losses.rows[11] = 1000.0;
-  losses.mean_squares(11, 1) = 0.9;
-  const Comparison found = CompareModels(losses, nullptr, {});
-  const PairComparison& pair = found.pairs[0];
-  EXPECT_LT(pair.sign_flip.test.statistic, 0.0);
-  EXPECT_GT(pair.difference, 0.0);
-  EXPECT_LE(pair.p_holm, kSignificance);
-  EXPECT_FALSE(pair.established);
 }
 
 TEST(CompareModels, WarnsOfUnitsThatResembleTheirNeighbours) {
@@ -248,9 +219,7 @@ TEST(CompareModels, ComparesNoUnitsNoModelsAndOne) {
       CompareModels(MakeLosses(0, VectorXd::Ones(2)), nullptr, {});
   EXPECT_TRUE(std::isnan(no_units.rmse[0]));
   EXPECT_EQ(no_units.pairs[0].sign_flip.test.why_not, "no units");
-  EXPECT_FALSE(no_units.pairs[0].established);
   EXPECT_THAT(no_units.tiers, IsEmpty());
-  EXPECT_THAT(no_units.why_nothing_can_be_established, HasSubstr("0 units"));
   const Comparison no_models =
       CompareModels(MakeLosses(9, VectorXd()), nullptr, {});
   EXPECT_THAT(no_models.pairs, IsEmpty());
