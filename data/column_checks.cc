@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "data/text.h"
+#include "data/units.h"
 
 namespace errmap::data {
 namespace {
@@ -33,6 +34,22 @@ bool HasDecimalComma(std::string_view text) {
   return with_point != text && ParseNumber(with_point, &value);
 }
 
+// Whether a word is a unit where it is sure to mean one.
+bool IsUnit(std::string_view word) {
+  return ReadHeader("x [" + std::string(word) + "]").source ==
+         UnitSource::kStated;
+}
+
+// "12.7 mm", "1.234,5", "1 234": a number with its unit, or with separators
+// that only people read.
+bool IsNumberForPeople(std::string_view text) {
+  if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
+  if (text.empty() || text.front() < '0' || text.front() > '9') return false;
+  const std::string_view rest = text.substr(
+      std::min(text.find_first_not_of("0123456789.,' "), text.size()));
+  return rest.empty() || IsUnit(rest);
+}
+
 // What is wrong with a cell that is no finite number, and how to mend it.
 std::string Complaint(std::string_view text) {
   if (text.empty()) return "empty cell; fill it in";
@@ -46,6 +63,11 @@ std::string Complaint(std::string_view text) {
     return quoted +
            " is no number here; write a decimal point, or separate the "
            "columns with ; or tab";
+  }
+  if (IsNumberForPeople(text)) {
+    return quoted +
+           " is no plain number; write it without its unit and without "
+           "thousands separators";
   }
   return quoted + " is no number; correct it";
 }
@@ -172,6 +194,47 @@ void RequireNumbers(const CsvTable& table, const ColumnInUse& column) {
       break;
   }
   throw InputError(what);
+}
+
+std::string WhyNoUnit(const Header& header) {
+  return QuotedText(header.unit_text) +
+         (IsUnit(header.unit_text)
+              ? " counts as a unit in brackets or parentheses only"
+              : " is no unit known here");
+}
+
+void RequireKnownUnit(const CsvTable& table, const ColumnInUse& column) {
+  const std::string& name = table.columns[column.index].name;
+  const Header header = ReadHeader(name);
+  const bool is_refused = header.source == UnitSource::kUnknown ||
+                          (header.source == UnitSource::kUnread &&
+                           column.use == ColumnUse::kTarget);
+  if (!is_refused) return;
+  throw InputError(
+      PrintablePath(table.file) + ": column " + QuotedName(name) + ": " +
+      WhyNoUnit(header) +
+      "; rename the column, with one of these in brackets: " + KnownUnits());
+}
+
+void RefuseNumbersAsText(const CsvTable& table, const CsvColumn& column) {
+  if (!column.is_text()) return;
+  bool any = false;
+  bool all_numbers = true;
+  for (const std::string& text : column.texts) {
+    if (IsMissingText(text)) continue;
+    any = true;
+    all_numbers = all_numbers && IsNumberForPeople(text);
+  }
+  if (!NamesPosition(column.name) && !(any && all_numbers)) return;
+  std::size_t row = 0;
+  while (any && row + 1 < table.num_rows &&
+         IsMissingText(table.CellText(column, row))) {
+    ++row;
+  }
+  throw InputError(table.Where(row, column.name) + ": " +
+                   Complaint(table.CellText(column, row)) +
+                   " (no cell of the column is a plain number), or exclude "
+                   "the column");
 }
 
 void RefuseMixedDecimals(const CsvTable& table,

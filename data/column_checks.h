@@ -30,6 +30,18 @@ std::size_t RequireColumn(const CsvTable& table,
 /// Throws InputError where the column holds no number at all.
 void RequireNumbers(const CsvTable& table, const ColumnInUse& column);
 
+/// Why the text that might be a column's unit is not read as one.
+std::string WhyNoUnit(const Header& header);
+
+/// Throws InputError, with the units known, where the name carries a unit that
+/// is none we know: in brackets or parentheses, of the target bare, too.
+void RequireKnownUnit(const CsvTable& table, const ColumnInUse& column);
+
+/// Throws InputError where the column holds no number, though it is one of
+/// numbers: positions by its name, or every text in it a number with a unit or
+/// thousands separators ("12.7 mm", "1.234,5").
+void RefuseNumbersAsText(const CsvTable& table, const CsvColumn& column);
+
 /// Throws InputError where some numbers of these columns have a decimal comma
 /// and others a decimal point: "1.234" may then be a thousand. Columns used as
 /// groups are passed over, since they are labels ("03.05.").

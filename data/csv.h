@@ -15,6 +15,7 @@ namespace errmap::data {
 /// not a finite number is kept apart as text, once per distinct text.
 struct CsvColumn {
   std::string name;
+  bool has_name = true;  // false: the header left it empty, `name` is ours
   std::vector<double>
       values;  // (rows) quiet NaN where `exceptions` has the row
   /// Cells that are no finite number, ascending by row: (row, index in texts).
@@ -51,9 +52,9 @@ struct CsvTable {
 /// Reads a CSV file: RFC 4180 quotes; `,` `;` or tab, found from the header;
 /// decimal comma where the delimiter is `;` or tab; UTF-8 byte order mark,
 /// CRLF, lines starting with `#`, and blank lines at the end are passed over.
-/// An unnamed column is called column_N. Text that is no valid UTF-8 is taken
-/// for Latin-1 and converted. Linear time, about twice the file's memory; never
-/// looks at the locale.
+/// An unnamed column is called column_N (`has_name` is false). Text that is no
+/// valid UTF-8 is taken for Latin-1 and converted. Linear time, about twice the
+/// file's memory; never looks at the locale.
 ///
 /// Throws InputError: unreadable file, empty file, no header (a number where a
 /// name should be), header alone, ragged row, blank line inside the data,

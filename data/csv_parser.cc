@@ -244,7 +244,8 @@ class Parser {
                          : " (line " + std::to_string(comment_before_header_) +
                                " starts with # and so is a comment)"));
       }
-      if (name.empty()) name = "column_" + std::to_string(number);
+      const bool has_name = !name.empty();
+      if (!has_name) name = "column_" + std::to_string(number);
       const auto [other, is_new] = numbers.emplace(name, number);
       if (!is_new) {
         ThrowAt(line,
@@ -254,6 +255,7 @@ class Parser {
       }
       table_.columns.emplace_back();
       table_.columns.back().name = std::move(name);
+      table_.columns.back().has_name = has_name;
     }
     texts_.resize(table_.columns.size());
     header_line_ = line;

@@ -169,14 +169,16 @@ struct PreparedDataset {
 /// (StemOfColumn) is left out with a remark unless named in `inputs`. Dead
 /// inputs (all zero, constant, or one value in at least 90 % of the rows) are
 /// dropped with a remark unless `keep_dead`; an input that repeats another
-/// value for value is named in a remark and kept. Columns of `where` are no
-/// default inputs. The log holds the rows that `where` lets pass. kFirst takes
-/// the first value kept of each session off the target, with a remark.
+/// value for value is named in a remark and kept. Columns of `where`, and those
+/// that the header leaves unnamed, are no default inputs. The log holds the
+/// rows that `where` lets pass. kFirst takes the first value kept of each
+/// session off the target, with a remark.
 ///
 /// Throws InputError naming file, row, column and remedy: unknown column, no
 /// or several candidates for the target, a cell of a used column that is
 /// empty, NA, NaN, infinite or no number (kDropRows drops rows with empty, NA
-/// or NaN cells only), decimal commas and points mixed, constant target,
+/// or NaN cells only), a unit that is not known, positions or other numbers
+/// that stand there as text, decimal commas and points mixed, constant target,
 /// non-positive weight, times that will not do (sessions.h), no rows (`where`
 /// included) or no inputs left (no inputs is allowed where the table has no
 /// other numeric column).

@@ -62,6 +62,13 @@ bool KeepsRecord(std::string_view name) {
          StartsWithIgnoringCase(name, "truth");
 }
 
+// A column that nobody named: the index that spreadsheets and data frames
+// write beside their rows, under an empty name or (once read and written again)
+// as "Unnamed: 0".
+bool IsUnnamed(const CsvColumn& column) {
+  return !column.has_name || StartsWithIgnoringCase(column.name, "Unnamed:");
+}
+
 // True where every cell is empty, NA or NaN: a channel that was never logged.
 bool IsAllMissing(const CsvColumn& column) {
   return column.is_text() &&
@@ -82,6 +89,7 @@ class DatasetBuilder {
     } else {
       ChooseNamedInputs();
     }
+    ReadUnits();
     CheckColumns();
     TakeTarget();
     TakeWeights();
@@ -276,11 +284,20 @@ class DatasetBuilder {
       const std::string name = NameInRemark(Name(i));
       if (excluded.contains(Name(i))) {
         had_candidates_ = had_candidates_ || !Column(i).is_text();
+      } else if (IsUnnamed(Column(i))) {
+        had_candidates_ = true;
+        Drop(i, "has no name in the header");
+        remarks_.push_back("column " + name +
+                           " has no name in the header and is left out of the "
+                           "inputs");
+      } else if (NamesPosition(Name(i)) && Column(i).is_text()) {
+        RefuseNumbersAsText(table_, Column(i));
       } else if (IsAllMissing(Column(i))) {
         Drop(i, "no number in any row");
         remarks_.push_back("input " + name +
                            " has no number in any row and is left out");
       } else if (Column(i).is_text()) {
+        RefuseNumbersAsText(table_, Column(i));
         texts.push_back(Name(i));
       } else if (StemOfColumn(Name(i)) == target_stem) {
         had_candidates_ = true;
@@ -316,6 +333,28 @@ class DatasetBuilder {
                   what +
                       "; name inputs with --inputs, or keep dead ones with "
                       "--keep-dead");
+  }
+
+  // ---- In which units.
+
+  void ReadUnits() {
+    RequireKnownUnit(table_, {roles_.target, ColumnUse::kTarget});
+    if (const Header target = ReadHeader(Name(roles_.target));
+        target.source == UnitSource::kAssumed) {
+      remarks_.push_back(NameInRemark(Name(roles_.target)) +
+                         ": no unit in its name, taken as " +
+                         target.unit.symbol);
+    }
+    std::vector<std::string> unread;
+    for (const std::size_t input : roles_.inputs) {
+      RequireKnownUnit(table_, {input, ColumnUse::kInput});
+      if (ReadHeader(Name(input)).source == UnitSource::kUnread) {
+        unread.push_back(Name(input));
+      }
+    }
+    if (unread.empty()) return;
+    remarks_.push_back("no unit is read from " + ListOfNames(unread) + ": " +
+                       WhyNoUnit(ReadHeader(unread.front())));
   }
 
   // ---- Which rows, and what is in them.

@@ -1,65 +1,261 @@
 #include "data/units.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
 
 #include "data/text.h"
 
 namespace errmap::data {
 namespace {
 
+// Value in the quantity's base unit (um, rad, K, s, ppm) = (value + offset) *
+// factor. Names are separated by spaces.
 struct KnownUnit {
-  std::string_view suffix;  // as column names carry it
   std::string_view symbol;
   Quantity quantity;
-  double display_scale;
+  double factor;
+  double offset;
+  std::string_view names;         // besides the symbol
+  std::string_view in_brackets;   // names that count nowhere else
+  bool symbol_is_a_word = false;  // bare, it is a name: "T_in"
 };
 
+constexpr double kZeroCelsius = 273.15;     // K
+constexpr double kZeroFahrenheit = 459.67;  // degF above absolute zero
+constexpr double kDegree = std::numbers::pi / 180.0;
+
 constexpr auto kKnownUnits = std::to_array<KnownUnit>({
-    {"nm", "nm", Quantity::kLength, 1e-3},
-    {"um", "um", Quantity::kLength, 1.0},
-    {"\u00b5m", "um", Quantity::kLength, 1.0},  // micro sign
-    {"\u03bcm", "um", Quantity::kLength, 1.0},  // Greek mu
-    {"mm", "mm", Quantity::kLength, 1e3},
-    {"cm", "cm", Quantity::kLength, 1e4},
-    {"m", "m", Quantity::kLength, 1e6},
-    {"arcsec", "arcsec", Quantity::kAngle, 1.0},
-    {"urad", "urad", Quantity::kAngle, 1.0},
-    {"mrad", "mrad", Quantity::kAngle, 1.0},
-    {"rad", "rad", Quantity::kAngle, 1.0},
-    {"deg", "deg", Quantity::kAngle, 1.0},
-    {"degC", "degC", Quantity::kTemperature, 1.0},
-    {"K", "K", Quantity::kTemperature, 1.0},
-    {"degF", "degF", Quantity::kTemperature, 1.0},
-    {"ms", "ms", Quantity::kOther, 1.0},
-    {"s", "s", Quantity::kOther, 1.0},
-    {"min", "min", Quantity::kOther, 1.0},
-    {"h", "h", Quantity::kOther, 1.0},
-    {"rpm", "rpm", Quantity::kOther, 1.0},
-    {"N", "N", Quantity::kOther, 1.0},
-    {"V", "V", Quantity::kOther, 1.0},
-    {"A", "A", Quantity::kOther, 1.0},
-    {"W", "W", Quantity::kOther, 1.0},
-    {"bar", "bar", Quantity::kOther, 1.0},
-    {"pct", "pct", Quantity::kOther, 1.0},
-    {"percent", "percent", Quantity::kOther, 1.0},
+    {"nm", Quantity::kLength, 1e-3, 0, "nanometer nanometre", ""},
+    {"um",
+     Quantity::kLength,
+     1.0,
+     0,
+     "micron microns micrometer micrometers micrometre micrometres",
+     ""},
+    {"mm",
+     Quantity::kLength,
+     1e3,
+     0,
+     "millimeter millimeters millimetre millimetres",
+     ""},
+    {"cm", Quantity::kLength, 1e4, 0, "centimeter centimetre", ""},
+    {"m", Quantity::kLength, 1e6, 0, "meter meters metre metres", "", true},
+    {"in", Quantity::kLength, 25400.0, 0, "inch inches", "", true},
+    {"ft", Quantity::kLength, 304800.0, 0, "feet", "", true},
+    {"mil", Quantity::kLength, 25.4, 0, "mils thou", ""},
+    {"uin", Quantity::kLength, 0.0254, 0, "microinch microinches", ""},
+    {"arcsec",
+     Quantity::kAngle,
+     kDegree / 3600.0,
+     0,
+     "arcsecs arcsecond arcseconds",
+     "\" \u2033 ''"},
+    {"arcmin",
+     Quantity::kAngle,
+     kDegree / 60.0,
+     0,
+     "arcmins arcminute arcminutes",
+     "' \u2032"},
+    {"mrad", Quantity::kAngle, 1e-3, 0, "milliradian milliradians", ""},
+    {"urad",
+     Quantity::kAngle,
+     1e-6,
+     0,
+     "microrad microradian microradians",
+     ""},
+    {"rad", Quantity::kAngle, 1.0, 0, "radian radians", ""},
+    {"deg", Quantity::kAngle, kDegree, 0, "degree degrees \u00b0", ""},
+    {"degC",
+     Quantity::kTemperature,
+     1.0,
+     kZeroCelsius,
+     "celsius \u00b0C degreesC",
+     "C"},
+    {"K", Quantity::kTemperature, 1.0, 0, "kelvin", "", true},
+    {"degF",
+     Quantity::kTemperature,
+     5.0 / 9.0,
+     kZeroFahrenheit,
+     "fahrenheit \u00b0F degreesF",
+     "F"},
+    {"ms", Quantity::kTime, 1e-3, 0, "", ""},
+    {"s", Quantity::kTime, 1.0, 0, "sec seconds", ""},
+    {"min", Quantity::kTime, 60.0, 0, "minutes", ""},
+    {"h", Quantity::kTime, 3600.0, 0, "hr hours", ""},
+    {"ppm", Quantity::kRatio, 1.0, 0, "", ""},
+    {"um/m", Quantity::kRatio, 1.0, 0, "", ""},
+    {"pct", Quantity::kRatio, 1e4, 0, "", ""},
+    {"percent", Quantity::kRatio, 1e4, 0, "", ""},
+    {"%", Quantity::kRatio, 1e4, 0, "", ""},
+    {"rpm",
+     Quantity::kOther,
+     1.0,
+     0,
+     "1/min U/min r/min rev/min min-1 min^-1",
+     ""},
+    {"Hz", Quantity::kOther, 1.0, 0, "", ""},
+    {"N", Quantity::kOther, 1.0, 0, "", ""},
+    {"kN", Quantity::kOther, 1.0, 0, "", ""},
+    {"Nm", Quantity::kOther, 1.0, 0, "", ""},
+    {"V", Quantity::kOther, 1.0, 0, "", ""},
+    {"mV", Quantity::kOther, 1.0, 0, "", ""},
+    {"A", Quantity::kOther, 1.0, 0, "", ""},
+    {"mA", Quantity::kOther, 1.0, 0, "", ""},
+    {"W", Quantity::kOther, 1.0, 0, "", ""},
+    {"kW", Quantity::kOther, 1.0, 0, "", ""},
+    {"g", Quantity::kOther, 1.0, 0, "", ""},
+    {"kg", Quantity::kOther, 1.0, 0, "", ""},
+    {"mg", Quantity::kOther, 1.0, 0, "", ""},
+    {"ug", Quantity::kOther, 1.0, 0, "", ""},
+    {"bar", Quantity::kOther, 1.0, 0, "", ""},
+    {"Pa", Quantity::kOther, 1.0, 0, "", ""},
+    {"kPa", Quantity::kOther, 1.0, 0, "", ""},
+    {"MPa", Quantity::kOther, 1.0, 0, "", ""},
 });
 
-const KnownUnit* FindSuffix(std::string_view suffix) {
-  for (const KnownUnit& unit : kKnownUnits) {
-    if (unit.suffix == suffix) return &unit;
+// Units that measure something here, yet nothing that we convert; and parts of
+// units such as "mg_per_m3". Bare words otherwise: "error_l" is the left one.
+constexpr std::string_view kPartsOfRates = " l ml rev m2 m3 mm2 mm3 cm2 cm3 1 ";
+
+// Bare words that are units for sure, though none that we know.
+constexpr std::string_view kForeignUnits =
+    " furlong furlongs fathom fathoms yard yards mile miles angstrom angstroms "
+    "gon gradian gradians parsec tenths mm2 mm3 cm2 cm3 ";
+
+bool HasWord(std::string_view words, std::string_view word) {
+  return !word.empty() &&
+         words.find(" " + std::string(word) + " ") != std::string_view::npos;
+}
+
+void ReplaceAll(std::string_view from, std::string_view to, std::string* text) {
+  for (std::size_t at = 0; (at = text->find(from, at)) != std::string::npos;
+       at += to.size()) {
+    text->replace(at, from.size(), to);
+  }
+}
+
+std::string LowerCase(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower;
+}
+
+// One spelling of what is written in many: "deg C", "µm", "in mm".
+std::string Normalised(std::string_view text) {
+  std::string unit(Trimmed(text));
+  if (StartsWithIgnoringCase(unit, "in ")) unit.erase(0, 3);
+  ReplaceAll("\u00b5", "u", &unit);       // micro sign
+  ReplaceAll("\u03bc", "u", &unit);       // Greek mu
+  ReplaceAll("\u00ba", "\u00b0", &unit);  // ordinal for degree
+  ReplaceAll("\u2103",
+             "\u00b0"
+             "C",
+             &unit);  // one character each
+  ReplaceAll("\u2109",
+             "\u00b0"
+             "F",
+             &unit);
+  ReplaceAll("\u00b2", "2", &unit);
+  ReplaceAll("\u00b3", "3", &unit);
+  ReplaceAll(" ", "", &unit);
+  return unit;
+}
+
+// Whether `text` is among the names; in any case, or exactly.
+bool IsNamed(std::string_view names, std::string_view text, bool any_case) {
+  while (!names.empty()) {
+    const std::size_t space = std::min(names.find(' '), names.size());
+    const std::string_view name = names.substr(0, space);
+    if (any_case ? EqualsIgnoringCase(name, text) : name == text) return true;
+    names.remove_prefix(std::min(space + 1, names.size()));
+  }
+  return false;
+}
+
+enum class Place { kBare, kBracketed };
+
+// The case that a bare symbol stands in matters where it is short and the
+// quantity is none that errors have: "x_V" is in volts, "x_v" a name.
+bool AnyCaseServes(const KnownUnit& unit, Place place) {
+  constexpr std::size_t kShort = 2;
+  return place == Place::kBracketed || unit.symbol.size() > kShort ||
+         unit.quantity == Quantity::kLength;
+}
+
+const KnownUnit* FindUnit(std::string_view normalised, Place place) {
+  if (normalised.empty()) return nullptr;
+  // "Nm" before "nm": as written first, then in any case.
+  for (const bool any_case : {false, true}) {
+    for (const KnownUnit& unit : kKnownUnits) {
+      const bool symbol_counts =
+          place == Place::kBracketed || !unit.symbol_is_a_word;
+      if ((symbol_counts && (!any_case || AnyCaseServes(unit, place)) &&
+           IsNamed(unit.symbol, normalised, any_case)) ||
+          IsNamed(unit.names, normalised, any_case) ||
+          (place == Place::kBracketed &&
+           IsNamed(unit.in_brackets, normalised, any_case))) {
+        return &unit;
+      }
+    }
   }
   return nullptr;
 }
 
-// Position of the underscore before a known suffix, or npos.
-std::size_t SuffixStart(std::string_view name) {
-  const std::size_t underscore = name.rfind('_');
-  if (underscore == std::string_view::npos ||
-      FindSuffix(name.substr(underscore + 1)) == nullptr) {
-    return std::string_view::npos;
+Unit MakeUnit(const KnownUnit& known) {
+  const bool is_length = known.quantity == Quantity::kLength;
+  return {.symbol = std::string(known.symbol),
+          .quantity = known.quantity,
+          .display_scale = is_length ? known.factor : 1.0,
+          .display_symbol = is_length ? "um" : std::string(known.symbol)};
+}
+
+Unit OtherUnit(std::string_view symbol) {
+  Unit unit;
+  unit.symbol = symbol;
+  unit.display_symbol = symbol;
+  return unit;
+}
+
+bool IsPartOfRate(std::string_view text) {
+  return FindUnit(text, Place::kBracketed) != nullptr ||
+         HasWord(kPartsOfRates, LowerCase(text));
+}
+
+// "mg/m3" of "mg_per_m3" or "mg/m3", else "".
+std::string RateOf(std::string_view normalised) {
+  std::string text(normalised);
+  ReplaceAll("_per_", "/", &text);
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) return "";
+  const std::string_view part(text);
+  return IsPartOfRate(part.substr(0, slash)) &&
+                 IsPartOfRate(part.substr(slash + 1))
+             ? text
+             : "";
+}
+
+// The unit of a text that is nothing else, or false.
+bool ReadUnit(std::string_view text, Place place, Unit* unit) {
+  const std::string normalised = Normalised(text);
+  if (const KnownUnit* known = FindUnit(normalised, place); known != nullptr) {
+    *unit = MakeUnit(*known);
+    return true;
   }
-  return underscore;
+  if (place == Place::kBracketed && (normalised == "-" || normalised == "1")) {
+    *unit = Unit{};
+    return true;
+  }
+  const std::string rate = RateOf(normalised);
+  if (rate.empty()) return false;
+  const KnownUnit* const known = FindUnit(rate, place);
+  *unit = known != nullptr ? MakeUnit(*known) : OtherUnit(rate);
+  return true;
 }
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
@@ -88,44 +284,149 @@ bool NamesTemperature(std::string_view name) {
   return false;
 }
 
-Unit MakeUnit(const KnownUnit& known) {
-  return {.symbol = std::string(known.symbol),
-          .quantity = known.quantity,
-          .display_scale = known.display_scale,
-          .display_symbol = known.quantity == Quantity::kLength
-                                ? "um"
-                                : std::string(known.symbol)};
+const KnownUnit* FindSymbol(const Unit& unit) {
+  const auto* const found =
+      std::ranges::find(kKnownUnits, unit.symbol, &KnownUnit::symbol);
+  return found == kKnownUnits.end() ? nullptr : found;
+}
+
+// What a name without a unit is taken for, by its kind.
+Unit AssumedUnit(std::string_view base) {
+  if (NamesPosition(base) || StartsWithIgnoringCase(base, "error")) {
+    return UnitOfSymbol("mm");
+  }
+  return UnitOfSymbol(NamesTemperature(base) ? "degC" : "");
+}
+
+constexpr std::string_view kSeparators = "_ -.,/";
+
+std::string WithoutSeparators(std::string_view text) {
+  const std::size_t last = text.find_last_not_of(kSeparators);
+  return std::string(
+      text.substr(0, last == std::string_view::npos ? 0 : last + 1));
+}
+
+// The group in brackets or parentheses that ends the name, or npos.
+std::size_t BracketStart(std::string_view name) {
+  if (name.empty()) return std::string_view::npos;
+  const char open = name.back() == ']' ? '[' : name.back() == ')' ? '(' : '\0';
+  return open == '\0' ? std::string_view::npos : name.rfind(open);
+}
+
+// A bare last word that is no unit, yet may be meant as one: one that counts in
+// brackets only and could be the unit of such a column, one of another system,
+// or no word at all ("kg·m²").
+bool MayMeanUnit(std::string_view word, const Unit& assumed) {
+  if (HasWord(kForeignUnits, LowerCase(word))) return true;
+  const KnownUnit* const unit = FindUnit(word, Place::kBracketed);
+  if (unit != nullptr) {
+    if (!assumed.symbol.empty()) {
+      return unit->quantity == assumed.quantity &&
+             unit->symbol != assumed.symbol;
+    }
+    return word == "K" || word == "C" || word == "F" || word == "m";
+  }
+  for (const std::string_view sign :
+       {"\u00b5", "\u03bc", "\u00b0", "\u00b2", "\u00b3", "^", "%", "/"}) {
+    if (word.find(sign) != std::string_view::npos) return true;
+  }
+  return false;
 }
 
 }  // namespace
 
-Unit UnitOfColumn(std::string_view name) {
-  if (const std::size_t start = SuffixStart(name);
-      start != std::string_view::npos) {
-    return MakeUnit(*FindSuffix(name.substr(start + 1)));
-  }
-  if (StartsWithIgnoringCase(name, "position") ||
-      StartsWithIgnoringCase(name, "error")) {
-    return UnitOfSymbol("mm");
-  }
-  return UnitOfSymbol(NamesTemperature(name) ? "degC" : "");
+bool NamesPosition(std::string_view name) {
+  return StartsWithIgnoringCase(name, "position");
 }
 
-Unit UnitOfSymbol(std::string_view symbol) {
-  if (const KnownUnit* const known = FindSuffix(symbol); known != nullptr) {
-    return MakeUnit(*known);
+Header ReadHeader(std::string_view name) {
+  name = Trimmed(name);
+  // R writes "error [um]" as "error..um.".
+  while (name.size() > 1 && name.ends_with('.')) name.remove_suffix(1);
+  Header header;
+  if (const std::size_t open = BracketStart(name);
+      open != std::string_view::npos) {
+    header.base = WithoutSeparators(name.substr(0, open));
+    header.unit_text = name.substr(open + 1, name.size() - open - 2);
+    header.source = ReadUnit(header.unit_text, Place::kBracketed, &header.unit)
+                        ? UnitSource::kStated
+                        : UnitSource::kUnknown;
+    return header;
   }
-  Unit unit;
-  unit.symbol = symbol;
-  unit.display_symbol = symbol;
-  return unit;
+  // The longest ending that is a unit: "um/m" before "m".
+  for (std::size_t at = name.find_first_of(kSeparators);
+       at != std::string_view::npos;
+       at = name.find_first_of(kSeparators, at + 1)) {
+    const std::string_view ending = name.substr(at + 1);
+    if (!ReadUnit(ending, Place::kBare, &header.unit)) continue;
+    header.base = WithoutSeparators(name.substr(0, at));
+    header.unit_text = ending;
+    header.source = UnitSource::kStated;
+    return header;
+  }
+  header.base = name;
+  header.unit = AssumedUnit(name);
+  const std::size_t last = name.find_last_of(kSeparators.substr(0, 2));
+  if (last != std::string_view::npos &&
+      MayMeanUnit(name.substr(last + 1), header.unit)) {
+    header.unit_text = name.substr(last + 1);
+    header.unit = Unit{};
+    header.source = UnitSource::kUnread;
+  } else if (!header.unit.symbol.empty()) {
+    header.source = UnitSource::kAssumed;
+  }
+  return header;
+}
+
+Unit UnitOfColumn(std::string_view name) { return ReadHeader(name).unit; }
+
+Unit UnitOfSymbol(std::string_view symbol) {
+  for (const KnownUnit& unit : kKnownUnits) {
+    if (unit.symbol == symbol) return MakeUnit(unit);
+  }
+  return OtherUnit(symbol);
+}
+
+std::string KnownUnits() {
+  std::string list;
+  for (const KnownUnit& unit : kKnownUnits) {
+    list += list.empty() ? "" : ", ";
+    list += unit.symbol;
+  }
+  return list;
+}
+
+std::vector<Unit> UnitsOf(Quantity quantity) {
+  std::vector<Unit> units;
+  for (const KnownUnit& unit : kKnownUnits) {
+    if (unit.quantity == quantity) units.push_back(MakeUnit(unit));
+  }
+  return units;
+}
+
+bool AreConvertible(const Unit& from, const Unit& to) {
+  if (from.symbol == to.symbol) return true;
+  return FindSymbol(from) != nullptr && FindSymbol(to) != nullptr &&
+         from.quantity == to.quantity && from.quantity != Quantity::kOther;
+}
+
+double Converted(double value, const Unit& from, const Unit& to) {
+  if (from.symbol == to.symbol) return value;
+  if (!AreConvertible(from, to)) {
+    throw std::invalid_argument("errmap::data::Converted: " + from.symbol +
+                                " cannot be written in " + to.symbol);
+  }
+  const KnownUnit& a = *FindSymbol(from);
+  const KnownUnit& b = *FindSymbol(to);
+  return (value + a.offset) * a.factor / b.factor - b.offset;
 }
 
 std::string StemOfColumn(std::string_view name) {
-  std::string_view stem = name.substr(0, SuffixStart(name));
+  const Header header = ReadHeader(name);
+  std::string_view stem = header.base;
   if (!stem.empty() && IsDigit(stem.back())) {
     while (!stem.empty() && IsDigit(stem.back())) stem.remove_suffix(1);
-    if (stem.ends_with('_')) stem.remove_suffix(1);
+    if (stem.ends_with('_') || stem.ends_with(' ')) stem.remove_suffix(1);
   }
   // A name that is all number and unit says nothing of its quantity.
   return std::string(stem.empty() ? name : stem);

@@ -2,10 +2,11 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace errmap::data {
 
-enum class Quantity { kLength, kAngle, kTemperature, kOther };
+enum class Quantity { kLength, kAngle, kTemperature, kTime, kRatio, kOther };
 
 /// Physical unit of a column.
 struct Unit {
@@ -19,20 +20,59 @@ struct Unit {
   bool operator==(const Unit&) const = default;
 };
 
-/// Unit named by the suffix of a column name after its last underscore
-/// ("error_mm", "t12_degC", "disp_ch1_um", "yaw_arcsec"). Without a known
-/// suffix: mm where the name starts with "position" or "error", degC where it
-/// is a usual name of a temperature ("t12", "tc03", "temp_bed",
-/// "temperature"), else none.
+/// How the unit of a column came to be known.
+enum class UnitSource {
+  kNone,     // the name says nothing: no unit
+  kAssumed,  // by the kind of name: "position" in mm, "t12" in degC
+  kStated,   // the name carries it: "error_mm", "error [µm]"
+  kUnread,   // a bare word that may mean a unit ("t1_K", "flow_m³"): no unit
+  kUnknown,  // in brackets or parentheses, and no unit that we know: no unit
+};
+
+/// A column name taken apart.
+struct Header {
+  std::string base;       // less its unit: "disp_ch1" of "disp_ch1 [um]"
+  std::string unit_text;  // as the name has it, "" where it has none
+  Unit unit;
+  UnitSource source = UnitSource::kNone;
+};
+
+/// Reads a column name. A unit stands in brackets or parentheses, or bare after
+/// `_`, a space, `-`, `.`, `,` or `/` at the end: "error [µm]", "error (um)",
+/// "error um", "error_UM". Letters count in any case (single letters and short
+/// symbols that are no length exactly as usual: "x_V"), micro signs in either
+/// code point. C, K, F, m, in, ft and " are names when bare ("T_in", "pos_c"),
+/// units in brackets or parentheses only. A unit over a unit (`/`, `_per_`) is
+/// one of Quantity::kOther.
+Header ReadHeader(std::string_view name);
+
+/// ReadHeader(name).unit.
 Unit UnitOfColumn(std::string_view name);
 
 /// Unit of a symbol as a model file stores it; unknown symbols keep their text
 /// and are of Quantity::kOther.
 Unit UnitOfSymbol(std::string_view symbol);
 
+/// The units known, for messages: "nm, um, mm, ...".
+std::string KnownUnits();
+
+/// Those of a quantity that values can be converted between.
+std::vector<Unit> UnitsOf(Quantity quantity);
+
+/// Whether values in one unit can be written in the other.
+bool AreConvertible(const Unit& from, const Unit& to);
+
+/// A value in `from` as one in `to`. Throws std::invalid_argument unless the
+/// units are convertible.
+double Converted(double value, const Unit& from, const Unit& to);
+
 /// Column name less its unit suffix and the digits before it:
 /// "disp_ch1_um" -> "disp_ch", "error_mm" -> "error". Two columns of one stem
 /// measure the same quantity.
 std::string StemOfColumn(std::string_view name);
+
+/// Whether a column holds positions by its name: "position_mm", "Position
+/// [mm]".
+bool NamesPosition(std::string_view name);
 
 }  // namespace errmap::data

@@ -94,7 +94,7 @@ Eigen::Index FindPosition(const data::Dataset& dataset,
   }
   for (Eigen::Index i = 0; i < dataset.num_inputs(); ++i) {
     const auto& name = dataset.inputs()[static_cast<std::size_t>(i)].name;
-    if (name.starts_with("position")) return i;
+    if (data::NamesPosition(name)) return i;
   }
   return -1;
 }

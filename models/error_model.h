@@ -255,7 +255,7 @@ class ModelRecipe {
 };
 
 /// Position of a data set: the input `wanted`, or by default the first whose
-/// name starts with "position"; -1 where there is none. Throws
+/// name starts with "position" in any case; -1 where there is none. Throws
 /// std::invalid_argument where `wanted` is named and not an input.
 Eigen::Index FindPosition(const data::Dataset& dataset,
                           const std::string& wanted);

@@ -21,6 +21,7 @@
 #include "data/csv.h"
 #include "data/dataset.h"
 #include "data/input_error.h"
+#include "data/text.h"
 #include "stats/error_metrics.h"
 #include "stats/report_1995.h"
 
@@ -80,7 +81,8 @@ Column FindColumn(const data::CsvTable& table,
   }
   if (prefix.empty()) return {};
   for (const data::CsvColumn& column : table.columns) {
-    if (!column.name.starts_with(prefix) || column.name == arguments.column) {
+    if (!data::StartsWithIgnoringCase(column.name, prefix) ||
+        column.name == arguments.column) {
       continue;
     }
     try {
@@ -122,7 +124,10 @@ Rows CommonRows(const std::vector<const Column*>& columns) {
 
 ResidualInputs ReadInputs(const ResidualsArguments& arguments) {
   const data::CsvTable table = data::ReadCsv(arguments.file);
-  data::RequireColumn(table, arguments.column, "--column");
+  data::RequireKnownUnit(
+      table,
+      {data::RequireColumn(table, arguments.column, "--column"),
+       data::ColumnUse::kOther});
   const Column residuals = ReadColumn(table, arguments.column, arguments);
   const Column order =
       FindColumn(table, arguments.order, "--order", "", arguments);

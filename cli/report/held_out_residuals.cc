@@ -34,7 +34,7 @@ ResidualInputs HeldOutResiduals(const Comparison& comparison,
   Eigen::Index position = -1;
   for (Eigen::Index i = 0; i < source.num_inputs() && position < 0; ++i) {
     const std::string& name = source.inputs()[static_cast<std::size_t>(i)].name;
-    if (!name.starts_with("position")) continue;
+    if (!data::NamesPosition(name)) continue;
     position = i;
     inputs.position_column = name;
     inputs.positions.resize(size);

@@ -415,7 +415,7 @@ Judgement JudgeStudy(const data::Dataset& dataset,
 std::vector<std::string> SensorsOf(const FittedModel& fitted) {
   std::vector<std::string> sensors;
   for (const TrainedInput& input : fitted.inputs) {
-    if (!input.column.name.starts_with("position")) {
+    if (!data::NamesPosition(input.column.name)) {
       sensors.push_back(input.column.name);
     }
   }

@@ -259,9 +259,9 @@ TEST(MakeDatasetError, LongAndStrangeCellsStayOnOneLine) {
 }
 
 TEST(MakeDataset, DropsRowsWithMissingCellsWhereAsked) {
-  const PreparedDataset prepared =
-      Make("cycle,a,error\n1,1,1\n1,NA,2\n2,3,\n2,4,4\n,5,5\n3,nAn,6\n3,7,8\n",
-           {.missing = MissingPolicy::kDropRows});
+  const PreparedDataset prepared = Make(
+      "cycle,a,error_mm\n1,1,1\n1,NA,2\n2,3,\n2,4,4\n,5,5\n3,nAn,6\n3,7,8\n",
+      {.missing = MissingPolicy::kDropRows});
   EXPECT_THAT(prepared.dataset.rows(), ElementsAre(0, 3, 6));
   EXPECT_THAT(Column(prepared.dataset, 0), ElementsAre(1, 4, 7));
   EXPECT_THAT(prepared.dataset.groups().labels, ElementsAre("1", "2", "3"));
@@ -288,7 +288,7 @@ TEST(MakeDatasetError, NoRowIsLeft) {
 }
 
 TEST(MakeDataset, LeavesOutChannelsThatWereNeverLogged) {
-  const PreparedDataset prepared = Make("a,t7,error\n1,,1\n2,NaN,3\n");
+  const PreparedDataset prepared = Make("a,t7,error_mm\n1,,1\n2,NaN,3\n");
   EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("a"));
   EXPECT_THAT(prepared.remarks,
               ElementsAre("input t7 has no number in any row and is left out"));
@@ -328,7 +328,7 @@ TEST(MakeDatasetError, DecimalCommasAndPointsAreNotMixed) {
 // ---- Dead and repeated inputs.
 
 TEST(MakeDataset, LeavesOutDeadInputsWithARemark) {
-  std::string text = "zero,constant,stuck,live,error\n";
+  std::string text = "zero,constant,stuck,live,error_mm\n";
   for (int i = 0; i < 10; ++i) {
     text += i == 4 ? "0,21.5,7," : "0,21.5,8,";
     text.append(std::to_string(i)).append(",");
@@ -346,7 +346,7 @@ TEST(MakeDataset, LeavesOutDeadInputsWithARemark) {
                   "out; --keep-dead keeps it",
                   "input stuck is dead (8 in 9 of 10 rows) and is left out; "
                   "--keep-dead keeps it",
-                  "input live repeats the target error value for value; "
+                  "input live repeats the target error_mm value for value; "
                   "--exclude live leaves it out"));
   EXPECT_THAT(DroppedNames(prepared), ElementsAre("zero", "constant", "stuck"));
   EXPECT_EQ(prepared.dropped[0].why, "is dead (0 in all 10 rows)");
@@ -354,7 +354,7 @@ TEST(MakeDataset, LeavesOutDeadInputsWithARemark) {
 
 TEST(MakeDataset, KeepsDeadInputsWhereAskedAndSaysSo) {
   const PreparedDataset prepared =
-      Make("zero,nought,a,error\n0,0,1,1\n0,0,2,3\n", {.keep_dead = true});
+      Make("zero,nought,a,error_mm\n0,0,1,1\n0,0,2,3\n", {.keep_dead = true});
   EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("zero", "nought", "a"));
   EXPECT_THAT(
       prepared.remarks,
@@ -364,7 +364,7 @@ TEST(MakeDataset, KeepsDeadInputsWhereAskedAndSaysSo) {
 }
 
 TEST(MakeDataset, KeepsInputsWithLessThanNineTenthsOfOneValue) {
-  std::string text = "a,error\n";
+  std::string text = "a,error_mm\n";
   for (int i = 0; i < 19; ++i) {  // 17 of 19 is 89.5 %
     text += (i < 2 ? "1," : "0,") + std::to_string(i) + "\n";
   }
@@ -379,7 +379,7 @@ TEST(MakeDataset, JudgesDeadInputsByTheRowsKept) {
 
 TEST(MakeDataset, NamesInputsThatRepeatOthersAndKeepsThem) {
   const PreparedDataset prepared =
-      Make("t3,t4,t5,t6,error\n1,0,1.0,-0,1\n2,2,2,2,3\n");
+      Make("t3,t4,t5,t6,error_mm\n1,0,1.0,-0,1\n2,2,2,2,3\n");
   EXPECT_EQ(prepared.dataset.num_inputs(), 4);
   EXPECT_THAT(
       prepared.remarks,
@@ -453,6 +453,65 @@ TEST(MakeDatasetWhere, MissingCellsAreCountedAmongTheRowsAskedFor) {
       {.missing = MissingPolicy::kDropRows, .where = {{"direction", "up"}}});
   EXPECT_THAT(prepared.dataset.rows(), ElementsAre(3, 5));
   EXPECT_THAT(prepared.remarks, Contains(HasSubstr("1 of 3 rows is dropped")));
+}
+
+TEST(MakeDataset, SaysWhichUnitOfTheTargetIsOnlyAssumed) {
+  EXPECT_THAT(Make("a,error_x\n1,2\n2,3\n").remarks,
+              ElementsAre("error_x: no unit in its name, taken as mm"));
+}
+
+TEST(MakeDataset, RefusesUnknownUnitsInBracketsAndOnTheTarget) {
+  EXPECT_THAT(ErrorOf("a,error [furlong]\n1,2\n2,3\n"),
+              HasSubstr("f.csv: column 'error [furlong]': 'furlong' is no unit "
+                        "known here; rename the column, with one of these in "
+                        "brackets: nm, um, mm, cm, m, in,"));
+  EXPECT_THAT(
+      ErrorOf("a,error_m\n1,2\n2,3\n"),
+      HasSubstr("'m' counts as a unit in brackets or parentheses only"));
+  EXPECT_THAT(ErrorOf("a (left),error_mm\n1,2\n2,3\n"),
+              HasSubstr("column 'a (left)': 'left' is no unit known here"));
+  EXPECT_EQ(Make("a (left),b,error_mm\n1,1,2\n2,0,3\n", {.inputs = {"b"}})
+                .dataset.num_inputs(),
+            1);
+}
+
+TEST(MakeDataset, NamesInputsWhoseUnitIsNotRead) {
+  EXPECT_THAT(Make("t1_K,T_in,error_mm\n1,1,2\n2,0,3\n").remarks,
+              ElementsAre("no unit is read from 't1_K': 'K' counts as a unit "
+                          "in brackets or parentheses only"));
+}
+
+TEST(MakeDataset, LeavesOutColumnsWithoutAName) {
+  for (const std::string name : {"", "Unnamed: 0"}) {
+    const PreparedDataset prepared = Make(name + ",a,error_mm\n0,1,2\n1,4,3\n");
+    EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("a"));
+    EXPECT_THAT(prepared.remarks,
+                ElementsAre(HasSubstr("has no name in the header and is left "
+                                      "out of the inputs")));
+  }
+  EXPECT_THAT(ErrorOf(",error_mm\n0,1\n1,2\n"),
+              HasSubstr("no input is left: 'column_1' has no name"));
+  EXPECT_EQ(Make(",error_mm\n0,1\n1,2\n", {.inputs = {"column_1"}})
+                .dataset.num_inputs(),
+            1);
+}
+
+TEST(MakeDataset, RefusesNumbersThatStandThereAsText) {
+  EXPECT_THAT(ErrorOf("position_mm,a,error_mm\n12.7 mm,1,2\n25 mm,4,3\n"),
+              HasSubstr("f.csv: line 2 (data row 0), column 'position_mm': "
+                        "'12.7 mm' is no plain number; write it without its "
+                        "unit and without thousands separators"));
+  EXPECT_THAT(ErrorOf("Position;a;error_mm\n1.234,5;1;2\n2.000,5;4;3\n"),
+              HasSubstr("'1.234,5' is no plain number"));
+  EXPECT_THAT(ErrorOf("x,a,error_mm\n\"1,234.5\",1,2\n\"2,000.5\",4,3\n"),
+              HasSubstr("column 'x': '1,234.5' is no plain number"));
+  EXPECT_THAT(ErrorOf("position,a,error_mm\nleft,1,2\nright,4,3\n"),
+              HasSubstr("column 'position': 'left' is no number"));
+  EXPECT_THAT(ErrorOf("position_mm,a,error_mm\n,1,2\n,4,3\n"),
+              HasSubstr("column 'position_mm': empty cell"));
+  EXPECT_EQ(Make("when,a,error_mm\n2024-01-01,1,2\n2024-01-02,4,3\n")
+                .dataset.num_inputs(),
+            1);
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 #include "data/units.h"
 
+#include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +19,7 @@ TEST(UnitOfColumn, ReadsLengthsFromTheSuffixAndShowsThemInMicrometres) {
   EXPECT_EQ(mm.display_symbol, "um");
   EXPECT_EQ(UnitOfColumn("disp_ch1_um").display_scale, 1.0);
   EXPECT_EQ(UnitOfColumn("gap_nm").display_scale, 1e-3);
-  EXPECT_EQ(UnitOfColumn("travel_m").display_scale, 1e6);
+  EXPECT_EQ(UnitOfColumn("travel [m]").display_scale, 1e6);
 }
 
 TEST(UnitOfColumn, ShowsAllOtherQuantitiesAsTheyStand) {
@@ -27,14 +30,15 @@ TEST(UnitOfColumn, ShowsAllOtherQuantitiesAsTheyStand) {
     EXPECT_EQ(unit.display_scale, 1.0);
     EXPECT_EQ(unit.display_symbol, symbol);
   }
-  for (const std::string symbol : {"degC", "K", "degF"}) {
+  for (const std::string symbol : {"degC", "degF"}) {
     EXPECT_EQ(UnitOfColumn("bed_" + symbol).symbol, symbol);
     EXPECT_EQ(UnitOfColumn("bed_" + symbol).quantity, Quantity::kTemperature);
   }
   for (const std::string symbol :
        {"s", "min", "h", "rpm", "N", "V", "A", "W", "bar", "pct", "percent"}) {
     EXPECT_EQ(UnitOfColumn("x_" + symbol).symbol, symbol);
-    EXPECT_EQ(UnitOfColumn("x_" + symbol).quantity, Quantity::kOther);
+    EXPECT_EQ(UnitOfColumn("x_" + symbol).display_scale, 1.0);
+    EXPECT_NE(UnitOfColumn("x_" + symbol).quantity, Quantity::kLength);
   }
 }
 
@@ -68,12 +72,143 @@ TEST(UnitOfColumn, FallsBackToDegreesForUsualNamesOfTemperatures) {
   }
 }
 
-TEST(UnitOfColumn, HasNoUnitForUnknownSuffixesAndOtherCase) {
+TEST(UnitOfColumn, HasNoUnitForUnknownSuffixes) {
   EXPECT_EQ(UnitOfColumn("pressure_foo"), Unit{});
-  EXPECT_EQ(UnitOfColumn("x_MM"), Unit{});
   EXPECT_EQ(UnitOfColumn("mm"), Unit{});
   EXPECT_EQ(UnitOfColumn("x_"), Unit{});
   EXPECT_EQ(UnitOfColumn(""), Unit{});
+}
+
+TEST(ReadHeader, ReadsUnitsHoweverPeopleWriteThem) {
+  for (const char* name : {"error [\u00b5m]",
+                           "error [\u03bcm]",
+                           "error (um)",
+                           "error um",
+                           "error_UM",
+                           "error_Um",
+                           "error_microns",
+                           "error (micron)",
+                           "error [ um ]",
+                           "error-um",
+                           "error, um",
+                           "error / um",
+                           "error (in um)",
+                           "error..um."}) {
+    const Header header = ReadHeader(name);
+    EXPECT_EQ(header.unit, UnitOfSymbol("um")) << name;
+    EXPECT_EQ(header.source, UnitSource::kStated) << name;
+    EXPECT_THAT(header.base, testing::StartsWith("error")) << name;
+  }
+  EXPECT_EQ(ReadHeader("disp_ch1 [um]").base, "disp_ch1");
+}
+
+TEST(ReadHeader, KnowsTheUnitsOfTheField) {
+  const std::vector<std::pair<const char*, const char*>> names = {
+      {"error_inch", "in"},       {"error [in]", "in"},
+      {"error_mil", "mil"},       {"error_thou", "mil"},
+      {"error [nm]", "nm"},       {"error_CM", "cm"},
+      {"error (m)", "m"},         {"error [arcsec]", "arcsec"},
+      {"error [\"]", "arcsec"},   {"error_\u00b5rad", "urad"},
+      {"error_mrad", "mrad"},     {"error_rad", "rad"},
+      {"tilt_deg", "deg"},        {"T1 [\u00b0C]", "degC"},
+      {"T1 [\u2103]", "degC"},    {"T1 (C)", "degC"},
+      {"T1_deg C", "degC"},       {"T1 [K]", "K"},
+      {"T1 [\u00b0F]", "degF"},   {"T1 (F)", "degF"},
+      {"strain_ppm", "ppm"},      {"strain_um/m", "um/m"},
+      {"speed [U/min]", "rpm"},   {"flow [l/min]", "l/min"},
+      {"NOx_mg_per_m3", "mg/m3"}, {"torque_Nm", "Nm"}};
+  for (const auto& [name, symbol] : names) {
+    EXPECT_EQ(ReadHeader(name).unit.symbol, symbol) << name;
+  }
+}
+
+TEST(ReadHeader, TakesBareLettersForNames) {
+  for (const char* name : {"T_in", "pos_c", "x_v", "axis_n"}) {
+    EXPECT_EQ(ReadHeader(name).source, UnitSource::kNone) << name;
+    EXPECT_EQ(ReadHeader(name).unit, Unit{}) << name;
+  }
+  EXPECT_EQ(ReadHeader("error_C").unit.symbol, "mm");
+  EXPECT_EQ(ReadHeader("temp_C").unit.symbol, "degC");
+  EXPECT_EQ(ReadHeader("temp_in").unit.symbol, "degC");
+}
+
+TEST(ReadHeader, LeavesWhatMayBeAUnitWithoutOne) {
+  for (const char* name : {"t1_K",
+                           "travel_m",
+                           "error_m",
+                           "error_in",
+                           "position_m",
+                           "position_in",
+                           "temp_K",
+                           "error_furlong",
+                           "error_mm2",
+                           "flow_m\u00b3"}) {
+    EXPECT_EQ(ReadHeader(name).source, UnitSource::kUnread) << name;
+    EXPECT_EQ(ReadHeader(name).unit, Unit{}) << name;
+  }
+  EXPECT_EQ(ReadHeader("error [furlong]").source, UnitSource::kUnknown);
+  EXPECT_EQ(ReadHeader("position (left)").source, UnitSource::kUnknown);
+}
+
+TEST(ReadHeader, SaysWhatItOnlyAssumes) {
+  EXPECT_EQ(ReadHeader("error").source, UnitSource::kAssumed);
+  EXPECT_EQ(ReadHeader("error_x").unit.symbol, "mm");
+  EXPECT_EQ(ReadHeader("t12").source, UnitSource::kAssumed);
+  EXPECT_EQ(ReadHeader("error [-]").source, UnitSource::kStated);
+  EXPECT_EQ(ReadHeader("error [-]").unit, Unit{});
+}
+
+TEST(ReadHeader, NeverTakesAnotherQuantityForALength) {
+  for (const char* name : {"error_NOx_mg_per_m3",
+                           "error [mg/m3]",
+                           "error_pct",
+                           "error [bar]",
+                           "error_degC",
+                           "error_V",
+                           "error_mg"}) {
+    EXPECT_NE(ReadHeader(name).unit.quantity, Quantity::kLength) << name;
+    EXPECT_EQ(ReadHeader(name).unit.display_scale, 1.0) << name;
+  }
+}
+
+double ConvertedBy(double value, const char* from, const char* to) {
+  return Converted(value, UnitOfSymbol(from), UnitOfSymbol(to));
+}
+
+TEST(Converted, KnowsEveryPairOfAQuantity) {
+  EXPECT_EQ(ConvertedBy(2.0, "m", "mm"), 2000.0);
+  EXPECT_EQ(ConvertedBy(2.5, "um", "mm"), 0.0025);
+  EXPECT_EQ(ConvertedBy(1.0, "in", "mm"), 25.4);
+  EXPECT_DOUBLE_EQ(ConvertedBy(1.0, "mil", "um"), 25.4);
+  EXPECT_DOUBLE_EQ(ConvertedBy(20.0, "degC", "K"), 293.15);
+  EXPECT_DOUBLE_EQ(ConvertedBy(293.15, "K", "degC"), 20.0);
+  EXPECT_NEAR(ConvertedBy(68.0, "degF", "degC"), 20.0, 1e-12);
+  EXPECT_NEAR(ConvertedBy(-40.0, "degC", "degF"), -40.0, 1e-12);
+  EXPECT_NEAR(ConvertedBy(1.0, "arcsec", "urad"), 4.84813681109536, 1e-14);
+  EXPECT_DOUBLE_EQ(ConvertedBy(180.0, "deg", "rad"), 3.14159265358979323846);
+  EXPECT_EQ(ConvertedBy(3.0, "um/m", "ppm"), 3.0);
+  EXPECT_EQ(ConvertedBy(2.0, "min", "s"), 120.0);
+  for (const Quantity quantity : {Quantity::kLength,
+                                  Quantity::kAngle,
+                                  Quantity::kTemperature,
+                                  Quantity::kTime,
+                                  Quantity::kRatio}) {
+    for (const Unit& a : UnitsOf(quantity)) {
+      for (const Unit& b : UnitsOf(quantity)) {
+        ASSERT_TRUE(AreConvertible(a, b)) << a.symbol << b.symbol;
+        EXPECT_NEAR(Converted(Converted(1.5, a, b), b, a), 1.5, 1e-12)
+            << a.symbol << " " << b.symbol;
+      }
+    }
+  }
+}
+
+TEST(Converted, RefusesAnotherQuantity) {
+  EXPECT_FALSE(AreConvertible(UnitOfSymbol("mm"), UnitOfSymbol("degC")));
+  EXPECT_FALSE(AreConvertible(UnitOfSymbol("V"), UnitOfSymbol("A")));
+  EXPECT_FALSE(AreConvertible(UnitOfSymbol("mm"), UnitOfSymbol("")));
+  EXPECT_TRUE(AreConvertible(UnitOfSymbol("V"), UnitOfSymbol("V")));
+  EXPECT_THROW(ConvertedBy(1.0, "mm", "V"), std::invalid_argument);
 }
 
 TEST(UnitOfSymbol, KeepsTheTextOfUnknownSymbols) {
@@ -86,7 +221,8 @@ TEST(UnitOfSymbol, KeepsTheTextOfUnknownSymbols) {
 }
 
 TEST(UnitOfSymbol, FindsWhatUnitOfColumnFound) {
-  for (const char* name : {"error_mm", "t1_degC", "yaw_urad", "n_rpm"}) {
+  for (const char* name :
+       {"error_mm", "t1_degC", "yaw_urad", "n_rpm", "a [mg/m3]", "b_%"}) {
     const Unit unit = UnitOfColumn(name);
     EXPECT_EQ(UnitOfSymbol(unit.symbol), unit) << name;
   }
