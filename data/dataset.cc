@@ -1,5 +1,6 @@
 #include "data/dataset.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -220,6 +221,28 @@ Dataset Dataset::WithLog(std::shared_ptr<const SessionLog> log,
   parts.log = std::move(log);
   parts.log_rows = std::move(log_rows);
   return Dataset(std::move(parts));
+}
+
+Dataset Dataset::WithInputs(std::vector<ColumnInfo> inputs,
+                            Eigen::MatrixXd input_values) const {
+  Parts parts = parts_;
+  parts.inputs = std::move(inputs);
+  parts.input_values = std::move(input_values);
+  parts.log = nullptr;
+  parts.log_rows.clear();
+  return Dataset(std::move(parts));
+}
+
+Dataset WithoutRows(const Dataset& dataset,
+                    const std::vector<Eigen::Index>& rows) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < dataset.num_rows(); ++i) {
+    if (!std::ranges::binary_search(
+            rows, dataset.rows()[static_cast<std::size_t>(i)])) {
+      kept.push_back(i);
+    }
+  }
+  return dataset.SelectRows(kept);
 }
 
 Grouping GroupByColumn(const CsvTable& table,

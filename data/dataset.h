@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "data/column_faults.h"
 #include "data/csv.h"
 #include "data/units.h"
 
@@ -106,11 +107,23 @@ class Dataset {
   Dataset WithLog(std::shared_ptr<const SessionLog> log,
                   std::vector<Eigen::Index> log_rows) const;
 
+  /// The same rows with other inputs (m x p), without a log.
+  Dataset WithInputs(std::vector<ColumnInfo> inputs,
+                     Eigen::MatrixXd input_values) const;
+
  private:
   Parts parts_;
 };
 
+/// The data set less these data rows of the file (ascending).
+Dataset WithoutRows(const Dataset& dataset,
+                    const std::vector<Eigen::Index>& rows);
+
 enum class MissingPolicy { kError, kDropRows };
+
+/// What becomes of rows with readings that no machine made
+/// (RowsOfCellFaults).
+enum class FaultPolicy { kKeep, kDropRows };
 
 /// Rows whose cell in `column` is this number, or this text (a number's text
 /// is its shortest form).
@@ -136,6 +149,7 @@ struct DatasetSelection {
   std::string weight = {};   // default: none
   Alignment align = Alignment::kNone;
   MissingPolicy missing = MissingPolicy::kError;
+  FaultPolicy faults = FaultPolicy::kKeep;
   bool keep_dead = false;
   /// Only rows that pass all of these are used and checked.
   std::vector<ColumnFilter> where = {};
@@ -157,6 +171,8 @@ struct PreparedDataset {
   std::vector<DroppedColumn> dropped;  // would-be inputs left out, and why
   std::vector<std::string> remarks;    // one line each, for people
   std::string time_column = {};        // "": the numbers of the rows
+  /// What was found in the columns in use, rows left out for it included.
+  std::vector<ColumnFault> faults;
 };
 
 /// Picks target, inputs, group and weight from a table and checks the columns
@@ -172,7 +188,8 @@ struct PreparedDataset {
 /// value for value is named in a remark and kept. Columns of `where`, and those
 /// that the header leaves unnamed, are no default inputs. The log holds the
 /// rows that `where` lets pass. kFirst takes the first value kept of each
-/// session off the target, with a remark.
+/// session off the target, with a remark. Readings that no machine made come
+/// back as `faults`.
 ///
 /// Throws InputError naming file, row, column and remedy: unknown column, no
 /// or several candidates for the target, a cell of a used column that is

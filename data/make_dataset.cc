@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <unordered_map>
 #include <unordered_set>
@@ -94,6 +95,7 @@ class DatasetBuilder {
     TakeTarget();
     TakeWeights();
     TakeInputs();
+    LookForFaults();
     if (roles_.group != kNone) {
       parts_.groups = GroupByColumn(table_, Name(roles_.group), parts_.rows);
     }
@@ -104,7 +106,8 @@ class DatasetBuilder {
         .dataset = Dataset(std::move(parts_)),
         .dropped = std::move(dropped_),
         .remarks = std::move(remarks_),
-        .time_column = found_.time_column >= 0 ? Name(found_.time_column) : ""};
+        .time_column = found_.time_column >= 0 ? Name(found_.time_column) : "",
+        .faults = std::move(faults_)};
   }
 
  private:
@@ -450,7 +453,20 @@ class DatasetBuilder {
       parts_.log_rows.push_back(at - log_rows_.begin());
     }
     log->first_rows = FirstRows(log->sessions, parts_.log_rows);
+    if (selection_.faults == FaultPolicy::kDropRows) BlankFaults(log.get());
     parts_.log = std::move(log);
+  }
+
+  // A reading that no machine made is none that a filter may run through.
+  void BlankFaults(SessionLog* log) const {
+    for (const ColumnFault& fault : faults_) {
+      if (!fault.of_cells || fault.input < 0) continue;
+      for (const Eigen::Index row : fault.rows) {
+        const auto at = std::ranges::lower_bound(log_rows_, row);
+        log->input_values(at - log_rows_.begin(), fault.input) =
+            std::numeric_limits<double>::quiet_NaN();
+      }
+    }
   }
 
   void AlignTarget() {
@@ -472,6 +488,38 @@ class DatasetBuilder {
     remarks_.push_back("the first value of each session is taken off " +
                        QuotedName(parts_.target.name) +
                        " (--align first): the map tells the change since");
+  }
+
+  Eigen::Index NumSessions() const {
+    return static_cast<Eigen::Index>(found_.sessions.labels.size());
+  }
+
+  // Before anything is made of the rows.
+  void LookForFaults() {
+    faults_ = FindColumnFaults({.target = parts_.target,
+                                .target_values = parts_.target_values,
+                                .inputs = parts_.inputs,
+                                .input_values = parts_.input_values,
+                                .rows = parts_.rows,
+                                .num_sessions = NumSessions()});
+    if (selection_.faults != FaultPolicy::kDropRows) return;
+    const std::vector<Eigen::Index> faulty = RowsOfCellFaults(faults_);
+    std::vector<Eigen::Index> kept;
+    for (std::size_t i = 0; i < parts_.rows.size(); ++i) {
+      if (!std::ranges::binary_search(faulty, parts_.rows[i])) {
+        kept.push_back(static_cast<Eigen::Index>(i));
+      }
+    }
+    if (kept.size() == parts_.rows.size()) return;
+    std::vector<Eigen::Index> rows;
+    for (const Eigen::Index i : kept) {
+      rows.push_back(parts_.rows[static_cast<std::size_t>(i)]);
+    }
+    parts_.rows = std::move(rows);
+    parts_.target_values = parts_.target_values(kept).eval();
+    parts_.input_values = parts_.input_values(kept, Eigen::all).eval();
+    if (parts_.weights.size() != 0)
+      parts_.weights = parts_.weights(kept).eval();
   }
 
   void ReportDead(std::size_t input, const std::string& how) {
@@ -548,6 +596,7 @@ class DatasetBuilder {
   std::unordered_map<std::uint64_t, std::vector<Eigen::Index>> inputs_by_hash_;
   std::vector<DroppedColumn> dropped_;
   std::vector<std::string> remarks_;
+  std::vector<ColumnFault> faults_;
 };
 
 }  // namespace

@@ -116,8 +116,8 @@ StudyConfig ConfigOf(const CompareArguments& arguments) {
   component.session = data.session;
   component.align = AlignOf(data.align);
   component.weight = data.weight;
-  component.missing = data.missing == "error" ? data::MissingPolicy::kError
-                                              : data::MissingPolicy::kDropRows;
+  component.missing = MissingPolicyOf(data.missing);
+  component.faults = FaultPolicyOf(data.faults);
   component.keep_dead = data.keep_dead;
   component.split = arguments.split;
   component.save_split = arguments.save_split;
@@ -257,6 +257,7 @@ StudyFile ConfigOfFile(const CompareArguments& arguments) {
     if (given("--align")) component.align = from.align;
     if (given("--weight")) component.weight = from.weight;
     if (given("--missing")) component.missing = from.missing;
+    if (given("--faults")) component.faults = from.faults;
     if (given("--keep-dead")) component.keep_dead = from.keep_dead;
     if (given("--split")) component.split = from.split;
     if (given("--save-split")) component.save_split = from.save_split;

@@ -78,6 +78,7 @@ Json ConfigurationJson(const models::ModelRecipe& recipe,
       {"group", dataset.has_groups() ? Json(dataset.groups().column) : Json()},
       {"weight", weight.empty() ? Json() : Json(weight)},
       {"missing", arguments.data.missing},
+      {"faults", arguments.data.faults},
       {"seed", arguments.seed}};
 }
 

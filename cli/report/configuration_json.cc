@@ -45,6 +45,8 @@ Json ComponentJson(const ComponentConfig& component) {
   AddText("weight", component.weight, &json);
   json["missing"] =
       component.missing == data::MissingPolicy::kError ? "error" : "drop-rows";
+  json["faults"] =
+      component.faults == data::FaultPolicy::kKeep ? "keep" : "drop-rows";
   json["keep_dead"] = component.keep_dead;
   AddNumber("goal", component.goal, &json);
   AddNumber("indifference", component.indifference, &json);

@@ -12,6 +12,7 @@
 #include "cli/report/residual_report.h"
 #include "cli/report/start_report.h"
 #include "cli/report/verdict_json.h"
+#include "cli/study_file/fault_text.h"
 #include "models/inner_folds.h"
 
 namespace errmap::cli {
@@ -57,7 +58,8 @@ Json DataJson(const Comparison& comparison) {
       {"time_unit", dataset.log()->time_unit},
       {"sessions", dataset.num_sessions()},
       {"align", data::ToString(dataset.align())},
-      {"dropped", std::move(dropped)}};
+      {"dropped", std::move(dropped)},
+      {"faults", FaultsJson(comparison.data)}};
 }
 
 // How each fold's training rows are held out for the choices made in a fit.

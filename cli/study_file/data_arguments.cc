@@ -7,6 +7,7 @@
 
 #include "cli/command.h"
 #include "cli/shell/number_text.h"
+#include "cli/study_file/fault_text.h"
 #include "models/model_spec.h"
 #include "models/recipe_catalog.h"
 
@@ -57,18 +58,42 @@ void AddDataArguments(CLI::App* command, DataArguments* arguments) {
   command
       ->add_option("--weight", arguments->weight, "Column of row weights > 0")
       ->type_name("COL");
-  command
-      ->add_option("--missing",
-                   arguments->missing,
-                   "What empty, NA and NaN cells do: error or drop-rows")
-      ->check(CLI::IsMember({"error", "drop-rows"}))
-      ->type_name("error|drop-rows")
-      ->capture_default_str();
+  AddRowOptions(command, &arguments->missing, &arguments->faults);
   command->add_flag("--keep-dead",
                     arguments->keep_dead,
                     "Keep inputs that hold one value only (failed sensors)");
   command->add_flag(
       "--quiet", arguments->quiet, "No remarks and no progress on stderr");
+}
+
+void AddRowOptions(CLI::App* command,
+                   std::string* missing,
+                   std::string* faults) {
+  command
+      ->add_option("--missing",
+                   *missing,
+                   "What empty, NA and NaN cells do: error or drop-rows")
+      ->check(CLI::IsMember({"error", "drop-rows"}))
+      ->type_name("error|drop-rows")
+      ->capture_default_str();
+  command
+      ->add_option("--faults",
+                   *faults,
+                   "What becomes of rows with failed readings (9999, jumps of "
+                   "a thermometer), which are named: keep or drop-rows")
+      ->check(CLI::IsMember({"keep", "drop-rows"}))
+      ->type_name("keep|drop-rows")
+      ->capture_default_str();
+}
+
+data::MissingPolicy MissingPolicyOf(const std::string& missing) {
+  return missing == "error" ? data::MissingPolicy::kError
+                            : data::MissingPolicy::kDropRows;
+}
+
+data::FaultPolicy FaultPolicyOf(const std::string& faults) {
+  return faults == "keep" ? data::FaultPolicy::kKeep
+                          : data::FaultPolicy::kDropRows;
 }
 
 std::vector<std::string> SplitNames(const std::string& list, const char* flag) {
@@ -101,13 +126,17 @@ data::PreparedDataset ReadData(const DataArguments& arguments) {
       .session = arguments.session,
       .weight = arguments.weight,
       .align = AlignOf(arguments.align),
-      .missing = arguments.missing == "error" ? data::MissingPolicy::kError
-                                              : data::MissingPolicy::kDropRows,
+      .missing = MissingPolicyOf(arguments.missing),
+      .faults = FaultPolicyOf(arguments.faults),
       .keep_dead = arguments.keep_dead};
   data::PreparedDataset prepared =
       data::MakeDataset(data::ReadCsv(arguments.file), selection);
   if (!arguments.quiet) {
     for (const std::string& remark : prepared.remarks) Say(remark);
+    for (const std::string& line :
+         FaultLines(prepared, selection.faults, FaultUse::kFit)) {
+      Say(line);
+    }
   }
   return prepared;
 }
@@ -136,9 +165,9 @@ data::Alignment AlignOf(const std::string& text) {
   return text == "first" ? data::Alignment::kFirst : data::Alignment::kNone;
 }
 
-data::Dataset MakeDataLike(const data::CsvTable& table,
-                           const data::PreparedDataset& like,
-                           const ComponentConfig& component) {
+data::PreparedDataset MakeDataLike(const data::CsvTable& table,
+                                   const data::PreparedDataset& like,
+                                   const ComponentConfig& component) {
   const data::Dataset& dataset = like.dataset;
   data::DatasetSelection selection{.target = dataset.target().name,
                                    .inputs = {},
@@ -149,13 +178,14 @@ data::Dataset MakeDataLike(const data::CsvTable& table,
                                    .weight = component.weight,
                                    .align = component.align,
                                    .missing = component.missing,
+                                   .faults = component.faults,
                                    .keep_dead = true,
                                    .where = component.where,
                                    .only_to_judge = true};
   for (const data::ColumnInfo& input : dataset.inputs()) {
     selection.inputs.push_back(input.name);
   }
-  return data::MakeDataset(table, selection).dataset;
+  return data::MakeDataset(table, selection);
 }
 
 std::unique_ptr<models::ModelRecipe> RecipeFromArgument(

@@ -27,6 +27,7 @@ struct DataArguments {
   std::string align = "none";
   std::string weight;
   std::string missing = "error";
+  std::string faults = "keep";
   bool keep_dead = false;
   bool quiet = false;
 };
@@ -36,6 +37,13 @@ void AddDataArguments(CLI::App* command, DataArguments* arguments);
 
 /// Reads the file and picks its columns; remarks go to stderr unless quiet.
 data::PreparedDataset ReadData(const DataArguments& arguments);
+
+/// --missing and --faults, as commands that read measurements have them.
+void AddRowOptions(CLI::App* command,
+                   std::string* missing,
+                   std::string* faults);
+data::MissingPolicy MissingPolicyOf(const std::string& missing);
+data::FaultPolicy FaultPolicyOf(const std::string& faults);
 
 /// ", 70 groups (cycle), 2 sessions (day)" or ", ... one run", to follow a
 /// number of rows.
@@ -48,10 +56,10 @@ std::string TargetText(const data::Dataset& dataset);
 data::Alignment AlignOf(const std::string& text);
 
 /// Rows of another table with the columns of `like` (target, inputs, groups,
-/// time and sessions) and of `component` (weight, missing, where).
-data::Dataset MakeDataLike(const data::CsvTable& table,
-                           const data::PreparedDataset& like,
-                           const ComponentConfig& component);
+/// time and sessions) and of `component` (weight, missing, faults, where).
+data::PreparedDataset MakeDataLike(const data::CsvTable& table,
+                                   const data::PreparedDataset& like,
+                                   const ComponentConfig& component);
 
 /// Splits "A,B" at commas outside double quotes and takes the quotes off.
 /// Throws UsageError naming `flag`.

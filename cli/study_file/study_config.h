@@ -30,6 +30,7 @@ struct ComponentConfig {
   data::Alignment align = data::Alignment::kNone;
   std::string weight;
   data::MissingPolicy missing = data::MissingPolicy::kError;
+  data::FaultPolicy faults = data::FaultPolicy::kKeep;
   bool keep_dead = false;
   /// sd wanted on held-out rows, target's unit; NaN: the study's.
   double goal = std::numeric_limits<double>::quiet_NaN();

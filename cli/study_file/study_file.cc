@@ -288,6 +288,7 @@ class StudyFileReader {
                     "align",
                     "weight",
                     "missing",
+                    "faults",
                     "keep_dead",
                     "goal",
                     "indifference"});
@@ -307,7 +308,12 @@ class StudyFileReader {
     keys.TakeText("session", &component.session);
     component.align = ReadAlign(keys);
     keys.TakeText("weight", &component.weight);
-    component.missing = ReadMissing(keys);
+    component.missing = ReadChoice(keys, "missing", "error")
+                            ? data::MissingPolicy::kError
+                            : data::MissingPolicy::kDropRows;
+    component.faults = ReadChoice(keys, "faults", "keep")
+                           ? data::FaultPolicy::kKeep
+                           : data::FaultPolicy::kDropRows;
     keys.TakeFlag("keep_dead", &component.keep_dead);
     keys.TakeNumber("goal", false, &component.goal);
     keys.TakeNumber("indifference", true, &component.indifference);
@@ -324,15 +330,18 @@ class StudyFileReader {
     return data::Alignment::kNone;
   }
 
-  static data::MissingPolicy ReadMissing(const Keys& keys) {
-    std::string missing = "error";
-    keys.TakeText("missing", &missing);
-    if (missing == "drop-rows") return data::MissingPolicy::kDropRows;
-    if (missing != "error") {
-      keys.RefuseType(
-          "missing", *keys.Find("missing"), "\"error\" or \"drop-rows\"");
+  // Whether the key is absent or has its default, not "drop-rows".
+  static bool ReadChoice(const Keys& keys,
+                         std::string_view key,
+                         std::string_view otherwise) {
+    std::string choice(otherwise);
+    keys.TakeText(key, &choice);
+    if (choice != "drop-rows" && choice != otherwise) {
+      keys.RefuseType(key,
+                      *keys.Find(key),
+                      fmt::format("\"{}\" or \"drop-rows\"", otherwise));
     }
-    return data::MissingPolicy::kError;
+    return choice == otherwise;
   }
 
   std::vector<data::ColumnFilter> ReadWhere(const Keys& keys) const {

@@ -197,6 +197,7 @@ std::string ComponentText(const ComponentPlan& component,
   text += SessionKeys(component.comparison.data);
   text += "# weight = \"weight\"\n";
   text += "# missing = \"error\"   # or \"drop-rows\"\n";
+  text += "# faults = \"keep\"   # or \"drop-rows\": 9999, jumps of sensors\n";
   text += "# keep_dead = false   # true keeps sensors that hold one value\n";
   text += LengthKey("goal",
                     component.comparison.goal,

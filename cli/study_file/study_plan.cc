@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "cli/study_file/data_arguments.h"
+#include "cli/study_file/fault_text.h"
 #include "data/atomic_file.h"
 #include "data/sha256.h"
 #include "data/text.h"
@@ -100,12 +101,21 @@ class ComponentPlanner {
                            .weight = component_.weight,
                            .align = component_.align,
                            .missing = component_.missing,
+                           .faults = component_.faults,
                            .keep_dead = component_.keep_dead,
                            .where = component_.where});
-    if (!quiet_) {
-      for (const std::string& line : prepared.remarks) Remark(line);
-    }
+    SayWhatWasFound(prepared, FaultUse::kFit);
     return prepared;
+  }
+
+  void SayWhatWasFound(const data::PreparedDataset& prepared,
+                       FaultUse use) const {
+    if (quiet_) return;
+    for (const std::string& line : prepared.remarks) Remark(line);
+    for (const std::string& line :
+         FaultLines(prepared, component_.faults, use)) {
+      Remark(line);
+    }
   }
 
   // Rows, and whatever can be held out whole. Two or three sessions are too
@@ -159,8 +169,10 @@ class ComponentPlanner {
       const stats::HoldoutSpec spec = stats::ParseHoldout(text);
       std::shared_ptr<const data::Dataset> test_data;
       if (spec.kind == stats::HoldoutKind::kFile) {
-        test_data = std::make_shared<const data::Dataset>(
-            MakeDataLike(reader_->Read(spec.file), prepared, component_));
+        const data::PreparedDataset test =
+            MakeDataLike(reader_->Read(spec.file), prepared, component_);
+        SayWhatWasFound(test, FaultUse::kJudge);
+        test_data = std::make_shared<const data::Dataset>(test.dataset);
       }
       try {
         holdouts.push_back(models::MakeHoldout(

@@ -514,5 +514,24 @@ TEST(MakeDataset, RefusesNumbersThatStandThereAsText) {
             1);
 }
 
+TEST(MakeDataset, DropsRowsOfFailedReadingsWhereAsked) {
+  std::string text = "a,w,error_mm\n";
+  for (int i = 0; i < 20; ++i) {
+    text += std::to_string(i % 7) + "," + std::to_string(1 + i) + "," +
+            (i == 4 ? "9999" : std::to_string(i)) + "\n";
+  }
+  const PreparedDataset kept = Make(text, {.weight = "w"});
+  EXPECT_EQ(kept.dataset.num_rows(), 20);
+  ASSERT_EQ(kept.faults.size(), 1U);
+  EXPECT_THAT(kept.faults[0].rows, ElementsAre(4));
+  const PreparedDataset dropped =
+      Make(text, {.weight = "w", .faults = FaultPolicy::kDropRows});
+  EXPECT_EQ(dropped.dataset.num_rows(), 19);
+  EXPECT_EQ(dropped.dataset.rows()[4], 5);
+  EXPECT_EQ(dropped.dataset.weights()[4], 6.0);
+  EXPECT_EQ(dropped.dataset.target_values()[4], 5.0);
+  EXPECT_EQ(dropped.faults.size(), 1U);
+}
+
 }  // namespace
 }  // namespace errmap::data

@@ -1,0 +1,52 @@
+#include "models/fault_effect.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "models/error_model.h"
+#include "models/recipe_catalog.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+
+// RMSE on `judged` of a plane fitted to `training`.
+double RmseOfPlane(const data::Dataset& training, const data::Dataset& judged) {
+  try {
+    const auto recipe =
+        MakeRecipe(training.num_inputs() > 0 ? "poly:full:degree=1" : "mean");
+    const Eigen::VectorXd residuals =
+        judged.target_values() - recipe->Fit(training, {}).Predict(judged);
+    return std::sqrt(residuals.squaredNorm() /
+                     static_cast<double>(residuals.size()));
+  } catch (const std::invalid_argument&) {
+    return std::numeric_limits<double>::quiet_NaN();  // too few rows
+  }
+}
+
+}  // namespace
+
+FaultEffect EffectOfRows(const data::Dataset& dataset,
+                         const std::vector<Index>& rows) {
+  const data::Dataset sound = data::WithoutRows(dataset, rows);
+  return {.rmse_with = RmseOfPlane(dataset, sound),
+          .rmse_without = RmseOfPlane(sound, sound)};
+}
+
+FaultEffect EffectOfInput(const data::Dataset& dataset, Index input) {
+  std::vector<data::ColumnInfo> inputs = dataset.inputs();
+  inputs.erase(inputs.begin() + input);
+  Eigen::MatrixXd values(dataset.num_rows(), dataset.num_inputs() - 1);
+  const Index after = values.cols() - input;
+  values.leftCols(input) = dataset.input_values().leftCols(input);
+  values.rightCols(after) = dataset.input_values().rightCols(after);
+  const data::Dataset sound =
+      dataset.WithInputs(std::move(inputs), std::move(values));
+  return {.rmse_with = RmseOfPlane(dataset, dataset),
+          .rmse_without = RmseOfPlane(sound, sound)};
+}
+
+}  // namespace errmap::models
