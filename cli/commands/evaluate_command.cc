@@ -4,15 +4,18 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/map_warnings.h"
 #include "cli/json_blocks.h"
 #include "cli/report/residual_json.h"
 #include "cli/report/summary_text.h"
 #include "cli/shell/number_text.h"
 #include "cli/study_file/data_arguments.h"
+#include "cli/study_file/fault_text.h"
 #include "cli/study_file/map_log.h"
 #include "cli/study_file/provenance.h"
 #include "models/model_file.h"
 #include "models/study/fold_pool.h"
+#include "models/trained_range.h"
 #include "stats/kolmogorov_smirnov.h"
 
 namespace errmap::cli {
@@ -22,6 +25,7 @@ struct EvaluateArguments {
   std::string model;
   std::string file;
   std::string missing = "error";
+  std::string faults = "keep";
   std::string format = "table";
   MapLogArguments log;
   bool quiet = false;
@@ -37,6 +41,31 @@ data::Dataset RowsToJudge(const data::Dataset& dataset, const MapLog& map) {
   return dataset.WithLog(map.log, std::move(log_rows));
 }
 
+// Rows outside of the trained range, and the inputs that are so.
+Json OutsideJson(const std::vector<models::TrainedInput>& trained,
+                 const Eigen::MatrixXd& values) {
+  Eigen::Index rows = 0;
+  for (Eigen::Index row = 0; row < values.rows(); ++row) {
+    rows += models::IsInside(trained, values, row) ? 0 : 1;
+  }
+  Json inputs = Json::array();
+  for (const models::InputOutside& found :
+       models::InputsOutside(trained, values)) {
+    const models::TrainedInput& input =
+        trained[static_cast<std::size_t>(found.input)];
+    inputs.push_back(
+        {{"input", input.column.name},
+         {"rows", found.num_rows},
+         {"min", found.min},
+         {"max", found.max},
+         {"trained_min", input.min},
+         {"trained_max", input.max},
+         {"looks_like",
+          found.looks_like.empty() ? Json() : Json(found.looks_like)}});
+  }
+  return {{"rows", rows}, {"inputs", std::move(inputs)}};
+}
+
 int RunEvaluate(const EvaluateArguments& arguments,
                 const std::string& command_line) {
   const models::FittedModel fitted = models::LoadModel(arguments.model);
@@ -49,26 +78,35 @@ int RunEvaluate(const EvaluateArguments& arguments,
       .session = arguments.log.session,
       .weight = "",
       .align = fitted.align,
-      .missing = arguments.missing == "error" ? data::MissingPolicy::kError
-                                              : data::MissingPolicy::kDropRows,
+      .missing = MissingPolicyOf(arguments.missing),
+      .faults = FaultPolicyOf(arguments.faults),
       .keep_dead = true,
       .only_to_judge = true,
       .with_log = fitted.align != data::Alignment::kNone};
   for (const models::TrainedInput& input : fitted.inputs) {
     selection.inputs.push_back(input.column.name);
   }
-  const data::CsvTable table = data::ReadCsv(arguments.file);
+  const data::CsvTable table = ReadForMap(
+      fitted, arguments.file, MapColumns::kInputsAndTarget, arguments.quiet);
   const data::PreparedDataset prepared = data::MakeDataset(table, selection);
   const MapLog map =
       MakeMapLog(fitted, table, prepared.dataset.rows(), arguments.log);
+  const data::Dataset dataset = RowsToJudge(prepared.dataset, map);
   if (!arguments.quiet) {
     for (const std::string& remark : prepared.remarks) Say(remark);
+    for (const std::string& line :
+         FaultLines(prepared, selection.faults, FaultUse::kJudge)) {
+      Say(line);
+    }
     for (const std::string& warning : map.warnings) Say(warning);
+    SayOutside(fitted.inputs, dataset.input_values());
   }
-  const data::Dataset dataset = RowsToJudge(prepared.dataset, map);
   const models::Prediction prediction =
       fitted.PredictForm(fitted.FormInputs(dataset));
   const Eigen::VectorXd& predicted = prediction.errors;
+  if (SayNotFinite(predicted, dataset.rows(), arguments.file)) {
+    return kEveryFitFailed;
+  }
   const Eigen::Index clipped = prediction.clipped.count();
   if (clipped > 0 && !arguments.quiet) {
     Say(fmt::format("warning: {} clipped by the map's guards",
@@ -91,13 +129,16 @@ int RunEvaluate(const EvaluateArguments& arguments,
              {"align", data::ToString(fitted.align)},
              {"clipped", clipped},
              {"summary", MetricsJson(metrics)},
+             {"outside", OutsideJson(fitted.inputs, dataset.input_values())},
+             {"faults", FaultsJson(prepared)},
              {"normality",
               NormalityJson(
                   stats::AssessNormality(stats::OrderedSample(residuals)), {})},
              {"provenance",
               ProvenanceJson(
                   command_line,
-                  {{"missing", arguments.missing}},
+                  {{"missing", arguments.missing},
+                   {"faults", arguments.faults}},
                   {HashInput(arguments.model), HashInput(arguments.file)})}}));
     return kDone;
   }
@@ -123,13 +164,7 @@ void AddEvaluateCommand(CLI::App* app, Run* run) {
       ->add_option("DATA", arguments->file, "CSV file with inputs and target")
       ->required()
       ->type_name("FILE.csv");
-  command
-      ->add_option("--missing",
-                   arguments->missing,
-                   "What empty, NA and NaN cells do: error or drop-rows")
-      ->check(CLI::IsMember({"error", "drop-rows"}))
-      ->type_name("error|drop-rows")
-      ->capture_default_str();
+  AddRowOptions(command, &arguments->missing, &arguments->faults);
   command->add_option("--format", arguments->format, "table or json")
       ->check(CLI::IsMember({"table", "json"}))
       ->type_name("table|json")

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <numeric>
@@ -6,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/map_warnings.h"
 #include "cli/shell/number_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/map_log.h"
@@ -13,6 +15,7 @@
 #include "data/csv.h"
 #include "data/dataset.h"
 #include "models/model_file.h"
+#include "models/trained_range.h"
 
 namespace errmap::cli {
 namespace {
@@ -32,29 +35,10 @@ Eigen::MatrixXd InputsOf(const models::FittedModel& fitted,
                          static_cast<Eigen::Index>(fitted.inputs.size()));
   Eigen::Index column = 0;
   for (const models::TrainedInput& input : fitted.inputs) {
-    if (table.Find(input.column.name) < 0) {
-      throw data::InputError(
-          fmt::format("{}: no column '{}', which the map reads; add it or fit "
-                      "a map without it",
-                      table.file,
-                      input.column.name));
-    }
     inputs.col(column++) = data::NumericColumn(
         table, input.column.name, data::MissingPolicy::kError, nullptr);
   }
   return inputs;
-}
-
-bool IsInside(const models::FittedModel& fitted,
-              const Eigen::MatrixXd& inputs,
-              Eigen::Index row) {
-  for (std::size_t i = 0; i < fitted.inputs.size(); ++i) {
-    const double value = inputs(row, static_cast<Eigen::Index>(i));
-    if (value < fitted.inputs[i].min || value > fitted.inputs[i].max) {
-      return false;
-    }
-  }
-  return true;
 }
 
 // The rows as a data set whose target is not known, and so 0.
@@ -80,7 +64,8 @@ data::Dataset RowsToPredict(const models::FittedModel& fitted,
 
 int RunPredict(const PredictArguments& arguments) {
   const models::FittedModel fitted = models::LoadModel(arguments.model);
-  const data::CsvTable table = data::ReadCsv(arguments.file);
+  const data::CsvTable table =
+      ReadForMap(fitted, arguments.file, MapColumns::kInputs, arguments.quiet);
   const Eigen::MatrixXd inputs = InputsOf(fitted, table);
   std::vector<Eigen::Index> all_rows(table.num_rows);
   std::iota(all_rows.begin(), all_rows.end(), Eigen::Index{0});
@@ -101,7 +86,6 @@ int RunPredict(const PredictArguments& arguments) {
     text += data::CsvField(name) + ",";
   }
   text += "predicted,lower_90,upper_90,lower_95,upper_95,inside\n";
-  Eigen::Index outside = 0;
   for (Eigen::Index row = 0; row < predicted.size(); ++row) {
     for (const data::CsvColumn* id : ids) {
       text +=
@@ -112,10 +96,12 @@ int RunPredict(const PredictArguments& arguments) {
     const bool whole =
         map.log == nullptr ||
         !map.begin_inside[static_cast<std::size_t>(sessions[at])];
-    const bool inside = whole && IsInside(fitted, inputs, row);
-    outside += whole && !inside ? 1 : 0;
-    text += fmt::format(
-        "{},,,,,{}\n", data::CsvNumber(predicted[row]), inside ? 1 : 0);
+    const bool is_finite = std::isfinite(predicted[row]);
+    const bool inside =
+        whole && is_finite && models::IsInside(fitted.inputs, inputs, row);
+    text += fmt::format("{},,,,,{}\n",
+                        is_finite ? data::CsvNumber(predicted[row]) : "",
+                        inside ? 1 : 0);
   }
   if (arguments.out.empty()) {
     fmt::print("{}", text);
@@ -131,12 +117,7 @@ int RunPredict(const PredictArguments& arguments) {
                     unit.empty() ? "" : " in " + unit,
                     aligned ? " since the session's first row" : ""));
     for (const std::string& warning : map.warnings) Say(warning);
-    if (outside > 0) {
-      Say(fmt::format(
-          "warning: {} outside the trained range of the inputs (inside = 0): "
-          "there the map extrapolates",
-          Count(outside, "row")));
-    }
+    SayOutside(fitted.inputs, inputs);
     if (const Eigen::Index clipped = prediction.clipped.count(); clipped > 0) {
       Say(
           fmt::format("warning: {} clipped by the map's guards, since an input "
@@ -144,7 +125,8 @@ int RunPredict(const PredictArguments& arguments) {
                       Count(clipped, "row")));
     }
   }
-  return kDone;
+  return SayNotFinite(predicted, all_rows, arguments.file) ? kEveryFitFailed
+                                                           : kDone;
 }
 
 }  // namespace
@@ -169,7 +151,8 @@ void AddPredictCommand(CLI::App* app, Run* run) {
       "Columns: record and cycle where the data have them, predicted (in the "
       "target's unit),\nlower_90 ... upper_95 (empty without an interval), "
       "inside (1 within the trained range, 0 not, or where a session's "
-      "first\nrows are missing).");
+      "first\nrows are missing). Columns in another unit are converted. Exit "
+      "status 4\nwhere a prediction is not finite: its cell stays empty.");
   command->callback([arguments, run] { run->status = RunPredict(*arguments); });
 }
 

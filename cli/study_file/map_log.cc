@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "data/column_checks.h"
+#include "data/column_match.h"
 #include "data/input_error.h"
 #include "data/sessions.h"
 #include "data/text.h"
@@ -131,12 +132,17 @@ MapLog MakeMapLog(const models::FittedModel& fitted,
   data::CsvTable joined;
   if (!arguments.after.empty()) {
     // Each by itself first, so that what is wrong is said of its file.
-    const data::CsvTable earlier = data::ReadCsv(arguments.after);
-    FindAll(history, earlier, selection);
     std::vector<std::string> columns;
+    std::vector<data::ColumnInfo> of_map;
     for (const models::TrainedInput& input : fitted.inputs) {
       columns.push_back(input.column.name);
+      of_map.push_back(input.column);
     }
+    const data::TableForMap read =
+        data::InMapUnits(data::ReadCsv(arguments.after), of_map);
+    const data::CsvTable& earlier = read.table;
+    map.warnings = read.remarks;
+    FindAll(history, earlier, selection);
     const auto add = [&](const std::string& name) {
       if (std::ranges::find(columns, name) == columns.end()) {
         columns.push_back(name);

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "data/csv.h"
+#include "models/error_model.h"
+
+namespace errmap::cli {
+
+enum class MapColumns { kInputs, kInputsAndTarget };
+
+/// Reads a file in the names and units of the map (InMapUnits) and says what
+/// was converted, unless quiet.
+data::CsvTable ReadForMap(const models::FittedModel& fitted,
+                          const std::string& file,
+                          MapColumns columns,
+                          bool quiet);
+
+/// Says on stderr which inputs leave their trained range, in how many rows and
+/// how far; `values` (m x p) in the map's units. Says nothing where none does.
+void SayOutside(const std::vector<models::TrainedInput>& inputs,
+                const Eigen::MatrixXd& values);
+
+/// Says how many of `predicted` (m) are not finite and where, `rows` (m) being
+/// the data rows of `file`; false, and nothing said, where all are finite.
+bool SayNotFinite(const Eigen::VectorXd& predicted,
+                  const std::vector<Eigen::Index>& rows,
+                  const std::string& file);
+
+}  // namespace errmap::cli

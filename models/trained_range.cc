@@ -1,0 +1,64 @@
+#include "models/trained_range.h"
+
+#include <cstddef>
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+
+bool IsWithin(const TrainedInput& input, double value) {
+  return value >= input.min && value <= input.max;
+}
+
+// The figures are held against the trained range and as much again around it:
+// another day is warmer, but not by 273.
+std::string LooksLike(const TrainedInput& input, double min, double max) {
+  const double width = input.max - input.min;
+  const data::Unit& unit = input.column.unit;
+  for (const data::Unit& other : data::UnitsOf(unit.quantity)) {
+    if (unit.quantity == data::Quantity::kOther ||
+        other.symbol == unit.symbol) {
+      continue;
+    }
+    const double low = data::Converted(min, other, unit);
+    const double high = data::Converted(max, other, unit);
+    if (low >= input.min - width && high <= input.max + width) {
+      return other.symbol;
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<InputOutside> InputsOutside(const std::vector<TrainedInput>& inputs,
+                                        const Eigen::MatrixXd& values) {
+  std::vector<InputOutside> outside;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const auto column = values.col(static_cast<Index>(i));
+    InputOutside found{.input = static_cast<Index>(i)};
+    for (const double value : column) {
+      found.num_rows += IsWithin(inputs[i], value) ? 0 : 1;
+    }
+    if (found.num_rows == 0) continue;
+    found.min = column.minCoeff();
+    found.max = column.maxCoeff();
+    if (2 * found.num_rows > values.rows()) {
+      found.looks_like = LooksLike(inputs[i], found.min, found.max);
+    }
+    outside.push_back(std::move(found));
+  }
+  return outside;
+}
+
+bool IsInside(const std::vector<TrainedInput>& inputs,
+              const Eigen::MatrixXd& values,
+              Index row) {
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (!IsWithin(inputs[i], values(row, static_cast<Index>(i)))) return false;
+  }
+  return true;
+}
+
+}  // namespace errmap::models

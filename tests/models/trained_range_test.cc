@@ -1,0 +1,51 @@
+#include "models/trained_range.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace errmap::models {
+namespace {
+
+TrainedInput Trained(const char* name, double min, double max) {
+  return {.column = {name, data::UnitOfColumn(name)},
+          .min = min,
+          .max = max,
+          .mean = 0.5 * (min + max),
+          .sd = 1.0};
+}
+
+TEST(InputsOutside, IsEmptyWithinTheTrainedRangeBoundsIncluded) {
+  const Eigen::MatrixXd values{{20.0}, {25.0}};
+  EXPECT_THAT(InputsOutside({Trained("t1_degC", 20.0, 25.0)}, values),
+              testing::IsEmpty());
+  EXPECT_TRUE(IsInside({Trained("t1_degC", 20.0, 25.0)}, values, 1));
+}
+
+TEST(InputsOutside, CountsRowsAndGivesTheRangeFound) {
+  const Eigen::MatrixXd values{{1.0, 19.0}, {2.0, 22.0}, {3.0, 23.0}};
+  const auto outside = InputsOutside(
+      {Trained("position_mm", 0.0, 9.0), Trained("t1_degC", 20.0, 25.0)},
+      values);
+  ASSERT_EQ(outside.size(), 1U);
+  EXPECT_EQ(outside[0].input, 1);
+  EXPECT_EQ(outside[0].num_rows, 1);
+  EXPECT_EQ(outside[0].min, 19.0);
+  EXPECT_EQ(outside[0].max, 23.0);
+  EXPECT_EQ(outside[0].looks_like, "");
+}
+
+TEST(InputsOutside, RecognisesTheUnitThatWasMeant) {
+  const auto looks_like = [](const TrainedInput& input, double value) {
+    const auto outside =
+        InputsOutside({input}, Eigen::MatrixXd{{value}, {value + 1.0}});
+    return outside.empty() ? "inside" : outside[0].looks_like;
+  };
+  EXPECT_EQ(looks_like(Trained("t1_degC", 20.0, 25.0), 294.0), "K");
+  EXPECT_EQ(looks_like(Trained("t1_degC", 20.0, 25.0), 71.0), "degF");
+  EXPECT_EQ(looks_like(Trained("t1 [K]", 293.0, 298.0), 21.0), "degC");
+  EXPECT_EQ(looks_like(Trained("t1_degC", 20.0, 25.0), 5000.0), "");
+  EXPECT_EQ(looks_like(Trained("speed_rpm", 0.0, 10.0), 70.0), "");
+}
+
+}  // namespace
+}  // namespace errmap::models
