@@ -64,8 +64,8 @@ class Measurements {
   }
 
   /// Every value of a column through `change`.
-  template <typename Change>
-  void Change(std::size_t column, const Change& change) {
+  template <typename Edit>
+  void Change(std::size_t column, const Edit& change) {
     for (auto& row : cells) row[column] = Text(change(std::stod(row[column])));
   }
 

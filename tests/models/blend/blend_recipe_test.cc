@@ -190,7 +190,8 @@ TEST(BlendRecipe, IsRecommendedWhereDaysAreTooFewToTellMapsApart) {
   const auto recipes = errmap::testing::MakeRecipes(
       {"mean", "poly:ridge:view=auto", "poly:lasso:view=auto", "blend"});
   const StudyResult study = RunStudy(days, holdouts, recipes, {});
-  const Judgement judgement = JudgeStudy(days, holdouts, study, 0.02, 1);
+  const Judgement judgement =
+      JudgeStudy(days, holdouts, study, {.indifference = 0.02});
   ASSERT_TRUE(judgement.recommendation.has_value());
   EXPECT_EQ(judgement.recommendation->holdout, 1U);
   EXPECT_EQ(study.models[judgement.recommendation->model].name, "blend");

@@ -113,7 +113,8 @@ TEST(Confidence, SaysWhenThereAreTooFewUnitsForSoManyPairs) {
 TEST(Confidence, TakesUnitsThatResembleTheirNeighboursForNoEvidence) {
   VectorXd lasting(35);
   for (Index unit = 0; unit < 35; ++unit) {
-    lasting[unit] = (unit / 9 % 2 == 0 ? 2.0 : 0.2) + 0.05 * (unit % 3);
+    lasting[unit] =
+        (unit / 9 % 2 == 0 ? 2.0 : 0.2) + 0.05 * static_cast<double>(unit % 3);
   }
   const stats::Comparison found = CompareTwo(lasting);
   EXPECT_TRUE(found.pairs[0].correlated);

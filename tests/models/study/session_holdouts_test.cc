@@ -59,7 +59,7 @@ std::string Decisive(const data::Dataset& dataset,
   const auto holdouts = MakeHoldouts(dataset, specs);
   const StudyResult study = RunStudy(
       dataset, holdouts, MakeRecipes({"mean", "poly:temperature"}), {});
-  const Judgement judgement = JudgeStudy(dataset, holdouts, study, 0.0, 1);
+  const Judgement judgement = JudgeStudy(dataset, holdouts, study, {});
   return holdouts[judgement.recommendation->holdout].name;
 }
 

@@ -170,7 +170,9 @@ TEST(Verdict, TakesFewerGroupsWhereEachIsASessionOfItsOwn) {
                                .input_values = line.input_values(),
                                .target = line.target(),
                                .target_values = line.target_values(),
-                               .groups = line.groups()};
+                               .groups = line.groups(),
+                               .weights = {},
+                               .rows = {}};
     data::SessionLog log;
     log.sessions.column = column;
     for (Eigen::Index i = 0; i < line.num_rows(); ++i) {
