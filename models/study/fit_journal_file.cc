@@ -1,11 +1,14 @@
 #include "models/study/fit_journal_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 #include <unistd.h>
@@ -90,6 +93,22 @@ std::string Count(std::size_t number, const char* what) {
   return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
 }
 
+// The words of `text` that `other` has not.
+std::string WordsOnlyIn(const std::string& text, const std::string& other) {
+  const auto words = [](const std::string& line) {
+    std::istringstream stream(line);
+    return std::vector<std::string>(std::istream_iterator<std::string>(stream),
+                                    {});
+  };
+  const std::vector<std::string> known = words(other);
+  std::string only;
+  for (const std::string& word : words(text)) {
+    if (std::ranges::count(known, word) > 0) continue;
+    only += (only.empty() ? "" : " ") + word;
+  }
+  return only.empty() ? "nothing" : only;
+}
+
 // Why `found`, which stands in the place of `wanted`, does not serve.
 std::string WhyNot(const FitLabel& found, const FitLabel& wanted) {
   if (found.program != wanted.program) {
@@ -100,7 +119,8 @@ std::string WhyNot(const FitLabel& found, const FitLabel& wanted) {
         "{}: {} -> {}", wanted.model, found.options, wanted.options);
   }
   if (found.context != wanted.context) {
-    return found.context + " -> " + wanted.context;
+    return WordsOnlyIn(found.context, wanted.context) + " -> " +
+           WordsOnlyIn(wanted.context, found.context);
   }
   if (found.rows != wanted.rows) return "the data that they see have changed";
   return "their record cannot be read";

@@ -157,7 +157,7 @@ TEST_F(Resume, SaysWhatAnotherSeedMakesAnew) {
   ASSERT_EQ(Run(Command("study")).status, 0);
   const Outcome other = Run(Command("study", {"--resume", "--seed", "2"}));
   EXPECT_EQ(other.status, 0);
-  EXPECT_THAT(other.err, HasSubstr("60 fits made again: seed=1 -> seed=2"));
+  EXPECT_THAT(other.err, HasSubstr("70 fits made again: seed=1 -> seed=2\n"));
   const Outcome both =
       Run({"compare", kDown, "--models", "mean", "--out", "study", "--resume"});
   EXPECT_THAT(both.err, HasSubstr("28 of 28 fits are at hand"));
