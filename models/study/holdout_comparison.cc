@@ -84,17 +84,32 @@ bool TakeUnits(const HeldOut& held,
   return true;
 }
 
-// Codes of the units of the held-out rows; `units` gets name and labels.
+std::size_t NumUnits(const HeldOut& held, const std::vector<Index>& codes) {
+  std::set<Index> present;
+  for (const Index row : held.rows) {
+    present.insert(codes[static_cast<std::size_t>(row)]);
+  }
+  return present.size();
+}
+
+// Codes of the units of the held-out rows; `units` gets name and labels. Where
+// sessions and groups are both held out whole, the coarser are the units: what
+// shares one may be alike.
 std::vector<Index> AssignUnits(const Holdout& holdout,
                                const HeldOut& held,
                                UnitsOfAnalysis* units) {
   std::vector<Index> codes;
   const data::Dataset& source = *held.source;
-  if (holdout.whole_sessions && TakeUnits(held,
-                                          source.session_codes(),
-                                          source.log()->sessions,
-                                          &codes,
-                                          units)) {
+  const bool groups_are_coarser = holdout.whole_sessions &&
+                                  holdout.whole_groups && source.has_groups() &&
+                                  NumUnits(held, source.groups().codes) <
+                                      NumUnits(held, source.session_codes());
+  if (holdout.whole_sessions && !groups_are_coarser &&
+      TakeUnits(held,
+                source.session_codes(),
+                source.log()->sessions,
+                &codes,
+                units)) {
     units->are_sessions = true;
     return codes;
   }
