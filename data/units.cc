@@ -310,7 +310,13 @@ std::string WithoutSeparators(std::string_view text) {
 std::size_t BracketStart(std::string_view name) {
   if (name.empty()) return std::string_view::npos;
   const char open = name.back() == ']' ? '[' : name.back() == ')' ? '(' : '\0';
-  return open == '\0' ? std::string_view::npos : name.rfind(open);
+  if (open == '\0') return std::string_view::npos;
+  const std::size_t at = name.rfind(open);
+  // "a [[b]]" holds no unit: brackets within brackets are part of a name.
+  const bool nested = at != std::string_view::npos &&
+                      name.substr(at, name.size() - at - 1).find(name.back()) !=
+                          std::string_view::npos;
+  return nested ? std::string_view::npos : at;
 }
 
 // A bare last word that is no unit, yet may be meant as one: one that counts in

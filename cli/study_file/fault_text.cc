@@ -152,7 +152,7 @@ std::string EffectText(const models::FaultEffect& effect,
   return fmt::format(
       "a plain linear map misses the other rows by {} RMSE with "
       "{}, by {} without",
-      error(effect.rmse_with),
+      error.WithUnit(effect.rmse_with),
       what,
       error.WithUnit(effect.rmse_without));
 }

@@ -216,7 +216,7 @@ TEST_F(CliPlantedFaults, SentinelsInTheTargetAreNamedAndCanBeLeftOut) {
                       "beyond all others"),
             HasSubstr("--faults drop-rows leaves these 2 rows out: a plain "
                       "linear map misses the other rows by"),
-            HasSubstr("with them, by 0.1")));
+            HasSubstr(" um RMSE with them, by 0.")));
   const Json faults = Component(outcome)["data"]["faults"];
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0]["column"], "error_mm");

@@ -436,7 +436,7 @@ TEST_F(JournalledStudy, MakesAnewWhatAnotherSeedOrOtherRowsMade) {
   Run({"mean"}, Opening::kAnew, kAll);
   Run({"mean"}, Opening::kResume, kAll, {.seed = 2});
   EXPECT_EQ(fits_, 7);
-  EXPECT_THAT(lines_[1], HasSubstr("6 fits made again: seed=1 -> seed=2"));
+  EXPECT_THAT(lines_[1], HasSubstr("7 fits made again: seed=1 -> seed=2"));
   std::vector<Eigen::Index> rows;
   for (Eigen::Index row = 1; row < dataset_.num_rows(); ++row) {
     rows.push_back(row);
