@@ -1,6 +1,8 @@
 #include "models/inner_folds.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -12,6 +14,7 @@ namespace errmap::models {
 namespace {
 
 using Eigen::Index;
+using Eigen::VectorXd;
 
 Index NumGroups(const data::Dataset& dataset) {
   const std::vector<Index>& codes = dataset.groups().codes;
@@ -56,6 +59,7 @@ InnerFolds MakeInnerFolds(const data::Dataset& training,
   }
   const Index count = std::min(kFolds, units);
   InnerFolds inner;
+  inner.whole_sessions = kind == InnerHoldout::kWholeSessions;
   switch (kind) {
     case InnerHoldout::kForward:
       // Blocks in order need one more to start from.
@@ -83,6 +87,30 @@ InnerFolds MakeInnerFolds(const data::Dataset& training,
     }
   }
   return inner;
+}
+
+InnerError TypicalError(const InnerFolds& folds,
+                        const VectorXd& mean_squares,
+                        const VectorXd& weights,
+                        double indifference) {
+  const VectorXd shares = weights / weights.sum();
+  const auto spread = [&](const VectorXd& values, double mean) {
+    if (values.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+    const double variance =
+        shares.dot(VectorXd((values.array() - mean).square()));
+    return std::sqrt(variance / static_cast<double>(values.size() - 1));
+  };
+  if (!folds.whole_sessions) {
+    const double mean = shares.dot(mean_squares);
+    return {mean, spread(mean_squares, mean)};
+  }
+  // Adding what does not matter keeps a fold without error from deciding.
+  const double floor =
+      std::max(indifference * indifference, std::numeric_limits<double>::min());
+  const VectorXd logs = (mean_squares.array() + floor).log();
+  const double mean = shares.dot(logs);
+  const double typical = std::exp(mean);
+  return {typical, typical * spread(logs, mean)};
 }
 
 }  // namespace errmap::models

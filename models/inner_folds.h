@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include <Eigen/Core>
+
 #include "data/dataset.h"
 #include "fitting/fold_codes.h"
 #include "models/error_model.h"
@@ -16,7 +18,23 @@ namespace errmap::models {
 struct InnerFolds {
   fitting::FoldCodes folds;  // of the rows of `training`
   std::string text;  // "sessions:5 of day", "groups:5 of cycle", "kfold:5"
+  bool whole_sessions = false;
 };
+
+/// What a choice on inner hold-outs minimises.
+struct InnerError {
+  double mean_square = 0.0;
+  double standard_error = 0.0;  // of mean_square over folds; NaN for one fold
+};
+
+/// Of a candidate with these mean squares (judged folds), weighted by
+/// `weights`: their mean; over whole sessions their geometric mean, since one
+/// day far from all others would else decide alone, and for a map that leans
+/// on nothing. Errors far below `indifference` count alike.
+InnerError TypicalError(const InnerFolds& folds,
+                        const Eigen::VectorXd& mean_squares,
+                        const Eigen::VectorXd& weights,
+                        double indifference);
 
 /// Throws std::invalid_argument where there are fewer than 2 rows.
 InnerFolds MakeInnerFolds(const data::Dataset& training,

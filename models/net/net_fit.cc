@@ -147,6 +147,11 @@ std::vector<double> InnerHoldoutRmse(const NetDesign& design,
        ++fold) {
     split.push_back(folds.folds.Split(fold));
   }
+  Eigen::VectorXd rows(static_cast<Index>(split.size()));
+  for (std::size_t fold = 0; fold < split.size(); ++fold) {
+    rows[static_cast<Index>(fold)] =
+        static_cast<double>(split[fold].test.size());
+  }
   std::vector<double> squares(trials.size() * split.size());
   RunJobs(squares.size(), context.threads, [&](std::size_t job) {
     squares[job] = HeldOutSquares(design,
@@ -158,12 +163,13 @@ std::vector<double> InnerHoldoutRmse(const NetDesign& design,
   });
   std::vector<double> rmse;
   for (std::size_t trial = 0; trial < trials.size(); ++trial) {
-    double sum = 0.0;
+    Eigen::VectorXd means(static_cast<Index>(split.size()));
     for (std::size_t fold = 0; fold < split.size(); ++fold) {
-      sum += squares[trial * split.size() + fold];
+      const auto at = static_cast<Index>(fold);
+      means[at] = squares[trial * split.size() + fold] / rows[at];
     }
-    rmse.push_back(
-        std::sqrt(sum / static_cast<double>(folds.folds.NumJudged())));
+    rmse.push_back(std::sqrt(
+        TypicalError(folds, means, rows, context.indifference).mean_square));
   }
   return rmse;
 }

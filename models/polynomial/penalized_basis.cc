@@ -212,13 +212,16 @@ class StrengthSearch {
                  Penalty penalty,
                  bool intercept,
                  bool guarded,
+                 double indifference,
                  Index num_rows)
       : rows_(rows),
-        folds_(folds.folds),
+        folds_(folds),
         guarded_(guarded),
+        indifference_(indifference),
         keeps_(num_rows <= kMostKept),
         num_rows_(num_rows) {
-    for (Index fold = folds_.first_judged(); fold < folds_.count(); ++fold) {
+    for (Index fold = folds.folds.first_judged(); fold < folds.folds.count();
+         ++fold) {
       paths_.emplace_back(penalty, rows.TrainingOf(fold, all), intercept);
     }
   }
@@ -233,7 +236,7 @@ class StrengthSearch {
     if (keeps_) held_out = MatrixXd::Constant(num_rows_, count, kNaN);
     for (Index i = 0; i < judged; ++i) {
       rows_.PredictFold(
-          i + folds_.first_judged(),
+          i + folds_.folds.first_judged(),
           paths_[static_cast<std::size_t>(i)].Solve(strengths),
           guarded_,
           [&](const std::vector<Index>& block, const MatrixXd& predicted) {
@@ -246,16 +249,10 @@ class StrengthSearch {
             if (keeps_) held_out(block, Eigen::all) = predicted;
           });
     }
-    const VectorXd shares = weights / weights.sum();
     for (Index s = 0; s < count; ++s) {
       Judged result;
-      const VectorXd means = errors.col(s).cwiseQuotient(weights);
-      result.mean = shares.dot(means);
-      const double variance =
-          shares.dot(VectorXd((means.array() - result.mean).square()));
-      result.standard_error =
-          judged > 1 ? std::sqrt(variance / static_cast<double>(judged - 1))
-                     : kNaN;
+      result.error = TypicalError(
+          folds_, errors.col(s).cwiseQuotient(weights), weights, indifference_);
       if (keeps_) result.held_out = held_out.col(s);
       judged_[-strengths[static_cast<std::size_t>(s)]] = std::move(result);
     }
@@ -266,27 +263,27 @@ class StrengthSearch {
   // The chosen strength and all that was found, into `candidate`.
   void Report(bool one_standard_error, PenalizedCandidate* candidate) const {
     auto chosen = Lowest();
-    if (one_standard_error && !std::isnan(chosen->second.standard_error)) {
-      const double enough = chosen->second.mean + chosen->second.standard_error;
+    const InnerError least = chosen->second.error;
+    if (one_standard_error && !std::isnan(least.standard_error)) {
+      const double enough = least.mean_square + least.standard_error;
       chosen =
           std::find_if(judged_.begin(), judged_.end(), [&](const auto& judged) {
-            return judged.second.mean <= enough;
+            return judged.second.error.mean_square <= enough;
           });
     }
     for (const auto& [strength, judged] : judged_) {
       candidate->strengths.push_back(-strength);
-      candidate->mean_squared_errors.push_back(judged.mean);
-      candidate->standard_errors.push_back(judged.standard_error);
+      candidate->mean_squared_errors.push_back(judged.error.mean_square);
+      candidate->standard_errors.push_back(judged.error.standard_error);
     }
     candidate->strength = -chosen->first;
-    candidate->held_out_rmse = std::sqrt(chosen->second.mean);
+    candidate->held_out_rmse = std::sqrt(chosen->second.error.mean_square);
     candidate->held_out = chosen->second.held_out;
   }
 
  private:
   struct Judged {
-    double mean = 0.0;
-    double standard_error = kNaN;
+    InnerError error;
     VectorXd held_out;
   };
   // By falling strength: the key is its negative.
@@ -294,13 +291,15 @@ class StrengthSearch {
 
   // Of equal errors the stronger penalty.
   Results::const_iterator Lowest() const {
-    return std::ranges::min_element(
-        judged_, {}, [](const auto& judged) { return judged.second.mean; });
+    return std::ranges::min_element(judged_, {}, [](const auto& judged) {
+      return judged.second.error.mean_square;
+    });
   }
 
   const BasisRows& rows_;
-  const fitting::FoldCodes& folds_;
+  const InnerFolds& folds_;
   bool guarded_;
+  double indifference_;
   bool keeps_;
   Index num_rows_;
   std::vector<fitting::PenalizedPath> paths_;  // of the judged folds
@@ -387,8 +386,14 @@ std::shared_ptr<const PenalizedFits> FitPenalizedBasis(
     if (rule.strength) {
       candidate.strength = *rule.strength;
     } else {
-      StrengthSearch search(
-          rows, all, folds, penalty, viewed->intercept, basis.guarded, n);
+      StrengthSearch search(rows,
+                            all,
+                            folds,
+                            penalty,
+                            viewed->intercept,
+                            basis.guarded,
+                            context.indifference,
+                            n);
       search.Judge(
           fitting::PenalizedPath(penalty, all, viewed->intercept).Grid());
       if (penalty == Penalty::kRidge) {

@@ -43,10 +43,10 @@ struct PenalizedCandidate {
   double degrees_of_freedom = 0.0;
   // The inner hold-outs, falling strengths; empty where the strength was given.
   std::vector<double> strengths;
-  std::vector<double> mean_squared_errors;
-  std::vector<double> standard_errors;  // of those means, over folds
-  /// Root of the least mean squared error (of the chosen strength); NaN
-  /// without inner hold-outs.
+  std::vector<double> mean_squared_errors;  // TypicalError
+  std::vector<double> standard_errors;      // of those means, over folds
+  /// Root of the mean squared error of the chosen strength; NaN without inner
+  /// hold-outs.
   double held_out_rmse = 0.0;
   /// (n) predictions of the rows held out, at the chosen strength; NaN for
   /// rows never held out; (0) where they were not kept.

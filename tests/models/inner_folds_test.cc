@@ -1,5 +1,6 @@
 #include "models/inner_folds.h"
 
+#include <cmath>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -35,6 +36,49 @@ data::Dataset Grouped(const std::vector<Index>& sizes,
   parts.input_values = Eigen::MatrixXd::Zero(rows, 1);
   parts.target_values = Eigen::VectorXd::LinSpaced(rows, 0.0, 1.0);
   return data::Dataset(std::move(parts));
+}
+
+TEST(TypicalError, IsTheMeanSquareWhereFoldsAreNoSessions) {
+  const Eigen::Vector3d squares(1.0, 4.0, 9.0);
+  const Eigen::Vector3d rows(2.0, 1.0, 1.0);
+  const InnerError error = TypicalError({}, squares, rows, 0.02);
+  EXPECT_DOUBLE_EQ(error.mean_square, 15.0 / 4.0);
+  // sqrt(sum share (square - mean)^2 / (folds - 1))
+  EXPECT_DOUBLE_EQ(error.standard_error, std::sqrt(171.0 / 16.0 / 2.0));
+  EXPECT_TRUE(std::isnan(TypicalError({},
+                                      Eigen::VectorXd::Constant(1, 4.0),
+                                      Eigen::VectorXd::Constant(1, 3.0),
+                                      0.0)
+                             .standard_error));
+}
+
+TEST(TypicalError, OfSessionsIsNotDecidedByTheOneThatIsFarFromAllOthers) {
+  InnerFolds folds;
+  folds.whole_sessions = true;
+  const Eigen::Vector4d rows(10.0, 10.0, 10.0, 10.0);
+  // A map that is good on three days of four, and one that is good on none.
+  const Eigen::Vector4d good(0.1, 0.1, 0.1, 9.0);
+  const Eigen::Vector4d poor(2.0, 2.0, 2.0, 2.0);
+  const auto error = [&](const Eigen::Vector4d& squares) {
+    return TypicalError(folds, squares, rows, 0.0).mean_square;
+  };
+  EXPECT_NEAR(error(good), std::pow(0.1 * 0.1 * 0.1 * 9.0, 0.25), 1e-15);
+  EXPECT_LT(error(good), error(poor));
+  EXPECT_GT(good.mean(), poor.mean());
+  // In other units of length the choice is the same.
+  EXPECT_NEAR(error(1e6 * good), 1e6 * error(good), 1e-9);
+}
+
+TEST(TypicalError, OfASessionWithoutErrorStopsAtTheIndifference) {
+  InnerFolds folds;
+  folds.whole_sessions = true;
+  const Eigen::Vector2d rows(5.0, 5.0);
+  const double none =
+      TypicalError(folds, Eigen::Vector2d(0.0, 1.0), rows, 0.1).mean_square;
+  const double little =
+      TypicalError(folds, Eigen::Vector2d(1e-9, 1.0), rows, 0.1).mean_square;
+  EXPECT_NEAR(none, std::sqrt(0.01 * 1.01), 1e-15);
+  EXPECT_NEAR(little, none, 1e-8);
 }
 
 TEST(InnerFolds, FollowTheKindOfHoldOutOutside) {
