@@ -173,9 +173,9 @@ class BlendRecipe final : public ModelRecipe {
       const std::vector<BasisCandidate>& bases,
       const VectorXd& weights) {
     std::vector<Part> parts;
-    std::map<std::pair<View, TermSet>, std::vector<std::size_t>> alike;
+    std::map<std::pair<std::string, TermSet>, std::vector<std::size_t>> alike;
     for (std::size_t i = 0; i < bases.size(); ++i) {
-      alike[{bases[i].fits->viewed->view, bases[i].terms}].push_back(i);
+      alike[{bases[i].fits->viewed->label(), bases[i].terms}].push_back(i);
     }
     for (const auto& [basis, members] : alike) {
       double weight = 0.0;
@@ -191,9 +191,8 @@ class BlendRecipe final : public ModelRecipe {
       if (!(weight > kLeastWeight)) continue;
       mean.intercept /= weight;
       mean.coefficients /= weight;
-      const std::string name = fmt::format("ridge and lasso, {}, {}",
-                                           ToString(basis.first),
-                                           ToString(basis.second));
+      const std::string name = fmt::format(
+          "ridge and lasso, {}, {}", basis.first, ToString(basis.second));
       parts.push_back({name,
                        weight,
                        MapOfCandidate(name,

@@ -213,6 +213,22 @@ DerivedInput Zeroed(const data::ColumnInfo& of) {
           .filter = Filter::kZero};
 }
 
+double RadiansPer(const data::ColumnInfo& angle) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  constexpr double kArcMinutesPerDegree = 60.0;
+  constexpr double kArcSecondsPerDegree = 3600.0;
+  const std::string& unit = angle.unit.symbol;
+  if (unit == "rad") return 1.0;
+  if (unit == "mrad") return 1e-3;
+  if (unit == "urad") return 1e-6;
+  if (unit == "deg") return kDegree;
+  if (unit == "arcmin") return kDegree / kArcMinutesPerDegree;
+  if (unit == "arcsec") return kDegree / kArcSecondsPerDegree;
+  throw std::invalid_argument(
+      fmt::format("'{}' is no angle in rad, mrad, urad, deg, arcmin or arcsec",
+                  angle.name));
+}
+
 DerivedInput SineOf(const data::ColumnInfo& angle) {
   return Unitless(angle, "sin", Filter::kSine);
 }

@@ -16,7 +16,7 @@ enum class Filter {
   kEma,   // y += (1 - exp(-dt / tau)) (x - y), begun at y = x: a first-order
           // lag in steady state, exact for steps of any length
   kZero,  // less its value where the session's zero is taken
-  kSine,  // of an angle in rad, mrad, urad, deg or arcsec
+  kSine,  // of an angle
   kCosine,
 };
 
@@ -58,6 +58,10 @@ DerivedInput Ema(const data::ColumnInfo& of,
 DerivedInput Zeroed(const data::ColumnInfo& of);
 DerivedInput SineOf(const data::ColumnInfo& angle);
 DerivedInput CosineOf(const data::ColumnInfo& angle);
+
+/// Radians in one unit of an angle's column. Throws std::invalid_argument
+/// where it is no angle in rad, mrad, urad, deg, arcmin or arcsec.
+double RadiansPer(const data::ColumnInfo& angle);
 
 /// latest_start of the sessions of these rows.
 double LatestStart(const data::Dataset& training);

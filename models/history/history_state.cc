@@ -19,19 +19,6 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   throw std::invalid_argument("HistoryState: " + what);
 }
 
-double RadiansPer(const data::ColumnInfo& angle) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
-  constexpr double kArcSecondsPerDegree = 3600.0;
-  const std::string& unit = angle.unit.symbol;
-  if (unit == "rad") return 1.0;
-  if (unit == "mrad") return 1e-3;
-  if (unit == "urad") return 1e-6;
-  if (unit == "deg") return kDegree;
-  if (unit == "arcsec") return kDegree / kArcSecondsPerDegree;
-  Refuse(fmt::format("'{}' is no angle in rad, mrad, urad, deg or arcsec",
-                     angle.name));
-}
-
 Index FindName(const std::vector<data::ColumnInfo>& columns,
                const std::string& name) {
   const auto found = std::ranges::find(columns, name, &data::ColumnInfo::name);

@@ -62,6 +62,21 @@ bool IsAngle(const data::ColumnInfo& column) {
   return column.unit.quantity == data::Quantity::kAngle;
 }
 
+// Whether an angle among the inputs turns so far that its sine and cosine are
+// more than the angle itself.
+bool TurnsFar(const Dataset& training) {
+  constexpr double kFar = 0.5;  // rad
+  for (Index j = 0; j < training.num_inputs(); ++j) {
+    const data::ColumnInfo& input =
+        training.inputs()[static_cast<std::size_t>(j)];
+    if (!IsAngle(input) || training.num_rows() == 0) continue;
+    const auto values = training.input_values().col(j);
+    const double span = values.maxCoeff() - values.minCoeff();
+    if (span * RadiansPer(input) >= kFar) return true;
+  }
+  return false;
+}
+
 // The definitions of a view over the inputs of `training`.
 History DefineView(const Dataset& training,
                    View view,
@@ -131,6 +146,12 @@ std::string_view ToString(View view) {
   return ViewWords()[static_cast<std::size_t>(view)];
 }
 
+std::string ViewedRows::label() const {
+  std::string text(ToString(view));
+  if (sine_and_cosine) text += " with sine and cosine";
+  return text;
+}
+
 View ViewOf(std::string_view word) {
   return static_cast<View>(std::ranges::find(ViewWords(), word) -
                            ViewWords().begin());
@@ -151,8 +172,9 @@ ViewOptions ViewOptions::Take(SpecOptions* options) {
   }
   taken.with_history = history != "none";
   taken.with_zero = options->TakeChoice("zero", 0, {"session", "none"}) == 0;
-  taken.sine_and_cosine =
-      options->TakeChoice("angles", 1, {"sincos", "none"}) == 0;
+  const std::size_t form =
+      options->TakeChoice("angles", 0, {"auto", "sincos", "none"});
+  if (form > 0) taken.sine_and_cosine = form == 1;
   std::vector<std::string> words = {"auto"};
   std::ranges::copy(ViewWords(), std::back_inserter(words));
   const std::size_t word = options->TakeChoice("view", 0, words);
@@ -170,6 +192,10 @@ ViewOptions ViewOptions::Take(SpecOptions* options) {
   return taken;
 }
 
+bool ViewOptions::TakeClip(SpecOptions* options) const {
+  return options->TakeChoice("clip", 0, {"auto", "none"}) == 0 && given;
+}
+
 void ViewOptions::Describe(std::vector<EffectiveOption>* options) const {
   if (!given) return;
   options->push_back({"view", std::string(view ? ToString(*view) : "auto")});
@@ -182,7 +208,8 @@ void ViewOptions::Describe(std::vector<EffectiveOption>* options) const {
   if (!with_zero) options->push_back({"zero", std::string("none")});
   if (never_intercept) options->push_back({"intercept", std::string("no")});
   if (sine_and_cosine) {
-    options->push_back({"angles", std::string("sincos")});
+    options->push_back(
+        {"angles", std::string(*sine_and_cosine ? "sincos" : "none")});
   }
 }
 
@@ -273,15 +300,25 @@ std::vector<ViewedRows> MakeViews(const Dataset& training,
       }
     }
   }
+  std::vector<bool> angle_forms = {options.sine_and_cosine.value_or(false)};
+  if (options.given && !options.view && !options.sine_and_cosine &&
+      TurnsFar(training)) {
+    angle_forms.push_back(true);
+  }
+  std::vector<std::pair<View, bool>> forms;
+  for (const View view : wanted) {
+    for (const bool turned : angle_forms) forms.emplace_back(view, turned);
+  }
   const double first_error = LargestFirstError(training);
   std::vector<ViewedRows> views;
-  for (const View view : wanted) {
+  for (const auto& [view, sine_and_cosine] : forms) {
     ViewedRows viewed;
     viewed.view = view;
-    const bool derives = view != View::kRaw || options.sine_and_cosine;
+    viewed.sine_and_cosine = sine_and_cosine;
+    const bool derives = view != View::kRaw || sine_and_cosine;
     if (derives) {
       viewed.history = std::make_shared<const History>(
-          DefineView(training, view, time_constants, options.sine_and_cosine));
+          DefineView(training, view, time_constants, sine_and_cosine));
       viewed.rows = std::make_shared<const Dataset>(
           DeriveDataset(training, *viewed.history));
     } else {

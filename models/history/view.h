@@ -34,9 +34,13 @@ struct ViewOptions {
   /// A map without intercept in zeroed views: always, or where each session
   /// begins at zero within the indifference.
   bool never_intercept = false;
-  bool sine_and_cosine = false;  // of angles, in place of the angles
+  /// Sine and cosine of angles in place of the angles; empty: chosen with the
+  /// view where an angle turns far enough, else not.
+  std::optional<bool> sine_and_cosine;
 
   static ViewOptions Take(SpecOptions* options);
+  /// Takes clip=: whether maps in views are guarded.
+  bool TakeClip(SpecOptions* options) const;
   /// Those that are not the default.
   void Describe(std::vector<EffectiveOption>* options) const;
 };
@@ -44,10 +48,13 @@ struct ViewOptions {
 /// Training rows in one view.
 struct ViewedRows {
   View view = View::kRaw;
+  bool sine_and_cosine = false;            // of angles, in their place
   std::shared_ptr<const History> history;  // null: the rows as they are
   std::shared_ptr<const data::Dataset> rows;
   std::vector<bool> is_position;  // (inputs of rows)
   bool intercept = true;
+
+  std::string label() const;  // "history+zero", "raw with sine and cosine"
 };
 
 /// The views of `options` that these rows allow, simplest first: filters need

@@ -292,6 +292,9 @@ class SpecNetRecipe final : public NetRecipe {
     FittedModel fitted = FitView(*viewed.rows, context);
     if (view_.given) {
       fitted.choices.push_back({"view", std::string(ToString(viewed.view))});
+      if (viewed.sine_and_cosine) {
+        fitted.choices.push_back({"angles", std::string("sincos")});
+      }
       if (clips_) {
         fitted.guards = MakeGuards(fitted.inputs, training.target_values());
       }
@@ -300,12 +303,10 @@ class SpecNetRecipe final : public NetRecipe {
       std::string tried;
       for (std::size_t i = 0; i < views.size(); ++i) {
         if (i > 0) tried += ", ";
-        tried += fmt::format("{}: {:.4g}", ToString(views[i].view), scores[i]);
+        tried += fmt::format("{}: {:.4g}", views[i].label(), scores[i]);
       }
-      fitted.remarks.push_back(
-          fmt::format("view {} by inner hold-outs (tried {})",
-                      ToString(viewed.view),
-                      tried));
+      fitted.remarks.push_back(fmt::format(
+          "view {} by inner hold-outs (tried {})", viewed.label(), tried));
     }
     if (viewed.history != nullptr) {
       fitted = WithHistory(std::move(fitted), training, *viewed.history);
@@ -327,6 +328,8 @@ class SpecNetRecipe final : public NetRecipe {
         fixed.wfactor_.wfactor = std::get<double>(choice.value);
       } else if (choice.key == "view") {
         fixed.view_.view = ViewOf(std::get<std::string>(choice.value));
+      } else if (choice.key == "angles") {
+        fixed.view_.sine_and_cosine = true;
       }
     }
     return fixed;

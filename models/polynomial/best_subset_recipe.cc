@@ -71,8 +71,11 @@ class BestSubsetRecipe final : public PolynomialRecipe {
       throw std::invalid_argument(
           fmt::format("needs at least 3 rows, found {}", training.num_rows()));
     }
-    const TermDictionary dictionary(
-        training, DegreeFor(training.num_inputs()), terms_);
+    TermOptions terms = terms_;
+    if (terms.degree == 0 && terms.set == TermSet::kFull) {
+      terms.degree = DegreeFor(training.num_inputs());
+    }
+    const TermDictionary dictionary(training, terms);
     if (dictionary.NumOpen() > kMostTerms) {
       throw std::invalid_argument(fmt::format(
           "best subset is practical up to about {} candidate terms, and degree "
@@ -132,8 +135,7 @@ class BestSubsetRecipe final : public PolynomialRecipe {
 
  private:
   // The highest degree up to 3 with a practical number of terms.
-  int DegreeFor(Index num_inputs) const {
-    if (terms_.degree > 0) return terms_.degree;
+  static int DegreeFor(Index num_inputs) {
     int degree = 1;
     while (degree < 3 &&
            *CountTerms(num_inputs, degree + 1) <= kPracticalTerms) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "models/history/fit_in_view.h"
 #include "models/polynomial/formula.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/polynomial/selection_recipe.h"
@@ -29,18 +30,29 @@ class FormulaRecipe final : public PolynomialRecipe {
     centring_ = options.TakeChoice("centred", 0, {"harmless", "no"}) == 0
                     ? Centring::kHarmless
                     : Centring::kNone;
+    view_ = ViewOptions::Take(&options);
     options.RefuseOthers();
+    if (view_.given && !view_.view) {
+      throw std::invalid_argument(
+          fmt::format("model '{}': a formula is written for one view; name it, "
+                      "such as view=history:history=600",
+                      spec.text));
+    }
   }
 
   std::vector<EffectiveOption> options() const override {
-    return {{"formula", formula_}};
+    std::vector<EffectiveOption> options = {{"formula", formula_}};
+    view_.Describe(&options);
+    return options;
   }
 
   std::optional<std::string> WhatIsMissing(
       const Dataset& dataset) const override {
     for (const NamedTerm& term : terms_) {
       for (const NamedTerm::Factor& factor : term.factors) {
-        if (dataset.FindInput(factor.input) < 0) {
+        // A derived input is known when its view is made.
+        const bool derived = view_.given && factor.input.ends_with(')');
+        if (!derived && dataset.FindInput(factor.input) < 0) {
           return "an input '" + factor.input + "'";
         }
       }
@@ -54,6 +66,19 @@ class FormulaRecipe final : public PolynomialRecipe {
 
   FittedModel Fit(const Dataset& training,
                   const FitContext& context) const override {
+    if (!view_.given) return FitRows(training, context);
+    return FitInView(training,
+                     view_,
+                     false,
+                     context,
+                     [&](const Dataset& rows, const FitContext& inner) {
+                       return FitRows(rows, inner);
+                     });
+  }
+
+ private:
+  FittedModel FitRows(const Dataset& training,
+                      const FitContext& context) const {
     std::vector<std::string> names;
     for (const data::ColumnInfo& input : training.inputs()) {
       names.push_back(input.name);
@@ -68,10 +93,10 @@ class FormulaRecipe final : public PolynomialRecipe {
     return FitTerms(training, used.inputs, used.terms, context, centring_);
   }
 
- private:
   std::string formula_;
   std::vector<NamedTerm> terms_;
   Centring centring_ = Centring::kHarmless;
+  ViewOptions view_;
 };
 
 }  // namespace

@@ -137,7 +137,7 @@ std::vector<BasisCandidate> JudgeBases(const Dataset& training,
             "penalized {} view={} {} terms={} degree={} centring={} "
             "guarded={}",
             fitting::ToString(penalty),
-            ToString(viewed->view),
+            viewed->label(),
             fmt::join(view_words, " "),
             ToString(set),
             degree,
@@ -154,7 +154,7 @@ std::vector<BasisCandidate> JudgeBases(const Dataset& training,
              .guarded = basis.guarded,
              .label = fmt::format("{}, {}, {}",
                                   fitting::ToString(penalty),
-                                  ToString(viewed->view),
+                                  viewed->label(),
                                   ToString(set))});
       }
     }

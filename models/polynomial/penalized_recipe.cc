@@ -98,6 +98,9 @@ class PenalizedRecipe final : public PolynomialRecipe {
     if (choices_.view.given) {
       fitted.choices.push_back(
           {"view", std::string(ToString(best.fits->viewed->view))});
+      if (best.fits->viewed->sine_and_cosine) {
+        fitted.choices.push_back({"angles", std::string("sincos")});
+      }
     }
     if (choices_.chooses_basis()) {
       fitted.choices.push_back({"terms", std::string(ToString(best.terms))});

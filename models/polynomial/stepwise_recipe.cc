@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "fitting/selection/stepwise_selection.h"
+#include "models/history/fit_in_view.h"
 #include "models/inner_folds.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/polynomial/selection_bootstrap.h"
@@ -113,6 +114,9 @@ class StepwiseRecipe final : public PolynomialRecipe {
     constexpr std::int64_t kMostRepetitions = 1'000'000;
     bootstrap_ =
         options.TakeInteger("bootstrap", kByDefault, 0, kMostRepetitions);
+    view_ = ViewOptions::Take(&options);
+    guarded_ = view_.TakeClip(&options);
+    if (view_.never_intercept) refuse("intercept=no is for ridge and lasso");
     options.RefuseOthers();
     rules_.Validate();
   }
@@ -144,6 +148,8 @@ class StepwiseRecipe final : public PolynomialRecipe {
       options.push_back({"sigma2", rules_.sigma2});
     }
     terms_.Describe(&options);
+    view_.Describe(&options);
+    if (view_.given && !guarded_) add("clip", "none");
     return options;
   }
 
@@ -153,13 +159,24 @@ class StepwiseRecipe final : public PolynomialRecipe {
 
   FittedModel Fit(const Dataset& training,
                   const FitContext& context) const override {
+    if (!view_.given) return FitRows(training, context);
+    return FitInView(training,
+                     view_,
+                     guarded_,
+                     context,
+                     [&](const Dataset& rows, const FitContext& inner) {
+                       return FitRows(rows, inner);
+                     });
+  }
+
+ private:
+  FittedModel FitRows(const Dataset& training,
+                      const FitContext& context) const {
     if (training.num_rows() < 3) {
       throw std::invalid_argument(
           fmt::format("needs at least 3 rows, found {}", training.num_rows()));
     }
-    const int degree = terms_.degree > 0 ? terms_.degree
-                                         : DefaultDegree(training.num_inputs());
-    const TermDictionary dictionary(training, degree, terms_);
+    const TermDictionary dictionary(training, terms_);
     const bool by_triangle = NeedsTriangle(training.num_rows(),
                                            dictionary.design.num_terms(),
                                            context.most_design_values);
@@ -230,7 +247,7 @@ class StepwiseRecipe final : public PolynomialRecipe {
         fmt::format("{} of {} candidate terms up to degree {} chosen by {} {}",
                     used.terms.size(),
                     dictionary.design.num_terms(),
-                    degree,
+                    dictionary.degree,
                     DirectionWord(),
                     Upper(ToString(rules_.choose)));
     if (selection.ended == "interrupted") {
@@ -240,7 +257,6 @@ class StepwiseRecipe final : public PolynomialRecipe {
     return fitted;
   }
 
- private:
   const std::string& DirectionWord() const {
     return Directions()[static_cast<std::size_t>(rules_.direction)];
   }
@@ -323,6 +339,8 @@ class StepwiseRecipe final : public PolynomialRecipe {
   TermOptions terms_;
   StepwiseOptions rules_;
   std::int64_t bootstrap_ = kByDefault;
+  ViewOptions view_;
+  bool guarded_ = false;
 };
 
 }  // namespace

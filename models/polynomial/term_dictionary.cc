@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "fitting/least_squares/regression_diagnostics.h"
+#include "models/history/view.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/regression_report.h"
 
@@ -31,9 +32,15 @@ std::vector<std::string> InputNames(const Dataset& dataset) {
   return names;
 }
 
-std::vector<TermPowers> CheckedTerms(const Dataset& training, int degree) {
+std::vector<TermPowers> CheckedTerms(const Dataset& training,
+                                     TermSet set,
+                                     int degree) {
   constexpr Index kMostTerms = 2'000'000;
-  const auto count = CountTerms(training.num_inputs(), degree);
+  std::vector<bool> is_position;
+  for (const data::ColumnInfo& input : training.inputs()) {
+    is_position.push_back(IsPosition(input));
+  }
+  const auto count = CountTerms(set, is_position, degree);
   const Index rows = training.num_rows();
   const double values =
       count ? static_cast<double>(*count) * static_cast<double>(rows)
@@ -50,7 +57,7 @@ std::vector<TermPowers> CheckedTerms(const Dataset& training, int degree) {
         count ? std::to_string(*count) : "countless",
         rows));
   }
-  return AllTerms(training.num_inputs(), degree);
+  return MakeTerms(set, is_position, degree);
 }
 
 // Columns of the named terms in the dictionary.
@@ -76,9 +83,10 @@ std::vector<Index> Find(const std::vector<NamedTerm>& named,
 }
 
 PolynomialDesign MakeDesign(const Dataset& training,
+                            TermSet set,
                             int degree,
                             Centring centring) {
-  std::vector<TermPowers> terms = CheckedTerms(training, degree);
+  std::vector<TermPowers> terms = CheckedTerms(training, set, degree);
   std::vector<Index> inputs = AllColumns(training);
   ColumnScaling scaling = PolynomialScaling(training, inputs, terms, centring);
   return {training, std::move(inputs), std::move(scaling), std::move(terms)};
@@ -93,10 +101,12 @@ int DefaultDegree(Index num_inputs) {
 
 TermOptions TermOptions::Take(SpecOptions* options, bool with_include) {
   TermOptions terms;
-  constexpr std::int64_t kByNumberOfInputs = 0;
+  constexpr std::int64_t kByTerms = 0;
   constexpr std::int64_t kMostDegree = 4;
+  terms.set = static_cast<TermSet>(options->TakeChoice(
+      "terms", static_cast<std::size_t>(TermSet::kFull), TermSetWords()));
   terms.degree = static_cast<int>(
-      options->TakeInteger("degree", kByNumberOfInputs, 1, kMostDegree));
+      options->TakeInteger("degree", kByTerms, 1, kMostDegree));
   terms.centring = options->TakeChoice("centred", 0, {"yes", "no"}) == 0
                        ? Centring::kAll
                        : Centring::kNone;
@@ -121,6 +131,9 @@ void TermOptions::Describe(std::vector<EffectiveOption>* options) const {
     }
     return fmt::format("{}", fmt::join(products, "+"));
   };
+  if (set != TermSet::kFull) {
+    options->push_back({"terms", std::string(ToString(set))});
+  }
   if (degree > 0) options->push_back({"degree", std::int64_t{degree}});
   if (centring == Centring::kNone) {
     options->push_back({"centred", std::string("no")});
@@ -130,10 +143,11 @@ void TermOptions::Describe(std::vector<EffectiveOption>* options) const {
 }
 
 TermDictionary::TermDictionary(const Dataset& training,
-                               int degree_of_terms,
                                const TermOptions& options)
-    : degree(degree_of_terms),
-      design(MakeDesign(training, degree_of_terms, options.centring)),
+    : degree(options.degree > 0
+                 ? options.degree
+                 : DefaultDegreeOf(options.set, training.num_inputs())),
+      design(MakeDesign(training, options.set, degree, options.centring)),
       include(Find(options.include, design, degree, "include")),
       excluded(static_cast<std::size_t>(design.num_terms()), false) {
   for (const Index term : Find(options.exclude, design, degree, "exclude")) {

@@ -11,28 +11,28 @@
 #include "models/model_spec.h"
 #include "models/polynomial/formula.h"
 #include "models/polynomial/polynomial_design.h"
+#include "models/polynomial/term_set.h"
 
 namespace errmap::models {
 
 /// The options that all recipes share which choose among terms.
 struct TermOptions {
-  int degree = 0;  // 1 .. 4; 0: by the number of inputs
+  TermSet set = TermSet::kFull;
+  int degree = 0;  // 1 .. 4; 0: DefaultDegreeOf the set
   Centring centring = Centring::kAll;
   std::vector<NamedTerm> include;
   std::vector<NamedTerm> exclude;
 
-  /// Takes degree, centred and exclude, and include where it is allowed.
+  /// Takes terms, degree, centred and exclude, and include where it is allowed.
   static TermOptions Take(SpecOptions* options, bool with_include);
   /// Those that are not the default.
   void Describe(std::vector<EffectiveOption>* options) const;
 };
 
-/// All terms up to a degree in all inputs of a data set, and which of them are
-/// forced in or out.
+/// The terms that may be chosen over the inputs of a data set, and which of
+/// them are forced in or out.
 struct TermDictionary {
-  TermDictionary(const data::Dataset& training,
-                 int degree,
-                 const TermOptions& options);
+  TermDictionary(const data::Dataset& training, const TermOptions& options);
 
   int degree;
   PolynomialDesign design;

@@ -1,5 +1,6 @@
 #include "models/history/view.h"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,45 @@ TEST(View, AutoOffersRawHistoryAndHistoryWithZero) {
   // Two inputs, and each through three filters.
   EXPECT_EQ(views[1].rows->num_inputs(), 8);
   EXPECT_EQ(views[2].rows->num_inputs(), 8);
+}
+
+// Two runs of two rotary axes; `span` is how far the second turns, in deg.
+data::Dataset TurningAxes(double span) {
+  constexpr Eigen::Index kRows = 40;
+  Eigen::MatrixXd values(2 * kRows, 2);
+  std::vector<Eigen::Index> codes;
+  for (Eigen::Index row = 0; row < values.rows(); ++row) {
+    const double k = static_cast<double>(row);
+    values.row(row) << 0.1 * std::sin(k),
+        span * 0.5 * (1.0 + std::cos(0.3 * k));
+    codes.push_back(row / kRows);
+  }
+  return errmap::testing::WithLog(
+      {errmap::testing::ColumnNamed("tilt_mrad"),
+       errmap::testing::ColumnNamed("c_deg")},
+      values,
+      Eigen::VectorXd::LinSpaced(2 * kRows, 0.0, 790.0),
+      codes);
+}
+
+TEST(View, AutoTriesSineAndCosineOfAnglesThatTurnFar) {
+  const auto near = MakeViews(TurningAxes(20.0), OptionsOf(":view=auto"), 0.0);
+  const auto far = MakeViews(TurningAxes(180.0), OptionsOf(":view=auto"), 0.0);
+  EXPECT_EQ(far.size(), 2 * near.size());
+  ASSERT_GE(far.size(), 2U);
+  EXPECT_EQ(far[0].label(), "raw");
+  EXPECT_EQ(far[1].label(), "raw with sine and cosine");
+  EXPECT_THAT(
+      NamesOf(*far[1].rows),
+      ElementsAre(
+          "sin(tilt_mrad)", "cos(tilt_mrad)", "sin(c_deg)", "cos(c_deg)"));
+  const data::Dataset axes = TurningAxes(180.0);
+  EXPECT_NEAR(far[1].rows->input_values()(7, 3),
+              std::cos(axes.input_values()(7, 1) * std::acos(-1.0) / 180.0),
+              1e-15);
+  EXPECT_EQ(MakeViews(axes, OptionsOf(":view=auto:angles=none"), 0.0).size(),
+            near.size());
+  EXPECT_EQ(MakeViews(axes, OptionsOf(":view=raw"), 0.0).size(), 1U);
 }
 
 TEST(View, NamesAndUnitsSayWhatADerivedInputIs) {

@@ -17,6 +17,7 @@
 #include "models/recipe_catalog.h"
 #include "models/study/study.h"
 #include "stats/random.h"
+#include "tests/models/history/history_data.h"
 #include "tests/models/model_test_data.h"
 
 namespace errmap::models {
@@ -171,6 +172,92 @@ TEST(Tuning, NoFittedMapDependsOnTheRowsHeldOut) {
         EXPECT_EQ(x.choices[i].key, y.choices[i].key) << what;
         EXPECT_EQ(x.choices[i].value, y.choices[i].value) << what;
       }
+    }
+  }
+}
+
+// Six runs of 20 rows whose error follows a filtered temperature.
+data::Dataset::Parts Runs() {
+  constexpr Index kRuns = 6;
+  constexpr Index kRows = 20;
+  const Index rows = kRuns * kRows;
+  MatrixXd values(rows, 3);
+  VectorXd time(rows);
+  std::vector<Index> codes;
+  VectorXd target(rows);
+  stats::Random random(5);
+  double slow = 0.0;
+  for (Index row = 0; row < rows; ++row) {
+    const Index run = row / kRows;
+    const double k = static_cast<double>(row % kRows);
+    const double warmth = 3.0 * random.Uniform();
+    slow = row % kRows == 0 ? warmth : slow + 0.2 * (warmth - slow);
+    values.row(row) << 50.0 * static_cast<double>(row % 4),
+        20.0 + static_cast<double>(run) + warmth, 21.0 + std::sin(0.7 * k);
+    time[row] = 9000.0 * static_cast<double>(run) + 100.0 * k;
+    target[row] = 4.0 * slow + 0.02 * values(row, 0) * slow + random.Uniform();
+    codes.push_back(run);
+  }
+  const data::Dataset dataset =
+      errmap::testing::WithLog({errmap::testing::ColumnNamed("position_mm"),
+                                errmap::testing::ColumnNamed("t1_degC"),
+                                errmap::testing::ColumnNamed("t2_degC")},
+                               values,
+                               time,
+                               codes);
+  data::Dataset::Parts parts = PartsOf(dataset);
+  parts.target_values = target;
+  parts.log = dataset.log();
+  parts.log_rows = dataset.log_rows();
+  return parts;
+}
+
+TEST(Tuning, NoMapWithAMemoryDependsOnSessionsHeldOut) {
+  const data::Dataset clean(Runs());
+  const std::string fixed = ":view=auto:history=300+1000";
+  const auto recipes = [&] {
+    Recipes made;
+    for (const std::string& spec :
+         {"poly:ridge" + fixed,
+          "poly:lasso" + fixed,
+          "poly:stepwise:terms=axis" + fixed,
+          "net:scg:iterations=15:hidden=3" + fixed,
+          std::string("blend:history=300+1000"),
+          std::string("blend:rule=stack:history=300+1000")}) {
+      made.push_back(MakeRecipe(spec));
+    }
+    return made;
+  };
+  Holdout holdout = MakeHoldout(stats::ParseHoldout("sessions:3"), clean, 1);
+  holdout.folds.resize(1);
+  const std::vector<Index>& test = holdout.folds[0].test;
+  data::Dataset::Parts other_targets = Runs();
+  data::Dataset::Parts other_inputs = Runs();
+  data::SessionLog log = *other_inputs.log;
+  for (const Index row : test) {
+    other_targets.target_values[row] = row % 2 == 0 ? 1e6 : -1e5;
+    other_inputs.input_values.row(row).setConstant(1e6);
+    log.input_values.row(row).setConstant(1e6);
+  }
+  other_inputs.log = std::make_shared<const data::SessionLog>(std::move(log));
+  const auto study = [&](const data::Dataset& dataset) {
+    return RunStudy(dataset, {holdout}, recipes(), {.jobs = 2});
+  };
+  const StudyResult a = study(clean);
+  const StudyResult b = study(data::Dataset(std::move(other_targets)));
+  const StudyResult c = study(data::Dataset(std::move(other_inputs)));
+  for (std::size_t m = 0; m < a.models.size(); ++m) {
+    const std::string& what = a.models[m].name;
+    ASSERT_EQ(a.models[m].holdouts[0].why_failed, "") << what;
+    const FoldResult& x = a.models[m].holdouts[0].folds[0];
+    const FoldResult& y = b.models[m].holdouts[0].folds[0];
+    const FoldResult& z = c.models[m].holdouts[0].folds[0];
+    EXPECT_EQ(x.test_predictions, y.test_predictions) << what;
+    EXPECT_NE(x.test_predictions, z.test_predictions) << what;
+    for (const FoldResult* fold : {&y, &z}) {
+      EXPECT_EQ(x.train_rmse, fold->train_rmse) << what;
+      EXPECT_EQ(x.remarks, fold->remarks) << what;
+      EXPECT_EQ(x.summary.message, fold->summary.message) << what;
     }
   }
 }

@@ -1,0 +1,93 @@
+#include "models/history/fit_in_view.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "models/history/with_history.h"
+#include "models/inner_folds.h"
+
+namespace errmap::models {
+namespace {
+
+using data::Dataset;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+// Root of the TypicalError of `fit` on rows of one view; NaN where a fold
+// cannot be fitted.
+double HeldOutError(const Dataset& rows,
+                    const FitContext& context,
+                    const FitRows& fit) {
+  const InnerFolds inner = MakeInnerFolds(rows, context);
+  const fitting::FoldCodes& folds = inner.folds;
+  const Index first = folds.first_judged();
+  VectorXd mean_squares(folds.count() - first);
+  VectorXd sizes(folds.count() - first);
+  for (Index fold = first; fold < folds.count(); ++fold) {
+    const fitting::FoldCodes::Rows split = folds.Split(fold);
+    const Dataset test = rows.SelectRows(split.test);
+    try {
+      const FittedModel fitted = fit(rows.SelectRows(split.train), context);
+      mean_squares[fold - first] =
+          (test.target_values() - fitted.Predict(test)).squaredNorm() /
+          static_cast<double>(test.num_rows());
+    } catch (const std::invalid_argument&) {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+    sizes[fold - first] = static_cast<double>(test.num_rows());
+  }
+  return std::sqrt(
+      TypicalError(inner, mean_squares, sizes, context.indifference)
+          .mean_square);
+}
+
+}  // namespace
+
+FittedModel FitInView(const Dataset& training,
+                      const ViewOptions& options,
+                      bool guarded,
+                      const FitContext& context,
+                      const FitRows& fit) {
+  const std::vector<ViewedRows> views =
+      MakeViews(training, options, context.indifference);
+  const ViewedRows* chosen = &views.front();
+  std::string tried;
+  double least = std::numeric_limits<double>::quiet_NaN();
+  if (views.size() > 1) {
+    FitContext inner = context;
+    inner.explain = false;
+    inner.keep_trace = false;
+    inner.shared = nullptr;
+    for (const ViewedRows& viewed : views) {
+      const double error = HeldOutError(*viewed.rows, inner, fit);
+      tried += fmt::format(
+          "{}{}: {:.4g}", tried.empty() ? "" : ", ", viewed.label(), error);
+      if (error < least || std::isnan(least)) {
+        least = error;
+        chosen = &viewed;
+      }
+    }
+  }
+  FittedModel fitted = fit(*chosen->rows, context);
+  fitted.inner_rmse = least;
+  fitted.choices.push_back({"view", std::string(ToString(chosen->view))});
+  if (chosen->sine_and_cosine) {
+    fitted.choices.push_back({"angles", std::string("sincos")});
+  }
+  if (!tried.empty()) {
+    fitted.remarks.push_back(fmt::format(
+        "view {} by inner hold-outs (tried {})", chosen->label(), tried));
+  }
+  if (guarded) {
+    fitted.guards = MakeGuards(fitted.inputs, training.target_values());
+  }
+  if (chosen->history == nullptr || fitted.inputs.empty()) return fitted;
+  return WithHistory(std::move(fitted), training, *chosen->history);
+}
+
+}  // namespace errmap::models
