@@ -1,6 +1,8 @@
 #include "stats/double_double.h"
 
+#include <array>
 #include <cctype>
+#include <charconv>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
@@ -168,6 +170,15 @@ DoubleDouble ParseDoubleDouble(std::string_view text) {
   if (at != text.size()) return fail();
   const DoubleDouble value = TimesPowerOfTen(digits, exponent);
   return negative ? -value : value;
+}
+
+DoubleDouble DecimalOf(double x) {
+  if (!std::isfinite(x)) return x;
+  // The longest is of the form -2.2250738585072014e-308.
+  std::array<char, 32> buffer{};
+  const auto [end, error] =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), x);
+  return ParseDoubleDouble({buffer.data(), end});
 }
 
 }  // namespace errmap::stats

@@ -137,6 +137,11 @@ inline bool isfinite(const DoubleDouble& x) { return std::isfinite(x.hi); }
 /// anything else.
 DoubleDouble ParseDoubleDouble(std::string_view text);
 
+/// The shortest decimal that reads back to `x`, to 106 bits: the number that a
+/// file said from which `x` was read, and never more than half a unit in the
+/// last place away from `x`. What is not finite stays as it is.
+DoubleDouble DecimalOf(double x);
+
 }  // namespace errmap::stats
 
 namespace Eigen {

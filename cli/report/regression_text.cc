@@ -117,7 +117,8 @@ std::string StepLog(const RegressionReport& report) {
 
 std::string CoefficientTable(const RegressionReport& report) {
   TextTable table;
-  std::vector<ReportTerm> lines{report.intercept};
+  std::vector<ReportTerm> lines;
+  if (report.fit.has_intercept) lines.push_back(report.intercept);
   lines.insert(lines.end(), report.terms.begin(), report.terms.end());
   if (report.penalised) {
     table.Add({"term", "estimate"});
@@ -138,7 +139,7 @@ std::string CoefficientTable(const RegressionReport& report) {
     table.Add(std::move(head));
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const fitting::CoefficientEstimate& numbers = lines[i].numbers;
-      const bool intercept = i == 0;
+      const bool intercept = report.fit.has_intercept && i == 0;
       std::vector<std::string> row{
           lines[i].name,
           Figure(numbers.estimate, 9),
@@ -176,7 +177,7 @@ std::string Anova(const RegressionReport& report) {
   const fitting::RegressionDiagnostics& fit = report.fit;
   TextTable table;
   table.Add({"source", "df", "sum of squares", "mean square", "F", "p"});
-  const double k = static_cast<double>(fit.rank - 1);
+  const double k = static_cast<double>(fit.regression_degrees_of_freedom());
   table.Add({"regression",
              Figure(k, 12),
              Figure(fit.regression_sum_of_squares, 7),
@@ -189,7 +190,7 @@ std::string Anova(const RegressionReport& report) {
        Figure(fit.residual_sum_of_squares, 7),
        fit.residual_degrees_of_freedom > 0.0 ? Figure(fit.s * fit.s, 7) : ""});
   table.Add({"total",
-             Figure(fit.observations - 1.0, 12),
+             Figure(fit.total_degrees_of_freedom(), 12),
              Figure(fit.total_sum_of_squares, 7)});
   return fmt::format("Analysis of variance{}\n",
                      report.weighted ? " (weighted)" : "") +
@@ -219,14 +220,15 @@ std::string Quality(const RegressionReport& report,
   }
   text += fmt::format(
       "largest residual {} (row {}), largest leverage {}\n"
-      "condition number {} (columns of unit length, with intercept), "
+      "condition number {} (columns of unit length{}), "
       "effective rank {} of {}\n",
       error.WithUnit(report.rows.largest_residual),
       report.rows.largest_residual_row,
       Figure(report.rows.largest_leverage, 4),
       Figure(fit.condition, 4),
+      fit.has_intercept ? ", with intercept" : "",
       fit.effective_rank,
-      report.terms.size() + 1);
+      report.terms.size() + (fit.has_intercept ? 1 : 0));
   return text + "\n";
 }
 
@@ -382,7 +384,10 @@ Json RegressionJson(const RegressionReport& report) {
                      {"cp", numbers.cp},
                      {"cv", numbers.cv}});
   }
-  Json coefficients = Json::array({EstimateJson(report.intercept, true)});
+  Json coefficients = Json::array();
+  if (fit.has_intercept) {
+    coefficients.push_back(EstimateJson(report.intercept, true));
+  }
   for (const ReportTerm& term : report.terms) {
     coefficients.push_back(EstimateJson(term, false));
   }
@@ -415,7 +420,7 @@ Json RegressionJson(const RegressionReport& report) {
                                 {"standard_error", report.standard_errors}};
     return json;
   }
-  json["anova"] = {{"regression_df", fit.rank - 1},
+  json["anova"] = {{"regression_df", fit.regression_degrees_of_freedom()},
                    {"regression_ss", fit.regression_sum_of_squares},
                    {"residual_df", fit.residual_degrees_of_freedom},
                    {"residual_ss", fit.residual_sum_of_squares},
@@ -433,6 +438,7 @@ Json RegressionJson(const RegressionReport& report) {
   json["largest_leverage"] = report.rows.largest_leverage;
   json["condition"] = fit.condition;
   json["effective_rank"] = fit.effective_rank;
+  json["bits"] = fit.bits;
   json["excluded"] = std::move(excluded);
   json["aliased"] = std::move(aliased);
   json["after_selection"] = report.selected;

@@ -105,13 +105,20 @@ ExtendedLeastSquaresFit Solve(const ExtendedMatrix& scaled,
             : DoubleDouble(nan);
   const double y_length =
       std::ldexp(response.cast<double>().stableNorm(), -bits);
+  // Rounding also turns the columns into the residuals: that part grows with
+  // the square of the condition.
+  const double turned =
+      std::ldexp(std::sqrt(fit.residual_sum_of_squares.hi *
+                           static_cast<double>(inverse.squaredNorm())),
+                 -bits);
   fit.error_estimate = 0.0;
   for (Index j = 0; j < p; ++j) {
     const double b_j = extended_b[j].hi;
     const DoubleDouble length(
         static_cast<DoubleDouble>(Scalar(inverse.row(j).squaredNorm())));
-    fit.error_estimate = std::max(fit.error_estimate,
-                                  y_length * sqrt(length).hi / std::abs(b_j));
+    fit.error_estimate =
+        std::max(fit.error_estimate,
+                 (y_length + turned) * sqrt(length).hi / std::abs(b_j));
     fit.coefficients[j] = extended_b[j] * scales[j];
     fit.standard_deviations[j] = sqrt(variance * length) * scales[j];
   }

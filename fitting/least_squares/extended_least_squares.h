@@ -28,8 +28,9 @@ struct ExtendedLeastSquaresFit {
   Eigen::Index degrees_of_freedom = 0;  // n - p
   /// |R| |R^-1| (Frobenius) of the design with columns of unit length.
   double condition = 0.0;
-  /// max over j of 2^-bits |row j of R^-1| |y| / |b_j|: relative error that
-  /// rounding may leave in the worst coefficient; infinite where one is 0.
+  /// max over j of 2^-bits |row j of R^-1| (|y| + |R^-1| |r|) / |b_j|: relative
+  /// error that rounding may leave in the worst coefficient; infinite where
+  /// one is 0.
   double error_estimate = 0.0;
   int bits = 0;  // of the arithmetic that gave the solution: 53 or 106
   /// False where the columns depend on each other to working precision: the

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include <Eigen/QR>
+
+#include "fitting/least_squares/orthogonal_basis.h"
 
 namespace errmap::fitting {
 namespace {
@@ -14,6 +17,9 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using stats::DoubleDouble;
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 void CheckShapes(const MatrixXd& design,
                  const VectorXd& response,
@@ -40,48 +46,458 @@ void CheckShapes(const MatrixXd& design,
   }
 }
 
+// A problem with its weights worked in and columns of about unit length, in
+// double and, once asked for, in 106 bits.
+class Problem {
+ public:
+  Problem(const MatrixXd& design,
+          const VectorXd& response,
+          const VectorXd& weights,
+          const LeastSquaresOptions& options)
+      : options_(options), weights_(weights), columns_(design), y_(response) {
+    if (weights.size() != 0) {
+      const VectorXd roots = weights.cwiseSqrt();
+      columns_ = roots.asDiagonal() * columns_;
+      y_ = roots.cwiseProduct(y_);
+    }
+    scales_.resize(columns_.cols());
+    for (Index j = 0; j < columns_.cols(); ++j) {
+      const double length = columns_.col(j).stableNorm();
+      // A power of two: exact, in 106 bits as well.
+      scales_[j] = length > 0.0 ? std::ldexp(1.0, -std::ilogb(length)) : 1.0;
+      columns_.col(j) *= scales_[j];
+    }
+  }
+
+  const LeastSquaresOptions& options() const { return options_; }
+  const MatrixXd& columns() const { return columns_; }
+  const VectorXd& y() const { return y_; }
+  const VectorXd& scales() const { return scales_; }
+
+  // Design and response in 106 bits, weighted and scaled alike.
+  const ExtendedSystem& exact() {
+    if (exact_) return *exact_;
+    if (options_.exact) {
+      exact_ = options_.exact();
+      if (exact_->design.rows() != columns_.rows() ||
+          exact_->design.cols() != columns_.cols() ||
+          exact_->response.size() != y_.size()) {
+        throw std::invalid_argument(
+            "SolveLeastSquares: the exact system has another shape");
+      }
+      for (Index i = 0; i < weights_.size(); ++i) {
+        const DoubleDouble root = sqrt(DoubleDouble(weights_[i]));
+        exact_->response[i] *= root;
+        for (Index j = 0; j < columns_.cols(); ++j) {
+          exact_->design(i, j) *= root;
+        }
+      }
+      for (Index j = 0; j < columns_.cols(); ++j) {
+        for (Index i = 0; i < y_.size(); ++i) {
+          exact_->design(i, j) *= scales_[j];
+        }
+      }
+    } else {
+      exact_ = ExtendedSystem{columns_.cast<DoubleDouble>(),
+                              y_.cast<DoubleDouble>()};
+    }
+    return *exact_;
+  }
+
+  // Length of what rounding of the data may leave of column j less `parts` (k)
+  // of the columns kept.
+  double Noise(Index j,
+               const std::vector<Index>& kept,
+               const VectorXd& parts) const {
+    if (!options_.noise) return 0.0;
+    constexpr double kMargin = 4.0;
+    VectorXd combination = VectorXd::Zero(columns_.cols());
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      combination[kept[k]] = -parts[static_cast<Index>(k)] * scales_[kept[k]];
+    }
+    combination[j] = scales_[j];
+    return kMargin * options_.noise(combination);
+  }
+
+ private:
+  const LeastSquaresOptions& options_;
+  const VectorXd& weights_;
+  MatrixXd columns_;
+  VectorXd y_;
+  VectorXd scales_;
+  std::optional<ExtendedSystem> exact_;
+};
+
+// Which columns stay, and Q R of them.
+struct Decomposition {
+  std::vector<Index> kept;
+  std::vector<Index> aliased;
+  std::vector<Index> nearly_aliased;
+  MatrixXd triangle;  // R (k x k)
+  VectorXd rotated;   // Q'y (k)
+  MatrixXd basis;     // Q (n x k), where asked for
+};
+
+// What the columns kept leave of column j in 106 bits, as far as it takes to
+// see that it is below `enough`; `along` (k) gets the column's part in each
+// basis vector.
+VectorXd ExactRemainder(const ExtendedSystem& exact,
+                        const std::vector<Index>& kept,
+                        const OrthogonalBasis& basis,
+                        Index j,
+                        double enough,
+                        VectorXd* along) {
+  constexpr int kMostPasses = 20;
+  constexpr double kStalled = 0.5;
+  ExtendedVector rest = exact.design.col(j);
+  along->setZero(basis.size());
+  double length = std::numeric_limits<double>::infinity();
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const double before = length;
+    length = rest.cast<double>().norm();
+    if (length <= enough || length > kStalled * before) break;
+    const VectorXd part = basis.Q().transpose() * rest.cast<double>();
+    const VectorXd step = basis.R().triangularView<Eigen::Upper>().solve(part);
+    *along += part;
+    for (Index k = 0; k < step.size(); ++k) {
+      const auto column = exact.design.col(kept[static_cast<std::size_t>(k)]);
+      const DoubleDouble factor = step[k];
+      for (Index i = 0; i < rest.size(); ++i) rest[i] -= column[i] * factor;
+    }
+  }
+  return rest.cast<double>();
+}
+
+// Column after column, each judged by what those kept leave of it.
+class OneByOne {
+ public:
+  explicit OneByOne(Problem* problem)
+      : problem_(problem), basis_(problem->columns().rows()) {}
+
+  Decomposition Run() {
+    // First as R does. What R would drop but double cannot show to follow has
+    // to wait: a later column may stand for it, and better.
+    std::vector<Index> doubtful;
+    for (Index j = 0; j < problem_->columns().cols(); ++j) {
+      Judge(j);
+      if (is_clear_) {
+        Keep(j);
+      } else if (follows_) {
+        result_.aliased.push_back(j);
+      } else {
+        doubtful.push_back(j);
+      }
+    }
+    for (const Index j : doubtful) {
+      Judge(j);
+      if (!follows_) JudgeExactly(j);
+      if (follows_) {
+        result_.aliased.push_back(j);
+      } else {
+        Keep(j);
+        result_.nearly_aliased.push_back(j);
+      }
+    }
+    std::sort(result_.aliased.begin(), result_.aliased.end());
+    result_.basis = MatrixXd(problem_->y().size(), 0);
+    if (basis_.size() > 0) {
+      result_.triangle = basis_.R();
+      result_.basis = basis_.Q();
+    }
+    result_.rotated = result_.basis.transpose() * problem_->y();
+    return std::move(result_);
+  }
+
+ private:
+  double Enough(Index j) const {
+    return problem_->options().confirmed * problem_->columns().col(j).norm();
+  }
+
+  // Of the columns kept in the one judged (k).
+  VectorXd PartsOf() const {
+    return basis_.R().triangularView<Eigen::Upper>().solve(along_);
+  }
+
+  void Judge(Index j) {
+    const auto column = problem_->columns().col(j);
+    const double length = column.norm();
+    rest_ = basis_.Remainder(column, &along_);
+    follows_ = false;
+    is_clear_ = basis_.size() < column.size() &&
+                rest_.norm() > problem_->options().aliased * length;
+    if (is_clear_) return;
+    // Double settles it where its rounding cannot hide more.
+    constexpr double kRoundings = 4.0;
+    const double rounding =
+        kRoundings * kEpsilon * (length + PartsOf().lpNorm<1>());
+    follows_ =
+        basis_.size() == column.size() || rest_.norm() + rounding <= Enough(j);
+  }
+
+  void JudgeExactly(Index j) {
+    rest_ = ExactRemainder(
+        problem_->exact(), result_.kept, basis_, j, Enough(j), &along_);
+    follows_ = !(rest_.norm() > Enough(j)) ||
+               !(rest_.norm() > problem_->Noise(j, result_.kept, PartsOf()));
+    // The exact remainder is at right angles to rounding of the parts only.
+    VectorXd more;
+    rest_ = basis_.Remainder(rest_, &more);
+    along_ += more;
+  }
+
+  void Keep(Index j) {
+    basis_.Append(rest_, along_);
+    result_.kept.push_back(j);
+  }
+
+  Problem* problem_;
+  OrthogonalBasis basis_;
+  Decomposition result_;
+  // Of the column judged last.
+  VectorXd rest_;
+  VectorXd along_;
+  bool is_clear_ = false;  // R would keep it
+  bool follows_ = false;   // to 106 bits
+};
+
+Decomposition Decompose(Problem* problem, bool with_basis) {
+  const MatrixXd& columns = problem->columns();
+  const Index p = columns.cols();
+  if (columns.rows() >= p) {
+    const Eigen::HouseholderQR<MatrixXd> qr(columns);
+    Decomposition result;
+    result.triangle = qr.matrixQR().topRows(p).triangularView<Eigen::Upper>();
+    bool all_stay = true;
+    for (Index j = 0; j < p; ++j) {
+      all_stay = all_stay &&
+                 std::abs(result.triangle(j, j)) >
+                     problem->options().aliased * result.triangle.col(j).norm();
+      result.kept.push_back(j);
+    }
+    if (all_stay) {
+      result.rotated = (qr.householderQ().transpose() * problem->y()).head(p);
+      if (with_basis) {
+        result.basis =
+            qr.householderQ() * MatrixXd::Identity(columns.rows(), p);
+      }
+      return result;
+    }
+  }
+  return OneByOne(problem).Run();
+}
+
+// Of the triangle's columns at unit length.
+double PivotRatio(MatrixXd triangle) {
+  for (Index j = 0; j < triangle.cols(); ++j) triangle.col(j).normalize();
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(triangle);
+  const Index last = triangle.cols() - 1;
+  return std::abs(qr.matrixR()(0, 0)) / std::abs(qr.matrixR()(last, last));
+}
+
+// A design of up to this many values is refined, and one of up to this many
+// products solved in 106 bits: about half a second each.
+constexpr double kMostValues = 2e6;
+constexpr double kMostProducts = 2e7;
+
+// The solution for the columns kept (k), and what it leaves.
+struct Refined {
+  ExtendedVector coefficients;
+  DoubleDouble residual_sum_of_squares;
+};
+
+// Solves [I A; A' 0] [r; x] = [y; 0] of the exact numbers by corrections from
+// A = Q R in double (Bjorck 1967), which shrink by about epsilon times the
+// condition. Empty where they stop before double's last digit.
+std::optional<Refined> Refine(Problem* problem,
+                              Decomposition parts,
+                              double condition) {
+  constexpr int kMostPasses = 30;
+  constexpr double kStalled = 0.5;
+  constexpr double kExtendedEpsilon = 1e-31;
+  const auto& [design, response] = problem->exact();
+  const Index n = response.size();
+  const auto k = static_cast<Index>(parts.kept.size());
+  const MatrixXd& triangle = parts.triangle;
+  const auto r = triangle.triangularView<Eigen::Upper>();
+  if (parts.basis.cols() != k) {
+    // As orthonormal as the condition lets it: that costs passes, not digits.
+    parts.basis = problem->columns()(Eigen::all, parts.kept);
+    r.solveInPlace<Eigen::OnTheRight>(parts.basis);
+  }
+  const double unresolved = kExtendedEpsilon * condition;
+  ExtendedVector x = ExtendedVector::Zero(k);
+  ExtendedVector residual = ExtendedVector::Zero(n);
+  VectorXd rest = response.cast<double>();  // y - r - A x
+  double before = std::numeric_limits<double>::infinity();
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    // Sums side by side: one after the other they would wait for each other.
+    ExtendedVector sums = ExtendedVector::Zero(k);  // A' r
+    for (Index i = 0; i < n; ++i) {
+      for (Index j = 0; j < k; ++j) {
+        sums[j] +=
+            design(i, parts.kept[static_cast<std::size_t>(j)]) * residual[i];
+      }
+    }
+    const VectorXd across = -sums.cast<double>();
+    const VectorXd along = parts.basis.transpose() * rest;
+    const VectorXd turned = r.transpose().solve(across);
+    const VectorXd step = r.solve(along - turned);
+    const VectorXd moved = rest + parts.basis * (turned - along);
+    for (Index j = 0; j < k; ++j) x[j] += step[j];
+    for (Index i = 0; i < n; ++i) residual[i] += moved[i];
+    if (!x.cast<double>().allFinite()) return std::nullopt;
+
+    const double floor = unresolved * x.cast<double>().norm();
+    bool all_digits = true;
+    for (Index j = 0; j < k; ++j) {
+      const double enough = 0.25 * kEpsilon * std::abs(x[j].hi);
+      all_digits = all_digits && std::abs(step[j]) <= std::max(enough, floor);
+    }
+    ExtendedVector left = response;
+    for (Index j = 0; j < k; ++j) {
+      const auto column = design.col(parts.kept[static_cast<std::size_t>(j)]);
+      for (Index i = 0; i < n; ++i) left[i] -= column[i] * x[j];
+    }
+    if (all_digits) return Refined{std::move(x), left.squaredNorm()};
+    if (step.norm() > kStalled * before) return std::nullopt;
+    before = step.norm();
+    rest = (left - residual).cast<double>();
+  }
+  return std::nullopt;
+}
+
+// Solves for the columns kept in 106 bits throughout. Empty where their design
+// is dependent even so.
+std::optional<ExtendedLeastSquaresFit> SolveExactly(
+    Problem* problem, const std::vector<Index>& kept) {
+  constexpr double kAlwaysExtended = 15.0;
+  const ExtendedSystem& exact = problem->exact();
+  ExtendedLeastSquaresFit fit =
+      SolveExtendedLeastSquares(exact.design(Eigen::all, kept),
+                                exact.response,
+                                {.digits = kAlwaysExtended});
+  if (!fit.full_rank) return std::nullopt;
+  return fit;
+}
+
+// Relative error that rounding may leave in the worst coefficient of a solution
+// in double (k), as in extended_least_squares.h.
+double ErrorEstimate(const MatrixXd& triangle,
+                     const VectorXd& solution,
+                     double length,
+                     double residual) {
+  const Index k = triangle.cols();
+  const MatrixXd inverse =
+      triangle.triangularView<Eigen::Upper>().solve(MatrixXd::Identity(k, k));
+  const double turned = inverse.norm() * residual;
+  return 0.5 * kEpsilon * (length + turned) *
+         (inverse.rowwise().norm().array() / solution.array().abs()).maxCoeff();
+}
+
+// Of the columns kept, in the caller's units; NaN for the others.
+VectorXd InPlace(const Problem& problem,
+                 const std::vector<Index>& kept,
+                 const ExtendedVector& values) {
+  VectorXd all = VectorXd::Constant(problem.scales().size(),
+                                    std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const Index j = kept[k];
+    all[j] = values[static_cast<Index>(k)].hi * problem.scales()[j];
+  }
+  return all;
+}
+
+// The digits that double has not given; nothing where they are not to be had.
+void AddDigits(Problem* problem,
+               const Decomposition& parts,
+               LeastSquaresFit* fit) {
+  const LeastSquaresOptions& options = problem->options();
+  const auto rank = static_cast<double>(fit->rank);
+  const double values = static_cast<double>(problem->y().size()) * rank;
+  const bool few = values * rank <= kMostProducts;
+  const bool must = !fit->nearly_aliased.empty();
+  if (!must && values > kMostValues) return;
+  std::optional<Refined> refined = Refine(problem, parts, fit->condition);
+  std::optional<ExtendedLeastSquaresFit> solved;
+  if (refined ? options.with_deviations && few : must || few) {
+    solved = SolveExactly(problem, parts.kept);
+  }
+  if (!refined && solved) {
+    refined = {solved->coefficients, solved->residual_sum_of_squares};
+  }
+  if (!refined) return;
+  const VectorXd found = InPlace(*problem, parts.kept, refined->coefficients);
+  fit->coefficients(parts.kept) = found(parts.kept);
+  fit->residual_sum_of_squares = refined->residual_sum_of_squares.hi;
+  fit->bits = stats::kDoubleDoubleBits;
+  if (options.with_deviations && solved) {
+    fit->standard_deviations =
+        InPlace(*problem, parts.kept, solved->standard_deviations);
+  }
+}
+
 }  // namespace
+
+void LeastSquaresOptions::Validate() const {
+  const auto refuse = [](const std::string& what, double found) {
+    throw std::invalid_argument("LeastSquaresOptions: " + what + ", found " +
+                                std::to_string(found));
+  };
+  if (!(aliased > 0.0 && aliased < 1.0)) {
+    refuse("aliased must be above 0 and below 1", aliased);
+  }
+  if (!(confirmed > 0.0 && confirmed <= aliased)) {
+    refuse("confirmed must be above 0 and at most aliased", confirmed);
+  }
+  constexpr double kMostDigits = 15.0;
+  if (!(digits >= 0.0 && digits <= kMostDigits)) {
+    refuse("digits must be 0 to 15", digits);
+  }
+}
 
 LeastSquaresFit SolveLeastSquares(const MatrixXd& design,
                                   const VectorXd& response,
-                                  const VectorXd& weights) {
+                                  const VectorXd& weights,
+                                  const LeastSquaresOptions& options) {
+  options.Validate();
   CheckShapes(design, response, weights);
-  MatrixXd scaled = design;
-  VectorXd y = response;
-  if (weights.size() != 0) {
-    const VectorXd roots = weights.cwiseSqrt();
-    scaled = roots.asDiagonal() * scaled;
-    y = roots.cwiseProduct(y);
-  }
-  VectorXd lengths(scaled.cols());
-  for (Index j = 0; j < scaled.cols(); ++j) {
-    const double length = scaled.col(j).stableNorm();
-    lengths[j] = length > 0.0 ? length : 1.0;
-    scaled.col(j) /= lengths[j];
-  }
-  Eigen::ColPivHouseholderQR<MatrixXd> qr;
-  const double size =
-      static_cast<double>(std::max(design.rows(), design.cols()));
-  qr.setThreshold(size * std::numeric_limits<double>::epsilon());
-  qr.compute(scaled);
+  Problem problem(design, response, weights, options);
+  Decomposition parts = Decompose(&problem, false);
 
   LeastSquaresFit fit;
-  fit.rank = qr.rank();
+  fit.rank = static_cast<Index>(parts.kept.size());
+  fit.aliased = std::move(parts.aliased);
+  fit.nearly_aliased = std::move(parts.nearly_aliased);
   fit.coefficients = VectorXd::Zero(design.cols());
-  if (fit.rank > 0) fit.coefficients = qr.solve(y);
-  const auto& order = qr.colsPermutation().indices();
-  for (Index j = fit.rank; j < design.cols(); ++j) {
-    fit.aliased.push_back(order[j]);
-    fit.coefficients[order[j]] = 0.0;
-  }
-  std::sort(fit.aliased.begin(), fit.aliased.end());
-  fit.residual_sum_of_squares = (y - scaled * fit.coefficients).squaredNorm();
-  fit.coefficients = fit.coefficients.cwiseQuotient(lengths);
-  if (fit.rank > 0) {
-    fit.condition = std::abs(qr.matrixR()(0, 0)) /
-                    std::abs(qr.matrixR()(fit.rank - 1, fit.rank - 1));
+  fit.residual_sum_of_squares = problem.y().squaredNorm();
+  if (fit.rank == 0) return fit;
+  fit.condition = PivotRatio(parts.triangle);
+
+  const MatrixXd& triangle = parts.triangle;
+  const VectorXd solved =
+      triangle.triangularView<Eigen::Upper>().solve(parts.rotated);
+  VectorXd scaled = VectorXd::Zero(design.cols());
+  scaled(parts.kept) = solved;
+  const VectorXd residual = problem.y() - problem.columns() * scaled;
+  fit.residual_sum_of_squares = residual.squaredNorm();
+  fit.coefficients = scaled.cwiseProduct(problem.scales());
+  const bool has_digits =
+      options.digits == 0.0 ||
+      ErrorEstimate(triangle, solved, problem.y().norm(), residual.norm()) <=
+          std::pow(10.0, -options.digits);
+  if (!has_digits || !fit.nearly_aliased.empty()) {
+    AddDigits(&problem, parts, &fit);
   }
   return fit;
+}
+
+MatrixXd OrthonormalColumns(const MatrixXd& design) {
+  const VectorXd nothing = VectorXd::Zero(design.rows());
+  const VectorXd equal;
+  CheckShapes(design, nothing, equal);
+  const LeastSquaresOptions options;
+  Problem problem(design, nothing, equal, options);
+  return Decompose(&problem, true).basis;
 }
 
 }  // namespace errmap::fitting

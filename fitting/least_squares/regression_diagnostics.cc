@@ -8,8 +8,6 @@
 
 #include <Eigen/Dense>
 
-#include "fitting/information_criteria.h"
-#include "fitting/least_squares/linear_least_squares.h"
 #include "fitting/matrix_product.h"
 #include "stats/f_test.h"
 
@@ -48,8 +46,10 @@ void FindCondition(const MatrixXd& centred,
                    const VectorXd& means,
                    const VectorXd& intercept,
                    RegressionDiagnostics* fit) {
-  MatrixXd design(centred.rows(), centred.cols() + 1);
-  design.col(0) = intercept;
+  const Index first = fit->has_intercept ? 1 : 0;
+  MatrixXd design(centred.rows(), centred.cols() + first);
+  if (design.cols() == 0) return;
+  if (fit->has_intercept) design.col(0) = intercept;
   design.rightCols(centred.cols()) = centred + intercept * means.transpose();
   for (Index j = 0; j < design.cols(); ++j) {
     const double length = design.col(j).norm();
@@ -72,8 +72,30 @@ void FindCondition(const MatrixXd& centred,
 
 }  // namespace
 
-RegressionDiagnostics Diagnose(const RegressionProblem& problem) {
+LeastSquaresFit SolveRegression(const RegressionProblem& problem,
+                                const LeastSquaresOptions& options) {
   CheckShapes(problem);
+  const Index rows = problem.response.size();
+  MatrixXd design(rows, problem.terms.cols() + 1);
+  design.col(0) =
+      problem.intercept.size() != 0 ? problem.intercept : VectorXd::Ones(rows);
+  design.rightCols(problem.terms.cols()) = problem.terms;
+  return SolveLeastSquares(design, problem.response, problem.weights, options);
+}
+
+RegressionDiagnostics Diagnose(const RegressionProblem& problem) {
+  return Diagnose(problem, SolveRegression(problem));
+}
+
+RegressionDiagnostics Diagnose(const RegressionProblem& problem,
+                               const LeastSquaresFit& solution) {
+  CheckShapes(problem);
+  if (solution.coefficients.size() != problem.terms.cols() + 1) {
+    throw std::invalid_argument(
+        "Diagnose: the solution has " +
+        std::to_string(solution.coefficients.size()) + " coefficients for " +
+        std::to_string(problem.terms.cols()) + " terms and an intercept");
+  }
   const Index rows = problem.response.size();
   const VectorXd intercept = Weighted(
       problem.intercept.size() != 0 ? problem.intercept : VectorXd::Ones(rows),
@@ -83,7 +105,9 @@ RegressionDiagnostics Diagnose(const RegressionProblem& problem) {
   fit.observations = problem.observations > 0.0 ? problem.observations
                                                 : static_cast<double>(rows);
   fit.sum_of_weights = intercept.squaredNorm();
-  const double mean = intercept.dot(y) / fit.sum_of_weights;
+  fit.has_intercept = fit.sum_of_weights > 0.0;
+  const double share = fit.has_intercept ? 1.0 / fit.sum_of_weights : 0.0;
+  const double mean = intercept.dot(y) * share;
   const VectorXd centred_y = y - mean * intercept;
   fit.total_sum_of_squares = centred_y.squaredNorm();
 
@@ -92,27 +116,23 @@ RegressionDiagnostics Diagnose(const RegressionProblem& problem) {
   VectorXd spread(problem.terms.cols());  // lengths of the centred columns
   for (Index j = 0; j < centred.cols(); ++j) {
     VectorXd column = Weighted(problem.terms.col(j), problem.weights);
-    const double length = column.norm();
-    fit.means[j] = intercept.dot(column) / fit.sum_of_weights;
+    fit.means[j] = intercept.dot(column) * share;
     column -= fit.means[j] * intercept;
     spread[j] = column.norm();
-    // What is left of a constant column is rounding.
-    const double size = static_cast<double>(rows);
-    if (!(spread[j] > size * kEpsilon * length)) spread[j] = 0.0;
-    centred.col(j) =
-        spread[j] > 0.0 ? VectorXd(column / spread[j]) : VectorXd::Zero(rows);
-  }
-  std::vector<Index> aliased;
-  if (centred.cols() > 0) aliased = SolveLeastSquares(centred, y).aliased;
-  fit.aliased = aliased;
-  for (Index j = 0; j < centred.cols(); ++j) {
-    if (!std::binary_search(aliased.begin(), aliased.end(), j)) {
+    if (spread[j] > 0.0) column /= spread[j];
+    centred.col(j) = column;
+    if (std::binary_search(
+            solution.aliased.begin(), solution.aliased.end(), j + 1)) {
+      fit.aliased.push_back(j);
+    } else {
       fit.kept.push_back(j);
     }
   }
+  fit.bits = solution.bits;
+  const bool is_extended = solution.bits > stats::kDoubleBits;
   const MatrixXd kept = centred(Eigen::all, fit.kept);
   const Index k = kept.cols();
-  fit.rank = k + 1;
+  fit.rank = k + (fit.has_intercept ? 1 : 0);
   fit.coefficients.resize(static_cast<std::size_t>(centred.cols()));
 
   VectorXd scaled = VectorXd::Zero(k);
@@ -130,7 +150,9 @@ RegressionDiagnostics Diagnose(const RegressionProblem& problem) {
     fit.triangle = triangle * spread(fit.kept).asDiagonal();
   }
   const VectorXd fitted = kept * scaled;
-  fit.residual_sum_of_squares = (centred_y - fitted).squaredNorm();
+  fit.residual_sum_of_squares = is_extended
+                                    ? solution.residual_sum_of_squares
+                                    : (centred_y - fitted).squaredNorm();
   fit.regression_sum_of_squares = fitted.squaredNorm();
   const double freedom = fit.observations - static_cast<double>(fit.rank);
   fit.residual_degrees_of_freedom = freedom;
@@ -141,10 +163,8 @@ RegressionDiagnostics Diagnose(const RegressionProblem& problem) {
   if (fit.total_sum_of_squares > 0.0) {
     fit.r2 = 1.0 - fit.residual_sum_of_squares / fit.total_sum_of_squares;
     if (freedom > 0.0) {
-      fit.adjusted_r2 = AdjustedR2(fit.residual_sum_of_squares,
-                                   fit.total_sum_of_squares,
-                                   fit.observations,
-                                   static_cast<double>(fit.rank));
+      fit.adjusted_r2 = 1.0 - variance / (fit.total_sum_of_squares /
+                                          fit.total_degrees_of_freedom());
     }
   }
   if (k > 0 && freedom > 0.0) {
@@ -152,14 +172,20 @@ RegressionDiagnostics Diagnose(const RegressionProblem& problem) {
     fit.f_p = stats::FTestPValue(fit.f, static_cast<double>(k), freedom);
   }
   const double quantile = stats::StudentTwoSidedQuantile(kConfidence, freedom);
-  const auto complete = [&](double unscaled_variance,
-                            CoefficientEstimate* line) {
-    line->standard_error = std::sqrt(variance * unscaled_variance);
-    line->t = line->estimate / line->standard_error;
-    line->p = stats::StudentTwoSidedP(line->t, freedom);
-    line->lower = line->estimate - quantile * line->standard_error;
-    line->upper = line->estimate + quantile * line->standard_error;
-  };
+  const auto complete =
+      [&](double unscaled_variance, Index column, CoefficientEstimate* line) {
+        line->standard_error = std::sqrt(variance * unscaled_variance);
+        if (is_extended) {
+          line->estimate = solution.coefficients[column];
+        }
+        if (solution.standard_deviations.size() != 0) {
+          line->standard_error = solution.standard_deviations[column];
+        }
+        line->t = line->estimate / line->standard_error;
+        line->p = stats::StudentTwoSidedP(line->t, freedom);
+        line->lower = line->estimate - quantile * line->standard_error;
+        line->upper = line->estimate + quantile * line->standard_error;
+      };
   const double spread_y = std::sqrt(fit.total_sum_of_squares);
   VectorXd kept_means(k);
   for (Index i = 0; i < k; ++i) {
@@ -167,14 +193,16 @@ RegressionDiagnostics Diagnose(const RegressionProblem& problem) {
     CoefficientEstimate& line = fit.coefficients[static_cast<std::size_t>(j)];
     line.estimate = scaled[i] / spread[j];
     line.vif = inverse.row(i).squaredNorm();
-    complete(line.vif / (spread[j] * spread[j]), &line);
+    complete(line.vif / (spread[j] * spread[j]), j + 1, &line);
     if (spread_y > 0.0) line.standardised = scaled[i] / spread_y;
     kept_means[i] = fit.means[j] / spread[j];
   }
-  fit.intercept.estimate = mean - kept_means.dot(scaled);
-  complete(1.0 / fit.sum_of_weights +
-               (inverse.transpose() * kept_means).squaredNorm(),
-           &fit.intercept);
+  if (fit.has_intercept) {
+    fit.intercept.estimate = mean - kept_means.dot(scaled);
+    complete(share + (inverse.transpose() * kept_means).squaredNorm(),
+             0,
+             &fit.intercept);
+  }
   FindCondition(kept, kept_means, intercept, &fit);
   return fit;
 }
@@ -185,8 +213,8 @@ void RowDiagnostics::Add(const RegressionDiagnostics& fit,
                          const VectorXd& weights) {
   const Index k = static_cast<Index>(fit.kept.size());
   VectorXd predicted = VectorXd::Constant(terms.rows(), fit.intercept.estimate);
-  VectorXd leverage =
-      VectorXd::Constant(terms.rows(), 1.0 / fit.sum_of_weights);
+  VectorXd leverage = VectorXd::Constant(
+      terms.rows(), fit.has_intercept ? 1.0 / fit.sum_of_weights : 0.0);
   if (k > 0) {
     MatrixXd centred = terms(Eigen::all, fit.kept);
     for (Index i = 0; i < k; ++i) {

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "fitting/least_squares/linear_least_squares.h"
+
 namespace errmap::fitting {
 
 /// What is fitted: y on an intercept and k terms.
@@ -12,7 +14,8 @@ struct RegressionProblem {
   const Eigen::MatrixXd& terms;     // (n x k), without the intercept
   const Eigen::VectorXd& response;  // (n)
   const Eigen::VectorXd& weights;   // (n) not negative, or (0)
-  /// (n) the intercept's column where rows are those of a triangle; (0): ones.
+  /// (n) the intercept's column where rows are those of a triangle; (0): ones;
+  /// zeros: there is no intercept.
   Eigen::VectorXd intercept = {};
   double observations = 0.0;  // where it is not the number of rows
 };
@@ -30,10 +33,12 @@ struct CoefficientEstimate {
 };
 
 /// A fitted regression as R's summary(lm), anova and influence give it.
-/// Sums of squares are weighted, and about the (weighted) mean.
+/// Sums of squares are weighted, and about the (weighted) mean; about 0 where
+/// there is no intercept.
 struct RegressionDiagnostics {
   double observations = 0.0;
-  Eigen::Index rank = 0;              // coefficients, intercept included
+  Eigen::Index rank = 0;  // coefficients, intercept included
+  bool has_intercept = true;
   std::vector<Eigen::Index> aliased;  // terms left out, coefficient 0
   CoefficientEstimate intercept;
   std::vector<CoefficientEstimate> coefficients;  // (k)
@@ -56,13 +61,30 @@ struct RegressionDiagnostics {
   Eigen::MatrixXd triangle;
   Eigen::VectorXd means;           // (k) weighted means of the terms
   std::vector<Eigen::Index> kept;  // terms that `triangle` is of
-  double sum_of_weights = 0.0;
+  int bits = 53;                   // of the arithmetic of the estimates
+  double sum_of_weights = 0.0;     // 0 where there is no intercept
+
+  Eigen::Index regression_degrees_of_freedom() const {
+    return rank - (has_intercept ? 1 : 0);
+  }
+  double total_degrees_of_freedom() const {
+    return observations - (has_intercept ? 1.0 : 0.0);
+  }
 };
 
-/// The fit of `problem` by Householder QR on centred columns of unit length;
-/// terms that the others determine to about machine precision are aliased.
-/// Throws std::invalid_argument on shapes that do not agree.
+/// What `solution` (of the intercept's column and the terms) says: its aliased
+/// terms are left out, and where it took 106 bits its coefficients, standard
+/// deviations and residual sum of squares are taken over. Else these come
+/// from a Householder QR of centred columns of unit length. Throws
+/// std::invalid_argument on shapes that do not agree.
+RegressionDiagnostics Diagnose(const RegressionProblem& problem,
+                               const LeastSquaresFit& solution);
+/// The same of the solution by SolveLeastSquares.
 RegressionDiagnostics Diagnose(const RegressionProblem& problem);
+
+/// Least squares of the intercept's column and the terms, in this order.
+LeastSquaresFit SolveRegression(const RegressionProblem& problem,
+                                const LeastSquaresOptions& options = {});
 
 /// What needs every row: found in a pass of its own.
 struct RowDiagnostics {

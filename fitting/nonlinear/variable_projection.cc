@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include <Eigen/QR>
+#include "fitting/least_squares/linear_least_squares.h"
 
 namespace errmap::fitting {
 
@@ -47,7 +47,7 @@ VectorXd ProjectedObjective::Complete(const VectorXd& a) const {
     return b;
   }
   // With c = 0 in b: r(a, c) = r(a, 0) + (dr/dc) c.
-  b(linear_) = columns.colPivHouseholderQr().solve(-residuals);
+  b(linear_) = SolveLeastSquares(columns, -residuals).coefficients;
   return b;
 }
 
@@ -60,7 +60,8 @@ void ProjectedObjective::Evaluate(const VectorXd& a,
   *jacobian = full(Eigen::all, others_);
   const MatrixXd columns = full(Eigen::all, linear_);
   if (!jacobian->allFinite() || !columns.allFinite()) return;
-  *jacobian -= columns * columns.colPivHouseholderQr().solve(*jacobian);
+  const MatrixXd basis = OrthonormalColumns(columns);
+  *jacobian -= basis * (basis.transpose() * *jacobian);
 }
 
 double ProjectedObjective::Evaluate(const VectorXd& a,

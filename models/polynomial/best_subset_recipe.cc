@@ -112,7 +112,7 @@ class BestSubsetRecipe final : public PolynomialRecipe {
       Bootstrap(dictionary, rows, best, context, &report);
     }
     FittedModel fitted = FitTerms(
-        training, used.inputs, used.terms, context, terms_.centring, &report);
+        training, used.inputs, used.terms, context, {terms_.centring}, &report);
     fitted.summary.message = fmt::format(
         "{} of {} candidate terms up to degree {} are the best subset by {}",
         used.terms.size(),

@@ -27,9 +27,12 @@ class FormulaRecipe final : public PolynomialRecipe {
       throw std::invalid_argument(
           fmt::format("model '{}': {}", spec.text, error.what()));
     }
-    centring_ = options.TakeChoice("centred", 0, {"harmless", "no"}) == 0
-                    ? Centring::kHarmless
-                    : Centring::kNone;
+    form_.centring = options.TakeChoice("centred", 0, {"harmless", "no"}) == 0
+                         ? Centring::kHarmless
+                         : Centring::kNone;
+    // Moving an input needs the intercept to take up what it leaves.
+    form_.intercept = options.TakeChoice("intercept", 0, {"yes", "no"}) == 0;
+    if (!form_.intercept) form_.centring = Centring::kNone;
     view_ = ViewOptions::Take(&options);
     options.RefuseOthers();
     if (view_.given && !view_.view) {
@@ -42,6 +45,7 @@ class FormulaRecipe final : public PolynomialRecipe {
 
   std::vector<EffectiveOption> options() const override {
     std::vector<EffectiveOption> options = {{"formula", formula_}};
+    if (!form_.intercept) options.push_back({"intercept", std::string("no")});
     view_.Describe(&options);
     return options;
   }
@@ -61,7 +65,7 @@ class FormulaRecipe final : public PolynomialRecipe {
   }
 
   std::optional<Index> NumCoefficients(const Dataset&) const override {
-    return static_cast<Index>(terms_.size()) + 1;
+    return static_cast<Index>(terms_.size()) + (form_.intercept ? 1 : 0);
   }
 
   FittedModel Fit(const Dataset& training,
@@ -90,12 +94,12 @@ class FormulaRecipe final : public PolynomialRecipe {
       all.push_back(static_cast<Index>(i));
     }
     const UsedTerms used = KeepUsedInputs(terms, all);
-    return FitTerms(training, used.inputs, used.terms, context, centring_);
+    return FitTerms(training, used.inputs, used.terms, context, form_);
   }
 
   std::string formula_;
   std::vector<NamedTerm> terms_;
-  Centring centring_ = Centring::kHarmless;
+  FormOptions form_;
   ViewOptions view_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -95,6 +96,72 @@ MatrixXd PolynomialDesign::Rows(Index first, Index count) const {
   const MatrixXd inputs =
       dataset_.input_values().middleRows(first, count)(Eigen::all, inputs_);
   return TermMatrix(scaling_.Apply(inputs), terms_);
+}
+
+fitting::ExtendedSystem PolynomialDesign::Exact() const {
+  using stats::DoubleDouble;
+  fitting::ExtendedMatrix inputs(rows(), static_cast<Index>(inputs_.size()));
+  fitting::ExtendedSystem system{
+      fitting::ExtendedMatrix::Constant(rows(), num_terms() + 1, 1.0),
+      fitting::ExtendedVector(rows())};
+  for (Index i = 0; i < rows(); ++i) {
+    system.response[i] = stats::DecimalOf(dataset_.target_values()[i]);
+    for (Index k = 0; k < inputs.cols(); ++k) {
+      const double value =
+          dataset_.input_values()(i, inputs_[static_cast<std::size_t>(k)]);
+      inputs(i, k) =
+          (stats::DecimalOf(value) - scaling_.offset[k]) * scaling_.scale[k];
+    }
+    for (Index j = 0; j < num_terms(); ++j) {
+      DoubleDouble& product = system.design(i, j + 1);
+      const TermPowers& powers = terms_[static_cast<std::size_t>(j)];
+      for (Index k = 0; k < inputs.cols(); ++k) {
+        for (int power = powers[static_cast<std::size_t>(k)]; power > 0;
+             --power) {
+          product *= inputs(i, k);
+        }
+      }
+    }
+  }
+  return system;
+}
+
+double PolynomialDesign::Noise(const VectorXd& combination) const {
+  constexpr double kHalfUnit = 0.5 * std::numeric_limits<double>::epsilon();
+  constexpr Index kBlockRows = 4096;
+  double squares = 0.0;
+  for (Index first = 0; first < rows(); first += kBlockRows) {
+    const Index count = std::min(kBlockRows, rows() - first);
+    const MatrixXd inputs =
+        dataset_.input_values().middleRows(first, count)(Eigen::all, inputs_);
+    const MatrixXd scaled = scaling_.Apply(inputs);
+    VectorXd noise = VectorXd::Zero(count);
+    for (std::size_t k = 0; k < inputs_.size(); ++k) {
+      // The slope in input k times the rounding of that input.
+      std::vector<TermPowers> slopes;
+      std::vector<double> factors;
+      for (std::size_t j = 0; j < terms_.size(); ++j) {
+        const double factor = combination[static_cast<Index>(j) + 1];
+        if (terms_[j][k] == 0 || factor == 0.0) continue;
+        factors.push_back(factor * terms_[j][k]);
+        slopes.push_back(terms_[j]);
+        --slopes.back()[k];
+      }
+      const VectorXd slope =
+          TermMatrix(scaled, slopes) *
+          Eigen::Map<const VectorXd>(factors.data(),
+                                     static_cast<Index>(factors.size()));
+      const auto column = static_cast<Index>(k);
+      noise += slope.cwiseAbs().cwiseProduct(
+          inputs.col(column).cwiseAbs() * (kHalfUnit * scaling_.scale[column]));
+    }
+    if (dataset_.weights().size() != 0) {
+      noise = noise.cwiseProduct(
+          dataset_.weights().segment(first, count).cwiseSqrt());
+    }
+    squares += noise.squaredNorm();
+  }
+  return std::sqrt(squares);
 }
 
 bool NeedsTriangle(Index rows, Index terms, double most_values) {

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "data/dataset.h"
+#include "fitting/least_squares/linear_least_squares.h"
 #include "models/polynomial/polynomial_basis.h"
 #include "models/scaling.h"
 
@@ -53,6 +54,13 @@ class PolynomialDesign {
   /// Terms (b x k) of these rows.
   Eigen::MatrixXd Rows(const std::vector<Eigen::Index>& rows) const;
   Eigen::MatrixXd Rows(Eigen::Index first, Eigen::Index count) const;
+
+  /// Intercept's column, terms (n x (k + 1)) and response (n), formed in 106
+  /// bits from the decimals that the data are roundings of.
+  fitting::ExtendedSystem Exact() const;
+  /// Length of what rounding of the data to double may do to a combination of
+  /// the intercept's column and the terms (k + 1), weights worked in.
+  double Noise(const Eigen::VectorXd& combination) const;
 
  private:
   const data::Dataset& dataset_;

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "fitting/least_squares/linear_least_squares.h"
 #include "models/polynomial/polynomial_model.h"
 
 namespace errmap::models {
@@ -21,21 +21,44 @@ using Eigen::VectorXd;
 
 constexpr Index kBlockRows = 4096;
 
-std::vector<std::string> InputNames(const std::vector<TrainedInput>& inputs) {
-  std::vector<std::string> names;
-  for (const TrainedInput& input : inputs) names.push_back(input.column.name);
-  return names;
+// The terms that the solution left out, with a word on why for the first.
+std::vector<AliasReport> NameAliased(const std::vector<std::string>& names,
+                                     const DesignRows& rows,
+                                     const fitting::LeastSquaresFit& solution) {
+  constexpr std::size_t kMostExplained = 10;
+  std::vector<Index> kept;
+  std::vector<std::string> kept_names;
+  for (Index j = 0; j < rows.terms.cols(); ++j) {
+    if (std::binary_search(
+            solution.aliased.begin(), solution.aliased.end(), j + 1)) {
+      continue;
+    }
+    kept.push_back(j);
+    kept_names.push_back(names[static_cast<std::size_t>(j)]);
+  }
+  const MatrixXd others = rows.terms(Eigen::all, kept);
+  std::vector<AliasReport> aliased;
+  for (const Index column : solution.aliased) {
+    const Index term = column - 1;
+    if (term < 0) continue;  // there is no intercept
+    aliased.push_back(
+        {names[static_cast<std::size_t>(term)],
+         aliased.size() < kMostExplained
+             ? WhyAliased(
+                   rows.terms.col(term), others, kept_names, rows.intercept)
+             : "follows from the other terms"});
+  }
+  return aliased;
 }
 
-fitting::LeastSquaresFit Solve(const DesignRows& rows) {
-  MatrixXd design(rows.terms.rows(), rows.terms.cols() + 1);
-  if (rows.are_observations()) {
-    design.col(0).setOnes();
-  } else {
-    design.col(0) = rows.intercept;
-  }
-  design.rightCols(rows.terms.cols()) = rows.terms;
-  return fitting::SolveLeastSquares(design, rows.response, rows.weights);
+// "a, b and 3 more".
+std::string FirstOf(std::vector<std::string> names) {
+  constexpr std::size_t kMostNamed = 5;
+  const std::size_t more = names.size() - std::min(names.size(), kMostNamed);
+  names.resize(names.size() - more);
+  return fmt::format("{}{}",
+                     fmt::join(names, ", "),
+                     more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
 // The second pass: what needs every row.
@@ -62,7 +85,7 @@ FittedModel NewMap(const std::string& name, const Dataset& training) {
   fitted.target = training.target();
   fitted.align = training.align();
   fitted.summary.termination = fitting::Termination::kDirect;
-  fitted.summary.message = "solved by pivoted QR";
+  fitted.summary.message = "solved by QR";
   return fitted;
 }
 
@@ -106,9 +129,10 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
                                        const std::vector<Index>& inputs,
                                        const std::vector<TermPowers>& terms,
                                        const FitContext& context,
-                                       Centring centring,
+                                       const FormOptions& form_options,
                                        RegressionReport* report) const {
-  const Index coefficients = static_cast<Index>(terms.size()) + 1;
+  const Index coefficients =
+      static_cast<Index>(terms.size()) + (form_options.intercept ? 1 : 0);
   if (training.num_rows() < coefficients) {
     throw std::invalid_argument(
         fmt::format("{} coefficients cannot be fitted to {} rows",
@@ -118,42 +142,77 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
   const PolynomialDesign design(
       training,
       inputs,
-      PolynomialScaling(training, inputs, terms, centring),
+      PolynomialScaling(training, inputs, terms, form_options.centring),
       terms);
-  const DesignRows rows =
+  DesignRows rows =
       CollectRows(design, {}, context.most_design_values, context.threads);
-  const fitting::LeastSquaresFit solution = Solve(rows);
+  const bool are_observations = rows.are_observations();
+  if (!form_options.intercept) rows.intercept.setZero(rows.response.size());
+  const fitting::RegressionProblem problem{rows.terms,
+                                           rows.response,
+                                           rows.weights,
+                                           rows.intercept,
+                                           rows.observations};
+  // Whether they are read or not: the same rows give the same bits.
+  constexpr double kDigits = 13.0;
+  fitting::LeastSquaresOptions options;
+  if (are_observations) {
+    options.digits = kDigits;
+    options.with_deviations = context.explain;
+    options.exact = [&] { return design.Exact(); };
+  }
+  options.noise = [&](const VectorXd& combination) {
+    const double noise = design.Noise(combination);
+    if (are_observations) return noise;
+    // A triangle's entries are rounded by its reduction, too.
+    constexpr double kReduction = 16.0 * std::numeric_limits<double>::epsilon();
+    const VectorXd parts =
+        combination.tail(rows.terms.cols())
+            .cwiseProduct(rows.terms.colwise().norm().transpose());
+    return noise + kReduction * parts.norm();
+  };
+  const fitting::LeastSquaresFit solution =
+      fitting::SolveRegression(problem, options);
 
   FittedModel fitted = NewModel(training);
   fitted.inputs = DescribeInputs(training, inputs);
-  const std::vector<std::string> names = InputNames(fitted.inputs);
+  const std::vector<std::string> names = design.TermNames();
   PolynomialForm form{design.scaling().offset,
                       design.scaling().scale,
                       solution.coefficients[0],
                       {}};
   std::vector<std::string> aliased;
+  std::vector<std::string> nearly;
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const Index column = static_cast<Index>(i) + 1;
-    if (std::binary_search(
-            solution.aliased.begin(), solution.aliased.end(), column)) {
-      aliased.push_back(TermName(terms[i], names));
+    const auto is_among = [&](const std::vector<Index>& columns) {
+      return std::binary_search(columns.begin(), columns.end(), column);
+    };
+    if (is_among(solution.aliased)) {
+      aliased.push_back(names[i]);
     } else {
       form.terms.push_back({terms[i], solution.coefficients[column]});
+      if (is_among(solution.nearly_aliased)) nearly.push_back(names[i]);
     }
   }
-  if (!solution.aliased.empty()) {
-    constexpr std::size_t kMostNamed = 5;
-    const std::size_t more =
-        aliased.size() - std::min(aliased.size(), kMostNamed);
-    aliased.resize(aliased.size() - more);
+  if (!aliased.empty()) {
     fitted.remarks.push_back(fmt::format(
         "{} of {} terms follow from the others in the training rows and "
-        "are left out: {}{}",
-        solution.aliased.size(),
+        "are left out: {}",
+        aliased.size(),
         terms.size(),
-        fmt::join(aliased, ", "),
-        more > 0 ? fmt::format(" and {} more", more) : ""));
+        FirstOf(aliased)));
   }
+  if (!nearly.empty()) {
+    fitted.remarks.push_back(
+        fmt::format("{} of {} terms all but follow from the others and were "
+                    "told apart in 106 bits: {}",
+                    nearly.size(),
+                    terms.size(),
+                    FirstOf(nearly)));
+  }
+  fitted.summary.message =
+      fmt::format("solved by QR in {} bits", solution.bits);
   fitted.summary.final_cost = 0.5 * solution.residual_sum_of_squares;
   fitted.equation = EquationText(
       form,
@@ -167,22 +226,44 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
     auto complete = std::make_shared<RegressionReport>();
     if (report != nullptr) *complete = std::move(*report);
     if (complete->method.empty()) complete->method = "least squares";
-    complete->fit = fitting::Diagnose({rows.terms,
-                                       rows.response,
-                                       rows.weights,
-                                       rows.intercept,
-                                       rows.observations});
+    complete->fit = fitting::Diagnose(problem, solution);
     complete->rows = JudgeRows(design, complete->fit);
     complete->weighted = training.weights().size() != 0;
     FillCoefficientTable(design, complete.get());
-    for (const Index alias : complete->fit.aliased) {
-      complete->aliased.push_back(
-          {complete->terms[static_cast<std::size_t>(alias)].name,
-           "follows from the other terms"});
+    for (AliasReport& alias : NameAliased(names, rows, solution)) {
+      complete->aliased.push_back(std::move(alias));
+    }
+    constexpr double kWorthSaying = 1e8;
+    if (complete->fit.condition > kWorthSaying) {
+      fitted.remarks.push_back(fmt::format(
+          "condition number {:.2g}: single coefficients follow the last digits "
+          "of the data; trust predictions inside the data only",
+          complete->fit.condition));
     }
     fitted.regression = std::move(complete);
   }
   return fitted;
+}
+
+std::string WhyAliased(const VectorXd& column,
+                       const MatrixXd& others,
+                       const std::vector<std::string>& names,
+                       const VectorXd& intercept) {
+  const fitting::AliasRelation relation =
+      fitting::ExplainAlias(column, others, intercept);
+  if (relation.constant) return "is constant";
+  constexpr std::size_t kMostNamed = 4;
+  std::vector<std::string> parts;
+  for (const Index part : relation.columns) {
+    if (parts.size() == kMostNamed) {
+      parts.push_back("...");
+      break;
+    }
+    parts.push_back(names[static_cast<std::size_t>(part)]);
+  }
+  return fmt::format("{} {}",
+                     parts.size() == 1 ? "repeats" : "follows from",
+                     fmt::join(parts, ", "));
 }
 
 void FillCoefficientTable(const PolynomialDesign& design,

@@ -13,6 +13,12 @@ namespace errmap::models {
 /// Columns 0 .. p-1.
 std::vector<Eigen::Index> AllColumns(const data::Dataset& dataset);
 
+/// The form that terms are fitted in.
+struct FormOptions {
+  Centring centring = Centring::kAll;
+  bool intercept = true;
+};
+
 /// The part that every recipe of a polynomial shares.
 class PolynomialRecipe : public ModelRecipe {
  public:
@@ -30,14 +36,16 @@ class PolynomialRecipe : public ModelRecipe {
   FittedModel NewModel(const data::Dataset& training) const;
 
   /// Least squares of intercept and `terms` in the columns `inputs` of
-  /// `training` by pivoted QR; with context.explain, its report, which a
-  /// caller that chose the terms completes. Throws std::invalid_argument where
-  /// there are fewer rows than coefficients.
+  /// `training`; terms that follow from those before them are left out and
+  /// named. Coefficients are refined in 106 bits where the condition leaves
+  /// double fewer than 13 digits. With context.explain there is the report,
+  /// which a caller that chose the terms completes; the map is the same. Throws
+  /// std::invalid_argument where there are fewer rows than coefficients.
   FittedModel FitTerms(const data::Dataset& training,
                        const std::vector<Eigen::Index>& inputs,
                        const std::vector<TermPowers>& terms,
                        const FitContext& context,
-                       Centring centring = Centring::kAll,
+                       const FormOptions& form_options = {},
                        RegressionReport* report = nullptr) const;
 
  private:
@@ -59,6 +67,14 @@ struct UsedTerms {
 };
 UsedTerms KeepUsedInputs(const std::vector<TermPowers>& terms,
                          const std::vector<Eigen::Index>& chosen);
+
+/// Why `column` (n) adds nothing to `intercept` (n; 0: ones) and `others`
+/// (n x k), terms of these names: "is constant", "repeats t1_degC",
+/// "follows from ...".
+std::string WhyAliased(const Eigen::VectorXd& column,
+                       const Eigen::MatrixXd& others,
+                       const std::vector<std::string>& names,
+                       const Eigen::VectorXd& intercept);
 
 /// The lines of the coefficient table in the inputs' own units, and their
 /// centres; `fit` is in scaled terms.

@@ -242,7 +242,7 @@ class StepwiseRecipe final : public PolynomialRecipe {
       }
     }
     FittedModel fitted = FitTerms(
-        training, used.inputs, used.terms, context, terms_.centring, &report);
+        training, used.inputs, used.terms, context, {terms_.centring}, &report);
     fitted.summary.message =
         fmt::format("{} of {} candidate terms up to degree {} chosen by {} {}",
                     used.terms.size(),

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "fitting/least_squares/regression_diagnostics.h"
 #include "models/history/view.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/regression_report.h"
@@ -225,31 +224,20 @@ void ReportExcluded(const TermDictionary& dictionary,
     return names[static_cast<std::size_t>(term)];
   };
   const MatrixXd terms = rows.candidates->Columns(chosen);
+  std::vector<std::string> chosen_names;
+  for (const Index term : chosen) chosen_names.push_back(name(term));
   for (const fitting::ExcludedTerm& term :
        fitting::JudgeExcluded(rows.Problem(), chosen, collinearity)) {
     if (!term.aliased) {
       report->excluded.push_back({name(term.candidate), term.f, term.p});
       continue;
     }
-    const fitting::AliasRelation relation = fitting::ExplainAlias(
-        rows.candidates->Column(term.candidate), terms, rows.intercept);
-    std::string why = "is constant";
-    if (!relation.constant) {
-      constexpr std::size_t kMostNamed = 4;
-      std::vector<std::string> others;
-      for (const Index column : relation.columns) {
-        if (others.size() == kMostNamed) {
-          others.push_back("...");
-          break;
-        }
-        others.push_back(name(chosen[static_cast<std::size_t>(column)]));
-      }
-      why =
-          fmt::format("{} {}",
-                      relation.columns.size() == 1 ? "repeats" : "follows from",
-                      fmt::join(others, ", "));
-    }
-    report->aliased.push_back({name(term.candidate), std::move(why)});
+    report->aliased.push_back(
+        {name(term.candidate),
+         WhyAliased(rows.candidates->Column(term.candidate),
+                    terms,
+                    chosen_names,
+                    rows.intercept)});
   }
   std::stable_sort(report->excluded.begin(),
                    report->excluded.end(),

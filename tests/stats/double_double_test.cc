@@ -34,6 +34,17 @@ TEST(DoubleDouble, DividesAndMultipliesBack) {
 }
 
 // Digits from Python's decimal module at 50 digits.
+TEST(DoubleDouble, KnowsTheDecimalThatADoubleWasReadFrom) {
+  for (const char* text : {"0.1", "-6.860120914", "1e-30", "273.15", "3"}) {
+    const DoubleDouble meant = Number(text);
+    const DoubleDouble found = DecimalOf(meant.hi);
+    EXPECT_EQ(found.hi, meant.hi) << text;
+    EXPECT_EQ(found.lo, meant.lo) << text;
+  }
+  EXPECT_NE(DecimalOf(0.1).lo, 0.0);
+  EXPECT_TRUE(std::isnan(DecimalOf(std::nan("")).hi));
+}
+
 TEST(DoubleDouble, ParsesDecimalsToThirtyDigits) {
   EXPECT_LT(RelativeError(Number("0.1") * 10.0, 1.0), kOperation);
   EXPECT_LT(RelativeError(Number("-2.5134E+03"), -2513.4), 1e-16);

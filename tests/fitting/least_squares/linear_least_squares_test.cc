@@ -18,6 +18,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using stats::DoubleDouble;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -161,11 +162,11 @@ TEST(LinearLeastSquares, NamesAColumnThatTheOthersDetermine) {
   const LeastSquaresFit fit = SolveLeastSquares(design, response);
   EXPECT_EQ(fit.rank, 3);
   ASSERT_EQ(fit.aliased.size(), 1U);
-  // Any of the three that depend on each other may be the one left out.
-  EXPECT_NE(fit.aliased[0], 1);
+  // The last of the three that depend on each other.
+  EXPECT_EQ(fit.aliased[0], 3);
   EXPECT_EQ(fit.coefficients[fit.aliased[0]], 0.0);
   const LeastSquaresFit without = SolveLeastSquares(
-      MatrixXd{design(Eigen::all, std::vector<Index>{0, 1, 3})}, response);
+      MatrixXd{design(Eigen::all, std::vector<Index>{0, 1, 2})}, response);
   EXPECT_NEAR(
       fit.residual_sum_of_squares, without.residual_sum_of_squares, kRounding);
 }
@@ -178,10 +179,172 @@ TEST(LinearLeastSquares, NamesACopyAndAColumnOfZeros) {
   EXPECT_EQ(fit.rank, 2);
   ASSERT_EQ(fit.aliased.size(), 2U);
   EXPECT_TRUE(std::is_sorted(fit.aliased.begin(), fit.aliased.end()));
-  EXPECT_THAT(fit.aliased, ::testing::Contains(1));
-  EXPECT_TRUE(fit.aliased[0] == 0 || fit.aliased[1] == 3);
+  EXPECT_THAT(fit.aliased, ElementsAre(1, 3));
   for (const Index column : fit.aliased) {
     EXPECT_EQ(fit.coefficients[column], 0.0);
+  }
+}
+
+// Coefficients that are set to 0 must be those of the problem without their
+// columns: a solution with all pivots divides by what rounding left of them.
+TEST(LinearLeastSquares, DependentColumnsChangeNoFit) {
+  constexpr double kSame = 1e-11;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    stats::Random random(seed);
+    const auto below = [&](std::uint64_t bound) {
+      return static_cast<Index>(random.Below(bound));
+    };
+    const Index rows = 12 + below(60);
+    const Index free = 1 + below(6);
+    const Index dependent = 1 + below(5);
+    const MatrixXd base = RandomMatrix(rows, free, 1000 + seed);
+    const MatrixXd mixed = base * RandomMatrix(free, dependent, 2000 + seed);
+    MatrixXd design(rows, free + dependent);
+    design << base, mixed;
+    for (Index j = 0; j < design.cols(); ++j) {
+      design.col(j) *= std::pow(10.0, static_cast<double>(below(13)) - 6.0);
+    }
+    const VectorXd response = RandomVector(rows, 3000 + seed);
+    const LeastSquaresFit fit = SolveLeastSquares(design, response);
+    const LeastSquaresFit without = SolveLeastSquares(base, response);
+    ASSERT_EQ(fit.rank, free) << seed;
+    ASSERT_EQ(fit.aliased.size(), static_cast<std::size_t>(dependent));
+    EXPECT_EQ(fit.aliased.front(), free) << seed;
+    EXPECT_THAT(fit.nearly_aliased, IsEmpty());
+    EXPECT_LT((design * fit.coefficients - base * without.coefficients)
+                  .cwiseAbs()
+                  .maxCoeff(),
+              kSame)
+        << seed;
+    EXPECT_NEAR(
+        fit.residual_sum_of_squares, without.residual_sum_of_squares, kSame);
+    const MatrixXd basis = OrthonormalColumns(design);
+    ASSERT_EQ(basis.cols(), free);
+    EXPECT_LT(
+        (basis.transpose() * basis - MatrixXd::Identity(free, free)).norm(),
+        kSame);
+    EXPECT_LT((design - basis * (basis.transpose() * design)).norm(),
+              kSame * design.norm());
+  }
+}
+
+// A column that R's lm would drop is kept where 106 bits tell it apart, and
+// then they give the solution.
+TEST(LinearLeastSquares, KeepsWhatOnly106BitsTellApart) {
+  constexpr double kApart = 1e-10;
+  const VectorXd z = RandomVector(30, 21);
+  MatrixXd design(30, 3);
+  design.col(0).setOnes();
+  design.col(1) = 1.0 + kApart * z.array();
+  design.col(2) = RandomVector(30, 22);
+  const LeastSquaresFit fit =
+      SolveLeastSquares(design, design * VectorXd{{1.0, 2.0, 3.0}});
+  EXPECT_EQ(fit.rank, 3);
+  EXPECT_THAT(fit.aliased, IsEmpty());
+  EXPECT_THAT(fit.nearly_aliased, ElementsAre(1));
+  EXPECT_EQ(fit.bits, 106);
+  EXPECT_GT(fit.condition, 1e9);
+  // The response is rounded, which the condition makes the more of.
+  EXPECT_NEAR(fit.coefficients[0] + fit.coefficients[1], 3.0, 1e-12);
+  EXPECT_NEAR(fit.coefficients[1], 2.0, 1e-4);
+  EXPECT_NEAR(fit.coefficients[2], 3.0, 1e-12);
+  // What rounding may leave is no column.
+  LeastSquaresOptions options;
+  options.noise = [&](const VectorXd& combination) {
+    return kApart * combination.norm();
+  };
+  EXPECT_THAT(SolveLeastSquares(design, design.col(2), {}, options).aliased,
+              ElementsAre(1));
+}
+
+// Wampler's polynomial with its x in tenths, decimals that doubles round.
+struct Tenths {
+  VectorXd x = VectorXd::LinSpaced(21, 0.0, 2.0);
+  ExtendedSystem exact;
+  LeastSquaresOptions options{.digits = 13.0};
+  // Residuals as large as Wampler5's, at right angles to all columns.
+  explicit Tenths(double scatter) {
+    ExtendedVector tenths(21);
+    ExtendedVector differences(21);
+    DoubleDouble binomial = 1.0;
+    for (Index i = 0; i < 21; ++i) {
+      tenths[i] = stats::DoubleDouble(static_cast<double>(i)) / 10.0;
+      differences[i] = i % 2 == 0 ? binomial : -binomial;
+      binomial =
+          binomial * static_cast<double>(20 - i) / static_cast<double>(i + 1);
+    }
+    exact.design = PowersDesign(tenths, 0, 5);
+    exact.response = exact.design * ExtendedVector::Constant(6, 1.0);
+    for (Index i = 0; i < 21; ++i) {
+      exact.response[i] += scatter * differences[i];
+    }
+    options.exact = [this] { return exact; };
+  }
+};
+
+TEST(LinearLeastSquares, GivesTheDigitsAskedForFromTheExactNumbers) {
+  for (const double scatter : {0.0, 1.0}) {
+    Tenths tenths(scatter);
+    const MatrixXd design = Powers(tenths.x, 5);
+    const VectorXd response = tenths.exact.response.cast<double>();
+    const LeastSquaresFit plain = SolveLeastSquares(design, response);
+    const LeastSquaresFit fit =
+        SolveLeastSquares(design, response, {}, tenths.options);
+    EXPECT_GE(AgreeingDigits(fit.coefficients, VectorXd::Ones(6)), 15.0);
+    EXPECT_LT(AgreeingDigits(plain.coefficients, VectorXd::Ones(6)), 14.0);
+    EXPECT_EQ(fit.bits, 106);
+    EXPECT_EQ(plain.bits, 53);
+  }
+}
+
+// Whether they are read or not, coefficients have the same bits.
+TEST(LinearLeastSquares, GivesDeviationsWithoutChangingTheSolution) {
+  Tenths tenths(1.0);
+  const MatrixXd design = Powers(tenths.x, 5);
+  const VectorXd response = tenths.exact.response.cast<double>();
+  const LeastSquaresFit fit =
+      SolveLeastSquares(design, response, {}, tenths.options);
+  EXPECT_EQ(fit.standard_deviations.size(), 0);
+  tenths.options.with_deviations = true;
+  const LeastSquaresFit read =
+      SolveLeastSquares(design, response, {}, tenths.options);
+  EXPECT_EQ(read.standard_deviations.size(), 6);
+  EXPECT_EQ(read.coefficients, fit.coefficients);
+  EXPECT_EQ(read.residual_sum_of_squares, fit.residual_sum_of_squares);
+}
+
+TEST(LinearLeastSquares, StaysInDoubleWhereTheConditionLeavesTheDigits) {
+  LeastSquaresOptions options{.digits = 13.0, .with_deviations = true};
+  options.exact = []() -> ExtendedSystem {
+    throw std::logic_error("not needed");
+  };
+  const LeastSquaresFit fit = SolveLeastSquares(
+      RandomMatrix(30, 5, 15), RandomVector(30, 16), {}, options);
+  EXPECT_EQ(fit.bits, 53);
+  EXPECT_EQ(fit.standard_deviations.size(), 0);
+}
+
+// Refined or solved in 106 bits throughout: the same to the last digit or two.
+TEST(LinearLeastSquares, RefinesToTheSolutionIn106Bits) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    MatrixXd design = RandomMatrix(40, 6, 100 + seed);
+    // Each column follows from that before it to 1e-2 or 1e-3.
+    for (Index j = 1; j < 6; ++j) {
+      design.col(j) =
+          design.col(j - 1) + (seed % 2 == 0 ? 0.01 : 0.001) * design.col(j);
+    }
+    const VectorXd response = RandomVector(40, 200 + seed);
+    const LeastSquaresFit fit =
+        SolveLeastSquares(design, response, {}, {.digits = 13.0});
+    const ExtendedLeastSquaresFit solved = SolveExtendedLeastSquares(
+        design.cast<DoubleDouble>(), response.cast<DoubleDouble>(), {15.0});
+    ASSERT_EQ(fit.bits, 106) << fit.condition;
+    for (Index j = 0; j < 6; ++j) {
+      EXPECT_NEAR(fit.coefficients[j] / solved.coefficients[j].hi, 1.0, 1e-15);
+    }
+    EXPECT_NEAR(fit.residual_sum_of_squares / solved.residual_sum_of_squares.hi,
+                1.0,
+                1e-15);
   }
 }
 
@@ -290,6 +453,19 @@ TEST(LinearLeastSquares, RefusesValuesThatAreNotFinite) {
     ExpectRefused(MatrixXd::Ones(3, 2), spoilt, {}, "values must be finite");
     ExpectRefused(MatrixXd::Ones(3, 2), ones, spoilt, "values must be finite");
   }
+}
+
+TEST(LeastSquaresOptions, RefuseEachValueOutOfRange) {
+  const auto refuse = [](LeastSquaresOptions options,
+                         const std::string& message) {
+    EXPECT_THAT([&] { options.Validate(); },
+                ThrowsMessage<std::invalid_argument>(HasSubstr(message)));
+  };
+  LeastSquaresOptions().Validate();
+  refuse({.aliased = 1.0}, "aliased must be above 0 and below 1");
+  refuse({.confirmed = 0.0}, "confirmed must be above 0 and at most aliased");
+  refuse({.confirmed = 1e-6}, "confirmed must be");
+  refuse({.digits = 16.0}, "digits must be 0 to 15");
 }
 
 TEST(LinearLeastSquares, RefusesNegativeWeights) {

@@ -22,6 +22,19 @@ struct Growth {
   }
 };
 
+// The same with its linear part written twice and once more as half of it:
+// columns that depend on each other.
+struct TripleGrowth {
+  static constexpr int kParameters = 4;
+  static constexpr int kLinear[] = {0, 1, 2};
+  template <typename T, typename X>
+  static T Predict(const T* b, const X* x) {
+    using std::exp;
+    const T growth = T(X(1.0)) - exp(-b[3] * T(x[0]));
+    return b[0] * growth + b[1] * growth + b[2] * T(X(0.5)) * growth;
+  }
+};
+
 // Every operation and function of Dual.
 struct Everything {
   static constexpr int kParameters = 3;
@@ -155,6 +168,30 @@ TEST(ProjectedObjective, CompletesWithTheBestLinearParameters) {
       projected.Complete(Eigen::VectorXd::Constant(1, 0.54723748542));
   EXPECT_NEAR(b[0], 213.80940889, 1e-7);
   EXPECT_EQ(projected.Reduce(b)[0], b[1]);
+}
+
+TEST(ProjectedObjective, DependentColumnsChangeNothing) {
+  constexpr double kRounding = 1e-12;
+  const auto alone = BoxBod();
+  ExtendedMatrix x(6, 1);
+  x << 1.0, 2.0, 3.0, 5.0, 7.0, 10.0;
+  ExtendedVector y(6);
+  y << 109.0, 149.0, 149.0, 191.0, 213.0, 224.0;
+  const FormulaRegression<TripleGrowth> tripled(x, y);
+  const ProjectedObjective expected(alone);
+  const ProjectedObjective found(tripled);
+  for (const double rate : {0.1, 0.54, 1.0, 3.0}) {
+    const Eigen::VectorXd at = Eigen::VectorXd::Constant(1, rate);
+    Eigen::VectorXd expected_gradient;
+    Eigen::VectorXd found_gradient;
+    const double value = expected.Evaluate(at, &expected_gradient);
+    EXPECT_NEAR(found.Evaluate(at, &found_gradient), value, kRounding * value);
+    EXPECT_NEAR(found_gradient[0], expected_gradient[0], 1e-9 * value);
+    const Eigen::VectorXd complete = found.Complete(at);
+    EXPECT_EQ(complete[1], 0.0);
+    EXPECT_EQ(complete[2], 0.0);
+    EXPECT_NEAR(complete[0], expected.Complete(at)[0], 1e-10);
+  }
 }
 
 TEST(ProjectedObjective, NeedsParametersOfBothKinds) {
