@@ -24,6 +24,16 @@ Json FloorsJson(const models::CertificationFloors& floors) {
           {"agreement_prediction_difference", floors.agreement_predictions}};
 }
 
+Json EstimatesJson(const std::vector<models::CertifiedEstimate>& estimates) {
+  Json rows = Json::array();
+  for (const models::CertifiedEstimate& row : estimates) {
+    rows.push_back({{"name", row.name},
+                    {"estimate", row.estimate},
+                    {"standard_deviation", row.standard_deviation}});
+  }
+  return rows;
+}
+
 Json NonlinearJson(const models::Certification& certification) {
   Json rows = Json::array();
   for (const auto& row : certification.nonlinear) {
@@ -35,7 +45,9 @@ Json NonlinearJson(const models::Certification& certification) {
                     {"lre_rss", row.lre_rss},
                     {"iterations", row.iterations},
                     {"stop", row.stop},
-                    {"message", row.message}});
+                    {"message", row.message},
+                    {"estimates", EstimatesJson(row.estimates)},
+                    {"rss", row.residual_sum_of_squares}});
   }
   return rows;
 }
@@ -43,7 +55,9 @@ Json NonlinearJson(const models::Certification& certification) {
 Json SummaryJson(const models::Certification& certification) {
   Json rows = Json::array();
   for (const auto& row : certification.nonlinear_summary) {
+    const std::string fits = models::ModelsFittedBy(row.solver);
     rows.push_back({{"solver", row.solver},
+                    {"fits", fits.empty() ? Json() : Json(fits)},
                     {"runs", row.runs},
                     {"solved", row.solved},
                     {"mean_lre_parameters", row.mean_lre_parameters},
@@ -57,11 +71,14 @@ Json LinearJson(const models::Certification& certification) {
   Json rows = Json::array();
   for (const auto& row : certification.linear) {
     rows.push_back({{"problem", row.problem},
+                    {"model", row.model},
                     {"lre_coefficients", row.lre_coefficients},
                     {"lre_sd", row.lre_sd},
                     {"lre_rss", row.lre_rss},
                     {"condition", row.condition},
-                    {"bits", row.bits}});
+                    {"bits", row.bits},
+                    {"estimates", EstimatesJson(row.estimates)},
+                    {"rss", row.residual_sum_of_squares}});
   }
   return rows;
 }
@@ -74,6 +91,9 @@ Json UnivariateJson(const models::Certification& certification) {
          {"lre_mean", row.lre_mean},
          {"lre_sd", row.lre_sd},
          {"lre_autocorrelation", row.lre_autocorrelation},
+         {"mean", row.mean},
+         {"sd", row.sd},
+         {"autocorrelation", row.autocorrelation},
          {"condition", row.condition},
          {"bits", row.bits},
          {"lre_mean_double", row.lre_mean_double},

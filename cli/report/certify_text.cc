@@ -56,7 +56,13 @@ std::string SolversText(const Certification& certification,
              floors.nonlinear_mean_parameters,
              floors.nonlinear_parameters,
              floors.nonlinear_sd,
-             floors.nonlinear_rss);
+             floors.nonlinear_rss) +
+         fmt::format(
+             "{} is the library's (fitting/nonlinear/nonlinear_regression.h); "
+             "no command fits formulas by it. The\ncommands fit nets, by the "
+             "solvers below it: net:lm, net:scg, net:cg, net:ceres, "
+             "net:nlopt.\n",
+             models::kDefaultSolver);
 }
 
 // The default solver's runs; with `details` everybody's.
@@ -89,7 +95,9 @@ std::string RunsText(const Certification& certification, bool details) {
 std::string LinearText(const Certification& certification,
                        const CertificationFloors& floors) {
   std::string text = fmt::format(
-      "\nNIST StRD, linear; digits (LRE, at most 15; floors {:.0f})\n"
+      "\nNIST StRD, linear, as errmap fit --model "
+      "poly:formula=...:centred=no fits the data's CSV; digits (LRE,\nat most "
+      "15; floors {:.0f})\n"
       "{:<10}{:>8}{:>7}{:>7}{:>12}{:>6}\n",
       floors.linear_coefficients,
       "problem",

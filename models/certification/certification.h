@@ -10,6 +10,13 @@
 
 namespace errmap::models {
 
+/// What was found, beside the digits that it shares with the certified value.
+struct CertifiedEstimate {
+  std::string name;
+  double estimate = 0.0;
+  double standard_deviation = 0.0;
+};
+
 /// One run of one solver on a nonlinear NIST problem.
 struct NonlinearCertificate {
   std::string problem;
@@ -21,6 +28,8 @@ struct NonlinearCertificate {
   std::int64_t iterations = 0;
   std::string stop;     // fitting::ToString of the termination
   std::string message;  // the solver's own words, or what it threw
+  std::vector<CertifiedEstimate> estimates = {};
+  double residual_sum_of_squares = 0.0;
 };
 
 /// All runs of one solver. Solved = lre_parameters above 4.
@@ -33,13 +42,18 @@ struct SolverCertificate {
   double least_lre_parameters = 0.0;
 };
 
+/// A linear NIST problem by `errmap fit --model SPEC` on its data as CSV.
 struct LinearCertificate {
   std::string problem;
+  std::string model = {};  // the SPEC
   double lre_coefficients = 0.0;
   double lre_sd = 0.0;
   double lre_rss = 0.0;
   double condition = 0.0;  // of the design with columns of unit length
   int bits = 0;            // of the arithmetic that its condition asked for
+  std::vector<CertifiedEstimate> estimates =
+      {};  // the intercept first, where there is one
+  double residual_sum_of_squares = 0.0;
 };
 
 struct UnivariateCertificate {
@@ -47,6 +61,9 @@ struct UnivariateCertificate {
   double lre_mean = 0.0;
   double lre_sd = 0.0;
   double lre_autocorrelation = 0.0;
+  double mean = 0.0;
+  double sd = 0.0;
+  double autocorrelation = 0.0;  // at lag 1
   /// Of the figures above: 53 where double data hold the digits, 106 where
   /// sqrt(1 + (mean / sd)^2) says that the decimal text must be kept.
   int bits = 0;
@@ -109,8 +126,13 @@ struct Certification {
 };
 
 /// The name of the default: Levenberg-Marquardt with its fallbacks and polish
-/// (fitting::FitNonlinearRegression).
+/// (fitting::FitNonlinearRegression). Of the library only: the commands fit
+/// nets, by the other solvers.
 inline constexpr const char* kDefaultSolver = "lm";
+
+/// "net:scg" of "scg:moller": the models that `solver` fits in the commands;
+/// "" for the default.
+std::string ModelsFittedBy(const std::string& solver);
 
 /// Runs every solver on the 27 problems from both starts, in parallel; the
 /// figures do not depend on the number of threads.

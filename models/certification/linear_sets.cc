@@ -1,8 +1,15 @@
+#include <algorithm>
 #include <cmath>
 
-#include "fitting/least_squares/extended_least_squares.h"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "data/csv.h"
+#include "data/dataset.h"
 #include "models/certification/certification.h"
 #include "models/certification/strd_functions.h"
+#include "models/recipe_catalog.h"
+#include "models/regression_report.h"
 #include "stats/extended_summary.h"
 #include "stats/lre.h"
 #include "stats/summary.h"
@@ -10,30 +17,72 @@
 namespace errmap::models {
 namespace {
 
-using fitting::ExtendedMatrix;
 using fitting::ExtendedVector;
 
-double Number(const std::string& text) {
-  return stats::ParseDoubleDouble(text).hi;
-}
-
-ExtendedMatrix Design(const data::StrdProblem& problem) {
-  if (problem.design == data::StrdDesign::kPowers) {
-    return fitting::PowersDesign(
-        StrdColumn(problem, 1), problem.low_power, problem.high_power);
-  }
-  ExtendedMatrix design(static_cast<Eigen::Index>(problem.rows.size()),
-                        static_cast<Eigen::Index>(problem.columns.size()));
-  design.col(0).setOnes();
-  for (std::size_t j = 1; j < problem.columns.size(); ++j) {
-    design.col(static_cast<Eigen::Index>(j)) = StrdColumn(problem, j);
-  }
-  return design;
-}
-
-double Lre(const stats::DoubleDouble& value, const std::string& certified) {
+double Lre(double value, const std::string& certified) {
   return stats::LogRelativeError(
-      value.hi, Number(certified), stats::kLreCapLinear);
+      value, stats::ParseDoubleDouble(certified).hi, stats::kLreCapLinear);
+}
+
+// The problem's data as the CSV file that a user would have of them.
+std::string CsvText(const data::StrdProblem& problem) {
+  std::string text = fmt::format("{}\n", fmt::join(problem.columns, ","));
+  for (const std::vector<std::string>& row : problem.rows) {
+    text += fmt::format("{}\n", fmt::join(row, ","));
+  }
+  return text;
+}
+
+// The model as a user would ask for it; --target is the first column.
+std::string FormulaSpec(const data::StrdProblem& problem) {
+  std::vector<std::string> terms;
+  bool intercept = true;
+  if (problem.design == data::StrdDesign::kPowers) {
+    intercept = problem.low_power == 0;
+    for (int k = std::max(1, problem.low_power); k <= problem.high_power; ++k) {
+      terms.push_back(fmt::format("{}^{}", problem.columns[1], k));
+    }
+  } else {
+    terms.assign(problem.columns.begin() + 1, problem.columns.end());
+  }
+  return fmt::format("poly:formula={}:centred=no{}",
+                     fmt::join(terms, "+"),
+                     intercept ? "" : ":intercept=no");
+}
+
+// What `errmap fit` makes of the problem, from its text on.
+LinearCertificate Certify(const data::StrdProblem& problem) {
+  LinearCertificate row{.problem = problem.name, .model = FormulaSpec(problem)};
+  const data::PreparedDataset prepared =
+      data::MakeDataset(data::ParseCsv(CsvText(problem), problem.name + ".csv"),
+                        {.target = problem.columns[0]});
+  const FittedModel fitted =
+      MakeRecipe(row.model)->Fit(prepared.dataset, {.explain = true});
+  const RegressionReport& report = *fitted.regression;
+  const auto add = [&](const ReportTerm& term) {
+    row.estimates.push_back(
+        {term.name, term.numbers.estimate, term.numbers.standard_error});
+  };
+  if (report.fit.has_intercept) add(report.intercept);
+  for (const ReportTerm& term : report.terms) add(term);
+  const auto count = static_cast<Eigen::Index>(row.estimates.size());
+  Eigen::VectorXd coefficients(count);
+  Eigen::VectorXd deviations(count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const CertifiedEstimate& found = row.estimates[static_cast<std::size_t>(j)];
+    coefficients[j] = found.estimate;
+    deviations[j] = found.standard_deviation;
+  }
+  row.residual_sum_of_squares = report.fit.residual_sum_of_squares;
+  row.lre_coefficients = stats::SmallestLogRelativeError(
+      coefficients, CertifiedParameters(problem), stats::kLreCapLinear);
+  row.lre_sd = stats::SmallestLogRelativeError(
+      deviations, CertifiedDeviations(problem), stats::kLreCapLinear);
+  row.lre_rss =
+      Lre(row.residual_sum_of_squares, problem.residual_sum_of_squares);
+  row.condition = report.fit.condition;
+  row.bits = report.fit.bits;
+  return row;
 }
 
 }  // namespace
@@ -41,23 +90,7 @@ double Lre(const stats::DoubleDouble& value, const std::string& certified) {
 void CertifyLinear(Certification* certification) {
   for (const data::StrdProblem& problem : data::StrdProblems()) {
     if (problem.kind != data::StrdKind::kLinear) continue;
-    const fitting::ExtendedLeastSquaresFit fit =
-        fitting::SolveExtendedLeastSquares(Design(problem),
-                                           StrdColumn(problem, 0));
-    certification->linear.push_back(
-        {.problem = problem.name,
-         .lre_coefficients =
-             stats::SmallestLogRelativeError(fit.coefficients.cast<double>(),
-                                             CertifiedParameters(problem),
-                                             stats::kLreCapLinear),
-         .lre_sd = stats::SmallestLogRelativeError(
-             fit.standard_deviations.cast<double>(),
-             CertifiedDeviations(problem),
-             stats::kLreCapLinear),
-         .lre_rss =
-             Lre(fit.residual_sum_of_squares, problem.residual_sum_of_squares),
-         .condition = fit.condition,
-         .bits = fit.bits});
+    certification->linear.push_back(Certify(problem));
   }
 }
 
@@ -72,22 +105,19 @@ void CertifyUnivariate(Certification* certification) {
     const stats::ExtendedSummary extended = stats::SummarizeExtended(sample);
     UnivariateCertificate row{.problem = problem.name};
     row.condition = extended.condition;
+    const double lag_one = stats::LagOneAutocorrelation(doubles);
     row.lre_mean_double = Lre(plain.mean, problem.mean);
     row.lre_sd_double = Lre(plain.sd, problem.standard_deviation);
-    row.lre_autocorrelation_double =
-        Lre(stats::LagOneAutocorrelation(doubles), problem.autocorrelation);
-    if (row.condition * std::ldexp(1.0, -stats::kDoubleBits) <= kWanted) {
-      row.bits = stats::kDoubleBits;
-      row.lre_mean = row.lre_mean_double;
-      row.lre_sd = row.lre_sd_double;
-      row.lre_autocorrelation = row.lre_autocorrelation_double;
-    } else {
-      row.bits = stats::kDoubleDoubleBits;
-      row.lre_mean = Lre(extended.mean, problem.mean);
-      row.lre_sd = Lre(extended.sd, problem.standard_deviation);
-      row.lre_autocorrelation =
-          Lre(extended.autocorrelation, problem.autocorrelation);
-    }
+    row.lre_autocorrelation_double = Lre(lag_one, problem.autocorrelation);
+    const bool by_doubles =
+        row.condition * std::ldexp(1.0, -stats::kDoubleBits) <= kWanted;
+    row.bits = by_doubles ? stats::kDoubleBits : stats::kDoubleDoubleBits;
+    row.mean = by_doubles ? plain.mean : extended.mean.hi;
+    row.sd = by_doubles ? plain.sd : extended.sd.hi;
+    row.autocorrelation = by_doubles ? lag_one : extended.autocorrelation.hi;
+    row.lre_mean = Lre(row.mean, problem.mean);
+    row.lre_sd = Lre(row.sd, problem.standard_deviation);
+    row.lre_autocorrelation = Lre(row.autocorrelation, problem.autocorrelation);
     certification->univariate.push_back(row);
   }
 }

@@ -31,6 +31,13 @@ void Judge(const data::StrdProblem& problem,
       statistics.parameters, CertifiedParameters(problem), kCap);
   row->lre_sd = stats::SmallestLogRelativeError(
       statistics.standard_deviations, CertifiedDeviations(problem), kCap);
+  row->residual_sum_of_squares = statistics.residual_sum_of_squares;
+  for (std::size_t j = 0; j < problem.parameters.size(); ++j) {
+    const auto at = static_cast<Eigen::Index>(j);
+    row->estimates.push_back({problem.parameters[j].name,
+                              statistics.parameters[at],
+                              statistics.standard_deviations[at]});
+  }
   row->lre_rss = stats::LogRelativeError(
       statistics.residual_sum_of_squares,
       stats::ParseDoubleDouble(problem.residual_sum_of_squares).hi,
@@ -94,6 +101,11 @@ SolverCertificate Summarise(const std::string& solver,
 }
 
 }  // namespace
+
+std::string ModelsFittedBy(const std::string& solver) {
+  if (solver == kDefaultSolver) return "";
+  return "net:" + solver.substr(0, solver.find(':'));
+}
 
 void CertifyNonlinear(Certification* certification) {
   std::vector<const CertifiedSolver*> solvers{nullptr};

@@ -9,6 +9,28 @@ using ::testing::HasSubstr;
 
 class Certify : public Cli {
  protected:
+  // A problem of data/sets/nist_strd as a user's CSV: the line of columns and
+  // the lines after "data", commas for blanks.
+  static std::string CsvOf(const std::string& problem) {
+    std::ifstream stream(tests::SourceDir() + "/data/sets/nist_strd/" +
+                         problem + ".txt");
+    std::string text;
+    bool is_data = false;
+    for (std::string line; std::getline(stream, line);) {
+      const std::string columns = "columns ";
+      if (line.starts_with(columns))
+        line.erase(0, columns.size());
+      else if (line == "data") {
+        is_data = true;
+        continue;
+      } else if (!is_data)
+        continue;
+      std::replace(line.begin(), line.end(), ' ', ',');
+      text += line + "\n";
+    }
+    return text;
+  }
+
   // One run serves all tests of it: it takes some seconds.
   const Json& Nist() const {
     static const Json kDocument =
@@ -46,6 +68,7 @@ TEST_F(Certify, NistFiguresReachTheirFloors) {
   for (const Json& row : document["linear"]) {
     EXPECT_GE(row["lre_coefficients"], kLinear) << row;
     EXPECT_GE(row["lre_sd"], kLinear) << row;
+    EXPECT_GE(row["lre_rss"], kLinear) << row;
     if (row["problem"] == "Filip") {
       EXPECT_GE(row["bits"], 106);
     }
@@ -56,6 +79,63 @@ TEST_F(Certify, NistFiguresReachTheirFloors) {
     EXPECT_GE(row["lre_sd"], row["problem"] == "NumAcc4" ? kNumAcc4Sd : kLinear)
         << row;
     EXPECT_GE(row["lre_autocorrelation"], kLinear) << row;
+  }
+}
+
+// The proof is of what a user runs: errmap fit on the CSV of a problem's data
+// says, to the last bit, what certify judges.
+TEST_F(Certify, LinearFiguresAreThoseOfFit) {
+  std::map<std::string, Json> rows;
+  for (const Json& row : Nist()["linear"])
+    rows[row["problem"].get<std::string>()] = row;
+  for (const std::string problem :
+       {"Filip", "Longley", "Norris", "NoInt1", "Wampler2", "Wampler5"}) {
+    const Json& row = rows.at(problem);
+    Write("data.csv", CsvOf(problem));
+    const Json fitted = RunJson({"fit",
+                                 "data.csv",
+                                 "--target",
+                                 "y",
+                                 "--model",
+                                 row["model"].get<std::string>(),
+                                 "-o",
+                                 "map.json",
+                                 "--quiet",
+                                 "--format",
+                                 "json"});
+    const Json& terms = fitted["regression"]["coefficients"];
+    ASSERT_EQ(terms.size(), row["estimates"].size()) << problem;
+    for (std::size_t j = 0; j < terms.size(); ++j) {
+      const Json& found = row["estimates"][j];
+      EXPECT_EQ(terms[j]["term"], found["name"]);
+      EXPECT_EQ(terms[j]["estimate"], found["estimate"]) << problem;
+      EXPECT_EQ(terms[j]["standard_error"], found["standard_deviation"]);
+    }
+    EXPECT_EQ(fitted["regression"]["anova"]["residual_ss"], row["rss"]);
+  }
+  // Certified: NIST StRD, Filip's B10 and its standard deviation.
+  const Json& last = rows.at("Filip")["estimates"][10];
+  EXPECT_NEAR(last["estimate"].get<double>(),
+              -0.402962525080404E-04,
+              1e-13 * 0.402962525080404E-04);
+  EXPECT_NEAR(last["standard_deviation"].get<double>(),
+              0.896632837373868E-05,
+              1e-13 * 0.896632837373868E-05);
+}
+
+// Which solver a command uses is said.
+TEST_F(Certify, SaysWhichModelsASolverFits) {
+  for (const Json& row : Nist()["nonlinear_summary"]) {
+    const std::string solver = row["solver"];
+    if (solver == "lm") {
+      EXPECT_TRUE(row["fits"].is_null());
+    } else {
+      EXPECT_EQ(row["fits"], "net:" + solver.substr(0, solver.find(':')));
+    }
+  }
+  for (const Json& row : Nist()["nonlinear"]) {
+    if (row["solver"] != "lm") continue;
+    EXPECT_FALSE(row["estimates"].empty()) << row;
   }
 }
 
