@@ -164,6 +164,8 @@ std::string_view ToString(Termination termination) {
       return "cost_goal";
     case Termination::kGradient:
       return "gradient";
+    case Termination::kResolution:
+      return "cost_resolution";
     case Termination::kSlowProgress:
       return "slow_progress";
     case Termination::kNoDescent:
@@ -182,6 +184,7 @@ std::string_view ToString(Termination termination) {
 
 bool IsConverged(Termination termination) {
   return termination == Termination::kGradient ||
+         termination == Termination::kResolution ||
          termination == Termination::kDirect;
 }
 

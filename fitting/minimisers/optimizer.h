@@ -11,7 +11,8 @@
 
 namespace errmap::fitting {
 
-/// Why a minimisation ended. Only kGradient and kDirect claim a minimum.
+/// Why a minimisation ended. Only kGradient, kResolution and kDirect claim a
+/// minimum.
 enum class Termination {
   kDirect,           // solved in one go (linear least squares)
   kFailed,           // no usable point: x0 infeasible, or never run
@@ -23,12 +24,14 @@ enum class Termination {
   kEvaluationLimit,  // not converged
   kTimeLimit,        // not converged
   kInterrupted,      // stopped from outside, not converged
+  kResolution,       // no step lowers the cost, at its minimum: converged
 };
 
 /// "gradient", "iteration_limit", ...: the word in JSON and tables.
 std::string_view ToString(Termination termination);
 
-/// True for kGradient and kDirect: a goal or a limit reached is no minimum.
+/// True for kGradient, kResolution and kDirect: a goal or a limit reached is no
+/// minimum.
 bool IsConverged(Termination termination);
 
 /// When to stop; the report's names in brackets.

@@ -59,8 +59,10 @@ struct ScaledConjugateGradientOptions {
 /// in a row restarts from the gradient at the rejected point.
 ///
 /// Ends with kGradient when |g| < gradient_goal max(1, |x|), kCostGoal,
-/// kSlowProgress, kNoDescent (nothing lowers the cost from steepest descent), a
-/// limit, or kFailed where the start is infeasible.
+/// kSlowProgress, a limit, or kFailed where the start is infeasible. Where
+/// nothing lowers the cost from steepest descent, kMoller in double ends with
+/// kResolution if the cost itself says that this is a minimum
+/// (cost_resolution.h), and kNoDescent says that it does not.
 template <typename Scalar>
 class BasicScaledConjugateGradient final : public BasicOptimizer<Scalar> {
  public:

@@ -1,7 +1,9 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <type_traits>
 
+#include "fitting/minimisers/cost_resolution.h"
 #include "fitting/minimisers/run_monitor.h"
 #include "fitting/minimisers/scg_variants.h"
 
@@ -160,9 +162,28 @@ class MollerRun {
       steps_since_restart_ = 0;
       failures_ = 0;
     } else if (failures_ > kMostFromSteepestDescent) {
-      monitor_.Stop(Termination::kNoDescent,
-                    "no step along steepest descent lowers the cost");
+      StopWithoutDescent();
     }
+  }
+
+  // Either there is nothing left to gain that the cost could show, or the
+  // gradient promises what is not to be had.
+  void StopWithoutDescent() {
+    if constexpr (std::is_same_v<Scalar, double>) {
+      // One is kept for the end.
+      const auto may_evaluate = [&] {
+        return !monitor_.StopAtLimit(++evaluations_, 1);
+      };
+      const CostResolution resolution =
+          FindCostResolution(f_, w_, may_evaluate);
+      if (monitor_.stopped()) return;
+      if (resolution.is_reached()) {
+        monitor_.Stop(Termination::kResolution, resolution.Text());
+        return;
+      }
+    }
+    monitor_.Stop(Termination::kNoDescent,
+                  "no step along steepest descent lowers the cost");
   }
 
   // Eq. (112) with the growth of Moller's paper, which does not depend on the

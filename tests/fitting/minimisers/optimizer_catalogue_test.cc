@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "fitting/minimisers/optimizer.h"
+#include "tests/fitting/claimed_minimum.h"
 #include "tests/fitting/optimizer_cases.h"
 #include "tests/fitting/test_problems.h"
 #include "tests/fitting/watched_objective.h"
@@ -22,6 +23,7 @@ namespace {
 using Eigen::VectorXd;
 using errmap::testing::AllOptimizers;
 using errmap::testing::AllTestProblems;
+using errmap::testing::ExpectTrueClaim;
 using errmap::testing::OptimizerCase;
 using errmap::testing::Rosenbrock;
 using errmap::testing::TestProblem;
@@ -66,12 +68,7 @@ class OptimizerOnProblem
     EXPECT_THAT(summary.message, Not(IsEmpty()));
     EXPECT_NE(summary.message, "not run");
     EXPECT_NE(summary.message, "still running");
-    if (summary.termination == Termination::kGradient) {
-      EXPECT_TRUE(gradient.norm() == 0.0 ||
-                  gradient.norm() <
-                      rules.gradient_goal * std::max(1.0, minimum.x.norm()))
-          << "claims a minimum with a gradient of " << gradient.norm();
-    }
+    ExpectTrueClaim(*problem().objective, minimum, rules.gradient_goal);
     if (summary.termination == Termination::kIterationLimit) {
       EXPECT_EQ(summary.iterations, rules.iterations);
     }

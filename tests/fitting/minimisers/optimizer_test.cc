@@ -75,15 +75,17 @@ TEST(Termination, HasAWordForEachReason) {
   EXPECT_EQ(ToString(Termination::kGradient), "gradient");
   EXPECT_EQ(ToString(Termination::kSlowProgress), "slow_progress");
   EXPECT_EQ(ToString(Termination::kNoDescent), "no_descent");
+  EXPECT_EQ(ToString(Termination::kResolution), "cost_resolution");
   EXPECT_EQ(ToString(Termination::kIterationLimit), "iteration_limit");
   EXPECT_EQ(ToString(Termination::kEvaluationLimit), "evaluation_limit");
   EXPECT_EQ(ToString(Termination::kTimeLimit), "time_limit");
   EXPECT_EQ(ToString(Termination::kInterrupted), "interrupted");
 }
 
-TEST(Termination, OnlyASmallGradientOrADirectSolutionIsAMinimum) {
+TEST(Termination, OnlyThreeReasonsClaimAMinimum) {
   EXPECT_TRUE(IsConverged(Termination::kGradient));
   EXPECT_TRUE(IsConverged(Termination::kDirect));
+  EXPECT_TRUE(IsConverged(Termination::kResolution));
   for (const Termination other : {Termination::kFailed,
                                   Termination::kCostGoal,
                                   Termination::kSlowProgress,

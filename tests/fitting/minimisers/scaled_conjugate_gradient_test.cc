@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "models/net/net_objective.h"
+#include "tests/fitting/claimed_minimum.h"
 #include "tests/fitting/test_problems.h"
 #include "tests/models/golden_netcg.h"
 #include "tests/models/net/net_test_cases.h"
@@ -20,6 +21,7 @@
 namespace errmap::fitting {
 namespace {
 
+using errmap::testing::ExpectTrueClaim;
 using errmap::testing::GoldenCase;
 using errmap::testing::GoldenPath;
 using errmap::testing::RandomMatrix;
@@ -297,6 +299,58 @@ TEST(ScaledConjugateGradient, SolvesANetToAMinimumInEitherVariant) {
     EXPECT_EQ(net.Evaluate(minimum.x, &gradient), minimum.summary.final_cost);
     EXPECT_EQ(gradient.norm(), minimum.summary.final_gradient_norm);
     EXPECT_LT(gradient.norm(), 1e-8 * minimum.x.norm());
+  }
+}
+
+// A goal of 1e-12 lies below what the cost can resolve: the run ends where it
+// has its minimum to nine digits, and says so. A goal of 1e-9, reached before,
+// leaves a little more to gain.
+TEST(ScaledConjugateGradient, ConvergesAtTheResolutionOfTheCost) {
+  constexpr double kLeftByTheGoal = 1e-6;
+  const auto net = SmallNet<double>();
+  const auto run = [&](double goal) {
+    return MinimizeSmallNet<double>(
+        net,
+        ScgVariant::kMoller,
+        {.iterations = 20'000, .gradient_goal = goal});
+  };
+  const Minimum reachable = run(1e-9);
+  EXPECT_EQ(reachable.summary.termination, Termination::kGradient);
+  for (const double goal : {1e-12, 0.0}) {
+    const Minimum minimum = run(goal);
+    const FitSummary& summary = minimum.summary;
+    EXPECT_EQ(summary.termination, Termination::kResolution) << summary.message;
+    EXPECT_TRUE(summary.converged());
+    EXPECT_THAT(summary.message, HasSubstr("the resolution of the cost"));
+    EXPECT_GT(summary.iterations, reachable.summary.iterations);
+    EXPECT_LE(summary.final_cost, reachable.summary.final_cost);
+    EXPECT_GE(summary.final_cost,
+              (1.0 - kLeftByTheGoal) * reachable.summary.final_cost);
+    ExpectTrueClaim(net, minimum, goal);
+    EXPECT_GT(summary.final_gradient_norm, goal * minimum.x.norm());
+    Eigen::VectorXd gradient;
+    EXPECT_EQ(net.Evaluate(minimum.x, &gradient), summary.final_cost);
+    EXPECT_EQ(gradient.norm(), summary.final_gradient_norm);
+  }
+  // The 1995 program knows no such end.
+  const Minimum netcg = MinimizeSmallNet<double>(
+      net, ScgVariant::kNetcg, {.iterations = 20'000, .gradient_goal = 1e-12});
+  EXPECT_NE(netcg.summary.termination, Termination::kResolution);
+}
+
+// The limit holds while the end looks around.
+TEST(ScaledConjugateGradient, LooksAroundWithinItsEvaluations) {
+  const auto net = SmallNet<double>();
+  StoppingRules rules{.iterations = 20'000, .gradient_goal = 0.0};
+  const std::int64_t all =
+      MinimizeSmallNet<double>(net, ScgVariant::kMoller, rules)
+          .summary.evaluations();
+  for (const std::int64_t fewer : {1, 2, 3, 10, 30, 70, 100}) {
+    rules.evaluations = all - fewer;
+    const FitSummary summary =
+        MinimizeSmallNet<double>(net, ScgVariant::kMoller, rules).summary;
+    EXPECT_LE(summary.evaluations(), rules.evaluations);
+    EXPECT_EQ(summary.termination, Termination::kEvaluationLimit);
   }
 }
 

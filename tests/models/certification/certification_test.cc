@@ -210,7 +210,7 @@ class Trap final : public fitting::Objective {
 };
 
 TEST(CertifiedSolvers, NeverClaimAMinimumBesideATrap) {
-  for (const double beyond : {std::nan(""), HUGE_VAL}) {
+  for (const double beyond : {std::nan(""), HUGE_VAL, 1e3}) {
     for (const CertifiedSolver& solver : CertifiedSolvers()) {
       if (solver.needs_residuals) continue;
       const fitting::Minimum minimum =

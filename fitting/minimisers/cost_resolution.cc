@@ -1,0 +1,186 @@
+#include "fitting/minimisers/cost_resolution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace errmap::fitting {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+// Largest difference of the cost over moves of a few units in the last place,
+// of each move and its opposite the smaller: a step of the cost, which a run
+// may stand right before, shows on one side. NaN where neither is finite or an
+// evaluation is refused.
+double Rounding(const Objective& f,
+                const VectorXd& x,
+                double cost,
+                const std::function<bool()>& may_evaluate) {
+  constexpr int kPairs = 4;
+  double largest = std::abs(cost) * kEpsilon;
+  VectorXd moved = x;
+  for (int pair = 1; pair <= kPairs; ++pair) {
+    double smaller = std::nan("");
+    for (const double side : {1.0, -1.0}) {
+      for (Index i = 0; i < x.size(); ++i) {
+        // One to three units up or down, in another pattern each time.
+        const auto pattern = static_cast<double>((i * (2 * pair + 1)) % 7 - 3);
+        moved[i] = x[i] * (1.0 + side * pattern * kEpsilon);
+      }
+      if (!may_evaluate()) return std::nan("");
+      // fmin leaves NaN out.
+      smaller = std::fmin(smaller, std::abs(f.Evaluate(moved, nullptr) - cost));
+    }
+    if (!std::isfinite(smaller)) return std::nan("");
+    largest = std::max(largest, smaller);
+  }
+  return largest;
+}
+
+// H times a vector by central differences of the gradient at x.
+class HessianProduct {
+ public:
+  HessianProduct(const Objective& f,
+                 const VectorXd& x,
+                 const std::function<bool()>& may_evaluate)
+      : f_(f),
+        x_(x),
+        may_evaluate_(may_evaluate),
+        difference_(std::cbrt(kEpsilon) * std::max(1.0, x.norm())) {}
+
+  // False where an evaluation is refused or not finite.
+  bool Apply(const VectorXd& v, VectorXd* product) {
+    const double h = difference_ / v.norm();
+    if (!may_evaluate_()) return false;
+    const double cost_above = f_.Evaluate(x_ + h * v, &above_);
+    if (!may_evaluate_()) return false;
+    const double cost_below = f_.Evaluate(x_ - h * v, &below_);
+    *product = (above_ - below_) / (2.0 * h);
+    return std::isfinite(cost_above + cost_below) && product->allFinite();
+  }
+
+ private:
+  const Objective& f_;
+  const VectorXd& x_;
+  const std::function<bool()>& may_evaluate_;
+  double difference_;
+  VectorXd above_;
+  VectorXd below_;
+};
+
+// Conjugate gradients on H d = b, step by step.
+class ConjugateSteps {
+ public:
+  ConjugateSteps(HessianProduct* hessian, const VectorXd& b)
+      : hessian_(hessian), rest_(b), direction_(b) {}
+
+  double rest() const { return rest_.norm(); }
+  // d'Hd / d'd along the direction taken last.
+  double curvature() const { return curvature_; }
+  // What the last step adds to 1/2 b'd.
+  double gain() const { return gain_; }
+
+  // False where H d is unknown. Call no more where the curvature was not
+  // positive.
+  bool Step() {
+    const double squared = rest_.squaredNorm();
+    if (!hessian_->Apply(direction_, &turned_)) return false;
+    const double along = direction_.dot(turned_);
+    curvature_ = along / direction_.squaredNorm();
+    const double length = squared / along;
+    gain_ = 0.5 * length * squared;
+    rest_ -= length * turned_;
+    direction_ = rest_ + (rest_.squaredNorm() / squared) * direction_;
+    return true;
+  }
+
+ private:
+  HessianProduct* hessian_;
+  VectorXd rest_;
+  VectorXd direction_;
+  VectorXd turned_;
+  double curvature_ = 0.0;
+  double gain_ = 0.0;
+};
+
+constexpr Index kMostSteps = 500;
+
+// 1/2 g'H^-1 g; infinite where it is more than `limit`, or not known.
+double NewtonDecrease(HessianProduct* hessian,
+                      const VectorXd& gradient,
+                      double limit) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double kSolved = 0.1;
+  const double enough = kSolved * gradient.norm();
+  ConjugateSteps steps(hessian, -gradient);
+  double promised = 0.0;
+  for (Index step = 0; steps.rest() > enough; ++step) {
+    if (step == std::min(2 * gradient.size(), kMostSteps) || !steps.Step() ||
+        !(steps.curvature() > 0.0)) {
+      return kInfinity;
+    }
+    promised += steps.gain();
+    if (!(promised <= limit)) return kInfinity;
+  }
+  return promised;
+}
+
+// Whether f curves down somewhere, which a gradient that is all symmetry does
+// not see: looked for from a direction with a part in every other. False where
+// it curves down by less than the differences can tell.
+bool CurvesDown(HessianProduct* hessian, Index n) {
+  constexpr Index kEnoughSteps = 100;
+  constexpr double kSolved = 1e-3;
+  constexpr double kResolved = 1e-6;
+  VectorXd b(n);
+  for (Index i = 0; i < n; ++i) b[i] = std::sin(1.0 + static_cast<double>(i));
+  ConjugateSteps steps(hessian, b);
+  const double enough = kSolved * b.norm();
+  double largest = 0.0;
+  for (Index step = 0; step < std::min(n, kEnoughSteps); ++step) {
+    if (!steps.Step()) return true;
+    largest = std::max(largest, std::abs(steps.curvature()));
+    if (!(steps.curvature() > kResolved * largest)) {
+      return steps.curvature() < -kResolved * largest;
+    }
+    if (steps.rest() <= enough) return false;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string CostResolution::Text() const {
+  char text[128];
+  std::snprintf(text,
+                sizeof text,
+                "a minimum at the resolution of the cost: no step lowers it, "
+                "Newton's promises %.0e of %.2e",
+                remaining,
+                cost);
+  return text;
+}
+
+CostResolution FindCostResolution(const Objective& f,
+                                  const VectorXd& x,
+                                  const std::function<bool()>& may_evaluate) {
+  CostResolution result;
+  VectorXd gradient;
+  if (!may_evaluate()) return result;
+  result.cost = f.Evaluate(x, &gradient);
+  result.rounding = Rounding(f, x, result.cost, may_evaluate);
+  if (!std::isfinite(result.rounding) || !gradient.allFinite()) return result;
+  HessianProduct hessian(f, x, may_evaluate);
+  const double remaining = NewtonDecrease(&hessian, gradient, result.limit());
+  if (!std::isfinite(remaining) || CurvesDown(&hessian, x.size())) {
+    return result;
+  }
+  result.remaining = remaining;
+  return result;
+}
+
+}  // namespace errmap::fitting
