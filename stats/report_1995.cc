@@ -10,43 +10,45 @@ namespace {
 
 // Complementary error function with fractional error below 1.2e-7: the
 // Chebyshev fit of Press et al. that Appendix A uses (function ERFCC).
-float ErfcApproximation(float x) {
-  const float z = std::abs(x);
-  const float t = 1.0F / (1.0F + 0.5F * z);
-  constexpr float kCoefficients[] = {-1.26551223F,
-                                     1.00002368F,
-                                     0.37409196F,
-                                     0.09678418F,
-                                     -0.18628806F,
-                                     0.27886807F,
-                                     -1.13520398F,
-                                     1.48851587F,
-                                     -0.82215223F,
-                                     0.17087277F};
-  float series = 0.0F;
+template <typename Scalar>
+Scalar ErfcApproximation(Scalar x) {
+  const Scalar z = std::abs(x);
+  const Scalar t = Scalar(1) / (Scalar(1) + Scalar(0.5) * z);
+  constexpr Scalar kCoefficients[] = {Scalar(1.00002368),
+                                      Scalar(0.37409196),
+                                      Scalar(0.09678418),
+                                      Scalar(-0.18628806),
+                                      Scalar(0.27886807),
+                                      Scalar(-1.13520398),
+                                      Scalar(1.48851587),
+                                      Scalar(-0.82215223),
+                                      Scalar(0.17087277)};
+  Scalar series = 0;
   for (auto c = std::rbegin(kCoefficients); c != std::rend(kCoefficients);
        ++c) {
-    series = series * t + *c;
+    series = *c + t * series;
   }
-  const float value = t * std::exp(-z * z + series);
-  return x < 0.0F ? 2.0F - value : value;
+  const Scalar value = t * std::exp(-z * z - Scalar(1.26551223) + t * series);
+  return x < Scalar(0) ? Scalar(2) - value : value;
 }
 
-float NormalCdf(float x) {
-  const float half_width =
-      1.0F - ErfcApproximation(std::abs(x) / std::sqrt(2.0F));
-  const float upper = 0.5F * (1.0F + half_width);
-  return x >= 0.0F ? upper : 1.0F - upper;
+template <typename Scalar>
+Scalar NormalCdf(Scalar x) {
+  const Scalar half_width =
+      Scalar(1) - ErfcApproximation(std::abs(x) / std::sqrt(Scalar(2)));
+  const Scalar upper = Scalar(0.5) * (Scalar(1) + half_width);
+  return x >= Scalar(0) ? upper : Scalar(1) - upper;
 }
 
-float KsDistance(Eigen::VectorXf sample) {
+template <typename Scalar>
+Scalar KsDistance(VectorOf<Scalar> sample) {
   std::sort(sample.begin(), sample.end());
-  const auto n = static_cast<float>(sample.size());
-  float distance = 0.0F;
-  float below = 0.0F;
+  const auto n = static_cast<Scalar>(sample.size());
+  Scalar distance = 0;
+  Scalar below = 0;
   for (Eigen::Index j = 0; j < sample.size(); ++j) {
-    const float above = static_cast<float>(j + 1) / n;
-    const float cdf = NormalCdf(sample[j]);
+    const Scalar above = static_cast<Scalar>(j + 1) / n;
+    const Scalar cdf = NormalCdf(sample[j]);
     distance =
         std::max({distance, std::abs(below - cdf), std::abs(above - cdf)});
     below = above;
@@ -54,15 +56,17 @@ float KsDistance(Eigen::VectorXf sample) {
   return distance;
 }
 
-float KsProbability(float lambda) {
-  constexpr float kTermRatio = 0.001F;
-  constexpr float kSumRatio = 1e-8F;
-  const float exponent = -2.0F * lambda * lambda;
-  float factor = 2.0F;
-  float sum = 0.0F;
-  float last = 0.0F;
+template <typename Scalar>
+Scalar KsProbability(Scalar lambda) {
+  constexpr Scalar kTermRatio = Scalar(0.001);
+  constexpr Scalar kSumRatio = Scalar(1e-8);
+  const Scalar exponent = Scalar(-2) * (lambda * lambda);
+  Scalar factor = 2;
+  Scalar sum = 0;
+  Scalar last = 0;
   for (int j = 1; j <= 100; ++j) {
-    const float term = factor * std::exp(exponent * static_cast<float>(j * j));
+    const Scalar term =
+        factor * std::exp(exponent * static_cast<Scalar>(j * j));
     sum += term;
     if (std::abs(term) < kTermRatio * last ||
         std::abs(term) < kSumRatio * sum) {
@@ -71,66 +75,82 @@ float KsProbability(float lambda) {
     factor = -factor;
     last = std::abs(term);
   }
-  return 1.0F;
+  return 1;
 }
 
-// np and j stand one past their limits after the loops: np*j = (n+1)*2.
-float DivisorOf(Eigen::Index n) { return static_cast<float>((n + 1) * 2); }
+// np and j stand one past their limits after the loops: np*j = (P+1)(J+1).
+template <typename Scalar>
+Scalar DivisorOf(const MatrixOf<Scalar>& values) {
+  return static_cast<Scalar>((values.rows() + 1) * (values.cols() + 1));
+}
+
+// Pattern by pattern, output by output.
+template <typename Scalar>
+Scalar MeanAsPrinted(const MatrixOf<Scalar>& values) {
+  Scalar sum = 0;
+  for (Eigen::Index p = 0; p < values.rows(); ++p) {
+    for (const Scalar value : values.row(p)) sum += value;
+  }
+  return sum / DivisorOf(values);
+}
+
+template <typename Scalar>
+Scalar SquaresAbout(Scalar centre, const MatrixOf<Scalar>& values) {
+  Scalar sum = 0;
+  for (Eigen::Index p = 0; p < values.rows(); ++p) {
+    for (const Scalar value : values.row(p)) {
+      sum += (value - centre) * (value - centre);
+    }
+  }
+  return sum;
+}
 
 }  // namespace
 
-Report1995Statistics ComputeAsPrinted1995(
-    const Eigen::Ref<const Eigen::VectorXd>& residuals) {
-  if (residuals.size() == 0) {
-    throw std::invalid_argument("ComputeAsPrinted1995: no residuals");
+template <typename Scalar>
+Report1995Statistics StatisticsOf1995(const MatrixOf<Scalar>& errors) {
+  if (errors.size() == 0) {
+    throw std::invalid_argument("StatisticsOf1995: no residuals");
   }
-  const Eigen::VectorXf errors = residuals.cast<float>();
-  const float divisor = DivisorOf(errors.size());
-  float sum = 0.0F;
-  for (const float error : errors) sum += error;
-  const float mean = sum / divisor;
-  float squares = 0.0F;
-  for (const float error : errors) squares += (error - mean) * (error - mean);
-  const float sd = std::sqrt(squares / (divisor - 1.0F));
-
+  const Scalar mean = MeanAsPrinted(errors);
+  const Scalar sd =
+      std::sqrt(SquaresAbout(mean, errors) / (DivisorOf(errors) - Scalar(1)));
   Report1995Statistics printed;
-  printed.n = errors.size();
+  printed.n = errors.rows();
   printed.mean = static_cast<double>(mean);
   printed.sd = static_cast<double>(sd);
-  constexpr float kFirstMin = 1e20F;
-  constexpr float kFirstMax = 1e-20F;
+  constexpr Scalar kFirstMin = Scalar(1e20);
+  constexpr Scalar kFirstMax = Scalar(1e-20);
   printed.min = static_cast<double>(std::min(kFirstMin, errors.minCoeff()));
   printed.max = static_cast<double>(std::max(kFirstMax, errors.maxCoeff()));
-  const Eigen::VectorXf standardised = (errors.array() - mean) / sd;
-  const float distance = KsDistance(standardised);
+  const VectorOf<Scalar> standardised = (errors.col(0).array() - mean) / sd;
+  const Scalar distance = KsDistance<Scalar>(standardised);
   printed.ks_d = static_cast<double>(distance);
   printed.ks_probability = static_cast<double>(
-      KsProbability(std::sqrt(static_cast<float>(errors.size())) * distance));
+      KsProbability(std::sqrt(static_cast<Scalar>(errors.rows())) * distance));
   return printed;
 }
 
-double RSquaredAsPrinted1995(
-    const Eigen::Ref<const Eigen::VectorXd>& targets,
-    const Eigen::Ref<const Eigen::VectorXd>& predicted) {
-  if (targets.size() == 0 || targets.size() != predicted.size()) {
+template <typename Scalar>
+double RSquaredOf1995(const MatrixOf<Scalar>& targets,
+                      const MatrixOf<Scalar>& predicted) {
+  if (targets.size() == 0 || targets.rows() != predicted.rows() ||
+      targets.cols() != predicted.cols()) {
     throw std::invalid_argument(
-        "RSquaredAsPrinted1995: needs as many predictions as targets, at least "
-        "one; found " +
+        "RSquaredOf1995: needs as many predictions as targets, at least one; "
+        "found " +
         std::to_string(predicted.size()) + " and " +
         std::to_string(targets.size()));
   }
-  const Eigen::VectorXf target = targets.cast<float>();
-  const Eigen::VectorXf output = predicted.cast<float>();
-  float sum = 0.0F;
-  for (const float value : target) sum += value;
-  const float mean = sum / DivisorOf(target.size());
-  float total = 0.0F;
-  float regression = 0.0F;
-  for (Eigen::Index i = 0; i < target.size(); ++i) {
-    total += (target[i] - mean) * (target[i] - mean);
-    regression += (output[i] - mean) * (output[i] - mean);
-  }
-  return static_cast<double>(regression / total);
+  const Scalar mean = MeanAsPrinted(targets);
+  return static_cast<double>(SquaresAbout(mean, predicted) /
+                             SquaresAbout(mean, targets));
 }
+
+template Report1995Statistics StatisticsOf1995(const MatrixOf<float>&);
+template Report1995Statistics StatisticsOf1995(const MatrixOf<double>&);
+template double RSquaredOf1995(const MatrixOf<float>&, const MatrixOf<float>&);
+template double RSquaredOf1995(const MatrixOf<double>&,
+                               const MatrixOf<double>&);
 
 }  // namespace errmap::stats

@@ -15,21 +15,38 @@ struct Report1995Statistics {
   double ks_probability = 0.0;
 };
 
-/// Statistics of `residuals` (n >= 1, one output) in the arithmetic of
-/// NISTIR 5367, Appendix A: single precision throughout, sums divided by loop
-/// variables left at their limits plus one ((n+1)*2 in place of n), the error
-/// function by the program's rational approximation, the K-S series cut where
-/// the program cuts it. It shows what the report saw; it estimates nothing.
-/// Throws std::invalid_argument for n = 0.
-Report1995Statistics ComputeAsPrinted1995(
-    const Eigen::Ref<const Eigen::VectorXd>& residuals);
+template <typename Scalar>
+using MatrixOf = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+template <typename Scalar>
+using VectorOf = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
+/// Statistics of `errors` (P x J, P >= 1) in the order of NISTIR 5367,
+/// Appendix A, and in this precision (float, the program's own, or double):
+/// sums divided by loop variables left at their limits plus one ((P+1)(J+1) in
+/// place of P J), the error function by the program's rational approximation,
+/// the K-S test of the first output with the mean and sd of all, its series cut
+/// where the program cuts it. It shows what the report saw; it estimates
+/// nothing. Throws std::invalid_argument for no errors.
+template <typename Scalar>
+Report1995Statistics StatisticsOf1995(const MatrixOf<Scalar>& errors);
 
 /// "R-SQ of nonlinear fit" as that program prints it: sum (predicted - m)^2 /
-/// sum (target - m)^2 about m = sum of targets / (2 (n + 1)), half the mean;
-/// no part of the residuals enters. Throws std::invalid_argument unless
-/// `targets` and `predicted` have one size n >= 1.
-double RSquaredAsPrinted1995(
+/// sum (target - m)^2 about m = sum of targets / ((P+1)(J+1)), for one output
+/// half the mean; no part of the residuals enters. Throws
+/// std::invalid_argument unless both (P x J) have one size, not 0.
+template <typename Scalar>
+double RSquaredOf1995(const MatrixOf<Scalar>& targets,
+                      const MatrixOf<Scalar>& predicted);
+
+/// The same of one output's `residuals` (n >= 1) in single precision.
+inline Report1995Statistics ComputeAsPrinted1995(
+    const Eigen::Ref<const Eigen::VectorXd>& residuals) {
+  return StatisticsOf1995<float>(residuals.cast<float>());
+}
+inline double RSquaredAsPrinted1995(
     const Eigen::Ref<const Eigen::VectorXd>& targets,
-    const Eigen::Ref<const Eigen::VectorXd>& predicted);
+    const Eigen::Ref<const Eigen::VectorXd>& predicted) {
+  return RSquaredOf1995<float>(targets.cast<float>(), predicted.cast<float>());
+}
 
 }  // namespace errmap::stats

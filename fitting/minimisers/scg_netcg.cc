@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fitting/minimisers/ordered_sums.h"
 #include "fitting/minimisers/run_monitor.h"
 #include "fitting/minimisers/scg_variants.h"
 
@@ -34,7 +35,7 @@ class NetcgRun {
         Pass();
       }
     }
-    return {w_.template cast<double>(), monitor_.Finish(cost_, r_norm_)};
+    return {w_.template cast<double>(), monitor_.Finish(cost_, r_.norm())};
   }
 
  private:
@@ -49,10 +50,10 @@ class NetcgRun {
     r_ = -gradient_;
     gm_ = r_;
     p_ = r_;
-    r_norm_ = r_.norm();
-    w_norm_ = w_.norm();
+    r_norm_ = OrderedNorm(r_);
+    w_norm_ = OrderedNorm(w_);
     lambda_ = static_cast<Scalar>(options_.initial_lambda);
-    return monitor_.Begin(cost_, r_norm_) &&
+    return monitor_.Begin(cost_, r_.norm()) &&
            !monitor_.StopAtGoal(cost_, r_norm_, w_norm_);
   }
 
@@ -60,7 +61,7 @@ class NetcgRun {
     ScgPass report;
     report.pass = ++pass_;
     ++steps_since_restart_;
-    p_norm_ = p_.norm();
+    p_norm_ = OrderedNorm(p_);
     const Scalar p_squared = p_norm_ * p_norm_;
     if (accepted_) EstimateCurvature();  // step 2
 
@@ -74,19 +75,19 @@ class NetcgRun {
       lambda_ = lambda_bar_;
     }
     // Step 5: step length.
-    mu_ = p_.dot(r_);
+    mu_ = OrderedDot(p_, r_);
     const Scalar alpha = mu_ / delta_;
-    if (!std::isfinite(alpha)) {
-      monitor_.Stop(Termination::kNoDescent,
-                    "the scale of the Hessian has overflowed: no step is left");
-      return;
-    }
     trial_ = w_ + alpha * p_;
     const Scalar trial_cost = Evaluate(trial_, &gradient_);
     // Step 6: comparison parameter, Eq. (111).
     Scalar comparison = Scalar(2) * delta_ * (cost_ - trial_cost) / (mu_ * mu_);
 
-    if (!std::isfinite(trial_cost) || !gradient_.allFinite()) {
+    if (!std::isfinite(alpha)) {
+      // The scale has overflowed: to the program that is a failure like others.
+      gm_ = -gradient_;
+      comparison = std::numeric_limits<Scalar>::quiet_NaN();
+      Reject(&comparison, &report);
+    } else if (!std::isfinite(trial_cost) || !gradient_.allFinite()) {
       comparison = std::numeric_limits<Scalar>::quiet_NaN();
       ShortenStep(p_squared);
     } else if (gm_ = -gradient_; comparison >= 0.0) {  // step 7
@@ -100,8 +101,8 @@ class NetcgRun {
     }
     // Step 8.
     if (comparison < kPoor) lambda_ *= Scalar(4);
-    r_norm_ = r_.norm();
-    if (report.accepted) monitor_.EndIteration(cost_, r_norm_);
+    r_norm_ = OrderedNorm(r_);
+    if (report.accepted) monitor_.EndIteration(cost_, r_.norm());
     Observe(report, alpha, comparison);
     if (accepted_ && monitor_.StopAtSlowProgress(cost_, &steps_since_check_)) {
       return;
@@ -117,7 +118,7 @@ class NetcgRun {
     trial_ = w_ + sigma_k * p_;
     Evaluate(trial_, &gradient_);
     s_ = (gm_ + gradient_) / sigma_k;
-    delta_ = s_.dot(p_);
+    delta_ = OrderedDot(s_, p_);
     // Infeasible that near: the scale lambda alone sets the first step.
     if (!std::isfinite(delta_)) delta_ = Scalar(0);
   }
@@ -128,7 +129,7 @@ class NetcgRun {
     failures_ = 0;
     infeasible_ = 0;
     w_ = trial_;
-    w_norm_ = w_.norm();
+    w_norm_ = OrderedNorm(w_);
     cost_ = trial_cost;
     lambda_bar_ = Scalar(0);
     accepted_ = true;
@@ -136,7 +137,7 @@ class NetcgRun {
       report->restarted = true;
       p_ = gm_;
     } else {
-      const Scalar beta = (gm_.dot(gm_) - gm_.dot(r_)) / mu_;
+      const Scalar beta = (OrderedDot(gm_, gm_) - OrderedDot(gm_, r_)) / mu_;
       p_ = gm_ + beta * p_;
     }
     r_ = gm_;
@@ -212,7 +213,7 @@ class NetcgRun {
   Scalar cost_ = 0;
   Scalar w_norm_ = 0;
   Scalar p_norm_ = 0;
-  Scalar r_norm_ = 0;
+  Scalar r_norm_ = 0;  // summed in order; reports have Eigen's
   Scalar lambda_ = 0;
   Scalar lambda_bar_ = 0;
   Scalar delta_ = 0;

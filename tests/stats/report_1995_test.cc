@@ -145,7 +145,7 @@ TEST(Report1995, ProbabilityFollowsEq139DownToWhereItsSeriesIsCut) {
 TEST(Report1995, RefusesNoResiduals) {
   EXPECT_THAT([] { ComputeAsPrinted1995(VectorXd()); },
               ThrowsMessage<std::invalid_argument>(
-                  HasSubstr("ComputeAsPrinted1995: no residuals")));
+                  HasSubstr("StatisticsOf1995: no residuals")));
 }
 
 // Appendix B: "R-SQ of nonlinear fit = 0.9961917". The residuals are printed
