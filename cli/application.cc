@@ -128,6 +128,8 @@ int RunApplication(int argc, char** argv) {
   AddResidualsCommand(&app, &run);
   AddReportCommand(&app, &run);
   AddSimulateCommand(&app, &run);
+  AddNetcgCommand(&app, &run);
+  AddConvertCommand(&app, &run);
   AddCertifyCommand(&app, &run);
   try {
     if (argc < 2) {

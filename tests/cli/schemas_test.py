@@ -223,6 +223,19 @@ def documents(program):
             fail(f"certify: no {block}")
     yield "certify", certify
 
+    (program.folder / "four.tab").write_text(
+        "4 1 1 1\nx error_mm\n1 0.1\n2 0.3\n3 0.2\n4 0.4\n", encoding="utf-8"
+    )
+    names = ["report", "four.tab", "none", "weights", "curve", "w1", "w2", "errors"]
+    (program.folder / "netcg.in").write_text(
+        "\n".join(["1", "'four'", *names, "4 1 2 1 0 7", "5 0 0 1 1", "20*1", "21*1"])
+        + "\n",
+        encoding="utf-8",
+    )
+    yield "netcg", program.json("netcg", "netcg.in")
+    program.run("simulate", "turning-centre", "-o", "sim", "--days", "1")
+    yield "netcg study", program.json("netcg", "--study", "sim", "--iterations", "2")
+
 
 # One of each type: a value of another type than the right one is wrong.
 WRONG = [{"no": "such"}, [["no such"]], "no such", -1.5, True]

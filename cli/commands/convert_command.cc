@@ -1,0 +1,64 @@
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/shell/number_text.h"
+#include "cli/study_file/data_arguments.h"
+#include "data/atomic_file.h"
+#include "data/pattern_file.h"
+#include "data/text.h"
+
+namespace errmap::cli {
+namespace {
+
+struct ConvertArguments {
+  std::string in;
+  std::string out;
+  bool quiet = false;
+};
+
+int RunConvert(const ConvertArguments& arguments) {
+  const data::PatternTable table = data::ReadPatterns(arguments.in);
+  data::WriteFileAtomically(
+      arguments.out,
+      data::PatternText(table, data::PatternFormOf(arguments.out)));
+  if (!arguments.quiet) {
+    Say(fmt::format("{} of {} and {} in {}",
+                    Count(table.input_values.rows(), "pattern"),
+                    Count(table.input_values.cols(), "input"),
+                    Count(table.target_values.cols(), "target"),
+                    data::PrintablePath(arguments.out)));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void AddConvertCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<ConvertArguments>();
+  CLI::App* command = app->add_subcommand(
+      "convert",
+      "Turn the report's pattern files, plain tables and CSV into each other");
+  command->add_option("IN", arguments->in, "File to read")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("OUT",
+                   arguments->out,
+                   "File to write; the endings decide: .csv, .tab (plain "
+                   "table), any other the report's stacked form (Table 2)")
+      ->required()
+      ->type_name("FILE");
+  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
+  command->footer(
+      "Of a CSV file that convert did not write, the column error* is the "
+      "target; inputs\nare the position and the other numeric columns, dead "
+      "ones too.\n"
+      "Example: errmap convert x_displacement_down.csv down.pat");
+  command->callback([arguments, run] { run->status = RunConvert(*arguments); });
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,189 @@
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/commands/netcg_json.h"
+#include "cli/shell/number_text.h"
+#include "cli/study_file/data_arguments.h"
+#include "cli/study_file/provenance.h"
+#include "data/atomic_file.h"
+#include "data/text.h"
+#include "models/netcg/netcg_files.h"
+#include "models/netcg/report_study.h"
+
+namespace errmap::cli {
+namespace {
+
+struct NetcgArguments {
+  std::string file;
+  std::string study;
+  std::string precision = "single";
+  std::string format = "table";
+  bool corrected = false;
+  bool full_weights = false;
+  bool quiet = false;
+  models::NetcgStudyOptions options;  // options.netcg of a run file, too
+};
+
+void Print(Json document,
+           const std::string& text,
+           bool as_json,
+           const std::string& command_line) {
+  if (!as_json) {
+    fmt::print("{}", text);
+    return;
+  }
+  document["provenance"] = ProvenanceJson(command_line, {}, {});
+  fmt::print("{}", DumpJson(document));
+}
+
+int RunFile(const NetcgArguments& arguments, const std::string& command_line) {
+  const models::NetcgOptions& options = arguments.options.netcg;
+  const bool as_json = arguments.format == "json";
+  const auto records = models::RunNetcgFile(
+      arguments.file,
+      options,
+      [&](const models::NetcgSpecification& run,
+          std::size_t number,
+          std::size_t count) {
+        if (arguments.quiet || count == 1) return;
+        constexpr std::size_t kTitle = 80;
+        Say(fmt::format("run {} of {}: {}",
+                        number + 1,
+                        count,
+                        data::Printable(run.title, kTitle)));
+      });
+  models::WriteNetcgFiles(records);
+  Print(as_json ? NetcgJson(arguments.file, records, options) : Json(),
+        as_json ? "" : models::NetcgText(records, options),
+        as_json,
+        command_line);
+  return kDone;
+}
+
+int RunStudy(const NetcgArguments& arguments, const std::string& command_line) {
+  const bool as_json = arguments.format == "json";
+  const std::string& out = arguments.options.netcg.out;
+  // Before the work, not after it.
+  if (!out.empty()) std::filesystem::create_directories(out);
+  const models::NetcgStudy study =
+      models::RunReportStudy(arguments.study, arguments.options);
+  const std::string text = models::StudyText(study);
+  if (!out.empty()) {
+    std::vector<models::NetcgRecord> records;
+    for (const models::NetcgStudyRun& run : study.runs) {
+      records.push_back(run.record);
+    }
+    records.emplace_back().files = study.inputs;
+    records.back().files.push_back(
+        {(std::filesystem::path(out) / "table4.txt").string(), text});
+    models::WriteNetcgFiles(records);
+    if (!arguments.quiet) {
+      Say(
+          fmt::format("reports, weights, patterns and netcg.in, which runs "
+                      "them again, are in {}",
+                      data::PrintablePath(out)));
+    }
+  }
+  Print(as_json ? NetcgStudyJson(study) : Json(), text, as_json, command_line);
+  return kDone;
+}
+
+int RunNetcgCommand(NetcgArguments* arguments,
+                    const std::string& command_line) {
+  if (arguments->file.empty() == arguments->study.empty()) {
+    throw UsageError(
+        "netcg needs a run file or --study DIR, and not both; see errmap netcg "
+        "--help");
+  }
+  models::NetcgOptions& options = arguments->options.netcg;
+  if (arguments->precision == "double") {
+    options.precision = models::NetcgPrecision::kDouble;
+  }
+  if (arguments->corrected) {
+    options.statistics = models::NetcgStatistics::kCorrected;
+  }
+  if (arguments->full_weights) {
+    options.weight_digits = models::WeightDigits::kFull;
+  }
+  return arguments->study.empty() ? RunFile(*arguments, command_line)
+                                  : RunStudy(*arguments, command_line);
+}
+
+}  // namespace
+
+void AddNetcgCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<NetcgArguments>();
+  models::NetcgStudyOptions& options = arguments->options;
+  CLI::App* command = app->add_subcommand(
+      "netcg",
+      "Run the report's own program of 1995: its run files, its results, and "
+      "what they should have been");
+  command
+      ->add_option("RUNFILE",
+                   arguments->file,
+                   "Run specification file as Appendix A reads it (netcg.in); "
+                   "names in it are relative to its folder")
+      ->type_name("FILE");
+  command
+      ->add_option("--study",
+                   arguments->study,
+                   "Instead, the report's nine experiments (Tables 3 and 4) on "
+                   "a folder of errmap simulate turning-centre")
+      ->type_name("DIR");
+  command
+      ->add_option("--precision",
+                   arguments->precision,
+                   "Arithmetic: single is the program's own")
+      ->check(CLI::IsMember({"single", "double"}))
+      ->type_name("single|double")
+      ->capture_default_str();
+  command->add_flag("--corrected",
+                    arguments->corrected,
+                    "Right statistics in the report files, and the training "
+                    "run's scaling in testing runs");
+  command
+      ->add_option("--training",
+                   options.netcg.training_file,
+                   "Pattern file that the weights of testing runs were trained "
+                   "on, where nothing else tells its scaling")
+      ->type_name("FILE");
+  command->add_flag("--full-weights",
+                    arguments->full_weights,
+                    "Weights files with all digits and the scaling, in place "
+                    "of six digits");
+  command
+      ->add_option("--out",
+                   options.netcg.out,
+                   "Folder to write to, in place of the run file's")
+      ->type_name("DIR");
+  command
+      ->add_option("--iterations",
+                   options.iterations,
+                   "Iterations of each experiment of --study")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command
+      ->add_option("--jobs",
+                   options.jobs,
+                   "Experiments of --study at a time; 0: one per processor")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_option("--format", arguments->format, "table or json")
+      ->check(CLI::IsMember({"table", "json"}))
+      ->type_name("table|json")
+      ->capture_default_str();
+  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
+  command->footer(
+      models::NetcgErrata() +
+      "\nExample: errmap netcg netcg.in --precision double --out results");
+  command->callback([arguments, run] {
+    run->status = RunNetcgCommand(arguments.get(), run->command_line);
+  });
+}
+
+}  // namespace errmap::cli
