@@ -110,7 +110,9 @@ class Problem {
                const std::vector<Index>& kept,
                const VectorXd& parts) const {
     if (!options_.noise) return 0.0;
-    constexpr double kMargin = 4.0;
+    // A sum of other columns was rounded in steps, which may have been larger
+    // than what they left.
+    constexpr double kMargin = 64.0;
     VectorXd combination = VectorXd::Zero(columns_.cols());
     for (std::size_t k = 0; k < kept.size(); ++k) {
       combination[kept[k]] = -parts[static_cast<Index>(k)] * scales_[kept[k]];

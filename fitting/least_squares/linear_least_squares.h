@@ -51,7 +51,7 @@ struct LeastSquaresOptions {
   /// are meant as they are. Called where 106 bits are needed only.
   std::function<ExtendedSystem()> exact = {};
   /// Length of what rounding of the data may do to a combination (p) of the
-  /// columns, weights worked in; a column that leaves no more than four times
+  /// columns, weights worked in; a column that leaves no more than 64 times
   /// that follows from the others, too. Null: nothing.
   std::function<double(const Eigen::VectorXd& combination)> noise = {};
 

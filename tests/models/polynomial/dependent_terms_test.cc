@@ -328,6 +328,26 @@ TEST(DependentTerms, FivePositionsCarryFourPowers) {
   }
 }
 
+// What such a sum leaves was rounded where it was larger.
+TEST(DependentTerms, ASumRoundedInStepsIsStillOne) {
+  stats::Random random(5);
+  MatrixXd inputs(140, 2);
+  for (Index i = 0; i < inputs.rows(); ++i) {
+    const double x = 24000.0 + 240.0 * (2.0 * random.Uniform() - 1.0);
+    inputs(i, 0) = x;
+    inputs(i, 1) = (1.2 * x + 0.3) - 1.145 * x;
+  }
+  const VectorXd target =
+      (inputs.col(0).array() / 100.0).sin() + inputs.col(0).array() / 1000.0;
+  const FittedModel fitted = FitFull(inputs, target, 1);
+  EXPECT_EQ(fitted.model->num_parameters(), 2);
+  EXPECT_LT((fitted.model->Predict(inputs) -
+             FitFull(inputs.col(0), target, 1).model->Predict(inputs.col(0)))
+                .cwiseAbs()
+                .maxCoeff(),
+            kSame);
+}
+
 // Powers about a far centre all but depend on each other; they are no copies,
 // and R's rule in double would drop some of them.
 TEST(DependentTerms, WhatOnly106BitsTellApartIsKept) {
