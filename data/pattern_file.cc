@@ -69,6 +69,12 @@ std::string Ordinal(std::size_t row, std::size_t count) {
   return std::to_string(row + 1) + " of " + std::to_string(count);
 }
 
+// "6 numbers in row 2 of 397".
+std::string NumbersIn(std::size_t width, std::size_t row, std::size_t count) {
+  return std::to_string(width) + (width == 1 ? " number" : " numbers") +
+         " in row " + Ordinal(row, count);
+}
+
 void RequireEnd(const RecordReader& reader, const Header& header) {
   if (reader.AtEnd()) return;
   reader.Refuse(reader.line() + 1,
@@ -125,9 +131,8 @@ PatternTable ParseStacked(std::string_view text, const std::string& name) {
     const std::size_t before = first ? 2 + header.outputs : 0;
     std::vector<double>& values = blocks.emplace_back();
     for (std::size_t p = 0; p < header.patterns; ++p) {
-      const std::string what = std::to_string(before + width) +
-                               " numbers in row " +
-                               Ordinal(p, header.patterns) + " of " + block;
+      const std::string what =
+          NumbersIn(before + width, p, header.patterns) + " of " + block;
       const std::vector<double> row = reader.Numbers(before + width, what);
       if (first) {
         table.index.push_back(reader.WholeNumber(row[0], what));
@@ -173,9 +178,7 @@ PatternTable ParsePlain(std::string_view text, const std::string& name) {
   std::vector<double> values;
   for (std::size_t p = 0; p < header.patterns; ++p) {
     const std::vector<double> row =
-        reader.Numbers(width,
-                       std::to_string(width) + " numbers in row " +
-                           Ordinal(p, header.patterns));
+        reader.Numbers(width, NumbersIn(width, p, header.patterns));
     values.insert(values.end(), row.begin(), row.end());
   }
   RequireEnd(reader, header);

@@ -105,7 +105,7 @@ TEST(PatternFile, NamesFileLineAndWhatWasExpected) {
                 "line 12: expected 6 numbers in row 2 of 2 of block 2 from "
                 "line 9 on, but the file ends");
   ExpectRefusal(
-      Without(good, "   22.39948\n"), "x.pat", "line 12: expected 1 numbers");
+      Without(good, "   22.39948\n"), "x.pat", "line 12: expected 1 number ");
   ExpectRefusal(good + "   1.0\n", "x.pat", "line 13: expected the end");
   std::string bad = good;
   bad.replace(bad.find("22.61400"), 8, "x2.61400");
