@@ -174,6 +174,16 @@ DoubleDouble ParseDoubleDouble(std::string_view text) {
 
 DoubleDouble DecimalOf(double x) {
   if (!std::isfinite(x)) return x;
+  // Most data have few decimals. Of decimals with at most 15 digits no two
+  // round to the same double, so one that rounds to x is the shortest.
+  constexpr double kMost = 1e15;
+  constexpr double kMostPower = 1e6;
+  for (double power = 1.0; power <= kMostPower; power *= 10.0) {
+    const double digits = std::nearbyint(x * power);
+    if (std::abs(digits) < kMost && digits / power == x) {
+      return DoubleDouble(digits) / power;
+    }
+  }
   // The longest is of the form -2.2250738585072014e-308.
   std::array<char, 32> buffer{};
   const auto [end, error] =

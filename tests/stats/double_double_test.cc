@@ -41,6 +41,15 @@ TEST(DoubleDouble, KnowsTheDecimalThatADoubleWasReadFrom) {
     EXPECT_EQ(found.hi, meant.hi) << text;
     EXPECT_EQ(found.lo, meant.lo) << text;
   }
+  // Few decimals, as most data have, go a shorter way to the same bits.
+  for (int whole = -99999; whole < 1'000'000; whole += 137) {
+    for (const int decimals : {0, 1, 3, 5, 6, 7, 9}) {
+      const std::string text =
+          std::to_string(whole) + "e-" + std::to_string(decimals);
+      const DoubleDouble meant = ParseDoubleDouble(text);
+      EXPECT_EQ(DecimalOf(meant.hi).lo, meant.lo) << text;
+    }
+  }
   EXPECT_NE(DecimalOf(0.1).lo, 0.0);
   EXPECT_TRUE(std::isnan(DecimalOf(std::nan("")).hi));
 }
