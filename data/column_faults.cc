@@ -628,6 +628,26 @@ class FaultFinder {
 
 }  // namespace
 
+std::string_view ToString(FaultKind kind) {
+  switch (kind) {
+    case FaultKind::kImpossible:
+      return "impossible";
+    case FaultKind::kOutlying:
+      return "outlying";
+    case FaultKind::kJump:
+      return "jump";
+    case FaultKind::kStep:
+      return "step";
+    case FaultKind::kStuck:
+      return "stuck";
+    case FaultKind::kNoisy:
+      return "noisy";
+    case FaultKind::kDrifting:
+      return "drifting";
+  }
+  return "";
+}
+
 std::vector<ColumnFault> FindColumnFaults(const MeasuredColumns& measured) {
   return FaultFinder(measured).Find();
 }

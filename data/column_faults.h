@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -19,6 +20,9 @@ enum class FaultKind {
   kNoisy,       // a thermometer with far more noise than the others
   kDrifting,    // a thermometer that leaves the others, more from day to day
 };
+
+/// "impossible", "outlying", "jump", "step", "stuck", "noisy", "drifting".
+std::string_view ToString(FaultKind kind);
 
 /// What is wrong with a column; all values in the column's unit.
 struct ColumnFault {

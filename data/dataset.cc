@@ -118,6 +118,14 @@ std::string_view ToString(Alignment align) {
   return align == Alignment::kFirst ? "first" : "none";
 }
 
+std::string_view ToString(MissingPolicy policy) {
+  return policy == MissingPolicy::kError ? "error" : "drop-rows";
+}
+
+std::string_view ToString(FaultPolicy policy) {
+  return policy == FaultPolicy::kKeep ? "keep" : "drop-rows";
+}
+
 std::string ValueText(const ColumnFilter& filter) {
   const auto* const number = std::get_if<double>(&filter.value);
   return number != nullptr ? CsvNumber(*number)

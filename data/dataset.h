@@ -99,6 +99,12 @@ class Dataset {
 
   /// Index of the input of that name, or -1.
   Eigen::Index FindInput(std::string_view name) const;
+  /// Input or target.
+  const ColumnInfo& ColumnOf(const ColumnFault& fault) const {
+    return fault.input < 0
+               ? parts_.target
+               : parts_.inputs[static_cast<std::size_t>(fault.input)];
+  }
 
   /// The rows of these indices, in this order (group labels and log kept).
   Dataset SelectRows(const std::vector<Eigen::Index>& indices) const;
@@ -120,10 +126,14 @@ Dataset WithoutRows(const Dataset& dataset,
                     const std::vector<Eigen::Index>& rows);
 
 enum class MissingPolicy { kError, kDropRows };
+/// "error", "drop-rows".
+std::string_view ToString(MissingPolicy policy);
 
 /// What becomes of rows with readings that no machine made
 /// (RowsOfCellFaults).
 enum class FaultPolicy { kKeep, kDropRows };
+/// "keep", "drop-rows".
+std::string_view ToString(FaultPolicy policy);
 
 /// Rows whose cell in `column` is this number, or this text (a number's text
 /// is its shortest form).

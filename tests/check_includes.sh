@@ -147,6 +147,8 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
       violation("<" name "> belongs in cli/*.cc")
       next
     }
+    # How records become JSON; no public header includes it, nor is it installed.
+    if (FILENAME == "models/study/record_json.h") next
     if (name ~ /^nlohmann\// && FILENAME !~ /^(models\/.*\.cc|cli\/.*)$/) {
       violation("<" name "> belongs in models/*.cc and cli/")
       next

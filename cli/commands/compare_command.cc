@@ -320,12 +320,14 @@ int RunCompare(const CompareArguments& arguments) {
   }
   if (journal != nullptr) SayUnlessQuiet(arguments, journal->WritingRemarks());
   const bool json = arguments.format == "json";
-  const std::string results =
-      json || !arguments.out.empty() ? ResultsJson(run) : "";
+  models::StudyRecord record;
+  if (json || !arguments.out.empty()) record = RecordOf(run);
   // Before the files: a full disk must not cost the answer.
-  fmt::print("{}", json ? results : Formatted(run, arguments.format));
+  fmt::print(
+      "{}",
+      json ? models::ToJsonText(record) : Formatted(run, arguments.format));
   std::fflush(stdout);
-  if (!arguments.out.empty()) WriteOutputs(run, results, arguments.out);
+  if (!arguments.out.empty()) WriteOutputs(run, record, arguments.out);
   return StatusOf(run);
 }
 

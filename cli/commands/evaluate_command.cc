@@ -6,7 +6,6 @@
 #include "cli/command.h"
 #include "cli/commands/map_warnings.h"
 #include "cli/json_blocks.h"
-#include "cli/report/residual_json.h"
 #include "cli/report/summary_text.h"
 #include "cli/shell/number_text.h"
 #include "cli/study_file/data_arguments.h"
@@ -14,7 +13,11 @@
 #include "cli/study_file/map_log.h"
 #include "cli/study_file/provenance.h"
 #include "models/model_file.h"
+#include "models/study/fit_blocks.h"
 #include "models/study/fold_pool.h"
+#include "models/study/make_study_record.h"
+#include "models/study/record_json.h"
+#include "models/study/residual_record.h"
 #include "models/trained_range.h"
 #include "stats/kolmogorov_smirnov.h"
 
@@ -128,12 +131,13 @@ int RunEvaluate(const EvaluateArguments& arguments,
              {"unit", fitted.target.unit.symbol},
              {"align", data::ToString(fitted.align)},
              {"clipped", clipped},
-             {"summary", MetricsJson(metrics)},
+             {"summary", models::ToJson(models::MakeRecord(metrics))},
              {"outside", OutsideJson(fitted.inputs, dataset.input_values())},
-             {"faults", FaultsJson(prepared)},
+             {"faults", models::ToJson(models::MakeFaultRecords(prepared))},
              {"normality",
-              NormalityJson(
-                  stats::AssessNormality(stats::OrderedSample(residuals)), {})},
+              models::ToJson(models::MakeRecord(
+                  stats::AssessNormality(stats::OrderedSample(residuals)),
+                  {}))},
              {"provenance",
               ProvenanceJson(
                   command_line,

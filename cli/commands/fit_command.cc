@@ -17,7 +17,10 @@
 #include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
 #include "models/model_file.h"
+#include "models/study/figure_record.h"
+#include "models/study/fit_blocks.h"
 #include "models/study/fold_pool.h"
+#include "models/study/record_json.h"
 
 namespace errmap::cli {
 namespace {
@@ -48,16 +51,22 @@ Json FitJson(const models::FittedModel& fitted,
       {"inputs", std::move(inputs)},
       {"parameters", fitted.model->num_parameters()},
       {"equation", fitted.equation.empty() ? Json() : Json(fitted.equation)},
-      {"train", MetricsJson(train)},
+      {"train", models::ToJson(models::MakeRecord(train))},
       {"fit_seconds", fitted.summary.seconds},
       {"remarks", fitted.remarks}};
-  json.update(FitSummaryJson(fitted.summary));
-  if (!fitted.choices.empty()) json["choices"] = ChoicesJson(fitted.choices);
-  if (!fitted.starts.empty()) json["starts"] = StartsJson(fitted.starts);
-  if (fitted.regression) {
-    json["regression"] = RegressionJson(*fitted.regression);
+  json.update(models::ToJson(models::MakeRecord(fitted.summary)));
+  if (!fitted.choices.empty()) {
+    json["choices"] = models::ToJson(models::MakeRecord(fitted.choices));
   }
-  if (arguments.correlations) json["correlations"] = CorrelationJson(dataset);
+  if (!fitted.starts.empty()) {
+    json["starts"] = models::ToJson(models::MakeRecord(fitted.starts));
+  }
+  if (fitted.regression) {
+    json["regression"] = models::ToJson(models::MakeRecord(*fitted.regression));
+  }
+  if (arguments.correlations) {
+    json["correlations"] = models::ToJson(models::Correlate(dataset));
+  }
   return json;
 }
 
@@ -72,7 +81,7 @@ Json ConfigurationJson(const models::ModelRecipe& recipe,
   const std::string& weight = arguments.data.weight;
   return {
       {"model", recipe.name()},
-      {"options", ChoicesJson(recipe.options())},
+      {"options", models::ToJson(models::MakeRecord(recipe.options()))},
       {"target", dataset.target().name},
       {"inputs", std::move(inputs)},
       {"group", dataset.has_groups() ? Json(dataset.groups().column) : Json()},

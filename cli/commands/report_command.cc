@@ -6,7 +6,6 @@
 
 #include "cli/command.h"
 #include "cli/report/figures.h"
-#include "cli/report/json_access.h"
 #include "cli/report/output_folder.h"
 #include "cli/report/report_files.h"
 #include "cli/report/report_html.h"
@@ -15,6 +14,7 @@
 #include "data/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "models/study/study_record.h"
 
 namespace errmap::cli {
 namespace {
@@ -31,29 +31,19 @@ ImageFormat FormatNamed(const std::string& name) {
   return name == "png" ? ImageFormat::kPng : ImageFormat::kPdf;
 }
 
-Json ReadResults(const std::string& folder) {
+models::StudyRecord ReadResults(const std::string& folder) {
   const std::string path =
       (std::filesystem::path(folder) / "results.json").string();
-  Json results = Json::parse(data::ReadFile(path), nullptr, false);
-  const std::string shown = data::PrintablePath(path);
-  if (results.is_discarded()) {
-    throw data::InputError(shown +
-                           ": is no JSON; errmap compare --out writes it");
+  const std::string text = data::ReadFile(path);
+  try {
+    return models::FromJsonText(text);
+  } catch (const data::InputError& error) {
+    throw data::InputError(data::PrintablePath(path) + ": " + error.what());
   }
-  constexpr const char* kSchema = "errmap-results-1";
-  const std::string schema = TextAt(results, "schema");
-  if (schema != kSchema) {
-    throw data::InputError(fmt::format(
-        "{}: schema is {}, this version reads {}; run errmap compare again",
-        shown,
-        schema.empty() ? "not there" : data::QuotedText(schema),
-        kSchema));
-  }
-  return results;
 }
 
 int RunReport(const ReportArguments& arguments) {
-  const Json results = ReadResults(arguments.folder);
+  const models::StudyRecord results = ReadResults(arguments.folder);
   if (!arguments.figures.empty()) PrepareFolder(arguments.figures);
   if (arguments.format == "md") {
     fmt::print("{}", ReportMarkdown(results));

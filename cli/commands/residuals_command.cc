@@ -10,7 +10,6 @@
 #include "cli/command.h"
 #include "cli/json_blocks.h"
 #include "cli/report/residual_json.h"
-#include "cli/report/residual_report.h"
 #include "cli/report/residual_text.h"
 #include "cli/report/residual_words.h"
 #include "cli/shell/number_text.h"
@@ -22,6 +21,9 @@
 #include "data/dataset.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "models/study/fit_blocks.h"
+#include "models/study/record_json.h"
+#include "models/study/residual_record.h"
 #include "stats/error_metrics.h"
 #include "stats/report_1995.h"
 
@@ -122,7 +124,7 @@ Rows CommonRows(const std::vector<const Column*>& columns) {
   return rows;
 }
 
-ResidualInputs ReadInputs(const ResidualsArguments& arguments) {
+models::ResidualInputs ReadInputs(const ResidualsArguments& arguments) {
   const data::CsvTable table = data::ReadCsv(arguments.file);
   data::RequireKnownUnit(
       table,
@@ -140,7 +142,7 @@ ResidualInputs ReadInputs(const ResidualsArguments& arguments) {
     throw data::InputError(fmt::format(
         "{}: no row has values in every column in use", arguments.file));
   }
-  ResidualInputs inputs;
+  models::ResidualInputs inputs;
   if (!order.name.empty()) {
     const Eigen::VectorXd keys = At(order, rows);
     std::vector<std::size_t> by_key(rows.size());
@@ -193,7 +195,7 @@ Json SummaryJson(const stats::ErrorMetrics& metrics,
                  const stats::ShapeMoments& shape) {
   Eigen::VectorXd sorted = values;
   std::sort(sorted.begin(), sorted.end());
-  Json summary = MetricsJson(metrics);
+  Json summary = models::ToJson(models::MakeRecord(metrics));
   summary["standard_error"] = stats::StandardError(metrics.residuals);
   summary["skewness"] = shape.skewness;
   summary["kurtosis"] = shape.kurtosis;
@@ -205,7 +207,7 @@ Json SummaryJson(const stats::ErrorMetrics& metrics,
 
 // The columns and choices that took effect.
 Json ConfigurationJson(const ResidualsArguments& arguments,
-                       const ResidualInputs& inputs) {
+                       const models::ResidualInputs& inputs) {
   const auto named = [](const std::string& name) {
     return name.empty() ? Json() : Json(name);
   };
@@ -222,14 +224,14 @@ Json ConfigurationJson(const ResidualsArguments& arguments,
 
 int RunResiduals(const ResidualsArguments& arguments,
                  const std::string& command_line) {
-  const ResidualInputs inputs = ReadInputs(arguments);
+  const models::ResidualInputs inputs = ReadInputs(arguments);
   const Eigen::VectorXd& values = inputs.values;
   const data::Unit unit = data::UnitOfColumn(arguments.column);
   // A residual is what is left of a target, so R2 has no meaning here.
   stats::ErrorMetrics metrics =
       stats::ComputeErrorMetrics(values, values, values);
   metrics.r2 = std::numeric_limits<double>::quiet_NaN();
-  const ResidualReport report = AssessResiduals(
+  const models::ResidualReport report = models::AssessResiduals(
       inputs, static_cast<Index>(arguments.monte_carlo), arguments.seed);
   const stats::Report1995Statistics printed =
       stats::ComputeAsPrinted1995(values);
@@ -246,8 +248,10 @@ int RunResiduals(const ResidualsArguments& arguments,
         {"column", arguments.column},
         {"unit", unit.symbol},
         {"summary", SummaryJson(metrics, values, report.normality.shape)},
-        {"normality", NormalityJson(report.normality, report.monte_carlo)},
-        {"randomness", RandomnessJson(report)},
+        {"normality",
+         models::ToJson(
+             models::MakeRecord(report.normality, report.monte_carlo))},
+        {"randomness", models::ToJson(models::MakeRecord(report))},
         {"plots",
          PlotsJson(report, values, static_cast<Index>(arguments.bins))},
         {"words", sentences}};

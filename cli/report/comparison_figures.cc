@@ -24,33 +24,30 @@ bool SpansDecades(double low, double high) {
   return low > 0.0 && high > kManyTimes * low;
 }
 
-// "every:3", "groups:5: unseen groups".
+// "every:3 (neighbours known)", "groups:5 (unseen groups)".
 std::string HoldoutLabel(const ReportView& view, const std::string& holdout) {
-  const Json& entry = Find(At(*view.component, "holdouts"), "name", holdout);
-  const std::string name = Shortened(holdout, kNameLength);
-  const bool sessions = IsTrue(entry, "whole_sessions");
-  const bool whole = sessions || IsTrue(entry, "whole_groups") ||
-                     (view.decisive_is_unseen && holdout == view.decisive);
-  return name + (sessions ? " (unseen sessions)"
-                 : whole  ? " (unseen groups)"
-                          : " (neighbours known)");
+  const models::HoldoutRecord* record = HoldoutOf(view, holdout);
+  const char* words = " (neighbours known)";
+  if (record != nullptr && record->whole_groups) words = " (unseen groups)";
+  if (record != nullptr && record->whole_sessions) words = " (unseen sessions)";
+  return Shortened(holdout, kNameLength) + words;
 }
 
 std::string GapWords(const ReportView& view,
                      const std::vector<std::string>& holdouts) {
   const ErrorText error = ErrorTextOf(view);
   std::vector<std::string> words;
-  for (const ViewedModel& model : view.models) {
+  for (const ModelRecord* model : view.models) {
     std::vector<std::string> parts;
     for (const std::string& holdout : holdouts) {
-      const double rmse = TestRmse(view, model.name, holdout);
+      const double rmse = TestRmse(*model, holdout);
       if (std::isfinite(rmse)) {
         parts.push_back(fmt::format("{} {}", holdout, error.WithUnit(rmse)));
       }
     }
     if (!parts.empty()) {
       words.push_back(
-          fmt::format("{}: {}", model.name, fmt::join(parts, ", ")));
+          fmt::format("{}: {}", model->name, fmt::join(parts, ", ")));
     }
   }
   return fmt::format("Held-out error of each model. {}.",
@@ -59,7 +56,7 @@ std::string GapWords(const ReportView& view,
 
 // Intervals of the errors under one hold-out, where results have them.
 Series Intervals(const ReportView& view,
-                 const std::vector<const ViewedModel*>& models,
+                 const std::vector<const ModelRecord*>& models,
                  const std::string& holdout,
                  const std::string& colour) {
   Series series{.mark = Mark::kSpan,
@@ -67,16 +64,15 @@ Series Intervals(const ReportView& view,
                 .colour = colour,
                 .size = 1.6};
   for (std::size_t i = 0; i < models.size(); ++i) {
-    const Json& result = ResultOf(view, models[i]->name, holdout);
-    const std::vector<double> ends = NumbersOf(At(result, "ci95"));
-    if (ends.size() != 2 || !(ends[0] > 0.0) || !std::isfinite(ends[1])) {
+    const ResultRecord* result = ResultOf(*models[i], holdout);
+    if (result == nullptr || !(result->ci95[0] > 0.0) ||
+        !std::isfinite(result->ci95[1])) {
       continue;
     }
-    const double rmse = NumberOf(At(result, {"test", "rmse"}));
-    series.columns[0].push_back(rmse * view.scale);
+    series.columns[0].push_back(result->test.rmse * view.scale);
     series.columns[1].push_back(static_cast<double>(i));
-    series.columns[2].push_back(ends[0] * view.scale);
-    series.columns[3].push_back(ends[1] * view.scale);
+    series.columns[2].push_back(result->ci95[0] * view.scale);
+    series.columns[3].push_back(result->ci95[1] * view.scale);
   }
   return series;
 }
@@ -97,8 +93,8 @@ std::vector<std::string> ShownHoldouts(const ReportView& view) {
 }
 
 void AddGoal(const ReportView& view, double rows, Plot* plot) {
-  if (!std::isfinite(view.goal)) return;
-  const double goal = view.goal * view.scale;
+  if (!std::isfinite(view.component->goal)) return;
+  const double goal = view.component->goal * view.scale;
   plot->series.push_back(
       {.label = fmt::format("goal {:.3g}{}{}",
                             goal,
@@ -126,11 +122,11 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
   figure.place = FigurePlace::kAnswer;
   figure.title = "Error on rows never seen, by model";
   figure.plot.name = prefix + "gap";
-  std::vector<const ViewedModel*> models;
-  for (const ViewedModel& model : view.models) {
+  std::vector<const ModelRecord*> models;
+  for (const ModelRecord* model : view.models) {
     for (const std::string& holdout : view.holdouts) {
-      if (!std::isfinite(TestRmse(view, model.name, holdout))) continue;
-      models.push_back(&model);
+      if (!std::isfinite(TestRmse(*model, holdout))) continue;
+      models.push_back(model);
       break;
     }
   }
@@ -155,8 +151,7 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
                   .size = 2.6,
                   .shape = kShapes[h]};
     for (std::size_t i = 0; i < models.size(); ++i) {
-      const double rmse =
-          TestRmse(view, models[i]->name, holdouts[h]) * view.scale;
+      const double rmse = TestRmse(*models[i], holdouts[h]) * view.scale;
       points.columns[0].push_back(rmse > 0.0 ? rmse : kAutomatic);
       points.columns[1].push_back(static_cast<double>(i));
       if (rmse > 0.0) {
@@ -176,8 +171,7 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
   Series links{.mark = Mark::kLine, .columns = {{}, {}}, .colour = "#AAAAAA"};
   for (std::size_t i = 0; i < models.size(); ++i) {
     for (const std::string& holdout : holdouts) {
-      links.columns[0].push_back(TestRmse(view, models[i]->name, holdout) *
-                                 view.scale);
+      links.columns[0].push_back(TestRmse(*models[i], holdout) * view.scale);
       links.columns[1].push_back(static_cast<double>(i));
     }
     links.columns[0].push_back(kAutomatic);
@@ -190,7 +184,7 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
   AddGoal(view, static_cast<double>(models.size()), &plot);
   plot.x = {.quantity = "RMSE on held-out rows", .unit = view.shown_unit};
   if (SpansDecades(low, high)) {
-    const double goal = view.goal * view.scale;
+    const double goal = view.component->goal * view.scale;
     MakeLogarithmic(goal > 0.0 ? std::min(low, goal) : low,
                     goal > 0.0 ? std::max(high, goal) : high,
                     &plot.x);
@@ -217,10 +211,10 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
 std::vector<Figure> TrainingFigures(const ReportView& view,
                                     const std::string& prefix) {
   std::vector<Figure> figures;
-  std::vector<const ViewedModel*> iterated;
-  for (const ViewedModel& model : view.models) {
-    if (!NumbersOf(At(*model.json, {"final", "trace"})).empty()) {
-      iterated.push_back(&model);
+  std::vector<const ModelRecord*> iterated;
+  for (const ModelRecord* model : view.models) {
+    if (model->final && model->final->summary.value.trace) {
+      iterated.push_back(model);
     }
   }
   for (std::size_t first = 0; first < iterated.size();
@@ -244,9 +238,9 @@ std::vector<Figure> TrainingFigures(const ReportView& view,
                     .columns = {{}, {}},
                     .colour = kColours[i - first],
                     .size = 1.8};
-      for (const Json& point : At(*iterated[i]->json, {"final", "trace"})) {
-        const double rms = NumberOf(At(point, std::size_t{1}));
-        series.columns[0].push_back(NumberOf(At(point, std::size_t{0})));
+      for (const auto& [iteration, rms, gradient] :
+           *iterated[i]->final->summary.value.trace) {
+        series.columns[0].push_back(static_cast<double>(iteration));
         series.columns[1].push_back(rms > 0.0 ? rms : kAutomatic);
       }
       const auto& y = series.columns[1];
@@ -289,19 +283,17 @@ std::vector<Figure> StartFigures(const ReportView& view,
   std::vector<std::string> words;
   double low = std::numeric_limits<double>::infinity();
   double high = 0.0;
-  for (const ViewedModel& model : view.models) {
-    const Json& table = At(*model.json, {"final", "starts", "table"});
-    if (!table.is_array() || table.empty()) continue;
+  for (const ModelRecord* model : view.models) {
+    if (!model->final || !model->final->starts) continue;
     const auto at = static_cast<double>(figure.plot.x.names.size());
-    figure.plot.x.names.emplace_back(Shortened(model.name, 20), at);
+    figure.plot.x.names.emplace_back(Shortened(model->name, 20), at);
     int n = 0;
-    for (const Json& start : table) {
-      const double cost = NumberAt(start, "final_cost");
-      if (!(cost > 0.0)) continue;
-      const double rms = std::sqrt(2.0 * cost);
+    for (const models::StartRecord& start : model->final->starts->table) {
+      if (!(start.final_cost > 0.0)) continue;
+      const double rms = std::sqrt(2.0 * start.final_cost);
       low = std::min(low, rms);
       high = std::max(high, rms);
-      Series& series = IsTrue(start, "chosen") ? chosen : all;
+      Series& series = start.chosen ? chosen : all;
       // Side by side, so that equal ends do not hide each other.
       constexpr double kStep = 0.06;
       constexpr int kColumns = 7;
@@ -309,7 +301,7 @@ std::vector<Figure> StartFigures(const ReportView& view,
       series.columns[1].push_back(rms);
       ++n;
     }
-    words.push_back(fmt::format("{}: {} starts", model.name, n));
+    words.push_back(fmt::format("{}: {} starts", model->name, n));
   }
   if (figure.plot.x.names.empty() || !(high > 0.0)) return {};
   figure.plot.x.low = -0.6;
@@ -329,9 +321,10 @@ Figure CorrelationFigure(const ReportView& view, const std::string& prefix) {
   figure.place = FigurePlace::kData;
   figure.title = "Correlation of inputs and target";
   figure.plot.name = prefix + "correlation";
-  const Json& block = At(*view.component, {"figures", "correlation"});
-  const std::vector<std::string> names = TextsOf(At(block, "columns"));
-  const Json& matrix = At(block, "matrix");
+  const std::vector<std::string>& names =
+      view.component->figures.correlation.columns;
+  const std::vector<std::vector<double>>& matrix =
+      view.component->figures.correlation.matrix;
   if (names.size() < 2 || matrix.size() != names.size()) {
     figure.missing = names.empty() ? "results.json holds no correlations."
                                    : "There are no two columns to correlate.";
@@ -341,7 +334,7 @@ Figure CorrelationFigure(const ReportView& view, const std::string& prefix) {
   double strongest = 0.0;
   std::string pair;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::vector<double> row = NumbersOf(At(matrix, i));
+    const std::vector<double>& row = matrix[i];
     for (std::size_t j = 0; j < row.size() && j < names.size(); ++j) {
       cells.columns[0].push_back(static_cast<double>(j));
       cells.columns[1].push_back(static_cast<double>(i));
@@ -383,47 +376,6 @@ Figure CorrelationFigure(const ReportView& view, const std::string& prefix) {
       strongest,
       pair);
   return figure;
-}
-
-std::vector<Figure> LearningFigures(const ReportView& view,
-                                    const std::string& prefix) {
-  std::vector<Figure> figures;
-  const Json& curves = At(*view.component, "learning");
-  for (std::size_t c = 0; c < curves.size(); ++c) {
-    const Json& curve = At(curves, c);
-    Figure figure;
-    figure.place = FigurePlace::kFits;
-    figure.title = "Error against the amount of training data";
-    figure.plot.name = fmt::format("{}learning-{}", prefix, c + 1);
-    figure.plot.x = {.quantity = "training data", .unit = TextAt(curve, "by")};
-    figure.plot.y = {.quantity = "RMSE on held-out rows",
-                     .unit = view.shown_unit};
-    figure.plot.y.low = 0.0;
-    std::vector<std::string> words;
-    const Json& models = At(curve, "models");
-    for (std::size_t m = 0; m < models.size() && m < kColours.size(); ++m) {
-      Series line{.label = Shortened(TextAt(At(models, m), "model"), 34),
-                  .mark = Mark::kLine,
-                  .columns = {{}, {}},
-                  .colour = kColours[m],
-                  .size = 1.8};
-      for (const Json& point : At(At(models, m), "points")) {
-        line.columns[0].push_back(NumberAt(point, "n"));
-        line.columns[1].push_back(NumberAt(point, "rmse") * view.scale);
-      }
-      if (line.columns[0].empty()) continue;
-      words.push_back(fmt::format("{} ends at {:.3g}",
-                                  TextAt(At(models, m), "model"),
-                                  line.columns[1].back()));
-      figure.plot.series.push_back(std::move(line));
-    }
-    if (figure.plot.series.empty()) continue;
-    figure.description = fmt::format("Learning curves, {}: {}.",
-                                     WithUnit("RMSE", view.shown_unit),
-                                     fmt::join(words, "; "));
-    figures.push_back(std::move(figure));
-  }
-  return figures;
 }
 
 }  // namespace errmap::cli

@@ -22,8 +22,4 @@ std::vector<Figure> StartFigures(const ReportView& view,
 /// Correlation of inputs and target.
 Figure CorrelationFigure(const ReportView& view, const std::string& prefix);
 
-/// Error against the amount of training data ("learning"), where made.
-std::vector<Figure> LearningFigures(const ReportView& view,
-                                    const std::string& prefix);
-
 }  // namespace errmap::cli

@@ -52,14 +52,13 @@ std::vector<Figure> FiguresOf(const ReportView& view,
     for (std::size_t i = 0;
          i < std::min(view.models.size(), everything ? 1000 : kMostModels);
          ++i) {
-      const std::string& name = view.models[i].name;
-      if (!std::isfinite(TestRmse(view, name, view.decisive))) continue;
+      const std::string& name = view.models[i]->name;
+      if (!std::isfinite(TestRmse(*view.models[i], view.decisive))) continue;
       figures.push_back(SmallResidualFigure(
           view, name, view.decisive, fmt::format("{}model-{}", prefix, i + 1)));
     }
     Append(TrainingFigures(view, prefix), &figures);
     Append(StartFigures(view, prefix), &figures);
-    Append(LearningFigures(view, prefix), &figures);
     figures.push_back(CorrelationFigure(view, prefix));
   }
   for (Figure& figure : figures) {
@@ -72,15 +71,15 @@ std::vector<Figure> FiguresOf(const ReportView& view,
 
 }  // namespace
 
-FigureSet MakeFigures(const Json& results, bool everything) {
+FigureSet MakeFigures(const models::StudyRecord& record, bool everything) {
   FigureSet set;
-  const Json& components = At(results, "components");
+  const auto& components = record.components;
   FigureDetail detail = components.size() > kFewComponents
                             ? FigureDetail::kBrief
                             : FigureDetail::kFull;
   if (everything) detail = FigureDetail::kEverything;
   for (std::size_t i = 0; i < components.size(); ++i) {
-    const ReportView view = ViewOf(At(components, i));
+    const ReportView view = ViewOf(components[i]);
     ComponentFigures figures{.detail = detail, .figures = {}};
     figures.figures = FiguresOf(view, fmt::format("c{}-", i + 1), detail);
     // A page of very many components has one picture for each.

@@ -38,9 +38,10 @@ struct FigureSet {
   std::vector<ComponentFigures> components;
 };
 
-/// Figures of results.json: everything of each component, or
+/// Figures of a study: everything of each component, or
 /// (`everything` false) what keeps a report of many components usable.
-FigureSet MakeFigures(const Json& results, bool everything = false);
+FigureSet MakeFigures(const models::StudyRecord& record,
+                      bool everything = false);
 
 /// The figure as SVG.
 std::string FigureSvg(const Figure& figure);

@@ -6,30 +6,6 @@
 
 namespace errmap::cli {
 
-Json FitSummaryJson(const fitting::FitSummary& summary) {
-  Json json = {{"stop", fitting::ToString(summary.termination)},
-               {"converged", summary.converged()},
-               {"message", summary.message},
-               {"iterations", summary.iterations},
-               {"evaluations", summary.evaluations()},
-               {"value_evaluations", summary.value_evaluations},
-               {"gradient_evaluations", summary.gradient_evaluations},
-               {"curvature_evaluations", summary.curvature_evaluations},
-               {"initial_cost", summary.initial_cost},
-               {"final_cost", summary.final_cost},
-               {"initial_gradient_norm", summary.initial_gradient_norm},
-               {"final_gradient_norm", summary.final_gradient_norm},
-               {"mean_iteration_seconds", summary.mean_iteration_seconds},
-               {"sd_iteration_seconds", summary.sd_iteration_seconds}};
-  if (!summary.trace.empty()) {
-    Json& trace = json["trace"] = Json::array();
-    for (const fitting::TracePoint& point : summary.trace) {
-      trace.push_back({point.iteration, point.rms_error, point.gradient_norm});
-    }
-  }
-  return json;
-}
-
 std::string FitSummaryText(const fitting::FitSummary& summary) {
   std::string text = fmt::format("stop: {} ({})\n",
                                  fitting::ToString(summary.termination),

@@ -5,23 +5,28 @@
 
 #include <fmt/format.h>
 
+#include "cli/json_blocks.h"
+#include "models/study/record_json.h"
+
 namespace errmap::cli {
 namespace {
 
 // A number, text or truth as one line; lists and objects as JSON.
 std::string ValueText(const Json& value) {
-  if (value.is_string()) return TextOf(value);
+  if (value.is_string()) return value.get<std::string>();
   if (value.is_null()) return "-";
-  if (value.is_number_float()) return FigureText(NumberOf(value), 6);
+  if (value.is_number_float()) return FigureText(value.get<double>(), 6);
   return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string SettingsText(const Json& object) {
+template <typename T>
+std::string SettingsText(const models::ByName<T>& settings) {
   std::string text;
-  if (!object.is_object()) return text;
-  for (const auto& [key, value] : object.items()) {
-    text += fmt::format(
-        "{}{} = {}", text.empty() ? "" : ", ", key, ValueText(value));
+  for (const auto& [key, value] : settings) {
+    text += fmt::format("{}{} = {}",
+                        text.empty() ? "" : ", ",
+                        key,
+                        ValueText(models::ToJson(value)));
   }
   return text;
 }
@@ -30,22 +35,27 @@ void SayIfEmpty(const std::string& why, ReportTable* table) {
   if (table->rows.empty()) table->missing = why;
 }
 
-std::string StopText(const Json& fit) {
-  const std::string stop = TextAt(fit, "stop");
-  if (stop.empty()) return "-";
-  return stop + (IsTrue(fit, "converged") ? "" : " (not converged)");
+std::string StopText(const models::SummaryRecord& fit) {
+  return std::string(fitting::ToString(fit.stop)) +
+         (fit.converged ? "" : " (not converged)");
 }
 
 double RootOfTwice(double cost) {
-  return cost >= 0.0 ? std::sqrt(2.0 * cost) : kNotThere;
+  return cost >= 0.0 ? std::sqrt(2.0 * cost) : models::kNotKnown;
 }
 
-ReportTable Coefficients(const Json& regression) {
+// What a penalised fit has not stays empty.
+models::LeastSquaresRecord LeastSquaresOf(
+    const models::RegressionRecord& regression) {
+  return regression.least_squares.value.value_or(models::LeastSquaresRecord());
+}
+
+ReportTable Coefficients(const models::RegressionRecord& regression) {
   ReportTable table{.title = "Coefficients"};
   table.note =
       "In the target's own unit. Terms chosen with these rows have optimistic "
       "p-values and intervals.";
-  if (!IsTrue(regression, "after_selection")) {
+  if (!LeastSquaresOf(regression).after_selection) {
     table.note = "In the target's own unit.";
   }
   table.columns = {{"term", false},
@@ -58,37 +68,33 @@ ReportTable Coefficients(const Json& regression) {
                    {"standardised"},
                    {"VIF"},
                    {"chosen in, %", true, "share of bootstrap repetitions"}};
-  const Json& terms = At(regression, "coefficients");
-  for (std::size_t i = 0; i < terms.size(); ++i) {
-    const Json& term = At(terms, i);
-    const Json& interval = At(term, "ci95");
+  for (const models::CoefficientRecord& term : regression.coefficients) {
+    const models::TermRecord more =
+        term.of_term.value.value_or(models::TermRecord());
     constexpr double kPercent = 100.0;
-    table.rows.push_back(
-        {TextAt(term, "term"),
-         FigureText(NumberAt(term, "estimate"), 7),
-         FigureText(NumberAt(term, "standard_error")),
-         FigureText(NumberAt(term, "t")),
-         PText(NumberAt(term, "p")),
-         FigureText(NumberOf(At(interval, std::size_t{0})), 5),
-         FigureText(NumberOf(At(interval, std::size_t{1})), 5),
-         FigureText(NumberAt(term, "standardised")),
-         FigureText(NumberAt(term, "vif")),
-         FigureText(kPercent * NumberAt(term, "bootstrap_inclusion"), 3)});
+    table.rows.push_back({term.term,
+                          FigureText(term.estimate, 7),
+                          FigureText(term.standard_error),
+                          FigureText(term.t),
+                          PText(term.p),
+                          FigureText(term.ci95[0], 5),
+                          FigureText(term.ci95[1], 5),
+                          FigureText(more.standardised),
+                          FigureText(more.vif),
+                          FigureText(kPercent * more.bootstrap_inclusion, 3)});
   }
   SayIfEmpty("The coefficients' statistics were not kept.", &table);
   return table;
 }
 
-ReportTable ExcludedTerms(const Json& regression) {
+ReportTable ExcludedTerms(const models::RegressionRecord& regression) {
   ReportTable table{.title = "Terms left out"};
   table.columns = {{"term", false}, {"F if it entered"}, {"p"}};
-  const Json& terms = At(regression, "excluded");
+  const auto terms = LeastSquaresOf(regression).excluded;
   constexpr std::size_t kMost = 40;
   for (std::size_t i = 0; i < std::min(terms.size(), kMost); ++i) {
-    const Json& term = At(terms, i);
-    table.rows.push_back({TextAt(term, "term"),
-                          FigureText(NumberAt(term, "f")),
-                          PText(NumberAt(term, "p"))});
+    table.rows.push_back(
+        {terms[i].term, FigureText(terms[i].f), PText(terms[i].p)});
   }
   if (terms.size() > kMost) {
     table.note = fmt::format(
@@ -98,33 +104,32 @@ ReportTable ExcludedTerms(const Json& regression) {
   return table;
 }
 
-ReportTable AliasedTerms(const Json& regression) {
+ReportTable AliasedTerms(const models::RegressionRecord& regression) {
   ReportTable table{.title = "Aliased terms"};
   table.note = "The terms in the model determine them.";
   table.columns = {{"term", false}, {"why", false}};
-  const Json& terms = At(regression, "aliased");
-  for (std::size_t i = 0; i < terms.size(); ++i) {
-    table.rows.push_back(
-        {TextAt(At(terms, i), "term"), TextAt(At(terms, i), "why")});
+  for (const auto& term : LeastSquaresOf(regression).aliased) {
+    table.rows.push_back({term.term, term.why});
   }
   SayIfEmpty("No term is aliased.", &table);
   return table;
 }
 
-std::string RegressionSummary(const ReportView& view, const Json& regression) {
-  const double s = NumberAt(regression, "s");
-  if (!std::isfinite(s)) return "";
+std::string RegressionSummary(const ReportView& view,
+                              const models::RegressionRecord& regression) {
+  const models::LeastSquaresRecord fit = LeastSquaresOf(regression);
+  if (!std::isfinite(fit.s)) return "";
   return fmt::format(
       "s {}{}, R2 {}, adjusted R2 {}, predicted R2 {} (PRESS {}), condition "
       "number {}, effective rank {}.",
-      FigureText(s * view.scale),
+      FigureText(fit.s * view.scale),
       view.shown_unit.empty() ? "" : " " + view.shown_unit,
-      FigureText(NumberAt(regression, "r2"), 6),
-      FigureText(NumberAt(regression, "adjusted_r2"), 6),
-      FigureText(NumberAt(regression, "predicted_r2"), 6),
-      FigureText(NumberAt(regression, "press")),
-      FigureText(NumberAt(regression, "condition")),
-      CountText(NumberAt(regression, "effective_rank")));
+      FigureText(fit.r2, 6),
+      FigureText(fit.adjusted_r2, 6),
+      FigureText(fit.predicted_r2, 6),
+      FigureText(fit.press),
+      FigureText(fit.condition),
+      CountText(fit.effective_rank));
 }
 
 }  // namespace
@@ -147,28 +152,28 @@ ReportTable RunTable(const ReportView& view) {
                    {"sqrt(2 E) last"},
                    {"stop", false},
                    {"message", false}};
-  for (const ViewedModel& model : view.models) {
-    const Json& fit = At(*model.json, "final");
-    if (!fit.is_object()) continue;
+  for (const ModelRecord* model : view.models) {
+    if (!model->final) continue;
     constexpr double kMicroseconds = 1e6;
-    const double parameters = NumberAt(*model.json, "parameters");
-    const double time = kMicroseconds * NumberAt(fit, "mean_iteration_seconds");
-    const Json& inputs = At(*model.json, "inputs_used");
-    if (model.name == view.recommended) table.marked = table.rows.size();
+    const models::SummaryRecord& fit = model->final->summary.value;
+    const auto parameters = static_cast<double>(model->parameters.value_or(0));
+    const double time = kMicroseconds * fit.mean_iteration_seconds;
+    if (model->name == view.recommended) table.marked = table.rows.size();
     table.rows.push_back(
-        {model.name,
-         inputs.is_array() ? std::to_string(inputs.size()) : "-",
-         CountText(parameters),
-         CountText(NumberAt(fit, "iterations")),
-         CountText(NumberAt(fit, "evaluations")),
+        {model->name,
+         model->inputs_used ? std::to_string(model->inputs_used->size()) : "-",
+         CountText(model->parameters),
+         CountText(fit.iterations),
+         CountText(fit.evaluations),
          FigureText(time),
-         FigureText(kMicroseconds * NumberAt(fit, "sd_iteration_seconds"), 3),
-         FigureText(parameters > 0.0 ? time / parameters : kNotThere, 3),
-         FigureText(NumberAt(fit, "fit_seconds"), 3),
-         FigureText(RootOfTwice(NumberAt(fit, "initial_cost"))),
-         FigureText(RootOfTwice(NumberAt(fit, "final_cost"))),
+         FigureText(kMicroseconds * fit.sd_iteration_seconds, 3),
+         FigureText(parameters > 0.0 ? time / parameters : models::kNotKnown,
+                    3),
+         FigureText(model->final->fit_seconds, 3),
+         FigureText(RootOfTwice(fit.initial_cost)),
+         FigureText(RootOfTwice(fit.final_cost)),
          StopText(fit),
-         TextAt(fit, "message")});
+         fit.message});
   }
   SayIfEmpty("The fits to all rows were not kept.", &table);
   return table;
@@ -186,22 +191,23 @@ ReportTable FoldTable(const ReportView& view) {
                    {"evaluations"},
                    {"fit, s"},
                    {"stop", false}};
-  for (const ViewedModel& model : view.models) {
+  for (const ModelRecord* model : view.models) {
     for (const std::string& holdout : view.holdouts) {
-      const Json& folds = At(ResultOf(view, model.name, holdout), "folds");
-      for (std::size_t i = 0; i < folds.size(); ++i) {
-        const Json& fold = At(folds, i);
-        const double train = NumberAt(fold, "train_rmse");
-        const double test = NumberAt(fold, "test_rmse");
-        table.rows.push_back({model.name,
-                              holdout,
-                              std::to_string(i),
-                              std::isfinite(train) ? error(train) : "-",
-                              std::isfinite(test) ? error(test) : "-",
-                              CountText(NumberAt(fold, "iterations")),
-                              CountText(NumberAt(fold, "evaluations")),
-                              FigureText(NumberAt(fold, "fit_seconds"), 3),
-                              StopText(fold)});
+      const ResultRecord* result = ResultOf(*model, holdout);
+      if (result == nullptr) continue;
+      for (std::size_t i = 0; i < result->folds.size(); ++i) {
+        const models::FoldRecord& fold = result->folds[i];
+        const models::SummaryRecord& fit = fold.fit.value.summary.value;
+        table.rows.push_back(
+            {model->name,
+             holdout,
+             std::to_string(i),
+             std::isfinite(fold.train_rmse) ? error(fold.train_rmse) : "-",
+             std::isfinite(fold.test_rmse) ? error(fold.test_rmse) : "-",
+             CountText(fit.iterations),
+             CountText(fit.evaluations),
+             FigureText(fold.fit.value.fit_seconds, 3),
+             StopText(fit)});
       }
     }
   }
@@ -219,19 +225,17 @@ ReportTable StartTable(const ReportView& view) {
                    {"stop", false},
                    {WithUnit("inner hold-out RMSE", view.shown_unit)},
                    {"chosen", false}};
-  for (const ViewedModel& model : view.models) {
-    const Json& starts = At(*model.json, {"final", "starts", "table"});
-    for (std::size_t i = 0; i < starts.size(); ++i) {
-      const Json& start = At(starts, i);
-      const double rmse = NumberAt(start, "holdout_rmse");
+  for (const ModelRecord* model : view.models) {
+    if (!model->final || !model->final->starts) continue;
+    for (const models::StartRecord& start : model->final->starts->table) {
       table.rows.push_back(
-          {model.name,
-           CountText(NumberAt(start, "seed")),
-           FigureText(RootOfTwice(NumberAt(start, "final_cost")), 5),
-           CountText(NumberAt(start, "iterations")),
-           TextAt(start, "stop"),
-           std::isfinite(rmse) ? error(rmse) : "-",
-           IsTrue(start, "chosen") ? "yes" : "no"});
+          {model->name,
+           std::to_string(start.seed),
+           FigureText(RootOfTwice(start.final_cost), 5),
+           CountText(start.iterations),
+           std::string(fitting::ToString(start.stop)),
+           std::isfinite(start.holdout_rmse) ? error(start.holdout_rmse) : "-",
+           start.chosen ? "yes" : "no"});
     }
   }
   SayIfEmpty("No model was fitted from several starts.", &table);
@@ -250,16 +254,15 @@ ReportTable MemorisationTable(const ReportView& view) {
                    {"effective parameters"},
                    {"in words", false}};
   table.columns[3].name = "weights per row";
-  for (const ViewedModel& model : view.models) {
-    const Json& check = At(*model.json, "memorisation");
-    if (!check.is_object()) continue;
-    table.rows.push_back(
-        {model.name,
-         FigureText(NumberAt(check, "shuffled_r2"), 3),
-         FigureText(NumberAt(check, "train_r2"), 4),
-         FigureText(NumberAt(check, "weights_per_row"), 3),
-         FigureText(NumberAt(check, "effective_parameters"), 4),
-         TextAt(check, "sentence")});
+  for (const ModelRecord* model : view.models) {
+    if (!model->memorisation) continue;
+    const models::MemorisationRecord& check = *model->memorisation;
+    table.rows.push_back({model->name,
+                          FigureText(check.shuffled_r2, 3),
+                          FigureText(check.train_r2, 4),
+                          FigureText(check.weights_per_row, 3),
+                          FigureText(check.effective_parameters, 4),
+                          check.sentence});
   }
   SayIfEmpty("No net was checked.", &table);
   return table;
@@ -267,23 +270,24 @@ ReportTable MemorisationTable(const ReportView& view) {
 
 std::vector<PolynomialTables> PolynomialTablesOf(const ReportView& view) {
   std::vector<PolynomialTables> all;
-  for (const ViewedModel& model : view.models) {
-    const Json& regression = At(*model.json, "regression");
-    const std::string equation = TextAt(*model.json, "equation");
-    if (equation.empty() && !regression.is_object()) continue;
-    if (model.kind == "baseline") continue;
-    PolynomialTables tables{.model = model.name,
-                            .equation = equation,
-                            .method = TextAt(regression, "method"),
+  for (const ModelRecord* model : view.models) {
+    if (!model->equation && !model->regression) continue;
+    if (model->kind == models::ModelKind::kBaseline) continue;
+    const models::RegressionRecord regression =
+        model->regression.value_or(models::RegressionRecord());
+    PolynomialTables tables{.model = model->name,
+                            .equation = model->equation.value_or(""),
+                            .method = regression.method,
                             .summary = RegressionSummary(view, regression),
                             .coefficients = Coefficients(regression),
                             .excluded = ExcludedTerms(regression),
                             .aliased = AliasedTerms(regression)};
-    if (!regression.is_object()) {
+    if (!model->regression) {
       tables.excluded.missing = "Which terms were left out was not kept.";
       tables.aliased.missing = "Which terms are aliased was not kept.";
     }
-    const auto place = model.name == view.recommended ? all.begin() : all.end();
+    const auto place =
+        model->name == view.recommended ? all.begin() : all.end();
     all.insert(place, std::move(tables));
   }
   return all;
@@ -295,11 +299,15 @@ ReportTable OptionTable(const ReportView& view) {
                    {"kind", false},
                    {"options", false},
                    {"chosen by the fit", false}};
-  for (const ViewedModel& model : view.models) {
-    table.rows.push_back({model.name,
-                          model.kind,
-                          SettingsText(At(*model.json, "options")),
-                          SettingsText(At(*model.json, {"final", "choices"}))});
+  for (const ModelRecord* model : view.models) {
+    std::string choices;
+    if (model->final && model->final->choices) {
+      choices = SettingsText(*model->final->choices);
+    }
+    table.rows.push_back({model->name,
+                          std::string(models::ToString(model->kind)),
+                          SettingsText(model->options),
+                          std::move(choices)});
   }
   SayIfEmpty("There is no model.", &table);
   return table;
@@ -308,10 +316,8 @@ ReportTable OptionTable(const ReportView& view) {
 ReportTable DroppedTable(const ReportView& view) {
   ReportTable table{.title = "Sensors and columns left out"};
   table.columns = {{"column", false}, {"why", false}};
-  const Json& dropped = At(*view.component, {"data", "dropped"});
-  for (std::size_t i = 0; i < dropped.size(); ++i) {
-    table.rows.push_back(
-        {TextAt(At(dropped, i), "column"), TextAt(At(dropped, i), "why")});
+  for (const models::DroppedRecord& dropped : view.component->data.dropped) {
+    table.rows.push_back({dropped.column, dropped.why});
   }
   SayIfEmpty("No column was left out.", &table);
   return table;
@@ -344,17 +350,13 @@ std::string HoldoutWords(const std::string& name) {
   return "-";
 }
 
-std::string RangeOfSizes(const Json& lists) {
-  std::size_t least = std::string::npos;
-  std::size_t most = 0;
-  for (const Json& list : lists) {
-    if (!list.is_array()) continue;
-    least = std::min(least, list.size());
-    most = std::max(most, list.size());
-  }
-  if (least == std::string::npos) return "-";
-  return least == most ? std::to_string(most)
-                       : fmt::format("{} to {}", least, most);
+std::string RangeOfSizes(const models::RowsOfFolds& lists) {
+  if (lists.empty()) return "-";
+  const auto [least, most] = std::ranges::minmax(
+      lists, {}, [](const auto& list) { return list.size(); });
+  return least.size() == most.size()
+             ? std::to_string(most.size())
+             : fmt::format("{} to {}", least.size(), most.size());
 }
 
 }  // namespace
@@ -369,56 +371,41 @@ ReportTable HoldoutTable(const ReportView& view) {
                    {"unit of analysis", false},
                    {"units"},
                    {"what it does", false}};
-  const Json& holdouts = At(*view.component, "holdouts");
-  for (std::size_t i = 0; i < holdouts.size(); ++i) {
-    const Json& holdout = At(holdouts, i);
-    const std::string name = TextAt(holdout, "name");
-    const Json& whole = At(holdout, "whole_groups");
-    const std::string unit = TextAt(holdout, "unit_of_analysis");
+  for (const models::HoldoutRecord& holdout : view.component->holdouts) {
     table.rows.push_back(
-        {name,
-         CountText(NumberAt(holdout, "folds")),
-         RangeOfSizes(At(holdout, "train_rows")),
-         RangeOfSizes(At(holdout, "test_rows")),
-         whole.is_boolean() ? (whole.get<bool>() ? "yes" : "no") : "-",
-         unit.empty() ? "-" : unit,
-         CountText(NumberAt(holdout, "units")),
-         HoldoutWords(name)});
+        {holdout.name,
+         CountText(holdout.folds),
+         RangeOfSizes(holdout.train_rows),
+         RangeOfSizes(holdout.test_rows),
+         holdout.whole_groups ? "yes" : "no",
+         holdout.unit_of_analysis.empty() ? "-" : holdout.unit_of_analysis,
+         CountText(holdout.units),
+         HoldoutWords(holdout.name)});
   }
   SayIfEmpty("There is no hold-out.", &table);
   return table;
 }
 
-ReportTable ProvenanceTable(const Json& results) {
+ReportTable ProvenanceTable(const models::StudyRecord& record) {
   ReportTable table{.title = "Provenance"};
   table.columns = {{"what", false}, {"value", false}};
   const auto add = [&](const std::string& what, const std::string& value) {
     if (!value.empty() && value != "-") table.rows.push_back({what, value});
   };
-  add("errmap", TextAt(results, "version"));
-  add("schema", TextAt(results, "schema"));
-  add("seed", CountText(NumberAt(results, "seed")));
-  const Json& provenance = At(results, "provenance");
-  add("command line", TextAt(provenance, "command_line"));
-  add("compiler", TextAt(provenance, "compiler"));
-  const Json& inputs = At(provenance, "inputs");
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    add("sha256 of " + TextAt(At(inputs, i), "file"),
-        TextAt(At(inputs, i), "sha256"));
+  add("errmap", record.version);
+  add("schema", record.schema);
+  add("seed", std::to_string(record.seed));
+  const models::ProvenanceRecord& provenance = record.provenance;
+  add("command line", provenance.command_line);
+  add("compiler", provenance.compiler);
+  for (const models::InputFileRecord& input : provenance.inputs) {
+    add("sha256 of " + input.file, input.sha256);
   }
-  const Json& components = At(results, "components");
-  for (std::size_t i = 0; !inputs.is_array() && i < components.size(); ++i) {
-    const Json& data = At(At(components, i), "data");
-    add("sha256 of " + TextAt(data, "file"), TextAt(data, "sha256"));
+  add("libraries", SettingsText(provenance.libraries));
+  const Json configuration = models::ToJson(provenance.configuration);
+  for (const auto& [key, value] : configuration.items()) {
+    add("configuration: " + key, ValueText(value));
   }
-  add("libraries", SettingsText(At(provenance, "libraries")));
-  const Json& configuration = At(provenance, "configuration");
-  if (configuration.is_object()) {
-    for (const auto& [key, value] : configuration.items()) {
-      add("configuration: " + key, ValueText(value));
-    }
-  }
-  SayIfEmpty("The document does not say where it comes from.", &table);
   return table;
 }
 

@@ -43,6 +43,6 @@ ReportTable DroppedTable(const ReportView& view);
 ReportTable HoldoutTable(const ReportView& view);
 
 /// Where the figures come from: of the whole document.
-ReportTable ProvenanceTable(const Json& results);
+ReportTable ProvenanceTable(const models::StudyRecord& record);
 
 }  // namespace errmap::cli

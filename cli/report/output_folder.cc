@@ -119,11 +119,12 @@ std::string ResidualsCsv(const Comparison& comparison) {
 }
 
 void WriteOutputs(const StudyRun& run,
-                  const std::string& results_json,
+                  const models::StudyRecord& record,
                   const std::string& folder) {
   const std::filesystem::path root(folder);
   PrepareFolder((root / "models").string());
-  data::WriteFileAtomically((root / "results.json").string(), results_json);
+  data::WriteFileAtomically((root / "results.json").string(),
+                            models::ToJsonText(record));
   std::set<std::string> taken;
   for (const Comparison& component : run.components) {
     std::filesystem::path residuals = root / "residuals.csv";
@@ -138,7 +139,7 @@ void WriteOutputs(const StudyRun& run,
     data::WriteFileAtomically(residuals.string(), ResidualsCsv(component));
     WriteModels(run, component, models);
   }
-  WriteReport(Json::parse(results_json), folder);
+  WriteReport(record, folder);
 }
 
 }  // namespace errmap::cli

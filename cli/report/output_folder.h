@@ -3,6 +3,7 @@
 #include <string>
 
 #include "cli/study_file/comparison.h"
+#include "models/study/study_record.h"
 
 namespace errmap::cli {
 
@@ -13,12 +14,12 @@ void PrepareFolder(const std::string& path);
 /// Removes what a killed run had begun to write into a folder and its models/.
 void RemoveAbandoned(const std::string& folder);
 
-/// Writes results.json (`results_json`), residuals.csv, models/*.json and the
+/// Writes results.json (`record`), residuals.csv, models/*.json and the
 /// report into a folder; of several components residuals/COMPONENT.csv and
 /// models/COMPONENT/*.json.
 /// Throws std::system_error naming the path that could not be written.
 void WriteOutputs(const StudyRun& run,
-                  const std::string& results_json,
+                  const models::StudyRecord& record,
                   const std::string& folder);
 
 /// Held-out residual table: one line per hold-out, fold and test row, with

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/shell/number_text.h"
+#include "models/study/figure_record.h"
 
 namespace errmap::cli {
 namespace {
@@ -308,52 +309,6 @@ std::string PenaltyText(const RegressionReport& report) {
   return text;
 }
 
-// Of rows scaled by the roots of their weights.
-Eigen::MatrixXd Correlations(const data::Dataset& dataset) {
-  const Eigen::Index p = dataset.num_inputs();
-  Eigen::MatrixXd values(dataset.num_rows(), p + 1);
-  values << dataset.input_values(), dataset.target_values();
-  Eigen::VectorXd weights = dataset.weights();
-  if (weights.size() == 0) weights = Eigen::VectorXd::Ones(values.rows());
-  const Eigen::RowVectorXd means = weights.transpose() * values / weights.sum();
-  values.rowwise() -= means;
-  values = weights.cwiseSqrt().asDiagonal() * values;
-  for (Eigen::Index j = 0; j <= p; ++j) {
-    const double length = values.col(j).norm();
-    if (length > 0.0) values.col(j) /= length;
-  }
-  Eigen::MatrixXd correlations = values.transpose() * values;
-  for (Eigen::Index j = 0; j <= p; ++j) {
-    if (correlations(j, j) > 0.0) correlations(j, j) = 1.0;
-  }
-  return correlations;
-}
-
-std::vector<std::string> CorrelatedNames(const data::Dataset& dataset) {
-  std::vector<std::string> names;
-  for (const data::ColumnInfo& input : dataset.inputs()) {
-    names.push_back(input.name);
-  }
-  names.push_back(dataset.target().name);
-  return names;
-}
-
-Json EstimateJson(const ReportTerm& term, bool is_intercept) {
-  const fitting::CoefficientEstimate& numbers = term.numbers;
-  Json json = {{"term", term.name},
-               {"estimate", numbers.estimate},
-               {"standard_error", numbers.standard_error},
-               {"t", numbers.t},
-               {"p", numbers.p},
-               {"ci95", {numbers.lower, numbers.upper}}};
-  if (!is_intercept) {
-    json["standardised"] = numbers.standardised;
-    json["vif"] = numbers.vif;
-    json["bootstrap_inclusion"] = term.inclusion;
-  }
-  return json;
-}
-
 }  // namespace
 
 std::string RegressionText(const RegressionReport& report,
@@ -365,92 +320,9 @@ std::string RegressionText(const RegressionReport& report,
          Warnings(report);
 }
 
-Json RegressionJson(const RegressionReport& report) {
-  const fitting::RegressionDiagnostics& fit = report.fit;
-  Json steps = Json::array();
-  for (const ReportStep& step : report.steps) {
-    const fitting::SelectionStep& numbers = step.numbers;
-    steps.push_back({{"term", step.term.empty() ? Json() : Json(step.term)},
-                     {"entered", numbers.entered},
-                     {"terms", numbers.terms},
-                     {"f", numbers.f},
-                     {"p", numbers.p},
-                     {"rss", numbers.residual_sum_of_squares},
-                     {"aic", numbers.aic},
-                     {"aicc", numbers.aicc},
-                     {"bic", numbers.bic},
-                     {"adjusted_r2", numbers.adjusted_r2},
-                     {"press", numbers.press},
-                     {"cp", numbers.cp},
-                     {"cv", numbers.cv}});
-  }
-  Json coefficients = Json::array();
-  if (fit.has_intercept) {
-    coefficients.push_back(EstimateJson(report.intercept, true));
-  }
-  for (const ReportTerm& term : report.terms) {
-    coefficients.push_back(EstimateJson(term, false));
-  }
-  Json excluded = Json::array();
-  for (const models::ExcludedReport& term : report.excluded) {
-    excluded.push_back({{"term", term.name},
-                        {"f", term.f},
-                        {"p", term.p},
-                        {"bootstrap_inclusion", term.inclusion}});
-  }
-  Json aliased = Json::array();
-  for (const models::AliasReport& term : report.aliased) {
-    aliased.push_back({{"term", term.name}, {"why", term.why}});
-  }
-  Json centres = Json::object();
-  for (const auto& [name, centre] : report.centres) centres[name] = centre;
-  Json json = {{"method", report.method},
-               {"candidates", report.candidates},
-               {"steps", std::move(steps)},
-               {"chosen_step", report.chosen_step},
-               {"ended", report.ended},
-               {"coefficients", std::move(coefficients)},
-               {"centres", std::move(centres)}};
-  if (report.penalised) {
-    json["penalty"] = report.strength;
-    json["effective_parameters"] = report.degrees_of_freedom;
-    json["cross_validation"] = {{"holdout", report.cross_validation},
-                                {"penalty", report.strengths},
-                                {"mse", report.mean_squared_errors},
-                                {"standard_error", report.standard_errors}};
-    return json;
-  }
-  json["anova"] = {{"regression_df", fit.regression_degrees_of_freedom()},
-                   {"regression_ss", fit.regression_sum_of_squares},
-                   {"residual_df", fit.residual_degrees_of_freedom},
-                   {"residual_ss", fit.residual_sum_of_squares},
-                   {"total_ss", fit.total_sum_of_squares},
-                   {"f", fit.f},
-                   {"p", fit.f_p}};
-  json["s"] = fit.s;
-  json["r2"] = fit.r2;
-  json["adjusted_r2"] = fit.adjusted_r2;
-  json["press"] = report.rows.press;
-  json["predicted_r2"] = report.rows.PredictedR2(fit);
-  json["rows_of_leverage_1"] = report.rows.leverage_one;
-  json["largest_residual"] = report.rows.largest_residual;
-  json["largest_residual_row"] = report.rows.largest_residual_row;
-  json["largest_leverage"] = report.rows.largest_leverage;
-  json["condition"] = fit.condition;
-  json["effective_rank"] = fit.effective_rank;
-  json["bits"] = fit.bits;
-  json["excluded"] = std::move(excluded);
-  json["aliased"] = std::move(aliased);
-  json["after_selection"] = report.selected;
-  json["bootstrap"] = {{"repetitions", report.bootstrap},
-                       {"unit", report.bootstrap_unit}};
-  json["notes"] = report.notes;
-  return json;
-}
-
 std::string CorrelationText(const data::Dataset& dataset) {
-  const Eigen::MatrixXd correlations = Correlations(dataset);
-  const std::vector<std::string> names = CorrelatedNames(dataset);
+  const models::CorrelationRecord correlations = models::Correlate(dataset);
+  const std::vector<std::string>& names = correlations.columns;
   TextTable table;
   std::vector<std::string> head{"correlation"};
   head.insert(head.end(), names.begin(), names.end());
@@ -458,26 +330,11 @@ std::string CorrelationText(const data::Dataset& dataset) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     std::vector<std::string> row{names[i]};
     for (std::size_t j = 0; j <= i; ++j) {
-      row.push_back(Fixed(correlations(static_cast<Eigen::Index>(i),
-                                       static_cast<Eigen::Index>(j)),
-                          4));
+      row.push_back(Fixed(correlations.matrix[i][j], 4));
     }
     table.Add(std::move(row));
   }
   return "\n" + table.Text();
-}
-
-Json CorrelationJson(const data::Dataset& dataset) {
-  const Eigen::MatrixXd correlations = Correlations(dataset);
-  Json matrix = Json::array();
-  for (Eigen::Index i = 0; i < correlations.rows(); ++i) {
-    Json row = Json::array();
-    for (Eigen::Index j = 0; j < correlations.cols(); ++j) {
-      row.push_back(correlations(i, j));
-    }
-    matrix.push_back(std::move(row));
-  }
-  return {{"columns", CorrelatedNames(dataset)}, {"matrix", std::move(matrix)}};
 }
 
 }  // namespace errmap::cli

@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "cli/json_blocks.h"
 #include "data/dataset.h"
 #include "models/error_model.h"
 #include "models/regression_report.h"
@@ -14,12 +13,7 @@ namespace errmap::cli {
 std::string RegressionText(const models::RegressionReport& report,
                            const data::ColumnInfo& target);
 
-/// The same as the block "regression" of errmap-fit-1; what is not finite
-/// becomes null.
-Json RegressionJson(const models::RegressionReport& report);
-
 /// Correlation matrix (Pearson, weighted) of the inputs and the target.
 std::string CorrelationText(const data::Dataset& dataset);
-Json CorrelationJson(const data::Dataset& dataset);
 
 }  // namespace errmap::cli

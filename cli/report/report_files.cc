@@ -9,12 +9,12 @@
 
 namespace errmap::cli {
 
-void WriteReport(const Json& results, const std::string& folder) {
+void WriteReport(const models::StudyRecord& record, const std::string& folder) {
   const std::filesystem::path root(folder);
   data::WriteFileAtomically((root / "report.html").string(),
-                            ReportHtml(results, MakeFigures(results)));
+                            ReportHtml(record, MakeFigures(record)));
   data::WriteFileAtomically((root / "report.md").string(),
-                            ReportMarkdown(results));
+                            ReportMarkdown(record));
 }
 
 }  // namespace errmap::cli

@@ -2,14 +2,13 @@
 
 #include <string>
 
-#include "cli/json_blocks.h"
+#include "models/study/study_record.h"
 
 namespace errmap::cli {
 
-/// Draws FOLDER/report.html and FOLDER/report.md from results.json, the
-/// document as it stands in the file (DumpJson, parsed): so `errmap report`
-/// draws the same bytes later. Each file appears whole or not at all. Throws
-/// std::system_error naming what could not be written.
-void WriteReport(const Json& results, const std::string& folder);
+/// Draws FOLDER/report.html and FOLDER/report.md; `errmap report` draws the
+/// same bytes from results.json later. Each file appears whole or not at all.
+/// Throws std::system_error naming what could not be written.
+void WriteReport(const models::StudyRecord& record, const std::string& folder);
 
 }  // namespace errmap::cli

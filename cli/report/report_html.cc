@@ -118,19 +118,19 @@ std::string FiguresHtml(const ComponentFigures& figures, FigurePlace place) {
 // The page and what it is made of.
 class Page {
  public:
-  Page(const Json& results, const FigureSet& figures)
-      : results_(results), figures_(figures) {}
+  Page(const models::StudyRecord& record, const FigureSet& figures)
+      : record_(record), figures_(figures) {}
 
   std::string Html() const;
 
  private:
-  const Json& results_;
+  const models::StudyRecord& record_;
   const FigureSet& figures_;
 
-  const Json& Components() const { return At(results_, "components"); }
-  std::size_t NumComponents() const {
-    return Components().is_array() ? Components().size() : 0;
+  const std::vector<ComponentRecord>& Components() const {
+    return record_.components;
   }
+  std::size_t NumComponents() const { return Components().size(); }
 
   std::string Title() const;
   std::string Notices() const;
@@ -152,7 +152,7 @@ class Page {
 std::string Page::Title() const {
   const std::size_t n = NumComponents();
   if (n == 1) {
-    return "Error map of " + ViewOf(At(Components(), std::size_t{0})).name;
+    return "Error map of " + ViewOf(Components().front()).name;
   }
   return n == 0 ? std::string("Error maps")
                 : fmt::format("Error maps of {} components", n);
@@ -160,7 +160,7 @@ std::string Page::Title() const {
 
 std::string Page::Notices() const {
   std::string html;
-  if (IsTrue(results_, "interrupted")) {
+  if (record_.interrupted) {
     html +=
         "<p class=\"notice\">The run was interrupted: only what was "
         "finished is shown, and models that are missing were not "
@@ -247,11 +247,9 @@ std::string Page::Answer(const ReportView& view,
 
 std::string Page::Evidence(const ReportView& view) const {
   std::string html = "<h3>Is it more than chance?</h3>\n";
-  const Json& verdicts = At(*view.component, "verdict");
   std::vector<std::string> lines;
-  for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    const std::string why = TextAt(At(verdicts, i), "why");
-    if (!why.empty()) lines.push_back(why);
+  for (const models::VerdictRecord& verdict : view.component->verdict) {
+    if (!verdict.why.empty()) lines.push_back(verdict.why);
   }
   html += List("", lines);
   html += TableHtml(ComparisonTable(view, view.decisive));
@@ -334,27 +332,25 @@ std::string Page::Polynomials(const ReportView& view, bool brief) const {
 
 std::string Page::Data(const ReportView& view,
                        const ComponentFigures& figures) const {
-  const Json& data = At(*view.component, "data");
+  const models::DataRecord& measured = view.component->data;
   std::string html = "<h3>Data and hold-outs</h3>\n";
-  const std::string file = TextAt(data, "file");
-  const std::string target = TextAt(data, "target");
-  const std::string group = TextAt(data, "group");
-  const std::string session = TextAt(data, "session");
-  html += "<p>" +
-          fmt::format(
-              "{}: {} rows, target {}{}{}{}{}.",
-              file.empty() ? "File not known" : HtmlName(file),
-              CountText(NumberAt(data, "rows")),
-              target.empty() ? "not known" : HtmlName(target),
-              view.unit.empty() ? "" : " in " + HtmlText(view.unit),
-              group.empty() ? ", no groups" : ", groups by " + HtmlName(group),
-              session.empty() ? "" : ", sessions by " + HtmlName(session),
-              TextAt(data, "align") == "first"
-                  ? "; each session's first value is taken off the "
-                    "target"
-                  : "") +
-          "</p>\n";
-  const std::vector<std::string> inputs = TextsOf(At(data, "inputs"));
+  html +=
+      "<p>" +
+      fmt::format(
+          "{}: {} rows, target {}{}{}{}{}.",
+          measured.file.empty() ? "File not known" : HtmlName(measured.file),
+          CountText(measured.rows),
+          measured.target.empty() ? "not known" : HtmlName(measured.target),
+          measured.unit.empty() ? "" : " in " + HtmlText(measured.unit),
+          measured.group ? ", groups by " + HtmlName(*measured.group)
+                         : ", no groups",
+          measured.session ? ", sessions by " + HtmlName(*measured.session)
+                           : "",
+          measured.align == data::Alignment::kFirst
+              ? "; each session's first value is taken off the target"
+              : "") +
+      "</p>\n";
+  const std::vector<std::string>& inputs = measured.inputs;
   std::string names;
   for (const std::string& input : inputs) {
     names += (names.empty() ? "" : ", ") + HtmlName(input);
@@ -405,7 +401,7 @@ std::string Page::Component(const ReportView& view, std::size_t index) const {
 std::string Page::Html() const {
   std::vector<ReportView> views;
   for (std::size_t i = 0; i < NumComponents(); ++i) {
-    views.push_back(ViewOf(At(Components(), i)));
+    views.push_back(ViewOf(Components()[i]));
   }
   const std::string title = HtmlText(Title());
   std::string html =
@@ -422,9 +418,9 @@ std::string Page::Html() const {
   for (std::size_t i = 0; i < views.size(); ++i) {
     html += Component(views[i], i);
   }
-  html += "<h3>Provenance</h3>\n" + TableHtml(ProvenanceTable(results_));
+  html += "<h3>Provenance</h3>\n" + TableHtml(ProvenanceTable(record_));
   html += "</main>\n<footer>";
-  const std::string version = TextAt(results_, "version");
+  const std::string& version = record_.version;
   html += fmt::format(
       "<p>Drawn by errmap{} from results.json beside this file; errmap report "
       "DIR draws it anew. {}</p>",
@@ -435,8 +431,9 @@ std::string Page::Html() const {
 
 }  // namespace
 
-std::string ReportHtml(const Json& results, const FigureSet& figures) {
-  return Page(results, figures).Html();
+std::string ReportHtml(const models::StudyRecord& record,
+                       const FigureSet& figures) {
+  return Page(record, figures).Html();
 }
 
 }  // namespace errmap::cli

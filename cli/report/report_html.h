@@ -6,9 +6,10 @@
 
 namespace errmap::cli {
 
-/// report.html: one self-contained page drawn from results.json alone, with
-/// the figures of MakeFigures and DrawFigures. Never throws on a document that
-/// is older, incomplete or of a failed run: it says what is not there.
-std::string ReportHtml(const Json& results, const FigureSet& figures);
+/// report.html: one self-contained page drawn from the record alone, with the
+/// figures of MakeFigures. Of a study that is incomplete or failed it says what
+/// is not there.
+std::string ReportHtml(const models::StudyRecord& record,
+                       const FigureSet& figures);
 
 }  // namespace errmap::cli

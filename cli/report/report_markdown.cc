@@ -91,20 +91,18 @@ std::string Component(const ReportView& view) {
 
 }  // namespace
 
-std::string ReportMarkdown(const Json& results) {
+std::string ReportMarkdown(const models::StudyRecord& record) {
   std::string text = "# Error maps\n\n";
-  if (IsTrue(results, "interrupted")) {
+  if (record.interrupted) {
     text += "The run was interrupted: only what was finished is shown.\n\n";
   }
-  const Json& components = At(results, "components");
-  if (!components.is_array() || components.empty()) {
+  if (record.components.empty()) {
     text += "results.json holds no component: there is nothing to report.\n\n";
-  } else {
-    for (const Json& component : components) {
-      text += Component(ViewOf(component));
-    }
   }
-  return text + TableText(ProvenanceTable(results), "##");
+  for (const ComponentRecord& component : record.components) {
+    text += Component(ViewOf(component));
+  }
+  return text + TableText(ProvenanceTable(record), "##");
 }
 
 }  // namespace errmap::cli

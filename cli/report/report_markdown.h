@@ -2,12 +2,12 @@
 
 #include <string>
 
-#include "cli/json_blocks.h"
+#include "models/study/study_record.h"
 
 namespace errmap::cli {
 
 /// report.md: the answer, the tables and the equations of results.json, for
 /// repositories; no figures.
-std::string ReportMarkdown(const Json& results);
+std::string ReportMarkdown(const models::StudyRecord& record);
 
 }  // namespace errmap::cli

@@ -20,44 +20,26 @@ std::string ErrorOrDash(const ErrorText& error, double value) {
 // "0.938 (0.81 to 1.06)"
 std::string WithInterval(const ErrorText& error,
                          double value,
-                         const Json& interval) {
-  const std::vector<double> ends = NumbersOf(interval);
+                         const models::IntervalRecord& ends) {
   std::string text = ErrorOrDash(error, value);
-  if (ends.size() == 2 && std::isfinite(ends[0]) && std::isfinite(ends[1])) {
+  if (std::isfinite(ends[0]) && std::isfinite(ends[1])) {
     text += fmt::format(" ({} to {})", error(ends[0]), error(ends[1]));
   }
   return text;
 }
 
 // The pair of two models under a hold-out, or null.
-const Json& PairOf(const ReportView& view,
-                   const std::string& one,
-                   const std::string& other,
-                   const std::string& holdout) {
-  static const Json nothing;
-  const Json& pairs = At(*view.component, "comparisons");
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const Json& pair = At(pairs, i);
-    const std::string a = TextAt(pair, "a");
-    const std::string b = TextAt(pair, "b");
-    if (TextAt(pair, "holdout") == holdout &&
-        ((a == one && b == other) || (a == other && b == one))) {
-      return pair;
+const models::PairRecord* PairOf(const ReportView& view,
+                                 const std::string& one,
+                                 const std::string& other,
+                                 const std::string& holdout) {
+  for (const models::PairRecord& pair : view.component->comparisons) {
+    if (pair.holdout == holdout && ((pair.a == one && pair.b == other) ||
+                                    (pair.a == other && pair.b == one))) {
+      return &pair;
     }
   }
-  return nothing;
-}
-
-std::string TierText(const ReportView& view, const std::string& model) {
-  const double own = NumberAt(ResultOf(view, model, view.decisive), "tier");
-  if (std::isfinite(own)) return CountText(own);
-  const Json& tiers = At(At(*view.component, "tiers"), view.decisive);
-  for (std::size_t i = 0; i < tiers.size(); ++i) {
-    for (const std::string& name : TextsOf(At(tiers, i))) {
-      if (name == model) return std::to_string(i + 1);
-    }
-  }
-  return "-";
+  return nullptr;
 }
 
 std::string GoalText(const ReportView& view, const std::string& model) {
@@ -73,23 +55,26 @@ std::string GoalText(const ReportView& view, const std::string& model) {
   }
 }
 
-std::string SensorCount(const ViewedModel& model) {
-  const Json& sensors = At(*model.json, "sensors");
-  return sensors.is_array() ? std::to_string(sensors.size()) : "-";
-}
-
 std::string DifferenceText(const ReportView& view, const std::string& model) {
   if (model == view.recommended) return "recommended";
-  const Json& pair = PairOf(view, view.recommended, model, view.decisive);
-  const double p = NumberAt(pair, "p_holm");
-  if (!std::isfinite(p)) return "-";
-  return PText(p) + (IsTrue(pair, "established") ? ", established" : "");
+  const models::PairRecord* pair =
+      PairOf(view, view.recommended, model, view.decisive);
+  if (pair == nullptr || !std::isfinite(pair->p_holm)) return "-";
+  return PText(pair->p_holm) + (pair->established ? ", established" : "");
 }
 
-std::string TestText(const Json& test, const char* statistic) {
-  const double value = NumberAt(test, statistic);
-  if (!std::isfinite(value)) return "-";
-  return FigureText(value) + " (" + PText(NumberAt(test, "p")) + ")";
+std::string TestText(double statistic, double p) {
+  if (!std::isfinite(statistic)) return "-";
+  return FigureText(statistic) + " (" + PText(p) + ")";
+}
+
+double ShareOf(const std::optional<models::BiasRecord>& bias) {
+  constexpr double kPercent = 100.0;
+  return bias ? kPercent * bias->explained : models::kNotKnown;
+}
+
+std::string TestText(const std::optional<models::BiasRecord>& bias) {
+  return bias ? TestText(bias->test.value.f, bias->test.value.p) : "-";
 }
 
 void MarkIfRecommended(const ReportView& view,
@@ -128,8 +113,10 @@ std::string PText(double p) {
   return p < kSmallest ? "<0.0001" : fmt::format("{:.4f}", p);
 }
 
-std::string CountText(double value) {
-  return std::isfinite(value) ? fmt::format("{:.0f}", value) : "-";
+std::string CountText(std::int64_t value) { return std::to_string(value); }
+
+std::string CountText(const std::optional<std::int64_t>& value) {
+  return value ? CountText(*value) : "-";
 }
 
 ReportTable LeaderboardTable(const ReportView& view) {
@@ -156,32 +143,37 @@ ReportTable LeaderboardTable(const ReportView& view) {
                         {"sensors"},
                         {"parameters"},
                         {"predict, ns"}});
-  for (const ViewedModel& model : view.models) {
-    MarkIfRecommended(view, model.name, &table);
-    const Json& decisive = ResultOf(view, model.name, view.decisive);
+  for (const ModelRecord* model : view.models) {
+    MarkIfRecommended(view, model->name, &table);
+    const ResultRecord* decisive = ResultOf(*model, view.decisive);
+    std::string judged = "-";
+    if (decisive != nullptr) {
+      judged = WithInterval(error, decisive->test.rmse, decisive->ci95);
+    } else if (model->status == models::ModelStatus::kFailed) {
+      judged = "failed";
+    }
     std::vector<std::string> row{
-        model.name,
-        TierText(view, model.name),
-        model.ok || decisive.is_object()
-            ? WithInterval(error,
-                           NumberOf(At(decisive, {"test", "rmse"})),
-                           At(decisive, "ci95"))
-            : "failed"};
+        model->name,
+        decisive != nullptr ? CountText(decisive->tier) : "-",
+        std::move(judged)};
     for (const std::string& holdout : view.holdouts) {
       if (holdout == view.decisive) continue;
-      row.push_back(ErrorOrDash(error, TestRmse(view, model.name, holdout)));
+      row.push_back(ErrorOrDash(error, TestRmse(*model, holdout)));
     }
     row.insert(row.end(),
-               {GoalText(view, model.name),
-                DifferenceText(view, model.name),
-                SensorCount(model),
-                CountText(NumberAt(*model.json, "parameters")),
-                CountText(NumberAt(*model.json, "predict_ns"))});
+               {GoalText(view, model->name),
+                DifferenceText(view, model->name),
+                model->sensors ? std::to_string(model->sensors->size()) : "-",
+                CountText(model->parameters),
+                std::isfinite(model->predict_ns)
+                    ? fmt::format("{:.0f}", model->predict_ns)
+                    : "-"});
     table.rows.push_back(std::move(row));
-    const std::string why = TextAt(*model.json, "why");
-    if (!why.empty()) {
-      table.note += fmt::format(
-          "{}{} failed: {}.", table.note.empty() ? "" : " ", model.name, why);
+    if (model->why) {
+      table.note += fmt::format("{}{} failed: {}.",
+                                table.note.empty() ? "" : " ",
+                                model->name,
+                                *model->why);
     }
   }
   table.note +=
@@ -192,25 +184,24 @@ ReportTable LeaderboardTable(const ReportView& view) {
 
 ReportTable GapTable(const ReportView& view) {
   const ErrorText error = ErrorTextOf(view);
-  const Json& gap = At(*view.component, "gap");
   ReportTable table{.title = "What knowing the neighbours is worth"};
-  const std::string neighbours = TextAt(gap, "neighbours");
-  const std::string unseen = TextAt(gap, "unseen");
+  const models::GapRecord gap =
+      view.component->gap.value_or(models::GapRecord());
   table.columns = {{"model", false},
-                   {ErrorHead(view, neighbours + " RMSE")},
-                   {ErrorHead(view, unseen + " RMSE")},
+                   {ErrorHead(view, gap.neighbours + " RMSE")},
+                   {ErrorHead(view, gap.unseen + " RMSE")},
                    {"ratio"},
                    {"flattered", false}};
-  for (const ViewedModel& viewed : view.models) {
-    const Json& model = Find(At(gap, "models"), "model", viewed.name);
-    if (!model.is_object()) continue;
-    MarkIfRecommended(view, viewed.name, &table);
-    table.rows.push_back(
-        {viewed.name,
-         ErrorOrDash(error, NumberAt(model, "neighbours_rmse")),
-         ErrorOrDash(error, NumberAt(model, "unseen_rmse")),
-         FigureText(NumberAt(model, "ratio"), 3),
-         IsTrue(model, "flatters") ? "yes" : "no"});
+  for (const ModelRecord* viewed : view.models) {
+    for (const models::GapModelRecord& model : gap.models) {
+      if (model.model != viewed->name) continue;
+      MarkIfRecommended(view, viewed->name, &table);
+      table.rows.push_back({viewed->name,
+                            ErrorOrDash(error, model.neighbours_rmse),
+                            ErrorOrDash(error, model.unseen_rmse),
+                            FigureText(model.ratio, 3),
+                            model.flatters ? "yes" : "no"});
+    }
   }
   SayIfEmpty(
       "There is no gap to show: it needs a hold-out of neighbours and one of "
@@ -238,32 +229,32 @@ ReportTable ComparisonTable(const ReportView& view,
                    {"units"},
                    {"lag-1", true, "correlation of one unit with the next"},
                    {"established", false}};
-  for (const ViewedModel& model : view.models) {
-    if (model.name == view.recommended) continue;
-    const Json& pair = PairOf(view, view.recommended, model.name, holdout);
-    if (!pair.is_object()) continue;
+  for (const ModelRecord* model : view.models) {
+    if (model->name == view.recommended) continue;
+    const models::PairRecord* pair =
+        PairOf(view, view.recommended, model->name, holdout);
+    if (pair == nullptr) continue;
     // The pair may stand the other way round.
-    const double sign = TextAt(pair, "a") == view.recommended ? 1.0 : -1.0;
-    const double difference =
-        sign * (NumberAt(pair, "rmse_b") - NumberAt(pair, "rmse_a"));
-    const std::vector<double> ends = NumbersOf(At(pair, "ci95"));
-    Json interval;
-    if (ends.size() == 2) {
-      // It is that of "difference", whichever way that was taken.
-      const bool same = NumberAt(pair, "difference") * difference >= 0.0;
-      interval = same ? Json{ends[0], ends[1]} : Json{-ends[1], -ends[0]};
-    }
-    table.rows.push_back(
-        {model.name,
-         WithInterval(error, difference, interval),
-         PText(NumberAt(pair, "p")),
-         PText(NumberAt(pair, "p_holm")),
-         PText(NumberOf(At(pair, {"tests", "wilcoxon", "p"}))),
-         PText(NumberOf(At(pair, {"tests", "corrected_t", "p"}))),
-         PText(NumberOf(At(pair, {"tests", "diebold_mariano", "p"}))),
-         CountText(NumberAt(pair, "units")),
-         FigureText(NumberAt(pair, "lag1"), 2),
-         IsTrue(pair, "established") ? "yes" : "no"});
+    const double sign = pair->a == view.recommended ? 1.0 : -1.0;
+    const double difference = sign * (pair->rmse_b - pair->rmse_a);
+    // The interval is that of "difference", whichever way that was taken.
+    const bool same = pair->difference * difference >= 0.0;
+    const models::IntervalRecord interval =
+        same ? pair->ci95
+             : models::IntervalRecord{-pair->ci95[1], -pair->ci95[0]};
+    const auto p_of = [](const std::optional<models::MeanTestRecord>& test) {
+      return PText(test ? test->p : models::kNotKnown);
+    };
+    table.rows.push_back({model->name,
+                          WithInterval(error, difference, interval),
+                          PText(pair->p),
+                          PText(pair->p_holm),
+                          PText(pair->tests.wilcoxon.p),
+                          p_of(pair->tests.corrected_t),
+                          p_of(pair->tests.diebold_mariano),
+                          CountText(pair->units),
+                          FigureText(pair->lag1, 2),
+                          pair->established ? "yes" : "no"});
   }
   SayIfEmpty("Differences between models were not tested.", &table);
   return table;
@@ -273,17 +264,13 @@ ReportTable StabilityTable(const ReportView& view) {
   ReportTable table{.title = "Would other cuts choose the same?"};
   table.columns = {
       {"hold-out", false}, {"repeats"}, {"model", false}, {"share of wins, %"}};
-  const Json& stability = At(*view.component, "stability");
-  for (std::size_t i = 0; i < stability.size(); ++i) {
-    const Json& entry = At(stability, i);
-    const Json& wins = At(entry, "wins");
-    for (std::size_t j = 0; j < wins.size(); ++j) {
+  for (const models::StabilityRecord& entry : view.component->stability) {
+    for (const models::WinRecord& win : entry.wins) {
       constexpr double kPercent = 100.0;
-      table.rows.push_back(
-          {TextAt(entry, "holdout"),
-           CountText(NumberAt(entry, "repeats")),
-           TextAt(At(wins, j), "model"),
-           FigureText(kPercent * NumberAt(At(wins, j), "share"), 3)});
+      table.rows.push_back({entry.holdout,
+                            CountText(entry.repeats),
+                            win.model,
+                            FigureText(kPercent * win.share, 3)});
     }
   }
   SayIfEmpty(
@@ -311,18 +298,23 @@ ReportTable ResidualTable(const ReportView& view, const std::string& holdout) {
                    {"MAE"},
                    {"R2"},
                    {"training RMSE"}};
-  for (const ViewedModel& model : view.models) {
-    const Json& result = ResultOf(view, model.name, holdout);
-    const Json& test = At(result, "test");
-    if (!test.is_object()) continue;
-    MarkIfRecommended(view, model.name, &table);
-    std::vector<std::string> row{model.name, CountText(NumberAt(test, "n"))};
-    for (const char* key :
-         {"mean", "sd", "min", "max", "range", "rmse", "mae"}) {
-      row.push_back(ErrorOrDash(error, NumberAt(test, key)));
+  for (const ModelRecord* model : view.models) {
+    const ResultRecord* result = ResultOf(*model, holdout);
+    if (result == nullptr) continue;
+    MarkIfRecommended(view, model->name, &table);
+    const models::MetricsRecord& test = result->test;
+    std::vector<std::string> row{model->name, CountText(test.n)};
+    for (const double value : {test.mean,
+                               test.sd,
+                               test.min,
+                               test.max,
+                               test.range,
+                               test.rmse,
+                               test.mae}) {
+      row.push_back(ErrorOrDash(error, value));
     }
-    row.push_back(FixedText(NumberAt(test, "r2"), 4));
-    row.push_back(ErrorOrDash(error, NumberOf(At(result, {"train", "rmse"}))));
+    row.push_back(FixedText(test.r2, 4));
+    row.push_back(ErrorOrDash(error, result->train.rmse));
     table.rows.push_back(std::move(row));
   }
   SayIfEmpty(kNoResults, &table);
@@ -345,26 +337,23 @@ ReportTable NormalityTable(const ReportView& view, const std::string& holdout) {
                    {"r normal"},
                    {"skewness"},
                    {"kurtosis"}};
-  for (const ViewedModel& model : view.models) {
-    const Json& tests = At(ResultOf(view, model.name, holdout), "normality");
-    if (!tests.is_object()) continue;
-    MarkIfRecommended(view, model.name, &table);
-    const Json& ks = At(tests, "ks");
-    const double d = NumberAt(ks, "d");
+  for (const ModelRecord* model : view.models) {
+    const ResultRecord* result = ResultOf(*model, holdout);
+    if (result == nullptr) continue;
+    MarkIfRecommended(view, model->name, &table);
+    const models::NormalityRecord& tests = result->normality;
     table.rows.push_back(
-        {model.name,
-         std::isfinite(d)
-             ? FigureText(d) + " (" + PText(NumberAt(ks, "p_given")) + ")"
-             : "-",
-         TestText(At(tests, "lilliefors"), "d"),
-         TestText(At(tests, "shapiro_wilk"), "w"),
-         TestText(At(tests, "anderson_darling"), "a2"),
-         TestText(At(tests, "jarque_bera"), "jb"),
-         FigureText(NumberOf(At(tests, {"ppcc", "lambda"})), 3),
-         FigureText(NumberOf(At(tests, {"ppcc", "r_max"}))),
-         FigureText(NumberOf(At(tests, {"ppcc", "r_normal"}))),
-         FigureText(NumberAt(tests, "skewness"), 3),
-         FigureText(NumberAt(tests, "kurtosis"), 3)});
+        {model->name,
+         TestText(tests.ks.d, tests.ks.p_given),
+         TestText(tests.lilliefors.d, tests.lilliefors.p),
+         TestText(tests.shapiro_wilk.w, tests.shapiro_wilk.p),
+         TestText(tests.anderson_darling.a2, tests.anderson_darling.p),
+         TestText(tests.jarque_bera.jb, tests.jarque_bera.p),
+         FigureText(tests.ppcc.lambda, 3),
+         FigureText(tests.ppcc.r_max),
+         FigureText(tests.ppcc.r_normal),
+         FigureText(tests.skewness, 3),
+         FigureText(tests.kurtosis, 3)});
   }
   SayIfEmpty(kNoResults, &table);
   return table;
@@ -386,25 +375,24 @@ ReportTable IndependenceTable(const ReportView& view,
                    {"between positions, %"},
                    {"F (p)"},
                    {"Breusch-Pagan (p)"}};
-  for (const ViewedModel& model : view.models) {
-    const Json& tests = At(ResultOf(view, model.name, holdout), "randomness");
-    if (!tests.is_object()) continue;
-    MarkIfRecommended(view, model.name, &table);
-    const Json& order = At(tests, "in_order");
-    const Json& group = At(tests, "by_group");
-    const Json& position = At(tests, "by_position");
-    constexpr double kPercent = 100.0;
+  for (const ModelRecord* model : view.models) {
+    const ResultRecord* result = ResultOf(*model, holdout);
+    if (result == nullptr) continue;
+    MarkIfRecommended(view, model->name, &table);
+    const models::RandomnessRecord& tests = result->randomness;
+    const models::SerialRecord& order = tests.in_order;
+    const auto& spread = tests.breusch_pagan;
     table.rows.push_back(
-        {model.name,
-         TestText(At(order, "runs"), "z"),
-         TestText(At(order, "lag1"), "r"),
-         TestText(At(order, "durbin_watson"), "d"),
-         TestText(At(order, "ljung_box"), "q"),
-         FigureText(kPercent * NumberAt(group, "explained"), 3),
-         TestText(group, "f"),
-         FigureText(kPercent * NumberAt(position, "explained"), 3),
-         TestText(position, "f"),
-         TestText(At(tests, "breusch_pagan"), "lm")});
+        {model->name,
+         TestText(order.runs.test.value.z, order.runs.test.value.p),
+         TestText(order.lag1.test.value.r, order.lag1.test.value.p),
+         TestText(order.durbin_watson.d, order.durbin_watson.p),
+         TestText(order.ljung_box.test.value.q, order.ljung_box.test.value.p),
+         FigureText(ShareOf(tests.by_group), 3),
+         TestText(tests.by_group),
+         FigureText(ShareOf(tests.by_position), 3),
+         TestText(tests.by_position),
+         spread ? TestText(spread->test.value.lm, spread->test.value.p) : "-"});
   }
   SayIfEmpty(kNoResults, &table);
   return table;

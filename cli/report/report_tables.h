@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +29,8 @@ struct ReportTable {
 std::string FigureText(double value, int digits = 4);
 std::string FixedText(double value, int decimals);
 std::string PText(double p);  // "0.0123", "<0.0001"
-std::string CountText(double value);
+std::string CountText(std::int64_t value);
+std::string CountText(const std::optional<std::int64_t>& value);
 
 /// Every model under the hold-outs: tier, errors, significance, goal, cost.
 ReportTable LeaderboardTable(const ReportView& view);

@@ -8,46 +8,30 @@
 namespace errmap::cli {
 namespace {
 
-bool HoldsOutWholeGroups(const Json& holdout) {
-  if (IsTrue(holdout, "whole_sessions")) return true;
-  const Json& flag = At(holdout, "whole_groups");
-  if (flag.is_boolean()) return flag.get<bool>();
-  // Older documents tell by the name only.
-  const std::string name = TextAt(holdout, "name");
-  return name.starts_with("groups:") || name == "leave-one-group-out";
+template <typename T>
+const T* Named(const std::vector<T>& list, const std::string& name) {
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const T& entry) {
+        return entry.name == name;
+      });
+  return found == list.end() ? nullptr : &*found;
 }
 
-void ReadUnits(const Json& component, ReportView* view) {
-  view->unit = TextOf(At(component, {"data", "unit"}));
-  const data::Unit known = data::UnitOfSymbol(view->unit);
-  view->shown_unit = known.display_symbol;
-  view->scale = known.display_scale;
-  const Json& display = At(component, "display");
-  const double scale = NumberAt(display, "scale");
-  if (std::isfinite(scale) && scale > 0.0) {
-    view->scale = scale;
-    view->shown_unit = TextAt(display, "unit");
+void ReadHoldouts(ReportView* view) {
+  const ComponentRecord& component = *view->component;
+  for (const models::HoldoutRecord& holdout : component.holdouts) {
+    if (!holdout.name.empty()) view->holdouts.push_back(holdout.name);
   }
-  view->shown_unit = PrettyUnit(view->shown_unit);
-}
-
-void ReadHoldouts(const Json& component, ReportView* view) {
-  std::string grouped;
-  const Json& holdouts = At(component, "holdouts");
-  for (std::size_t i = 0; i < holdouts.size(); ++i) {
-    const std::string name = TextAt(At(holdouts, i), "name");
-    if (name.empty()) continue;
-    view->holdouts.push_back(name);
-    if (grouped.empty() && HoldsOutWholeGroups(At(holdouts, i))) grouped = name;
+  if (component.recommendation) {
+    view->decisive = component.recommendation->holdout;
   }
-  view->decisive = TextOf(At(component, {"recommendation", "holdout"}));
-  if (view->decisive.empty()) view->decisive = grouped;
   if (view->decisive.empty() && !view->holdouts.empty()) {
     view->decisive = view->holdouts.back();
   }
-  view->decisive_is_unseen =
-      HoldsOutWholeGroups(Find(holdouts, "name", view->decisive));
-  view->neighbours = TextOf(At(component, {"gap", "neighbours"}));
+  const models::HoldoutRecord* decisive = HoldoutOf(*view, view->decisive);
+  view->decisive_is_unseen = decisive != nullptr && (decisive->whole_groups ||
+                                                     decisive->whole_sessions);
+  if (component.gap) view->neighbours = component.gap->neighbours;
   // The recommendation may follow the neighbours, where there are no groups.
   if (view->neighbours == view->decisive) view->neighbours.clear();
   for (const std::string& name : view->holdouts) {
@@ -58,11 +42,14 @@ void ReadHoldouts(const Json& component, ReportView* view) {
 
 // Before everything else what can be used, then by error.
 void OrderModels(ReportView* view) {
+  for (const ModelRecord& model : view->component->models) {
+    if (!model.name.empty()) view->models.push_back(&model);
+  }
   std::stable_sort(view->models.begin(),
                    view->models.end(),
-                   [&](const ViewedModel& a, const ViewedModel& b) {
-                     const double x = TestRmse(*view, a.name, view->decisive);
-                     const double y = TestRmse(*view, b.name, view->decisive);
+                   [&](const ModelRecord* a, const ModelRecord* b) {
+                     const double x = TestRmse(*a, view->decisive);
+                     const double y = TestRmse(*b, view->decisive);
                      if (std::isfinite(x) != std::isfinite(y)) {
                        return std::isfinite(x);
                      }
@@ -71,94 +58,91 @@ void OrderModels(ReportView* view) {
 }
 
 std::string RivalOf(const ReportView& view) {
-  std::string kind;
-  for (const ViewedModel& model : view.models) {
-    if (model.name == view.recommended) kind = model.kind;
-  }
+  const ModelRecord* recommended = ModelOf(view, view.recommended);
   std::string second;
-  for (const ViewedModel& model : view.models) {
-    if (model.name == view.recommended || model.kind == "baseline" ||
-        !std::isfinite(TestRmse(view, model.name, view.decisive))) {
+  for (const ModelRecord* model : view.models) {
+    if (model == recommended || model->kind == models::ModelKind::kBaseline ||
+        !std::isfinite(TestRmse(*model, view.decisive))) {
       continue;
     }
-    if (model.kind != kind) return model.name;
-    if (second.empty()) second = model.name;
+    if (recommended == nullptr || model->kind != recommended->kind) {
+      return model->name;
+    }
+    if (second.empty()) second = model->name;
   }
   return second;
 }
 
 }  // namespace
 
-const Json& ResultOf(const ReportView& view,
-                     const std::string& model,
-                     const std::string& holdout) {
-  return At(Find(At(*view.component, "models"), "name", model),
-            {"results", holdout});
+const models::HoldoutRecord* HoldoutOf(const ReportView& view,
+                                       const std::string& holdout) {
+  return Named(view.component->holdouts, holdout);
 }
 
-double TestRmse(const ReportView& view,
-                const std::string& model,
-                const std::string& holdout) {
-  return NumberOf(At(ResultOf(view, model, holdout), {"test", "rmse"}));
+const ModelRecord* ModelOf(const ReportView& view, const std::string& model) {
+  return Named(view.component->models, model);
 }
 
-ReportView ViewOf(const Json& component) {
+const ResultRecord* ResultOf(const ModelRecord& model,
+                             const std::string& holdout) {
+  for (const auto& [name, result] : model.results) {
+    if (name == holdout) return &result;
+  }
+  return nullptr;
+}
+
+const ResultRecord* ResultOf(const ReportView& view,
+                             const std::string& model,
+                             const std::string& holdout) {
+  const ModelRecord* record = ModelOf(view, model);
+  return record == nullptr ? nullptr : ResultOf(*record, holdout);
+}
+
+double TestRmse(const ModelRecord& model, const std::string& holdout) {
+  const ResultRecord* result = ResultOf(model, holdout);
+  return result == nullptr ? models::kNotKnown : result->test.rmse;
+}
+
+ReportView ViewOf(const ComponentRecord& component) {
   ReportView view;
   view.component = &component;
-  view.name = TextAt(component, "name");
-  if (view.name.empty()) view.name = "unnamed component";
-  view.goal = NumberAt(component, "goal");
-  ReadUnits(component, &view);
-  ReadHoldouts(component, &view);
-  const Json& models = At(component, "models");
-  for (std::size_t i = 0; i < models.size(); ++i) {
-    const Json& model = At(models, i);
-    if (TextAt(model, "name").empty()) continue;
-    view.models.push_back({.name = TextAt(model, "name"),
-                           .kind = TextAt(model, "kind"),
-                           .ok = TextAt(model, "status") == "ok",
-                           .json = &model});
-  }
+  view.name = component.name.empty() ? "unnamed component" : component.name;
+  if (component.display.scale > 0.0) view.scale = component.display.scale;
+  view.shown_unit = PrettyUnit(component.display.unit);
+  ReadHoldouts(&view);
   OrderModels(&view);
-  view.recommended = TextOf(At(component, {"recommendation", "model"}));
+  if (component.recommendation) {
+    view.recommended = component.recommendation->model;
+  }
   view.rival = RivalOf(view);
   return view;
 }
 
 models::GoalJudgement GoalOf(const ReportView& view, const std::string& model) {
-  const Json& result = ResultOf(view, model, view.decisive);
-  const Json& test = At(result, "test");
-  stats::ErrorMetrics metrics;
-  metrics.rmse = NumberAt(test, "rmse");
-  metrics.residuals.sd = NumberAt(test, "sd");
-  metrics.residuals.mean = NumberAt(test, "mean");
-  models::GoalJudgement judged = models::JudgeGoal(view.goal, metrics, true);
-  // Older documents hold the figures only.
-  judged.standing =
-      models::GoalStandingFromString(TextAt(result, "goal_standing"))
-          .value_or(judged.standing);
-  return judged;
+  const ResultRecord* result = ResultOf(view, model, view.decisive);
+  if (result == nullptr) return {};
+  return {.standing = result->goal_standing,
+          .goal = view.component->goal,
+          .rmse = result->test.rmse,
+          .sd = result->test.sd,
+          .offset = result->test.mean};
 }
 
 ErrorText ErrorTextOf(const ReportView& view) {
   double smallest = std::numeric_limits<double>::infinity();
-  for (const ViewedModel& model : view.models) {
+  for (const ModelRecord* model : view.models) {
     for (const std::string& holdout : view.holdouts) {
-      const double rmse = TestRmse(view, model.name, holdout);
+      const double rmse = TestRmse(*model, holdout);
       if (rmse > 0.0) smallest = std::min(smallest, rmse);
     }
   }
-  if (!std::isfinite(smallest)) smallest = view.goal;
-  return {data::Unit{.symbol = view.unit,
+  if (!std::isfinite(smallest)) smallest = view.component->goal;
+  return {data::Unit{.symbol = view.component->data.unit,
                      .quantity = data::Quantity::kOther,
                      .display_scale = view.scale,
                      .display_symbol = view.shown_unit},
           smallest};
-}
-
-std::vector<double> Shown(const ReportView& view, std::vector<double> values) {
-  for (double& value : values) value *= view.scale;
-  return values;
 }
 
 std::string PrettyUnit(const std::string& symbol) {

@@ -144,26 +144,26 @@ std::string SpreadWords(const Context& context) {
       WithUnit(Plain(MeanOf(context.rows.residual)), context.view.shown_unit));
 }
 
+const models::FiguresRecord& RowsOf(const ReportView& view) {
+  return view.component->figures;
+}
+
 std::size_t PositionIndex(const ReportView& view) {
-  const Json& figures = At(*view.component, "figures");
-  const std::string position = TextAt(figures, "position");
-  const Json& inputs = At(figures, "inputs");
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (!position.empty() && TextAt(At(inputs, i), "name") == position) {
-      return i;
-    }
+  const models::FiguresRecord& figures = RowsOf(view);
+  for (std::size_t i = 0; i < figures.inputs.size(); ++i) {
+    if (figures.inputs[i].name == figures.position) return i;
   }
   return std::string::npos;
 }
 
-std::string InputName(const ReportView& view, std::size_t index) {
-  return TextAt(At(At(*view.component, {"figures", "inputs"}), index), "name");
+const std::string& InputName(const ReportView& view, std::size_t index) {
+  return RowsOf(view).inputs[index].name;
 }
 
 Axis InputAxis(const ReportView& view, std::size_t index, std::size_t most) {
-  const Json& input = At(At(*view.component, {"figures", "inputs"}), index);
-  return {.quantity = Shortened(TextAt(input, "name"), most),
-          .unit = PrettyUnit(TextAt(input, "unit"))};
+  const models::FigureInputRecord& input = RowsOf(view).inputs[index];
+  return {.quantity = Shortened(input.name, most),
+          .unit = PrettyUnit(input.unit)};
 }
 
 Figure PositionFigure(const Context& context, std::size_t position) {
@@ -198,8 +198,7 @@ std::vector<std::pair<std::string, double>> GroupTics(const HeldOutRows& rows) {
 }
 
 Figure GroupFigure(const Context& context) {
-  const std::string group =
-      TextOf(At(*context.view.component, {"figures", "group"}));
+  const std::string group = RowsOf(context.view).group.value_or("");
   Figure figure = Begin(context, "group", "residual by group");
   if (figure.missing.empty() && context.rows.group.empty()) {
     figure.missing = "The data have no groups.";
@@ -444,7 +443,7 @@ Figure MapFigure(const Context& context, std::size_t position) {
   figure.plot.width = 460;
   figure.plot.x = InputAxis(context.view, position, kLongLabel);
   figure.plot.y.quantity =
-      Shortened(TextOf(At(*context.view.component, {"figures", "group"})), 30);
+      Shortened(RowsOf(context.view).group.value_or(""), 30);
   figure.plot.y.names = GroupTics(rows);
   figure.plot.y.low = -0.5;
   figure.plot.y.high = static_cast<double>(rows.labels.size()) - 0.5;
@@ -485,13 +484,13 @@ double AbsoluteCorrelation(const std::vector<double>& x,
 // Indices of the inputs that the model reads, the position aside.
 std::vector<std::size_t> UsedInputs(const Context& context,
                                     std::size_t position) {
-  const Json& model =
-      Find(At(*context.view.component, "models"), "name", context.model);
-  const std::vector<std::string> used = TextsOf(At(model, "inputs_used"));
+  const ModelRecord* model = ModelOf(context.view, context.model);
+  std::vector<std::string> used;
+  if (model != nullptr && model->inputs_used) used = *model->inputs_used;
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < context.rows.inputs.size(); ++i) {
     if (i == position) continue;
-    const std::string name = InputName(context.view, i);
+    const std::string& name = InputName(context.view, i);
     if (used.empty() ||
         std::find(used.begin(), used.end(), name) != used.end()) {
       indices.push_back(i);
@@ -546,44 +545,47 @@ HeldOutRows HeldOutRowsOf(const ReportView& view,
                           const std::string& model,
                           const std::string& holdout) {
   HeldOutRows rows;
-  const Json& figures = At(*view.component, "figures");
-  const Json& entry = Find(At(figures, "holdouts"), "name", holdout);
-  const std::vector<double> predicted =
-      NumbersOf(At(At(entry, "predictions"), model));
-  const double which = NumberAt(entry, "table");
-  const Json& table =
-      At(At(figures, "tables"),
-         which >= 0.0 ? static_cast<std::size_t>(which) : std::size_t{0});
-  const std::vector<double> target = NumbersOf(At(table, "target"));
-  if (!figures.is_object()) {
+  const models::FiguresRecord& figures = RowsOf(view);
+  const std::vector<double>* found = nullptr;
+  const models::FigureTableRecord* table = nullptr;
+  for (const models::FigureHoldoutRecord& entry : figures.holdouts) {
+    if (entry.name != holdout) continue;
+    for (const auto& [name, values] : entry.predictions) {
+      if (name == model) found = &values;
+    }
+    const auto index = static_cast<std::size_t>(entry.table);
+    if (index < figures.tables.size()) table = &figures.tables[index];
+  }
+  if (figures.tables.empty()) {
     rows.missing =
         "results.json holds no rows for figures; run errmap compare "
         "again.";
-  } else if (predicted.empty() || predicted.size() != target.size()) {
+  } else if (found == nullptr || table == nullptr ||
+             found->size() != table->target.size()) {
     rows.missing = "There are no held-out predictions of this model.";
   }
   if (!rows.missing.empty()) return rows;
-  const std::vector<double> numbers = NumbersOf(At(table, "rows"));
-  const std::vector<double> groups = NumbersOf(At(table, "groups"));
-  std::vector<std::vector<double>> inputs;
-  for (const Json& column : At(table, "inputs")) {
-    inputs.push_back(NumbersOf(column));
-  }
-  rows.inputs.resize(inputs.size());
-  rows.labels = TextsOf(At(table, "labels"));
-  rows.thinned =
-      NumberAt(table, "rows_total") > static_cast<double>(target.size());
+  const std::vector<double>& predicted = *found;
+  const std::vector<double>& target = table->target;
+  const std::vector<std::vector<double>>& inputs = table->inputs;
+  rows.inputs.resize(figures.inputs.size());
+  rows.labels = table->labels;
+  rows.thinned = table->rows_total > static_cast<std::int64_t>(target.size());
   for (std::size_t i = 0; i < target.size(); ++i) {
     if (!std::isfinite(predicted[i]) || !std::isfinite(target[i])) continue;
-    rows.row.push_back(i < numbers.size() ? numbers[i]
-                                          : static_cast<double>(i));
+    rows.row.push_back(static_cast<double>(i < table->rows.size()
+                                               ? table->rows[i]
+                                               : static_cast<std::int64_t>(i)));
     rows.target.push_back(target[i] * view.scale);
     rows.predicted.push_back(predicted[i] * view.scale);
     rows.residual.push_back((target[i] - predicted[i]) * view.scale);
-    if (groups.size() == target.size()) rows.group.push_back(groups[i]);
-    for (std::size_t j = 0; j < inputs.size(); ++j) {
-      rows.inputs[j].push_back(i < inputs[j].size() ? inputs[j][i]
-                                                    : kAutomatic);
+    if (table->groups.size() == target.size()) {
+      rows.group.push_back(static_cast<double>(table->groups[i]));
+    }
+    for (std::size_t j = 0; j < rows.inputs.size(); ++j) {
+      rows.inputs[j].push_back(j < inputs.size() && i < inputs[j].size()
+                                   ? inputs[j][i]
+                                   : kAutomatic);
     }
   }
   if (rows.target.empty()) {

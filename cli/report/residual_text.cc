@@ -80,7 +80,7 @@ std::string SerialCells(const TestResult& test, const std::string& shown) {
   return fmt::format("{:>11} {:>9}", shown, PText(test.p));
 }
 
-std::string SerialLine(const ResidualReport& report,
+std::string SerialLine(const models::ResidualReport& report,
                        const std::string& name,
                        TestResult stats::SerialTests::*member) {
   const auto cells = [&](const stats::SerialTests& tests) {
@@ -112,7 +112,7 @@ std::string ShuffledLine(const char* where,
       PText(shuffles.ljung_box));
 }
 
-std::string BiasLine(const NamedBias& named) {
+std::string BiasLine(const models::NamedBias& named) {
   const TestResult& anova = named.bias.anova;
   const std::string name = "by " + named.column;
   if (!anova.ok())
@@ -125,7 +125,7 @@ std::string BiasLine(const NamedBias& named) {
       100.0 * named.bias.explained);
 }
 
-std::string BiasTable(const NamedBias& named, const data::Unit& unit) {
+std::string BiasTable(const models::NamedBias& named, const data::Unit& unit) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const stats::LevelBias& level : named.bias.levels) {
     if (level.standard_error > 0.0) {
@@ -231,7 +231,8 @@ std::string SampleText(const stats::ErrorMetrics& metrics,
   return text;
 }
 
-std::string NormalityText(const ResidualReport& report, Eigen::Index n) {
+std::string NormalityText(const models::ResidualReport& report,
+                          Eigen::Index n) {
   const stats::Normality& tests = report.normality;
   const bool simulated = report.monte_carlo.draws > 0;
   const stats::MonteCarloP& drawn = report.monte_carlo;
@@ -305,7 +306,7 @@ std::string NormalityText(const ResidualReport& report, Eigen::Index n) {
   return text;
 }
 
-std::string RandomnessText(const ResidualReport& report) {
+std::string RandomnessText(const models::ResidualReport& report) {
   const stats::SerialTests& whole = report.whole;
   std::string text =
       fmt::format("{:<22}{:>11} {:>9}", "random?", "in order", "p");
@@ -342,7 +343,7 @@ std::string RandomnessText(const ResidualReport& report) {
   return text;
 }
 
-std::string DetailsText(const ResidualReport& report,
+std::string DetailsText(const models::ResidualReport& report,
                         const Eigen::VectorXd& values,
                         const data::Unit& unit,
                         Eigen::Index bins) {

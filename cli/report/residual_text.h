@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "cli/report/residual_report.h"
 #include "data/units.h"
+#include "models/study/residual_assessment.h"
 #include "stats/error_metrics.h"
 
 namespace errmap::cli {
@@ -15,14 +15,14 @@ std::string SampleText(const stats::ErrorMetrics& metrics,
                        const data::Unit& unit);
 
 /// The tests of shape as a table; each line says what its p assumes.
-std::string NormalityText(const ResidualReport& report, Eigen::Index n);
+std::string NormalityText(const models::ResidualReport& report, Eigen::Index n);
 
 /// The tests of order, halves, biases and spread as a table.
-std::string RandomnessText(const ResidualReport& report);
+std::string RandomnessText(const models::ResidualReport& report);
 
 /// Bias per group and position, histogram (`bins` 0: Freedman-Diaconis) and
 /// the Tukey-lambda curve in full.
-std::string DetailsText(const ResidualReport& report,
+std::string DetailsText(const models::ResidualReport& report,
                         const Eigen::VectorXd& values,
                         const data::Unit& unit,
                         Eigen::Index bins);

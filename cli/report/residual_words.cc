@@ -123,7 +123,7 @@ std::string Report1995Sentence(const stats::Normality& normality,
                         : ": the slip decided");
 }
 
-std::string MemorySentence(const ResidualReport& report,
+std::string MemorySentence(const models::ResidualReport& report,
                            const stats::SampleSummary& summary) {
   const stats::SerialTests& whole = report.whole;
   if (!whole.lag1.ok() || !whole.runs.ok()) return "";
@@ -152,7 +152,7 @@ std::string MemorySentence(const ResidualReport& report,
   return text;
 }
 
-std::string BiasSentence(const NamedBias& named,
+std::string BiasSentence(const models::NamedBias& named,
                          const std::string& noun,
                          const data::Unit& unit,
                          double sd) {
@@ -178,7 +178,7 @@ std::string BiasSentence(const NamedBias& named,
       std::abs(levels[worst].mean) / levels[worst].standard_error);
 }
 
-std::string WithinSentence(const ResidualReport& report) {
+std::string WithinSentence(const models::ResidualReport& report) {
   if (!report.within || !report.within->lag1.ok()) return "";
   const stats::SerialTests& within = *report.within;
   const bool memory =
@@ -192,14 +192,14 @@ std::string WithinSentence(const ResidualReport& report) {
       within.expected_lag1);
 }
 
-std::string SpreadSentence(const ResidualReport& report) {
+std::string SpreadSentence(const models::ResidualReport& report) {
   if (!report.breusch_pagan || !Shows(*report.breusch_pagan)) return "";
   return "Their spread changes with " + report.fitted_column + ".";
 }
 
 }  // namespace
 
-std::string ResidualSentences(const ResidualReport& report,
+std::string ResidualSentences(const models::ResidualReport& report,
                               const stats::SampleSummary& summary,
                               const stats::Report1995Statistics& printed,
                               const data::Unit& unit) {

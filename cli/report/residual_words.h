@@ -2,15 +2,15 @@
 
 #include <string>
 
-#include "cli/report/residual_report.h"
 #include "data/units.h"
+#include "models/study/residual_assessment.h"
 
 namespace errmap::cli {
 
 /// What the figures say about the residuals, in sentences that follow from
 /// them and from nothing else: their shape, how the 1995 program would have
 /// judged them, whether they are independent, where they are biased.
-std::string ResidualSentences(const ResidualReport& report,
+std::string ResidualSentences(const models::ResidualReport& report,
                               const stats::SampleSummary& summary,
                               const stats::Report1995Statistics& printed,
                               const data::Unit& unit);

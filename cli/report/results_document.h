@@ -1,12 +1,12 @@
 #pragma once
 
-#include <string>
-
 #include "cli/study_file/comparison.h"
+#include "models/study/study_record.h"
 
 namespace errmap::cli {
 
-/// results.json, schema errmap-results-1.
-std::string ResultsJson(const StudyRun& run);
+/// What a run found, judged and put into words: results.json, and what every
+/// table and page is drawn from.
+models::StudyRecord RecordOf(const StudyRun& run);
 
 }  // namespace errmap::cli

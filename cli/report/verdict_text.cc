@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cli/report/held_out_residuals.h"
 #include "cli/shell/wrap_text.h"
 #include "models/history/history.h"
+#include "models/study/held_out_residuals.h"
 
 namespace errmap::cli {
 
@@ -390,9 +390,9 @@ std::string ResidualReason(const Comparison& comparison,
                            const models::Recommendation& advice) {
   constexpr double kWorthSaying = 0.25;
   constexpr double kSignificance = 0.05;
-  const ResidualReport report = AssessResiduals(
+  const models::ResidualReport report = models::AssessResiduals(
       HeldOutResiduals(comparison, advice.model, advice.holdout));
-  const auto biased = [&](const std::optional<NamedBias>& by) {
+  const auto biased = [&](const std::optional<models::NamedBias>& by) {
     return by && by->bias.explained >= kWorthSaying &&
            by->bias.anova.p < kSignificance;
   };

@@ -15,33 +15,6 @@ namespace {
 using data::ColumnFault;
 using data::FaultKind;
 
-const char* NameOf(FaultKind kind) {
-  switch (kind) {
-    case FaultKind::kImpossible:
-      return "impossible";
-    case FaultKind::kOutlying:
-      return "outlying";
-    case FaultKind::kJump:
-      return "jump";
-    case FaultKind::kStep:
-      return "step";
-    case FaultKind::kStuck:
-      return "stuck";
-    case FaultKind::kNoisy:
-      return "noisy";
-    case FaultKind::kDrifting:
-      return "drifting";
-  }
-  return "";
-}
-
-const data::ColumnInfo& ColumnOf(const ColumnFault& fault,
-                                 const data::Dataset& dataset) {
-  return fault.input < 0
-             ? dataset.target()
-             : dataset.inputs()[static_cast<std::size_t>(fault.input)];
-}
-
 // "data row 17", "data rows 17, 40, 41 and 12 more".
 std::string RowsText(const std::vector<Eigen::Index>& rows) {
   constexpr std::size_t kMostRows = 5;
@@ -73,7 +46,7 @@ std::string UnitHint(const ColumnFault& fault, const data::Unit& unit) {
 
 std::string WhatIsWrong(const ColumnFault& fault,
                         const data::Dataset& dataset) {
-  const data::Unit& unit = ColumnOf(fault, dataset).unit;
+  const data::Unit& unit = dataset.ColumnOf(fault).unit;
   const std::string symbol = unit.symbol.empty() ? "" : " " + unit.symbol;
   const std::string rows = RowsText(fault.rows);
   switch (fault.kind) {
@@ -165,7 +138,7 @@ std::vector<std::string> FaultLines(const data::PreparedDataset& prepared,
   const data::Dataset& dataset = prepared.dataset;
   std::vector<std::string> lines;
   for (const ColumnFault& fault : prepared.faults) {
-    const std::string& name = ColumnOf(fault, dataset).name;
+    const std::string& name = dataset.ColumnOf(fault).name;
     std::string line = fmt::format("warning: {} {}",
                                    data::Printable(name, name.size()),
                                    WhatIsWrong(fault, dataset));
@@ -198,20 +171,6 @@ std::vector<std::string> FaultLines(const data::PreparedDataset& prepared,
       rows.size() == 1 ? "this row" : fmt::format("these {} rows", rows.size()),
       effect.empty() ? "" : ": " + effect));
   return lines;
-}
-
-Json FaultsJson(const data::PreparedDataset& prepared) {
-  Json json = Json::array();
-  for (const ColumnFault& fault : prepared.faults) {
-    json.push_back({{"kind", NameOf(fault.kind)},
-                    {"column", ColumnOf(fault, prepared.dataset).name},
-                    {"rows", fault.rows},
-                    {"of_cells", fault.of_cells},
-                    {"value", fault.value},
-                    {"low", fault.low},
-                    {"high", fault.high}});
-  }
-  return json;
 }
 
 }  // namespace errmap::cli

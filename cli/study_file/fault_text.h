@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "cli/json_blocks.h"
 #include "data/dataset.h"
 
 namespace errmap::cli {
@@ -16,8 +15,5 @@ enum class FaultUse { kFit, kJudge };
 std::vector<std::string> FaultLines(const data::PreparedDataset& prepared,
                                     data::FaultPolicy policy,
                                     FaultUse use);
-
-/// [{"kind","column","rows","of_cells","value","low","high"}]
-Json FaultsJson(const data::PreparedDataset& prepared);
 
 }  // namespace errmap::cli

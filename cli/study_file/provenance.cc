@@ -14,6 +14,7 @@
 #include "fitting/minimisers/ceres_optimizer.h"
 #include "fitting/minimisers/nlopt_optimizer.h"
 #include "models/net/net_kernels.h"
+#include "models/study/record_json.h"
 #include "models/version.h"
 #include "stats/distributions.h"
 
@@ -76,24 +77,26 @@ const std::vector<std::pair<std::string, std::string>>& LibraryVersions() {
   return versions;
 }
 
+models::ProvenanceRecord MakeProvenance(const std::string& command_line,
+                                        const std::vector<InputFile>& inputs) {
+  models::ProvenanceRecord record;
+  record.version = models::Version();
+  record.command_line = command_line;
+  for (const InputFile& input : inputs) {
+    record.inputs.push_back({.file = input.file, .sha256 = input.sha256});
+  }
+  record.compiler = Compiler();
+  record.libraries = LibraryVersions();
+  record.platform = Platform();
+  return record;
+}
+
 Json ProvenanceJson(const std::string& command_line,
                     const Json& configuration,
                     const std::vector<InputFile>& inputs) {
-  Json files = Json::array();
-  for (const InputFile& input : inputs) {
-    files.push_back({{"file", input.file}, {"sha256", input.sha256}});
-  }
-  Json libraries = Json::object();
-  for (const auto& [name, version] : LibraryVersions()) {
-    libraries[name] = version;
-  }
-  return {{"version", models::Version()},
-          {"command_line", command_line},
-          {"configuration", configuration},
-          {"inputs", std::move(files)},
-          {"compiler", Compiler()},
-          {"libraries", std::move(libraries)},
-          {"platform", Platform()}};
+  Json json = models::ToJson(MakeProvenance(command_line, inputs));
+  json["configuration"] = configuration;
+  return json;
 }
 
 models::Provenance ModelProvenance(const std::string& command_line,

@@ -6,6 +6,7 @@
 
 #include "cli/json_blocks.h"
 #include "models/model_file.h"
+#include "models/study/study_record.h"
 
 namespace errmap::cli {
 
@@ -24,6 +25,10 @@ InputFile HashInput(const std::string& file);
 /// with its options and the processor it took, Ceres as compiled against), by
 /// name.
 const std::vector<std::pair<std::string, std::string>>& LibraryVersions();
+
+/// Where a result comes from; the configuration is left to the caller.
+models::ProvenanceRecord MakeProvenance(const std::string& command_line,
+                                        const std::vector<InputFile>& inputs);
 
 /// The block "provenance" of every document: {"version", "command_line",
 /// "configuration", "inputs": [{"file","sha256"}], "compiler", "libraries":

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "cli/json_blocks.h"
+#include "models/study/record_json.h"
+#include "models/study/study_record.h"
 
 namespace errmap {
 
@@ -268,6 +270,13 @@ class ReportDocument {
 
 inline cli::Json MakeReportDocument(const DocumentSpec& spec = {}) {
   return ReportDocument(spec).Make();
+}
+
+/// The document as a record.
+inline models::StudyRecord Recorded(const cli::Json& document) {
+  models::StudyRecord record;
+  models::FromJson(document, &record);
+  return record;
 }
 
 /// Names that try to leave their place in HTML, SVG, Markdown and gnuplot.

@@ -25,7 +25,7 @@ const Figure* FigureNamed(const FigureSet& set, const std::string& name) {
 }
 
 TEST(MakeFigures, MakesEveryFigureOfTheReport) {
-  const FigureSet set = MakeFigures(MakeReportDocument());
+  const FigureSet set = MakeFigures(Recorded(MakeReportDocument()));
   for (const char* name : {"c1-gap",
                            "c1-best-predicted",
                            "c1-best-position",
@@ -48,7 +48,7 @@ TEST(MakeFigures, MakesEveryFigureOfTheReport) {
 }
 
 TEST(MakeFigures, GivesEveryAxisAUnitAndEveryFigureAlternativeText) {
-  const FigureSet set = MakeFigures(MakeReportDocument(), true);
+  const FigureSet set = MakeFigures(Recorded(MakeReportDocument()), true);
   std::set<std::string> names;
   for (const Figure& figure : set.components.at(0).figures) {
     EXPECT_TRUE(names.insert(figure.plot.name).second) << figure.plot.name;
@@ -62,7 +62,7 @@ TEST(MakeFigures, GivesEveryAxisAUnitAndEveryFigureAlternativeText) {
 }
 
 TEST(MakeFigures, ShowsLengthsInMicrometres) {
-  const FigureSet set = MakeFigures(MakeReportDocument());
+  const FigureSet set = MakeFigures(Recorded(MakeReportDocument()));
   const Figure* figure = FigureNamed(set, "c1-best-predicted");
   ASSERT_NE(figure, nullptr);
   EXPECT_EQ(figure->plot.y.Label(), "predicted error, µm");
@@ -74,8 +74,8 @@ TEST(MakeFigures, ShowsLengthsInMicrometres) {
 }
 
 TEST(MakeFigures, DrawsWhatAResidualIs) {
-  const Json document = MakeReportDocument();
-  const ReportView view = ViewOf(document["components"][0]);
+  const models::StudyRecord record = Recorded(MakeReportDocument());
+  const ReportView view = ViewOf(record.components[0]);
   const HeldOutRows rows = HeldOutRowsOf(view, "net:scg", "every:3");
   // Every third row is held out.
   ASSERT_EQ(rows.residual.size(), 20U);
@@ -88,7 +88,7 @@ TEST(MakeFigures, DrawsWhatAResidualIs) {
 TEST(MakeFigures, SaysWhatIsNotThere) {
   Json document = MakeReportDocument();
   document["components"][0].erase("figures");
-  const FigureSet set = MakeFigures(document);
+  const FigureSet set = MakeFigures(Recorded(document));
   const Figure* histogram = FigureNamed(set, "c1-best-histogram");
   ASSERT_NE(histogram, nullptr);
   EXPECT_THAT(histogram->missing, HasSubstr("no rows for figures"));
@@ -101,7 +101,7 @@ TEST(MakeFigures, NeedsNoGroupsAndNoPosition) {
   figures["position"] = nullptr;
   figures["group"] = nullptr;
   figures["tables"][0]["groups"] = Json::array();
-  const FigureSet set = MakeFigures(document);
+  const FigureSet set = MakeFigures(Recorded(document));
   EXPECT_THAT(FigureNamed(set, "c1-best-position")->missing,
               HasSubstr("no position"));
   EXPECT_THAT(FigureNamed(set, "c1-best-group")->missing,
@@ -114,14 +114,14 @@ TEST(MakeFigures, DrawsNothingOfEqualOrOfTooFewResiduals) {
   DocumentSpec spec;
   spec.rows = 4;
   spec.groups = 2;
-  const FigureSet few = MakeFigures(MakeReportDocument(spec));
+  const FigureSet few = MakeFigures(Recorded(MakeReportDocument(spec)));
   EXPECT_THAT(FigureNamed(few, "c1-best-normal")->missing,
               HasSubstr("Too few"));
   Json document = MakeReportDocument();
   Json& figures = document["components"][0]["figures"];
   figures["holdouts"][1]["predictions"]["poly:eq8"] =
       figures["tables"][0]["target"];
-  const FigureSet equal = MakeFigures(document);
+  const FigureSet equal = MakeFigures(Recorded(document));
   EXPECT_THAT(FigureNamed(equal, "c1-best-normal")->missing,
               HasSubstr("equal"));
 }
@@ -132,27 +132,27 @@ TEST(MakeFigures, SurvivesNullsEverywhere) {
   for (const auto& [path, value] : flat.items()) {
     Json changed = document;
     changed[Json::json_pointer(path)] = nullptr;
-    EXPECT_EQ(MakeFigures(changed).components.size(), 1U) << path;
+    EXPECT_EQ(MakeFigures(Recorded(changed)).components.size(), 1U) << path;
     // The rows come last, and all alike.
     if (path.find("/figures/") != std::string::npos) break;
   }
   for (const Json& odd : {Json(), Json(3), Json::array({1}), Json::object()}) {
-    EXPECT_TRUE(MakeFigures(odd).components.empty());
+    EXPECT_TRUE(MakeFigures(Recorded(odd)).components.empty());
   }
 }
 
 TEST(MakeFigures, DrawsLessOfManyComponents) {
   DocumentSpec spec;
   spec.components = 7;
-  const FigureSet seven = MakeFigures(MakeReportDocument(spec));
+  const FigureSet seven = MakeFigures(Recorded(MakeReportDocument(spec)));
   EXPECT_EQ(seven.components[0].detail, FigureDetail::kBrief);
   EXPECT_EQ(seven.components[6].figures.size(), 4U);
-  const FigureSet all = MakeFigures(MakeReportDocument(spec), true);
+  const FigureSet all = MakeFigures(Recorded(MakeReportDocument(spec)), true);
   EXPECT_GT(all.components[6].figures.size(), 20U);
 }
 
 TEST(FigureSvg, DrawsEachWithIdsOfItsOwnTitleAndDescription) {
-  const FigureSet set = MakeFigures(MakeReportDocument());
+  const FigureSet set = MakeFigures(Recorded(MakeReportDocument()));
   std::set<std::string> ids;
   const std::regex id(" id=\"([^\"]*)\"");
   for (const Figure& figure : set.components[0].figures) {
@@ -177,26 +177,13 @@ TEST(MakeFigures, CountsAModelThatFailedAsAbsent) {
   component["models"][2]["status"] = "failed";
   component["models"][2]["results"] = Json::object();
   component["figures"]["holdouts"][1]["predictions"].erase("net:scg");
-  const ReportView view = ViewOf(component);
-  EXPECT_EQ(view.models.back().name, "net:scg");
-  EXPECT_TRUE(std::isnan(TestRmse(view, "net:scg", "groups:5")));
+  const models::StudyRecord record = Recorded(document);
+  const ReportView view = ViewOf(record.components[0]);
+  EXPECT_EQ(view.models.back()->name, "net:scg");
+  EXPECT_TRUE(std::isnan(TestRmse(*view.models.back(), "groups:5")));
   EXPECT_NE(view.rival, "net:scg");
-  EXPECT_EQ(FigureNamed(MakeFigures(document), "c1-gap")->missing, "");
-}
-
-TEST(ReportView, FindsUnseenGroupsInOlderDocuments) {
-  Json document = MakeReportDocument();
-  Json& component = document["components"][0];
-  component.erase("display");
-  component.erase("gap");
-  component["recommendation"].erase("holdout");
-  for (Json& holdout : component["holdouts"]) holdout.erase("whole_groups");
-  const ReportView view = ViewOf(component);
-  EXPECT_EQ(view.decisive, "groups:5");
-  EXPECT_TRUE(view.decisive_is_unseen);
-  EXPECT_EQ(view.neighbours, "every:3");
-  EXPECT_EQ(view.shown_unit, "µm");
-  EXPECT_DOUBLE_EQ(view.scale, 1000.0);
+  EXPECT_EQ(FigureNamed(MakeFigures(Recorded(document)), "c1-gap")->missing,
+            "");
 }
 
 TEST(Shortened, CutsTheMiddleAndNoCharacter) {

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/report/json_access.h"
 #include "tests/cli/report_document.h"
 
 namespace errmap::cli {
@@ -39,35 +38,6 @@ TEST(MarkdownText, LeavesNoHostileNameAMeaning) {
       }
     }
   }
-}
-
-TEST(JsonAccess, ReadsNothingFromWhatIsMissingOrOfAnotherType) {
-  const Json json = {{"a", {{"b", 2.5}}}, {"text", "x"}, {"none", nullptr}};
-  EXPECT_DOUBLE_EQ(NumberOf(At(json, {"a", "b"})), 2.5);
-  EXPECT_TRUE(std::isnan(NumberOf(At(json, {"a", "c", "d"}))));
-  EXPECT_TRUE(std::isnan(NumberAt(json, "text")));
-  EXPECT_EQ(TextAt(json, "none"), "");
-  EXPECT_EQ(TextAt(json, "text"), "x");
-  EXPECT_TRUE(At(json, std::size_t{0}).is_null());
-  EXPECT_FALSE(IsTrue(json, "text"));
-  EXPECT_TRUE(NumbersOf(At(json, "a")).empty());
-}
-
-TEST(JsonAccess, ReadsInfiniteNumbersAsNothing) {
-  EXPECT_TRUE(std::isnan(NumberOf(Json(HUGE_VAL))));
-  const std::vector<double> numbers = NumbersOf(Json{1.0, nullptr, "x"});
-  ASSERT_EQ(numbers.size(), 3U);
-  EXPECT_DOUBLE_EQ(numbers[0], 1.0);
-  EXPECT_TRUE(std::isnan(numbers[1]));
-  EXPECT_TRUE(std::isnan(numbers[2]));
-}
-
-TEST(JsonAccess, FindsAnEntryByItsName) {
-  const Json list =
-      Json::array({{{"name", "a"}}, 3, {{"name", "b"}, {"v", 1}}});
-  EXPECT_DOUBLE_EQ(NumberAt(Find(list, "name", "b"), "v"), 1.0);
-  EXPECT_TRUE(Find(list, "name", "c").is_null());
-  EXPECT_TRUE(Find(Json(), "name", "c").is_null());
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 std::string Write(const Json& document) {
-  return ReportHtml(document, MakeFigures(document));
+  const models::StudyRecord record = Recorded(document);
+  return ReportHtml(record, MakeFigures(record));
 }
 
 std::size_t CountOf(const std::string& text, const std::string& word) {
@@ -77,9 +78,8 @@ TEST(ReportHtml, OpensWithTheAnswer) {
 }
 
 TEST(ReportHtml, OrdersTheLeaderboardByUnseenErrorAndShowsTiers) {
-  const Json document = MakeReportDocument();
-  const ReportView view = ViewOf(document["components"][0]);
-  const ReportTable table = LeaderboardTable(view);
+  const models::StudyRecord record = Recorded(MakeReportDocument());
+  const ReportTable table = LeaderboardTable(ViewOf(record.components[0]));
   ASSERT_EQ(table.rows.size(), 3U);
   EXPECT_EQ(table.rows[0][0], "mean");
   EXPECT_EQ(table.rows[1][0], "poly:eq8");
@@ -93,7 +93,10 @@ TEST(ReportHtml, TurnsADifferenceTheWayItIsRead) {
   Json document = MakeReportDocument();
   Json& component = document["components"][0];
   const auto difference = [&] {
-    return ComparisonTable(ViewOf(component), "groups:5").rows.at(0).at(1);
+    const models::StudyRecord record = Recorded(document);
+    return ComparisonTable(ViewOf(record.components[0]), "groups:5")
+        .rows.at(0)
+        .at(1);
   };
   const std::string expected = difference();
   EXPECT_EQ(expected, "1.900 (0.950 to 2.850)");
@@ -174,7 +177,8 @@ TEST(ReportHtml, NeverThrowsOnADocumentOfAnotherShape) {
         Json{{"components", {1, "x", nullptr}}},
         Json{{"components", {{{"models", "x"}, {"holdouts", 3}}}}}}) {
     EXPECT_THAT(Write(odd), HasSubstr("</html>")) << odd;
-    EXPECT_THAT(ReportMarkdown(odd), HasSubstr("# Error maps")) << odd;
+    EXPECT_THAT(ReportMarkdown(Recorded(odd)), HasSubstr("# Error maps"))
+        << odd;
   }
 }
 
@@ -197,7 +201,7 @@ TEST(ReportHtml, ShowsHostileNamesAsText) {
     EXPECT_THAT(html, Not(HasSubstr("<img"))) << name;
     EXPECT_THAT(html, Not(HasSubstr("\" onload"))) << name;
     EXPECT_EQ(CountOf(html, "</title>"), 1 + CountOf(html, "<svg")) << name;
-    const std::string text = ReportMarkdown(document);
+    const std::string text = ReportMarkdown(Recorded(document));
     EXPECT_FALSE(std::regex_search(text, std::regex("(^|[^\\\\])<"))) << name;
   }
 }
@@ -251,7 +255,7 @@ TEST(ReportHtml, IsTheSameForTheSameDocument) {
 }
 
 TEST(ReportMarkdown, HoldsTheAnswerAndTheTables) {
-  const std::string text = ReportMarkdown(MakeReportDocument());
+  const std::string text = ReportMarkdown(Recorded(MakeReportDocument()));
   EXPECT_THAT(text, HasSubstr("**Use poly:eq8 on another day.**"));
   EXPECT_THAT(text, HasSubstr("| **poly:eq8** |"));
   EXPECT_THAT(text, HasSubstr("### Leaderboard"));

@@ -1,15 +1,15 @@
-#include "cli/report/held_out_residuals.h"
+#include "models/study/held_out_residuals.h"
 
 #include <map>
 
-namespace errmap::cli {
+namespace errmap::models {
 
-ResidualInputs HeldOutResiduals(const Comparison& comparison,
+ResidualInputs HeldOutResiduals(const ComponentStudy& comparison,
                                 std::size_t model,
                                 std::size_t holdout_index) {
-  const models::HoldoutResult& result =
+  const HoldoutResult& result =
       comparison.study.models[model].holdouts[holdout_index];
-  const models::Holdout& holdout = comparison.holdouts[holdout_index];
+  const Holdout& holdout = comparison.holdouts[holdout_index];
   const bool elsewhere = holdout.test_data != nullptr;
   const data::Dataset& source =
       elsewhere ? *holdout.test_data : comparison.data.dataset;
@@ -55,4 +55,4 @@ ResidualInputs HeldOutResiduals(const Comparison& comparison,
   return inputs;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::models

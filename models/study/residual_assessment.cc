@@ -1,8 +1,8 @@
-#include "cli/report/residual_report.h"
+#include "models/study/residual_assessment.h"
 
 #include "data/csv.h"
 
-namespace errmap::cli {
+namespace errmap::models {
 
 ResidualReport AssessResiduals(const ResidualInputs& inputs,
                                Eigen::Index monte_carlo,
@@ -53,4 +53,4 @@ ResidualReport AssessResiduals(const ResidualInputs& inputs,
   return report;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::models

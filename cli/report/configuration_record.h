@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cli/json_blocks.h"
 #include "cli/study_file/study_config.h"
+#include "models/study/study_record.h"
 
 namespace errmap::cli {
 
@@ -9,6 +9,6 @@ namespace errmap::cli {
 /// be written: {"seed","goal","indifference","holdouts","models",
 /// "component":[{"name","data","where","target",...}]}. What was left to the
 /// defaults and could not be decided is left out.
-Json EffectiveConfiguration(const StudyConfig& config);
+models::ConfigurationRecord EffectiveConfiguration(const StudyConfig& config);
 
 }  // namespace errmap::cli

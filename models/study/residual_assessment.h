@@ -13,7 +13,7 @@
 #include "stats/randomness.h"
 #include "stats/report_1995.h"
 
-namespace errmap::cli {
+namespace errmap::models {
 
 /// Residuals in measured order and what is known of each; a column name of ""
 /// means that there is no such column.
@@ -60,4 +60,4 @@ ResidualReport AssessResiduals(const ResidualInputs& inputs,
                                Eigen::Index monte_carlo = 0,
                                std::uint64_t seed = 1);
 
-}  // namespace errmap::cli
+}  // namespace errmap::models

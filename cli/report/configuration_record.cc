@@ -1,0 +1,68 @@
+#include "cli/report/configuration_record.h"
+
+#include <cmath>
+
+namespace errmap::cli {
+namespace {
+
+models::LeftOut<std::string> Text(const std::string& text) {
+  if (text.empty()) return {};
+  return text;
+}
+
+models::LeftOut<std::vector<std::string>> List(
+    const std::vector<std::string>& list) {
+  if (list.empty()) return {};
+  return list;
+}
+
+models::LeftOut<double> Number(double number) {
+  if (!std::isfinite(number)) return {};
+  return number;
+}
+
+models::ComponentConfigurationRecord ComponentOf(
+    const ComponentConfig& component) {
+  models::ComponentConfigurationRecord record;
+  record.name = Text(component.name);
+  record.data = Text(component.data);
+  if (!component.where.empty()) {
+    auto& where = record.where.emplace();
+    for (const data::ColumnFilter& filter : component.where) {
+      std::visit(
+          [&](const auto& value) { where.emplace_back(filter.column, value); },
+          filter.value);
+    }
+  }
+  record.target = Text(component.target);
+  record.inputs = List(component.inputs);
+  record.exclude = List(component.exclude);
+  record.group = Text(component.group);
+  record.time = Text(component.time);
+  record.session = Text(component.session);
+  if (component.align != data::Alignment::kNone) record.align = component.align;
+  record.weight = Text(component.weight);
+  record.missing = component.missing;
+  record.faults = component.faults;
+  record.keep_dead = component.keep_dead;
+  record.goal = Number(component.goal);
+  record.indifference = Number(component.indifference);
+  return record;
+}
+
+}  // namespace
+
+models::ConfigurationRecord EffectiveConfiguration(const StudyConfig& config) {
+  models::ConfigurationRecord record;
+  record.seed = config.seed;
+  record.goal = Number(config.goal);
+  record.indifference = Number(config.indifference);
+  record.holdouts = List(config.holdouts);
+  record.models = List(config.models);
+  for (const ComponentConfig& component : config.components) {
+    record.component.push_back(ComponentOf(component));
+  }
+  return record;
+}
+
+}  // namespace errmap::cli

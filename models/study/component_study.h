@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "data/dataset.h"
+#include "models/study/study.h"
+#include "models/study/verdict.h"
+
+namespace errmap::models {
+
+/// One component's study with all that its outputs need.
+struct ComponentStudy {
+  std::string name;  // of the component
+  std::string file;
+  std::string sha256;
+  double goal = 0.0;          // target's unit; NaN: none
+  double indifference = 0.0;  // target's unit
+  data::PreparedDataset data;
+  std::vector<Holdout> holdouts;
+  StudyResult study;
+  /// Models of the study that nobody asked for, baselines, from `first_added`.
+  std::size_t first_added = 0;
+  std::size_t num_added = 0;
+  Judgement judgement;
+};
+
+}  // namespace errmap::models

@@ -1,0 +1,408 @@
+#include "models/study/make_study_record.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "models/inner_folds.h"
+#include "models/study/figure_record.h"
+#include "models/study/fit_blocks.h"
+#include "models/study/held_out_residuals.h"
+#include "models/study/residual_record.h"
+
+namespace errmap::models {
+namespace {
+
+std::optional<std::string> TextOrNothing(const std::string& text) {
+  return text.empty() ? std::optional<std::string>() : std::optional(text);
+}
+
+IntervalRecord IntervalOf(const stats::Bounds95& bounds) {
+  if (!bounds.exist()) return {kNotKnown, kNotKnown};
+  return {bounds.lower, bounds.upper};
+}
+
+IntervalRecord RmseInterval(const HoldoutComparison& tests, std::size_t model) {
+  stats::Bounds95 bounds =
+      tests.tests.rmse_bounds[static_cast<std::size_t>(*tests.PlaceOf(model))];
+  bounds.lower = std::max(bounds.lower, 0.0);
+  return IntervalOf(bounds);
+}
+
+std::optional<bool> MeetsGoal(GoalStanding standing) {
+  switch (standing) {
+    case GoalStanding::kNone:
+    case GoalStanding::kNotJudged:
+      return std::nullopt;
+    default:
+      return standing == GoalStanding::kMet;
+  }
+}
+
+DataRecord MakeData(const ComponentStudy& study) {
+  const data::Dataset& dataset = study.data.dataset;
+  DataRecord record{.file = study.file,
+                    .sha256 = study.sha256,
+                    .rows = dataset.num_rows(),
+                    .target = dataset.target().name,
+                    .unit = dataset.target().unit.symbol,
+                    .inputs = {},
+                    .group = {},
+                    .session = TextOrNothing(dataset.log()->sessions.column),
+                    .time = TextOrNothing(study.data.time_column),
+                    .time_unit = dataset.log()->time_unit,
+                    .sessions = dataset.num_sessions(),
+                    .align = dataset.align(),
+                    .dropped = {},
+                    .faults = MakeFaultRecords(study.data)};
+  for (const data::ColumnInfo& input : dataset.inputs()) {
+    record.inputs.push_back(input.name);
+  }
+  if (dataset.has_groups()) record.group = dataset.groups().column;
+  for (const data::DroppedColumn& column : study.data.dropped) {
+    record.dropped.push_back({.column = column.column, .why = column.why});
+  }
+  return record;
+}
+
+// Indices as 0-based data rows of the file.
+std::vector<std::int64_t> RowsOf(const std::vector<Eigen::Index>& indices,
+                                 const data::Dataset& dataset) {
+  std::vector<std::int64_t> rows;
+  rows.reserve(indices.size());
+  for (const Eigen::Index index : indices) {
+    rows.push_back(dataset.rows()[static_cast<std::size_t>(index)]);
+  }
+  return rows;
+}
+
+HoldoutRecord MakeHoldout(const ComponentStudy& study, std::size_t h) {
+  const Holdout& holdout = study.holdouts[h];
+  const HoldoutComparison& tests = study.judgement.comparisons[h];
+  HoldoutRecord record{.name = holdout.name,
+                       .folds = static_cast<std::int64_t>(holdout.folds.size()),
+                       .whole_groups = holdout.whole_groups,
+                       .whole_sessions = holdout.whole_sessions,
+                       .among_neighbours = holdout.among_neighbours,
+                       .repeats = holdout.repeats,
+                       .inner = {},
+                       .train_rows = {},
+                       .test_rows = {},
+                       .unit_of_analysis = tests.units.name,
+                       .units = tests.tests.num_units,
+                       .unit_labels = tests.units.labels};
+  const data::Dataset& dataset = study.data.dataset;
+  for (const stats::Fold& fold : holdout.folds) {
+    record.inner.push_back(MakeInnerFolds(dataset.SelectRows(fold.train),
+                                          {.inner_holdout = holdout.inner})
+                               .text);
+    record.train_rows.push_back(RowsOf(fold.train, dataset));
+    if (holdout.test_data == nullptr) {
+      record.test_rows.push_back(RowsOf(fold.test, dataset));
+    } else {
+      const auto& rows = holdout.test_data->rows();
+      record.test_rows.emplace_back(rows.begin(), rows.end());
+    }
+  }
+  return record;
+}
+
+ResultRecord MakeResult(const ComponentStudy& study,
+                        std::size_t model,
+                        std::size_t h) {
+  const HoldoutResult& result = study.study.models[model].holdouts[h];
+  ResultRecord record;
+  record.train = MakeRecord(result.train);
+  record.test = MakeRecord(result.test);
+  for (const FoldResult& fold : result.folds) {
+    record.folds.push_back({.train_rmse = fold.train_rmse,
+                            .test_rmse = fold.test_rmse,
+                            .fit = {MakeFitRecord(fold.fit_seconds,
+                                                  fold.summary,
+                                                  fold.remarks,
+                                                  fold.choices,
+                                                  fold.starts)}});
+  }
+  const ResidualReport residuals =
+      AssessResiduals(HeldOutResiduals(study, model, h));
+  record.normality = MakeRecord(residuals.normality, residuals.monte_carlo);
+  record.randomness = MakeRecord(residuals);
+  const HoldoutComparison& tests = study.judgement.comparisons[h];
+  record.ci95 = RmseInterval(tests, model);
+  record.tier = tests.TierOf(model);
+  record.goal_standing = study.judgement.goals[model][h].standing;
+  record.meets_goal = MeetsGoal(record.goal_standing);
+  const auto unit_rmse = tests.unit_rmse.col(*tests.PlaceOf(model));
+  record.unit_rmse.assign(unit_rmse.begin(), unit_rmse.end());
+  return record;
+}
+
+MemorisationRecord MakeMemorisation(const Memorisation& found) {
+  return {.train_r2 = found.train_r2,
+          .shuffled_r2 = found.shuffled_r2,
+          .weights_per_row = found.weights_per_row,
+          .effective_parameters = found.effective_parameters,
+          .learning = found.learning(),
+          .why_not = TextOrNothing(found.why_not),
+          .sentence = {}};
+}
+
+ModelRecord MakeModel(const ComponentStudy& study, std::size_t index) {
+  const ModelResult& model = study.study.models[index];
+  ModelRecord record;
+  record.name = model.name;
+  record.kind = model.kind;
+  record.choice = ChoiceOf(model);
+  record.baseline = model.baseline;
+  record.options = MakeRecord(model.options);
+  if (model.final_fit) {
+    const FittedModel& map = *model.final_fit;
+    record.parameters = map.model->num_parameters();
+    record.equation = TextOrNothing(map.equation);
+    record.sensors = SensorsOf(map);
+    auto& inputs = record.inputs_used.emplace();
+    for (const TrainedInput& input : map.inputs) {
+      inputs.push_back(input.column.name);
+    }
+    record.final = MakeFitRecord(model.final_fit_seconds,
+                                 map.summary,
+                                 map.remarks,
+                                 map.choices,
+                                 map.starts);
+    if (map.regression != nullptr) {
+      record.regression = MakeRecord(*map.regression);
+    }
+  }
+  if (model.memorisation) {
+    record.memorisation = MakeMemorisation(*model.memorisation);
+  }
+  record.status = model.ok() ? ModelStatus::kOk : ModelStatus::kFailed;
+  if (!model.ok()) record.why = model.why();
+  for (std::size_t h = 0; h < model.holdouts.size(); ++h) {
+    if (!model.holdouts[h].ok()) continue;
+    record.results.emplace_back(model.holdouts[h].holdout,
+                                MakeResult(study, index, h));
+  }
+  record.predict_ns = model.predict_ns;
+  return record;
+}
+
+// What is said of models by their index is written by their name.
+class JudgementRecord {
+ public:
+  explicit JudgementRecord(const ComponentStudy& study)
+      : study_(study), judgement_(study.judgement) {}
+
+  std::optional<GapRecord> Gap() const;
+  std::vector<PairRecord> Pairs() const;
+  ByName<std::vector<std::vector<std::string>>> Tiers() const;
+  std::vector<StabilityRecord> Stability() const;
+  std::vector<VerdictRecord> Verdicts() const;
+  std::optional<RecommendationRecord> Advice() const;
+
+ private:
+  const ComponentStudy& study_;
+  const Judgement& judgement_;
+
+  const std::string& Name(std::size_t model) const {
+    return study_.study.models[model].name;
+  }
+  std::vector<std::string> Names(const std::vector<std::size_t>& models) const {
+    std::vector<std::string> names;
+    for (const std::size_t model : models) names.push_back(Name(model));
+    return names;
+  }
+  PairRecord Pair(const HoldoutComparison& tests, std::size_t index) const;
+};
+
+std::optional<GapRecord> JudgementRecord::Gap() const {
+  const auto& gap = judgement_.gap;
+  if (!gap) return std::nullopt;
+  GapRecord record{.neighbours = study_.holdouts[gap->neighbours].name,
+                   .unseen = study_.holdouts[gap->unseen].name,
+                   .warning = {},
+                   .models = {}};
+  for (const InterpolationGap::Row& row : gap->rows) {
+    record.models.push_back({.model = Name(row.model),
+                             .neighbours_rmse = row.neighbours_rmse,
+                             .unseen_rmse = row.unseen_rmse,
+                             .ratio = row.ratio(),
+                             .flatters = row.flatters()});
+  }
+  return record;
+}
+
+MeanTestRecord MeanTestOf(const stats::MeanDifferenceTest& test) {
+  return {.statistic = test.test.statistic,
+          .df = test.degrees_of_freedom,
+          .p = test.test.p};
+}
+
+std::optional<MeanTestRecord> MeanTestOf(
+    const std::optional<stats::MeanDifferenceTest>& test) {
+  return test ? std::optional(MeanTestOf(*test)) : std::nullopt;
+}
+
+PairRecord JudgementRecord::Pair(const HoldoutComparison& tests,
+                                 std::size_t index) const {
+  const stats::PairComparison& pair = tests.tests.pairs[index];
+  const auto name = [&](Eigen::Index place) {
+    return Name(tests.models[static_cast<std::size_t>(place)]);
+  };
+  return {.a = name(pair.a),
+          .b = name(pair.b),
+          .holdout = tests.holdout,
+          .rmse_a = tests.tests.rmse[pair.a],
+          .rmse_b = tests.tests.rmse[pair.b],
+          .difference = pair.difference,
+          .ci95 = IntervalOf(pair.bounds),
+          .p = pair.sign_flip.test.p,
+          .p_holm = pair.p_holm,
+          .test = "sign-flip permutation",
+          .exact = pair.sign_flip.exact,
+          .smallest_p = pair.sign_flip.smallest_p,
+          .unit_of_analysis = tests.units.name,
+          .units = tests.tests.num_units,
+          .lag1 = pair.lag1.statistic,
+          .correlated = pair.correlated,
+          .established = tests.differ[index] == Confidence::kEstablished,
+          .confidence = tests.differ[index],
+          .tests = {.wilcoxon = {.statistic = pair.wilcoxon.test.statistic,
+                                 .p = pair.wilcoxon.test.p,
+                                 .exact = pair.wilcoxon.exact},
+                    .memory_t = {.statistic = pair.memory.test.statistic,
+                                 .df = pair.memory.effective_units - 1.0,
+                                 .p = pair.memory.test.p,
+                                 .p_holm = pair.p_memory_holm,
+                                 .memory = pair.memory.memory},
+                    .block_t = MeanTestOf(pair.block_t),
+                    .corrected_t = MeanTestOf(pair.corrected_t),
+                    .diebold_mariano = MeanTestOf(pair.diebold_mariano)}};
+}
+
+std::vector<PairRecord> JudgementRecord::Pairs() const {
+  std::vector<PairRecord> pairs;
+  for (const HoldoutComparison& tests : judgement_.comparisons) {
+    for (std::size_t i = 0; i < tests.tests.pairs.size(); ++i) {
+      pairs.push_back(Pair(tests, i));
+    }
+  }
+  return pairs;
+}
+
+ByName<std::vector<std::vector<std::string>>> JudgementRecord::Tiers() const {
+  ByName<std::vector<std::vector<std::string>>> tiers;
+  for (const HoldoutComparison& tests : judgement_.comparisons) {
+    tiers.push_back({tests.holdout, {}});
+    auto& of_holdout = tiers.back().second;
+    for (const std::vector<Eigen::Index>& tier : tests.tests.tiers) {
+      std::vector<std::string>& names = of_holdout.emplace_back();
+      for (const Eigen::Index place : tier) {
+        names.push_back(Name(tests.models[static_cast<std::size_t>(place)]));
+      }
+    }
+  }
+  return tiers;
+}
+
+std::vector<StabilityRecord> JudgementRecord::Stability() const {
+  std::vector<StabilityRecord> stability;
+  for (std::size_t h = 0; h < study_.holdouts.size(); ++h) {
+    const HoldoutComparison& tests = judgement_.comparisons[h];
+    if (tests.wins.empty()) continue;
+    StabilityRecord& record = stability.emplace_back(
+        StabilityRecord{.holdout = tests.holdout,
+                        .repeats = study_.holdouts[h].repeats,
+                        .wins = {}});
+    for (const WinShare& win : tests.wins) {
+      record.wins.push_back({.model = Name(win.model), .share = win.share});
+    }
+  }
+  return stability;
+}
+
+std::vector<VerdictRecord> JudgementRecord::Verdicts() const {
+  std::vector<VerdictRecord> verdicts;
+  for (const std::optional<Verdict>& verdict : judgement_.verdicts) {
+    if (!verdict) continue;
+    VerdictRecord record{.holdout = verdict->holdout,
+                         .choice = verdict->choice,
+                         .model = Name(verdict->best),
+                         .rival = {},
+                         .established = verdict->established(),
+                         .confidence = verdict->confidence,
+                         .why = {}};
+    if (verdict->rival) record.rival = Name(*verdict->rival);
+    verdicts.push_back(std::move(record));
+  }
+  return verdicts;
+}
+
+std::optional<RecommendationRecord> JudgementRecord::Advice() const {
+  const auto& advice = judgement_.recommendation;
+  if (!advice) return std::nullopt;
+  const ModelResult& model = study_.study.models[advice->model];
+  const HoldoutResult& result = model.holdouts[advice->holdout];
+  RecommendationRecord record;
+  record.choice = advice->choice;
+  record.model = model.name;
+  record.holdout = study_.holdouts[advice->holdout].name;
+  record.rmse = result.test.rmse;
+  record.ci95 =
+      RmseInterval(judgement_.comparisons[advice->holdout], advice->model);
+  record.first_tier = Names(advice->first_tier);
+  if (advice->has_baseline) {
+    record.best_baseline = Name(advice->best_baseline);
+    record.against_baseline = advice->against_baseline;
+  }
+  record.sensors = SensorsOf(*model.final_fit);
+  record.parameters = model.final_fit->model->num_parameters();
+  record.predict_ns = model.predict_ns;
+  record.goal_standing =
+      judgement_.goals[advice->model][advice->holdout].standing;
+  record.meets_goal = MeetsGoal(record.goal_standing);
+  record.extrapolated_share = advice->extrapolated_share;
+  return record;
+}
+
+}  // namespace
+
+std::vector<FaultRecord> MakeFaultRecords(const data::PreparedDataset& data) {
+  std::vector<FaultRecord> records;
+  for (const data::ColumnFault& fault : data.faults) {
+    records.push_back({.kind = fault.kind,
+                       .column = data.dataset.ColumnOf(fault).name,
+                       .rows = {fault.rows.begin(), fault.rows.end()},
+                       .of_cells = fault.of_cells,
+                       .value = fault.value,
+                       .low = fault.low,
+                       .high = fault.high});
+  }
+  return records;
+}
+
+ComponentRecord MakeComponentRecord(const ComponentStudy& study) {
+  ComponentRecord record;
+  record.name = study.name;
+  record.data = MakeData(study);
+  record.goal = study.goal;
+  record.indifference = study.indifference;
+  const data::Unit& unit = study.data.dataset.target().unit;
+  record.display = {.unit = unit.display_symbol, .scale = unit.display_scale};
+  for (std::size_t h = 0; h < study.holdouts.size(); ++h) {
+    record.holdouts.push_back(MakeHoldout(study, h));
+  }
+  for (std::size_t i = 0; i < study.study.models.size(); ++i) {
+    record.models.push_back(MakeModel(study, i));
+  }
+  const JudgementRecord judgement(study);
+  record.gap = judgement.Gap();
+  record.comparisons = judgement.Pairs();
+  record.tiers = judgement.Tiers();
+  record.stability = judgement.Stability();
+  record.verdict = judgement.Verdicts();
+  record.recommendation = judgement.Advice();
+  record.figures = MakeFiguresRecord(study);
+  return record;
+}
+
+}  // namespace errmap::models

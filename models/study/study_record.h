@@ -1,0 +1,990 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "models/study/memorisation.h"
+#include "models/study/record.h"
+#include "models/study/verdict.h"
+
+// What a study found, as plain data: these structs are results.json, schema
+// errmap-results-1, member by key in the same order. Lengths are in the data
+// file's own unit; NaN stands for what there is not (null in the file), and
+// nothing is infinite. Tables, pages and sentences are drawn from them.
+
+namespace errmap::models {
+
+inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+
+/// Value of an option.
+using OptionValue = std::variant<std::int64_t, double, std::string>;
+
+/// A 95 % interval; NaN where there is none.
+using IntervalRecord = std::array<double, 2>;
+
+// --- A fit -----------------------------------------------------------------
+
+struct MetricsRecord {
+  std::int64_t n = 0;
+  double mean = kNotKnown;
+  double sd = kNotKnown;  // n - 1
+  double rmse = kNotKnown;
+  double mae = kNotKnown;
+  double min = kNotKnown;
+  double max = kNotKnown;
+  double range = kNotKnown;
+  double r2 = kNotKnown;
+};
+ERRMAP_RECORD(MetricsRecord, n, mean, sd, rmse, mae, min, max, range, r2)
+
+struct StartRecord {
+  std::uint64_t seed = 0;
+  double final_cost = kNotKnown;
+  fitting::Termination stop = fitting::Termination::kFailed;
+  std::int64_t iterations = 0;
+  double holdout_rmse = kNotKnown;
+  bool chosen = false;
+};
+ERRMAP_RECORD(
+    StartRecord, seed, final_cost, stop, iterations, holdout_rmse, chosen)
+
+/// Of the final costs that are finite.
+struct CostSpreadRecord {
+  std::int64_t finite = 0;
+  double min = kNotKnown;
+  double median = kNotKnown;
+  double max = kNotKnown;
+  double sd = kNotKnown;  // n - 1; NaN for fewer than two
+};
+ERRMAP_RECORD(CostSpreadRecord, finite, min, median, max, sd)
+
+struct StartsRecord {
+  std::vector<StartRecord> table;
+  CostSpreadRecord spread;
+};
+ERRMAP_RECORD(StartsRecord, table, spread)
+
+/// How a fit went.
+struct SummaryRecord {
+  fitting::Termination stop = fitting::Termination::kFailed;
+  bool converged = false;
+  std::string message;
+  std::int64_t iterations = 0;
+  std::int64_t evaluations = 0;
+  std::int64_t value_evaluations = 0;
+  std::int64_t gradient_evaluations = 0;
+  std::int64_t curvature_evaluations = 0;
+  double initial_cost = kNotKnown;
+  double final_cost = kNotKnown;
+  double initial_gradient_norm = kNotKnown;
+  double final_gradient_norm = kNotKnown;
+  double mean_iteration_seconds = kNotKnown;
+  double sd_iteration_seconds = kNotKnown;
+  /// Iteration, sqrt(2 E), gradient norm.
+  LeftOut<std::vector<std::tuple<std::int64_t, double, double>>> trace;
+};
+ERRMAP_RECORD(SummaryRecord,
+              stop,
+              converged,
+              message,
+              iterations,
+              evaluations,
+              value_evaluations,
+              gradient_evaluations,
+              curvature_evaluations,
+              initial_cost,
+              final_cost,
+              initial_gradient_norm,
+              final_gradient_norm,
+              mean_iteration_seconds,
+              sd_iteration_seconds,
+              trace)
+
+struct FitRecord {
+  double fit_seconds = kNotKnown;
+  Inline<SummaryRecord> summary;
+  std::vector<std::string> remarks;
+  LeftOut<ByName<OptionValue>> choices;  // made by the fit, such as wfactor=cv
+  LeftOut<StartsRecord> starts;          // where there were several
+};
+ERRMAP_RECORD(FitRecord, fit_seconds, summary, remarks, choices, starts)
+
+struct FoldRecord {
+  double train_rmse = kNotKnown;
+  double test_rmse = kNotKnown;
+  Inline<FitRecord> fit;
+};
+ERRMAP_RECORD(FoldRecord, train_rmse, test_rmse, fit)
+
+// --- Residuals -------------------------------------------------------------
+
+/// A test, and why it does not apply where it does not. The statistics have
+/// the names of their keys.
+#define ERRMAP_TEST_RECORD(Struct, statistic) \
+  struct Struct {                             \
+    double statistic = kNotKnown;             \
+    double p = kNotKnown;                     \
+    LeftOut<std::string> why;                 \
+  };                                          \
+  ERRMAP_RECORD(Struct, statistic, p, why)
+
+ERRMAP_TEST_RECORD(DTestRecord, d)
+ERRMAP_TEST_RECORD(WTestRecord, w)
+ERRMAP_TEST_RECORD(A2TestRecord, a2)
+ERRMAP_TEST_RECORD(JbTestRecord, jb)
+ERRMAP_TEST_RECORD(K2TestRecord, k2)
+ERRMAP_TEST_RECORD(DipTestRecord, dip)
+ERRMAP_TEST_RECORD(ZTestRecord, z)
+ERRMAP_TEST_RECORD(RTestRecord, r)
+ERRMAP_TEST_RECORD(QTestRecord, q)
+ERRMAP_TEST_RECORD(FTestRecord, f)
+ERRMAP_TEST_RECORD(LmTestRecord, lm)
+
+struct KsRecord {
+  double d = kNotKnown;
+  double p_given = kNotKnown;  // Eq. 140: mean and sd taken as given
+  LeftOut<std::string> why;
+  double p_given_exact = kNotKnown;
+};
+ERRMAP_RECORD(KsRecord, d, p_given, why, p_given_exact)
+
+struct PpccRecord {
+  double lambda = kNotKnown;
+  double r_max = kNotKnown;
+  LeftOut<double> p_max;
+  LeftOut<double> r_014;
+  double r_normal = kNotKnown;
+  LeftOut<double> p_normal;
+  LeftOut<std::string> why;
+};
+ERRMAP_RECORD(PpccRecord, lambda, r_max, p_max, r_014, r_normal, p_normal, why)
+
+/// p of simulated normal samples.
+struct MonteCarloRecord {
+  std::int64_t draws = 0;
+  double lilliefors = kNotKnown;
+  double shapiro_wilk = kNotKnown;
+  double anderson_darling = kNotKnown;
+  double jarque_bera = kNotKnown;
+  double dagostino_pearson = kNotKnown;
+  double normal_ppcc = kNotKnown;
+};
+ERRMAP_RECORD(MonteCarloRecord,
+              draws,
+              lilliefors,
+              shapiro_wilk,
+              anderson_darling,
+              jarque_bera,
+              dagostino_pearson,
+              normal_ppcc)
+
+/// p are cut off at 0.001 and 0.999 where they come from simulated tables.
+struct NormalityRecord {
+  KsRecord ks;
+  DTestRecord lilliefors;
+  WTestRecord shapiro_wilk;
+  A2TestRecord anderson_darling;
+  JbTestRecord jarque_bera;
+  K2TestRecord dagostino_pearson;
+  PpccRecord ppcc;
+  DipTestRecord dip;
+  double skewness = kNotKnown;
+  double kurtosis = kNotKnown;
+  LeftOut<MonteCarloRecord> monte_carlo;
+};
+ERRMAP_RECORD(NormalityRecord,
+              ks,
+              lilliefors,
+              shapiro_wilk,
+              anderson_darling,
+              jarque_bera,
+              dagostino_pearson,
+              ppcc,
+              dip,
+              skewness,
+              kurtosis,
+              monte_carlo)
+
+struct RunsRecord {
+  Inline<ZTestRecord> test;
+  LeftOut<std::int64_t> runs;
+  LeftOut<double> expected;
+};
+ERRMAP_RECORD(RunsRecord, test, runs, expected)
+
+struct Lag1Record {
+  Inline<RTestRecord> test;
+  LeftOut<double> expected;
+};
+ERRMAP_RECORD(Lag1Record, test, expected)
+
+struct LjungBoxRecord {
+  Inline<QTestRecord> test;
+  LeftOut<std::int64_t> lags;
+};
+ERRMAP_RECORD(LjungBoxRecord, test, lags)
+
+/// p of shuffled orders.
+struct ShuffledRecord {
+  std::int64_t draws = 0;
+  double runs = kNotKnown;
+  double lag1 = kNotKnown;
+  double durbin_watson = kNotKnown;
+  double ljung_box = kNotKnown;
+};
+ERRMAP_RECORD(ShuffledRecord, draws, runs, lag1, durbin_watson, ljung_box)
+
+struct SerialRecord {
+  RunsRecord runs;
+  Lag1Record lag1;
+  DTestRecord durbin_watson;
+  LjungBoxRecord ljung_box;
+  LeftOut<ShuffledRecord> shuffled;
+};
+ERRMAP_RECORD(SerialRecord, runs, lag1, durbin_watson, ljung_box, shuffled)
+
+struct LevelRecord {
+  std::string level;
+  std::int64_t n = 0;
+  double mean = kNotKnown;
+  double standard_error = kNotKnown;
+};
+ERRMAP_RECORD(LevelRecord, level, n, mean, standard_error)
+
+/// Biases at the levels of one column.
+struct BiasRecord {
+  Inline<FTestRecord> test;
+  std::string column;
+  double explained = kNotKnown;  // share of the sum of squares
+  std::vector<LevelRecord> levels;
+};
+ERRMAP_RECORD(BiasRecord, test, column, explained, levels)
+
+struct SpreadRecord {
+  Inline<LmTestRecord> test;
+  std::string column;
+};
+ERRMAP_RECORD(SpreadRecord, test, column)
+
+struct RandomnessRecord {
+  std::string order;
+  SerialRecord in_order;
+  std::optional<SerialRecord> within_groups;
+  DTestRecord halves;
+  std::optional<BiasRecord> by_group;
+  std::optional<BiasRecord> by_position;
+  std::optional<SpreadRecord> breusch_pagan;
+};
+ERRMAP_RECORD(RandomnessRecord,
+              order,
+              in_order,
+              within_groups,
+              halves,
+              by_group,
+              by_position,
+              breusch_pagan)
+
+// --- A regression ----------------------------------------------------------
+
+struct StepRecord {
+  std::optional<std::string> term;  // nothing at the start
+  bool entered = false;
+  std::int64_t terms = 0;
+  double f = kNotKnown;
+  double p = kNotKnown;
+  double rss = kNotKnown;
+  double aic = kNotKnown;
+  double aicc = kNotKnown;
+  double bic = kNotKnown;
+  double adjusted_r2 = kNotKnown;
+  double press = kNotKnown;
+  double cp = kNotKnown;
+  double cv = kNotKnown;
+};
+ERRMAP_RECORD(StepRecord,
+              term,
+              entered,
+              terms,
+              f,
+              p,
+              rss,
+              aic,
+              aicc,
+              bic,
+              adjusted_r2,
+              press,
+              cp,
+              cv)
+
+/// What the intercept has not.
+struct TermRecord {
+  double standardised = kNotKnown;
+  double vif = kNotKnown;
+  double bootstrap_inclusion = kNotKnown;  // 0 to 1
+};
+ERRMAP_RECORD(TermRecord, standardised, vif, bootstrap_inclusion)
+
+struct CoefficientRecord {
+  std::string term;
+  double estimate = kNotKnown;
+  double standard_error = kNotKnown;
+  double t = kNotKnown;
+  double p = kNotKnown;
+  IntervalRecord ci95 = {kNotKnown, kNotKnown};
+  Inline<std::optional<TermRecord>> of_term;
+};
+ERRMAP_RECORD(
+    CoefficientRecord, term, estimate, standard_error, t, p, ci95, of_term)
+
+struct ExcludedRecord {
+  std::string term;
+  double f = kNotKnown;
+  double p = kNotKnown;
+  double bootstrap_inclusion = kNotKnown;
+};
+ERRMAP_RECORD(ExcludedRecord, term, f, p, bootstrap_inclusion)
+
+struct AliasedRecord {
+  std::string term;
+  std::string why;
+};
+ERRMAP_RECORD(AliasedRecord, term, why)
+
+struct PenaltyChoiceRecord {
+  std::string holdout;
+  std::vector<double> penalty;
+  std::vector<double> mse;
+  std::vector<double> standard_error;
+};
+ERRMAP_RECORD(PenaltyChoiceRecord, holdout, penalty, mse, standard_error)
+
+/// Of a penalised fit.
+struct PenaltyRecord {
+  double penalty = kNotKnown;
+  double effective_parameters = kNotKnown;
+  PenaltyChoiceRecord cross_validation;
+};
+ERRMAP_RECORD(PenaltyRecord, penalty, effective_parameters, cross_validation)
+
+struct AnovaRecord {
+  std::int64_t regression_df = 0;
+  double regression_ss = kNotKnown;
+  double residual_df = kNotKnown;
+  double residual_ss = kNotKnown;
+  double total_ss = kNotKnown;
+  double f = kNotKnown;
+  double p = kNotKnown;
+};
+ERRMAP_RECORD(AnovaRecord,
+              regression_df,
+              regression_ss,
+              residual_df,
+              residual_ss,
+              total_ss,
+              f,
+              p)
+
+struct BootstrapRecord {
+  std::int64_t repetitions = 0;
+  std::string unit;
+};
+ERRMAP_RECORD(BootstrapRecord, repetitions, unit)
+
+/// Of a fit by least squares.
+struct LeastSquaresRecord {
+  AnovaRecord anova;
+  double s = kNotKnown;
+  double r2 = kNotKnown;
+  double adjusted_r2 = kNotKnown;
+  double press = kNotKnown;
+  double predicted_r2 = kNotKnown;
+  std::int64_t rows_of_leverage_1 = 0;
+  double largest_residual = kNotKnown;
+  std::int64_t largest_residual_row = 0;
+  double largest_leverage = kNotKnown;
+  double condition = kNotKnown;
+  std::int64_t effective_rank = 0;
+  std::int64_t bits = 0;  // of the arithmetic of the estimates
+  std::vector<ExcludedRecord> excluded;
+  std::vector<AliasedRecord> aliased;
+  bool after_selection = false;
+  BootstrapRecord bootstrap;
+  std::vector<std::string> notes;
+};
+ERRMAP_RECORD(LeastSquaresRecord,
+              anova,
+              s,
+              r2,
+              adjusted_r2,
+              press,
+              predicted_r2,
+              rows_of_leverage_1,
+              largest_residual,
+              largest_residual_row,
+              largest_leverage,
+              condition,
+              effective_rank,
+              bits,
+              excluded,
+              aliased,
+              after_selection,
+              bootstrap,
+              notes)
+
+struct RegressionRecord {
+  std::string method;
+  std::int64_t candidates = 0;
+  std::vector<StepRecord> steps;
+  std::int64_t chosen_step = 0;
+  std::string ended;
+  /// The intercept first where there is one.
+  std::vector<CoefficientRecord> coefficients;
+  ByName<double> centres;
+  Inline<std::optional<PenaltyRecord>> penalised;
+  Inline<std::optional<LeastSquaresRecord>> least_squares;
+};
+ERRMAP_RECORD(RegressionRecord,
+              method,
+              candidates,
+              steps,
+              chosen_step,
+              ended,
+              coefficients,
+              centres,
+              penalised,
+              least_squares)
+
+// --- A model ---------------------------------------------------------------
+
+struct MemorisationRecord {
+  double train_r2 = kNotKnown;
+  double shuffled_r2 = kNotKnown;
+  double weights_per_row = kNotKnown;
+  double effective_parameters = kNotKnown;
+  NoiseLearning learning = NoiseLearning::kUnknown;
+  std::optional<std::string> why_not;
+  std::string sentence;
+};
+ERRMAP_RECORD(MemorisationRecord,
+              train_r2,
+              shuffled_r2,
+              weights_per_row,
+              effective_parameters,
+              learning,
+              why_not,
+              sentence)
+
+/// A model under one hold-out.
+struct ResultRecord {
+  MetricsRecord train;  // each figure averaged over the folds
+  MetricsRecord test;   // of the pooled residuals of all folds
+  std::vector<FoldRecord> folds;
+  NormalityRecord normality;
+  RandomnessRecord randomness;
+  IntervalRecord ci95 = {kNotKnown, kNotKnown};
+  std::int64_t tier = 0;           // 1-based
+  std::optional<bool> meets_goal;  // nothing where it was not judged
+  GoalStanding goal_standing = GoalStanding::kNotJudged;
+  std::vector<double> unit_rmse;
+};
+ERRMAP_RECORD(ResultRecord,
+              train,
+              test,
+              folds,
+              normality,
+              randomness,
+              ci95,
+              tier,
+              meets_goal,
+              goal_standing,
+              unit_rmse)
+
+enum class ModelStatus { kFailed, kOk };
+std::string_view ToString(ModelStatus status);
+
+struct ModelRecord {
+  std::string name;  // the SPEC as given
+  ModelKind kind = ModelKind::kPolynomial;
+  Choice choice = Choice::kGiven;
+  bool baseline = false;
+  ByName<OptionValue> options;
+  std::optional<std::int64_t> parameters;  // nothing without a map
+  std::optional<std::string> equation;
+  std::optional<std::vector<std::string>> sensors;
+  std::optional<std::vector<std::string>> inputs_used;
+  std::optional<FitRecord> final;  // the fit to all rows
+  std::optional<RegressionRecord> regression;
+  std::optional<MemorisationRecord> memorisation;
+  ModelStatus status = ModelStatus::kFailed;
+  std::optional<std::string> why;  // it failed
+  ByName<ResultRecord> results;    // by hold-out
+  double predict_ns = kNotKnown;
+};
+ERRMAP_RECORD(ModelRecord,
+              name,
+              kind,
+              choice,
+              baseline,
+              options,
+              parameters,
+              equation,
+              sensors,
+              inputs_used,
+              final,
+              regression,
+              memorisation,
+              status,
+              why,
+              results,
+              predict_ns)
+
+// --- The judgement ---------------------------------------------------------
+
+struct GapModelRecord {
+  std::string model;
+  double neighbours_rmse = kNotKnown;
+  double unseen_rmse = kNotKnown;
+  double ratio = kNotKnown;
+  bool flatters = false;
+};
+ERRMAP_RECORD(
+    GapModelRecord, model, neighbours_rmse, unseen_rmse, ratio, flatters)
+
+struct GapRecord {
+  std::string neighbours;
+  std::string unseen;
+  std::string warning;
+  std::vector<GapModelRecord> models;
+};
+ERRMAP_RECORD(GapRecord, neighbours, unseen, warning, models)
+
+struct WilcoxonRecord {
+  double statistic = kNotKnown;
+  double p = kNotKnown;
+  bool exact = false;
+};
+ERRMAP_RECORD(WilcoxonRecord, statistic, p, exact)
+
+struct MeanTestRecord {
+  double statistic = kNotKnown;
+  double df = kNotKnown;
+  double p = kNotKnown;
+};
+ERRMAP_RECORD(MeanTestRecord, statistic, df, p)
+
+/// Allows for the memory from unit to unit (memory_bounds.h).
+struct MemoryTestRecord {
+  double statistic = kNotKnown;
+  double df = kNotKnown;
+  double p = kNotKnown;
+  double p_holm = kNotKnown;
+  double memory = kNotKnown;
+};
+ERRMAP_RECORD(MemoryTestRecord, statistic, df, p, p_holm, memory)
+
+struct PairTestsRecord {
+  WilcoxonRecord wilcoxon;
+  MemoryTestRecord memory_t;
+  MeanTestRecord block_t;
+  std::optional<MeanTestRecord> corrected_t;
+  std::optional<MeanTestRecord> diebold_mariano;
+};
+ERRMAP_RECORD(PairTestsRecord,
+              wilcoxon,
+              memory_t,
+              block_t,
+              corrected_t,
+              diebold_mariano)
+
+/// Two models under one hold-out.
+struct PairRecord {
+  std::string a;
+  std::string b;
+  std::string holdout;
+  double rmse_a = kNotKnown;
+  double rmse_b = kNotKnown;
+  double difference = kNotKnown;
+  IntervalRecord ci95 = {kNotKnown, kNotKnown};  // of the difference
+  double p = kNotKnown;
+  double p_holm = kNotKnown;
+  std::string test;
+  bool exact = false;
+  double smallest_p = kNotKnown;
+  std::string unit_of_analysis;
+  std::int64_t units = 0;
+  double lag1 = kNotKnown;
+  bool correlated = false;
+  bool established = false;
+  Confidence confidence = Confidence::kNotShown;
+  PairTestsRecord tests;
+};
+ERRMAP_RECORD(PairRecord,
+              a,
+              b,
+              holdout,
+              rmse_a,
+              rmse_b,
+              difference,
+              ci95,
+              p,
+              p_holm,
+              test,
+              exact,
+              smallest_p,
+              unit_of_analysis,
+              units,
+              lag1,
+              correlated,
+              established,
+              confidence,
+              tests)
+
+struct WinRecord {
+  std::string model;
+  double share = kNotKnown;
+};
+ERRMAP_RECORD(WinRecord, model, share)
+
+/// Who wins when the groups are cut anew.
+struct StabilityRecord {
+  std::string holdout;
+  std::int64_t repeats = 0;
+  std::vector<WinRecord> wins;
+};
+ERRMAP_RECORD(StabilityRecord, holdout, repeats, wins)
+
+struct VerdictRecord {
+  std::string holdout;
+  Choice choice = Choice::kBaseline;
+  std::string model;
+  std::optional<std::string> rival;
+  bool established = false;
+  Confidence confidence = Confidence::kNotShown;
+  std::string why;
+};
+ERRMAP_RECORD(VerdictRecord,
+              holdout,
+              choice,
+              model,
+              rival,
+              established,
+              confidence,
+              why)
+
+struct RecommendationRecord {
+  Choice choice = Choice::kBaseline;
+  std::string model;
+  std::string holdout;
+  double rmse = kNotKnown;
+  IntervalRecord ci95 = {kNotKnown, kNotKnown};
+  std::vector<std::string> first_tier;
+  std::optional<std::string> best_baseline;
+  std::vector<std::string> sensors;
+  std::int64_t parameters = 0;
+  double predict_ns = kNotKnown;
+  std::optional<Confidence> against_baseline;
+  std::optional<bool> meets_goal;
+  GoalStanding goal_standing = GoalStanding::kNotJudged;
+  double extrapolated_share = kNotKnown;
+  std::string sentence;
+  std::string why;
+  std::vector<std::string> reasons;
+  std::vector<std::string> caveats;
+};
+ERRMAP_RECORD(RecommendationRecord,
+              choice,
+              model,
+              holdout,
+              rmse,
+              ci95,
+              first_tier,
+              best_baseline,
+              sensors,
+              parameters,
+              predict_ns,
+              against_baseline,
+              meets_goal,
+              goal_standing,
+              extrapolated_share,
+              sentence,
+              why,
+              reasons,
+              caveats)
+
+// --- The rows behind the figures -------------------------------------------
+
+struct FigureInputRecord {
+  std::string name;
+  std::string unit;
+};
+ERRMAP_RECORD(FigureInputRecord, name, unit)
+
+/// Rows of one file, thinned evenly where they are many.
+struct FigureTableRecord {
+  std::string file;
+  std::int64_t rows_total = 0;
+  std::vector<std::int64_t> rows;  // 0-based data rows
+  std::vector<std::string> labels;
+  std::vector<std::int64_t> groups;  // index into labels
+  std::vector<double> target;
+  std::vector<std::vector<double>> inputs;  // one list per input
+};
+ERRMAP_RECORD(
+    FigureTableRecord, file, rows_total, rows, labels, groups, target, inputs)
+
+struct FigureHoldoutRecord {
+  std::string name;
+  std::int64_t table = 0;
+  ByName<std::vector<double>> predictions;  // NaN: not held out
+};
+ERRMAP_RECORD(FigureHoldoutRecord, name, table, predictions)
+
+struct CorrelationRecord {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> matrix;
+};
+ERRMAP_RECORD(CorrelationRecord, columns, matrix)
+
+struct FiguresRecord {
+  std::vector<FigureInputRecord> inputs;
+  std::int64_t inputs_left_out = 0;
+  std::optional<std::string> position;
+  std::optional<std::string> group;
+  std::vector<FigureTableRecord> tables;
+  std::vector<FigureHoldoutRecord> holdouts;
+  CorrelationRecord correlation;
+};
+ERRMAP_RECORD(FiguresRecord,
+              inputs,
+              inputs_left_out,
+              position,
+              group,
+              tables,
+              holdouts,
+              correlation)
+
+// --- A component -----------------------------------------------------------
+
+struct DroppedRecord {
+  std::string column;
+  std::string why;
+};
+ERRMAP_RECORD(DroppedRecord, column, why)
+
+/// Readings that no machine made; data::ColumnFault.
+struct FaultRecord {
+  data::FaultKind kind = data::FaultKind::kOutlying;
+  std::string column;
+  std::vector<std::int64_t> rows;  // 0-based data rows
+  bool of_cells = false;
+  double value = kNotKnown;
+  double low = kNotKnown;
+  double high = kNotKnown;
+};
+ERRMAP_RECORD(FaultRecord, kind, column, rows, of_cells, value, low, high)
+
+struct DataRecord {
+  std::string file;
+  std::string sha256;
+  std::int64_t rows = 0;
+  std::string target;
+  std::string unit;  // "": none
+  std::vector<std::string> inputs;
+  std::optional<std::string> group;
+  std::optional<std::string> session;
+  std::optional<std::string> time;
+  std::string time_unit;
+  std::int64_t sessions = 0;
+  data::Alignment align = data::Alignment::kNone;
+  std::vector<DroppedRecord> dropped;
+  std::vector<FaultRecord> faults;
+};
+ERRMAP_RECORD(DataRecord,
+              file,
+              sha256,
+              rows,
+              target,
+              unit,
+              inputs,
+              group,
+              session,
+              time,
+              time_unit,
+              sessions,
+              align,
+              dropped,
+              faults)
+
+/// What people see is value * scale, in this unit.
+struct DisplayRecord {
+  std::string unit;
+  double scale = 1.0;
+};
+ERRMAP_RECORD(DisplayRecord, unit, scale)
+
+using RowsOfFolds = std::vector<std::vector<std::int64_t>>;
+
+struct HoldoutRecord {
+  std::string name;
+  std::int64_t folds = 0;
+  bool whole_groups = false;
+  bool whole_sessions = false;
+  bool among_neighbours = false;
+  std::int64_t repeats = 1;
+  /// Of each fold: how its training rows are held out for choices in a fit.
+  std::vector<std::string> inner;
+  RowsOfFolds train_rows;
+  RowsOfFolds test_rows;
+  std::string unit_of_analysis;
+  std::int64_t units = 0;
+  std::vector<std::string> unit_labels;
+};
+ERRMAP_RECORD(HoldoutRecord,
+              name,
+              folds,
+              whole_groups,
+              whole_sessions,
+              among_neighbours,
+              repeats,
+              inner,
+              train_rows,
+              test_rows,
+              unit_of_analysis,
+              units,
+              unit_labels)
+
+struct ComponentRecord {
+  std::string name;
+  DataRecord data;
+  double goal = kNotKnown;
+  double indifference = kNotKnown;
+  DisplayRecord display;
+  std::vector<HoldoutRecord> holdouts;
+  std::vector<ModelRecord> models;
+  std::optional<GapRecord> gap;
+  std::vector<PairRecord> comparisons;
+  ByName<std::vector<std::vector<std::string>>> tiers;
+  std::vector<StabilityRecord> stability;
+  std::vector<VerdictRecord> verdict;
+  std::optional<RecommendationRecord> recommendation;
+  FiguresRecord figures;
+};
+ERRMAP_RECORD(ComponentRecord,
+              name,
+              data,
+              goal,
+              indifference,
+              display,
+              holdouts,
+              models,
+              gap,
+              comparisons,
+              tiers,
+              stability,
+              verdict,
+              recommendation,
+              figures)
+
+// --- The whole -------------------------------------------------------------
+
+struct ComponentConfigurationRecord {
+  LeftOut<std::string> name;
+  LeftOut<std::string> data;
+  LeftOut<ByName<std::variant<std::int64_t, double, std::string>>> where;
+  LeftOut<std::string> target;
+  LeftOut<std::vector<std::string>> inputs;
+  LeftOut<std::vector<std::string>> exclude;
+  LeftOut<std::string> group;
+  LeftOut<std::string> time;
+  LeftOut<std::string> session;
+  LeftOut<data::Alignment> align;  // where there is one
+  LeftOut<std::string> weight;
+  data::MissingPolicy missing = data::MissingPolicy::kError;
+  data::FaultPolicy faults = data::FaultPolicy::kKeep;
+  bool keep_dead = false;
+  LeftOut<double> goal;
+  LeftOut<double> indifference;
+};
+ERRMAP_RECORD(ComponentConfigurationRecord,
+              name,
+              data,
+              where,
+              target,
+              inputs,
+              exclude,
+              group,
+              time,
+              session,
+              align,
+              weight,
+              missing,
+              faults,
+              keep_dead,
+              goal,
+              indifference)
+
+/// The study as it was carried out, with the words of a study file.
+struct ConfigurationRecord {
+  std::uint64_t seed = 0;
+  LeftOut<double> goal;
+  LeftOut<double> indifference;
+  LeftOut<std::vector<std::string>> holdouts;
+  LeftOut<std::vector<std::string>> models;
+  std::vector<ComponentConfigurationRecord> component;
+};
+ERRMAP_RECORD(
+    ConfigurationRecord, seed, goal, indifference, holdouts, models, component)
+
+struct InputFileRecord {
+  std::string file;
+  std::string sha256;
+};
+ERRMAP_RECORD(InputFileRecord, file, sha256)
+
+struct ProvenanceRecord {
+  std::string version;
+  std::string command_line;
+  ConfigurationRecord configuration;
+  std::vector<InputFileRecord> inputs;
+  std::string compiler;
+  ByName<std::string> libraries;
+  std::string platform;
+};
+ERRMAP_RECORD(ProvenanceRecord,
+              version,
+              command_line,
+              configuration,
+              inputs,
+              compiler,
+              libraries,
+              platform)
+
+struct StudyRecord {
+  std::string schema;
+  std::string version;
+  std::uint64_t seed = 0;
+  bool interrupted = false;
+  ProvenanceRecord provenance;
+  std::vector<ComponentRecord> components;
+};
+ERRMAP_RECORD(
+    StudyRecord, schema, version, seed, interrupted, provenance, components)
+
+/// results.json; what is no UTF-8 in names is replaced.
+std::string ToJsonText(const StudyRecord& record);
+
+/// What ToJsonText wrote: Same(FromJsonText(ToJsonText(r)), r). Of a document
+/// that is older, incomplete or of a failed run what is missing, null or of
+/// another type is as in a new record. Throws data::InputError where the text
+/// is no JSON or of another schema.
+StudyRecord FromJsonText(std::string_view text);
+
+}  // namespace errmap::models
