@@ -11,8 +11,8 @@
 
 #include "cli/command.h"
 #include "cli/commands/progress.h"
-#include "cli/report/leaderboard.h"
 #include "cli/report/output_folder.h"
+#include "cli/report/result_table.h"
 #include "cli/report/results_document.h"
 #include "cli/report/study_table.h"
 #include "cli/shell/interrupt.h"
@@ -282,10 +282,13 @@ StudyPlan PlanOf(const CompareArguments& arguments) {
   return plan;
 }
 
-std::string Formatted(const StudyRun& run, const std::string& format) {
-  if (format == "csv") return LeaderboardCsv(run);
-  if (format == "md") return LeaderboardMarkdown(run);
-  return StudyTable(run);
+std::string Formatted(const StudyRun& run,
+                      const models::StudyRecord& record,
+                      const std::string& format) {
+  if (format == "json") return models::ToJsonText(record);
+  if (format == "csv") return CsvTable(LeaderboardRows(record));
+  if (format == "md") return MarkdownTable(LeaderboardRows(record));
+  return StudyTable(run, record);
 }
 
 int RunCompare(const CompareArguments& arguments) {
@@ -319,13 +322,9 @@ int RunCompare(const CompareArguments& arguments) {
          .progress = [&](int done, int all) { progress.Show(done, all); }});
   }
   if (journal != nullptr) SayUnlessQuiet(arguments, journal->WritingRemarks());
-  const bool json = arguments.format == "json";
-  models::StudyRecord record;
-  if (json || !arguments.out.empty()) record = RecordOf(run);
+  const models::StudyRecord record = RecordOf(run);
   // Before the files: a full disk must not cost the answer.
-  fmt::print(
-      "{}",
-      json ? models::ToJsonText(record) : Formatted(run, arguments.format));
+  fmt::print("{}", Formatted(run, record, arguments.format));
   std::fflush(stdout);
   if (!arguments.out.empty()) WriteOutputs(run, record, arguments.out);
   return StatusOf(run);

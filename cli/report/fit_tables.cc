@@ -15,7 +15,8 @@ namespace {
 std::string ValueText(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_null()) return "-";
-  if (value.is_number_float()) return FigureText(value.get<double>(), 6);
+  if (value.is_number_float())
+    return fmt::format("{:.6g}", value.get<double>());
   return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -31,7 +32,7 @@ std::string SettingsText(const models::ByName<T>& settings) {
   return text;
 }
 
-void SayIfEmpty(const std::string& why, ReportTable* table) {
+void SayIfEmpty(const std::string& why, Table* table) {
   if (table->rows.empty()) table->missing = why;
 }
 
@@ -50,8 +51,8 @@ models::LeastSquaresRecord LeastSquaresOf(
   return regression.least_squares.value.value_or(models::LeastSquaresRecord());
 }
 
-ReportTable Coefficients(const models::RegressionRecord& regression) {
-  ReportTable table{.title = "Coefficients"};
+Table Coefficients(const models::RegressionRecord& regression) {
+  Table table{.title = "Coefficients"};
   table.note =
       "In the target's own unit. Terms chosen with these rows have optimistic "
       "p-values and intervals.";
@@ -73,28 +74,27 @@ ReportTable Coefficients(const models::RegressionRecord& regression) {
         term.of_term.value.value_or(models::TermRecord());
     constexpr double kPercent = 100.0;
     table.rows.push_back({term.term,
-                          FigureText(term.estimate, 7),
-                          FigureText(term.standard_error),
-                          FigureText(term.t),
-                          PText(term.p),
-                          FigureText(term.ci95[0], 5),
-                          FigureText(term.ci95[1], 5),
-                          FigureText(more.standardised),
-                          FigureText(more.vif),
-                          FigureText(kPercent * more.bootstrap_inclusion, 3)});
+                          Number{term.estimate, 7},
+                          Number{term.standard_error},
+                          Number{term.t},
+                          P{term.p},
+                          Number{term.ci95[0], 5},
+                          Number{term.ci95[1], 5},
+                          Number{more.standardised},
+                          Number{more.vif},
+                          Number{kPercent * more.bootstrap_inclusion, 3}});
   }
   SayIfEmpty("The coefficients' statistics were not kept.", &table);
   return table;
 }
 
-ReportTable ExcludedTerms(const models::RegressionRecord& regression) {
-  ReportTable table{.title = "Terms left out"};
+Table ExcludedTerms(const models::RegressionRecord& regression) {
+  Table table{.title = "Terms left out"};
   table.columns = {{"term", false}, {"F if it entered"}, {"p"}};
   const auto terms = LeastSquaresOf(regression).excluded;
   constexpr std::size_t kMost = 40;
   for (std::size_t i = 0; i < std::min(terms.size(), kMost); ++i) {
-    table.rows.push_back(
-        {terms[i].term, FigureText(terms[i].f), PText(terms[i].p)});
+    table.rows.push_back({terms[i].term, Number{terms[i].f}, P{terms[i].p}});
   }
   if (terms.size() > kMost) {
     table.note = fmt::format(
@@ -104,8 +104,8 @@ ReportTable ExcludedTerms(const models::RegressionRecord& regression) {
   return table;
 }
 
-ReportTable AliasedTerms(const models::RegressionRecord& regression) {
-  ReportTable table{.title = "Aliased terms"};
+Table AliasedTerms(const models::RegressionRecord& regression) {
+  Table table{.title = "Aliased terms"};
   table.note = "The terms in the model determine them.";
   table.columns = {{"term", false}, {"why", false}};
   for (const auto& term : LeastSquaresOf(regression).aliased) {
@@ -119,23 +119,26 @@ std::string RegressionSummary(const ReportView& view,
                               const models::RegressionRecord& regression) {
   const models::LeastSquaresRecord fit = LeastSquaresOf(regression);
   if (!std::isfinite(fit.s)) return "";
+  const auto figure = [](double value, int digits = 4) {
+    return Table().Shown(Number{value, digits});
+  };
   return fmt::format(
       "s {}{}, R2 {}, adjusted R2 {}, predicted R2 {} (PRESS {}), condition "
       "number {}, effective rank {}.",
-      FigureText(fit.s * view.scale),
+      figure(fit.s * view.scale),
       view.shown_unit.empty() ? "" : " " + view.shown_unit,
-      FigureText(fit.r2, 6),
-      FigureText(fit.adjusted_r2, 6),
-      FigureText(fit.predicted_r2, 6),
-      FigureText(fit.press),
-      FigureText(fit.condition),
-      CountText(fit.effective_rank));
+      figure(fit.r2, 6),
+      figure(fit.adjusted_r2, 6),
+      figure(fit.predicted_r2, 6),
+      figure(fit.press),
+      figure(fit.condition),
+      fit.effective_rank);
 }
 
 }  // namespace
 
-ReportTable RunTable(const ReportView& view) {
-  ReportTable table{.title = "Run summary"};
+Table RunTable(const ReportView& view) {
+  Table table{.title = "Run summary"};
   table.note =
       "The fits to all rows, as the report's Table 4; sqrt(2 E) of the scaled "
       "target. Times were measured on the machine that fitted.";
@@ -161,17 +164,16 @@ ReportTable RunTable(const ReportView& view) {
     if (model->name == view.recommended) table.marked = table.rows.size();
     table.rows.push_back(
         {model->name,
-         model->inputs_used ? std::to_string(model->inputs_used->size()) : "-",
-         CountText(model->parameters),
-         CountText(fit.iterations),
-         CountText(fit.evaluations),
-         FigureText(time),
-         FigureText(kMicroseconds * fit.sd_iteration_seconds, 3),
-         FigureText(parameters > 0.0 ? time / parameters : models::kNotKnown,
-                    3),
-         FigureText(model->final->fit_seconds, 3),
-         FigureText(RootOfTwice(fit.initial_cost)),
-         FigureText(RootOfTwice(fit.final_cost)),
+         model->inputs_used ? Cell(std::ssize(*model->inputs_used)) : Cell(),
+         model->parameters,
+         fit.iterations,
+         fit.evaluations,
+         Number{time},
+         Number{kMicroseconds * fit.sd_iteration_seconds, 3},
+         Number{parameters > 0.0 ? time / parameters : models::kNotKnown, 3},
+         Number{model->final->fit_seconds, 3},
+         Number{RootOfTwice(fit.initial_cost)},
+         Number{RootOfTwice(fit.final_cost)},
          StopText(fit),
          fit.message});
   }
@@ -179,9 +181,9 @@ ReportTable RunTable(const ReportView& view) {
   return table;
 }
 
-ReportTable FoldTable(const ReportView& view) {
-  const ErrorText error = ErrorTextOf(view);
-  ReportTable table{.title = "Every fold"};
+Table FoldTable(const ReportView& view) {
+  Table table{.title = "Every fold"};
+  table.error = ErrorTextOf(view);
   table.columns = {{"model", false},
                    {"hold-out", false},
                    {"fold"},
@@ -198,16 +200,15 @@ ReportTable FoldTable(const ReportView& view) {
       for (std::size_t i = 0; i < result->folds.size(); ++i) {
         const models::FoldRecord& fold = result->folds[i];
         const models::SummaryRecord& fit = fold.fit.value.summary.value;
-        table.rows.push_back(
-            {model->name,
-             holdout,
-             std::to_string(i),
-             std::isfinite(fold.train_rmse) ? error(fold.train_rmse) : "-",
-             std::isfinite(fold.test_rmse) ? error(fold.test_rmse) : "-",
-             CountText(fit.iterations),
-             CountText(fit.evaluations),
-             FigureText(fold.fit.value.fit_seconds, 3),
-             StopText(fit)});
+        table.rows.push_back({model->name,
+                              holdout,
+                              std::to_string(i),
+                              Error{fold.train_rmse},
+                              Error{fold.test_rmse},
+                              fit.iterations,
+                              fit.evaluations,
+                              Number{fold.fit.value.fit_seconds, 3},
+                              StopText(fit)});
       }
     }
   }
@@ -215,9 +216,9 @@ ReportTable FoldTable(const ReportView& view) {
   return table;
 }
 
-ReportTable StartTable(const ReportView& view) {
-  const ErrorText error = ErrorTextOf(view);
-  ReportTable table{.title = "Every start"};
+Table StartTable(const ReportView& view) {
+  Table table{.title = "Every start"};
+  table.error = ErrorTextOf(view);
   table.columns = {{"model", false},
                    {"seed"},
                    {"sqrt(2 E) last"},
@@ -228,22 +229,21 @@ ReportTable StartTable(const ReportView& view) {
   for (const ModelRecord* model : view.models) {
     if (!model->final || !model->final->starts) continue;
     for (const models::StartRecord& start : model->final->starts->table) {
-      table.rows.push_back(
-          {model->name,
-           std::to_string(start.seed),
-           FigureText(RootOfTwice(start.final_cost), 5),
-           CountText(start.iterations),
-           std::string(fitting::ToString(start.stop)),
-           std::isfinite(start.holdout_rmse) ? error(start.holdout_rmse) : "-",
-           start.chosen ? "yes" : "no"});
+      table.rows.push_back({model->name,
+                            std::to_string(start.seed),
+                            Number{RootOfTwice(start.final_cost), 5},
+                            start.iterations,
+                            std::string(fitting::ToString(start.stop)),
+                            Error{start.holdout_rmse},
+                            start.chosen ? "yes" : "no"});
     }
   }
   SayIfEmpty("No model was fitted from several starts.", &table);
   return table;
 }
 
-ReportTable MemorisationTable(const ReportView& view) {
-  ReportTable table{.title = "Can the nets learn noise?"};
+Table MemorisationTable(const ReportView& view) {
+  Table table{.title = "Can the nets learn noise?"};
   table.note =
       "The same fit to shuffled targets: what it explains then is memory, not "
       "machine.";
@@ -258,10 +258,10 @@ ReportTable MemorisationTable(const ReportView& view) {
     if (!model->memorisation) continue;
     const models::MemorisationRecord& check = *model->memorisation;
     table.rows.push_back({model->name,
-                          FigureText(check.shuffled_r2, 3),
-                          FigureText(check.train_r2, 4),
-                          FigureText(check.weights_per_row, 3),
-                          FigureText(check.effective_parameters, 4),
+                          Number{check.shuffled_r2, 3},
+                          Number{check.train_r2, 4},
+                          Number{check.weights_per_row, 3},
+                          Number{check.effective_parameters, 4},
                           check.sentence});
   }
   SayIfEmpty("No net was checked.", &table);
@@ -293,8 +293,8 @@ std::vector<PolynomialTables> PolynomialTablesOf(const ReportView& view) {
   return all;
 }
 
-ReportTable OptionTable(const ReportView& view) {
-  ReportTable table{.title = "Options that took effect"};
+Table OptionTable(const ReportView& view) {
+  Table table{.title = "Options that took effect"};
   table.columns = {{"model", false},
                    {"kind", false},
                    {"options", false},
@@ -313,8 +313,8 @@ ReportTable OptionTable(const ReportView& view) {
   return table;
 }
 
-ReportTable DroppedTable(const ReportView& view) {
-  ReportTable table{.title = "Sensors and columns left out"};
+Table DroppedTable(const ReportView& view) {
+  Table table{.title = "Sensors and columns left out"};
   table.columns = {{"column", false}, {"why", false}};
   for (const models::DroppedRecord& dropped : view.component->data.dropped) {
     table.rows.push_back({dropped.column, dropped.why});
@@ -361,8 +361,8 @@ std::string RangeOfSizes(const models::RowsOfFolds& lists) {
 
 }  // namespace
 
-ReportTable HoldoutTable(const ReportView& view) {
-  ReportTable table{.title = "How rows were held out"};
+Table HoldoutTable(const ReportView& view) {
+  Table table{.title = "How rows were held out"};
   table.columns = {{"hold-out", false},
                    {"folds"},
                    {"training rows"},
@@ -374,20 +374,20 @@ ReportTable HoldoutTable(const ReportView& view) {
   for (const models::HoldoutRecord& holdout : view.component->holdouts) {
     table.rows.push_back(
         {holdout.name,
-         CountText(holdout.folds),
+         holdout.folds,
          RangeOfSizes(holdout.train_rows),
          RangeOfSizes(holdout.test_rows),
          holdout.whole_groups ? "yes" : "no",
          holdout.unit_of_analysis.empty() ? "-" : holdout.unit_of_analysis,
-         CountText(holdout.units),
+         holdout.units,
          HoldoutWords(holdout.name)});
   }
   SayIfEmpty("There is no hold-out.", &table);
   return table;
 }
 
-ReportTable ProvenanceTable(const models::StudyRecord& record) {
-  ReportTable table{.title = "Provenance"};
+Table ProvenanceTable(const models::StudyRecord& record) {
+  Table table{.title = "Provenance"};
   table.columns = {{"what", false}, {"value", false}};
   const auto add = [&](const std::string& what, const std::string& value) {
     if (!value.empty() && value != "-") table.rows.push_back({what, value});

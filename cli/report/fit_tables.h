@@ -9,16 +9,16 @@ namespace errmap::cli {
 
 /// The fits to all rows: what each optimiser did, how it stopped, time per
 /// iteration (the report's Table 4).
-ReportTable RunTable(const ReportView& view);
+Table RunTable(const ReportView& view);
 
 /// Every fit of every fold: errors, iterations, stop.
-ReportTable FoldTable(const ReportView& view);
+Table FoldTable(const ReportView& view);
 
 /// Every start of the nets with several.
-ReportTable StartTable(const ReportView& view);
+Table StartTable(const ReportView& view);
 
 /// Nets fitted to shuffled targets: can they learn noise?
-ReportTable MemorisationTable(const ReportView& view);
+Table MemorisationTable(const ReportView& view);
 
 /// What is told of one polynomial.
 struct PolynomialTables {
@@ -26,23 +26,23 @@ struct PolynomialTables {
   std::string equation;
   std::string method;
   std::string summary;  // s, R2, PRESS, condition
-  ReportTable coefficients;
-  ReportTable excluded;
-  ReportTable aliased;
+  Table coefficients;
+  Table excluded;
+  Table aliased;
 };
 /// Of every model with an equation or a regression, the recommended one first.
 std::vector<PolynomialTables> PolynomialTablesOf(const ReportView& view);
 
 /// Options and choices of every model.
-ReportTable OptionTable(const ReportView& view);
+Table OptionTable(const ReportView& view);
 
 /// Columns left out of the inputs, and why.
-ReportTable DroppedTable(const ReportView& view);
+Table DroppedTable(const ReportView& view);
 
 /// How rows were held out.
-ReportTable HoldoutTable(const ReportView& view);
+Table HoldoutTable(const ReportView& view);
 
 /// Where the figures come from: of the whole document.
-ReportTable ProvenanceTable(const models::StudyRecord& record);
+Table ProvenanceTable(const models::StudyRecord& record);
 
 }  // namespace errmap::cli

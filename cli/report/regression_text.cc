@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/report/table.h"
 #include "cli/shell/number_text.h"
 #include "models/study/figure_record.h"
 
@@ -18,54 +19,21 @@ using models::RegressionReport;
 using models::ReportStep;
 using models::ReportTerm;
 
-// Rows of cells, padded to columns: the first to the left, others right.
-class TextTable {
- public:
-  void Add(std::vector<std::string> cells) {
-    rows_.push_back(std::move(cells));
+// The first column is words, the others are numbers.
+Table TextTable(const std::vector<std::string>& head) {
+  Table table{.nothing = "n/a"};
+  for (const std::string& name : head) {
+    table.columns.push_back(
+        {.name = name, .is_number = !table.columns.empty()});
   }
-
-  std::string Text() const {
-    std::vector<std::size_t> widths;
-    for (const auto& row : rows_) {
-      widths.resize(std::max(widths.size(), row.size()), 0);
-      for (std::size_t i = 0; i < row.size(); ++i) {
-        widths[i] = std::max(widths[i], row[i].size());
-      }
-    }
-    std::string text;
-    for (const auto& row : rows_) {
-      std::string line;
-      for (std::size_t i = 0; i < row.size(); ++i) {
-        line += i == 0 ? fmt::format("{:<{}}", row[i], widths[i])
-                       : fmt::format("  {:>{}}", row[i], widths[i]);
-      }
-      line.erase(line.find_last_not_of(' ') + 1);
-      text += line + "\n";
-    }
-    return text;
-  }
-
- private:
-  std::vector<std::vector<std::string>> rows_;
-};
-
-std::string Figure(double value, int digits = 5) {
-  if (std::isnan(value)) return "n/a";
-  if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
-  return fmt::format("{:.{}g}", value, digits);
+  return table;
 }
 
-std::string Fixed(double value, int decimals) {
-  if (!std::isfinite(value)) return Figure(value);
-  return fmt::format("{:.{}f}", value, decimals);
-}
+std::string Text(const Cell& cell) { return TextTable({}).Shown(cell); }
 
-std::string PValue(double p) {
-  constexpr double kSmallestShown = 1e-16;
-  if (std::isnan(p)) return "n/a";
-  if (p < kSmallestShown) return "<1e-16";
-  return p < 1e-3 ? fmt::format("{:.1e}", p) : fmt::format("{:.4f}", p);
+// Blank, not "n/a", where a row has no such figure.
+Cell OrBlank(double value, Cell cell) {
+  return std::isnan(value) ? Cell("") : cell;
 }
 
 std::string Percent(double share) {
@@ -83,48 +51,47 @@ std::string StepLog(const RegressionReport& report) {
   const bool press = has(&fitting::SelectionStep::press);
   const bool cp = has(&fitting::SelectionStep::cp);
   const bool cv = has(&fitting::SelectionStep::cv);
-  TextTable table;
   std::vector<std::string> head{
       "step", "terms", "F", "p", "RSS", "AIC", "AICc", "BIC", "adj R2"};
   if (press) head.push_back("PRESS");
   if (cp) head.push_back("Cp");
   if (cv) head.push_back("CV");
-  table.Add(std::move(head));
+  Table table = TextTable(head);
   for (std::size_t i = 0; i < report.steps.size(); ++i) {
     const fitting::SelectionStep& step = report.steps[i].numbers;
     const std::string sign = step.entered ? "+ " : "- ";
-    std::vector<std::string> row{
+    std::vector<Cell> row{
         (i == report.chosen_step ? "* " : "  ") +
             (report.steps[i].term.empty() ? "(start)"
                                           : sign + report.steps[i].term),
         std::to_string(step.terms),
-        std::isnan(step.f) ? "" : Figure(step.f, 4),
-        std::isnan(step.p) ? "" : PValue(step.p),
-        Figure(step.residual_sum_of_squares),
-        Fixed(step.aic, 3),
-        Fixed(step.aicc, 3),
-        Fixed(step.bic, 3),
-        Fixed(step.adjusted_r2, 6)};
-    if (press) row.push_back(Figure(step.press));
-    if (cp) row.push_back(Figure(step.cp));
-    if (cv) row.push_back(Figure(step.cv));
-    table.Add(std::move(row));
+        OrBlank(step.f, Number{step.f, 4}),
+        OrBlank(step.p, P{step.p}),
+        Number{step.residual_sum_of_squares, 5},
+        Fixed{step.aic, 3},
+        Fixed{step.aicc, 3},
+        Fixed{step.bic, 3},
+        Fixed{step.adjusted_r2, 6}};
+    if (press) row.push_back(Number{step.press, 5});
+    if (cp) row.push_back(Number{step.cp, 5});
+    if (cv) row.push_back(Number{step.cv, 5});
+    table.rows.push_back(std::move(row));
   }
-  return "Steps (+ entered, - left, * chosen)\n" + table.Text() +
+  return "Steps (+ entered, - left, * chosen)\n" + TerminalTable(table) +
          fmt::format("ended: {}\n", report.ended) +
          "AIC = n ln(RSS/n) + 2k with k coefficients, as R's step() has it; "
          "BIC with k ln n; F and p are\nof the term that came or went.\n\n";
 }
 
 std::string CoefficientTable(const RegressionReport& report) {
-  TextTable table;
   std::vector<ReportTerm> lines;
   if (report.fit.has_intercept) lines.push_back(report.intercept);
   lines.insert(lines.end(), report.terms.begin(), report.terms.end());
+  Table table;
   if (report.penalised) {
-    table.Add({"term", "estimate"});
+    table = TextTable({"term", "estimate"});
     for (const ReportTerm& line : lines) {
-      table.Add({line.name, Figure(line.numbers.estimate, 9)});
+      table.rows.push_back({line.name, Number{line.numbers.estimate, 9}});
     }
   } else {
     std::vector<std::string> head{"term",
@@ -137,25 +104,25 @@ std::string CoefficientTable(const RegressionReport& report) {
                                   "standardised",
                                   "VIF"};
     if (report.bootstrap > 0) head.push_back("chosen in");
-    table.Add(std::move(head));
+    table = TextTable(head);
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const fitting::CoefficientEstimate& numbers = lines[i].numbers;
       const bool intercept = report.fit.has_intercept && i == 0;
-      std::vector<std::string> row{
+      std::vector<Cell> row{
           lines[i].name,
-          Figure(numbers.estimate, 9),
-          Figure(numbers.standard_error),
-          Figure(numbers.t, 4),
-          PValue(numbers.p),
-          Figure(numbers.lower),
-          Figure(numbers.upper),
-          intercept ? "" : Figure(numbers.standardised, 4),
-          intercept ? "" : Figure(numbers.vif, 4)};
+          Number{numbers.estimate, 9},
+          Number{numbers.standard_error, 5},
+          Number{numbers.t, 4},
+          P{numbers.p},
+          Number{numbers.lower, 5},
+          Number{numbers.upper, 5},
+          intercept ? Cell("") : Cell(Number{numbers.standardised, 4}),
+          intercept ? Cell("") : Cell(Number{numbers.vif, 4})};
       if (report.bootstrap > 0) row.push_back(Percent(lines[i].inclusion));
-      table.Add(std::move(row));
+      table.rows.push_back(std::move(row));
     }
   }
-  std::string text = "Coefficients\n" + table.Text();
+  std::string text = "Coefficients\n" + TerminalTable(table);
   if (!report.centres.empty()) {
     std::vector<std::string> moved;
     for (const auto& [name, centre] : report.centres) {
@@ -176,26 +143,28 @@ std::string CoefficientTable(const RegressionReport& report) {
 
 std::string Anova(const RegressionReport& report) {
   const fitting::RegressionDiagnostics& fit = report.fit;
-  TextTable table;
-  table.Add({"source", "df", "sum of squares", "mean square", "F", "p"});
+  Table table =
+      TextTable({"source", "df", "sum of squares", "mean square", "F", "p"});
   const double k = static_cast<double>(fit.regression_degrees_of_freedom());
-  table.Add({"regression",
-             Figure(k, 12),
-             Figure(fit.regression_sum_of_squares, 7),
-             k > 0.0 ? Figure(fit.regression_sum_of_squares / k, 7) : "",
-             Figure(fit.f, 6),
-             PValue(fit.f_p)});
-  table.Add(
-      {"residual",
-       Figure(fit.residual_degrees_of_freedom, 12),
-       Figure(fit.residual_sum_of_squares, 7),
-       fit.residual_degrees_of_freedom > 0.0 ? Figure(fit.s * fit.s, 7) : ""});
-  table.Add({"total",
-             Figure(fit.total_degrees_of_freedom(), 12),
-             Figure(fit.total_sum_of_squares, 7)});
+  table.rows.push_back(
+      {"regression",
+       Number{k, 12},
+       Number{fit.regression_sum_of_squares, 7},
+       k > 0.0 ? Cell(Number{fit.regression_sum_of_squares / k, 7}) : "",
+       Number{fit.f, 6},
+       P{fit.f_p}});
+  table.rows.push_back({"residual",
+                        Number{fit.residual_degrees_of_freedom, 12},
+                        Number{fit.residual_sum_of_squares, 7},
+                        fit.residual_degrees_of_freedom > 0.0
+                            ? Cell(Number{fit.s * fit.s, 7})
+                            : ""});
+  table.rows.push_back({"total",
+                        Number{fit.total_degrees_of_freedom(), 12},
+                        Number{fit.total_sum_of_squares, 7}});
   return fmt::format("Analysis of variance{}\n",
                      report.weighted ? " (weighted)" : "") +
-         table.Text() + "\n";
+         TerminalTable(table) + "\n";
 }
 
 std::string Quality(const RegressionReport& report,
@@ -205,9 +174,9 @@ std::string Quality(const RegressionReport& report,
   std::string text =
       fmt::format("s {} on {} degrees of freedom, R2 {}, adjusted R2 {}\n",
                   error.WithUnit(fit.s),
-                  Figure(fit.residual_degrees_of_freedom, 12),
-                  Fixed(fit.r2, 6),
-                  Fixed(fit.adjusted_r2, 6));
+                  Text(Number{fit.residual_degrees_of_freedom, 12}),
+                  Text(Fixed{fit.r2, 6}),
+                  Text(Fixed{fit.adjusted_r2, 6}));
   if (report.rows.leverage_one > 0) {
     text += fmt::format(
         "predicted R2 n/a: {} {} leverage 1, a coefficient to itself, so it "
@@ -216,8 +185,8 @@ std::string Quality(const RegressionReport& report,
         report.rows.leverage_one == 1 ? "has" : "have");
   } else {
     text += fmt::format("predicted R2 {} (PRESS {}; terms taken as given)\n",
-                        Fixed(report.rows.PredictedR2(fit), 6),
-                        Figure(report.rows.press, 7));
+                        Text(Fixed{report.rows.PredictedR2(fit), 6}),
+                        Text(Number{report.rows.press, 7}));
   }
   text += fmt::format(
       "largest residual {} (row {}), largest leverage {}\n"
@@ -225,8 +194,8 @@ std::string Quality(const RegressionReport& report,
       "effective rank {} of {}\n",
       error.WithUnit(report.rows.largest_residual),
       report.rows.largest_residual_row,
-      Figure(report.rows.largest_leverage, 4),
-      Figure(fit.condition, 4),
+      Text(Number{report.rows.largest_leverage, 4}),
+      Text(Number{fit.condition, 4}),
       fit.has_intercept ? ", with intercept" : "",
       fit.effective_rank,
       report.terms.size() + (fit.has_intercept ? 1 : 0));
@@ -237,24 +206,22 @@ std::string Excluded(const RegressionReport& report) {
   std::string text;
   constexpr std::size_t kMostShown = 10;
   if (!report.excluded.empty()) {
-    TextTable table;
     std::vector<std::string> head{"term", "F if it entered", "p"};
     if (report.bootstrap > 0) head.push_back("chosen in");
-    table.Add(std::move(head));
+    Table table = TextTable(head);
     for (std::size_t i = 0; i < std::min(kMostShown, report.excluded.size());
          ++i) {
       const models::ExcludedReport& term = report.excluded[i];
-      std::vector<std::string> row{
-          term.name, Figure(term.f, 4), PValue(term.p)};
+      std::vector<Cell> row{term.name, Number{term.f, 4}, P{term.p}};
       if (report.bootstrap > 0) row.push_back(Percent(term.inclusion));
-      table.Add(std::move(row));
+      table.rows.push_back(std::move(row));
     }
     text += fmt::format("Terms left out ({}{})\n",
                         report.excluded.size(),
                         report.excluded.size() > kMostShown
                             ? "; those of largest F, all with --format json"
                             : "") +
-            table.Text() + "\n";
+            TerminalTable(table) + "\n";
   }
   if (!report.aliased.empty()) {
     text += fmt::format(
@@ -294,7 +261,7 @@ std::string Warnings(const RegressionReport& report) {
 
 std::string PenaltyText(const RegressionReport& report) {
   std::string text = fmt::format("{} effective parameters\n",
-                                 Fixed(report.degrees_of_freedom, 1));
+                                 Text(Fixed{report.degrees_of_freedom, 1}));
   if (report.strengths.empty()) return text;
   const auto least = std::min_element(report.mean_squared_errors.begin(),
                                       report.mean_squared_errors.end());
@@ -302,10 +269,10 @@ std::string PenaltyText(const RegressionReport& report) {
       "cross-validation over {}: least RMSE {} among {} penalties from {} down "
       "to {}\n",
       report.cross_validation,
-      Figure(std::sqrt(*least)),
+      Text(Number{std::sqrt(*least), 5}),
       report.strengths.size(),
-      Figure(report.strengths.front(), 3),
-      Figure(report.strengths.back(), 3));
+      Text(Number{report.strengths.front(), 3}),
+      Text(Number{report.strengths.back(), 3}));
   return text;
 }
 
@@ -323,18 +290,17 @@ std::string RegressionText(const RegressionReport& report,
 std::string CorrelationText(const data::Dataset& dataset) {
   const models::CorrelationRecord correlations = models::Correlate(dataset);
   const std::vector<std::string>& names = correlations.columns;
-  TextTable table;
   std::vector<std::string> head{"correlation"};
   head.insert(head.end(), names.begin(), names.end());
-  table.Add(std::move(head));
+  Table table = TextTable(head);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    std::vector<std::string> row{names[i]};
+    std::vector<Cell> row{names[i]};
     for (std::size_t j = 0; j <= i; ++j) {
-      row.push_back(Fixed(correlations.matrix[i][j], 4));
+      row.push_back(Fixed{correlations.matrix[i][j], 4});
     }
-    table.Add(std::move(row));
+    table.rows.push_back(std::move(row));
   }
-  return "\n" + table.Text();
+  return "\n" + TerminalTable(table);
 }
 
 }  // namespace errmap::cli

@@ -35,19 +35,20 @@ void SayGoal(const ReportView& view, const ErrorText& error, Headline* line) {
     line->goal = "No goal was set; --goal sets one.";
     return;
   }
-  const models::GoalJudgement judged = GoalOf(view, view.recommended);
-  line->goal_standing = judged.standing;
+  const ResultRecord* result = ResultOf(view, view.recommended, view.decisive);
+  if (result == nullptr) return;
+  line->goal_standing = result->goal_standing;
   const std::string shown = fmt::format("{:.3g}{}{}",
                                         goal * view.scale,
                                         view.shown_unit.empty() ? "" : " ",
                                         view.shown_unit);
-  std::string standing(models::ToString(judged.standing));
+  std::string standing(models::ToString(line->goal_standing));
   standing.front() =
       static_cast<char>(std::toupper(static_cast<unsigned char>(standing[0])));
   line->goal = fmt::format("Goal: RMSE at most {}. {}: {}.",
                            shown,
                            standing,
-                           GoalFigures(judged, error));
+                           GoalFigures(*result, error));
 }
 
 std::string CostWords(const models::RecommendationRecord& advice) {

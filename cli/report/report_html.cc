@@ -9,6 +9,7 @@
 #include "cli/report/report_headline.h"
 #include "cli/report/report_style.h"
 #include "cli/report/report_tables.h"
+#include "cli/report/result_table.h"
 
 namespace errmap::cli {
 namespace {
@@ -31,44 +32,6 @@ std::string List(const std::string& title,
     html += "<li>" + HtmlText(line) + "</li>";
   }
   return html + "</ul>\n";
-}
-
-std::string TableHtml(const ReportTable& table) {
-  std::string html;
-  if (!table.title.empty()) html += "<h4>" + HtmlText(table.title) + "</h4>\n";
-  if (!table.missing.empty()) {
-    return html + "<p class=\"absent\">" + HtmlText(table.missing) + "</p>\n";
-  }
-  html += fmt::format(
-      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-      "aria-label=\"{}\"><table><thead><tr>",
-      HtmlText(table.title));
-  for (const ReportTable::Column& column : table.columns) {
-    html += fmt::format("<th scope=\"col\"{}>{}{}</th>",
-                        column.is_number ? "" : " class=\"t\"",
-                        HtmlName(column.name),
-                        column.explanation.empty()
-                            ? ""
-                            : fmt::format("<br><span class=\"soft\">{}</span>",
-                                          HtmlText(column.explanation)));
-  }
-  html += "</tr></thead><tbody>\n";
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    html += i == table.marked ? "<tr class=\"mark\">" : "<tr>";
-    for (std::size_t j = 0; j < table.rows[i].size(); ++j) {
-      const bool number = table.columns[j].is_number;
-      constexpr std::size_t kLong = 36;
-      const bool is_long = table.rows[i][j].size() > kLong;
-      html += number    ? "<td>"
-              : is_long ? "<td class=\"t long\">"
-                        : "<td class=\"t\">";
-      html += number ? HtmlText(table.rows[i][j]) : HtmlName(table.rows[i][j]);
-      html += "</td>";
-    }
-    html += "</tr>\n";
-  }
-  html += "</tbody></table></div>\n";
-  return html + Paragraph(table.note, "soft small");
 }
 
 std::string Collapsed(const std::string& title, const std::string& content) {
@@ -241,7 +204,7 @@ std::string Page::Answer(const ReportView& view,
       html += FigureHtml(figure);
     }
   }
-  html += "</div>\n</div>\n" + TableHtml(LeaderboardTable(view));
+  html += "</div>\n</div>\n" + HtmlTable(PageLeaderboard(view));
   return html + List("Reasons", line.reasons) + List("Caveats", line.caveats);
 }
 
@@ -252,14 +215,14 @@ std::string Page::Evidence(const ReportView& view) const {
     if (!verdict.why.empty()) lines.push_back(verdict.why);
   }
   html += List("", lines);
-  html += TableHtml(ComparisonTable(view, view.decisive));
+  html += HtmlTable(ComparisonTable(view, view.decisive));
   for (const std::string& holdout : view.holdouts) {
     if (holdout == view.decisive) continue;
     html += Collapsed("Differences under " + holdout,
-                      TableHtml(ComparisonTable(view, holdout)));
+                      HtmlTable(ComparisonTable(view, holdout)));
   }
-  return html + TableHtml(GapTable(view)) + TableHtml(StabilityTable(view)) +
-         TableHtml(MemorisationTable(view));
+  return html + HtmlTable(GapTable(view)) + HtmlTable(StabilityTable(view)) +
+         HtmlTable(MemorisationTable(view));
 }
 
 std::string Page::Residuals(const ReportView& view,
@@ -283,10 +246,10 @@ std::string Page::Residuals(const ReportView& view,
   for (const std::string& holdout : view.holdouts) {
     const bool first = holdout == view.decisive;
     if (brief && !first) continue;
-    std::string tables = TableHtml(ResidualTable(view, holdout));
+    std::string tables = HtmlTable(ResidualTable(view, holdout));
     if (!brief) {
-      tables += TableHtml(NormalityTable(view, holdout)) +
-                TableHtml(IndependenceTable(view, holdout));
+      tables += HtmlTable(NormalityTable(view, holdout)) +
+                HtmlTable(IndependenceTable(view, holdout));
     }
     html += first ? tables
                   : Collapsed("Residual statistics under " + holdout, tables);
@@ -297,10 +260,10 @@ std::string Page::Residuals(const ReportView& view,
 std::string Page::Fits(const ReportView& view,
                        const ComponentFigures& figures) const {
   return "<h3>The fits</h3>\n" + FiguresHtml(figures, FigurePlace::kFits) +
-         TableHtml(RunTable(view)) +
-         Collapsed("Every start", TableHtml(StartTable(view))) +
-         Collapsed("Every fold", TableHtml(FoldTable(view))) +
-         Collapsed("Options", TableHtml(OptionTable(view)));
+         HtmlTable(RunTable(view)) +
+         Collapsed("Every start", HtmlTable(StartTable(view))) +
+         Collapsed("Every fold", HtmlTable(FoldTable(view))) +
+         Collapsed("Options", HtmlTable(OptionTable(view)));
 }
 
 std::string Page::Polynomials(const ReportView& view, bool brief) const {
@@ -316,8 +279,8 @@ std::string Page::Polynomials(const ReportView& view, bool brief) const {
                          HtmlText(model.equation) + "</div>\n";
     content += Paragraph(model.summary);
     if (!brief) {
-      content += TableHtml(model.coefficients) + TableHtml(model.excluded) +
-                 TableHtml(model.aliased);
+      content += HtmlTable(model.coefficients) + HtmlTable(model.excluded) +
+                 HtmlTable(model.aliased);
     }
     html += fmt::format("<details{}><summary>{}</summary>\n{}</details>\n",
                         best ? " open" : "",
@@ -339,7 +302,7 @@ std::string Page::Data(const ReportView& view,
       fmt::format(
           "{}: {} rows, target {}{}{}{}{}.",
           measured.file.empty() ? "File not known" : HtmlName(measured.file),
-          CountText(measured.rows),
+          measured.rows,
           measured.target.empty() ? "not known" : HtmlName(measured.target),
           measured.unit.empty() ? "" : " in " + HtmlText(measured.unit),
           measured.group ? ", groups by " + HtmlName(*measured.group)
@@ -357,7 +320,7 @@ std::string Page::Data(const ReportView& view,
   }
   html += "<p>" + Count(static_cast<long long>(inputs.size()), "input") +
           (names.empty() ? "" : ": " + names) + ".</p>\n";
-  html += TableHtml(DroppedTable(view)) + TableHtml(HoldoutTable(view));
+  html += HtmlTable(DroppedTable(view)) + HtmlTable(HoldoutTable(view));
   return html + FiguresHtml(figures, FigurePlace::kData);
 }
 
@@ -368,12 +331,12 @@ std::string Page::Component(const ReportView& view, std::size_t index) const {
   const bool brief = figures.detail == FigureDetail::kBrief;
   std::string html = Answer(view, figures);
   if (brief) {
-    html += TableHtml(ComparisonTable(view, view.decisive));
+    html += HtmlTable(ComparisonTable(view, view.decisive));
   } else {
     html += Evidence(view);
   }
   html += Residuals(view, figures);
-  html += brief ? TableHtml(RunTable(view)) : Fits(view, figures);
+  html += brief ? HtmlTable(RunTable(view)) : Fits(view, figures);
   html += Polynomials(view, brief) + Data(view, figures);
   if (brief) {
     html +=
@@ -418,7 +381,7 @@ std::string Page::Html() const {
   for (std::size_t i = 0; i < views.size(); ++i) {
     html += Component(views[i], i);
   }
-  html += "<h3>Provenance</h3>\n" + TableHtml(ProvenanceTable(record_));
+  html += "<h3>Provenance</h3>\n" + HtmlTable(ProvenanceTable(record_));
   html += "</main>\n<footer>";
   const std::string& version = record_.version;
   html += fmt::format(

@@ -6,6 +6,7 @@
 #include "cli/report/html.h"
 #include "cli/report/report_headline.h"
 #include "cli/report/report_tables.h"
+#include "cli/report/result_table.h"
 
 namespace errmap::cli {
 namespace {
@@ -21,31 +22,6 @@ std::string List(const std::vector<std::string>& lines) {
   return text.empty() ? text : text + "\n";
 }
 
-std::string TableText(const ReportTable& table, const std::string& level) {
-  std::string text =
-      table.title.empty()
-          ? ""
-          : fmt::format("{} {}\n\n", level, MarkdownText(table.title));
-  if (!table.missing.empty()) return text + Paragraph(table.missing);
-  text += "|";
-  std::string rule = "|";
-  for (const ReportTable::Column& column : table.columns) {
-    text += " " + MarkdownText(column.name) + " |";
-    rule += column.is_number ? "---:|" : "---|";
-  }
-  text += "\n" + rule + "\n";
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    text += "|";
-    for (const std::string& cell : table.rows[i]) {
-      const std::string shown = MarkdownText(cell);
-      const bool strong = i == table.marked && !shown.empty();
-      text += strong ? " **" + shown + "** |" : " " + shown + " |";
-    }
-    text += "\n";
-  }
-  return text + "\n" + Paragraph(table.note);
-}
-
 std::string Answer(const ReportView& view) {
   const Headline line = HeadlineOf(view);
   std::string text = "**" + MarkdownText(line.sentence) + "**\n\n";
@@ -59,7 +35,7 @@ std::string Answer(const ReportView& view) {
   }
   if (!line.sensors.empty()) facts.push_back("Sensors: " + line.sensors);
   text += List(facts) + Paragraph(line.why) + Paragraph(kSignConvention);
-  text += TableText(LeaderboardTable(view), "###");
+  text += MarkdownTable(PageLeaderboard(view), "###");
   if (!line.reasons.empty()) text += "### Reasons\n\n" + List(line.reasons);
   if (!line.caveats.empty()) text += "### Caveats\n\n" + List(line.caveats);
   return text;
@@ -71,7 +47,7 @@ std::string Polynomials(const ReportView& view) {
     text += "#### " + MarkdownText(model.model) + "\n\n" +
             Paragraph(model.equation) + Paragraph(model.summary);
     if (model.model == view.recommended) {
-      text += TableText(model.coefficients, "####");
+      text += MarkdownTable(model.coefficients, "####");
     }
   }
   return text.empty() ? text : "### Equations\n\n" + text;
@@ -79,14 +55,14 @@ std::string Polynomials(const ReportView& view) {
 
 std::string Component(const ReportView& view) {
   std::string text = "## " + MarkdownText(view.name) + "\n\n" + Answer(view);
-  text += TableText(ComparisonTable(view, view.decisive), "###");
-  text += TableText(GapTable(view), "###");
+  text += MarkdownTable(ComparisonTable(view, view.decisive), "###");
+  text += MarkdownTable(GapTable(view), "###");
   for (const std::string& holdout : view.holdouts) {
-    text += TableText(ResidualTable(view, holdout), "###");
+    text += MarkdownTable(ResidualTable(view, holdout), "###");
   }
-  text += TableText(RunTable(view), "###") + Polynomials(view);
-  text += TableText(DroppedTable(view), "###");
-  return text + TableText(HoldoutTable(view), "###");
+  text += MarkdownTable(RunTable(view), "###") + Polynomials(view);
+  text += MarkdownTable(DroppedTable(view), "###");
+  return text + MarkdownTable(HoldoutTable(view), "###");
 }
 
 }  // namespace
@@ -102,7 +78,7 @@ std::string ReportMarkdown(const models::StudyRecord& record) {
   for (const ComponentRecord& component : record.components) {
     text += Component(ViewOf(component));
   }
-  return text + TableText(ProvenanceTable(record), "##");
+  return text + MarkdownTable(ProvenanceTable(record), "##");
 }
 
 }  // namespace errmap::cli

@@ -8,15 +8,6 @@
 namespace errmap::cli {
 namespace {
 
-template <typename T>
-const T* Named(const std::vector<T>& list, const std::string& name) {
-  const auto found =
-      std::find_if(list.begin(), list.end(), [&](const T& entry) {
-        return entry.name == name;
-      });
-  return found == list.end() ? nullptr : &*found;
-}
-
 void ReadHoldouts(ReportView* view) {
   const ComponentRecord& component = *view->component;
   for (const models::HoldoutRecord& holdout : component.holdouts) {
@@ -77,19 +68,16 @@ std::string RivalOf(const ReportView& view) {
 
 const models::HoldoutRecord* HoldoutOf(const ReportView& view,
                                        const std::string& holdout) {
-  return Named(view.component->holdouts, holdout);
+  return models::FindNamed(view.component->holdouts, holdout);
 }
 
 const ModelRecord* ModelOf(const ReportView& view, const std::string& model) {
-  return Named(view.component->models, model);
+  return models::FindNamed(view.component->models, model);
 }
 
 const ResultRecord* ResultOf(const ModelRecord& model,
                              const std::string& holdout) {
-  for (const auto& [name, result] : model.results) {
-    if (name == holdout) return &result;
-  }
-  return nullptr;
+  return models::FindNamed(model.results, holdout);
 }
 
 const ResultRecord* ResultOf(const ReportView& view,
@@ -119,30 +107,34 @@ ReportView ViewOf(const ComponentRecord& component) {
   return view;
 }
 
-models::GoalJudgement GoalOf(const ReportView& view, const std::string& model) {
-  const ResultRecord* result = ResultOf(view, model, view.decisive);
-  if (result == nullptr) return {};
-  return {.standing = result->goal_standing,
-          .goal = view.component->goal,
-          .rmse = result->test.rmse,
-          .sd = result->test.sd,
-          .offset = result->test.mean};
-}
+namespace {
 
-ErrorText ErrorTextOf(const ReportView& view) {
+ErrorText ErrorTextIn(const std::string& shown_unit,
+                      const ComponentRecord& component) {
   double smallest = std::numeric_limits<double>::infinity();
-  for (const ModelRecord* model : view.models) {
-    for (const std::string& holdout : view.holdouts) {
-      const double rmse = TestRmse(*model, holdout);
-      if (rmse > 0.0) smallest = std::min(smallest, rmse);
+  for (const ModelRecord& model : component.models) {
+    for (const auto& [holdout, result] : model.results) {
+      if (result.test.rmse > 0.0) {
+        smallest = std::min(smallest, result.test.rmse);
+      }
     }
   }
-  if (!std::isfinite(smallest)) smallest = view.component->goal;
-  return {data::Unit{.symbol = view.component->data.unit,
+  if (!std::isfinite(smallest)) smallest = component.goal;
+  return {data::Unit{.symbol = component.data.unit,
                      .quantity = data::Quantity::kOther,
-                     .display_scale = view.scale,
-                     .display_symbol = view.shown_unit},
+                     .display_scale = component.display.scale,
+                     .display_symbol = shown_unit},
           smallest};
+}
+
+}  // namespace
+
+ErrorText ErrorTextOf(const ReportView& view) {
+  return ErrorTextIn(view.shown_unit, *view.component);
+}
+
+ErrorText ErrorTextOf(const ComponentRecord& component) {
+  return ErrorTextIn(component.display.unit, component);
 }
 
 std::string PrettyUnit(const std::string& symbol) {

@@ -49,11 +49,10 @@ const ResultRecord* ResultOf(const ReportView& view,
 /// Its test RMSE in the target's unit, or NaN.
 double TestRmse(const ModelRecord& model, const std::string& holdout);
 
-/// How `model` stands to the goal under the decisive hold-out.
-models::GoalJudgement GoalOf(const ReportView& view, const std::string& model);
-
 /// Errors as the report shows them.
 ErrorText ErrorTextOf(const ReportView& view);
+/// Errors as a terminal shows them.
+ErrorText ErrorTextOf(const ComponentRecord& component);
 
 /// A unit's symbol as people write it: "um" -> "µm", "degC" -> "°C".
 std::string PrettyUnit(const std::string& symbol);

@@ -15,13 +15,10 @@ namespace {
 
 using stats::TestResult;
 
-// p as people read it: enough digits, and honest where a table ends.
-std::string PText(double p, bool from_table = false) {
-  if (std::isnan(p)) return "";
-  if (from_table && p <= stats::kSmallestSimulated) return "<0.001";
-  if (from_table && p >= stats::kLargestSimulated) return ">0.999";
-  constexpr double kFixedFrom = 1e-4;
-  return p >= kFixedFrom ? fmt::format("{:.4f}", p) : fmt::format("{:.1e}", p);
+// Honest where a table of simulated p ends.
+std::string SimulatedP(double p) {
+  if (p <= stats::kSmallestSimulated) return "<0.001";
+  return p >= stats::kLargestSimulated ? ">0.999" : PText(p);
 }
 
 // Distances and correlations to five decimals, all else to five digits.
@@ -56,7 +53,7 @@ std::string TestLine(const char* name,
       "  {:<20}{:>11} {:>9}  {}\n",
       name,
       symbol + (symbol.empty() ? "" : " ") + StatisticText(test.statistic),
-      PText(test.p, from_table),
+      from_table ? SimulatedP(test.p) : PText(test.p),
       std::isnan(monte_carlo) ? assumes
                               : "by Monte Carlo " + PText(monte_carlo));
 }

@@ -29,6 +29,19 @@ std::string ErrorText::WithUnit(double value) const {
   return (*this)(value) + (symbol_.empty() ? "" : " " + symbol_);
 }
 
+std::string PText(double p) {
+  constexpr double kFixedFrom = 1e-4;
+  constexpr double kSmallest = 1e-300;
+  if (std::isnan(p)) return "n/a";
+  if (p < kSmallest) return "<1e-300";
+  return p < kFixedFrom ? fmt::format("{:.1e}", p) : fmt::format("{:.4f}", p);
+}
+
+std::string PWords(double p) {
+  constexpr double kSmallest = 1e-4;
+  return p < kSmallest ? "below 0.0001" : fmt::format("{:.2g}", p);
+}
+
 std::string Count(long long n, const std::string& noun) {
   return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
 }

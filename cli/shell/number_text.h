@@ -27,6 +27,12 @@ class ErrorText {
   int decimals_;
 };
 
+/// A probability in a table: "0.0123", "2.1e-06", "<1e-300"; "n/a" where there
+/// is none. Tables and sentences write p by this and the next only.
+std::string PText(double p);
+/// In a sentence: "0.012", "below 0.0001".
+std::string PWords(double p);
+
 /// "3 rows", "1 row".
 std::string Count(long long n, const std::string& noun);
 

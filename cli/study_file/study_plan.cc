@@ -17,6 +17,7 @@
 #include "data/text.h"
 #include "models/recipe_catalog.h"
 #include "models/study/split_file.h"
+#include "models/study/study_defaults.h"
 
 namespace errmap::cli {
 namespace {
@@ -70,8 +71,13 @@ class ComponentPlanner {
     return {.comparison = {.name = component_.name,
                            .file = component_.data,
                            .sha256 = reader_->Sha256Of(component_.data),
-                           .goal = Goal(unit),
-                           .indifference = Indifference(unit),
+                           .goal = FirstGiven(component_.goal,
+                                              study_.goal,
+                                              models::DefaultGoal(unit)),
+                           .indifference =
+                               FirstGiven(component_.indifference,
+                                          study_.indifference,
+                                          models::DefaultIndifference(unit)),
                            .data = std::move(prepared),
                            .holdouts = std::move(holdouts),
                            .study = {},
@@ -118,32 +124,12 @@ class ComponentPlanner {
     }
   }
 
-  // Rows, and whatever can be held out whole. Two or three sessions are too
-  // few to decide, so without groups blocks stand beside them.
-  std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset) const {
-    constexpr Eigen::Index kFolds = 5;
-    std::vector<std::string> specs{"every:3"};
-    const auto groups =
-        static_cast<Eigen::Index>(dataset.groups().labels.size());
-    const Eigen::Index sessions = dataset.num_sessions();
-    if (groups >= 2) {
-      specs.push_back(fmt::format("groups:{}", std::min(groups, kFolds)));
-    } else if (dataset.has_groups()) {
-      Remark(
-          fmt::format("column '{}' has one group only; more cycles are needed "
-                      "to hold them out whole",
-                      dataset.groups().column));
-    }
-    const bool same_units =
-        dataset.groups().column == dataset.log()->sessions.column;
-    if (sessions >= 2 && !(groups >= 2 && same_units)) {
-      specs.push_back(fmt::format("sessions:{}", std::min(sessions, kFolds)));
-    }
-    if (groups < 2 && sessions < models::kFewestSessionsToDecide) {
-      specs.push_back(
-          fmt::format("blocks:{}", std::min(dataset.num_rows(), kFolds)));
-    }
-    return specs;
+  void SayLoneGroup(const data::Dataset& dataset) const {
+    if (!dataset.has_groups() || dataset.groups().labels.size() > 1) return;
+    Remark(
+        fmt::format("column '{}' has one group only; more cycles are needed "
+                    "to hold them out whole",
+                    dataset.groups().column));
   }
 
   // Those of the split file first; it takes the place of the default ones.
@@ -156,7 +142,8 @@ class ComponentPlanner {
       holdouts =
           models::ReadSplitFile(reader_->Read(component_.split), dataset);
     } else if (specs.empty()) {
-      specs = DefaultHoldouts(dataset);
+      specs = models::DefaultHoldouts(dataset);
+      SayLoneGroup(dataset);
     }
     for (const std::string& text : specs) {
       if (std::ranges::find(holdouts, text, &models::Holdout::name) !=
@@ -242,37 +229,10 @@ class ComponentPlanner {
     return added;
   }
 
-  // The component's own, else the study's, else one for lengths: given in um,
-  // returned in the target's unit.
-  static double FirstGiven(double own,
-                           double of_study,
-                           double for_lengths_um,
-                           double otherwise,
-                           const data::Unit& unit) {
+  // The component's own, else the study's, else the default.
+  static double FirstGiven(double own, double of_study, double otherwise) {
     if (std::isfinite(own)) return own;
-    if (std::isfinite(of_study)) return of_study;
-    return unit.quantity == data::Quantity::kLength
-               ? for_lengths_um / unit.display_scale
-               : otherwise;
-  }
-
-  // The report's goal serves for lengths; angles have none of their own.
-  double Goal(const data::Unit& unit) const {
-    constexpr double kReportGoalUm = 0.5;
-    return FirstGiven(component_.goal,
-                      study_.goal,
-                      kReportGoalUm,
-                      std::numeric_limits<double>::quiet_NaN(),
-                      unit);
-  }
-
-  double Indifference(const data::Unit& unit) const {
-    constexpr double kIndifferenceUm = 0.02;
-    return FirstGiven(component_.indifference,
-                      study_.indifference,
-                      kIndifferenceUm,
-                      0.0,
-                      unit);
+    return std::isfinite(of_study) ? of_study : otherwise;
   }
 
   const StudyConfig& study_;

@@ -54,6 +54,22 @@ std::string_view ToString(Confidence confidence) {
   return "";
 }
 
+std::string_view ToString(Obstacle::Kind kind) {
+  switch (kind) {
+    case Kind::kNone:
+      return "none";
+    case Kind::kTooFewUnits:
+      return "too few units";
+    case Kind::kPerhapsOneSession:
+      return "perhaps one session";
+    case Kind::kTooManyPairs:
+      return "too many pairs";
+    case Kind::kTooFewSignPatterns:
+      return "too few sign patterns";
+  }
+  return "";
+}
+
 Obstacle FindObstacle(const stats::Comparison& tests, bool separate_sessions) {
   Obstacle obstacle{.kind = UnitsObstacle(tests.num_units, separate_sessions),
                     .units = tests.num_units,

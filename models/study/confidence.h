@@ -48,6 +48,10 @@ struct Obstacle {
   bool exists() const { return kind != Kind::kNone; }
 };
 
+/// "none", "too few units", "perhaps one session", "too many pairs",
+/// "too few sign patterns".
+std::string_view ToString(Obstacle::Kind kind);
+
 /// `separate_sessions`: every unit is known to be a session of its own (a day,
 /// a shift), so that nothing but chance makes neighbours alike.
 Obstacle FindObstacle(const stats::Comparison& tests, bool separate_sessions);

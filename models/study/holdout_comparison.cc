@@ -117,7 +117,7 @@ std::vector<Index> AssignUnits(const Holdout& holdout,
       TakeUnits(held, source.groups().codes, source.groups(), &codes, units)) {
     return codes;
   }
-  units->name = "block of rows";
+  units->name = kBlockOfRows;
   const std::set<Index> ordered(held.rows.begin(), held.rows.end());
   const std::vector<Index> blocks =
       stats::BlocksInOrder(static_cast<Index>(ordered.size()));

@@ -13,9 +13,12 @@
 
 namespace errmap::models {
 
+/// Name of the unit where there are no groups.
+inline constexpr const char* kBlockOfRows = "block of rows";
+
 /// What is met as a whole and so counts as one observation in every test.
 struct UnitsOfAnalysis {
-  std::string name;         // "cycle", "day", ...; "session"; "block of rows"
+  std::string name;         // "cycle", "day", ...; "session"; kBlockOfRows
   bool are_groups = false;  // groups or sessions, else blocks of held-out rows
   bool are_sessions = false;        // what is held out whole is sessions
   bool separate_sessions = false;   // units are, by a column; confidence.h

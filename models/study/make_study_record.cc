@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "models/history/history.h"
 #include "models/inner_folds.h"
 #include "models/study/figure_record.h"
 #include "models/study/fit_blocks.h"
 #include "models/study/held_out_residuals.h"
+#include "models/study/remarks.h"
 #include "models/study/residual_record.h"
 
 namespace errmap::models {
@@ -83,6 +85,7 @@ HoldoutRecord MakeHoldout(const ComponentStudy& study, std::size_t h) {
                        .whole_groups = holdout.whole_groups,
                        .whole_sessions = holdout.whole_sessions,
                        .among_neighbours = holdout.among_neighbours,
+                       .another_file = holdout.test_data != nullptr,
                        .repeats = holdout.repeats,
                        .inner = {},
                        .train_rows = {},
@@ -322,19 +325,47 @@ std::vector<StabilityRecord> JudgementRecord::Stability() const {
 
 std::vector<VerdictRecord> JudgementRecord::Verdicts() const {
   std::vector<VerdictRecord> verdicts;
-  for (const std::optional<Verdict>& verdict : judgement_.verdicts) {
+  for (std::size_t h = 0; h < judgement_.verdicts.size(); ++h) {
+    const std::optional<Verdict>& verdict = judgement_.verdicts[h];
     if (!verdict) continue;
+    const HoldoutComparison& tests = judgement_.comparisons[h];
     VerdictRecord record{.holdout = verdict->holdout,
                          .choice = verdict->choice,
                          .model = Name(verdict->best),
                          .rival = {},
+                         .against_rival = {},
+                         .best_baseline = {},
+                         .obstacle = {},
                          .established = verdict->established(),
                          .confidence = verdict->confidence,
                          .why = {}};
-    if (verdict->rival) record.rival = Name(*verdict->rival);
+    if (verdict->rival) {
+      record.rival = Name(*verdict->rival);
+      record.against_rival =
+          tests.ThatItIsBetter(verdict->best, *verdict->rival);
+    }
+    if (verdict->best_baseline) {
+      record.best_baseline = Name(*verdict->best_baseline);
+    }
+    if (tests.obstacle.exists()) {
+      record.obstacle = {.kind = tests.obstacle.kind,
+                         .units = tests.obstacle.units,
+                         .needed = tests.obstacle.needed,
+                         .pairs = tests.obstacle.pairs};
+    }
     verdicts.push_back(std::move(record));
   }
   return verdicts;
+}
+
+MemoryRecord MemoryOf(const History& history) {
+  MemoryRecord record;
+  record.time_unit = history.time_unit;
+  for (const DerivedInput& input : history.derived) {
+    record.longest = std::max(record.longest, input.tau);
+    record.zeroed = record.zeroed || input.filter == Filter::kZero;
+  }
+  return record;
 }
 
 std::optional<RecommendationRecord> JudgementRecord::Advice() const {
@@ -361,6 +392,12 @@ std::optional<RecommendationRecord> JudgementRecord::Advice() const {
       judgement_.goals[advice->model][advice->holdout].standing;
   record.meets_goal = MeetsGoal(record.goal_standing);
   record.extrapolated_share = advice->extrapolated_share;
+  const PredictionCost cost = CostOf(model.final_fit->model->Describe());
+  record.cost = {.multiplications = cost.multiplications,
+                 .exponentials = cost.exponentials};
+  if (model.final_fit->history != nullptr) {
+    record.memory = MemoryOf(*model.final_fit->history);
+  }
   return record;
 }
 
@@ -383,6 +420,7 @@ std::vector<FaultRecord> MakeFaultRecords(const data::PreparedDataset& data) {
 ComponentRecord MakeComponentRecord(const ComponentStudy& study) {
   ComponentRecord record;
   record.name = study.name;
+  record.interrupted = study.study.interrupted;
   record.data = MakeData(study);
   record.goal = study.goal;
   record.indifference = study.indifference;
@@ -401,6 +439,10 @@ ComponentRecord MakeComponentRecord(const ComponentStudy& study) {
   record.stability = judgement.Stability();
   record.verdict = judgement.Verdicts();
   record.recommendation = judgement.Advice();
+  if (record.recommendation) {
+    record.recommendation->grounds = FindGrounds(study, record);
+    record.recommendation->doubts = FindDoubts(study, record);
+  }
   record.figures = MakeFiguresRecord(study);
   return record;
 }

@@ -17,6 +17,70 @@ std::string_view ToString(ModelStatus status) {
   return "";
 }
 
+std::string_view ToString(RemarkKind kind) {
+  switch (kind) {
+    case RemarkKind::kAveragesMaps:
+      return "averages maps";
+    case RemarkKind::kLowestAndSimplest:
+      return "lowest and simplest";
+    case RemarkKind::kSimplestNearLowest:
+      return "simplest near lowest";
+    case RemarkKind::kSimplestOfTier:
+      return "simplest of tier";
+    case RemarkKind::kBeatsBaseline:
+      return "beats baseline";
+    case RemarkKind::kGap:
+      return "gap";
+    case RemarkKind::kGoal:
+      return "goal";
+    case RemarkKind::kCost:
+      return "cost";
+    case RemarkKind::kNotNoise:
+      return "not noise";
+    case RemarkKind::kInterrupted:
+      return "interrupted";
+    case RemarkKind::kOneRunOnly:
+      return "one run only";
+    case RemarkKind::kGroupFitsFailed:
+      return "group fits failed";
+    case RemarkKind::kNoGroupsHeldOut:
+      return "no groups held out";
+    case RemarkKind::kNoGroups:
+      return "no groups";
+    case RemarkKind::kBlocksForUnits:
+      return "blocks for units";
+    case RemarkKind::kTooFewUnits:
+      return "too few units";
+    case RemarkKind::kHoldoutsDisagree:
+      return "hold-outs disagree";
+    case RemarkKind::kUnitsCorrelated:
+      return "units correlated";
+    case RemarkKind::kExtrapolates:
+      return "extrapolates";
+    case RemarkKind::kNotConverged:
+      return "not converged";
+    case RemarkKind::kNoiseLearning:
+      return "noise learning";
+    case RemarkKind::kOtherCuts:
+      return "other cuts";
+    case RemarkKind::kBetterWithoutMap:
+      return "better without map";
+  }
+  return "";
+}
+
+const PairRecord* FindPair(const ComponentRecord& component,
+                           std::string_view holdout,
+                           std::string_view one,
+                           std::string_view other) {
+  const auto found =
+      std::ranges::find_if(component.comparisons, [&](const PairRecord& pair) {
+        return pair.holdout == holdout && ((pair.a == one && pair.b == other) ||
+                                           (pair.a == other && pair.b == one));
+      });
+  return found == component.comparisons.end() ? nullptr : &*found;
+}
+
 std::string ToJsonText(const StudyRecord& record) {
   constexpr int kIndent = 1;
   return ToJson(record).dump(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -23,6 +24,20 @@
 namespace errmap::models {
 
 inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+
+/// The entry of `list` that is called `name`, or null.
+template <typename T>
+requires requires(const T& entry) { entry.name; }
+const T* FindNamed(const std::vector<T>& list, std::string_view name) {
+  const auto found = std::ranges::find(list, name, &T::name);
+  return found == list.end() ? nullptr : &*found;
+}
+template <typename T>
+const T* FindNamed(const ByName<T>& list, std::string_view name) {
+  const auto found =
+      std::ranges::find(list, name, &std::pair<std::string, T>::first);
+  return found == list.end() ? nullptr : &found->second;
+}
 
 /// Value of an option.
 using OptionValue = std::variant<std::int64_t, double, std::string>;
@@ -597,12 +612,8 @@ struct PairTestsRecord {
   std::optional<MeanTestRecord> corrected_t;
   std::optional<MeanTestRecord> diebold_mariano;
 };
-ERRMAP_RECORD(PairTestsRecord,
-              wilcoxon,
-              memory_t,
-              block_t,
-              corrected_t,
-              diebold_mariano)
+ERRMAP_RECORD(
+    PairTestsRecord, wilcoxon, memory_t, block_t, corrected_t, diebold_mariano)
 
 /// Two models under one hold-out.
 struct PairRecord {
@@ -661,11 +672,23 @@ struct StabilityRecord {
 };
 ERRMAP_RECORD(StabilityRecord, holdout, repeats, wins)
 
+/// Why no difference could be established at all.
+struct ObstacleRecord {
+  Obstacle::Kind kind = Obstacle::Kind::kNone;
+  std::int64_t units = 0;
+  std::int64_t needed = 0;  // 0: no number of units would do
+  std::int64_t pairs = 0;
+};
+ERRMAP_RECORD(ObstacleRecord, kind, units, needed, pairs)
+
 struct VerdictRecord {
   std::string holdout;
   Choice choice = Choice::kBaseline;
   std::string model;
   std::optional<std::string> rival;
+  std::optional<Confidence> against_rival;  // that the model is better
+  std::optional<std::string> best_baseline;
+  std::optional<ObstacleRecord> obstacle;
   bool established = false;
   Confidence confidence = Confidence::kNotShown;
   std::string why;
@@ -675,9 +698,82 @@ ERRMAP_RECORD(VerdictRecord,
               choice,
               model,
               rival,
+              against_rival,
+              best_baseline,
+              obstacle,
               established,
               confidence,
               why)
+
+/// What speaks for a recommendation, then what bounds its worth. The figures
+/// that a remark does not hold stand elsewhere in the record.
+enum class RemarkKind {
+  kAveragesMaps,        // model: the simplest single map of the tier
+  kLowestAndSimplest,   // of the first tier
+  kSimplestNearLowest,  // of one unit only; model: of the lowest error
+  kSimplestOfTier,      // model: of the lowest error; excess, confidence
+  kBeatsBaseline,       // model: the best one
+  kGap,
+  kGoal,
+  kCost,
+  kNotNoise,  // columns, shares
+  kInterrupted,
+  kOneRunOnly,
+  kGroupFitsFailed,
+  kNoGroupsHeldOut,
+  kNoGroups,
+  kBlocksForUnits,
+  kTooFewUnits,
+  kHoldoutsDisagree,  // holdouts: in whose first tier the map is not
+  kUnitsCorrelated,   // lag1, pairs, established
+  kExtrapolates,
+  kNotConverged,
+  kNoiseLearning,
+  kOtherCuts,
+  kBetterWithoutMap,  // model: the predictions
+};
+/// "averages maps", ...: the enumerator's words.
+std::string_view ToString(RemarkKind kind);
+
+struct RemarkRecord {
+  RemarkKind kind = RemarkKind::kCost;
+  LeftOut<std::string> model = {};
+  LeftOut<std::vector<std::string>> holdouts = {};
+  LeftOut<double> excess = {};  // of its RMSE over the model's, at most; 95 %
+  LeftOut<Confidence> confidence = {};
+  LeftOut<std::vector<std::string>> columns = {};
+  /// Of the squared residuals, what the means by each column explain (0 to 1).
+  LeftOut<std::vector<double>> shares = {};
+  LeftOut<double> lag1 = {};
+  LeftOut<std::int64_t> pairs = {};
+  LeftOut<std::int64_t> established = {};
+};
+ERRMAP_RECORD(RemarkRecord,
+              kind,
+              model,
+              holdouts,
+              excess,
+              confidence,
+              columns,
+              shares,
+              lag1,
+              pairs,
+              established)
+
+/// Of one prediction.
+struct CostRecord {
+  std::int64_t multiplications = 0;
+  std::int64_t exponentials = 0;
+};
+ERRMAP_RECORD(CostRecord, multiplications, exponentials)
+
+/// What a map remembers.
+struct MemoryRecord {
+  double longest = 0.0;  // time constant; 0: of none
+  std::string time_unit;
+  bool zeroed = false;  // at the start of a session
+};
+ERRMAP_RECORD(MemoryRecord, longest, time_unit, zeroed)
 
 struct RecommendationRecord {
   Choice choice = Choice::kBaseline;
@@ -694,10 +790,14 @@ struct RecommendationRecord {
   std::optional<bool> meets_goal;
   GoalStanding goal_standing = GoalStanding::kNotJudged;
   double extrapolated_share = kNotKnown;
+  CostRecord cost;
+  std::optional<MemoryRecord> memory;
+  std::vector<RemarkRecord> grounds;
+  std::vector<RemarkRecord> doubts;
   std::string sentence;
   std::string why;
-  std::vector<std::string> reasons;
-  std::vector<std::string> caveats;
+  std::vector<std::string> reasons;  // the grounds in words
+  std::vector<std::string> caveats;  // the doubts in words
 };
 ERRMAP_RECORD(RecommendationRecord,
               choice,
@@ -714,6 +814,10 @@ ERRMAP_RECORD(RecommendationRecord,
               meets_goal,
               goal_standing,
               extrapolated_share,
+              cost,
+              memory,
+              grounds,
+              doubts,
               sentence,
               why,
               reasons,
@@ -838,6 +942,7 @@ struct HoldoutRecord {
   bool whole_groups = false;
   bool whole_sessions = false;
   bool among_neighbours = false;
+  bool another_file = false;
   std::int64_t repeats = 1;
   /// Of each fold: how its training rows are held out for choices in a fit.
   std::vector<std::string> inner;
@@ -853,6 +958,7 @@ ERRMAP_RECORD(HoldoutRecord,
               whole_groups,
               whole_sessions,
               among_neighbours,
+              another_file,
               repeats,
               inner,
               train_rows,
@@ -863,6 +969,7 @@ ERRMAP_RECORD(HoldoutRecord,
 
 struct ComponentRecord {
   std::string name;
+  bool interrupted = false;
   DataRecord data;
   double goal = kNotKnown;
   double indifference = kNotKnown;
@@ -879,6 +986,7 @@ struct ComponentRecord {
 };
 ERRMAP_RECORD(ComponentRecord,
               name,
+              interrupted,
               data,
               goal,
               indifference,
@@ -977,6 +1085,12 @@ struct StudyRecord {
 };
 ERRMAP_RECORD(
     StudyRecord, schema, version, seed, interrupted, provenance, components)
+
+/// Two models under a hold-out, either way round, or null.
+const PairRecord* FindPair(const ComponentRecord& component,
+                           std::string_view holdout,
+                           std::string_view one,
+                           std::string_view other);
 
 /// results.json; what is no UTF-8 in names is replaced.
 std::string ToJsonText(const StudyRecord& record);

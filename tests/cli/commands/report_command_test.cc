@@ -1,3 +1,5 @@
+#include <set>
+
 #include <sys/resource.h>
 
 #include "tests/cli/cli_fixture.h"
@@ -35,6 +37,30 @@ TEST_F(ReportCommand, DrawsTheReportOfAComparisonTwiceAlike) {
   EXPECT_THAT(first, HasSubstr("poly:eq8"));
   EXPECT_THAT(Read("study/report.md"), HasSubstr("poly:eq8"));
   EXPECT_THAT(first, HasSubstr("<svg"));
+}
+
+TEST_F(ReportCommand, KeepsInTheRecordAllThatWasJudged) {
+  const Json document =
+      RunJson({"compare",
+               kDown,
+               "--models",
+               "poly:eq7,poly:full:degree=3,net:scg:iterations=5",
+               "--format",
+               "json"});
+  const std::string text = cli::DumpJson(document);
+  EXPECT_EQ(models::ToJsonText(models::FromJsonText(text)), text);
+  const Json& advice = document["components"][0]["recommendation"];
+  EXPECT_EQ(advice["grounds"].size(), advice["reasons"].size());
+  EXPECT_EQ(advice["doubts"].size(), advice["caveats"].size());
+  const auto kinds = [](const Json& remarks) {
+    std::set<std::string> found;
+    for (const Json& remark : remarks) found.insert(remark["kind"]);
+    return found;
+  };
+  EXPECT_THAT(kinds(advice["grounds"]),
+              ::testing::IsSupersetOf({"gap", "goal", "cost"}));
+  EXPECT_THAT(kinds(advice["doubts"]),
+              ::testing::IsSupersetOf({"one run only", "units correlated"}));
 }
 
 TEST_F(ReportCommand, FindsTheRowsOfTheFiguresInResultsJson) {

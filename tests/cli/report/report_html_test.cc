@@ -8,6 +8,7 @@
 
 #include "cli/report/report_markdown.h"
 #include "cli/report/report_tables.h"
+#include "cli/report/result_table.h"
 #include "tests/cli/report_document.h"
 
 namespace errmap::cli {
@@ -79,14 +80,17 @@ TEST(ReportHtml, OpensWithTheAnswer) {
 
 TEST(ReportHtml, OrdersTheLeaderboardByUnseenErrorAndShowsTiers) {
   const models::StudyRecord record = Recorded(MakeReportDocument());
-  const ReportTable table = LeaderboardTable(ViewOf(record.components[0]));
+  const Table table = PageLeaderboard(ViewOf(record.components[0]));
+  const auto shown = [&](std::size_t row, std::size_t column) {
+    return table.Shown(table.rows[row][column]);
+  };
   ASSERT_EQ(table.rows.size(), 3U);
-  EXPECT_EQ(table.rows[0][0], "mean");
-  EXPECT_EQ(table.rows[1][0], "poly:eq8");
+  EXPECT_EQ(shown(0, 0), "mean");
+  EXPECT_EQ(shown(1, 0), "poly:eq8");
   EXPECT_EQ(table.marked, 1U);
-  EXPECT_EQ(table.rows[1][1], "2");
-  EXPECT_EQ(table.rows[1][2], "1.900 (1.520 to 2.470)");
-  EXPECT_EQ(table.rows[2][5], "0.0030, established");
+  EXPECT_EQ(shown(1, 1), "2");
+  EXPECT_EQ(shown(1, 2), "1.900 (1.520 to 2.470)");
+  EXPECT_EQ(shown(2, 5), "0.0030, established");
 }
 
 TEST(ReportHtml, TurnsADifferenceTheWayItIsRead) {
@@ -94,9 +98,9 @@ TEST(ReportHtml, TurnsADifferenceTheWayItIsRead) {
   Json& component = document["components"][0];
   const auto difference = [&] {
     const models::StudyRecord record = Recorded(document);
-    return ComparisonTable(ViewOf(record.components[0]), "groups:5")
-        .rows.at(0)
-        .at(1);
+    const Table table =
+        ComparisonTable(ViewOf(record.components[0]), "groups:5");
+    return table.Shown(table.rows.at(0).at(1));
   };
   const std::string expected = difference();
   EXPECT_EQ(expected, "1.900 (0.950 to 2.850)");

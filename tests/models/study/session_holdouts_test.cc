@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "models/study/study_defaults.h"
 #include "models/study/verdict.h"
 #include "tests/models/history/history_data.h"
 #include "tests/models/study/study_test_tools.h"
@@ -61,6 +62,24 @@ std::string Decisive(const data::Dataset& dataset,
       dataset, holdouts, MakeRecipes({"mean", "poly:temperature"}), {});
   const Judgement judgement = JudgeStudy(dataset, holdouts, study, {});
   return holdouts[judgement.recommendation->holdout].name;
+}
+
+TEST(DefaultHoldouts, HoldOutWhateverCanBeHeldOutWhole) {
+  EXPECT_THAT(DefaultHoldouts(Days(3, true)),
+              ElementsAre("every:3", "groups:5", "sessions:3"));
+  EXPECT_THAT(DefaultHoldouts(Days(6, false)),
+              ElementsAre("every:3", "sessions:5"));
+  EXPECT_THAT(DefaultHoldouts(Days(2, false)),
+              ElementsAre("every:3", "sessions:2", "blocks:5"));
+}
+
+TEST(StudyDefaults, GiveLengthsAGoalAndAnIndifference) {
+  const data::Unit mm = data::UnitOfSymbol("mm");
+  EXPECT_DOUBLE_EQ(DefaultGoal(mm), 0.5e-3);
+  EXPECT_DOUBLE_EQ(DefaultIndifference(mm), 0.02e-3);
+  const data::Unit arcsec = data::UnitOfSymbol("arcsec");
+  EXPECT_TRUE(std::isnan(DefaultGoal(arcsec)));
+  EXPECT_EQ(DefaultIndifference(arcsec), 0.0);
 }
 
 TEST(SessionHoldouts, DecideFromFourSessionsOn) {

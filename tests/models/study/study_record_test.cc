@@ -190,7 +190,7 @@ class SchemaWalk {
         keys->insert(key);
         if (node["properties"].contains(key)) {
           Look<Member>(node["properties"][key], path + "." + key);
-        } else {
+        } else if (!node.contains("additionalProperties")) {
           missing_.insert(path + "." + key);
         }
       }
@@ -229,8 +229,11 @@ TEST(StudyRecord, HasTheKeysOfItsSchemaAndNoOthers) {
   SchemaWalk walk;
   walk.Look<StudyRecord>({{"$ref", "errmap-results-1.schema.json#"}}, "");
   EXPECT_THAT(walk.missing(), ::testing::IsEmpty());
-  // Described for documents of other commands, which share the blocks.
-  EXPECT_THAT(walk.unknown(), ::testing::IsEmpty());
+  // Described for errmap residuals, which shares the block of figures.
+  for (const std::string& path : walk.unknown()) {
+    EXPECT_THAT(path,
+                ::testing::ContainsRegex("\\.(train|test)\\.[a-z0-9_]+$"));
+  }
   EXPECT_GT(walk.num_described(), 150U);
 }
 

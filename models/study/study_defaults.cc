@@ -1,0 +1,52 @@
+#include "models/study/study_defaults.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "models/study/study.h"
+
+namespace errmap::models {
+namespace {
+
+// So many um in the unit; what `otherwise` says for what is no length.
+double OfLengths(double um, double otherwise, const data::Unit& unit) {
+  return unit.quantity == data::Quantity::kLength ? um / unit.display_scale
+                                                  : otherwise;
+}
+
+}  // namespace
+
+std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset) {
+  constexpr Eigen::Index kFolds = 5;
+  std::vector<std::string> specs{"every:3"};
+  const auto groups = static_cast<Eigen::Index>(dataset.groups().labels.size());
+  const Eigen::Index sessions = dataset.num_sessions();
+  if (groups >= 2) {
+    specs.push_back(fmt::format("groups:{}", std::min(groups, kFolds)));
+  }
+  const bool same_units =
+      dataset.groups().column == dataset.log()->sessions.column;
+  if (sessions >= 2 && !(groups >= 2 && same_units)) {
+    specs.push_back(fmt::format("sessions:{}", std::min(sessions, kFolds)));
+  }
+  if (groups < 2 && sessions < kFewestSessionsToDecide) {
+    specs.push_back(
+        fmt::format("blocks:{}", std::min(dataset.num_rows(), kFolds)));
+  }
+  return specs;
+}
+
+double DefaultGoal(const data::Unit& unit) {
+  constexpr double kReportGoalUm = 0.5;
+  return OfLengths(
+      kReportGoalUm, std::numeric_limits<double>::quiet_NaN(), unit);
+}
+
+double DefaultIndifference(const data::Unit& unit) {
+  constexpr double kIndifferenceUm = 0.02;
+  return OfLengths(kIndifferenceUm, 0.0, unit);
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "data/dataset.h"
+
+namespace errmap::models {
+
+// What a study does where nobody says otherwise.
+
+/// SPECs of the hold-outs: rows, and whatever can be held out whole. Two or
+/// three sessions are too few to decide, so without groups blocks stand beside
+/// them.
+std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset);
+
+/// RMSE wanted on held-out rows, in `unit`: of lengths that of NISTIR 5367,
+/// 0.5 um; NaN, none, of all else.
+double DefaultGoal(const data::Unit& unit);
+
+/// Difference in RMSE that never matters, in `unit`: of lengths 0.02 um, of all
+/// else 0.
+double DefaultIndifference(const data::Unit& unit);
+
+}  // namespace errmap::models
