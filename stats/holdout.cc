@@ -14,11 +14,6 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::string_view kForms =
-    "every:K, groups:K[:repeats=R], sessions:K[:repeats=R], blocks:K, "
-    "leave-one-group-out, kfold:K, forward:K[:gap=G], random:F or "
-    "file:TEST.csv";
-
 [[noreturn]] void Refuse(std::string_view text, const std::string& why) {
   throw std::invalid_argument("hold-out '" + std::string(text) + "': " + why);
 }
@@ -197,6 +192,52 @@ void RequireUnits(const HoldoutSpec& spec,
 
 }  // namespace
 
+const std::vector<HoldoutForm>& HoldoutForms() {
+  static const std::vector<HoldoutForm> forms{
+      {"every:K",
+       "every K-th row is held out; its neighbours of the same group are in "
+       "the training rows",
+       {"every:3"}},
+      {"groups:K[:repeats=R]",
+       "whole groups are held out in turn, K runs of them",
+       {"groups:5", "groups:5:repeats=20"}},
+      {"sessions:K[:repeats=R]",
+       "whole sessions are held out in turn, K runs of them",
+       {"sessions:5"}},
+      {"blocks:K", "K runs of rows are held out in turn", {"blocks:5"}},
+      {"leave-one-group-out",
+       "each group is held out in turn",
+       {"leave-one-group-out"}},
+      {"kfold:K",
+       "rows are shuffled and held out in K parts; their neighbours are in the "
+       "training rows",
+       {"kfold:10"}},
+      {"forward:K[:gap=G]",
+       "earlier groups predict the next ones",
+       {"forward:4", "forward:4:gap=1"}},
+      {"random:F", "a random share of the rows is held out", {"random:0.3"}},
+      {"file:TEST.csv", "all rows train, the rows of a file test", {"file:"}}};
+  return forms;
+}
+
+std::string HoldoutFormsText() {
+  std::string text;
+  for (const HoldoutForm& form : HoldoutForms()) {
+    text += (text.empty() ? "" : ", ") + std::string(form.form);
+  }
+  return text;
+}
+
+std::string_view HoldoutMeaning(std::string_view name) {
+  const auto kind = [](std::string_view text) {
+    return text.substr(0, text.find(':'));
+  };
+  for (const HoldoutForm& form : HoldoutForms()) {
+    if (kind(form.form) == kind(name)) return form.meaning;
+  }
+  return "";
+}
+
 HoldoutSpec ParseHoldout(std::string_view text) {
   HoldoutSpec spec;
   spec.text = std::string(text);
@@ -260,7 +301,7 @@ HoldoutSpec ParseHoldout(std::string_view text) {
     spec.share = ParseShare(text, value);
     refuse_option();
   } else {
-    Refuse(text, "unknown; use " + std::string(kForms));
+    Refuse(text, "unknown; use " + HoldoutFormsText());
   }
   return spec;
 }

@@ -22,6 +22,19 @@ enum class HoldoutKind {
   kFile,              // file:TEST.csv    all rows train, another file tests
 };
 
+/// What people are told of a kind of hold-out.
+struct HoldoutForm {
+  std::string_view form;  // "groups:K[:repeats=R]"
+  std::string_view meaning;
+  std::vector<std::string_view> examples;
+};
+/// One per kind; whatever lists the kinds for people is made from this.
+const std::vector<HoldoutForm>& HoldoutForms();
+/// "every:K, groups:K[:repeats=R], ..., file:TEST.csv".
+std::string HoldoutFormsText();
+/// Of a hold-out's name; "" for one of a split file.
+std::string_view HoldoutMeaning(std::string_view name);
+
 /// A hold-out as the user writes it.
 struct HoldoutSpec {
   HoldoutKind kind = HoldoutKind::kEvery;

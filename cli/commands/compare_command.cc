@@ -396,14 +396,13 @@ void AddCompareCommand(CLI::App* app, Run* run) {
                     "Print what would be fitted and how long it may take; fit "
                     "and write nothing");
   command
-      ->add_option("--holdout",
-                   arguments->holdouts,
-                   "Rows to judge by, may be repeated: every:K, "
-                   "groups:K[:repeats=R], sessions:K[:repeats=R], blocks:K, "
-                   "leave-one-group-out, kfold:K, forward:K[:gap=G], "
-                   "random:F, file:TEST.csv (default: every:3, groups:5 where "
-                   "there are groups, sessions:5 where there are sessions, "
-                   "blocks:5 without groups)")
+      ->add_option(
+          "--holdout",
+          arguments->holdouts,
+          "Rows to judge by, may be repeated: " + stats::HoldoutFormsText() +
+              " (default: every:3, groups:5 where "
+              "there are groups, sessions:5 where there are sessions, "
+              "blocks:5 without groups)")
       ->type_name("SPEC")
       ->allow_extra_args(false);
   command

@@ -7,6 +7,7 @@
 
 #include "cli/json_blocks.h"
 #include "models/study/record_json.h"
+#include "stats/holdout.h"
 
 namespace errmap::cli {
 namespace {
@@ -325,31 +326,6 @@ Table DroppedTable(const ReportView& view) {
 
 namespace {
 
-// What a SPEC means, in words.
-std::string HoldoutWords(const std::string& name) {
-  const std::string kind = name.substr(0, name.find(':'));
-  if (kind == "every") {
-    return "every K-th row is held out; its neighbours of the same group are "
-           "in the training rows";
-  }
-  if (kind == "groups") {
-    return "whole groups are held out in turn, K runs of them";
-  }
-  if (kind == "sessions") {
-    return "whole sessions are held out in turn, K runs of them";
-  }
-  if (kind == "blocks") return "K runs of rows are held out in turn";
-  if (kind == "leave-one-group-out") return "each group is held out in turn";
-  if (kind == "kfold") {
-    return "rows are shuffled and held out in K parts; their neighbours are in "
-           "the training rows";
-  }
-  if (kind == "forward") return "earlier groups predict the next ones";
-  if (kind == "random") return "a random share of the rows is held out";
-  if (kind == "file") return "all rows train, the rows of a file test";
-  return "-";
-}
-
 std::string RangeOfSizes(const models::RowsOfFolds& lists) {
   if (lists.empty()) return "-";
   const auto [least, most] = std::ranges::minmax(
@@ -380,7 +356,7 @@ Table HoldoutTable(const ReportView& view) {
          holdout.whole_groups ? "yes" : "no",
          holdout.unit_of_analysis.empty() ? "-" : holdout.unit_of_analysis,
          holdout.units,
-         HoldoutWords(holdout.name)});
+         stats::HoldoutMeaning(holdout.name)});
   }
   SayIfEmpty("There is no hold-out.", &table);
   return table;

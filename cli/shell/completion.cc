@@ -7,6 +7,7 @@
 
 #include "data/csv.h"
 #include "models/recipe_catalog.h"
+#include "stats/holdout.h"
 
 namespace errmap::cli {
 namespace {
@@ -205,18 +206,11 @@ std::string FirstLine(const std::string& text) {
 
 }  // namespace
 
-const std::vector<std::string>& HoldoutExamples() {
-  static const std::vector<std::string> examples = {"every:3",
-                                                    "groups:5",
-                                                    "groups:5:repeats=20",
-                                                    "sessions:5",
-                                                    "blocks:5",
-                                                    "leave-one-group-out",
-                                                    "kfold:10",
-                                                    "forward:4",
-                                                    "forward:4:gap=1",
-                                                    "random:0.3",
-                                                    "file:"};
+std::vector<std::string> HoldoutExamples() {
+  std::vector<std::string> examples;
+  for (const stats::HoldoutForm& form : stats::HoldoutForms()) {
+    examples.insert(examples.end(), form.examples.begin(), form.examples.end());
+  }
   return examples;
 }
 

@@ -33,6 +33,6 @@ Completion Complete(const ProgramReference& program,
 std::string CompletionText(const Completion& completion);
 
 /// One hold-out of each kind, to begin with.
-const std::vector<std::string>& HoldoutExamples();
+std::vector<std::string> HoldoutExamples();
 
 }  // namespace errmap::cli

@@ -12,9 +12,11 @@
 #include <fmt/ranges.h>
 
 #include "cli/shell/number_text.h"
+#include "cli/shell/wrap_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/toml_text.h"
 #include "data/text.h"
+#include "stats/holdout.h"
 
 namespace errmap::cli {
 namespace {
@@ -104,14 +106,15 @@ std::string ListKey(const char* key,
 }
 
 std::string StudyKeys(const StudyPlan& plan) {
+  constexpr std::size_t kWidth = 78;
   std::string text = fmt::format(
       "seed = {}   # of all random choices\n\n"
-      "# Rows to judge by: every:K, groups:K[:repeats=R], "
-      "sessions:K[:repeats=R],\n"
-      "# blocks:K, leave-one-group-out, kfold:K, forward:K[:gap=G], random:F,\n"
-      "# file:TEST.csv. Whole sessions held out tell how a map does on another "
-      "day.\n",
-      plan.config.seed);
+      "{}\n",
+      plan.config.seed,
+      Commented(WrapText("Rows to judge by: " + stats::HoldoutFormsText() +
+                             ". Whole sessions held out tell how a map does on "
+                             "another day.",
+                         kWidth)));
   text += ListKey(
       "holdouts", plan.config.holdouts, plan.components.front().HoldoutNames());
   text +=

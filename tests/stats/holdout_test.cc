@@ -168,7 +168,7 @@ TEST(ParseHoldout, ReadsEveryKind) {
 TEST(ParseHoldout, RefusesAnUnknownKindAndListsTheForms) {
   const std::string forms =
       "unknown; use every:K, groups:K[:repeats=R], sessions:K[:repeats=R], "
-      "blocks:K, leave-one-group-out, kfold:K, forward:K[:gap=G], random:F or "
+      "blocks:K, leave-one-group-out, kfold:K, forward:K[:gap=G], random:F, "
       "file:TEST.csv";
   for (const char* text : {"", ":", "evry:3", "Every:3", "every 3", "5"}) {
     ExpectParseError(text, forms);
