@@ -17,7 +17,7 @@ void ReadHoldouts(ReportView* view) {
     view->decisive = component.recommendation->holdout;
   }
   if (view->decisive.empty() && !view->holdouts.empty()) {
-    view->decisive = view->holdouts.back();
+    view->decisive = view->holdouts.front();
   }
   const models::HoldoutRecord* decisive = HoldoutOf(*view, view->decisive);
   view->decisive_is_unseen = decisive != nullptr && (decisive->whole_groups ||
