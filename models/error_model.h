@@ -15,6 +15,7 @@
 
 #include "data/dataset.h"
 #include "fitting/minimisers/optimizer.h"
+#include "models/prediction_interval.h"
 
 namespace errmap::models {
 
@@ -176,6 +177,8 @@ struct FittedModel {
   /// RMSE on the inner hold-outs of what the fit chose there (target's unit);
   /// NaN where it chose nothing.
   double inner_rmse = std::numeric_limits<double>::quiet_NaN();
+  /// What rows held out say of predictions; nothing where none were.
+  std::optional<PredictionInterval> interval;
 
   /// (m x inputs of the form) of every row; `inputs` are found by name. Throws
   /// std::invalid_argument naming an input not there, or where the sessions

@@ -78,6 +78,12 @@ Json ToJson(const History& history) {
           {"form_inputs", history.form_inputs}};
 }
 
+// "90", "95".
+std::string LevelKey(double coverage) {
+  constexpr double kPercent = 100.0;
+  return std::to_string(std::lround(coverage * kPercent));
+}
+
 Json ToJson(const Guards& guards) {
   return {{"input_margin", guards.input_margin},
           {"error_margin", guards.error_margin},
@@ -85,6 +91,21 @@ Json ToJson(const Guards& guards) {
           {"input_max", ToJson(guards.input_max)},
           {"error_min", guards.error_min},
           {"error_max", guards.error_max}};
+}
+
+Json ToJson(const PredictionInterval& interval) {
+  Json json = {{"holdout", interval.holdout},
+               {"unit", interval.unit},
+               {"groups", interval.units}};
+  Json at_least = Json::array();
+  for (const PredictionInterval::Level& level : interval.levels) {
+    const std::string key = LevelKey(level.coverage);
+    json[key] = std::isfinite(level.half_width) ? Json(level.half_width)
+                                                : Json(nullptr);
+    if (level.at_least) at_least.push_back(key);
+  }
+  json["at_least"] = std::move(at_least);
+  return json;
 }
 
 // Bounds may be infinite, which JSON has no word for: null.
@@ -346,6 +367,29 @@ Guards ReadGuards(const Node& node, Index num_inputs) {
   return guards;
 }
 
+PredictionInterval ReadInterval(const Node& node) {
+  PredictionInterval interval{.holdout = node.At("holdout").Text(),
+                              .unit = "",
+                              .units = node.At("groups").Count(),
+                              .levels = {}};
+  if (const auto unit = node.Find("unit")) interval.unit = unit->Text();
+  std::vector<std::string> at_least;
+  if (const auto keys = node.Find("at_least")) {
+    for (const Node& key : keys->Elements()) at_least.push_back(key.Text());
+  }
+  for (const double coverage : PredictionInterval::kCoverages) {
+    PredictionInterval::Level& level = interval.levels.emplace_back();
+    level.coverage = coverage;
+    const std::string key = LevelKey(level.coverage);
+    if (const auto half_width = node.Find(key)) {
+      level.half_width = half_width->Number();
+      if (!(level.half_width >= 0.0)) half_width->Refuse("must be at least 0");
+    }
+    level.at_least = std::ranges::find(at_least, key) != at_least.end();
+  }
+  return interval;
+}
+
 FittedModel ReadModel(const Node& root) {
   const std::string schema = root.At("schema").Text();
   if (schema != kSchema) {
@@ -404,6 +448,9 @@ FittedModel ReadModel(const Node& root) {
   if (const auto guards = root.Find("guards")) {
     fitted.guards = ReadGuards(*guards, fitted.model->num_inputs());
   }
+  if (const auto interval = root.Find("interval")) {
+    fitted.interval = ReadInterval(*interval);
+  }
   if (fitted.model->num_parameters() != parameters.Count()) {
     parameters.Refuse(fmt::format("is {}, the model has {}",
                                   parameters.Count(),
@@ -449,7 +496,7 @@ std::string ModelToJson(const FittedModel& fitted,
   document["history"] =
       fitted.history != nullptr ? ToJson(*fitted.history) : Json();
   document["guards"] = fitted.guards ? ToJson(*fitted.guards) : Json();
-  document["interval"] = nullptr;
+  document["interval"] = fitted.interval ? ToJson(*fitted.interval) : Json();
   document["provenance"] = Json::object();
   for (const auto& [key, value] : provenance) {
     document["provenance"][key] = value;

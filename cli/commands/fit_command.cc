@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/interval_text.h"
 #include "cli/json_blocks.h"
 #include "cli/report/fit_summary.h"
 #include "cli/report/regression_text.h"
@@ -17,10 +18,12 @@
 #include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
 #include "models/model_file.h"
+#include "models/promise/conformal.h"
 #include "models/study/figure_record.h"
 #include "models/study/fit_blocks.h"
 #include "models/study/fold_pool.h"
 #include "models/study/record_json.h"
+#include "models/study/study_defaults.h"
 
 namespace errmap::cli {
 namespace {
@@ -32,6 +35,7 @@ struct FitArguments {
   std::uint64_t seed = 1;
   std::string format = "table";
   bool correlations = false;
+  bool no_interval = false;
 };
 
 Json FitJson(const models::FittedModel& fitted,
@@ -110,6 +114,7 @@ std::string FitText(const models::FittedModel& fitted,
   if (fitted.regression) {
     text += RegressionText(*fitted.regression, fitted.target);
   }
+  if (fitted.interval) text += IntervalText(*fitted.interval, error) + "\n";
   text += fmt::format(
       "written to {}; it predicts {}, compensate by minus that\n",
       arguments.out,
@@ -120,18 +125,22 @@ std::string FitText(const models::FittedModel& fitted,
 }
 
 int RunFit(const FitArguments& arguments, const std::string& command_line) {
-  const auto recipe = RecipeFromArgument(arguments.model);
+  auto recipe = RecipeFromArgument(arguments.model);
   const data::PreparedDataset prepared = ReadData(arguments.data);
+  const double indifference =
+      models::DefaultIndifference(prepared.dataset.target().unit);
   models::FittedModel fitted;
   const std::atomic<bool>& stop = InstallInterruptFlag();
+  const int jobs =
+      static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   try {
-    const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
     fitted = recipe->Fit(prepared.dataset,
                          {.seed = arguments.seed,
                           .stop = &stop,
                           .explain = true,
-                          .threads = static_cast<int>(cores),
-                          .keep_trace = arguments.format == "json"});
+                          .threads = jobs,
+                          .keep_trace = arguments.format == "json",
+                          .indifference = indifference});
   } catch (const std::invalid_argument& error) {
     Say(fmt::format("{} failed: {}", arguments.model, error.what()));
     return kEveryFitFailed;
@@ -146,6 +155,20 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
                         : std::string("a prediction is not finite")));
     return kEveryFitFailed;
   }
+  const Json configuration =
+      ConfigurationJson(*recipe, prepared.dataset, arguments);
+  if (!arguments.no_interval && !stop.load()) {
+    try {
+      fitted.interval = models::PromiseOf(prepared.dataset,
+                                          std::move(recipe),
+                                          {.seed = arguments.seed,
+                                           .jobs = jobs,
+                                           .stop = &stop,
+                                           .indifference = indifference});
+    } catch (const std::invalid_argument& error) {
+      Say(fmt::format("no interval: {}", error.what()));
+    }
+  }
   const InputFile input = HashInput(arguments.data.file);
   models::SaveModel(
       fitted,
@@ -156,9 +179,7 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
   if (arguments.format == "json") {
     Json document = FitJson(fitted, train, prepared.dataset, arguments);
     document["provenance"] =
-        ProvenanceJson(command_line,
-                       ConfigurationJson(*recipe, prepared.dataset, arguments),
-                       {input});
+        ProvenanceJson(command_line, configuration, {input});
     fmt::print("{}", DumpJson(document));
   } else {
     fmt::print("{}", FitText(fitted, train, prepared.dataset, arguments));
@@ -187,6 +208,10 @@ void AddFitCommand(CLI::App* app, Run* run) {
   command->add_flag("--correlations",
                     arguments->correlations,
                     "Also print the correlations of inputs and target");
+  command->add_flag("--no-interval",
+                    arguments->no_interval,
+                    "Do not fit again with days, cycles or blocks held out to "
+                    "find what the map may promise there");
   command->add_option("--format", arguments->format, "table or json")
       ->check(CLI::IsMember({"table", "json"}))
       ->type_name("table|json")

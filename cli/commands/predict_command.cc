@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <numeric>
 
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/interval_text.h"
 #include "cli/commands/map_warnings.h"
 #include "cli/shell/number_text.h"
 #include "cli/study_file/data_arguments.h"
@@ -99,9 +101,19 @@ int RunPredict(const PredictArguments& arguments) {
     const bool is_finite = std::isfinite(predicted[row]);
     const bool inside =
         whole && is_finite && models::IsInside(fitted.inputs, inputs, row);
-    text += fmt::format("{},,,,,{}\n",
-                        is_finite ? data::CsvNumber(predicted[row]) : "",
-                        inside ? 1 : 0);
+    text += is_finite ? data::CsvNumber(predicted[row]) : "";
+    for (std::size_t i = 0; i < models::PredictionInterval::kCoverages.size();
+         ++i) {
+      const double half_width = fitted.interval
+                                    ? fitted.interval->levels[i].half_width
+                                    : std::numeric_limits<double>::quiet_NaN();
+      text += is_finite && std::isfinite(half_width)
+                  ? fmt::format(",{},{}",
+                                data::CsvNumber(predicted[row] - half_width),
+                                data::CsvNumber(predicted[row] + half_width))
+                  : ",,";
+    }
+    text += inside ? ",1\n" : ",0\n";
   }
   if (arguments.out.empty()) {
     fmt::print("{}", text);
@@ -116,6 +128,11 @@ int RunPredict(const PredictArguments& arguments) {
                     fitted.target.name,
                     unit.empty() ? "" : " in " + unit,
                     aligned ? " since the session's first row" : ""));
+    if (fitted.interval) {
+      Say(IntervalText(*fitted.interval,
+                       ErrorText(fitted.target.unit,
+                                 fitted.interval->levels[0].half_width)));
+    }
     for (const std::string& warning : map.warnings) Say(warning);
     SayOutside(fitted.inputs, inputs);
     if (const Eigen::Index clipped = prediction.clipped.count(); clipped > 0) {

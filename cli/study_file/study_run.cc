@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "cli/study_file/data_arguments.h"
+#include "models/promise/conformal.h"
 
 namespace errmap::cli {
 namespace {
@@ -69,6 +70,14 @@ StudyRun RunPlan(StudyPlan plan,
         comparison.study,
         {comparison.indifference, comparison.goal, run.seed});
     run.interrupted = comparison.study.interrupted;
+    if (comparison.judgement.recommendation && !run.interrupted) {
+      const std::size_t h = comparison.judgement.recommendation->holdout;
+      for (models::ModelResult& model : comparison.study.models) {
+        if (!model.final_fit) continue;
+        model.final_fit->interval = models::PromiseOf(
+            dataset, comparison.holdouts[h], model.holdouts[h]);
+      }
+    }
     before += component.num_fits();
     run.components.push_back(std::move(comparison));
     if (run.interrupted) break;

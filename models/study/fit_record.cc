@@ -171,6 +171,8 @@ ERRMAP_MEMBERS(Guards,
                input_max,
                error_min,
                error_max)
+ERRMAP_MEMBERS(PredictionInterval::Level, coverage, half_width, at_least)
+ERRMAP_MEMBERS(PredictionInterval, holdout, unit, units, levels)
 ERRMAP_MEMBERS(FittedModel,
                name,
                kind,
@@ -186,7 +188,8 @@ ERRMAP_MEMBERS(FittedModel,
                regression,
                history,
                guards,
-               inner_rmse)
+               inner_rmse,
+               interval)
 ERRMAP_MEMBERS(Memorisation,
                train_r2,
                shuffled_r2,

@@ -9,21 +9,10 @@
 
 #include "models/study/confidence.h"
 #include "models/study/study.h"
+#include "models/study/units_of_analysis.h"
 #include "stats/comparison/paired_comparison.h"
 
 namespace errmap::models {
-
-/// Name of the unit where there are no groups.
-inline constexpr const char* kBlockOfRows = "block of rows";
-
-/// What is met as a whole and so counts as one observation in every test.
-struct UnitsOfAnalysis {
-  std::string name;         // "cycle", "day", ...; "session"; kBlockOfRows
-  bool are_groups = false;  // groups or sessions, else blocks of held-out rows
-  bool are_sessions = false;        // what is held out whole is sessions
-  bool separate_sessions = false;   // units are, by a column; confidence.h
-  std::vector<std::string> labels;  // (units) group, or "rows 0-16"
-};
 
 /// A model and the share of the repeats in which it had the lowest error.
 struct WinShare {

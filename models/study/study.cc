@@ -211,7 +211,10 @@ StudyResult RunStudy(const Dataset& dataset,
   }
   const std::vector<std::vector<PreparedFold>> prepared =
       PrepareFolds(dataset, holdouts);
-  const std::vector<StudyTask> tasks = StudyTasks(holdouts, recipes);
+  std::vector<StudyTask> tasks = StudyTasks(holdouts, recipes);
+  if (!options.fit_all_rows) {
+    std::erase_if(tasks, [](const StudyTask& t) { return t.holdout < 0; });
+  }
   std::vector<FitOutcome> final_outcomes(recipes.size());
   std::vector<std::vector<std::vector<FitOutcome>>> outcomes(recipes.size());
   for (auto& of_model : outcomes) {

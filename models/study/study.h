@@ -85,6 +85,7 @@ struct StudyOptions {
   const std::atomic<bool>* stop = nullptr;
   /// The difference in error that never matters (target's unit).
   double indifference = 0.0;
+  bool fit_all_rows = true;  // else models have no final fit
   /// Told (fits done, fits in all) from any thread; may be empty.
   std::function<void(int, int)> progress = {};
   /// Keeps finished fits and gives back those of an earlier run; may be null.

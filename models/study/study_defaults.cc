@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -36,6 +37,21 @@ std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset) {
         fmt::format("blocks:{}", std::min(dataset.num_rows(), kFolds)));
   }
   return specs;
+}
+
+std::string DecisiveDefaultHoldout(const data::Dataset& dataset) {
+  const std::vector<std::string> specs = DefaultHoldouts(dataset);
+  const auto find = [&](std::string_view kind) {
+    return std::ranges::find_if(
+        specs, [&](const std::string& spec) { return spec.starts_with(kind); });
+  };
+  if (dataset.num_sessions() >= kFewestSessionsToDecide) {
+    if (const auto sessions = find("sessions:"); sessions != specs.end()) {
+      return *sessions;
+    }
+  }
+  const auto groups = find("groups:");
+  return groups != specs.end() ? *groups : *find("blocks:");
 }
 
 double DefaultGoal(const data::Unit& unit) {

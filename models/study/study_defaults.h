@@ -14,6 +14,10 @@ namespace errmap::models {
 /// them.
 std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset);
 
+/// That of them which stands for another day: whole sessions where there are
+/// enough to decide, else whole groups, else blocks.
+std::string DecisiveDefaultHoldout(const data::Dataset& dataset);
+
 /// RMSE wanted on held-out rows, in `unit`: of lengths that of NISTIR 5367,
 /// 0.5 um; NaN, none, of all else.
 double DefaultGoal(const data::Unit& unit);

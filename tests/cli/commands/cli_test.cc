@@ -269,7 +269,7 @@ TEST_F(Cli, MapsOfOutFolderEqualThoseOfFit) {
   Compare({"--models",
            "poly:eq9,net:scg:iterations=60",
            "--holdout",
-           "every:3",
+           "groups:5",
            "--out",
            "o"});
   const std::map<std::string, std::string> files = {

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace errmap::models {
+
+/// What a map promises for a session, group or block that it never saw: a
+/// share of its errors lies within a half-width of the predictions. From rows
+/// held out with their whole unit (promise/conformal.h).
+struct PredictionInterval {
+  struct Level {
+    double coverage = 0.0;  // 0.9, 0.95
+    /// Target's unit; NaN where nothing is known.
+    double half_width = std::numeric_limits<double>::quiet_NaN();
+    /// Too few units for this share: that of the largest, which a further unit
+    /// may well exceed.
+    bool at_least = false;
+  };
+  static constexpr std::array<double, 2> kCoverages = {0.9, 0.95};
+
+  std::string holdout;        // "sessions:5"
+  std::string unit;           // "day", "cycle", "block of rows"
+  Eigen::Index units = 0;     // at least 2
+  std::vector<Level> levels;  // as kCoverages
+};
+
+}  // namespace errmap::models
