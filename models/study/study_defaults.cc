@@ -28,6 +28,7 @@ std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset) {
     specs.push_back(fmt::format("groups:{}", std::min(groups, kFolds)));
   }
   const bool same_units =
+      dataset.log() != nullptr &&
       dataset.groups().column == dataset.log()->sessions.column;
   if (sessions >= 2 && !(groups >= 2 && same_units)) {
     specs.push_back(fmt::format("sessions:{}", std::min(sessions, kFolds)));

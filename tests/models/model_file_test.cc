@@ -139,6 +139,30 @@ TEST(ModelFile, ReproducesAMapWithAMemory) {
   EXPECT_EQ(document["inputs"][0]["name"], "t1_degC");
 }
 
+TEST(ModelFile, KeepsWhatAMapPromises) {
+  FittedModel fitted =
+      MakeRecipe("poly:eq8")->Fit(errmap::testing::QuadraticData(40), {});
+  fitted.interval = PredictionInterval{
+      .holdout = "sessions:4",
+      .unit = "day",
+      .units = 12,
+      .levels = {{0.9, 1.25e-3, false}, {0.95, 2.5e-3, true}}};
+  const FittedModel read =
+      ModelFromJson(ModelToJson(fitted, {}), "memory.json");
+  ASSERT_TRUE(read.interval.has_value());
+  EXPECT_EQ(read.interval->holdout, "sessions:4");
+  EXPECT_EQ(read.interval->unit, "day");
+  EXPECT_EQ(read.interval->units, 12);
+  ASSERT_EQ(read.interval->levels.size(), 2U);
+  EXPECT_EQ(read.interval->levels[0].half_width, 1.25e-3);
+  EXPECT_FALSE(read.interval->levels[0].at_least);
+  EXPECT_EQ(read.interval->levels[1].half_width, 2.5e-3);
+  EXPECT_TRUE(read.interval->levels[1].at_least);
+  std::string spoilt = ModelToJson(fitted, {});
+  spoilt.replace(spoilt.find("0.00125"), 7, "-1.0000");
+  EXPECT_THROW(ModelFromJson(spoilt, "memory.json"), data::InputError);
+}
+
 TEST(ModelFile, ReadsFilesFromBeforeThereWereMemories) {
   Json document = Json::parse(SavedModel("poly:eq8"));
   document.erase("history");

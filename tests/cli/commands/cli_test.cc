@@ -310,7 +310,12 @@ TEST_F(Cli, PredictKeepsIdColumnsAndMarksExtrapolation) {
   const auto records = Records(outcome.out);
   ASSERT_EQ(records.size(), 2U);
   EXPECT_EQ(records[0].at("record"), "7");
-  EXPECT_EQ(records[0].at("lower_90"), "");
+  const double promised = std::stod(records[0].at("predicted"));
+  const double lower = std::stod(records[0].at("lower_90"));
+  EXPECT_LT(lower, promised);
+  EXPECT_NEAR(
+      std::stod(records[0].at("upper_90")) - promised, promised - lower, 1e-12);
+  EXPECT_LE(std::stod(records[0].at("lower_95")), lower);
   EXPECT_EQ(records[0].at("inside"), "1");
   EXPECT_EQ(records[1].at("inside"), "0");
   EXPECT_THAT(outcome.err, HasSubstr("1 row outside the trained range"));
@@ -320,6 +325,38 @@ TEST_F(Cli, PredictKeepsIdColumnsAndMarksExtrapolation) {
   Write("q.csv", "position_mm\n-12.7\n");
   EXPECT_THAT(RefusalOf(Run({"predict", "m.json", "q.csv"}), kUnusable),
               HasSubstr("q.csv: no column 'elapsed_cycles'"));
+}
+
+TEST_F(Cli, FitPromisesWhatUnseenCyclesShow) {
+  const Outcome fit =
+      Run({"fit", kDown, "--model", "poly:eq8", "-o", "promise.json"});
+  EXPECT_THAT(fit.out, HasSubstr("90 % of the errors on an unseen cycle lie"));
+  EXPECT_THAT(fit.out, HasSubstr("(groups:5: 35 cycles held out whole)"));
+  const Json interval = Json::parse(Read("promise.json"))["interval"];
+  EXPECT_EQ(interval["holdout"], "groups:5");
+  EXPECT_EQ(interval["unit"], "cycle");
+  EXPECT_EQ(interval["groups"], 35);
+  EXPECT_EQ(interval["at_least"], Json::array());
+  EXPECT_LT(interval["90"], interval["95"]);
+  // The study of compare promises the same.
+  ASSERT_EQ(
+      Run({"compare", kDown, "--models", "poly:eq8", "--out", "study"}).status,
+      0);
+  EXPECT_EQ(Json::parse(Read("study/models/poly_eq8.json"))["interval"],
+            interval);
+  ASSERT_EQ(Run({"fit",
+                 kDown,
+                 "--model",
+                 "poly:eq8",
+                 "--no-interval",
+                 "-o",
+                 "none.json"})
+                .status,
+            0);
+  EXPECT_EQ(Json::parse(Read("none.json"))["interval"], nullptr);
+  const auto records = Records(Run({"predict", "none.json", kDown}).out);
+  EXPECT_EQ(records[0].at("lower_90"), "");
+  EXPECT_EQ(records[0].at("upper_95"), "");
 }
 
 class CliModelFile : public Cli {
