@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/commands/interval_text.h"
 #include "cli/json_blocks.h"
 #include "cli/report/fit_summary.h"
+#include "cli/report/interval_text.h"
 #include "cli/report/regression_text.h"
 #include "cli/report/start_report.h"
 #include "cli/shell/interrupt.h"
@@ -114,7 +114,9 @@ std::string FitText(const models::FittedModel& fitted,
   if (fitted.regression) {
     text += RegressionText(*fitted.regression, fitted.target);
   }
-  if (fitted.interval) text += IntervalText(*fitted.interval, error) + "\n";
+  if (fitted.interval) {
+    text += IntervalLine(models::MakeRecord(*fitted.interval), error) + "\n";
+  }
   text += fmt::format(
       "written to {}; it predicts {}, compensate by minus that\n",
       arguments.out,

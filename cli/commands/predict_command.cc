@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/commands/interval_text.h"
 #include "cli/commands/map_warnings.h"
+#include "cli/report/interval_text.h"
 #include "cli/shell/number_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/map_log.h"
@@ -129,7 +129,7 @@ int RunPredict(const PredictArguments& arguments) {
                     unit.empty() ? "" : " in " + unit,
                     aligned ? " since the session's first row" : ""));
     if (fitted.interval) {
-      Say(IntervalText(*fitted.interval,
+      Say(IntervalLine(models::MakeRecord(*fitted.interval),
                        ErrorText(fitted.target.unit,
                                  fitted.interval->levels[0].half_width)));
     }

@@ -242,6 +242,9 @@ std::string Page::Residuals(const ReportView& view,
     html += "<h4>Residuals of every model, " + HtmlName(view.decisive) +
             "</h4>\n" + every;
   }
+  if (const Table since = SinceStartTable(view); !since.rows.empty()) {
+    html += HtmlTable(since);
+  }
   const bool brief = figures.detail == FigureDetail::kBrief;
   for (const std::string& holdout : view.holdouts) {
     const bool first = holdout == view.decisive;

@@ -57,6 +57,9 @@ std::string Component(const ReportView& view) {
   std::string text = "## " + MarkdownText(view.name) + "\n\n" + Answer(view);
   text += MarkdownTable(ComparisonTable(view, view.decisive), "###");
   text += MarkdownTable(GapTable(view), "###");
+  if (const Table since = SinceStartTable(view); !since.rows.empty()) {
+    text += MarkdownTable(since, "###");
+  }
   for (const std::string& holdout : view.holdouts) {
     text += MarkdownTable(ResidualTable(view, holdout), "###");
   }

@@ -174,6 +174,24 @@ Table ResidualTable(const ReportView& view, const std::string& holdout) {
   return table;
 }
 
+Table SinceStartTable(const ReportView& view) {
+  constexpr double kMinute = 60.0;
+  Table table{.title = "Error since the start of a session, " +
+                       view.recommended + ", " + view.decisive};
+  table.columns = {{"from, min"}, {"to, min"}, {"rows"}, {"mean"}, {"RMSE"}};
+  if (view.component->recommendation) {
+    for (const models::SinceStartRecord& part :
+         view.component->recommendation->since_start) {
+      table.rows.push_back({Number{part.from / kMinute, 3},
+                            Number{part.until / kMinute, 3},
+                            part.n,
+                            Error{part.mean},
+                            Error{part.rmse}});
+    }
+  }
+  return table;
+}
+
 Table NormalityTable(const ReportView& view, const std::string& holdout) {
   Table table{.title = "Are the residuals normal? " + holdout};
   table.note =

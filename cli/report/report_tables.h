@@ -16,6 +16,9 @@ Table ComparisonTable(const ReportView& view, const std::string& holdout);
 /// How often each model wins when the groups are cut anew.
 Table StabilityTable(const ReportView& view);
 
+/// The recommended map's error by time since the session's start.
+Table SinceStartTable(const ReportView& view);
+
 /// Residual statistics of every model, as in the report's section 9.
 Table ResidualTable(const ReportView& view, const std::string& holdout);
 /// Tests of normality of every model's held-out residuals.

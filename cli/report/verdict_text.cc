@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/report/interval_text.h"
 #include "cli/shell/wrap_text.h"
 #include "stats/comparison/paired_comparison.h"
 
@@ -523,6 +524,8 @@ std::string Sentences::OfRemark(const RemarkRecord& remark) const {
           PluralOfUnit(Holdout(record_.gap->unseen)),
           RatioText(row.ratio));
     }
+    case RemarkKind::kPromise:
+      return IntervalText(*advice.promise, error_) + ".";
     case RemarkKind::kGoal:
       return OfGoal();
     case RemarkKind::kCost:

@@ -1,6 +1,7 @@
 #include "models/study/make_study_record.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "models/history/history.h"
@@ -10,9 +11,12 @@
 #include "models/study/held_out_residuals.h"
 #include "models/study/remarks.h"
 #include "models/study/residual_record.h"
+#include "models/study/units_of_analysis.h"
 
 namespace errmap::models {
 namespace {
+
+using Eigen::Index;
 
 std::optional<std::string> TextOrNothing(const std::string& text) {
   return text.empty() ? std::optional<std::string>() : std::optional(text);
@@ -368,6 +372,48 @@ MemoryRecord MemoryOf(const History& history) {
   return record;
 }
 
+// A heating machine's error settles over hours: the first ones are told apart.
+std::vector<SinceStartRecord> SinceStart(const ComponentStudy& study,
+                                         const HoldoutResult& result,
+                                         std::size_t holdout) {
+  constexpr double kMinute = 60.0;
+  constexpr std::array<double, 6> kMinutes = {0, 15, 30, 60, 120, 240};
+  const HeldOutRows held =
+      GatherHeldOut(study.data.dataset, study.holdouts[holdout]);
+  const data::SessionLog* log = held.source->log().get();
+  if (log == nullptr || log->time_unit != "s") return {};
+  const std::vector<Index> sessions = held.source->session_codes();
+  const Eigen::VectorXd residuals = ResidualsOf(held, result);
+  std::array<std::vector<double>, kMinutes.size()> parts;
+  for (std::size_t i = 0; i < held.rows.size(); ++i) {
+    const auto row = static_cast<std::size_t>(held.rows[i]);
+    const Index first =
+        log->first_rows[static_cast<std::size_t>(sessions[row])];
+    const double elapsed =
+        log->time[held.source->log_rows()[row]] - log->time[first];
+    const auto after = std::ranges::upper_bound(kMinutes, elapsed / kMinute) -
+                       kMinutes.begin();
+    parts[static_cast<std::size_t>(std::max<std::ptrdiff_t>(after, 1) - 1)]
+        .push_back(residuals[static_cast<Index>(i)]);
+  }
+  std::vector<SinceStartRecord> records;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    if (parts[part].empty()) continue;
+    const Eigen::Map<const Eigen::VectorXd> values(
+        parts[part].data(), static_cast<Index>(parts[part].size()));
+    records.push_back({.from = kMinutes[part] * kMinute,
+                       .until = part + 1 < kMinutes.size()
+                                    ? kMinutes[part + 1] * kMinute
+                                    : kNotKnown,
+                       .n = values.size(),
+                       .mean = values.mean(),
+                       .rmse = std::sqrt(values.squaredNorm() /
+                                         static_cast<double>(values.size()))});
+  }
+  // One part alone tells nothing beside the whole.
+  return records.size() > 1 ? records : std::vector<SinceStartRecord>();
+}
+
 std::optional<RecommendationRecord> JudgementRecord::Advice() const {
   const auto& advice = judgement_.recommendation;
   if (!advice) return std::nullopt;
@@ -398,10 +444,25 @@ std::optional<RecommendationRecord> JudgementRecord::Advice() const {
   if (model.final_fit->history != nullptr) {
     record.memory = MemoryOf(*model.final_fit->history);
   }
+  if (model.final_fit->interval) {
+    record.promise = MakeRecord(*model.final_fit->interval);
+  }
+  record.since_start = SinceStart(study_, result, advice->holdout);
   return record;
 }
 
 }  // namespace
+
+PromiseRecord MakeRecord(const PredictionInterval& interval) {
+  PromiseRecord record{.holdout = interval.holdout,
+                       .unit = interval.unit,
+                       .units = interval.units,
+                       .levels = {}};
+  for (const PredictionInterval::Level& level : interval.levels) {
+    record.levels.push_back({level.coverage, level.half_width, level.at_least});
+  }
+  return record;
+}
 
 std::vector<FaultRecord> MakeFaultRecords(const data::PreparedDataset& data) {
   std::vector<FaultRecord> records;

@@ -104,6 +104,7 @@ std::vector<RemarkRecord> Remarks::Grounds() {
       })) {
     Add(RemarkKind::kGap);
   }
+  if (record_.recommendation->promise) Add(RemarkKind::kPromise);
   if (record_.recommendation->goal_standing != GoalStanding::kNone) {
     Add(RemarkKind::kGoal);
   }

@@ -29,6 +29,8 @@ std::string_view ToString(RemarkKind kind) {
       return "simplest of tier";
     case RemarkKind::kBeatsBaseline:
       return "beats baseline";
+    case RemarkKind::kPromise:
+      return "promise";
     case RemarkKind::kGap:
       return "gap";
     case RemarkKind::kGoal:

@@ -714,6 +714,7 @@ enum class RemarkKind {
   kSimplestOfTier,      // model: of the lowest error; excess, confidence
   kBeatsBaseline,       // model: the best one
   kGap,
+  kPromise,
   kGoal,
   kCost,
   kNotNoise,  // columns, shares
@@ -775,6 +776,35 @@ struct MemoryRecord {
 };
 ERRMAP_RECORD(MemoryRecord, longest, time_unit, zeroed)
 
+/// A share of the errors on a unit never seen lies within half_width;
+/// PredictionInterval.
+struct PromiseLevelRecord {
+  double coverage = kNotKnown;
+  double half_width = kNotKnown;
+  bool at_least = false;
+};
+ERRMAP_RECORD(PromiseLevelRecord, coverage, half_width, at_least)
+
+struct PromiseRecord {
+  std::string holdout;
+  std::string unit;
+  std::int64_t units = 0;
+  std::vector<PromiseLevelRecord> levels;
+};
+ERRMAP_RECORD(PromiseRecord, holdout, unit, units, levels)
+PromiseRecord MakeRecord(const PredictionInterval& interval);
+
+/// Held-out residuals from `from` to before `until` seconds after the first row
+/// of their session (NaN: to its end).
+struct SinceStartRecord {
+  double from = 0.0;
+  double until = kNotKnown;
+  std::int64_t n = 0;
+  double mean = kNotKnown;
+  double rmse = kNotKnown;
+};
+ERRMAP_RECORD(SinceStartRecord, from, until, n, mean, rmse)
+
 struct RecommendationRecord {
   Choice choice = Choice::kBaseline;
   std::string model;
@@ -792,6 +822,9 @@ struct RecommendationRecord {
   double extrapolated_share = kNotKnown;
   CostRecord cost;
   std::optional<MemoryRecord> memory;
+  LeftOut<PromiseRecord> promise;
+  /// Under `holdout`; empty without times in seconds.
+  std::vector<SinceStartRecord> since_start;
   std::vector<RemarkRecord> grounds;
   std::vector<RemarkRecord> doubts;
   std::string sentence;
@@ -816,6 +849,8 @@ ERRMAP_RECORD(RecommendationRecord,
               extrapolated_share,
               cost,
               memory,
+              promise,
+              since_start,
               grounds,
               doubts,
               sentence,
