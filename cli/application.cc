@@ -1,9 +1,9 @@
 #include "cli/application.h"
 
 #include <csignal>
-#include <cstdio>
 #include <exception>
 #include <new>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -16,6 +16,7 @@
 #include "cli/shell/command_reference.h"
 #include "cli/shell/completion.h"
 #include "cli/shell/man_page.h"
+#include "cli/shell/standard_streams.h"
 #include "data/input_error.h"
 #include "models/version.h"
 
@@ -37,7 +38,7 @@ constexpr const char* kExample =
     "errmap COMMAND --help explains a command.";
 
 int Fail(int status, const std::string& message) {
-  fmt::print(stderr, "errmap: {}\n", message);
+  WriteMessage(fmt::format("errmap: {}\n", message));
   return status;
 }
 
@@ -89,11 +90,11 @@ constexpr std::string_view kManPage = "__man";
 bool RunHiddenCommand(const CLI::App& app, int argc, char** argv) {
   if (argv[1] == kComplete) {
     const std::vector<std::string> words(argv + 2, argv + argc);
-    fmt::print("{}", CompletionText(Complete(DescribeProgram(app), words)));
+    PrintResult(CompletionText(Complete(DescribeProgram(app), words)));
     return true;
   }
   if (argv[1] == kManPage) {
-    fmt::print("{}", ManPage(DescribeProgram(app)));
+    PrintResult(ManPage(DescribeProgram(app)));
     return true;
   }
   return false;
@@ -110,11 +111,7 @@ void RequireKnownCommand(const CLI::App& app, const std::string& word) {
   throw UsageError(fmt::format("no command '{}'; there are {}", word, known));
 }
 
-}  // namespace
-
-int RunApplication(int argc, char** argv) {
-  // A file that grows too long is then a failed write with a message.
-  std::signal(SIGXFSZ, SIG_IGN);
+int RunCommand(int argc, char** argv) {
   Run run{.command_line = ProvenanceCommandLine(argc, argv)};
   CLI::App app(kAbout, "errmap");
   app.footer(kExample);
@@ -133,22 +130,18 @@ int RunApplication(int argc, char** argv) {
   AddCertifyCommand(&app, &run);
   try {
     if (argc < 2) {
-      fmt::print("{}", app.help());
+      PrintResult(app.help());
       return kWrongCommandLine;
     }
     if (RunHiddenCommand(app, argc, argv)) return kDone;
     RequireKnownCommand(app, argv[1]);
     app.parse(argc, argv);
-    if (std::fflush(stdout) != 0) {
-      return Fail(kOtherFailure, "writing to standard output failed");
-    }
     return run.status;
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
-  } catch (const CLI::CallForAllHelp& help) {
-    return app.exit(help);
-  } catch (const CLI::CallForVersion& version) {
-    return app.exit(version);
+  } catch (const CLI::Success& asked) {
+    std::ostringstream text;  // help or version
+    const int status = app.exit(asked, text, text);
+    PrintResult(text.str());
+    return status;
   } catch (const CLI::ParseError& error) {
     return Fail(kWrongCommandLine,
                 OneLine(error.what()) + "; see errmap --help");
@@ -161,6 +154,19 @@ int RunApplication(int argc, char** argv) {
   } catch (const std::exception& error) {
     return Fail(kOtherFailure, OneLine(error.what()));
   }
+}
+
+}  // namespace
+
+int RunApplication(int argc, char** argv) {
+  HoldStandardStreams();
+  // A file that grows too long is then a failed write with a message.
+  std::signal(SIGXFSZ, SIG_IGN);
+  const int status = RunCommand(argc, argv);
+  if (PrintError() == 0) return status;
+  return Fail(kOtherFailure,
+              "cannot write to standard output: " +
+                  std::generic_category().message(PrintError()));
 }
 
 }  // namespace errmap::cli

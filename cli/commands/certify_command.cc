@@ -8,6 +8,7 @@
 #include "cli/report/certify_json.h"
 #include "cli/report/certify_text.h"
 #include "cli/shell/number_text.h"
+#include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/provenance.h"
 #include "models/certification/certification.h"
@@ -45,10 +46,9 @@ int RunCertify(const CertifyArguments& arguments,
     Json document = CertificationJson(certification, floors);
     document["provenance"] =
         ProvenanceJson(command_line, {{"part", arguments.part}}, {});
-    fmt::print("{}", DumpJson(document));
+    PrintResult(DumpJson(document));
   } else {
-    fmt::print("{}",
-               CertificationText(certification, floors, arguments.details));
+    PrintResult(CertificationText(certification, floors, arguments.details));
   }
   if (certification.passed()) return kDone;
   const auto missed = static_cast<long long>(certification.missed.size());

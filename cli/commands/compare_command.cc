@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <memory>
 #include <set>
@@ -16,6 +15,7 @@
 #include "cli/report/results_document.h"
 #include "cli/report/study_table.h"
 #include "cli/shell/interrupt.h"
+#include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/study_config.h"
 #include "cli/study_file/study_file.h"
@@ -300,7 +300,7 @@ int RunCompare(const CompareArguments& arguments) {
       std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int jobs = arguments.jobs > 0 ? arguments.jobs : cores;
   if (arguments.dry_run) {
-    fmt::print("{}", PlanText(plan, jobs, arguments.out));
+    PrintResult(PlanText(plan, jobs, arguments.out));
     return kDone;
   }
   for (std::size_t i = 0; i < plan.components.size(); ++i) {
@@ -324,8 +324,7 @@ int RunCompare(const CompareArguments& arguments) {
   if (journal != nullptr) SayUnlessQuiet(arguments, journal->WritingRemarks());
   const models::StudyRecord record = RecordOf(run);
   // Before the files: a full disk must not cost the answer.
-  fmt::print("{}", Formatted(run, record, arguments.format));
-  std::fflush(stdout);
+  PrintResult(Formatted(run, record, arguments.format));
   if (!arguments.out.empty()) WriteOutputs(run, record, arguments.out);
   return StatusOf(run);
 }

@@ -8,6 +8,7 @@
 #include "cli/json_blocks.h"
 #include "cli/report/summary_text.h"
 #include "cli/shell/number_text.h"
+#include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/fault_text.h"
 #include "cli/study_file/map_log.h"
@@ -121,37 +122,34 @@ int RunEvaluate(const EvaluateArguments& arguments,
       residuals, metrics.residuals.mean, metrics.residuals.sd);
   const double ks_p = stats::KsProbabilityMeanSdGiven(ks_d, residuals.size());
   if (arguments.format == "json") {
-    fmt::print(
-        "{}",
-        DumpJson(
-            {{"schema", "errmap-evaluate-1"},
-             {"model", fitted.name},
-             {"file", arguments.file},
-             {"target", fitted.target.name},
-             {"unit", fitted.target.unit.symbol},
-             {"align", data::ToString(fitted.align)},
-             {"clipped", clipped},
-             {"summary", models::ToJson(models::MakeRecord(metrics))},
-             {"outside", OutsideJson(fitted.inputs, dataset.input_values())},
-             {"faults", models::ToJson(models::MakeFaultRecords(prepared))},
-             {"normality",
-              models::ToJson(models::MakeRecord(
-                  stats::AssessNormality(stats::OrderedSample(residuals)),
-                  {}))},
-             {"provenance",
-              ProvenanceJson(
-                  command_line,
-                  {{"missing", arguments.missing},
-                   {"faults", arguments.faults}},
-                  {HashInput(arguments.model), HashInput(arguments.file)})}}));
+    PrintResult(DumpJson(
+        {{"schema", "errmap-evaluate-1"},
+         {"model", fitted.name},
+         {"file", arguments.file},
+         {"target", fitted.target.name},
+         {"unit", fitted.target.unit.symbol},
+         {"align", data::ToString(fitted.align)},
+         {"clipped", clipped},
+         {"summary", models::ToJson(models::MakeRecord(metrics))},
+         {"outside", OutsideJson(fitted.inputs, dataset.input_values())},
+         {"faults", models::ToJson(models::MakeFaultRecords(prepared))},
+         {"normality",
+          models::ToJson(models::MakeRecord(
+              stats::AssessNormality(stats::OrderedSample(residuals)), {}))},
+         {"provenance",
+          ProvenanceJson(
+              command_line,
+              {{"missing", arguments.missing}, {"faults", arguments.faults}},
+              {HashInput(arguments.model), HashInput(arguments.file)})}}));
     return kDone;
   }
-  fmt::print("{} ({}) on {}: target - predicted of {}\n{}",
-             arguments.model,
-             fitted.name,
-             arguments.file,
-             TargetText(dataset),
-             SummaryText(metrics, fitted.target.unit, ks_d, ks_p));
+  PrintResult(
+      fmt::format("{} ({}) on {}: target - predicted of {}\n{}",
+                  arguments.model,
+                  fitted.name,
+                  arguments.file,
+                  TargetText(dataset),
+                  SummaryText(metrics, fitted.target.unit, ks_d, ks_p)));
   return kDone;
 }
 

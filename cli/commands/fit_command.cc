@@ -14,6 +14,7 @@
 #include "cli/report/start_report.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/number_text.h"
+#include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
@@ -182,9 +183,9 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
     Json document = FitJson(fitted, train, prepared.dataset, arguments);
     document["provenance"] =
         ProvenanceJson(command_line, configuration, {input});
-    fmt::print("{}", DumpJson(document));
+    PrintResult(DumpJson(document));
   } else {
-    fmt::print("{}", FitText(fitted, train, prepared.dataset, arguments));
+    PrintResult(FitText(fitted, train, prepared.dataset, arguments));
   }
   if (stop.load()) {
     Say("interrupted; the best map so far was written");

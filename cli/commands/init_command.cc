@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/study_file_text.h"
 #include "cli/study_file/study_plan.h"
@@ -47,13 +48,13 @@ int RunInit(const InitArguments& arguments) {
   data::WriteFileAtomically(
       arguments.out,
       StudyFileText(plan, PathFrom(arguments.out, arguments.data)));
-  fmt::print(
+  PrintResult(fmt::format(
       "{}: {} component{}; look it over, then errmap compare --config "
       "{}\n",
       data::PrintablePath(arguments.out),
       plan.components.size(),
       plan.components.size() == 1 ? "" : "s",
-      data::PrintablePath(arguments.out));
+      data::PrintablePath(arguments.out)));
   return kDone;
 }
 

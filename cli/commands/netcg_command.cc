@@ -8,6 +8,7 @@
 #include "cli/command.h"
 #include "cli/commands/netcg_json.h"
 #include "cli/shell/number_text.h"
+#include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
@@ -34,11 +35,11 @@ void Print(Json document,
            bool as_json,
            const std::string& command_line) {
   if (!as_json) {
-    fmt::print("{}", text);
+    PrintResult(text);
     return;
   }
   document["provenance"] = ProvenanceJson(command_line, {}, {});
-  fmt::print("{}", DumpJson(document));
+  PrintResult(DumpJson(document));
 }
 
 int RunFile(const NetcgArguments& arguments, const std::string& command_line) {

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -11,6 +10,7 @@
 #include "cli/commands/map_warnings.h"
 #include "cli/report/interval_text.h"
 #include "cli/shell/number_text.h"
+#include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/map_log.h"
 #include "data/atomic_file.h"
@@ -116,7 +116,7 @@ int RunPredict(const PredictArguments& arguments) {
     text += inside ? ",1\n" : ",0\n";
   }
   if (arguments.out.empty()) {
-    fmt::print("{}", text);
+    PrintResult(text);
   } else {
     data::WriteFileAtomically(arguments.out, text);
   }

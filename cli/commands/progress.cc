@@ -1,11 +1,11 @@
 #include "cli/commands/progress.h"
 
-#include <cstdio>
 #include <string>
 #include <unistd.h>
 
 #include <fmt/format.h>
 
+#include "cli/shell/standard_streams.h"
 #include "cli/study_file/rough_time.h"
 
 namespace errmap::cli {
@@ -29,7 +29,7 @@ Progress::Progress(bool enabled)
       last_line_(start_) {}
 
 Progress::~Progress() {
-  if (enabled_ && on_terminal_ && shown_ > 0) fmt::print(stderr, "\r\033[K");
+  if (enabled_ && on_terminal_ && shown_ > 0) WriteMessage("\r\033[K");
 }
 
 void Progress::Show(int done, int all) {
@@ -47,17 +47,16 @@ void Progress::Show(int done, int all) {
   if (!on_terminal_) {
     if (now - last_line_ < kBetweenLines) return;
     last_line_ = now;
-    fmt::print(stderr, "errmap: {}\n", text);
+    WriteMessage(fmt::format("errmap: {}\n", text));
     return;
   }
   const int filled =
       static_cast<int>(static_cast<long long>(kWidth) * done / all);
-  fmt::print(stderr,
-             "\r[{}{}] {}\033[K",
-             std::string(static_cast<std::size_t>(filled), '#'),
-             std::string(static_cast<std::size_t>(kWidth - filled), '.'),
-             text);
-  std::fflush(stderr);
+  WriteMessage(
+      fmt::format("\r[{}{}] {}\033[K",
+                  std::string(static_cast<std::size_t>(filled), '#'),
+                  std::string(static_cast<std::size_t>(kWidth - filled), '.'),
+                  text));
 }
 
 }  // namespace errmap::cli

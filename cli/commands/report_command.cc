@@ -10,6 +10,7 @@
 #include "cli/report/report_files.h"
 #include "cli/report/report_html.h"
 #include "cli/report/report_markdown.h"
+#include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
@@ -46,9 +47,9 @@ int RunReport(const ReportArguments& arguments) {
   const models::StudyRecord results = ReadResults(arguments.folder);
   if (!arguments.figures.empty()) PrepareFolder(arguments.figures);
   if (arguments.format == "md") {
-    fmt::print("{}", ReportMarkdown(results));
+    PrintResult(ReportMarkdown(results));
   } else if (arguments.format == "html") {
-    fmt::print("{}", ReportHtml(results, MakeFigures(results)));
+    PrintResult(ReportHtml(results, MakeFigures(results)));
   } else {
     WriteReport(results, arguments.folder);
   }

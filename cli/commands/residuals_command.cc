@@ -13,6 +13,7 @@
 #include "cli/report/residual_text.h"
 #include "cli/report/residual_words.h"
 #include "cli/shell/number_text.h"
+#include "cli/shell/standard_streams.h"
 #include "cli/shell/wrap_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/provenance.h"
@@ -262,28 +263,28 @@ int RunResiduals(const ResidualsArguments& arguments,
         ProvenanceJson(command_line,
                        ConfigurationJson(arguments, inputs),
                        {HashInput(arguments.file)});
-    fmt::print("{}", DumpJson(document));
+    PrintResult(DumpJson(document));
     return kDone;
   }
   constexpr std::size_t kWidth = 80;
-  fmt::print(
+  PrintResult(fmt::format(
       "{}, column {}: {} in {}{}\n",
       arguments.file,
       arguments.column,
       Count(values.size(), "value"),
       inputs.order,
-      inputs.group_column.empty() ? "" : ", groups " + inputs.group_column);
+      inputs.group_column.empty() ? "" : ", groups " + inputs.group_column));
   if (arguments.as_printed_1995) {
-    fmt::print("{}\ncorrect:\n", Report1995Text(printed, r_squared_1995, unit));
+    PrintResult(Report1995Text(printed, r_squared_1995, unit) + "\ncorrect:\n");
   }
-  fmt::print("{}\n{}\n{}\n{}\n",
-             SampleText(metrics, values, report.normality.shape, unit),
-             NormalityText(report, values.size()),
-             RandomnessText(report),
-             WrapText(sentences, kWidth));
+  PrintResult(
+      fmt::format("{}\n{}\n{}\n{}\n",
+                  SampleText(metrics, values, report.normality.shape, unit),
+                  NormalityText(report, values.size()),
+                  RandomnessText(report),
+                  WrapText(sentences, kWidth)));
   if (arguments.details) {
-    fmt::print(
-        "{}",
+    PrintResult(
         DetailsText(report, values, unit, static_cast<Index>(arguments.bins)));
   }
   return kDone;

@@ -7,6 +7,7 @@
 
 #include "cli/command.h"
 #include "cli/shell/number_text.h"
+#include "cli/shell/standard_streams.h"
 #include "cli/study_file/fault_text.h"
 #include "models/model_spec.h"
 #include "models/recipe_catalog.h"
@@ -197,7 +198,9 @@ std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
   }
 }
 
-void Say(const std::string& line) { fmt::print(stderr, "errmap: {}\n", line); }
+void Say(const std::string& line) {
+  WriteMessage(fmt::format("errmap: {}\n", line));
+}
 
 void AddSeedOption(CLI::App* command,
                    std::uint64_t* seed,
