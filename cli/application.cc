@@ -68,7 +68,7 @@ std::string ProvenanceCommandLine(int argc, char** argv) {
   std::string line = "errmap";
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
-    if (word == "--quiet" || word == "--resume") continue;
+    if (word == "--quiet" || word == "--resume" || word == "--force") continue;
     if (word == "--jobs" || word == "--out" || word == "--format" ||
         word == "-o") {
       ++i;

@@ -14,14 +14,6 @@ namespace {
 
 constexpr std::string_view kPrefix = "file:";
 
-std::string PathOf(std::string_view spec) {
-  std::string path(spec.substr(kPrefix.size()));
-  if (path.size() >= 2 && path.front() == '"' && path.back() == '"') {
-    path = path.substr(1, path.size() - 2);
-  }
-  return path;
-}
-
 // The map's figures mean nothing in another unit; we do not guess at factors.
 void RequireUnit(const std::string& what,
                  const data::Unit& of_map,
@@ -97,9 +89,18 @@ class FileRecipe final : public ModelRecipe {
 
 }  // namespace
 
+std::string FileOfSpec(std::string_view spec) {
+  if (!spec.starts_with(kPrefix)) return "";
+  std::string path(spec.substr(kPrefix.size()));
+  if (path.size() >= 2 && path.front() == '"' && path.back() == '"') {
+    path = path.substr(1, path.size() - 2);
+  }
+  return path;
+}
+
 std::unique_ptr<ModelRecipe> MakeFileRecipe(std::string_view spec) {
   if (!spec.starts_with(kPrefix)) return nullptr;
-  const std::string path = PathOf(spec);
+  const std::string path = FileOfSpec(spec);
   if (path.empty()) {
     throw std::invalid_argument(
         fmt::format("model '{}': names no file; write file:model.json", spec));

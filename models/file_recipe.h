@@ -8,6 +8,9 @@
 
 namespace errmap::models {
 
+/// The path in "file:model.json"; "" of any other SPEC.
+std::string FileOfSpec(std::string_view spec);
+
 /// "file:model.json": an existing map, judged as it is; nothing is fitted.
 /// Returns null where `spec` does not begin with "file:". Its Fit throws
 /// std::invalid_argument where the data lack an input of the map or measure

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -10,6 +11,7 @@
 
 #include "cli/command.h"
 #include "cli/commands/progress.h"
+#include "cli/report/claimed_folder.h"
 #include "cli/report/output_folder.h"
 #include "cli/report/result_table.h"
 #include "cli/report/results_document.h"
@@ -43,6 +45,7 @@ struct CompareArguments {
   std::string save_split;
   std::vector<PredictionsFile> predictions;
   bool resume = false;
+  bool force = false;
   std::string config;
   std::vector<std::string> changes;  // KEY=VALUE of --set
   bool dry_run = false;
@@ -303,11 +306,19 @@ int RunCompare(const CompareArguments& arguments) {
     PrintResult(PlanText(plan, jobs, arguments.out));
     return kDone;
   }
+  // Better now than after minutes of fitting.
+  const std::vector<std::string> inputs = plan.InputPaths();
+  for (const ComponentConfig& component : plan.config.components) {
+    RefuseInputAsOutput("--save-split", component.save_split, inputs);
+  }
+  std::optional<ClaimedFolder> folder;
+  if (!arguments.out.empty()) {
+    folder.emplace(arguments.out, OutputNames(plan), inputs, arguments.force);
+    models::JournalFile::RequireNoOther(arguments.out, arguments.force);
+  }
   for (std::size_t i = 0; i < plan.components.size(); ++i) {
     SaveSplit(plan.components[i].comparison, plan.config.components[i]);
   }
-  // Better now than after minutes of fitting.
-  if (!arguments.out.empty()) PrepareFolder(arguments.out);
   const std::unique_ptr<models::JournalFile> journal = OpenJournal(arguments);
   StudyRun run;
   {
@@ -325,7 +336,7 @@ int RunCompare(const CompareArguments& arguments) {
   const models::StudyRecord record = RecordOf(run);
   // Before the files: a full disk must not cost the answer.
   PrintResult(Formatted(run, record, arguments.format));
-  if (!arguments.out.empty()) WriteOutputs(run, record, arguments.out);
+  if (folder) WriteOutputs(run, record, &*folder);
   return StatusOf(run);
 }
 
@@ -448,6 +459,7 @@ void AddCompareCommand(CLI::App* app, Run* run) {
                     arguments->resume,
                     "Go on with the run that was broken off in --out DIR: fits "
                     "finished there are not repeated");
+  AddForceFlag(command, &arguments->force);
   command->footer(
       "Exit status: 0 done, 2 wrong command line, 3 unusable input, 4 every "
       "fit failed, 130 interrupted.\n"

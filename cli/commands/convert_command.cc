@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/report/claimed_folder.h"
 #include "cli/shell/number_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "data/atomic_file.h"
@@ -21,6 +22,7 @@ struct ConvertArguments {
 };
 
 int RunConvert(const ConvertArguments& arguments) {
+  RefuseInputAsOutput("OUT", arguments.out, {arguments.in});
   const data::PatternTable table = data::ReadPatterns(arguments.in);
   data::WriteFileAtomically(
       arguments.out,

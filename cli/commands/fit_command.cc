@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/json_blocks.h"
+#include "cli/report/claimed_folder.h"
 #include "cli/report/fit_summary.h"
 #include "cli/report/interval_text.h"
 #include "cli/report/regression_text.h"
@@ -18,6 +19,7 @@
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
+#include "models/file_recipe.h"
 #include "models/model_file.h"
 #include "models/promise/conformal.h"
 #include "models/study/figure_record.h"
@@ -128,6 +130,10 @@ std::string FitText(const models::FittedModel& fitted,
 }
 
 int RunFit(const FitArguments& arguments, const std::string& command_line) {
+  RefuseInputAsOutput(
+      "-o",
+      arguments.out,
+      {arguments.data.file, models::FileOfSpec(arguments.model)});
   auto recipe = RecipeFromArgument(arguments.model);
   const data::PreparedDataset prepared = ReadData(arguments.data);
   const double indifference =

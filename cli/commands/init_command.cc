@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/report/claimed_folder.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/study_file_text.h"
@@ -34,6 +35,7 @@ std::string PathFrom(const std::string& study_file, const std::string& data) {
 }
 
 int RunInit(const InitArguments& arguments) {
+  RefuseInputAsOutput("-o", arguments.out, {arguments.data});
   if (!arguments.force && std::filesystem::exists(arguments.out)) {
     throw UsageError(fmt::format(
         "{} is there already; write another with -o, or replace it with "

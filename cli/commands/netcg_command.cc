@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -7,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/commands/netcg_json.h"
+#include "cli/report/claimed_folder.h"
 #include "cli/shell/number_text.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
@@ -26,6 +28,7 @@ struct NetcgArguments {
   std::string format = "table";
   bool corrected = false;
   bool full_weights = false;
+  bool force = false;
   bool quiet = false;
   models::NetcgStudyOptions options;  // options.netcg of a run file, too
 };
@@ -42,7 +45,40 @@ void Print(Json document,
   PrintResult(DumpJson(document));
 }
 
+// Writes into the folder of --out, where there is one; files of a run file
+// without it are named by that file. Devices that it names are written to.
+void WriteFiles(const std::vector<models::NetcgRecord>& records,
+                const NetcgArguments& arguments,
+                const std::vector<std::string>& inputs) {
+  const std::string& out = arguments.options.netcg.out;
+  if (out.empty()) {
+    models::WriteNetcgFiles(records);
+    return;
+  }
+  // A later run may write what an earlier one wrote.
+  std::map<std::string, std::string> contents;
+  for (const models::NetcgRecord& record : records) {
+    for (const models::NetcgOutputFile& file : record.files) {
+      const auto name = std::filesystem::path(file.path).lexically_relative(
+          std::filesystem::path(out).lexically_normal());
+      if (name.empty() || *name.begin() == "..") {
+        data::WriteFileAtomically(file.path, file.content);
+      } else {
+        contents[name.string()] = file.content;
+      }
+    }
+  }
+  std::vector<std::string> names;
+  for (const auto& [name, content] : contents) names.push_back(name);
+  ClaimedFolder folder(out, names, inputs, arguments.force);
+  for (const auto& [name, content] : contents) folder.Write(name, content);
+  folder.Finish();
+}
+
 int RunFile(const NetcgArguments& arguments, const std::string& command_line) {
+  const std::string& out = arguments.options.netcg.out;
+  // Before the work, not after it.
+  if (!out.empty()) PrepareFolder(out);
   const models::NetcgOptions& options = arguments.options.netcg;
   const bool as_json = arguments.format == "json";
   const auto records = models::RunNetcgFile(
@@ -58,7 +94,7 @@ int RunFile(const NetcgArguments& arguments, const std::string& command_line) {
                         count,
                         data::Printable(run.title, kTitle)));
       });
-  models::WriteNetcgFiles(records);
+  WriteFiles(records, arguments, {arguments.file});
   Print(as_json ? NetcgJson(arguments.file, records, options) : Json(),
         as_json ? "" : models::NetcgText(records, options),
         as_json,
@@ -70,7 +106,7 @@ int RunStudy(const NetcgArguments& arguments, const std::string& command_line) {
   const bool as_json = arguments.format == "json";
   const std::string& out = arguments.options.netcg.out;
   // Before the work, not after it.
-  if (!out.empty()) std::filesystem::create_directories(out);
+  if (!out.empty()) PrepareFolder(out);
   const models::NetcgStudy study =
       models::RunReportStudy(arguments.study, arguments.options);
   const std::string text = models::StudyText(study);
@@ -82,7 +118,7 @@ int RunStudy(const NetcgArguments& arguments, const std::string& command_line) {
     records.emplace_back().files = study.inputs;
     records.back().files.push_back(
         {(std::filesystem::path(out) / "table4.txt").string(), text});
-    models::WriteNetcgFiles(records);
+    WriteFiles(records, arguments, {});
     if (!arguments.quiet) {
       Say(
           fmt::format("reports, weights, patterns and netcg.in, which runs "
@@ -178,6 +214,7 @@ void AddNetcgCommand(CLI::App* app, Run* run) {
       ->check(CLI::IsMember({"table", "json"}))
       ->type_name("table|json")
       ->capture_default_str();
+  AddForceFlag(command, &arguments->force);
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
   command->footer(
       models::NetcgErrata() +

@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/commands/map_warnings.h"
+#include "cli/report/claimed_folder.h"
 #include "cli/report/interval_text.h"
 #include "cli/shell/number_text.h"
 #include "cli/shell/standard_streams.h"
@@ -65,6 +66,9 @@ data::Dataset RowsToPredict(const models::FittedModel& fitted,
 }
 
 int RunPredict(const PredictArguments& arguments) {
+  RefuseInputAsOutput("-o",
+                      arguments.out,
+                      {arguments.model, arguments.file, arguments.log.after});
   const models::FittedModel fitted = models::LoadModel(arguments.model);
   const data::CsvTable table =
       ReadForMap(fitted, arguments.file, MapColumns::kInputs, arguments.quiet);

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/report/claimed_folder.h"
 #include "cli/report/figures.h"
-#include "cli/report/output_folder.h"
 #include "cli/report/report_files.h"
 #include "cli/report/report_html.h"
 #include "cli/report/report_markdown.h"
@@ -25,6 +25,7 @@ struct ReportArguments {
   std::string figures;
   std::string image = "pdf";
   std::string format;
+  bool force = false;
 };
 
 ImageFormat FormatNamed(const std::string& name) {
@@ -32,9 +33,12 @@ ImageFormat FormatNamed(const std::string& name) {
   return name == "png" ? ImageFormat::kPng : ImageFormat::kPdf;
 }
 
+std::string ResultsPath(const std::string& folder) {
+  return (std::filesystem::path(folder) / "results.json").string();
+}
+
 models::StudyRecord ReadResults(const std::string& folder) {
-  const std::string path =
-      (std::filesystem::path(folder) / "results.json").string();
+  const std::string path = ResultsPath(folder);
   const std::string text = data::ReadFile(path);
   try {
     return models::FromJsonText(text);
@@ -45,18 +49,27 @@ models::StudyRecord ReadResults(const std::string& folder) {
 
 int RunReport(const ReportArguments& arguments) {
   const models::StudyRecord results = ReadResults(arguments.folder);
-  if (!arguments.figures.empty()) PrepareFolder(arguments.figures);
   if (arguments.format == "md") {
     PrintResult(ReportMarkdown(results));
   } else if (arguments.format == "html") {
     PrintResult(ReportHtml(results, MakeFigures(results)));
   } else {
-    WriteReport(results, arguments.folder);
+    ClaimedFolder folder(arguments.folder,
+                         {kReportPage, kReportText},
+                         {ResultsPath(arguments.folder)},
+                         arguments.force);
+    WriteReport(results, &folder);
+    folder.Finish();
   }
   if (arguments.figures.empty()) return kDone;
-  const std::size_t written = WriteFigures(MakeFigures(results, true),
-                                           FormatNamed(arguments.image),
-                                           arguments.figures);
+  const FigureSet figures = MakeFigures(results, true);
+  ClaimedFolder folder(arguments.figures,
+                       FigureFileNames(figures),
+                       {ResultsPath(arguments.folder)},
+                       arguments.force);
+  const std::size_t written =
+      WriteFigures(figures, FormatNamed(arguments.image), &folder);
+  folder.Finish();
   Say(fmt::format(
       "{} figures as svg in {}; gnuplot *.gp there draws them as {}",
       written,
@@ -96,6 +109,7 @@ void AddReportCommand(CLI::App* app, Run* run) {
                    "Print html or md instead of writing into DIR")
       ->check(CLI::IsMember({"html", "md"}))
       ->type_name("html|md");
+  AddForceFlag(command, &arguments->force);
   command->footer(
       "Exit status: 0 done, 2 wrong command line, 3 unusable results.json.\n"
       "Example: errmap report study --figures paper, then in paper gnuplot "

@@ -1,4 +1,3 @@
-#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -8,10 +7,9 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/report/output_folder.h"
+#include "cli/report/claimed_folder.h"
 #include "cli/shell/number_text.h"
 #include "cli/study_file/data_arguments.h"
-#include "data/atomic_file.h"
 #include "data/turning_centre/simulation.h"
 #include "data/turning_centre/simulation_files.h"
 
@@ -28,6 +26,7 @@ struct SimulateArguments {
   std::string folder;
   SimulationOptions simulation;
   FileOptions files;
+  bool force = false;
   bool quiet = false;
 };
 
@@ -38,17 +37,17 @@ int RunSimulate(const SimulateArguments& arguments) {
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
-  // Before the work, not after it.
-  PrepareFolder(arguments.folder);
-  const Simulation simulation = Simulate(options);
-  const std::filesystem::path root(arguments.folder);
   const std::vector<std::string> names =
       data::turning_centre::SimulationFileNames();
+  // Before the work, not after it.
+  ClaimedFolder folder(arguments.folder, names, {}, arguments.force);
+  const Simulation simulation = Simulate(options);
   for (const std::string& name : names) {
-    data::WriteFileAtomically((root / name).string(),
-                              data::turning_centre::SimulationFile(
-                                  simulation, arguments.files, name));
+    folder.Write(name,
+                 data::turning_centre::SimulationFile(
+                     simulation, arguments.files, name));
   }
+  folder.Finish();
   if (!arguments.quiet) {
     Say(fmt::format("{} of {}, {} in {}; README.md there says what they are",
                     Count(options.days, "day"),
@@ -137,6 +136,7 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
       "--truth",
       arguments->files.truth,
       "Add the error without reading noise: truth_mm, truth_urad");
+  AddForceFlag(command, &arguments->force);
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
   command->footer(
       "Example: errmap simulate turning-centre -o simulated --days 3 --dead "

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include <fmt/format.h>
 
 #include "cli/report/comparison_figures.h"
 #include "cli/report/residual_figures.h"
 #include "cli/report/svg.h"
-#include "data/atomic_file.h"
 
 namespace errmap::cli {
 namespace {
@@ -69,6 +67,17 @@ std::vector<Figure> FiguresOf(const ReportView& view,
   return figures;
 }
 
+// Those that there are data for.
+std::vector<const Figure*> Drawn(const FigureSet& figures) {
+  std::vector<const Figure*> drawn;
+  for (const ComponentFigures& component : figures.components) {
+    for (const Figure& figure : component.figures) {
+      if (figure.missing.empty()) drawn.push_back(&figure);
+    }
+  }
+  return drawn;
+}
+
 }  // namespace
 
 FigureSet MakeFigures(const models::StudyRecord& record, bool everything) {
@@ -98,26 +107,28 @@ std::string FigureSvg(const Figure& figure) {
              figure.description);
 }
 
+std::vector<std::string> FigureFileNames(const FigureSet& figures) {
+  std::vector<std::string> names;
+  for (const Figure* figure : Drawn(figures)) {
+    names.push_back(figure->plot.name + ".svg");
+    names.push_back(figure->plot.name + ".gp");
+  }
+  return names;
+}
+
 std::size_t WriteFigures(const FigureSet& figures,
                          ImageFormat format,
-                         const std::string& folder) {
-  const std::filesystem::path root(folder);
-  std::size_t written = 0;
-  for (const ComponentFigures& component : figures.components) {
-    for (const Figure& figure : component.figures) {
-      if (!figure.missing.empty()) continue;
-      const std::string& name = figure.plot.name;
-      data::WriteFileAtomically((root / (name + ".svg")).string(),
-                                SvgFile(FigureSvg(figure)));
-      data::WriteFileAtomically(
-          (root / (name + ".gp")).string(),
-          PlotScript(figure.plot,
-                     format,
-                     fmt::format("{}.{}", name, ToString(format))));
-      ++written;
-    }
+                         ClaimedFolder* folder) {
+  const std::vector<const Figure*> drawn = Drawn(figures);
+  for (const Figure* figure : drawn) {
+    const std::string& name = figure->plot.name;
+    folder->Write(name + ".svg", SvgFile(FigureSvg(*figure)));
+    folder->Write(name + ".gp",
+                  PlotScript(figure->plot,
+                             format,
+                             fmt::format("{}.{}", name, ToString(format))));
   }
-  return written;
+  return drawn.size();
 }
 
 }  // namespace errmap::cli

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/report/claimed_folder.h"
 #include "cli/report/gnuplot.h"
 #include "cli/report/report_view.h"
 
@@ -46,11 +47,14 @@ FigureSet MakeFigures(const models::StudyRecord& record,
 /// The figure as SVG.
 std::string FigureSvg(const Figure& figure);
 
+/// Names of the files that WriteFigures writes.
+std::vector<std::string> FigureFileNames(const FigureSet& figures);
+
 /// Writes every figure as DIR/NAME.svg with DIR/NAME.gp, the gnuplot script
 /// that draws it as NAME.FORMAT, data included. Returns their number. Throws
 /// std::system_error where the folder cannot be written.
 std::size_t WriteFigures(const FigureSet& figures,
                          ImageFormat format,
-                         const std::string& folder);
+                         ClaimedFolder* folder);
 
 }  // namespace errmap::cli

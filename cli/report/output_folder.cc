@@ -1,11 +1,9 @@
 #include "cli/report/output_folder.h"
 
 #include <cctype>
-#include <cerrno>
 #include <filesystem>
 #include <set>
-#include <system_error>
-#include <unistd.h>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -17,6 +15,8 @@
 
 namespace errmap::cli {
 namespace {
+
+constexpr const char* kResults = "results.json";
 
 // A file name of a SPEC or component less its ending: what is safe stays, the
 // rest becomes '_'.
@@ -35,32 +35,52 @@ std::string FileNameOf(const std::string& text, std::set<std::string>* taken) {
   return name;
 }
 
+// Names of the files of a component, relative to the output folder.
+struct ComponentFiles {
+  std::string residuals;
+  std::vector<std::string> models;  // as many as the models
+};
+
+// `names`: of the components; `models`: of the models of each. Whether a model
+// failed does not matter, so that the names are known before the work.
+std::vector<ComponentFiles> FilesOf(
+    const std::vector<std::string>& names,
+    const std::vector<std::vector<std::string>>& models,
+    bool has_several) {
+  std::set<std::string> taken;
+  std::vector<ComponentFiles> all;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string folder =
+        has_several ? FileNameOf(names[i], &taken) : std::string();
+    ComponentFiles& files = all.emplace_back();
+    files.residuals =
+        has_several ? "residuals/" + folder + ".csv" : "residuals.csv";
+    std::set<std::string> models_taken;
+    for (const std::string& model : models[i]) {
+      files.models.push_back("models/" + folder + (has_several ? "/" : "") +
+                             FileNameOf(model, &models_taken) + ".json");
+    }
+  }
+  return all;
+}
+
 void WriteModels(const StudyRun& run,
                  const Comparison& component,
-                 const std::filesystem::path& folder) {
+                 const std::vector<std::string>& names,
+                 ClaimedFolder* folder) {
   const models::Provenance provenance =
       ModelProvenance(run.command_line,
                       {component.file, component.sha256},
                       component.data.dataset.num_rows(),
                       run.seed);
-  std::set<std::string> taken;
-  for (const models::ModelResult& model : component.study.models) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const models::ModelResult& model = component.study.models[i];
     if (!model.final_fit) continue;
-    models::SaveModel(
-        *model.final_fit,
-        provenance,
-        (folder / (FileNameOf(model.name, &taken) + ".json")).string());
+    folder->Write(names[i], models::ModelToJson(*model.final_fit, provenance));
   }
 }
 
 }  // namespace
-
-void PrepareFolder(const std::string& path) {
-  std::filesystem::create_directories(path);
-  if (access(path.c_str(), W_OK | X_OK) != 0) {
-    throw std::system_error(errno, std::generic_category(), path);
-  }
-}
 
 void RemoveAbandoned(const std::string& folder) {
   data::RemoveAbandonedFiles(folder);
@@ -118,28 +138,43 @@ std::string ResidualsCsv(const Comparison& comparison) {
   return text;
 }
 
+std::vector<std::string> OutputNames(const StudyPlan& plan) {
+  std::vector<std::string> names;
+  std::vector<std::vector<std::string>> models;
+  for (const ComponentPlan& component : plan.components) {
+    names.push_back(component.comparison.name);
+    models.push_back(component.ModelNames());
+  }
+  std::vector<std::string> all = {kResults, kReportPage, kReportText};
+  for (ComponentFiles& files :
+       FilesOf(names, models, plan.components.size() > 1)) {
+    all.push_back(std::move(files.residuals));
+    all.insert(all.end(), files.models.begin(), files.models.end());
+  }
+  return all;
+}
+
 void WriteOutputs(const StudyRun& run,
                   const models::StudyRecord& record,
-                  const std::string& folder) {
-  const std::filesystem::path root(folder);
-  PrepareFolder((root / "models").string());
-  data::WriteFileAtomically((root / "results.json").string(),
-                            models::ToJsonText(record));
-  std::set<std::string> taken;
+                  ClaimedFolder* folder) {
+  std::vector<std::string> names;
+  std::vector<std::vector<std::string>> models;
   for (const Comparison& component : run.components) {
-    std::filesystem::path residuals = root / "residuals.csv";
-    std::filesystem::path models = root / "models";
-    if (run.has_several()) {
-      const std::string name = FileNameOf(component.name, &taken);
-      PrepareFolder((root / "residuals").string());
-      residuals = root / "residuals" / (name + ".csv");
-      models /= name;
-      PrepareFolder(models.string());
+    names.push_back(component.name);
+    std::vector<std::string>& of_component = models.emplace_back();
+    for (const models::ModelResult& model : component.study.models) {
+      of_component.push_back(model.name);
     }
-    data::WriteFileAtomically(residuals.string(), ResidualsCsv(component));
-    WriteModels(run, component, models);
+  }
+  const std::vector<ComponentFiles> files =
+      FilesOf(names, models, run.has_several());
+  folder->Write(kResults, models::ToJsonText(record));
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    folder->Write(files[i].residuals, ResidualsCsv(run.components[i]));
+    WriteModels(run, run.components[i], files[i].models, folder);
   }
   WriteReport(record, folder);
+  folder->Finish();
 }
 
 }  // namespace errmap::cli

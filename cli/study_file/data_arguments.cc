@@ -202,6 +202,13 @@ void Say(const std::string& line) {
   WriteMessage(fmt::format("errmap: {}\n", line));
 }
 
+void AddForceFlag(CLI::App* command, bool* force) {
+  command->add_flag("--force",
+                    *force,
+                    "Replace files in the folder that errmap did not write, or "
+                    "that were changed since; never one that is read");
+}
+
 void AddSeedOption(CLI::App* command,
                    std::uint64_t* seed,
                    const std::string& what) {

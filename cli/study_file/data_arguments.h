@@ -72,6 +72,9 @@ std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
 /// Says something about the run on stderr: "errmap: ...".
 void Say(const std::string& line);
 
+/// --force, which lets a command replace files that errmap did not write.
+void AddForceFlag(CLI::App* command, bool* force);
+
 /// --seed N, a whole number from 0.
 void AddSeedOption(CLI::App* command,
                    std::uint64_t* seed,

@@ -15,6 +15,7 @@
 #include "data/atomic_file.h"
 #include "data/sha256.h"
 #include "data/text.h"
+#include "models/file_recipe.h"
 #include "models/recipe_catalog.h"
 #include "models/study/split_file.h"
 #include "models/study/study_defaults.h"
@@ -326,6 +327,18 @@ int StudyPlan::num_fits() const {
       0,
       std::plus<>(),
       [](const ComponentPlan& component) { return component.num_fits(); });
+}
+
+std::vector<std::string> StudyPlan::InputPaths() const {
+  std::vector<std::string> paths;
+  for (const InputFile& input : inputs) paths.push_back(input.file);
+  for (const ComponentPlan& component : components) {
+    for (const std::string& spec : component.ModelNames()) {
+      const std::string file = models::FileOfSpec(spec);
+      if (!file.empty()) paths.push_back(file);
+    }
+  }
+  return paths;
 }
 
 StudyPlan PlanStudy(const StudyConfig& config, bool quiet) {

@@ -33,6 +33,8 @@ struct StudyPlan {
   std::vector<ComponentPlan> components;
 
   int num_fits() const;
+  /// Paths of all files read, those of "file:" models among them.
+  std::vector<std::string> InputPaths() const;
 };
 
 /// Reads the data, makes the hold-outs and chooses models where the user left

@@ -11,6 +11,7 @@
 #include "data/atomic_file.h"
 #include "data/input_error.h"
 #include "data/pattern_file.h"
+#include "data/same_file.h"
 #include "data/text.h"
 
 namespace errmap::models {
@@ -59,7 +60,9 @@ class Runner {
         folder_(fs::path(path_).parent_path().string()),
         options_(options),
         runs_(ParseRunFile(data::ReadFile(path_), path_)) {
+    inputs_read_.insert(InputPath("", path_));
     if (!options.training_file.empty()) {
+      inputs_read_.insert(InputPath("", options.training_file));
       training_scaling_ = TrainingScaling(options.training_file);
     }
     for (const NetcgSpecification& run : runs_) {
@@ -136,6 +139,7 @@ class Runner {
     const bool is_made_before = will_write_.contains(OutputPath(
         folder_, options_.out, run.file(NetcgFile::kInitialWeights)));
     if (!run.draws_weights() && !is_made_before) {
+      inputs_read_.insert(weights);
       TakeWeights(
           run,
           ParseWeights(ReadNamed(run, NetcgFile::kInitialWeights, weights),
@@ -214,7 +218,8 @@ class Runner {
           fs::path(path).has_parent_path()) {
         Refuse(line, what + " is in a folder that does not exist");
       }
-      if (inputs_read_.contains(path) || path == InputPath("", path_)) {
+      for (const std::string& input : inputs_read_) {
+        if (path != input && !data::IsSameFile(path, input)) continue;
         Refuse(line, what + " would overwrite what is read");
       }
       if (!own.insert(path).second && !IsDevice(path)) {

@@ -139,6 +139,26 @@ JournalFile::JournalFile(const std::string& folder, Opening opening)
   }
 }
 
+void JournalFile::RequireNoOther(const std::string& folder, bool force) {
+  const std::string path = std::filesystem::path(folder) / kName;
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) return;
+  if (!S_ISREG(status.st_mode)) {
+    throw data::InputError(data::PrintablePath(path) +
+                           ": is no plain file; move it away or choose another "
+                           "folder");
+  }
+  // A journal's first line may be torn anywhere.
+  std::ifstream stream(path, std::ios::binary);
+  std::string begin(kBeforeSum.size(), '\0');
+  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(stream.gcount()));
+  if (force || kBeforeSum.starts_with(begin)) return;
+  throw data::InputError(data::PrintablePath(path) +
+                         ": is no journal of errmap; choose another folder, "
+                         "move it away, or go on with --force");
+}
+
 JournalFile::~JournalFile() { Flush(); }
 
 void JournalFile::SetAside() {

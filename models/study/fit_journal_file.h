@@ -34,6 +34,11 @@ class JournalFile {
   /// A longer record is not kept: 64 MiB, predictions of 6e6 rows.
   static constexpr std::size_t kLongestRecord = std::size_t{64} << 20U;
 
+  /// Throws data::InputError where FOLDER/journal.jsonl is there and is no
+  /// journal: never where it is no plain file, which could not be read to an
+  /// end; `force` lets another file be set aside or added to.
+  static void RequireNoOther(const std::string& folder, bool force);
+
   /// Throws std::system_error naming the path that cannot be written, and
   /// std::runtime_error where another process has the folder's journal open.
   JournalFile(const std::string& folder, Opening opening);

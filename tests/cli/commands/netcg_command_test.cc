@@ -78,6 +78,29 @@ TEST_F(NetcgCommand, LeavesNothingHalfWrittenWhereTheInputIsBad) {
   }
 }
 
+TEST_F(NetcgCommand, OverwritesNeitherWhatItReadsNorWhatItDidNotWrite) {
+  CopyRun("case_c.in", "netcg.in");
+  CopyRun("tiny.tab", "tiny.tab");
+  const std::string patterns = Read("tiny.tab");
+  std::filesystem::create_symlink(scratch_ / "tiny.tab",
+                                  scratch_ / "graph_err.out");
+  EXPECT_THAT(RefusalOf(Run({"netcg", "netcg.in"}), kUnusable),
+              HasSubstr("graph_err.out would overwrite what is read"));
+  EXPECT_EQ(Read("tiny.tab"), patterns);
+
+  std::filesystem::create_directory(scratch_ / "o");
+  Write("o/run.out", "mine");
+  const std::vector<std::string> words{
+      "netcg", "netcg.in", "--out", "o", "--quiet"};
+  EXPECT_THAT(RefusalOf(Run(words), kWrongCommandLine),
+              HasSubstr("o/run.out stands in the way"));
+  EXPECT_EQ(Read("o/run.out"), "mine");
+  std::vector<std::string> force = words;
+  force.emplace_back("--force");
+  EXPECT_EQ(Run(force).status, 0);
+  EXPECT_EQ(Run(words).status, 0);
+}
+
 TEST_F(NetcgCommand, NeedsARunFileOrAStudy) {
   EXPECT_EQ(Run({"netcg"}).status, kWrongCommandLine);
   EXPECT_EQ(Run({"netcg", "a", "--study", "b"}).status, kWrongCommandLine);

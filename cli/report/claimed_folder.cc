@@ -1,0 +1,152 @@
+#include "cli/report/claimed_folder.h"
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/json_blocks.h"
+#include "data/atomic_file.h"
+#include "data/same_file.h"
+#include "data/sha256.h"
+#include "data/text.h"
+
+namespace errmap::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSchema = "errmap-files-1";
+
+[[noreturn]] void ThrowNoFolder(const std::string& path, std::error_code why) {
+  throw std::system_error(
+      why, "cannot write into the folder " + data::PrintablePath(path));
+}
+
+}  // namespace
+
+void RefuseInputAsOutput(const std::string& flag,
+                         const std::string& output,
+                         const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    if (!data::IsSameFile(output, input)) continue;
+    throw UsageError(
+        fmt::format("{}: {} would overwrite {}, which is read; name another",
+                    flag,
+                    data::PrintablePath(output),
+                    output == input ? "itself" : data::PrintablePath(input)));
+  }
+}
+
+void PrepareFolder(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) ThrowNoFolder(path, error);
+  if (access(path.c_str(), W_OK | X_OK) != 0) {
+    ThrowNoFolder(path, {errno, std::generic_category()});
+  }
+}
+
+ClaimedFolder::ClaimedFolder(std::string path,
+                             const std::vector<std::string>& names,
+                             const std::vector<std::string>& inputs,
+                             bool force)
+    : path_(std::move(path)), names_(names) {
+  for (const std::string& name : names_) {
+    RefuseInputAsOutput("output folder", PathOf(name), inputs);
+  }
+  ReadList(force);
+  for (const std::string& name : names_) {
+    std::error_code ignored;
+    if (force || !fs::exists(fs::symlink_status(PathOf(name), ignored)) ||
+        IsAsWeLeftIt(name)) {
+      continue;
+    }
+    throw UsageError(fmt::format(
+        "{} stands in the way: it is not as errmap left it; choose another "
+        "folder, move it away, or replace it with --force",
+        data::PrintablePath(PathOf(name))));
+  }
+  PrepareFolder(path_);
+}
+
+std::string ClaimedFolder::PathOf(const std::string& name) const {
+  return (fs::path(path_) / name).string();
+}
+
+void ClaimedFolder::ReadList(bool force) {
+  const std::string path = PathOf(kListName);
+  std::error_code ignored;
+  if (!fs::exists(fs::symlink_status(path, ignored))) return;
+  if (fs::is_regular_file(path, ignored)) {
+    const Json list = Json::parse(data::ReadFile(path), nullptr, false);
+    if (list.is_object() && list.value("schema", Json()) == kSchema) {
+      for (const Json& file : list.value("files", Json::array())) {
+        if (!file.is_object()) continue;
+        const Json name = file.value("name", Json());
+        const Json hash = file.value("sha256", Json());
+        if (!name.is_string()) continue;
+        hashes_[name] =
+            hash.is_string() ? std::optional<std::string>(hash) : std::nullopt;
+      }
+      return;
+    }
+  }
+  if (force) return;
+  throw UsageError(
+      fmt::format("{} is not errmap's list of the files that it wrote; choose "
+                  "another folder, move it away, or replace it with --force",
+                  data::PrintablePath(path)));
+}
+
+bool ClaimedFolder::IsAsWeLeftIt(const std::string& name) const {
+  const auto found = hashes_.find(name);
+  std::error_code ignored;
+  if (found == hashes_.end() || !fs::is_regular_file(PathOf(name), ignored)) {
+    return false;
+  }
+  return !found->second.has_value() ||
+         data::Sha256(data::ReadFile(PathOf(name))) == *found->second;
+}
+
+void ClaimedFolder::Write(const std::string& name, std::string_view content) {
+  if (!is_begun_) {
+    earlier_ = hashes_;
+    for (const std::string& claimed : names_) hashes_[claimed].reset();
+    WriteList();
+    is_begun_ = true;
+  }
+  const std::string path = PathOf(name);
+  PrepareFolder(fs::path(path).parent_path().string());
+  data::WriteFileAtomically(path, content);
+  hashes_[name] = data::Sha256(content);
+}
+
+void ClaimedFolder::Finish() {
+  // A model that failed has no file, or that of an earlier run.
+  for (const std::string& name : names_) {
+    if (hashes_[name].has_value()) continue;
+    hashes_.erase(name);
+    std::error_code ignored;
+    if (earlier_.contains(name) && fs::exists(PathOf(name), ignored)) {
+      hashes_[name] = earlier_[name];
+    }
+  }
+  WriteList();
+}
+
+void ClaimedFolder::WriteList() const {
+  Json files = Json::array();
+  for (const auto& [name, hash] : hashes_) {
+    files.push_back({{"name", name}, {"sha256", hash ? Json(*hash) : Json()}});
+  }
+  data::WriteFileAtomically(
+      PathOf(kListName),
+      DumpJson({{"schema", kSchema}, {"files", std::move(files)}}));
+}
+
+}  // namespace errmap::cli
