@@ -53,6 +53,10 @@ class TemporaryFile {
                    "; check the path and its permissions");
 }
 
+[[noreturn]] void Refuse(const std::string& path, const std::string& why) {
+  throw InputError(PrintablePath(path) + ": " + why);
+}
+
 void WriteAll(const FileDescriptor& file,
               std::string_view content,
               const std::string& path) {
@@ -69,8 +73,17 @@ void WriteAll(const FileDescriptor& file,
 // Names of open descriptors. They may lead to a regular file (a redirected
 // standard output), which must be added to and not replaced.
 bool NamesOpenDescriptor(std::string_view path) {
-  return path == "/dev/stdout" || path == "/dev/stderr" ||
-         path.starts_with("/dev/fd/") || path.starts_with("/proc/self/fd/");
+  return path == "/dev/stdin" || path == "/dev/stdout" ||
+         path == "/dev/stderr" || path.starts_with("/dev/fd/") ||
+         path.starts_with("/proc/self/fd/");
+}
+
+// A terminal is read until its user ends it, and /dev/null ends at once.
+bool IsEndlessDevice(int descriptor, const struct stat& status) {
+  if (S_ISBLK(status.st_mode)) return true;
+  if (!S_ISCHR(status.st_mode) || isatty(descriptor) == 1) return false;
+  struct stat null {};
+  return stat("/dev/null", &null) != 0 || null.st_rdev != status.st_rdev;
 }
 
 void WriteDirectly(const std::string& path, std::string_view content) {
@@ -183,17 +196,29 @@ void RemoveAbandonedFiles(const std::string& folder) {
   }
 }
 
-std::string ReadFile(const std::string& path) {
-  const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+std::string ReadFile(const std::string& path, std::size_t most) {
   struct stat status {};
+  if (stat(path.c_str(), &status) != 0) ThrowUnreadable(path, errno);
+  // Before the opening, which would wait for a writer.
+  if (S_ISFIFO(status.st_mode) && !NamesOpenDescriptor(path)) {
+    Refuse(path,
+           "is a named pipe, which may never end; write to a file, or pipe "
+           "into /dev/stdin");
+  }
+  const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!file.is_open() || fstat(file.get(), &status) != 0) {
     ThrowUnreadable(path, errno);
   }
+  if (IsEndlessDevice(file.get(), status)) {
+    Refuse(path, "is a device, which may never end; name a file");
+  }
+  if (most == 0 && !S_ISREG(status.st_mode)) most = kMostTextOfPrograms;
   // One byte more than the file says, so that its end is seen without growing.
   // Pipes and the kernel's own files say 0 and are read by growing.
   constexpr std::size_t kLeast = 1U << 16U;
   std::string content;
-  if (S_ISREG(status.st_mode) && status.st_size > 0) {
+  if (S_ISREG(status.st_mode) && status.st_size > 0 &&
+      (most == 0 || static_cast<std::size_t>(status.st_size) <= most)) {
     content.resize(static_cast<std::size_t>(status.st_size) + 1);
   }
   std::size_t size = 0;
@@ -207,6 +232,11 @@ std::string ReadFile(const std::string& path) {
     }
     if (count == 0) break;
     size += static_cast<std::size_t>(count);
+    if (most > 0 && size > most) {
+      Refuse(path,
+             "is longer than " + std::to_string(most >> 20U) +
+                 " MiB, more than a file of its kind can have");
+    }
   }
   content.resize(size);
   return content;

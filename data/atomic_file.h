@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -14,7 +15,16 @@ void WriteFileAtomically(const std::string& path, std::string_view content);
 /// another process is writing now stay, and what cannot be removed is let be.
 void RemoveAbandonedFiles(const std::string& folder);
 
-/// Whole content of a file. Throws InputError naming the path.
-std::string ReadFile(const std::string& path);
+/// What no file of settings, maps or lists has more of: 4 MiB of text that
+/// people write, 1 GiB of one that programs do.
+inline constexpr std::size_t kMostTextOfPeople = std::size_t{4} << 20U;
+inline constexpr std::size_t kMostTextOfPrograms = std::size_t{1} << 30U;
+
+/// Whole content of a file, which may be a pipe that this process was given
+/// open (/dev/stdin, /dev/fd/3); no other is read, since it may never get a
+/// writer, nor is a device, which may never end. Throws InputError naming the
+/// path, also where there are more than `most` bytes (0: a plain file may have
+/// any number, a pipe up to kMostTextOfPrograms).
+std::string ReadFile(const std::string& path, std::size_t most = 0);
 
 }  // namespace errmap::data

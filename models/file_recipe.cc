@@ -105,7 +105,7 @@ std::unique_ptr<ModelRecipe> MakeFileRecipe(std::string_view spec) {
     throw std::invalid_argument(
         fmt::format("model '{}': names no file; write file:model.json", spec));
   }
-  const std::string content = data::ReadFile(path);
+  const std::string content = data::ReadFile(path, data::kMostTextOfPrograms);
   return std::make_unique<FileRecipe>(
       std::string(spec), data::Sha256(content), ModelFromJson(content, path));
 }

@@ -1,15 +1,21 @@
 #include "models/model_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "data/atomic_file.h"
+#include "data/nesting.h"
+#include "data/text.h"
 #include "models/blend/form_to_model.h"
 #include "models/history/history.h"
 #include "models/history/history_state.h"
@@ -299,6 +305,17 @@ data::ColumnInfo ReadColumn(const Node& node) {
   return {node.At("name").Text(), data::UnitOfSymbol(node.At("unit").Text())};
 }
 
+TrainedInput ReadInput(const Node& node) {
+  const TrainedInput input{ReadColumn(node),
+                           node.At("min").Number(),
+                           node.At("max").Number(),
+                           node.At("mean").Number(),
+                           node.At("sd").Number()};
+  if (input.min > input.max) node.At("min").Refuse("is above max");
+  if (input.sd < 0.0) node.At("sd").Refuse("must be at least 0");
+  return input;
+}
+
 ModelKind ReadKind(const Node& node) {
   const std::string kind = node.Text();
   for (const ModelKind known : {ModelKind::kBaseline,
@@ -390,6 +407,27 @@ PredictionInterval ReadInterval(const Node& node) {
   return interval;
 }
 
+// Of two values of one key a reader would take either.
+Json ParseUniqueKeys(const std::string& text) {
+  std::vector<std::set<std::string>> keys;  // of the objects around
+  std::string repeated;
+  const auto look = [&](int, Json::parse_event_t event, const Json& parsed) {
+    if (event == Json::parse_event_t::object_start) {
+      keys.emplace_back();
+    } else if (event == Json::parse_event_t::object_end) {
+      keys.pop_back();
+    } else if (event == Json::parse_event_t::key &&
+               !keys.back().insert(parsed.get<std::string>()).second) {
+      repeated = parsed.get<std::string>();
+    }
+    return true;
+  };
+  Json document = Json::parse(text, look);
+  if (repeated.empty()) return document;
+  throw data::InputError("has the key " + data::QuotedName(repeated) +
+                         " twice in one object");
+}
+
 FittedModel ReadModel(const Node& root) {
   const std::string schema = root.At("schema").Text();
   if (schema != kSchema) {
@@ -408,11 +446,13 @@ FittedModel ReadModel(const Node& root) {
     fitted.align = data::Alignment::kFirst;
   }
   for (const Node& element : root.At("inputs").Elements()) {
-    fitted.inputs.push_back({ReadColumn(element),
-                             element.At("min").Number(),
-                             element.At("max").Number(),
-                             element.At("mean").Number(),
-                             element.At("sd").Number()});
+    fitted.inputs.push_back(ReadInput(element));
+    const std::string& name = fitted.inputs.back().column.name;
+    if (std::ranges::count(fitted.inputs, name, [](const TrainedInput& input) {
+          return input.column.name;
+        }) > 1) {
+      element.At("name").Refuse("'" + name + "' stands there twice");
+    }
   }
   std::size_t form_inputs = fitted.inputs.size();
   if (const auto history = root.Find("history")) {
@@ -512,13 +552,16 @@ void SaveModel(const FittedModel& fitted,
 }
 
 FittedModel LoadModel(const std::string& path) {
-  return ModelFromJson(data::ReadFile(path), path);
+  return ModelFromJson(data::ReadFile(path, data::kMostTextOfPrograms), path);
 }
 
 FittedModel ModelFromJson(const std::string& text, const std::string& source) {
   Json document;
   try {
-    document = Json::parse(text);
+    data::RequireShallowJson(text);
+    document = ParseUniqueKeys(text);
+  } catch (const data::InputError& error) {
+    throw data::InputError(fmt::format("{}: {}", source, error.what()));
   } catch (const Json::exception& error) {
     throw data::InputError(
         fmt::format("{}: is no JSON model file: {}", source, error.what()));

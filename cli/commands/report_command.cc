@@ -39,7 +39,7 @@ std::string ResultsPath(const std::string& folder) {
 
 models::StudyRecord ReadResults(const std::string& folder) {
   const std::string path = ResultsPath(folder);
-  const std::string text = data::ReadFile(path);
+  const std::string text = data::ReadFile(path, data::kMostTextOfPrograms);
   try {
     return models::FromJsonText(text);
   } catch (const data::InputError& error) {

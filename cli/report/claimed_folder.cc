@@ -11,6 +11,7 @@
 #include "cli/command.h"
 #include "cli/json_blocks.h"
 #include "data/atomic_file.h"
+#include "data/nesting.h"
 #include "data/same_file.h"
 #include "data/sha256.h"
 #include "data/text.h"
@@ -83,7 +84,9 @@ void ClaimedFolder::ReadList(bool force) {
   std::error_code ignored;
   if (!fs::exists(fs::symlink_status(path, ignored))) return;
   if (fs::is_regular_file(path, ignored)) {
-    const Json list = Json::parse(data::ReadFile(path), nullptr, false);
+    const std::string text = data::ReadFile(path, data::kMostTextOfPeople);
+    const Json list =
+        data::IsShallowJson(text) ? Json::parse(text, nullptr, false) : Json();
     if (list.is_object() && list.value("schema", Json()) == kSchema) {
       for (const Json& file : list.value("files", Json::array())) {
         if (!file.is_object()) continue;

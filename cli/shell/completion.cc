@@ -1,9 +1,11 @@
 #include "cli/shell/completion.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <set>
 #include <stdexcept>
+#include <system_error>
 
 #include "data/csv.h"
 #include "models/recipe_catalog.h"
@@ -97,6 +99,8 @@ std::vector<std::string> ColumnsOf(const std::vector<std::string>& files) {
   constexpr std::size_t kMostBytes = 1
                                      << 16;  // A header, but not a whole file.
   for (const std::string& file : files) {
+    std::error_code ignored;  // A pipe would be waited for, or be robbed.
+    if (!std::filesystem::is_regular_file(file, ignored)) continue;
     std::ifstream stream(file, std::ios::binary);
     std::string text(kMostBytes, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));

@@ -461,6 +461,10 @@ toml::table ParseOverride(const std::string& text) {
     throw UsageError(data::PrintablePath(
         fmt::format("--set must be KEY=VALUE, found '{}'", text)));
   }
+  if (LineOfLongKey(text) > 0) {
+    throw UsageError(
+        fmt::format("--set: a key of more than {} parts", kMostKeyParts));
+  }
   const std::string source = std::string(kOverride) + text;
   const std::string key = text.substr(0, equals);
   try {
@@ -559,6 +563,13 @@ class Overrider {
 StudyConfig ParseStudyFile(const std::string& text,
                            const std::string& path,
                            const std::vector<std::string>& overrides) {
+  if (const std::size_t line = LineOfLongKey(text); line > 0) {
+    throw data::InputError(
+        fmt::format("{}: line {}: a key of more than {} parts",
+                    data::PrintablePath(path),
+                    line,
+                    kMostKeyParts));
+  }
   toml::table root;
   try {
     root = toml::parse(text, path);
@@ -575,7 +586,7 @@ StudyConfig ParseStudyFile(const std::string& text,
 
 StudyFile ReadStudyFile(const std::string& path,
                         const std::vector<std::string>& overrides) {
-  const std::string text = data::ReadFile(path);
+  const std::string text = data::ReadFile(path, data::kMostTextOfPeople);
   return {.config = ParseStudyFile(text, path, overrides),
           .file = {.file = path, .sha256 = data::Sha256(text)}};
 }

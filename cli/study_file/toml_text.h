@@ -6,6 +6,13 @@
 
 namespace errmap::cli {
 
+/// Parts that a dotted key may have. A parser takes each for a table in a
+/// table, and its stack ends before a long key does.
+inline constexpr std::size_t kMostKeyParts = 64;
+
+/// The line (from 1) where a TOML text has a key of more parts; 0: nowhere.
+std::size_t LineOfLongKey(std::string_view text);
+
 /// Any text as a TOML string, on one line.
 std::string TomlText(std::string_view text);
 

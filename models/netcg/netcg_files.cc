@@ -59,7 +59,8 @@ class Runner {
       : path_(std::move(path)),
         folder_(fs::path(path_).parent_path().string()),
         options_(options),
-        runs_(ParseRunFile(data::ReadFile(path_), path_)) {
+        runs_(ParseRunFile(data::ReadFile(path_, data::kMostTextOfPeople),
+                           path_)) {
     inputs_read_.insert(InputPath("", path_));
     if (!options.training_file.empty()) {
       inputs_read_.insert(InputPath("", options.training_file));

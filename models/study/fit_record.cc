@@ -20,6 +20,7 @@
 #include <nlohmann/json.hpp>
 
 #include "data/input_error.h"
+#include "data/nesting.h"
 #include "models/blend/form_to_model.h"
 #include "models/history/history.h"
 #include "models/regression_report.h"
@@ -524,6 +525,7 @@ template <typename T>
 T FromText(std::string_view text) {
   T value;
   try {
+    data::RequireShallowJson(text);
     Reader::Get(Json::parse(text), &value);
   } catch (const Json::exception& error) {
     Refuse(error.what());

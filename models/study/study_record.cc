@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "data/input_error.h"
+#include "data/nesting.h"
 #include "models/study/record_json.h"
 
 namespace errmap::models {
@@ -91,6 +92,7 @@ std::string ToJsonText(const StudyRecord& record) {
 }
 
 StudyRecord FromJsonText(std::string_view text) {
+  data::RequireShallowJson(text);
   const RecordJson json = RecordJson::parse(text, nullptr, false);
   if (json.is_discarded()) {
     throw data::InputError("is no JSON; errmap compare --out writes it");

@@ -190,11 +190,31 @@ TEST_F(AtomicFile, WritesToADeviceDirectly) {
 TEST_F(AtomicFile, WritesToAPipeDirectly) {
   ASSERT_EQ(mkfifo(Path("pipe").c_str(), 0600), 0);
   std::string received;
-  std::thread reader([&] { received = ReadFile(Path("pipe")); });
+  std::thread reader([&] {
+    std::ifstream stream(Path("pipe"));
+    std::getline(stream, received, '\0');
+  });
   WriteFileAtomically(Path("pipe"), "through the pipe");
   reader.join();
   EXPECT_EQ(received, "through the pipe");
   EXPECT_TRUE(fs::is_fifo(Path("pipe")));
+}
+
+TEST_F(AtomicFile, ReadsNoMoreThanItMay) {
+  WriteFileAtomically(Path("file"), "12345");
+  EXPECT_EQ(ReadFile(Path("file"), 5), "12345");
+  EXPECT_THAT([&] { ReadFile(Path("file"), 4); },
+              ThrowsMessage<InputError>(
+                  AllOf(HasSubstr("file"), HasSubstr("is longer than"))));
+}
+
+TEST_F(AtomicFile, ReadsNoPipeAndNoDevice) {
+  ASSERT_EQ(mkfifo(Path("pipe").c_str(), 0600), 0);
+  EXPECT_THAT([&] { ReadFile(Path("pipe")); },
+              ThrowsMessage<InputError>(HasSubstr("is a named pipe")));
+  EXPECT_THAT([] { ReadFile("/dev/zero"); },
+              ThrowsMessage<InputError>(HasSubstr("/dev/zero: is a device")));
+  EXPECT_EQ(ReadFile("/dev/null"), "");
 }
 
 TEST_F(AtomicFile, AddsToARedirectedStandardOutput) {

@@ -96,6 +96,15 @@ TEST(ModelFile, RefusesWrongShapesMissingKeysAndNonFiniteNumbers) {
       {"poly:eq8", [](Json* j) { (*j)["kind"] = "spline"; }, "'spline'"},
       {"poly:eq8", [](Json* j) { (*j)["inputs"].erase(1); }, "names 1 inputs"},
       {"poly:eq8", [](Json* j) { (*j)["inputs"][0]["min"] = "low"; }, "min"},
+      {"poly:eq8",
+       [](Json* j) { (*j)["inputs"][1]["name"] = (*j)["inputs"][0]["name"]; },
+       "inputs[1].name': 'position_mm' stands there twice"},
+      {"poly:eq8",
+       [](Json* j) { (*j)["inputs"][0]["min"] = 1e9; },
+       "inputs[0].min': is above max"},
+      {"poly:eq8",
+       [](Json* j) { (*j)["inputs"][0]["sd"] = -1.0; },
+       "inputs[0].sd': must be at least 0"},
       {net, [](Json* j) { (*j)["net"]["nodes"][1] = 7; }, "nodes"},
       {net, [](Json* j) { (*j)["net"]["w1"][2].erase(0); }, "w1[2]"},
       {net, [](Json* j) { (*j)["net"]["output"] = "tanh"; }, "'tanh'"},
@@ -209,6 +218,22 @@ TEST(ModelFile, RefusesWhatIsNoJson) {
   EXPECT_THROW(ModelFromJson("", "empty.json"), data::InputError);
   EXPECT_THROW(ModelFromJson("[1, 2]", "list.json"), data::InputError);
   EXPECT_THROW(LoadModel("/nonexistent/map.json"), data::InputError);
+}
+
+TEST(ModelFile, RefusesAKeyThatStandsTwiceInOneObject) {
+  std::string text = SavedModel("poly:eq8");
+  const std::size_t intercept = text.find("\"intercept\"");
+  text.insert(intercept, "\"\\u0069ntercept\": 1e9, ");
+  EXPECT_THAT([&] { ModelFromJson(text, "map.json"); },
+              ::testing::ThrowsMessage<data::InputError>(
+                  HasSubstr("map.json: has the key 'intercept' twice")));
+}
+
+TEST(ModelFile, RefusesNestingThatEndsTheStack) {
+  constexpr int kDepth = 300'000;
+  EXPECT_THAT([&] { ModelFromJson(std::string(kDepth, '['), "map.json"); },
+              ::testing::ThrowsMessage<data::InputError>(
+                  HasSubstr("map.json: is nested deeper than 64")));
 }
 
 }  // namespace

@@ -26,5 +26,21 @@ TEST(TomlText, GivesEachItemOfALongListALine) {
             "[\n  \"" + item + "\",\n  \"" + item + "\",\n]");
 }
 
+TEST(TomlText, FindsKeysOfTooManyPartsOutsideOfStringsAndComments) {
+  std::string parts = "a";
+  for (std::size_t i = 1; i < kMostKeyParts; ++i) parts += ".a";
+  EXPECT_EQ(LineOfLongKey(parts + " = 1"), 0U);
+  const std::string longer = parts + ".a";
+  EXPECT_EQ(LineOfLongKey(longer + " = 1"), 1U);
+  EXPECT_EQ(LineOfLongKey("x = 1.5\n\n[" + longer + "]"), 3U);
+  EXPECT_EQ(LineOfLongKey("x = {" + longer + " = 1}"), 1U);
+  EXPECT_EQ(LineOfLongKey("x = \"" + longer + "\""), 0U);
+  EXPECT_EQ(LineOfLongKey("x = '" + longer + "' # " + longer), 0U);
+  EXPECT_EQ(LineOfLongKey("x = \"\"\"\n" + longer + "\n\"\"\""), 0U);
+  EXPECT_EQ(LineOfLongKey("x = \"\\\"\"\n" + longer + " = 1"), 2U);
+  // A string that never ends does not hide what follows its line.
+  EXPECT_EQ(LineOfLongKey("x = \"\n" + longer + " = 1"), 2U);
+}
+
 }  // namespace
 }  // namespace errmap::cli
