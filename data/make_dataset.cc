@@ -384,6 +384,7 @@ class DatasetBuilder {
   void TakeTarget() {
     parts_.target = Info(roles_.target);
     parts_.target_values = ValuesOfRows(Column(roles_.target), parts_.rows);
+    RequireSquares();
     if (selection_.only_to_judge) return;
     const double first = parts_.target_values(0);
     if (!(parts_.target_values.array() == first).all()) return;
@@ -397,6 +398,24 @@ class DatasetBuilder {
             ", so there is nothing to map; name another with --target");
   }
 
+  // Every figure of a target is a sum of squares.
+  void RequireSquares() const {
+    constexpr double kMost = 1e100;
+    constexpr double kLeast = 1e-100;
+    Eigen::Index row = 0;
+    const double largest = parts_.target_values.cwiseAbs().maxCoeff(&row);
+    if (largest == 0.0 || (largest >= kLeast && largest <= kMost)) return;
+    throw InputError(
+        table_.Where(static_cast<std::size_t>(
+                         parts_.rows[static_cast<std::size_t>(row)]),
+                     Name(roles_.target)) +
+        ": the largest target, " + CsvNumber(parts_.target_values[row]) +
+        ", is no size between 1e-100 and 1e100, whose squares can be summed; "
+        "correct it or choose another unit");
+  }
+
+  // Only the ratios of weights mean something. Their mean becomes 1, so that
+  // weights which are all equal are none.
   void TakeWeights() {
     if (roles_.weight == kNone) return;
     const CsvColumn& column = Column(roles_.weight);
@@ -409,6 +428,17 @@ class DatasetBuilder {
           ": weight " + CsvNumber(weight) +
           " is not positive; correct it or remove the row");
     }
+    Eigen::Index least = 0;
+    parts_.weights /= parts_.weights.maxCoeff();
+    constexpr double kLeastShare = 1e-30;
+    if (parts_.weights.minCoeff(&least) < kLeastShare) {
+      const auto row = static_cast<std::size_t>(
+          parts_.rows[static_cast<std::size_t>(least)]);
+      throw InputError(table_.Where(row, column.name) + ": weight " +
+                       CsvNumber(column.values[row]) +
+                       " is less than 1e-30 of the largest; remove the row");
+    }
+    parts_.weights /= parts_.weights.mean();
   }
 
   void TakeInputs() {

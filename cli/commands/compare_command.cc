@@ -348,12 +348,19 @@ PredictionsFile ParsePredictions(const std::string& pair) {
   return {pair.substr(0, equals), pair.substr(equals + 1)};
 }
 
+// CLI11 would take "nan", which says that none was given, and "inf".
+std::string RefusalOfNumber(const std::string& text) {
+  double ignored = 0.0;
+  return data::ParseNumber(text, &ignored) ? "" : "give a finite number";
+}
+
 void AddJudgingOptions(CLI::App* command, CompareArguments* arguments) {
   command
       ->add_option("--indifference",
                    arguments->indifference,
                    "Difference in RMSE that never matters, in the target's "
                    "unit (default for lengths: 0.02 um)")
+      ->check(RefusalOfNumber)
       ->type_name("X");
   command
       ->add_option("--split",
@@ -431,6 +438,7 @@ void AddCompareCommand(CLI::App* app, Run* run) {
                    arguments->goal,
                    "RMSE wanted on held-out rows, in the target's unit "
                    "(default for lengths: 0.5 um)")
+      ->check(RefusalOfNumber)
       ->type_name("X");
   AddSeedOption(command, &arguments->seed);
   command

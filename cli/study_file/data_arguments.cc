@@ -1,6 +1,9 @@
 #include "cli/study_file/data_arguments.h"
 
+#include <charconv>
+#include <cstdint>
 #include <stdexcept>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -214,8 +217,13 @@ void AddSeedOption(CLI::App* command,
                    const std::string& what) {
   command->add_option("--seed", *seed, what)
       ->check([](const std::string& text) {
-        // CLI11 would take -1 for the largest number there is.
-        return text.starts_with('-') ? "give a whole number from 0" : "";
+        // CLI11 would take -1 and 2^64 for the largest number there is.
+        std::uint64_t number = 0;
+        const char* const end = text.data() + text.size();
+        const auto [rest, error] = std::from_chars(text.data(), end, number);
+        return error == std::errc() && rest == end
+                   ? ""
+                   : "give a whole number from 0 to 18446744073709551615";
       })
       ->capture_default_str()
       ->type_name("N");

@@ -100,7 +100,36 @@ TEST(MakeDataset, TakesNamedColumnsInTheirOrder) {
   EXPECT_EQ(dataset.target().name, "t1_degC");
   EXPECT_THAT(InputNames(dataset), ElementsAre("time_s", "position_mm"));
   EXPECT_THAT(dataset.groups().labels, ElementsAre("cold", "warm"));
-  EXPECT_EQ(dataset.weights(), Eigen::Vector2d(1, 3));
+  // 1 and 3: only their ratio means something.
+  EXPECT_EQ(dataset.weights(), Eigen::Vector2d(0.5, 1.5));
+}
+
+TEST(MakeDataset, WeightsOfAnySizeAreTheSame) {
+  const auto weights = [](const std::string& first, const std::string& second) {
+    return Make("a,w,error\n1," + first + ",3\n2," + second + ",5\n",
+                {.weight = "w"})
+        .dataset.weights();
+  };
+  EXPECT_EQ(weights("0.5", "1.5"), Eigen::Vector2d(0.5, 1.5));
+  EXPECT_EQ(weights("0.5e308", "1.5e308"), weights("1", "3"));
+  EXPECT_EQ(weights("1e-300", "3e-300"), weights("1", "3"));
+  EXPECT_EQ(weights("0.1", "0.1"), Eigen::Vector2d(1.0, 1.0));
+  EXPECT_THAT(ErrorOf("a,w,error\n1,1e-10,3\n2,1e25,5\n", {.weight = "w"}),
+              AllOf(HasSubstr("line 2 (data row 0), column 'w': weight 1e-10"),
+                    HasSubstr("less than 1e-30 of the largest")));
+}
+
+TEST(MakeDataset, RefusesTargetsWhoseSquaresCannotBeSummed) {
+  for (const char* size : {"e160", "e101", "e-101", "e-170"}) {
+    const std::string text =
+        std::string("a,error\n1,1") + size + "\n2,-2" + size + "\n3,0" + "\n";
+    EXPECT_THAT(ErrorOf(text),
+                AllOf(HasSubstr("line 3 (data row 1), column 'error'"),
+                      HasSubstr("-2" + std::string(size).replace(
+                                           0, 1, size[1] == '-' ? "e" : "e+")),
+                      HasSubstr("choose another unit")));
+  }
+  EXPECT_EQ(Make("a,error\n1,1e99\n2,0\n").dataset.num_rows(), 2);
 }
 
 TEST(MakeDataset, LeavesTheWeightAndExcludedColumnsOutOfTheInputs) {
@@ -528,7 +557,7 @@ TEST(MakeDataset, DropsRowsOfFailedReadingsWhereAsked) {
       Make(text, {.weight = "w", .faults = FaultPolicy::kDropRows});
   EXPECT_EQ(dropped.dataset.num_rows(), 19);
   EXPECT_EQ(dropped.dataset.rows()[4], 5);
-  EXPECT_EQ(dropped.dataset.weights()[4], 6.0);
+  EXPECT_EQ(dropped.dataset.weights()[4] / dropped.dataset.weights()[0], 6.0);
   EXPECT_EQ(dropped.dataset.target_values()[4], 5.0);
   EXPECT_EQ(dropped.faults.size(), 1U);
 }
