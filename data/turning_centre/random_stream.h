@@ -17,6 +17,7 @@ enum class Purpose : std::uint64_t {
   kSensorNoise = 3,
   kReadingNoise = 4,
   kToolTipPoints = 5,
+  kLogNoise = 6,
 };
 
 /// Random numbers that are the same with every standard library and machine:

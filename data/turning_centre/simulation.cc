@@ -40,17 +40,37 @@ void CheckFactor(const char* name, double value, double high) {
                ": give a number from 0 to " + Shortest(high));
 }
 
+// From midnight before the first day.
+std::int64_t TimeOf(int day, double seconds) {
+  constexpr std::int64_t kSecondsPerDay = 24 * kSecondsPerHour;
+  return (day - 1) * kSecondsPerDay + std::llround(seconds);
+}
+
 // The clock, the bodies and the sensors of one day as it goes on.
 class Day {
  public:
+  // `hours_before`: that the machine was on, on earlier days.
   Day(const ThermalNetwork& network,
       const DayProgramme& programme,
-      Thermocouples* thermocouples)
+      int number,
+      double hours_before,
+      Thermocouples* thermocouples,
+      std::vector<LogEntry>* log)
       : programme_(programme),
+        number_(number),
+        hours_before_(hours_before),
         integrator_(network),
         thermocouples_(*thermocouples),
+        log_(*log),
         seconds_(-kRestHours * kSecondsPerHour),
         temperatures_(kNumBodies, Air(seconds_)) {}
+
+  // From the rest of the night to the machine's first moment.
+  void Begin() {
+    Run(kRestHours * kSecondsPerHour + programme_.start_s, {});
+    thermocouples_.StartDay(number_, temperatures_, Air(seconds_));
+    WriteLog();
+  }
 
   void Run(int seconds, const DriveState& state) {
     const ThermalLoad load = LoadOf(state);
@@ -61,23 +81,38 @@ class Day {
                              .end = Air(seconds_ + kStepSeconds)};
       integrator_.Step(kStepSeconds, air, load, &temperatures_);
       seconds_ += kStepSeconds;
-      if (state.is_on) thermocouples_.Step(temperatures_, air.end);
+      if (!state.is_on) continue;
+      thermocouples_.Step(temperatures_, air.end);
+      if (std::llround(seconds_ - programme_.start_s) % kLogSeconds == 0) {
+        WriteLog();
+      }
     }
   }
 
-  double Air(double seconds) const {
-    return programme_.climate.AirAt(seconds / kSecondsPerHour);
-  }
   double hours() const { return seconds_ / kSecondsPerHour; }
+  // Of all days so far.
   double hours_on() const {
-    return (seconds_ - programme_.start_s) / kSecondsPerHour;
+    return hours_before_ + (seconds_ - programme_.start_s) / kSecondsPerHour;
   }
   const std::vector<double>& temperatures() const { return temperatures_; }
 
  private:
+  double Air(double seconds) const {
+    return programme_.climate.AirAt(seconds / kSecondsPerHour);
+  }
+
+  void WriteLog() {
+    log_.push_back({.day = number_,
+                    .time_s = TimeOf(number_, seconds_),
+                    .readings = thermocouples_.Log(hours_on())});
+  }
+
   const DayProgramme& programme_;
+  const int number_;
+  const double hours_before_;
   ThermalIntegrator integrator_;
   Thermocouples& thermocouples_;
+  std::vector<LogEntry>& log_;
   double seconds_;  // from midnight; whole
   std::vector<double> temperatures_;
 };
@@ -178,9 +213,7 @@ void SimulationOptions::Validate() const {
 }
 
 std::int64_t Stop::time_s() const {
-  constexpr std::int64_t kHoursPerDay = 24;
-  return (day - 1) * kHoursPerDay * kSecondsPerHour +
-         std::llround(hours * kSecondsPerHour);
+  return TimeOf(day, hours * kSecondsPerHour);
 }
 
 Slide Stop::slide() const {
@@ -206,8 +239,11 @@ Simulation Simulate(const SimulationOptions& options) {
   const ThermalNetwork network = MakeTurningCentreNetwork(options.air_factor);
   Thermocouples thermocouples(
       options.seed, options.sensor_noise, FaultsOf(options), options.cycles);
-  Simulation simulation{
-      .options = options, .programmes = {}, .stops = {}, .points = {}};
+  Simulation simulation{.options = options,
+                        .programmes = {},
+                        .stops = {},
+                        .points = {},
+                        .log = {}};
   // Days keep references to their programmes.
   simulation.programmes.reserve(static_cast<std::size_t>(options.days));
   double hours_before = 0.0;
@@ -219,10 +255,13 @@ Simulation Simulate(const SimulationOptions& options) {
             : DrawDay(
                   options.workload, options.seed, day_number, options.cycles));
     const std::size_t first_stop = simulation.stops.size();
-    Day day(network, programme, &thermocouples);
-    day.Run(kRestHours * kSecondsPerHour + programme.start_s, {});
-    thermocouples.StartDay(
-        day_number, day.temperatures(), day.Air(programme.start_s));
+    Day day(network,
+            programme,
+            day_number,
+            hours_before,
+            &thermocouples,
+            &simulation.log);
+    day.Begin();
     if (options.warm_hours > 0.0 && day_number > 1) {
       // As on a usual day; in whole steps.
       constexpr DriveState kAtWork = {
@@ -254,13 +293,12 @@ Simulation Simulate(const SimulationOptions& options) {
           stop.index = i;
           stop.hours = day.hours();
           stop.rise = RiseOf(day.temperatures());
-          stop.readings =
-              thermocouples.Read(hours_before + day.hours_on(), cycle);
+          stop.readings = thermocouples.Read(day.hours_on(), cycle);
           simulation.stops.push_back(stop);
         }
       }
     }
-    hours_before += day.hours_on();
+    hours_before = day.hours_on();
     AddPoints(day_number, first_stop, simulation.stops.size(), &simulation);
   }
   return simulation;

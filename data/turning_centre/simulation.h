@@ -62,6 +62,15 @@ struct Stop {
   double position() const;
 };
 
+/// A row of the logger, which writes all channels down every kLogSeconds from
+/// the moment that the machine is switched on.
+struct LogEntry {
+  int day = 0;              // from 1
+  std::int64_t time_s = 0;  // as that of a Stop
+  Thermocouples::Readings readings = {};
+};
+inline constexpr int kLogSeconds = 60;
+
 /// One random pose of the tool at the machine state of some stop.
 struct ToolTipPoint {
   std::size_t stop = 0;  // index into Simulation::stops
@@ -76,6 +85,7 @@ struct Simulation {
   std::vector<DayProgramme> programmes;  // (days)
   std::vector<Stop> stops;               // in order of time
   std::vector<ToolTipPoint> points;      // by day, then by time
+  std::vector<LogEntry> log;             // by day, then by time
 };
 
 /// Runs the machine. Throws std::invalid_argument where options.Validate()

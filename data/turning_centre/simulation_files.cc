@@ -132,6 +132,18 @@ std::string ToolTipCsv(const Simulation& simulation) {
   return text;
 }
 
+std::string TemperaturesCsv(const Simulation& simulation) {
+  std::string text = "record,day,time_s" + SensorColumns() + "\n";
+  int record = 0;
+  for (const LogEntry& entry : simulation.log) {
+    text += std::to_string(++record) + "," + std::to_string(entry.day) + "," +
+            std::to_string(entry.time_s);
+    AppendReadings(entry.readings, &text);
+    text += "\n";
+  }
+  return text;
+}
+
 // "EXX = { forward = "...", reverse = "..." }" or "EBX = "..."".
 std::string TomlError(Component component) {
   const ComponentTraits& traits = TraitsOf(component);
@@ -332,6 +344,7 @@ midnight before the first, breaks and nights included; a day is a session.
   }
   text +=
       R"(| `tool_tip.csv` | | random poses, the true error of the tool tip against the work |
+| `temperatures.csv` | | the logger's: all channels every 60 s from when the machine is switched on, by day |
 | `machine.toml` | | the kinematic chain |
 
 ## Days
@@ -362,7 +375,8 @@ std::vector<std::string> SimulationFileNames() {
   for (const ComponentFile& file : ComponentFiles()) {
     names.push_back(file.stem + ".csv");
   }
-  for (const char* name : {"tool_tip.csv", "machine.toml", "README.md"}) {
+  for (const char* name :
+       {"tool_tip.csv", "temperatures.csv", "machine.toml", "README.md"}) {
     names.emplace_back(name);
   }
   return names;
@@ -377,6 +391,7 @@ std::string SimulationFile(const Simulation& simulation,
     }
   }
   if (name == "tool_tip.csv") return ToolTipCsv(simulation);
+  if (name == "temperatures.csv") return TemperaturesCsv(simulation);
   if (name == "machine.toml") return MachineToml();
   if (name == "README.md") return Readme(simulation, options);
   throw std::invalid_argument("SimulationFile: no file '" + name + "'");

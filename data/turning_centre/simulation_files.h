@@ -22,6 +22,7 @@ std::vector<std::string> SimulationFileNames();
 ///   has a row per stop (of the forward sweep, where direction does not
 ///   matter); one of temperature alone a row at the end of each sweep;
 /// - tool_tip.csv: random poses with the true error of the tool tip;
+/// - temperatures.csv: record, day, time_s and all channels, every kLogSeconds;
 /// - machine.toml: the kinematic chain, naming a map STEM.json per CSV file;
 /// - README.md: what was simulated.
 /// The same simulation gives the same bytes on every machine; numbers have 7

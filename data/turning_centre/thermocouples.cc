@@ -94,7 +94,10 @@ Thermocouples::Thermocouples(
     double noise_sd,
     const std::array<SensorFault, kNumThermocouples>& faults,
     int first_day_cycles)
-    : seed_(seed), noise_sd_(noise_sd), noise_(seed, Purpose::kSensorNoise, 0) {
+    : seed_(seed),
+      noise_sd_(noise_sd),
+      noise_(seed, Purpose::kSensorNoise, 0),
+      log_noise_(seed, Purpose::kLogNoise, 0) {
   RandomStream random(seed, Purpose::kSensorErrors, 0);
   for (std::size_t i = 0; i < kNumThermocouples; ++i) {
     Sensor& sensor = sensors_[i];
@@ -118,6 +121,8 @@ void Thermocouples::StartDay(int day,
                              double air) {
   noise_ = RandomStream(
       seed_, Purpose::kSensorNoise, static_cast<std::uint64_t>(day));
+  log_noise_ =
+      RandomStream(seed_, Purpose::kLogNoise, static_cast<std::uint64_t>(day));
   for (std::size_t i = 0; i < kNumThermocouples; ++i) {
     sensors_[i].site =
         SiteTemperature(ThermocoupleSites()[i], temperatures, air);
@@ -145,15 +150,7 @@ Thermocouples::Readings Thermocouples::Read(double hours_on, int cycle) {
     // Drawn whatever the fault, so that one fault leaves the other sensors'
     // noise as it was.
     const double deviate = noise_.Normal();
-    if (sensor.fault == SensorFault::kDead) continue;
-    double noise = noise_sd_ * deviate;
-    if (sensor.fault == SensorFault::kNoisy) noise *= kNoisyFactor;
-    double reading = sensor.gain * sensor.own + sensor.offset + noise;
-    if (sensor.fault == SensorFault::kDrifting) {
-      reading += kDriftPerHour * hours_on;
-    }
-    readings[i] =
-        std::floor(reading * kReadingsPerKelvin + 0.5) / kReadingsPerKelvin;
+    readings[i] = Reading(sensor, hours_on, deviate);
     if (sensor.fault == SensorFault::kStuck &&
         cycle >= sensor.stuck_from_cycle) {
       if (!sensor.is_stuck) sensor.stuck_reading = readings[i];
@@ -162,6 +159,30 @@ Thermocouples::Readings Thermocouples::Read(double hours_on, int cycle) {
     }
   }
   return readings;
+}
+
+Thermocouples::Readings Thermocouples::Log(double hours_on) {
+  Readings readings{};
+  for (std::size_t i = 0; i < kNumThermocouples; ++i) {
+    const double deviate = log_noise_.Normal();
+    readings[i] = sensors_[i].is_stuck
+                      ? sensors_[i].stuck_reading
+                      : Reading(sensors_[i], hours_on, deviate);
+  }
+  return readings;
+}
+
+double Thermocouples::Reading(const Sensor& sensor,
+                              double hours_on,
+                              double deviate) const {
+  if (sensor.fault == SensorFault::kDead) return 0.0;
+  double noise = noise_sd_ * deviate;
+  if (sensor.fault == SensorFault::kNoisy) noise *= kNoisyFactor;
+  double reading = sensor.gain * sensor.own + sensor.offset + noise;
+  if (sensor.fault == SensorFault::kDrifting) {
+    reading += kDriftPerHour * hours_on;
+  }
+  return std::floor(reading * kReadingsPerKelvin + 0.5) / kReadingsPerKelvin;
 }
 
 }  // namespace errmap::data::turning_centre

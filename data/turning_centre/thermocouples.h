@@ -63,6 +63,11 @@ class Thermocouples {
   /// cycle counted from 1 through all days.
   Readings Read(double hours_on, int cycle);
 
+  /// What the logger writes down between the measurements, hours_on as for
+  /// Read: noise of its own, so that a log changes no reading of Read. A sensor
+  /// that stops does so at a Read.
+  Readings Log(double hours_on);
+
  private:
   struct Sensor {
     SensorFault fault = SensorFault::kNone;
@@ -76,10 +81,14 @@ class Thermocouples {
     double own = 0.0;   // the sensor's own temperature
   };
 
+  // To the logger's resolution; `deviate` is standard normal.
+  double Reading(const Sensor& sensor, double hours_on, double deviate) const;
+
   std::uint64_t seed_;
   double noise_sd_;
   std::array<Sensor, kNumThermocouples> sensors_;
   RandomStream noise_;
+  RandomStream log_noise_;
 };
 
 }  // namespace errmap::data::turning_centre

@@ -37,8 +37,9 @@ TEST_F(SimulateCommand, WritesAFolderThatTheOtherCommandsRead) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "");
   EXPECT_THAT(outcome.err,
-              HasSubstr("2 days of 6 cycles, 18 files in new/folder"));
-  for (const char* name : {"README.md", "machine.toml", "tool_tip.csv"}) {
+              HasSubstr("2 days of 6 cycles, 19 files in new/folder"));
+  for (const char* name :
+       {"README.md", "machine.toml", "tool_tip.csv", "temperatures.csv"}) {
     EXPECT_TRUE(Exists(std::string("new/folder/") + name)) << name;
   }
   const Json study = RunJson({"compare",
@@ -78,7 +79,7 @@ TEST_F(SimulateCommand, SameSeedSameBytesAnotherSeedAnother) {
     }
     ++files;
   }
-  EXPECT_EQ(files, 19);  // and the list of them
+  EXPECT_EQ(files, 20);  // and the list of them
 }
 
 TEST_F(SimulateCommand, WrongCommandLinesGetOneLine) {

@@ -59,6 +59,7 @@ TEST(SimulationFiles, AreOnePerComponentAndDirection) {
                           "spindle_tilt_xz.csv",
                           "spindle_tilt_yz.csv",
                           "tool_tip.csv",
+                          "temperatures.csv",
                           "machine.toml",
                           "README.md"));
 }
@@ -158,10 +159,50 @@ TEST(SimulationFiles, TheToolTipTableRepeatsTheModel) {
   }
 }
 
+TEST(SimulationFiles, TheLogHasAllChannelsEveryMinuteFromSwitchOn) {
+  const CsvTable table = Table("temperatures.csv");
+  const std::vector<double> day = Column(table, "day");
+  const std::vector<double> time = Column(table, "time_s");
+  ASSERT_EQ(table.num_rows, Small().log.size());
+  EXPECT_EQ(table.columns.size(), 3U + kNumThermocouples);
+  for (std::size_t i = 0; i < table.num_rows; ++i) {
+    if (i > 0 && day[i] == day[i - 1]) {
+      EXPECT_EQ(time[i] - time[i - 1], 60.0);
+    } else {
+      const auto index = static_cast<std::size_t>(day[i]) - 1;
+      EXPECT_EQ(time[i],
+                86400.0 * (day[i] - 1.0) + Small().programmes[index].start_s);
+    }
+  }
+  // To the last minute before the last stop.
+  EXPECT_EQ(day.back(), kDays);
+  EXPECT_GT(time.back(),
+            static_cast<double>(Small().stops.back().time_s()) - 60.0);
+}
+
+TEST(SimulationFiles, TheLogReadsWhatTheStopsRead) {
+  // A minute apart at most, three noises of 0.02 degC and two roundings.
+  constexpr double kApart = 0.2;
+  std::size_t compared = 0;
+  for (const LogEntry& entry : Small().log) {
+    for (const Stop& stop : Small().stops) {
+      if (stop.time_s() != entry.time_s) continue;
+      ++compared;
+      for (std::size_t i = 0; i < kNumThermocouples; ++i) {
+        EXPECT_NEAR(entry.readings[i], stop.readings[i], kApart) << i;
+      }
+    }
+  }
+  EXPECT_GT(compared, 0U);
+}
+
 TEST(SimulationFiles, MachineNamesAMapForEveryComponentFile) {
   const std::string toml = SimulationFile(Small(), {}, "machine.toml");
   for (const std::string& name : SimulationFileNames()) {
-    if (!name.ends_with(".csv") || name == "tool_tip.csv") continue;
+    if (!name.ends_with(".csv") || name == "tool_tip.csv" ||
+        name == "temperatures.csv") {
+      continue;
+    }
     const std::string map = name.substr(0, name.size() - 4) + ".json";
     EXPECT_THAT(toml, HasSubstr("\"" + map + "\""));
   }

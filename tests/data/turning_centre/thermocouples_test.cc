@@ -124,6 +124,25 @@ TEST(Thermocouples, FaultsDoWhatTheySay) {
   EXPECT_GT(Sd(bad, 11), 0.8 * kNoisyFactor * kNoise);
 }
 
+TEST(Thermocouples, ALogChangesNoReading) {
+  Faults faults{};
+  faults[7] = SensorFault::kStuck;
+  const std::vector<double> warm(kNumBodies, 30.0);
+  Thermocouples logged(1, kNoise, faults, 1);
+  Thermocouples plain(1, kNoise, faults, 1);
+  for (Thermocouples* one : {&logged, &plain}) one->StartDay(1, warm, 30.0);
+  const Thermocouples::Readings before = logged.Log(0.0);
+  const Thermocouples::Readings stop = logged.Read(0.0, 1);
+  const Thermocouples::Readings after = logged.Log(0.0);
+  EXPECT_EQ(stop, plain.Read(0.0, 1));
+  EXPECT_EQ(logged.Read(0.1, 1), plain.Read(0.1, 1));
+  EXPECT_NE(before, after);
+  EXPECT_NEAR(before[0], stop[0], 8.0 * kNoise);
+  // Stuck from the first stop on, not before it.
+  EXPECT_NE(before[7], stop[7]);
+  EXPECT_EQ(after[7], stop[7]);
+}
+
 TEST(Thermocouples, FollowAStepWithinTheirTimeConstant) {
   Thermocouples thermocouples(1, 0.0, {}, 1);
   thermocouples.StartDay(1, std::vector<double>(kNumBodies, 20.0), 20.0);
