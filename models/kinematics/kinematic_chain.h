@@ -1,0 +1,133 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace errmap::models {
+
+/// The side of the machine that a link is on: both begin at its base, one ends
+/// at the tool, the other at the workpiece.
+enum class Branch { kTool, kWork };
+
+enum class Joint { kFixed, kLinear, kRotary };
+
+/// What an error moves its link along, or turns it about: an axis of the frame
+/// of the link before it, X, Y or Z. The letters of ISO 230-1, clause 3.
+enum class ErrorDirection { kX, kY, kZ, kA, kB, kC };
+inline constexpr int kNumErrorDirections = 6;
+
+/// A, B and C: rad, positive by the right-hand rule; the others are lengths.
+bool IsRotation(ErrorDirection direction);
+
+/// A rigid element of the machine, from the one before it on its branch.
+/// Lengths are in one unit of the caller's choice, say mm; angles in rad.
+struct KinematicLink {
+  std::string name;
+  Branch branch = Branch::kTool;
+  Joint joint = Joint::kFixed;
+  /// Direction of motion, or axis of rotation, of a joint that moves, in the
+  /// frame of the link before; of any length but 0.
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+  /// Origin of this link's frame in that of the link before, where its own
+  /// coordinate is 0.
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  std::vector<ErrorDirection> errors = {};  // each at most once
+};
+
+/// The chain of homogeneous transformations from a machine's base to its tool
+/// and to its workpiece (NISTIR 5367, section 3.1, Eq. 1 to 6).
+///
+/// The transformation of a link with coordinate q and errors d (3 lengths) and
+/// e (3 angles) is
+///
+///   T(offset + q axis + d) R(e)               linear (fixed: without q)
+///   T(offset + d) R(e) R(axis, q)             rotary
+///
+/// R(e) turns by |e| about e, so that no order of the three is preferred. An
+/// error turns all that follows on its branch, about the link's own origin.
+/// The error at the tool is tool less work in the base frame: where the tip
+/// is, less where that point of the workpiece is which the nominal tip touches.
+/// Zero where there are no errors.
+///
+/// `coordinates` of the functions below are those of the links that move,
+/// `errors` those of all links, both in the order of the links.
+class KinematicChain {
+ public:
+  /// Throws std::invalid_argument naming the link: a name that stands twice or
+  /// is empty, an axis of length 0 of a joint that moves, a number that is not
+  /// finite, an error that stands twice; or where no link is on the tool's
+  /// branch.
+  explicit KinematicChain(std::vector<KinematicLink> links);
+
+  /// An error of a link.
+  struct ErrorPlace {
+    Eigen::Index link = 0;
+    ErrorDirection direction = ErrorDirection::kX;
+  };
+
+  const std::vector<KinematicLink>& links() const { return links_; }
+  const std::vector<ErrorPlace>& errors() const { return errors_; }
+  Eigen::Index num_coordinates() const { return num_coordinates_; }
+  Eigen::Index num_errors() const {
+    return static_cast<Eigen::Index>(errors_.size());
+  }
+
+  /// T_TOOL of Eq. 6 without errors: the tool's frame in that of the base.
+  /// Throws std::invalid_argument on another number of coordinates, as all
+  /// below do; theirs of errors likewise.
+  Eigen::Isometry3d NominalTool(const Eigen::VectorXd& coordinates) const;
+
+  /// T_TOOL with errors.
+  Eigen::Isometry3d Tool(const Eigen::VectorXd& coordinates,
+                         const Eigen::VectorXd& errors) const;
+
+  /// T_WORK with errors: the frame that the workpiece carries and that is
+  /// NominalTool without errors (Eq. 3 and 4).
+  Eigen::Isometry3d Work(const Eigen::VectorXd& coordinates,
+                         const Eigen::VectorXd& errors) const;
+
+  /// Tool less work (3) by the product of the matrices.
+  Eigen::Vector3d ExactError(const Eigen::VectorXd& coordinates,
+                             const Eigen::VectorXd& errors) const;
+
+  /// Its derivatives (3 x errors) at errors of 0: the unit vector of a length,
+  /// rotation axis times arm of an angle; with minus on the work's branch.
+  Eigen::Matrix3Xd Sensitivities(const Eigen::VectorXd& coordinates) const;
+
+  /// Sensitivities times errors (3): what remains of ExactError by the algebra
+  /// of infinitesimals (section 3.1), without products of errors.
+  Eigen::Vector3d FirstOrderError(const Eigen::VectorXd& coordinates,
+                                  const Eigen::VectorXd& errors) const;
+
+ private:
+  struct Ends {
+    Eigen::Isometry3d tool;
+    Eigen::Isometry3d work;
+  };
+
+  void CheckSizes(const Eigen::VectorXd& coordinates,
+                  const Eigen::VectorXd* errors) const;
+  Eigen::Isometry3d StepOf(const KinematicLink& link,
+                           double coordinate,
+                           const double* errors) const;
+  Ends EndsOf(const Eigen::VectorXd& coordinates,
+              const Eigen::VectorXd* errors) const;
+
+  std::vector<KinematicLink> links_;
+  std::vector<ErrorPlace> errors_;
+  Eigen::Index num_coordinates_ = 0;
+};
+
+/// E = T_TOOL^-1 T_WORK (Eq. 5): the workpiece as the tool sees it.
+Eigen::Isometry3d ErrorMatrix(const Eigen::Isometry3d& tool,
+                              const Eigen::Isometry3d& work);
+
+/// Tool less work in the base frame (3) from E, whose translation is work less
+/// tool in the frame of the tool: the opposite sense.
+Eigen::Vector3d ToolLessWork(const Eigen::Isometry3d& error_matrix,
+                             const Eigen::Isometry3d& tool);
+
+}  // namespace errmap::models

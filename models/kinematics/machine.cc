@@ -1,0 +1,19 @@
+#include "models/kinematics/machine.h"
+
+namespace errmap::models {
+
+data::Unit UnitOf(const Machine& machine, ErrorDirection direction) {
+  return IsRotation(direction) ? data::UnitOfSymbol("rad") : machine.length;
+}
+
+std::string_view LetterOf(ErrorDirection direction) {
+  constexpr std::array<std::string_view, kNumErrorDirections> kLetters = {
+      "X", "Y", "Z", "A", "B", "C"};
+  return kLetters[static_cast<std::size_t>(direction)];
+}
+
+std::string DirectionColumn(std::string_view coordinate) {
+  return data::ReadHeader(coordinate).base + "_direction";
+}
+
+}  // namespace errmap::models

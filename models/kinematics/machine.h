@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "data/units.h"
+#include "models/error_model.h"
+#include "models/kinematics/kinematic_chain.h"
+
+namespace errmap::models {
+
+/// What says how large an error is: a map, or the same everywhere.
+struct ErrorSource {
+  double constant = 0.0;                   // the chain's length unit, or rad
+  std::shared_ptr<const FittedModel> map;  // null: `constant`
+  std::string file;                        // of the map, for messages
+};
+
+/// An error of a machine's chain.
+struct MachineError {
+  std::string name;  // ISO 230-1: "EXX"
+  /// One, or those of forward and of reverse motion of its link.
+  std::vector<ErrorSource> sources;
+};
+
+/// A machine's chain with a source for each of its errors.
+struct Machine {
+  std::string name;
+  data::Unit length;  // of the chain
+  KinematicChain chain;
+  std::vector<std::string> columns;  // of the chain's coordinates
+  std::vector<MachineError> errors;  // as chain.errors()
+  /// Directions X, Y and Z of the base in which an error shows on the work.
+  std::array<bool, 3> sensitive = {true, true, true};
+};
+
+/// Unit of an error's values: the machine's length, or rad.
+data::Unit UnitOf(const Machine& machine, ErrorDirection direction);
+
+/// "X" ... "C".
+std::string_view LetterOf(ErrorDirection direction);
+
+/// The column that tells which way a link moves: "x_direction" for "x_mm".
+std::string DirectionColumn(std::string_view coordinate);
+
+}  // namespace errmap::models

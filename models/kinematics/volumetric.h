@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "models/kinematics/kinematic_chain.h"
+
+namespace errmap::models {
+
+/// An error of a chain at m points, and how far it may be off.
+struct ComponentAtPoints {
+  Eigen::VectorXd values;  // (m) the chain's length unit, or rad
+  /// (m) Within it of `values` a share `coverage` of errors lies; 0 of what is
+  /// exact, NaN where it is not known.
+  Eigen::VectorXd half_widths;
+};
+
+struct VolumetricOptions {
+  double coverage = 0.9;     // of half_widths and of the bounds, in (0, 1)
+  Eigen::Index draws = 500;  // of Monte Carlo, at least 0: no bounds
+  std::uint64_t seed = 1;
+
+  /// Throws std::invalid_argument naming field, value and range.
+  void Validate() const;
+};
+
+/// Errors at the tool, tool less work in the base frame, in the chain's length
+/// unit. Compensate by minus that.
+struct VolumetricErrors {
+  Eigen::MatrixX3d exact;        // (m x 3)
+  Eigen::MatrixX3d first_order;  // (m x 3)
+  /// What each error of the chain adds to first_order (errors)(m x 3).
+  std::vector<Eigen::MatrixX3d> contributions;
+  /// (m x 3) root of the sum of squares of sensitivities times half_widths:
+  /// the same share of errors, of normal and independent components, to first
+  /// order. NaN where a component that matters is not known.
+  Eigen::MatrixX3d half_widths;
+  /// (m x 3) quantiles of the exact form over `draws` of the same components;
+  /// NaN as half_widths, or without draws.
+  Eigen::MatrixX3d lower;
+  Eigen::MatrixX3d upper;
+
+  /// Largest distance between exact and first_order at a point.
+  double LargestDifference() const;
+};
+
+/// Combines what `components` (errors of the chain, in their order) say at m
+/// points of `coordinates` (m x coordinates of the chain). The same seed gives
+/// the same bounds; the draws are shared by all points, as the maps are. Throws
+/// std::invalid_argument where the shapes do not agree.
+VolumetricErrors CombineErrors(const KinematicChain& chain,
+                               const Eigen::MatrixXd& coordinates,
+                               const std::vector<ComponentAtPoints>& components,
+                               const VolumetricOptions& options);
+
+}  // namespace errmap::models
