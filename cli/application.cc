@@ -125,6 +125,7 @@ int RunCommand(int argc, char** argv) {
   AddResidualsCommand(&app, &run);
   AddReportCommand(&app, &run);
   AddSimulateCommand(&app, &run);
+  AddVolumetricCommand(&app, &run);
   AddNetcgCommand(&app, &run);
   AddConvertCommand(&app, &run);
   AddCertifyCommand(&app, &run);

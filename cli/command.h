@@ -46,5 +46,6 @@ void AddCertifyCommand(CLI::App* app, Run* run);
 void AddSimulateCommand(CLI::App* app, Run* run);
 void AddNetcgCommand(CLI::App* app, Run* run);
 void AddConvertCommand(CLI::App* app, Run* run);
+void AddVolumetricCommand(CLI::App* app, Run* run);
 
 }  // namespace errmap::cli

@@ -153,8 +153,8 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
       violation("<" name "> belongs in models/*.cc and cli/")
       next
     }
-    if (name ~ /^toml\+\+\// && FILENAME !~ /^cli\/study_file\/study_file\.cc$/) {
-      violation("<" name "> belongs in cli/study_file/study_file.cc")
+    if (name ~ /^toml\+\+\// && FILENAME !~ /^cli\/study_file\//) {
+      violation("<" name "> belongs in cli/study_file/")
       next
     }
     if (name ~ /^(gtest|gmock|benchmark)\//) {

@@ -10,9 +10,7 @@
 #include "data/column_checks.h"
 #include "data/column_match.h"
 #include "data/input_error.h"
-#include "data/sessions.h"
 #include "data/text.h"
-#include "models/history/history.h"
 
 namespace errmap::cli {
 namespace {
@@ -93,6 +91,12 @@ void WarnOfSessions(const models::History& history,
 }
 
 }  // namespace
+
+data::FoundSessions FindSessionsFor(const models::History& history,
+                                    const data::CsvTable& table,
+                                    const MapLogArguments& arguments) {
+  return FindAll(history, table, SelectionFor(history, table, arguments));
+}
 
 void AddMapLogArguments(CLI::App* command, MapLogArguments* arguments) {
   command

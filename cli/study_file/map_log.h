@@ -8,7 +8,9 @@
 
 #include "data/csv.h"
 #include "data/dataset.h"
+#include "data/sessions.h"
 #include "models/error_model.h"
+#include "models/history/history.h"
 
 namespace CLI {
 class App;
@@ -25,6 +27,12 @@ struct MapLogArguments {
 
 /// Adds --after, --time and --session to a command.
 void AddMapLogArguments(CLI::App* command, MapLogArguments* arguments);
+
+/// Sessions and times of a table's rows as a map's memory needs them. Throws
+/// data::InputError as MakeMapLog does.
+data::FoundSessions FindSessionsFor(const models::History& history,
+                                    const data::CsvTable& table,
+                                    const MapLogArguments& arguments);
 
 /// What the filters of a map run through: a file's rows, those before it first.
 struct MapLog {

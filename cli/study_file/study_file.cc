@@ -14,6 +14,7 @@
 #include <toml++/toml.h>
 
 #include "cli/command.h"
+#include "cli/study_file/toml_keys.h"
 #include "cli/study_file/toml_text.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
@@ -27,180 +28,6 @@ namespace {
 
 using data::QuotedName;
 using data::QuotedText;
-
-constexpr std::string_view kOverride = "--set ";  // begins its source's name
-
-std::string Place(const std::string& file, const toml::source_region& at) {
-  return fmt::format(
-      "{}:{}:{}: ", data::PrintablePath(file), at.begin.line, at.begin.column);
-}
-
-[[noreturn]] void Refuse(const std::string& file,
-                         const toml::source_region& at,
-                         const std::string& what) {
-  if (at.path != nullptr && at.path->starts_with(kOverride)) {
-    throw UsageError(data::PrintablePath(*at.path) + ": " + what);
-  }
-  throw data::InputError(Place(file, at) + what);
-}
-
-std::string Found(const toml::node& node) {
-  switch (node.type()) {
-    case toml::node_type::table:
-      return "a table";
-    case toml::node_type::array:
-      return "a list";
-    case toml::node_type::string:
-      return "text (" + QuotedText(node.ref<std::string>()) + ")";
-    case toml::node_type::integer:
-      return fmt::format("a number ({})", node.ref<std::int64_t>());
-    case toml::node_type::floating_point:
-      return fmt::format("a number ({})", node.ref<double>());
-    case toml::node_type::boolean:
-      return node.ref<bool>() ? "true" : "false";
-    default:
-      return "a date or time";
-  }
-}
-
-// Of a whole or other number.
-double NumberOf(const toml::node& node) {
-  const auto* const whole = node.as_integer();
-  return whole != nullptr ? static_cast<double>(whole->get())
-                          : node.ref<double>();
-}
-
-// "did you mean 'target'? "
-std::string Suggestion(std::string_view name,
-                       const std::vector<std::string>& known) {
-  const std::string nearest = data::NearestName(name, known);
-  return nearest.empty() ? "" : "did you mean '" + nearest + "'? ";
-}
-
-// A table of the file, read key by key; what is wrong is said with its place.
-class Keys {
- public:
-  Keys(const toml::table& table, std::string where, const std::string& file)
-      : table_(table), where_(std::move(where)), file_(file) {}
-
-  void AllowOnly(const std::vector<std::string>& known) const {
-    for (const auto& [key, value] : table_) {
-      if (std::ranges::find(known, key.str()) != known.end()) continue;
-      Refuse(file_,
-             key.source(),
-             fmt::format("unknown key {} in {}; {}allowed are {}",
-                         QuotedName(key.str()),
-                         where_,
-                         Suggestion(key.str(), known),
-                         fmt::join(known, ", ")));
-    }
-  }
-
-  const toml::node* Find(std::string_view key) const { return table_.get(key); }
-
-  void TakeText(std::string_view key, std::string* text) const {
-    const toml::node* const node = Find(key);
-    if (node == nullptr) return;
-    const auto* const value = node->as_string();
-    if (value == nullptr) RefuseType(key, *node, "text in quotes");
-    if (value->get().empty()) {
-      Refuse(file_,
-             node->source(),
-             fmt::format("'{}' must not be empty; leave it out for the default",
-                         key));
-    }
-    *text = value->get();
-  }
-
-  void TakeFlag(std::string_view key, bool* flag) const {
-    const toml::node* const node = Find(key);
-    if (node == nullptr) return;
-    const auto* const value = node->as_boolean();
-    if (value == nullptr) RefuseType(key, *node, "true or false");
-    *flag = value->get();
-  }
-
-  void TakeNumber(std::string_view key,
-                  bool may_be_zero,
-                  double* number) const {
-    const toml::node* const node = Find(key);
-    if (node == nullptr) return;
-    if (!node->is_number()) RefuseType(key, *node, "a number");
-    const double value = NumberOf(*node);
-    if (!std::isfinite(value) || value < 0.0 ||
-        (value == 0.0 && !may_be_zero)) {
-      Refuse(file_,
-             node->source(),
-             fmt::format("'{}' must be {} 0, found {}",
-                         key,
-                         may_be_zero ? "at least" : "above",
-                         value));
-    }
-    *number = value;
-  }
-
-  void TakeSeed(std::uint64_t* seed) const {
-    const toml::node* const node = Find("seed");
-    if (node == nullptr) return;
-    const auto* const value = node->as_integer();
-    if (value == nullptr || value->get() < 0) {
-      RefuseType("seed", *node, "a whole number from 0");
-    }
-    *seed = static_cast<std::uint64_t>(value->get());
-  }
-
-  /// Texts of a list; `check` may refuse one by throwing invalid_argument.
-  template <typename Check>
-  void TakeList(std::string_view key,
-                std::vector<std::string>* list,
-                const Check& check) const {
-    constexpr std::string_view kWanted = "a list of texts such as [\"a\"]";
-    const toml::node* const node = Find(key);
-    if (node == nullptr) return;
-    const toml::array* const array = node->as_array();
-    if (array == nullptr) RefuseType(key, *node, kWanted);
-    for (const toml::node& item : *array) {
-      const auto* const text = item.as_string();
-      if (text == nullptr) RefuseType(key, item, kWanted);
-      if (std::ranges::find(*list, text->get()) != list->end()) {
-        Refuse(file_,
-               item.source(),
-               fmt::format("'{}' has {} twice", key, QuotedName(text->get())));
-      }
-      try {
-        check(text->get());
-      } catch (const std::invalid_argument& error) {
-        Refuse(file_, item.source(), error.what());
-      }
-      list->push_back(text->get());
-    }
-  }
-
-  void TakeList(std::string_view key, std::vector<std::string>* list) const {
-    TakeList(key, list, [](const std::string& /*any*/) {});
-  }
-
-  [[noreturn]] void RefuseType(std::string_view key,
-                               const toml::node& node,
-                               std::string_view wanted) const {
-    Refuse(file_,
-           node.source(),
-           fmt::format("{} in {} must be {}, found {}",
-                       QuotedName(key),
-                       where_,
-                       wanted,
-                       Found(node)));
-  }
-
-  [[noreturn]] void RefuseTable(const std::string& what) const {
-    Refuse(file_, table_.source(), where_ + ": " + what);
-  }
-
- private:
-  const toml::table& table_;
-  std::string where_;
-  const std::string& file_;
-};
 
 // A value with colons in it, as a SPEC needs it.
 std::string Quoted(const std::string& text) {
@@ -239,10 +66,10 @@ class StudyFileReader {
     keys.TakeList("models", &config.models, [](const std::string& spec) {
       models::MakeRecipe(spec);
     });
-    for (const toml::table* table : Tables(keys, "model")) {
+    for (const toml::table* table : keys.Tables("model")) {
       config.models.push_back(ReadModel(*table, config.models));
     }
-    for (const toml::table* table : Tables(keys, "component")) {
+    for (const toml::table* table : keys.Tables("component")) {
       config.components.push_back(ReadComponent(*table));
     }
     if (config.components.empty()) {
@@ -254,21 +81,6 @@ class StudyFileReader {
   }
 
  private:
-  std::vector<const toml::table*> Tables(const Keys& keys,
-                                         const char* key) const {
-    std::vector<const toml::table*> tables;
-    const toml::node* const node = keys.Find(key);
-    if (node == nullptr) return tables;
-    const std::string wanted = fmt::format("tables, each headed [[{}]]", key);
-    const toml::array* const array = node->as_array();
-    if (array == nullptr) keys.RefuseType(key, *node, wanted);
-    for (const toml::node& item : *array) {
-      if (item.as_table() == nullptr) keys.RefuseType(key, item, wanted);
-      tables.push_back(item.as_table());
-    }
-    return tables;
-  }
-
   std::string BesideStudyFile(const std::string& path) const {
     if (folder_.empty()) return path;
     return (folder_ / path).lexically_normal().string();
@@ -563,21 +375,7 @@ class Overrider {
 StudyConfig ParseStudyFile(const std::string& text,
                            const std::string& path,
                            const std::vector<std::string>& overrides) {
-  if (const std::size_t line = LineOfLongKey(text); line > 0) {
-    throw data::InputError(
-        fmt::format("{}: line {}: a key of more than {} parts",
-                    data::PrintablePath(path),
-                    line,
-                    kMostKeyParts));
-  }
-  toml::table root;
-  try {
-    root = toml::parse(text, path);
-  } catch (const toml::parse_error& error) {
-    throw data::InputError(
-        Place(path, error.source()) +
-        data::PrintablePath(std::string(error.description())));
-  }
+  toml::table root = ParseToml(text, path);
   for (const std::string& change : overrides) {
     Overrider(change).Apply(ParseOverride(change), &root);
   }

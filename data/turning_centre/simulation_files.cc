@@ -178,6 +178,7 @@ std::string MachineToml() {
 name = "turning centre"
 length = "mm"
 angle = "rad"
+sensitive = ["X", "Z"]
 
 [[link]]                     # parallelism of Z to the cold spindle axis
 name = "0Z"
