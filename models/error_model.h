@@ -132,9 +132,9 @@ struct History;
 /// A column that hardly moved in training may move far on another day.
 struct Guards {
   /// Inputs of the form are clipped at [min - m * range, max + m * range].
-  double input_margin = 0.5;
+  double input_margin = 2.0;
   /// Predictions likewise.
-  double error_margin = 0.1;
+  double error_margin = 0.3;
   Eigen::VectorXd input_min;  // (inputs of the form) in training
   Eigen::VectorXd input_max;
   double error_min = 0.0;  // of the target in training, in its unit

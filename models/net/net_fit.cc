@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -40,6 +42,37 @@ ColumnScaling ScalingOf(InputScaling kind, const Eigen::MatrixXd& inputs) {
   return IdentityScaling(inputs.cols());
 }
 
+// Sum of squared errors of the net of these weights on `test`.
+double SquaresOn(const Dataset& test,
+                 const NetRows& rows,
+                 const Eigen::VectorXd& weights) {
+  return (test.target_values() -
+          FeedforwardNet(rows.FormOf(weights)).Predict(test.input_values()))
+      .squaredNorm();
+}
+
+std::vector<fitting::FoldCodes::Rows> SplitsOf(const InnerFolds& inner) {
+  std::vector<fitting::FoldCodes::Rows> splits;
+  const fitting::FoldCodes& folds = inner.folds;
+  for (Index fold = folds.first_judged(); fold < folds.count(); ++fold) {
+    splits.push_back(folds.Split(fold));
+  }
+  return splits;
+}
+
+// RMSE of all folds together from the squares of each (NaN: no fit) and its
+// number of rows.
+double PooledRmse(const InnerFolds& inner,
+                  const Eigen::VectorXd& squares,
+                  const Eigen::VectorXd& rows,
+                  const FitContext& context) {
+  return std::sqrt(TypicalError(inner,
+                                (squares.array() / rows.array()).matrix(),
+                                rows,
+                                context.indifference)
+                       .mean_square);
+}
+
 // Sum of squared errors on the test rows; NaN where there is no fit.
 double HeldOutSquares(const NetDesign& design,
                       const NetTrainer& trainer,
@@ -52,18 +85,32 @@ double HeldOutSquares(const NetDesign& design,
     tried.hidden = trial.hidden;
     const NetRows rows = ScaleRows(tried, all.SelectRows(fold.train));
     const fitting::Minimum minimum =
-        trainer.Train(rows.From(trial.seed, trial.wfactor),
-                      {.stop = context.stop, .keep_trace = false});
+        TrainAlong(rows,
+                   trainer,
+                   trial.wfactors,
+                   trial.seed,
+                   {.stop = context.stop, .keep_trace = false});
     if (minimum.summary.termination == fitting::Termination::kFailed) {
       return kNaN;
     }
-    const Dataset test = all.SelectRows(fold.test);
-    return (test.target_values() -
-            FeedforwardNet(rows.FormOf(minimum.x)).Predict(test.input_values()))
-        .squaredNorm();
+    return SquaresOn(all.SelectRows(fold.test), rows, minimum.x);
   } catch (const std::invalid_argument&) {
     return kNaN;  // these rows cannot be fitted, such as a constant target
   }
+}
+
+// The work of `earlier` steps in front of that of `last`.
+void Precede(const fitting::FitSummary& earlier, fitting::FitSummary* last) {
+  for (fitting::TracePoint& point : last->trace) {
+    point.iteration += earlier.iterations;
+  }
+  last->trace.insert(
+      last->trace.begin(), earlier.trace.begin(), earlier.trace.end());
+  last->iterations += earlier.iterations;
+  last->value_evaluations += earlier.value_evaluations;
+  last->gradient_evaluations += earlier.gradient_evaluations;
+  last->curvature_evaluations += earlier.curvature_evaluations;
+  last->seconds += earlier.seconds;
 }
 
 }  // namespace
@@ -136,55 +183,156 @@ std::uint64_t SeedOfStart(std::uint64_t seed, std::int64_t k) {
   return (z ^ (z >> 31U)) >> 11U;
 }
 
+const std::vector<double>& WfactorPath() {
+  static const std::vector<double> path = [] {
+    constexpr double kPerDecade = 2.0;
+    constexpr int kDecades = 7;
+    std::vector<double> all;
+    for (int half = 0; half <= kDecades * 2; ++half) {
+      all.push_back(std::pow(10.0, -half / kPerDecade));
+    }
+    return all;
+  }();
+  return path;
+}
+
+std::vector<double> WfactorPathTo(double wfactor) {
+  std::vector<double> path;
+  for (const double step : WfactorPath()) {
+    if (step > wfactor) path.push_back(step);
+  }
+  path.push_back(wfactor);
+  return path;
+}
+
+fitting::Minimum TrainAlong(const NetRows& rows,
+                            const NetTrainer& trainer,
+                            const std::vector<double>& wfactors,
+                            std::uint64_t seed,
+                            const fitting::RunControl& run) {
+  if (wfactors.empty()) throw std::invalid_argument("TrainAlong: no wfactor");
+  NetTraining step = rows.From(seed, wfactors.front());
+  fitting::Minimum minimum = trainer.Train(step, run);
+  for (std::size_t i = 1; i < wfactors.size(); ++i) {
+    const fitting::Termination end = minimum.summary.termination;
+    if (end == fitting::Termination::kFailed ||
+        end == fitting::Termination::kInterrupted) {
+      break;
+    }
+    step.wfactor = wfactors[i];
+    step.initial_weights = std::move(minimum.x);
+    const fitting::FitSummary earlier = std::move(minimum.summary);
+    minimum = trainer.Train(step, run);
+    Precede(earlier, &minimum.summary);
+  }
+  return minimum;
+}
+
 std::vector<double> InnerHoldoutRmse(const NetDesign& design,
                                      const NetTrainer& trainer,
                                      const Dataset& training,
                                      const InnerFolds& folds,
                                      const std::vector<NetTrial>& trials,
                                      const FitContext& context) {
-  std::vector<fitting::FoldCodes::Rows> split;
-  for (Index fold = folds.folds.first_judged(); fold < folds.folds.count();
-       ++fold) {
-    split.push_back(folds.folds.Split(fold));
+  const std::vector<fitting::FoldCodes::Rows> split = SplitsOf(folds);
+  const auto count = static_cast<Index>(split.size());
+  Eigen::VectorXd rows(count);
+  for (Index fold = 0; fold < count; ++fold) {
+    rows[fold] =
+        static_cast<double>(split[static_cast<std::size_t>(fold)].test.size());
   }
-  Eigen::VectorXd rows(static_cast<Index>(split.size()));
-  for (std::size_t fold = 0; fold < split.size(); ++fold) {
-    rows[static_cast<Index>(fold)] =
-        static_cast<double>(split[fold].test.size());
-  }
-  std::vector<double> squares(trials.size() * split.size());
-  RunJobs(squares.size(), context.threads, [&](std::size_t job) {
-    squares[job] = HeldOutSquares(design,
-                                  trainer,
-                                  training,
-                                  split[job % split.size()],
-                                  trials[job / split.size()],
-                                  context);
+  Eigen::MatrixXd squares(count, static_cast<Index>(trials.size()));
+  RunJobs(trials.size() * split.size(), context.threads, [&](std::size_t job) {
+    squares.reshaped()[static_cast<Index>(job)] =
+        HeldOutSquares(design,
+                       trainer,
+                       training,
+                       split[job % split.size()],
+                       trials[job / split.size()],
+                       context);
   });
   std::vector<double> rmse;
-  for (std::size_t trial = 0; trial < trials.size(); ++trial) {
-    Eigen::VectorXd means(static_cast<Index>(split.size()));
-    for (std::size_t fold = 0; fold < split.size(); ++fold) {
-      const auto at = static_cast<Index>(fold);
-      means[at] = squares[trial * split.size() + fold] / rows[at];
-    }
-    rmse.push_back(std::sqrt(
-        TypicalError(folds, means, rows, context.indifference).mean_square));
+  for (Index trial = 0; trial < squares.cols(); ++trial) {
+    rmse.push_back(PooledRmse(folds, squares.col(trial), rows, context));
   }
   return rmse;
+}
+
+struct WfactorWalk::Fold {
+  std::optional<NetRows> rows;  // none where they cannot be fitted
+  Dataset test;
+  Eigen::VectorXd weights;  // of the last step
+  double squares = kNaN;    // of the last step
+};
+
+WfactorWalk::WfactorWalk(const NetDesign& design,
+                         const NetTrainer& trainer,
+                         const Dataset& training,
+                         const InnerFolds& folds,
+                         std::uint64_t seed,
+                         bool warm,
+                         const FitContext& context)
+    : trainer_(trainer),
+      inner_(folds),
+      context_(context),
+      seed_(seed),
+      warm_(warm) {
+  for (const fitting::FoldCodes::Rows& split : SplitsOf(folds)) {
+    Fold fold{.rows = std::nullopt,
+              .test = training.SelectRows(split.test),
+              .weights = {}};
+    try {
+      fold.rows = ScaleRows(design, training.SelectRows(split.train));
+      fold.weights = InitialWeights(fold.rows->training.shape, seed);
+    } catch (const std::invalid_argument&) {
+      fold.rows.reset();  // such as a constant target
+    }
+    folds_.push_back(std::move(fold));
+  }
+}
+
+WfactorWalk::~WfactorWalk() = default;
+
+double WfactorWalk::Step(double wfactor) {
+  RunJobs(folds_.size(), context_.threads, [&](std::size_t job) {
+    Fold& fold = folds_[job];
+    if (!fold.rows) return;
+    NetTraining training = fold.rows->From(seed_, wfactor);
+    if (warm_) training.initial_weights = fold.weights;
+    fitting::Minimum minimum =
+        trainer_.Train(training, {.stop = context_.stop, .keep_trace = false});
+    if (minimum.summary.termination == fitting::Termination::kFailed) {
+      fold.rows.reset();
+      fold.squares = kNaN;
+      return;
+    }
+    fold.squares = SquaresOn(fold.test, *fold.rows, minimum.x);
+    fold.weights = std::move(minimum.x);
+  });
+  Eigen::VectorXd squares(static_cast<Index>(folds_.size()));
+  Eigen::VectorXd rows(squares.size());
+  for (Index fold = 0; fold < squares.size(); ++fold) {
+    const Fold& from = folds_[static_cast<std::size_t>(fold)];
+    squares[fold] = from.squares;
+    rows[fold] = static_cast<double>(from.test.num_rows());
+  }
+  return PooledRmse(inner_, squares, rows, context_);
 }
 
 std::vector<fitting::Minimum> TrainFromStarts(
     const NetRows& rows,
     const NetTrainer& trainer,
-    double wfactor,
+    const std::vector<double>& wfactors,
     const std::vector<std::uint64_t>& seeds,
     const FitContext& context) {
   std::vector<fitting::Minimum> minima(seeds.size());
   RunJobs(seeds.size(), context.threads, [&](std::size_t i) {
     minima[i] =
-        trainer.Train(rows.From(seeds[i], wfactor),
-                      {.stop = context.stop, .keep_trace = context.keep_trace});
+        TrainAlong(rows,
+                   trainer,
+                   wfactors,
+                   seeds[i],
+                   {.stop = context.stop, .keep_trace = context.keep_trace});
   });
   return minima;
 }

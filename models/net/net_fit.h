@@ -52,11 +52,57 @@ NetRows ScaleRows(const NetDesign& design, const data::Dataset& training);
 /// Seed of start k (0-based): start 0 is that of the fit itself.
 std::uint64_t SeedOfStart(std::uint64_t seed, std::int64_t k);
 
+/// Wfactors of a path from strong to weak: 1 and every half decade below it,
+/// down to 1e-7.
+const std::vector<double>& WfactorPath();
+
+/// The beginning of WfactorPath that is above `wfactor`, then `wfactor`.
+std::vector<double> WfactorPathTo(double wfactor);
+
 /// A net to be judged by inner hold-outs.
 struct NetTrial {
-  std::int64_t hidden = 1;  // in place of the design's
-  double wfactor = 0.0;
+  std::int64_t hidden = 1;       // in place of the design's
+  std::vector<double> wfactors;  // trained along, see TrainAlong
   std::uint64_t seed = 1;
+};
+
+/// Trains at each of `wfactors` in turn, the first from the start of `seed`,
+/// each other from the weights of the one before. The summary is that of the
+/// last, but for the counts, seconds and trace, which are those of all. Throws
+/// std::invalid_argument where there are no wfactors.
+fitting::Minimum TrainAlong(const NetRows& rows,
+                            const NetTrainer& trainer,
+                            const std::vector<double>& wfactors,
+                            std::uint64_t seed,
+                            const fitting::RunControl& run);
+
+/// A net on inner folds whose wfactor falls from step to step.
+class WfactorWalk {
+ public:
+  /// Each step trains from the weights of the last where `warm`, else from the
+  /// start of `seed`. What is given must outlive the walk.
+  WfactorWalk(const NetDesign& design,
+              const NetTrainer& trainer,
+              const data::Dataset& training,
+              const InnerFolds& folds,
+              std::uint64_t seed,
+              bool warm,
+              const FitContext& context);
+  ~WfactorWalk();
+  WfactorWalk(const WfactorWalk&) = delete;
+  WfactorWalk& operator=(const WfactorWalk&) = delete;
+
+  /// Trains at `wfactor`: the RMSE on the rows left out, as InnerHoldoutRmse.
+  double Step(double wfactor);
+
+ private:
+  struct Fold;
+  std::vector<Fold> folds_;
+  const NetTrainer& trainer_;
+  const InnerFolds& inner_;
+  const FitContext& context_;
+  std::uint64_t seed_;
+  bool warm_;
 };
 
 /// Of each trial the RMSE on the rows left out of its fits, all folds pooled,
@@ -69,12 +115,12 @@ std::vector<double> InnerHoldoutRmse(const NetDesign& design,
                                      const std::vector<NetTrial>& trials,
                                      const FitContext& context);
 
-/// The minima from the starts of these seeds, in their order; on
+/// The minima of TrainAlong from the starts of these seeds, in their order; on
 /// context.threads, which changes no bit.
 std::vector<fitting::Minimum> TrainFromStarts(
     const NetRows& rows,
     const NetTrainer& trainer,
-    double wfactor,
+    const std::vector<double>& wfactors,
     const std::vector<std::uint64_t>& seeds,
     const FitContext& context);
 

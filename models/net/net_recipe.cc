@@ -106,6 +106,20 @@ const std::vector<std::string>& StartRules() {
   return words;
 }
 
+// What `path=` says of the way to a wfactor: down WfactorPath where it is
+// tuned, always, never.
+const std::vector<std::string>& PathWords() {
+  static const std::vector<std::string> words = {"auto", "yes", "no"};
+  return words;
+}
+
+// The iterations of a fit along the path are shared by its steps.
+fitting::StoppingRules RulesOfAStep(fitting::StoppingRules rules) {
+  const auto steps = static_cast<std::int64_t>(WfactorPath().size());
+  rules.iterations = (rules.iterations + steps - 1) / steps;
+  return rules;
+}
+
 // The first of the lowest; one that is not a number loses.
 std::size_t IndexOfLowest(const std::vector<double>& values) {
   std::size_t best = 0;
@@ -135,7 +149,7 @@ class SpecNetRecipe final : public NetRecipe {
     clips_ = options.TakeChoice("clip", 0, {"auto", "none"}) == 0;
     // A net with a view is to hold where it was not trained.
     constexpr std::int64_t kFewNodes = 10;
-    constexpr std::int64_t kFewSteps = 500;
+    constexpr std::int64_t kFewSteps = 750;
     constexpr std::int64_t kSomeMembers = 3;
     if (view_.given) design_.hidden = kFewNodes;
     const bool one_start =
@@ -149,6 +163,9 @@ class SpecNetRecipe final : public NetRecipe {
     if (view_.given && !options.Has("wfactor") && !options.Has("discrepancy")) {
       wfactor_.rule = WfactorRule::kCrossValidation;
     }
+    const std::size_t path = options.TakeChoice("path", 0, PathWords());
+    walks_path_ =
+        path == 0 ? wfactor_.rule == WfactorRule::kCrossValidation : path == 1;
     fitting::StoppingRules defaults = DefaultStoppingRules(spec.type);
     if (view_.given) {
       defaults.iterations = std::min(defaults.iterations, kFewSteps);
@@ -187,7 +204,12 @@ class SpecNetRecipe final : public NetRecipe {
           "discrepancy= choose one",
           spec.text));
     }
-    trainer_ = MakeNetTrainer(spec.type, stopping_, &options);
+    if (walks_path_ && wfactor_.rule == WfactorRule::kDiscrepancy) {
+      throw std::invalid_argument(fmt::format(
+          "model '{}': discrepancy= walks a path of its own", spec.text));
+    }
+    trainer_ = MakeNetTrainer(
+        spec.type, walks_path_ ? RulesOfAStep(stopping_) : stopping_, &options);
     options.RefuseOthers();
   }
 
@@ -202,6 +224,7 @@ class SpecNetRecipe final : public NetRecipe {
       all.push_back({"hidden", design_.hidden});
     }
     wfactor_.Describe(&all);
+    if (walks_path_) all.push_back({"path", std::string("yes")});
     all.push_back({"iterations", stopping_.iterations});
     all.push_back({"egoal", stopping_.cost_goal});
     all.push_back({"gwgoal", stopping_.gradient_goal});
@@ -287,9 +310,15 @@ class SpecNetRecipe final : public NetRecipe {
                        const FitContext& context) const {
     const std::vector<ViewedRows> views =
         MakeViews(training, view_, context.indifference);
+    std::vector<TunedNet> tuned;
     std::vector<double> scores;
-    const ViewedRows& viewed = ChooseView(views, context, &scores);
-    FittedModel fitted = FitView(*viewed.rows, context);
+    for (const ViewedRows& viewed : views) {
+      tuned.push_back(Tune(*viewed.rows, views.size() > 1, context));
+      scores.push_back(tuned.back().rmse);
+    }
+    const std::size_t best = IndexOfLowest(scores);
+    const ViewedRows& viewed = views[best];
+    FittedModel fitted = FitView(*viewed.rows, tuned[best], context);
     if (view_.given) {
       fitted.choices.push_back({"view", std::string(ToString(viewed.view))});
       if (viewed.sine_and_cosine) {
@@ -335,31 +364,9 @@ class SpecNetRecipe final : public NetRecipe {
     return fixed;
   }
 
-  // The view with the least error on inner hold-outs, at one wfactor for all:
-  // the penalty is tuned in the view that was chosen.
-  const ViewedRows& ChooseView(const std::vector<ViewedRows>& views,
-                               const FitContext& context,
-                               std::vector<double>* scores) const {
-    if (views.size() == 1) return views.front();
-    constexpr double kMiddling = 1e-3;
-    const bool tunes = wfactor_.rule == WfactorRule::kCrossValidation;
-    const double wfactor = tunes ? kMiddling : wfactor_.wfactor;
-    for (const ViewedRows& viewed : views) {
-      const InnerFolds inner = MakeInnerFolds(*viewed.rows, context);
-      scores->push_back(
-          InnerHoldoutRmse(design_,
-                           *trainer_,
-                           *viewed.rows,
-                           inner,
-                           {{design_.hidden, wfactor, context.seed}},
-                           context)
-              .front());
-    }
-    return views[IndexOfLowest(*scores)];
-  }
-
   // The net, or the average of several, on rows as they stand.
   FittedModel FitView(const Dataset& training,
+                      const TunedNet& tuned,
                       const FitContext& context) const {
     FittedModel fitted;
     fitted.name = name_;
@@ -370,19 +377,18 @@ class SpecNetRecipe final : public NetRecipe {
     std::iota(columns.begin(), columns.end(), Index{0});
     fitted.inputs = DescribeInputs(training, columns);
     NetDesign design = design_;
-    double wfactor = wfactor_.wfactor;
-    if (tunes_hidden_ || wfactor_.rule == WfactorRule::kCrossValidation) {
-      Tune(training, context, &design, &wfactor, &fitted);
-    }
+    design.hidden = tuned.hidden;
+    DescribeTuning(tuned, training, &fitted);
     const NetRows rows = ScaleRows(design, training);
     if (members_ > 1) {
-      AverageStarts(rows, wfactor, columns, context, &fitted);
+      AverageStarts(rows, tuned.wfactor, columns, context, &fitted);
       return fitted;
     }
     fitting::Minimum minimum =
         wfactor_.rule == WfactorRule::kDiscrepancy
             ? FitToDiscrepancy(training, rows, context, &fitted)
-            : FitStarts(training, design, rows, wfactor, context, &fitted);
+            : FitStarts(
+                  training, design, rows, tuned.wfactor, context, &fitted);
     fitted.model = std::make_shared<FeedforwardNet>(rows.FormOf(minimum.x));
     fitted.summary = std::move(minimum.summary);
     return fitted;
@@ -398,7 +404,7 @@ class SpecNetRecipe final : public NetRecipe {
       seeds.push_back(SeedOfStart(context.seed, k));
     }
     std::vector<fitting::Minimum> minima =
-        TrainFromStarts(rows, *trainer_, wfactor, seeds, context);
+        TrainFromStarts(rows, *trainer_, Wfactors(wfactor), seeds, context);
     fitted->starts = DescribeStarts(seeds, minima);
     std::vector<AveragedMember> members;
     for (std::size_t i = 0; i < minima.size(); ++i) {
@@ -417,21 +423,40 @@ class SpecNetRecipe final : public NetRecipe {
     fitted->summary = std::move(minima.front().summary);
   }
 
-  void Tune(const Dataset& training,
-            const FitContext& context,
-            NetDesign* design,
-            double* wfactor,
-            FittedModel* fitted) const {
-    const TunedNet tuned =
-        TuneNet(*design,
-                {.hidden = tunes_hidden_,
-                 .wfactor = wfactor_.rule == WfactorRule::kCrossValidation,
-                 .fixed_wfactor = *wfactor},
-                *trainer_,
-                training,
-                context);
-    design->hidden = tuned.hidden;
-    *wfactor = tuned.wfactor;
+  // What inner hold-outs choose on rows as they stand; where nothing is to be
+  // chosen but is to be `judged`, its error.
+  TunedNet Tune(const Dataset& training,
+                bool judged,
+                const FitContext& context) const {
+    const NetTuning tuning = {
+        .hidden = tunes_hidden_,
+        .wfactor = wfactor_.rule == WfactorRule::kCrossValidation,
+        .fixed_wfactor = wfactor_.wfactor,
+        .along_path = walks_path_};
+    if (tuning.hidden || tuning.wfactor) {
+      return TuneNet(design_, tuning, *trainer_, training, context);
+    }
+    TunedNet fixed;
+    fixed.hidden = design_.hidden;
+    fixed.wfactor = wfactor_.wfactor;
+    if (judged) {
+      const InnerFolds inner = MakeInnerFolds(training, context);
+      const NetTrial trial = {
+          fixed.hidden, Wfactors(fixed.wfactor), context.seed};
+      fixed.rmse = InnerHoldoutRmse(
+                       design_, *trainer_, training, inner, {trial}, context)
+                       .front();
+    }
+    return fixed;
+  }
+
+  std::vector<double> Wfactors(double last) const {
+    return WfactorsOf(last, walks_path_);
+  }
+
+  static void DescribeTuning(const TunedNet& tuned,
+                             const Dataset& training,
+                             FittedModel* fitted) {
     for (const TunedValue& value : tuned.chosen) {
       fitted->inner_rmse = value.rmse;
       const bool is_hidden = value.choice.key == "hidden";
@@ -477,7 +502,7 @@ class SpecNetRecipe final : public NetRecipe {
       seeds.push_back(SeedOfStart(context.seed, k));
     }
     std::vector<fitting::Minimum> minima =
-        TrainFromStarts(rows, *trainer_, wfactor, seeds, context);
+        TrainFromStarts(rows, *trainer_, Wfactors(wfactor), seeds, context);
     if (starts_ == 1) return std::move(minima.front());
     std::vector<double> costs;
     for (const fitting::Minimum& minimum : minima) {
@@ -534,7 +559,7 @@ class SpecNetRecipe final : public NetRecipe {
                                   const FitContext& context) const {
     std::vector<NetTrial> trials;
     for (const std::uint64_t seed : seeds) {
-      trials.push_back({design.hidden, wfactor, seed});
+      trials.push_back({design.hidden, Wfactors(wfactor), seed});
     }
     return InnerHoldoutRmse(
         design, *trainer_, training, inner, trials, context);
@@ -560,6 +585,7 @@ class SpecNetRecipe final : public NetRecipe {
   std::int64_t members_ = 1;
   NetDesign design_;
   WfactorOption wfactor_;
+  bool walks_path_ = false;
   bool tunes_hidden_;
   std::int64_t starts_;
   bool chooses_start_by_cv_;

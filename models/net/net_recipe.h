@@ -9,8 +9,8 @@ namespace errmap::models {
 
 /// The net that comparisons offer beside the report's, which is trained past
 /// what unseen groups bear. A net with a view has defaults of its own: 10
-/// hidden nodes, wfactor chosen on inner hold-outs, 500 iterations, three
-/// starts averaged.
+/// hidden nodes, wfactor chosen on inner hold-outs along WfactorPath, 750
+/// iterations on that path, three starts averaged.
 inline constexpr const char* kTunedNet = "net:scg:view=auto";
 
 /// What a net's recipe can do besides fitting.

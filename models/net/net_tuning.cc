@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,36 +14,34 @@ namespace {
 
 using Eigen::Index;
 
-// Held-out errors: of wfactors by half decades of log10, of hidden nodes by
-// their number.
-using Scores = std::map<std::int64_t, double>;
+// What was tried and its held-out error, simplest first: the most nodes last,
+// the largest wfactor first.
+template <typename Value>
+using Scores = std::vector<std::pair<Value, double>>;
 
-double WfactorOf(std::int64_t half_decades) {
-  constexpr double kPerDecade = 2.0;
-  return std::pow(10.0, static_cast<double>(half_decades) / kPerDecade);
-}
-
-// The last of the lowest errors; end() where there is none.
-Scores::const_iterator Lowest(const Scores& scores) {
+// The first of the lowest errors; end() where there is none.
+template <typename Value>
+auto Lowest(const Scores<Value>& scores) {
   auto best = scores.end();
   for (auto it = scores.begin(); it != scores.end(); ++it) {
     if (std::isnan(it->second)) continue;
-    if (best == scores.end() || it->second <= best->second) best = it;
+    if (best == scores.end() || it->second < best->second) best = it;
   }
   return best;
 }
 
-// The lowest error; of equal ones the larger wfactor, since it is simpler.
-std::int64_t BestWfactor(const Scores& scores) {
-  const auto best = Lowest(scores);
-  if (best == scores.end()) {
-    throw std::invalid_argument(
-        "wfactor=cv: no inner hold-out could be fitted; give a number");
+template <typename Value>
+std::string ListOf(const Scores<Value>& scores, const char* form) {
+  std::string list;
+  for (const auto& [value, rmse] : scores) {
+    if (!list.empty()) list += ", ";
+    list += fmt::format(fmt::runtime(form), value, rmse);
   }
-  return best->first;
+  return list;
 }
 
-std::int64_t FewestGoodNodes(const Scores& scores) {
+std::pair<std::int64_t, double> FewestGoodNodes(
+    const Scores<std::int64_t>& scores) {
   constexpr double kNearEqual = 1.05;
   const auto best = Lowest(scores);
   if (best == scores.end()) {
@@ -49,10 +49,9 @@ std::int64_t FewestGoodNodes(const Scores& scores) {
         "hidden=cv: no inner hold-out could be fitted; give a number");
   }
   const double enough = kNearEqual * best->second;
-  return std::find_if(scores.begin(),
-                      scores.end(),
-                      [&](const auto& score) { return score.second <= enough; })
-      ->first;
+  return *std::find_if(scores.begin(), scores.end(), [&](const auto& score) {
+    return score.second <= enough;
+  });
 }
 
 class Tuner {
@@ -68,7 +67,8 @@ class Tuner {
         context_(context),
         inner_(MakeInnerFolds(training, context)),
         hidden_(design.hidden),
-        wfactor_(tuning.fixed_wfactor) {
+        wfactor_(tuning.fixed_wfactor),
+        along_path_(tuning.along_path) {
     Index rows = training.num_rows();
     const fitting::FoldCodes& folds = inner_.folds;
     for (Index fold = folds.first_judged(); fold < folds.count(); ++fold) {
@@ -85,90 +85,73 @@ class Tuner {
     ChooseWfactor();
     const std::int64_t before = hidden_;
     ChooseHidden();
-    if (hidden_ != before) AdjustWfactor();
+    if (hidden_ != before) ChooseWfactor();
   }
 
   void ChooseHidden() {
     std::vector<NetTrial> trials;
     for (const std::int64_t hidden : hidden_to_try_) {
-      trials.push_back({hidden, wfactor_, context_.seed});
+      trials.push_back(
+          {hidden, WfactorsOf(wfactor_, along_path_), context_.seed});
     }
-    const std::vector<double> rmse = Judge(trials);
+    const std::vector<double> rmse = InnerHoldoutRmse(
+        design_, trainer_, training_, inner_, trials, context_);
     by_hidden_.clear();
     for (std::size_t i = 0; i < trials.size(); ++i) {
-      by_hidden_[trials[i].hidden] = rmse[i];
+      by_hidden_.emplace_back(trials[i].hidden, rmse[i]);
     }
-    hidden_ = FewestGoodNodes(by_hidden_);
+    std::tie(hidden_, hidden_rmse_) = FewestGoodNodes(by_hidden_);
   }
 
   void ChooseWfactor() {
-    constexpr std::int64_t kLeast = -14;  // 1e-7
-    constexpr std::int64_t kDecade = 2;
-    constexpr std::int64_t kMost = 0;  // 1
-    std::vector<std::int64_t> decades;
-    for (std::int64_t i = kLeast; i <= kMost; i += kDecade) {
-      decades.push_back(i);
+    constexpr int kPatience = 4;
+    NetDesign design = design_;
+    design.hidden = hidden_;
+    WfactorWalk walk(design,
+                     trainer_,
+                     training_,
+                     inner_,
+                     context_.seed,
+                     along_path_,
+                     context_);
+    by_wfactor_.clear();
+    double least = std::numeric_limits<double>::infinity();
+    int in_vain = 0;
+    for (const double wfactor : WfactorPath()) {
+      const double rmse = walk.Step(wfactor);
+      by_wfactor_.emplace_back(wfactor, rmse);
+      in_vain = rmse < least ? 0 : in_vain + 1;
+      least = std::fmin(least, rmse);
+      if (in_vain == kPatience) break;
     }
-    JudgeWfactors(decades);
-    const std::int64_t coarse = BestWfactor(by_wfactor_);
-    JudgeWfactors({coarse - 1, coarse + 1});
-    exponent_ = BestWfactor(by_wfactor_);
-    wfactor_ = WfactorOf(exponent_);
+    const auto best = Lowest(by_wfactor_);
+    if (best == by_wfactor_.end()) {
+      throw std::invalid_argument(
+          "wfactor=cv: no inner hold-out could be fitted; give a number");
+    }
+    std::tie(wfactor_, wfactor_rmse_) = *best;
   }
 
   TunedNet Result(const NetTuning& tuning) const {
-    TunedNet tuned{hidden_, wfactor_, inner_.text, {}};
+    TunedNet tuned{.hidden = hidden_,
+                   .wfactor = wfactor_,
+                   .rmse = tuning.wfactor ? wfactor_rmse_ : hidden_rmse_,
+                   .folds = inner_.text,
+                   .chosen = {}};
     if (tuning.hidden) {
-      std::string scores;
-      for (const auto& [hidden, rmse] : by_hidden_) {
-        if (!scores.empty()) scores += ", ";
-        scores += fmt::format("{}: {:.4g}", hidden, rmse);
-      }
-      tuned.chosen.push_back(
-          {{"hidden", hidden_}, by_hidden_.at(hidden_), std::move(scores)});
+      tuned.chosen.push_back({{"hidden", hidden_},
+                              hidden_rmse_,
+                              ListOf(by_hidden_, "{}: {:.4g}")});
     }
     if (tuning.wfactor) {
-      std::string scores;
-      for (const auto& [exponent, rmse] : by_wfactor_) {
-        if (!scores.empty()) scores += ", ";
-        scores += fmt::format("{:.2g}: {:.4g}", WfactorOf(exponent), rmse);
-      }
       tuned.chosen.push_back({{"wfactor", wfactor_},
-                              by_wfactor_.at(exponent_),
-                              std::move(scores)});
+                              wfactor_rmse_,
+                              ListOf(by_wfactor_, "{:.2g}: {:.4g}")});
     }
     return tuned;
   }
 
  private:
-  std::vector<double> Judge(const std::vector<NetTrial>& trials) const {
-    return InnerHoldoutRmse(
-        design_, trainer_, training_, inner_, trials, context_);
-  }
-
-  void JudgeWfactors(const std::vector<std::int64_t>& exponents) {
-    std::vector<NetTrial> trials;
-    for (const std::int64_t exponent : exponents) {
-      trials.push_back({hidden_, WfactorOf(exponent), context_.seed});
-    }
-    const std::vector<double> rmse = Judge(trials);
-    for (std::size_t i = 0; i < exponents.size(); ++i) {
-      by_wfactor_[exponents[i]] = rmse[i];
-    }
-  }
-
-  // For another number of nodes, beside the wfactor of the last.
-  void AdjustWfactor() {
-    constexpr std::int64_t kDecade = 2;
-    by_wfactor_ = {{exponent_, by_hidden_.at(hidden_)}};
-    JudgeWfactors({exponent_ - kDecade,
-                   exponent_ - 1,
-                   exponent_ + 1,
-                   exponent_ + kDecade});
-    exponent_ = BestWfactor(by_wfactor_);
-    wfactor_ = WfactorOf(exponent_);
-  }
-
   const NetDesign& design_;
   const NetTrainer& trainer_;
   const data::Dataset& training_;
@@ -177,9 +160,11 @@ class Tuner {
   std::vector<std::int64_t> hidden_to_try_;
   std::int64_t hidden_;
   double wfactor_;
-  std::int64_t exponent_ = 0;  // of wfactor_, where it is chosen
-  Scores by_hidden_;
-  Scores by_wfactor_;  // with hidden_ nodes
+  bool along_path_;
+  double hidden_rmse_ = std::numeric_limits<double>::quiet_NaN();
+  double wfactor_rmse_ = std::numeric_limits<double>::quiet_NaN();
+  Scores<std::int64_t> by_hidden_;
+  Scores<double> by_wfactor_;  // with hidden_ nodes
 };
 
 }  // namespace
@@ -191,6 +176,10 @@ std::vector<std::int64_t> HiddenToTry(Index rows) {
     if (hidden * kRowsPerNode <= rows) tried.push_back(hidden);
   }
   return tried;
+}
+
+std::vector<double> WfactorsOf(double wfactor, bool along_path) {
+  return along_path ? WfactorPathTo(wfactor) : std::vector<double>{wfactor};
 }
 
 TunedNet TuneNet(const NetDesign& design,

@@ -13,6 +13,7 @@ struct NetTuning {
   bool hidden = false;   // else that of the design
   bool wfactor = false;  // else the one below
   double fixed_wfactor = 0.0;
+  bool along_path = false;  // each fit as TrainAlong WfactorPathTo its wfactor
 };
 
 /// One thing that was chosen.
@@ -25,6 +26,7 @@ struct TunedValue {
 struct TunedNet {
   std::int64_t hidden = 0;
   double wfactor = 0.0;
+  double rmse = 0.0;               // held out, of what was chosen
   std::string folds;               // "groups:5 of cycle"
   std::vector<TunedValue> chosen;  // hidden before wfactor
 };
@@ -37,18 +39,21 @@ std::vector<std::int64_t> HiddenToTry(Eigen::Index rows);
 /// Chooses by the pooled error on the inner hold-outs of MakeInnerFolds; every
 /// fit starts from the weights of context.seed.
 ///
-/// wfactor: the decades from 1e-7 to 1, then the half decades beside the best;
-/// of equal errors the larger wfactor. Hidden nodes: the fewest of HiddenToTry
-/// whose error is at most 5 % above the least, which is what another start
-/// alone changes. Both: wfactor with the design's nodes (or the most below
-/// them that are tried), then the nodes with that wfactor, then, if their
-/// number changed, the wfactor again up to a decade on either side: at most 19
-/// nets over all folds. Throws std::invalid_argument where none could be
-/// judged.
+/// wfactor: down WfactorPath, until four steps in a row bring no lower error;
+/// of equal errors the larger wfactor. Along the path a fit goes on from the
+/// last, so that all of them cost little more than one. Hidden nodes: the
+/// fewest of HiddenToTry whose error is at most 5 % above the least, which is
+/// what another start alone changes. Both: wfactor with the design's nodes (or
+/// the most below them that are tried), then the nodes with that wfactor, then,
+/// if their number changed, the wfactor again. Throws std::invalid_argument
+/// where none could be judged.
 TunedNet TuneNet(const NetDesign& design,
                  const NetTuning& tuning,
                  const NetTrainer& trainer,
                  const data::Dataset& training,
                  const FitContext& context);
+
+/// The wfactors of a fit at `wfactor`: the path to it, or it alone.
+std::vector<double> WfactorsOf(double wfactor, bool along_path);
 
 }  // namespace errmap::models

@@ -33,12 +33,12 @@ TEST(FittedModel, ClipsNothingWithinTheWidenedRange) {
   EXPECT_EQ(fitted.Predict(training), prediction.errors);
 }
 
-TEST(FittedModel, ClipsInputsAtTheTrainedRangeWidenedByHalf) {
+TEST(FittedModel, ClipsInputsAtTheTrainedRangeWidenedByTwiceItself) {
   const data::Dataset training = QuadraticData(60);
   FittedModel fitted = Guarded(training);
   fitted.guards->error_margin = 1e3;  // the inputs' guards alone
   const TrainedInput& t1 = fitted.inputs[1];
-  const double most = t1.max + 0.5 * (t1.max - t1.min);
+  const double most = t1.max + 2.0 * (t1.max - t1.min);
   Eigen::MatrixXd rows(3, 2);
   rows << -10.0, most, -10.0, most + 1e-6, -10.0, 1e6;
   const Prediction prediction = fitted.PredictForm(rows);
@@ -49,7 +49,7 @@ TEST(FittedModel, ClipsInputsAtTheTrainedRangeWidenedByHalf) {
   EXPECT_TRUE(prediction.clipped[2]);
 }
 
-TEST(FittedModel, ClipsErrorsAtTheTrainedRangeWidenedByATenth) {
+TEST(FittedModel, ClipsErrorsAtTheTrainedRangeWidenedByThreeTenths) {
   const data::Dataset training = QuadraticData(60);
   FittedModel fitted = Guarded(training);
   fitted.guards->input_margin = 1e6;
@@ -59,7 +59,7 @@ TEST(FittedModel, ClipsErrorsAtTheTrainedRangeWidenedByATenth) {
   const double max = training.target_values().maxCoeff();
   EXPECT_TRUE(prediction.clipped[0]);
   EXPECT_DOUBLE_EQ(std::abs(prediction.errors[0] - 0.5 * (min + max)),
-                   0.6 * (max - min));
+                   0.8 * (max - min));
 }
 
 TEST(FittedModel, LeavesAMissingInputMissing) {

@@ -144,7 +144,7 @@ TEST(ModelFile, ReproducesAMapWithAMemory) {
   const Json document = Json::parse(text);
   EXPECT_EQ(document["history"]["derived"][0]["tau"], 600.0);
   EXPECT_EQ(document["history"]["form_inputs"].size(), 2U);
-  EXPECT_EQ(document["guards"]["input_margin"], 0.5);
+  EXPECT_EQ(document["guards"]["input_margin"], 2.0);
   EXPECT_EQ(document["inputs"][0]["name"], "t1_degC");
 }
 

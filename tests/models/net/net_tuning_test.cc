@@ -15,6 +15,7 @@ namespace {
 
 using errmap::testing::QuadraticData;
 using errmap::testing::ShippedMeasurements;
+using ::testing::DoubleNear;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Property;
@@ -85,13 +86,35 @@ TEST(NetTuning, ChoosesNodesAndWfactorTogetherInABoundedNumberOfFits) {
                           HasSubstr("wfactor")));
   // What was chosen, given as numbers, is the same map.
   const FittedModel fixed =
-      FitOf("net:scg:iterations=40:hidden=" +
+      FitOf("net:scg:iterations=40:path=yes:hidden=" +
                 std::to_string(std::get<std::int64_t>(one.choices[0].value)) +
                 ":wfactor=" +
                 fmt::format("{}", std::get<double>(one.choices[1].value)),
             dataset);
   EXPECT_LT((fixed.Predict(dataset) - one.Predict(dataset)).norm(),
             1e-9 * one.Predict(dataset).norm());
+}
+
+TEST(NetTuning, WalksDownThePathToAWfactor) {
+  EXPECT_EQ(WfactorPath().front(), 1.0);
+  EXPECT_NEAR(WfactorPath().back(), 1e-7, 1e-20);
+  EXPECT_THAT(WfactorPath(), SizeIs(15));
+  EXPECT_THAT(WfactorPathTo(3.0), ElementsAre(3.0));
+  EXPECT_THAT(WfactorPathTo(0.2),
+              ElementsAre(1.0, DoubleNear(0.316, 1e-3), 0.2));
+}
+
+TEST(NetTuning, ChoosesAlongThePathAboutAsWellAsFromTheStart) {
+  // Neither way is the better one; they must not part far. Iterations are
+  // those of a path and of a single fit: the path takes a tenth of the work.
+  const data::Dataset dataset = ShippedMeasurements();
+  const std::string spec = "net:scg:hidden=10:wfactor=cv";
+  const FittedModel along = FitOf(spec, dataset);
+  const FittedModel cold = FitOf(spec + ":path=no:iterations=500", dataset);
+  EXPECT_LT(along.inner_rmse, 1.25 * cold.inner_rmse);
+  // All steps count.
+  EXPECT_GT(along.summary.iterations, 200);
+  EXPECT_LE(along.summary.iterations, 1500);
 }
 
 TEST(NetTuning, SaysWhereNothingCouldBeJudged) {

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -125,7 +126,6 @@ TEST(Memorisation, FixesWhatTheFitHasTuned) {
   const std::string limits = ":iterations=40";
   const auto tuned =
       MakeRecipe("net:scg:hidden=cv:wfactor=cv:starts=3" + limits);
-  // Of rows, since the wfactor found there is one that is printed in full.
   const FittedModel fitted =
       tuned->Fit(dataset, {.seed = 3, .inner_holdout = InnerHoldout::kRows});
   const Memorisation found =
@@ -133,8 +133,8 @@ TEST(Memorisation, FixesWhatTheFitHasTuned) {
   const auto fixed = MakeRecipe(
       "net:scg:hidden=" +
       std::to_string(std::get<std::int64_t>(fitted.choices[0].value)) +
-      ":wfactor=" +
-      ::testing::PrintToString(std::get<double>(fitted.choices[1].value)) +
+      fmt::format(":path=yes:wfactor={}",
+                  std::get<double>(fitted.choices[1].value)) +
       limits);
   std::uint64_t seed = 0;
   for (const StartResult& start : fitted.starts) {
