@@ -47,6 +47,26 @@ std::string PluralOfUnit(const HoldoutRecord& holdout) {
              : holdout.unit_of_analysis + "s";
 }
 
+// What one more session of measurements may bring.
+std::string OneMoreText(const models::SessionWorthRecord& worth,
+                        const std::string& unit) {
+  constexpr double kWorthSaying = 0.02;
+  const double saved = 1.0 - worth.ratio_of_one_more;
+  if (!(saved > kWorthSaying)) {
+    return fmt::format(
+        "With one {0} fewer to learn from it erred {1:.2f} times as much: one "
+        "more {0} of the same kind promises little.",
+        unit,
+        worth.ratio_of_one_fewer);
+  }
+  return fmt::format(
+      "With one {0} fewer to learn from it erred {1:.2f} times as much: one "
+      "more {0} may take {2:.0f} % off its error.",
+      unit,
+      worth.ratio_of_one_fewer,
+      kPercent * saved);
+}
+
 std::string ListBesides(const std::vector<std::string>& names,
                         const std::string& besides) {
   std::vector<std::string> others = names;
@@ -412,7 +432,11 @@ std::string Sentences::OfSimplest(const RemarkRecord& remark) const {
     case RemarkKind::kAveragesMaps:
       return fmt::format(
           "It averages maps that see the inputs differently, which gambles "
-          "less than the choice of one; the simplest single map is {} ({}).",
+          "less than the choice of one; the {} single map is {} ({}).",
+          std::ranges::find(Advice().first_tier, model) ==
+                  Advice().first_tier.end()
+              ? "best"
+              : "simplest",
           model,
           rmse);
     case RemarkKind::kSimplestNearLowest:
@@ -526,6 +550,8 @@ std::string Sentences::OfRemark(const RemarkRecord& remark) const {
     }
     case RemarkKind::kPromise:
       return IntervalText(*advice.promise, error_) + ".";
+    case RemarkKind::kOneMoreSession:
+      return OneMoreText(*advice.session_worth, holdout.unit_of_analysis);
     case RemarkKind::kGoal:
       return OfGoal();
     case RemarkKind::kCost:

@@ -77,6 +77,15 @@ StudyRun RunPlan(StudyPlan plan,
         model.final_fit->interval = models::PromiseOf(
             dataset, comparison.holdouts[h], model.holdouts[h]);
       }
+      const std::size_t model = comparison.judgement.recommendation->model;
+      if (model < component.recipes.size()) {
+        comparison.session_worth =
+            models::WorthOfASession(dataset,
+                                    comparison.holdouts[h],
+                                    *component.recipes[model],
+                                    comparison.study.models[model].holdouts[h],
+                                    study_options);
+      }
     }
     before += component.num_fits();
     run.components.push_back(std::move(comparison));

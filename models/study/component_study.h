@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "data/dataset.h"
+#include "models/study/session_worth.h"
 #include "models/study/study.h"
 #include "models/study/verdict.h"
 
@@ -24,6 +26,7 @@ struct ComponentStudy {
   std::size_t first_added = 0;
   std::size_t num_added = 0;
   Judgement judgement;
+  std::optional<SessionWorth> session_worth = {};  // to the recommended map
 };
 
 }  // namespace errmap::models

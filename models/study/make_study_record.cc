@@ -448,6 +448,13 @@ std::optional<RecommendationRecord> JudgementRecord::Advice() const {
     record.promise = MakeRecord(*model.final_fit->interval);
   }
   record.since_start = SinceStart(study_, result, advice->holdout);
+  if (const auto& worth = study_.session_worth) {
+    record.session_worth =
+        SessionWorthRecord{.sessions = worth->sessions,
+                           .folds = worth->folds,
+                           .ratio_of_one_fewer = worth->ratio_of_one_fewer,
+                           .ratio_of_one_more = worth->ratio_of_one_more};
+  }
   return record;
 }
 

@@ -53,8 +53,8 @@ class Remarks {
 
 void Remarks::AddSimplest() {
   const std::size_t lowest = advice_.first_tier.front();
-  if (advice_.simplest_single) {
-    Add(RemarkKind::kAveragesMaps, *advice_.simplest_single);
+  if (advice_.single) {
+    Add(RemarkKind::kAveragesMaps, *advice_.single);
   } else if (advice_.first_tier.size() < 2) {
     return;
   } else if (advice_.model == lowest) {
@@ -105,6 +105,7 @@ std::vector<RemarkRecord> Remarks::Grounds() {
     Add(RemarkKind::kGap);
   }
   if (record_.recommendation->promise) Add(RemarkKind::kPromise);
+  if (record_.recommendation->session_worth) Add(RemarkKind::kOneMoreSession);
   if (record_.recommendation->goal_standing != GoalStanding::kNone) {
     Add(RemarkKind::kGoal);
   }

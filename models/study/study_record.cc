@@ -32,6 +32,8 @@ std::string_view ToString(RemarkKind kind) {
       return "beats baseline";
     case RemarkKind::kPromise:
       return "promise";
+    case RemarkKind::kOneMoreSession:
+      return "one more session";
     case RemarkKind::kGap:
       return "gap";
     case RemarkKind::kGoal:

@@ -708,13 +708,14 @@ ERRMAP_RECORD(VerdictRecord,
 /// What speaks for a recommendation, then what bounds its worth. The figures
 /// that a remark does not hold stand elsewhere in the record.
 enum class RemarkKind {
-  kAveragesMaps,        // model: the simplest single map of the tier
+  kAveragesMaps,        // model: the single map beside it, of its tier if any
   kLowestAndSimplest,   // of the first tier
   kSimplestNearLowest,  // of one unit only; model: of the lowest error
   kSimplestOfTier,      // model: of the lowest error; excess, confidence
   kBeatsBaseline,       // model: the best one
   kGap,
   kPromise,
+  kOneMoreSession,
   kGoal,
   kCost,
   kNotNoise,  // columns, shares
@@ -805,6 +806,16 @@ struct SinceStartRecord {
 };
 ERRMAP_RECORD(SinceStartRecord, from, until, n, mean, rmse)
 
+/// See SessionWorth.
+struct SessionWorthRecord {
+  std::int64_t sessions = 0;
+  std::int64_t folds = 0;
+  double ratio_of_one_fewer = kNotKnown;
+  double ratio_of_one_more = kNotKnown;
+};
+ERRMAP_RECORD(
+    SessionWorthRecord, sessions, folds, ratio_of_one_fewer, ratio_of_one_more)
+
 struct RecommendationRecord {
   Choice choice = Choice::kBaseline;
   std::string model;
@@ -825,6 +836,7 @@ struct RecommendationRecord {
   LeftOut<PromiseRecord> promise;
   /// Under `holdout`; empty without times in seconds.
   std::vector<SinceStartRecord> since_start;
+  LeftOut<SessionWorthRecord> session_worth;
   std::vector<RemarkRecord> grounds;
   std::vector<RemarkRecord> doubts;
   std::string sentence;
@@ -851,6 +863,7 @@ ERRMAP_RECORD(RecommendationRecord,
               memory,
               promise,
               since_start,
+              session_worth,
               grounds,
               doubts,
               sentence,

@@ -310,7 +310,13 @@ std::optional<Recommendation> Recommend(
       });
   if (const auto blend = BlendToUse(
           holdouts[*decisive], comparison, study, is_map, indifference)) {
-    advice.simplest_single = advice.model;
+    advice.single = advice.model;
+    // Alone in its tier: the best of the others.
+    if (ChoiceOf(study.models[advice.model]) == Choice::kBlend) {
+      advice.single = BestWhere(comparison, [&](std::size_t model) {
+        return is_map(model) && ChoiceOf(study.models[model]) != Choice::kBlend;
+      });
+    }
     advice.model = *blend;
   }
   const auto best_baseline = BestOf(comparison, study, Choice::kBaseline);

@@ -77,8 +77,9 @@ struct Recommendation {
   Confidence against_baseline = Confidence::kOutOfReach;
   /// That it loses at most the margin to the lowest error of its tier.
   Confidence within_tier = Confidence::kOutOfReach;
-  /// Where a blend is to be used, the simplest single map of the first tier.
-  std::optional<std::size_t> simplest_single;
+  /// Where a blend is to be used, the simplest single map of the first tier,
+  /// or the best one where there is none.
+  std::optional<std::size_t> single;
   /// Predictions without a map that were better than every map, if any.
   std::optional<std::size_t> better_but_no_map;
   /// Of the held-out rows, those with an input of the model outside what the

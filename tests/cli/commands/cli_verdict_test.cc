@@ -17,17 +17,17 @@ TEST_F(Cli, RecommendsWhatHoldsOnUnseenCyclesAndSaysWhy) {
   const Json component = Compare({"--quiet"});
   const Json& verdicts = component["verdict"];
   EXPECT_EQ(verdicts[0]["choice"], "neural");
-  EXPECT_EQ(verdicts[1]["choice"], "polynomial");
-  EXPECT_EQ(verdicts[1]["model"], "poly:ridge:view=auto");
+  EXPECT_EQ(verdicts[1]["choice"], "blend");
+  EXPECT_EQ(verdicts[1]["model"], "blend");
   // Neighbouring cycles resemble each other too much for more.
   EXPECT_EQ(verdicts[1]["established"], false);
-  EXPECT_THAT(verdicts[1]["why"].get<std::string>(),
+  EXPECT_THAT(verdicts[0]["why"].get<std::string>(),
               HasSubstr("resemble each other: not established"));
   const Json& advice = component["recommendation"];
   EXPECT_EQ(advice["holdout"], "groups:5");
-  EXPECT_EQ(advice["choice"], "polynomial");
-  EXPECT_EQ(advice["model"], "poly:ridge:view=auto");
-  EXPECT_NEAR(advice["rmse"].get<double>() * kUmPerMm, 0.865, 5e-4);
+  EXPECT_EQ(advice["choice"], "blend");
+  EXPECT_EQ(advice["model"], "blend");
+  EXPECT_NEAR(advice["rmse"].get<double>() * kUmPerMm, 0.808, 5e-4);
   EXPECT_LT(advice["ci95"][0], advice["rmse"]);
   EXPECT_GT(advice["ci95"][1], advice["rmse"]);
   EXPECT_EQ(advice["meets_goal"], false);
@@ -58,8 +58,8 @@ TEST_F(Cli, RecommendsWhatHoldsOnUnseenCyclesAndSaysWhy) {
       EXPECT_EQ(pair["established"], false) << pair;
     }
   }
-  EXPECT_THAT(advice["caveats"].dump(),
-              HasSubstr("nothing under groups:5 is called established"));
+  EXPECT_THAT(advice["reasons"].dump(),
+              HasSubstr("the best single map is poly:ridge:view=auto (0.9"));
   std::set<std::string> tiered;
   for (const Json& tier : component["tiers"]["groups:5"]) {
     for (const Json& name : tier) tiered.insert(name);

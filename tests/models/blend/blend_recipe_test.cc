@@ -195,7 +195,9 @@ TEST(BlendRecipe, IsRecommendedWhereDaysAreTooFewToTellMapsApart) {
   ASSERT_TRUE(judgement.recommendation.has_value());
   EXPECT_EQ(judgement.recommendation->holdout, 1U);
   EXPECT_EQ(study.models[judgement.recommendation->model].name, "blend");
-  EXPECT_TRUE(judgement.recommendation->simplest_single.has_value());
+  const auto single = judgement.recommendation->single;
+  ASSERT_TRUE(single.has_value());
+  EXPECT_NE(study.models[*single].name, "blend");
 }
 
 TEST(BlendRecipe, RefusesWhatItDoesNotKnow) {
