@@ -59,7 +59,7 @@ class Runner {
       : path_(std::move(path)),
         folder_(fs::path(path_).parent_path().string()),
         options_(options),
-        runs_(ParseRunFile(data::ReadFile(path_, data::kMostTextOfPeople),
+        runs_(ParseRunFile(data::ReadFile(path_, data::kMostTextOfPrograms),
                            path_)) {
     inputs_read_.insert(InputPath("", path_));
     if (!options.training_file.empty()) {
