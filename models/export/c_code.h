@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "models/export/language.h"
+#include "models/export/self_test.h"
+
+namespace errmap::models {
+
+/// NAME.h and NAME.c in C99: no allocation, of the library nothing but exp
+/// (sin and cos where the map reads angles). Every symbol begins with NAME_.
+/// With NAME_SELF_TEST defined NAME.c has a main that checks `rows`, each
+/// within `tolerance` (target's unit).
+std::vector<ExportedFile> CCode(const MapProgram& program,
+                                const std::string& name,
+                                Precision precision,
+                                const std::vector<SelfTestRow>& rows,
+                                double tolerance);
+
+/// The same declarations and functions in double precision for a place where
+/// math.h is included: no guard, no include, no self-test.
+std::string CFragment(const MapProgram& program, const std::string& name);
+
+}  // namespace errmap::models

@@ -1,0 +1,47 @@
+#include "models/export/export_map.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "models/export/safe_names.h"
+
+namespace errmap::models {
+
+double MapExport::tolerance() const {
+  constexpr double kOtherCompiler = 2.0;
+  return error_range * std::max(AllowedDeviation(precision),
+                                kOtherCompiler * deviations.anywhere);
+}
+
+MapExport PrepareExport(const FittedModel& fitted,
+                        const std::string& name,
+                        Precision precision) {
+  const std::string safe = SafeIdentifier(name, kLongestMapName);
+  if (safe != name) {
+    throw std::invalid_argument(fmt::format(
+        "a map's name has letters, digits and single '_' only, begins with a "
+        "letter and has at most {} characters; such as '{}'",
+        kLongestMapName,
+        safe));
+  }
+  MapExport made{
+      .name = name, .precision = precision, .program = MakeMapProgram(fitted)};
+  made.rows = SelfTestRows(fitted, made.program);
+  made.error_range = ErrorRange(fitted, made.rows);
+  made.deviations =
+      FindDeviations(made.program, precision, made.rows, made.error_range);
+  if (precision == Precision::kSingle &&
+      !(made.deviations.inside <= AllowedDeviation(precision))) {
+    throw std::invalid_argument(
+        fmt::format("in single precision it errs by {:.1e} of the target's "
+                    "range, {:.0e} is allowed: export it in double",
+                    made.deviations.inside,
+                    AllowedDeviation(precision)));
+  }
+  return made;
+}
+
+}  // namespace errmap::models

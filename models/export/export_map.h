@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "models/export/language.h"
+#include "models/export/map_program.h"
+#include "models/export/self_test.h"
+
+namespace errmap::models {
+
+/// A map ready to be written, and what its program was found to lose.
+struct MapExport {
+  std::string name;  // a safe identifier
+  Precision precision = Precision::kDouble;
+  MapProgram program = {};
+  std::vector<SelfTestRow> rows = {};
+  double error_range = 0.0;    // target's unit
+  Deviations deviations = {};  // from the map
+
+  /// What a file may differ from the map by when it tests itself (target's
+  /// unit): AllowedDeviation, or twice what was found where a map's own sums
+  /// cancel, so that no order of them is better.
+  double tolerance() const;
+};
+
+/// Longest name of an exported map.
+inline constexpr std::size_t kLongestMapName = 40;
+
+/// Makes the program and holds it against the map. Throws
+/// std::invalid_argument as MakeMapProgram, on a name that is no safe
+/// identifier of at most kLongestMapName characters, and where single
+/// precision loses more than AllowedDeviation within the trained range.
+MapExport PrepareExport(const FittedModel& fitted,
+                        const std::string& name,
+                        Precision precision);
+
+}  // namespace errmap::models

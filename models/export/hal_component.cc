@@ -1,0 +1,342 @@
+#include "models/export/hal_component.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "models/export/c_code.h"
+#include "models/export/error_curve.h"
+#include "models/export/safe_names.h"
+
+namespace errmap::models {
+namespace {
+
+// A name of halcompile as HAL shows it.
+std::string HalName(std::string text) {
+  std::ranges::replace(text, '_', '-');
+  return text;
+}
+
+// Names of the readings in the component's source.
+std::vector<std::string> PinIdentifiers(const MapProgram& program,
+                                        const std::string& component) {
+  const std::string prefix = "in_";
+  std::vector<std::string> names;
+  for (const ProgramReading& reading : program.readings) {
+    names.push_back(reading.column.name);
+  }
+  names = SafeIdentifiers(
+      names, kLongestHalName - component.size() - 1 - prefix.size());
+  for (std::string& name : names) name = prefix + name;
+  const int position = PositionOf(program);
+  if (position >= 0) names[static_cast<std::size_t>(position)] = "position";
+  return names;
+}
+
+constexpr const char* kDeclarations = R"(component {0} "{1}";
+description """
+offset = compensation = -error, in {2}: the motor goes to the commanded position
+plus it. A reading that is not finite, or outside of its trained range by more
+than the map's guard, is missing: offset keeps its last value and valid is
+false. Before the first valid step the offset is 0.
+""";
+author "errmap";
+license "GPL";
+option singleton yes;
+include <rtapi_math.h>;
+{3}pin in bit zero "Rising edge: take the zero anew";
+pin in bit step "Rising edge: a step of step-s seconds";
+pin in float step_s = 0.0 "0: a step in every period of the thread";
+pin in bit machine_on = 1 "For external offsets: on and homed";
+pin out float offset "-error, {2}";
+pin out bit valid "The last step had all its readings";
+pin out bit outside "A reading is outside of its trained range";
+pin out u32 steps "Steps made since it was loaded, missing readings or not";
+pin out s32 counts "offset / counts-scale while machine-on, else 0";
+pin out bit counts_enable "machine-on, a little later";
+param rw float max_offset = {4} "Largest offset, {2}; 0: no limit";
+param rw float max_rate = {5} "Largest change, {2}/s; 0: no limit";
+param rw float counts_scale = {6} "One count, {2}";
+function _ fp;
+;;
+)";
+
+constexpr const char* kBody = R"(
+{1}static double waited;       /* s since the last step that was made */
+static double wanted;       /* offset before the limits */
+static int begun, was_step, was_zero, zero_due, periods_on;
+static unsigned made;
+
+/* One step of dt seconds. */
+static void errmap_step(const double x[], double dt) {{
+  double error = 0.0;
+  int status = {0}_check(x);
+  ++made;
+{2}  if ((status & ({0}_INVALID | {0}_FAR)) != 0) {{
+    errmap_valid = 0;
+    return;
+  }}
+{3}  waited = 0.0;
+  errmap_valid = (status & {0}_INVALID) == 0;
+  if (errmap_valid) wanted = -{4} * error;
+}}
+
+/* What the offset may be one period on. */
+static double errmap_limited(double from, double to, double most, double rate,
+                             double period) {{
+  if (most > 0.0) to = fmin(fmax(to, -most), most);
+  if (rate > 0.0) {{
+    to = fmin(fmax(to, from - rate * period), from + rate * period);
+  }}
+  return to;
+}}
+
+FUNCTION(_) {{
+  double x[{5}];
+{6}  if (zero && !was_zero) zero_due = 1;
+  was_zero = zero;
+  if (step_s > 0.0) {{
+    if (step && !was_step) errmap_step(x, step_s);
+  }} else {{
+    errmap_step(x, fperiod);
+  }}
+  was_step = step;
+  steps = made;
+  valid = errmap_valid;
+  outside = ({0}_check(x) & {0}_OUTSIDE) != 0;
+  offset = errmap_limited(offset, wanted, max_offset, max_rate, fperiod);
+
+  /* LinuxCNC takes counts for relative to the moment of enabling, and forgets
+   * them at machine off: they are 0 until it has seen the enable. */
+  if (!machine_on) periods_on = 0;
+  else if (periods_on < {7}) ++periods_on;
+  counts_enable = periods_on > 1;
+  counts = periods_on < {7} ? 0 : (int)floor(offset / counts_scale + 0.5);
+}}
+)";
+
+constexpr const char* kStepWithMemory = R"(  if (!begun) {{
+    (void){0}_init(&map_state, x);
+    begun = 1;
+  }}
+  if (zero_due) (void){0}_zero(&map_state, x);
+  zero_due = 0;
+  status = {0}_step(&map_state, waited, x, &error);
+)";
+
+constexpr const char* kStepWithoutMemory = R"(  begun = 1;
+  zero_due = 0;
+  status = {0}_error(x, &error);
+)";
+
+class HalWriter {
+ public:
+  HalWriter(const MapExport& map, const HalOptions& options)
+      : map_(map),
+        options_(options),
+        name_("errmap_" + SafeIdentifier(map.name, kLongestMap)),
+        pins_(PinIdentifiers(map.program, name_)) {
+    if (!data::AreConvertible(map.program.target.unit, options.unit)) {
+      throw std::invalid_argument(
+          fmt::format("'{}' is no length that can be written in {}",
+                      CommentText(map.program.target.name),
+                      options.unit.symbol));
+    }
+  }
+
+  HalExport Write() const {
+    HalExport made{.component = name_, .pins = {}, .files = {}};
+    for (std::size_t i = 0; i < pins_.size(); ++i) {
+      made.pins.push_back(
+          {HalName(pins_[i]), map_.program.readings[i].column.name});
+    }
+    made.files = {{name_ + ".comp", Component()},
+                  {name_ + ".hal", OffsetWiring()},
+                  {name_ + "_eoffset.hal", ExternalOffsetWiring()}};
+    return made;
+  }
+
+ private:
+  // The longest name of a pin of the component is as long as `counts-enable`;
+  // the sensors' names share what is left.
+  static constexpr std::size_t kLongestMap = 16;
+
+  double InMachine(double value, const data::Unit& unit) const {
+    return data::Converted(value, unit, options_.unit);
+  }
+
+  // A reading's pin: the position comes in the machine's unit.
+  std::string Reading(std::size_t i) const {
+    const data::Unit& unit = map_.program.readings[i].column.unit;
+    const bool converts = pins_[i] == "position" &&
+                          data::AreConvertible(options_.unit, unit) &&
+                          unit.symbol != options_.unit.symbol;
+    return converts ? fmt::format(
+                          "position * {}",
+                          RealText(data::Converted(1.0, options_.unit, unit)))
+                    : pins_[i];
+  }
+
+  std::string PinUnit(std::size_t i) const {
+    const data::Unit& unit = map_.program.readings[i].column.unit;
+    return pins_[i] == "position" && data::AreConvertible(options_.unit, unit)
+               ? options_.unit.symbol
+               : unit.symbol;
+  }
+
+  std::string Component() const;
+  std::string OffsetWiring() const;
+  std::string ExternalOffsetWiring() const;
+  std::string SensorComments() const;
+
+  const MapExport& map_;
+  const HalOptions& options_;
+  std::string name_;
+  std::vector<std::string> pins_;
+};
+
+std::string HalWriter::Component() const {
+  const MapProgram& program = map_.program;
+  const bool memory = program.has_memory();
+  std::string pins;
+  std::string readings;
+  for (std::size_t i = 0; i < pins_.size(); ++i) {
+    pins += fmt::format("pin in float {} \"{}, {}\";\n",
+                        pins_[i],
+                        CommentText(program.readings[i].column.name),
+                        CommentText(PinUnit(i)));
+    readings += fmt::format("  x[{}] = {};\n", i, Reading(i));
+  }
+  // 10 um/s, quick against heat and slow against any axis.
+  const data::Unit mm = data::UnitOfSymbol("mm");
+  const double rate = InMachine(0.01, mm);
+  const double count = InMachine(1e-6, mm);
+  const std::string map_name = SafeIdentifier(map_.name, kLongestMap);
+  std::string text =
+      fmt::format(kDeclarations,
+                  name_,
+                  fmt::format("Minus the error that the map {} predicts",
+                              CommentText(program.model)),
+                  options_.unit.symbol,
+                  pins,
+                  "0.0",
+                  RealText(rate),
+                  RealText(count));
+  text += CFragment(program, map_name);
+  text += fmt::format(
+      kBody,
+      map_name,
+      fmt::format(
+          "{}static int errmap_valid;\n",
+          memory ? fmt::format("static {}_state map_state;\n", map_name) : ""),
+      // A gap in the readings is one long step to the first that is there.
+      "  if (begun) waited += dt;\n",
+      fmt::format(fmt::runtime(memory ? kStepWithMemory : kStepWithoutMemory),
+                  map_name),
+      RealText(InMachine(1.0, program.target.unit)),
+      std::max<std::size_t>(pins_.size(), 1),
+      pins_.empty() ? "  x[0] = 0.0;\n" : readings,
+      10);
+  return text;
+}
+
+std::string HalWriter::SensorComments() const {
+  std::string text;
+  const MapProgram& program = map_.program;
+  for (std::size_t i = 0; i < pins_.size(); ++i) {
+    if (pins_[i] == "position") continue;
+    text += fmt::format("# net SENSOR{0} => {1}.{2} # {3}, {4}\n",
+                        i,
+                        HalName(name_),
+                        HalName(pins_[i]),
+                        CommentText(program.readings[i].column.name),
+                        CommentText(PinUnit(i)));
+  }
+  return text;
+}
+
+std::string HalWriter::OffsetWiring() const {
+  std::string text = fmt::format(
+      R"(# {0}.hal: compensates joint {1} by {2}, offset = -error in {3}.
+# After the machine's own HALFILE, less its nets of joint.{1}.motor-pos-cmd and
+# joint.{1}.motor-pos-fb. Between the two stands the stock component offset, so
+# that LinuxCNC sees no following error; it holds through machine off and on.
+loadrt {0}
+loadrt offset names={2}-add
+
+addf {2}-add.update-feedback servo-thread 1
+addf {2} servo-thread
+addf {2}-add.update-output servo-thread
+
+)",
+      name_,
+      options_.joint,
+      HalName(name_),
+      options_.unit.symbol);
+  if (PositionOf(map_.program) >= 0) {
+    text += fmt::format("net {0}-at joint.{1}.pos-cmd => {0}.position\n",
+                        HalName(name_),
+                        options_.joint);
+  }
+  text += SensorComments();
+  return text + fmt::format(
+                    R"(
+net {0}-cmd joint.{1}.motor-pos-cmd => {0}-add.in
+net {0}-by {0}.offset => {0}-add.offset
+net {0}-fb {0}-add.fb-out => joint.{1}.motor-pos-fb
+# A simulated motor; on a machine add.out goes to the drive and the encoder
+# comes to add.fb-in.
+net {0}-motor {0}-add.out => {0}-add.fb-in
+)",
+                    HalName(name_),
+                    options_.joint);
+}
+
+std::string HalWriter::ExternalOffsetWiring() const {
+  constexpr const char* kAxes = "xyzabcuvw";
+  const char axis = kAxes[options_.joint];
+  const std::string hal = HalName(name_);
+  std::string text = fmt::format(
+      R"(# {0}_eoffset.hal: the same as an external offset, in place of {0}.hal.
+# The INI file needs, in [AXIS_{1}]:  OFFSET_AV_RATIO = 0.2
+# Counts are whole numbers of counts-scale, relative to the moment when the
+# machine is on and homed, and lost at machine off: {2} holds them at 0
+# until then, each time. LinuxCNC stops a little short of them.
+loadrt {0}
+loadrt and2 names={2}-ready
+addf {2}-ready servo-thread
+addf {2} servo-thread
+
+)",
+      name_,
+      static_cast<char>(axis - 'a' + 'A'),
+      hal);
+  if (PositionOf(map_.program) >= 0) {
+    text += fmt::format(
+        "net {0}-at joint.{1}.pos-cmd => {0}.position\n", hal, options_.joint);
+  }
+  text += SensorComments();
+  return text + fmt::format(
+                    R"(
+setp axis.{1}.eoffset-scale {2}
+setp {0}.counts-scale {2}
+net {0}-on motion.motion-enabled => {0}-ready.in0
+net {0}-homed motion.is-all-homed => {0}-ready.in1
+net {0}-set {0}-ready.out => {0}.machine-on
+net {0}-enable {0}.counts-enable => axis.{1}.eoffset-enable
+net {0}-counts {0}.counts => axis.{1}.eoffset-counts
+)",
+                    hal,
+                    axis,
+                    RealText(InMachine(1e-6, data::UnitOfSymbol("mm"))));
+}
+
+}  // namespace
+
+HalExport HalComponent(const MapExport& map, const HalOptions& options) {
+  return HalWriter(map, options).Write();
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,387 @@
+#include "models/export/map_program.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "models/export/nested_polynomial.h"
+#include "models/history/history.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+
+int AsInt(std::size_t value) { return static_cast<int>(value); }
+
+struct Bounds {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+// As the guards of a prediction widen a range, to the last bit.
+Bounds Widened(double min, double max, double margin) {
+  const double widened = margin * (max - min);
+  return {min - widened, max + widened};
+}
+
+// ---- From readings to what the form reads ----
+
+// A derived input with the places of its numbers.
+struct Derivation {
+  Filter filter = Filter::kEma;
+  Operand source = {};
+  Operand state = {};  // of kEma and kZero
+  Operand value = {};  // kEma: the state itself
+  Operand gain = {};   // of kEma
+  double radians = 1.0;
+};
+
+// The history of a map laid out in spaces.
+class Layout {
+ public:
+  explicit Layout(const FittedModel& fitted) {
+    for (std::size_t i = 0; i < fitted.inputs.size(); ++i) {
+      known_[fitted.inputs[i].column.name] = {{Space::kReading, AsInt(i)},
+                                              fitted.inputs[i].column};
+    }
+    if (fitted.history == nullptr) {
+      for (const TrainedInput& input : fitted.inputs) {
+        form_.push_back(known_.at(input.column.name).place);
+      }
+      return;
+    }
+    for (const DerivedInput& input : fitted.history->derived) Add(input);
+    for (const std::string& name : fitted.history->form_inputs) {
+      form_.push_back(known_.at(name).place);
+    }
+  }
+
+  const std::vector<Derivation>& derivations() const { return derivations_; }
+  const std::vector<double>& taus() const { return taus_; }
+  // What the form reads, before any guard.
+  const std::vector<Operand>& form() const { return form_; }
+
+ private:
+  struct Known {
+    Operand place;
+    data::ColumnInfo column;
+  };
+
+  void Add(const DerivedInput& input) {
+    const Known source = known_.at(input.of);
+    Derivation derivation{.filter = input.filter, .source = source.place};
+    switch (input.filter) {
+      case Filter::kEma:
+        derivation.state = {Space::kState, num_states_++};
+        derivation.value = derivation.state;
+        derivation.gain = {Space::kGain, GainOf(input.tau)};
+        break;
+      case Filter::kZero:
+        derivation.state = {Space::kState, num_states_++};
+        derivation.value = {Space::kDerived, num_values_++};
+        break;
+      case Filter::kSine:
+      case Filter::kCosine:
+        derivation.value = {Space::kDerived, num_values_++};
+        derivation.radians = RadiansPer(source.column);
+        break;
+    }
+    known_[input.column.name] = {derivation.value, input.column};
+    derivations_.push_back(derivation);
+  }
+
+  int GainOf(double tau) {
+    const auto found = std::ranges::find(taus_, tau);
+    if (found == taus_.end()) taus_.push_back(tau);
+    return static_cast<int>(std::ranges::find(taus_, tau) - taus_.begin());
+  }
+
+  std::map<std::string, Known> known_;
+  std::vector<Derivation> derivations_;
+  std::vector<double> taus_;
+  std::vector<Operand> form_;
+  int num_states_ = 0;
+  int num_values_ = 0;
+};
+
+enum class Moment { kBegin, kAdvance, kZero, kEvaluate };
+
+std::optional<Instruction> StateUpdate(const Derivation& derivation,
+                                       Moment moment) {
+  const bool is_filter = derivation.filter == Filter::kEma;
+  if (!is_filter && derivation.filter != Filter::kZero) return std::nullopt;
+  if (is_filter && moment == Moment::kAdvance) {
+    return Instruction{.op = Op::kLag,
+                       .to = derivation.state,
+                       .a = derivation.gain,
+                       .b = derivation.source};
+  }
+  // The first reading is the filter's steady state; a zero is where it is
+  // taken.
+  if (moment == Moment::kBegin || (!is_filter && moment == Moment::kZero)) {
+    return Instruction{
+        .op = Op::kCopy, .to = derivation.state, .a = derivation.source};
+  }
+  return std::nullopt;
+}
+
+std::optional<Instruction> ValueOf(const Derivation& derivation) {
+  switch (derivation.filter) {
+    case Filter::kEma:
+      return std::nullopt;  // the state is the value
+    case Filter::kZero:
+      return Instruction{.op = Op::kSubtract,
+                         .to = derivation.value,
+                         .a = derivation.source,
+                         .b = derivation.state};
+    case Filter::kSine:
+    case Filter::kCosine:
+      break;
+  }
+  return Instruction{
+      .op = derivation.filter == Filter::kSine ? Op::kSine : Op::kCosine,
+      .to = derivation.value,
+      .a = derivation.source,
+      .c = derivation.radians};
+}
+
+// Derived values that neither the state nor the form (`read`) needs go.
+Instructions WithoutUnread(const Instructions& instructions,
+                           std::vector<Operand> read) {
+  Instructions kept;
+  for (auto it = instructions.rbegin(); it != instructions.rend(); ++it) {
+    if (it->to.space == Space::kDerived &&
+        std::ranges::find(read, it->to) == read.end()) {
+      continue;
+    }
+    read.push_back(it->a);
+    read.push_back(it->b);
+    kept.push_back(*it);
+  }
+  std::ranges::reverse(kept);
+  return kept;
+}
+
+Instructions Derive(const Layout& layout, Moment moment) {
+  Instructions instructions;
+  if (moment == Moment::kAdvance) {
+    for (std::size_t i = 0; i < layout.taus().size(); ++i) {
+      instructions.push_back({.op = Op::kGain,
+                              .to = {Space::kGain, AsInt(i)},
+                              .a = {Space::kTime, 0},
+                              .c = layout.taus()[i]});
+    }
+  }
+  for (const Derivation& derivation : layout.derivations()) {
+    if (const auto update = StateUpdate(derivation, moment)) {
+      instructions.push_back(*update);
+    }
+    if (const auto value = ValueOf(derivation)) instructions.push_back(*value);
+  }
+  return WithoutUnread(
+      instructions,
+      moment == Moment::kEvaluate ? layout.form() : std::vector<Operand>{});
+}
+
+// ---- From what the form reads to the error ----
+
+class FormWriter {
+ public:
+  explicit FormWriter(MapProgram* program) : program_(program) {}
+
+  // Guards of the inputs; `inputs` become the places of what they let through.
+  void ClipInputs(const Guards& guards, std::vector<Operand>* inputs) {
+    for (std::size_t i = 0; i < inputs->size(); ++i) {
+      const Operand to{Space::kForm, AsInt(i)};
+      const auto at = static_cast<Index>(i);
+      Add({.op = Op::kCopy, .to = to, .a = (*inputs)[i]});
+      Clip(to,
+           Widened(
+               guards.input_min[at], guards.input_max[at], guards.input_margin),
+           true);
+      (*inputs)[i] = to;
+    }
+  }
+
+  void ClipError(const Guards& guards) {
+    Clip(kError,
+         Widened(guards.error_min, guards.error_max, guards.error_margin),
+         true);
+  }
+
+  void Form(const ModelDescription& form, const std::vector<Operand>& inputs) {
+    if (const auto* blend = std::get_if<BlendForm>(&form)) {
+      Blend(*blend, inputs);
+    } else if (const auto* net = std::get_if<NetForm>(&form)) {
+      Add({.op = Op::kCopy, .to = kError, .a = Net(*net, inputs)});
+    } else {
+      Add({.op = Op::kCopy,
+           .to = kError,
+           .a = Polynomial(std::get<PolynomialForm>(form), inputs)});
+    }
+  }
+
+ private:
+  static constexpr Operand kError{Space::kError, 0};
+  static constexpr Operand kOutput{Space::kTerm, 0};
+
+  void Add(const Instruction& instruction) {
+    program_->evaluate.push_back(instruction);
+  }
+
+  void Clip(Operand to, const Bounds& bounds, bool guards) {
+    if (std::isfinite(bounds.low)) {
+      Add({.op = Op::kFloor, .to = to, .c = bounds.low, .guards = guards});
+    }
+    if (std::isfinite(bounds.high)) {
+      Add({.op = Op::kCeiling, .to = to, .c = bounds.high, .guards = guards});
+    }
+  }
+
+  Operand Polynomial(const PolynomialForm& form,
+                     const std::vector<Operand>& inputs) {
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      const bool is_read = std::ranges::any_of(
+          form.terms,
+          [i](const PolynomialTerm& term) { return term.powers[i] > 0; });
+      if (!is_read) continue;
+      const auto at = static_cast<Index>(i);
+      Add({.op = Op::kScale,
+           .to = {Space::kScaled, AsInt(i)},
+           .a = inputs[i],
+           .c = form.input_offset[at],
+           .d = form.input_scale[at]});
+    }
+    for (const Instruction& instruction : NestedPolynomial(form)) {
+      Add(instruction);
+    }
+    return kOutput;
+  }
+
+  // The scales become part of the weights. The offsets do not: 20 degC that
+  // vary by 0.1 K would cancel in the bias, and single precision with them.
+  Operand Net(const NetForm& form, const std::vector<Operand>& inputs) {
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      Add({.op = Op::kShift,
+           .to = {Space::kScaled, AsInt(i)},
+           .a = inputs[i],
+           .c = form.input_offset[static_cast<Index>(i)]});
+    }
+    Eigen::MatrixXd w1 = form.w1;
+    w1.leftCols(form.input_scale.size()) *= form.input_scale.asDiagonal();
+    const Operand hidden{Space::kHidden, 0};
+    const auto num_hidden = static_cast<int>(w1.rows());
+    Affine(hidden, {Space::kScaled, 0}, std::move(w1));
+    Add({.op = Op::kSigmoid, .to = hidden, .count = num_hidden});
+
+    const double slope = form.target_slope[0];
+    const double offset = form.target_offset[0];
+    Eigen::MatrixXd w2 = form.w2;
+    if (form.output == OutputFunction::kLinear) {
+      w2(0, w2.cols() - 1) -= offset;
+      w2 /= slope;
+    }
+    Affine(kOutput, hidden, std::move(w2));
+    if (form.output == OutputFunction::kSigmoid) {
+      Add({.op = Op::kSigmoid, .to = kOutput});
+      Add({.op = Op::kLinear,
+           .to = kOutput,
+           .a = kOutput,
+           .c = 1.0 / slope,
+           .d = -offset / slope});
+    }
+    return kOutput;
+  }
+
+  void Blend(const BlendForm& form, const std::vector<Operand>& inputs) {
+    Add({.op = Op::kSet, .to = kError, .c = 0.0});
+    for (const BlendForm::Member& member : form.members) {
+      std::vector<Operand> read;
+      for (const Index input : member.inputs) {
+        read.push_back(inputs[static_cast<std::size_t>(input)]);
+      }
+      const Operand output =
+          std::holds_alternative<NetForm>(member.form)
+              ? Net(std::get<NetForm>(member.form), read)
+              : Polynomial(std::get<PolynomialForm>(member.form), read);
+      Clip(output, {member.lowest, member.highest}, false);
+      Add({.op = Op::kAccumulate,
+           .to = kError,
+           .a = output,
+           .c = member.weight});
+    }
+  }
+
+  void Affine(Operand to, Operand from, Eigen::MatrixXd table) {
+    Add({.op = Op::kAffine,
+         .to = to,
+         .a = from,
+         .table = program_->tables.size(),
+         .count = static_cast<int>(table.rows())});
+    program_->tables.push_back(std::move(table));
+  }
+
+  MapProgram* program_;
+};
+
+// How many numbers each space holds, from the places that are written.
+void MeasureSpaces(MapProgram* program) {
+  const auto grow = [&](Space space, int size) {
+    int& known = program->sizes[static_cast<std::size_t>(space)];
+    known = std::max(known, size);
+  };
+  grow(Space::kReading, AsInt(program->readings.size()));
+  grow(Space::kTime, 1);
+  grow(Space::kError, 1);
+  for (const Instructions* part : program->parts()) {
+    for (const Instruction& instruction : *part) {
+      grow(instruction.to.space, instruction.to.index + instruction.count);
+    }
+  }
+}
+
+}  // namespace
+
+bool MapProgram::Uses(Op op) const {
+  return std::ranges::any_of(parts(), [op](const Instructions* part) {
+    return std::ranges::find(*part, op, &Instruction::op) != part->end();
+  });
+}
+
+MapProgram MakeMapProgram(const FittedModel& fitted) {
+  if (fitted.history != nullptr && fitted.history->needs_time() &&
+      fitted.history->time_unit != "s") {
+    throw std::invalid_argument(
+        "its filters run in " + fitted.history->time_unit +
+        ", and a controller counts seconds; fit it with a column of times");
+  }
+  MapProgram program;
+  program.model = fitted.name;
+  program.target = fitted.target;
+  program.since_first_row = fitted.align == data::Alignment::kFirst;
+  const double margin =
+      fitted.guards ? fitted.guards->input_margin : Guards{}.input_margin;
+  for (const TrainedInput& input : fitted.inputs) {
+    const Bounds far = Widened(input.min, input.max, margin);
+    program.readings.push_back(
+        {input.column, input.min, input.max, far.low, far.high});
+  }
+  const Layout layout(fitted);
+  program.begin = Derive(layout, Moment::kBegin);
+  program.advance = Derive(layout, Moment::kAdvance);
+  program.zero = Derive(layout, Moment::kZero);
+  program.evaluate = Derive(layout, Moment::kEvaluate);
+  std::vector<Operand> inputs = layout.form();
+  FormWriter writer(&program);
+  if (fitted.guards) writer.ClipInputs(*fitted.guards, &inputs);
+  writer.Form(fitted.model->Describe(), inputs);
+  if (fitted.guards) writer.ClipError(*fitted.guards);
+  MeasureSpaces(&program);
+  return program;
+}
+
+}  // namespace errmap::models

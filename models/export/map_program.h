@@ -1,0 +1,124 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "models/error_model.h"
+
+namespace errmap::models {
+
+/// Where a number of a program lives.
+enum class Space {
+  kReading,  // an input as the sensor gives it
+  kTime,     // seconds since the step before
+  kState,    // kept from step to step: filters and zeros
+  kGain,     // of the filters of one time constant, in this step
+  kDerived,  // computed from readings and state
+  kForm,     // an input of the form, clipped
+  kScaled,   // the same, scaled for a member
+  kHidden,   // hidden nodes of a net
+  kTerm,     // partial sums of a polynomial, output of a net
+  kError,    // the predicted error
+};
+inline constexpr std::size_t kNumSpaces = 10;
+
+/// Time, gains, states and what is derived from them stay double where all else
+/// is single: in single precision a slow filter stands still.
+constexpr bool IsAlwaysDouble(Space space) {
+  return space == Space::kTime || space == Space::kState ||
+         space == Space::kGain || space == Space::kDerived;
+}
+
+struct Operand {
+  Space space = Space::kError;
+  int index = 0;
+
+  bool operator==(const Operand&) const = default;
+};
+
+/// What an instruction does; `a`, `b`, `to` are operands, `c`, `d` numbers.
+enum class Op {
+  kSet,            // to = c
+  kCopy,           // to = a
+  kSubtract,       // to = a - b
+  kShift,          // to = a - c
+  kScale,          // to = (a - c) * d
+  kTimes,          // to = a * b
+  kTimesPlus,      // to = a * b + c
+  kTimesPlusTerm,  // to = a * b + (the kTerm after `to`)
+  kLinear,         // to = c * a + d
+  kAccumulate,     // to = to + c * a
+  kGain,           // to = 1 - exp(-a / c)
+  kLag,            // to = to + a * (b - to)
+  kSine,           // to = sin(c * a)
+  kCosine,         // to = cos(c * a)
+  kFloor,          // where to < c: to = c, and clipped if `guards`
+  kCeiling,        // where to > c: likewise
+  kAffine,         // to, ... = tables[table] * (a, ..., 1)
+  kSigmoid,        // `count` from `to` on: to = 1 / (1 + exp(-to))
+};
+
+struct Instruction {
+  Op op = Op::kSet;
+  Operand to;
+  Operand a = {};
+  Operand b = {};
+  double c = 0.0;
+  double d = 0.0;
+  std::size_t table = 0;
+  int count = 1;
+  bool guards = false;
+};
+using Instructions = std::vector<Instruction>;
+
+/// A reading and where it is trusted.
+struct ProgramReading {
+  data::ColumnInfo column;
+  double trained_min = 0.0;
+  double trained_max = 0.0;
+  /// The trained range widened by the guard's margin on each side: a reading
+  /// beyond it comes from a failed sensor sooner than from the machine.
+  double far_min = 0.0;
+  double far_max = 0.0;
+};
+
+/// A map as the arithmetic that a controller does: what every exported
+/// language prints, what `errmap cost` counts. Straight-line code, no choice
+/// of which is left to the one who prints it.
+struct MapProgram {
+  std::string model;  // the SPEC
+  data::ColumnInfo target;
+  bool since_first_row = false;          // of the session
+  std::vector<ProgramReading> readings;  // in the order of kReading
+  /// Tables of kAffine (outputs x (inputs + 1)), the last column a bias.
+  std::vector<Eigen::MatrixXd> tables;
+  /// The state of a session that begins with these readings.
+  Instructions begin;
+  /// On by dt seconds to these readings.
+  Instructions advance;
+  /// Takes the zero at these readings.
+  Instructions zero;
+  /// From readings and state to the error.
+  Instructions evaluate;
+  std::array<int, kNumSpaces> sizes = {};  // numbers in each space
+
+  int size(Space space) const { return sizes[static_cast<std::size_t>(space)]; }
+  bool has_memory() const { return size(Space::kState) > 0; }
+  /// All four parts, in the order of the members.
+  std::array<const Instructions*, 4> parts() const {
+    return {&begin, &advance, &zero, &evaluate};
+  }
+  /// Whether some part has this instruction.
+  bool Uses(Op op) const;
+};
+
+/// The program of a map. Throws std::invalid_argument where a filter of its
+/// history runs in another unit of time than seconds: a controller knows no
+/// rows.
+MapProgram MakeMapProgram(const FittedModel& fitted);
+
+}  // namespace errmap::models

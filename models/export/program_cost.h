@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+
+#include "models/export/map_program.h"
+
+namespace errmap::models {
+
+/// What one step of a program does, counted: the same on any machine.
+struct ProgramCost {
+  std::int64_t additions = 0;  // and subtractions
+  std::int64_t multiplications = 0;
+  std::int64_t divisions = 0;
+  std::int64_t exponentials = 0;
+  std::int64_t sines = 0;  // and cosines
+  std::int64_t comparisons = 0;
+  std::int64_t copies = 0;
+  std::int64_t state_bytes = 0;  // doubles kept from step to step
+};
+
+/// The cost of a step (`advance`, `evaluate` and the check of the readings);
+/// what depends on the readings is counted as if it always happened.
+ProgramCost CostOf(const MapProgram& program);
+
+}  // namespace errmap::models

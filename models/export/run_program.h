@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "models/export/map_program.h"
+
+namespace errmap::models {
+
+enum class Precision { kDouble, kSingle };
+
+/// What is to be said of an error beside its value; the exported maps return
+/// the same bits.
+enum MapStatus : int {
+  kMapOutside = 1,  // a reading left its trained range: extrapolated
+  kMapFar = 2,      // ... by more than the guard's margin (ProgramReading)
+  kMapClipped = 4,  // a guard clipped an input of the form, or the error
+  kMapInvalid = 8,  // a reading or the error is not finite: no error given
+};
+
+/// Runs a program as the exported map does, so that an export is checked
+/// against the map before anything is written.
+class ProgramRun {
+ public:
+  /// `program` must outlive the run.
+  ProgramRun(const MapProgram& program, Precision precision);
+
+  /// Begins a session; status bits, with kMapInvalid and nothing begun where
+  /// a reading is not finite.
+  int Begin(const Eigen::VectorXd& readings);
+  /// On by `dt` seconds (at least 0; without meaning where the map has no
+  /// memory). `error` is left alone where the status says kMapInvalid.
+  int Step(double dt, const Eigen::VectorXd& readings, double* error);
+  /// Takes the zero at these readings.
+  int Zero(const Eigen::VectorXd& readings);
+
+ private:
+  int Check(const Eigen::VectorXd& readings) const;
+  void Load(const Eigen::VectorXd& readings);
+  void Execute(const Instructions& instructions);
+  void Apply(const Instruction& instruction);
+  double& At(Operand operand);
+  double Rounded(double value, Space to) const;
+
+  const MapProgram& program_;
+  Precision precision_;
+  std::array<std::vector<double>, kNumSpaces> values_;
+  bool clipped_ = false;
+};
+
+/// 1 - exp(-u) for u >= 0, to a few ulp: of a step that is short against the
+/// time constant the difference would keep no digits. C, structured text and
+/// Python write the same series, since IEC 61131-3 has no expm1.
+double FilterGain(double u);
+/// Below this the series serves: its first term left out is 1e-17 of the gain.
+inline constexpr double kGainSeriesBelow = 0.0625;
+/// u (1 - u/2 (1 - u/3 (... (1 - u/kGainSeriesTerms)))).
+inline constexpr int kGainSeriesTerms = 9;
+
+}  // namespace errmap::models

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "models/export/map_program.h"
+#include "models/export/run_program.h"
+
+namespace errmap::models {
+
+/// What a map says of made-up readings, for an exported file to test itself.
+struct SelfTestRow {
+  double dt = 0.0;  // s since the row before; 0 in the first
+  Eigen::VectorXd readings;
+  double error = 0.0;  // as `errmap predict`
+  int status = 0;      // MapStatus
+};
+
+/// One session through the trained range, across it and beyond, the same for
+/// the same map. `error` comes from the map itself, not from its program.
+std::vector<SelfTestRow> SelfTestRows(const FittedModel& fitted,
+                                      const MapProgram& program);
+
+/// max - min of the errors that a map is about: of its training where its
+/// guards know, else of the rows within the trained range; at least the
+/// smallest normal number.
+double ErrorRange(const FittedModel& fitted,
+                  const std::vector<SelfTestRow>& rows);
+
+/// The largest differences between a program and its map, over their error
+/// range.
+struct Deviations {
+  double inside = 0.0;    // of rows within the trained range
+  double anywhere = 0.0;  // of all rows
+};
+Deviations FindDeviations(const MapProgram& program,
+                          Precision precision,
+                          const std::vector<SelfTestRow>& rows,
+                          double error_range);
+
+/// What it may be within the trained range.
+constexpr double AllowedDeviation(Precision precision) {
+  return precision == Precision::kDouble ? 1e-12 : 1e-5;
+}
+
+}  // namespace errmap::models
