@@ -128,6 +128,8 @@ int RunCommand(int argc, char** argv) {
   AddVolumetricCommand(&app, &run);
   AddNetcgCommand(&app, &run);
   AddConvertCommand(&app, &run);
+  AddExportCommand(&app, &run);
+  AddCostCommand(&app, &run);
   AddCertifyCommand(&app, &run);
   try {
     if (argc < 2) {

@@ -47,5 +47,7 @@ void AddSimulateCommand(CLI::App* app, Run* run);
 void AddNetcgCommand(CLI::App* app, Run* run);
 void AddConvertCommand(CLI::App* app, Run* run);
 void AddVolumetricCommand(CLI::App* app, Run* run);
+void AddExportCommand(CLI::App* app, Run* run);
+void AddCostCommand(CLI::App* app, Run* run);
 
 }  // namespace errmap::cli

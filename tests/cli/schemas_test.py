@@ -207,6 +207,7 @@ def documents(program):
         yield "fit " + label, program.json("fit", "grouped.csv", *words, "-o", name)
         yield "map " + label, program.read(name)
     yield "evaluate", program.json("evaluate", "stepwise.json", "grouped.csv")
+    yield "cost", program.json("cost", "stepwise.json")
 
     residuals = ["residuals", "grouped.csv", "--column", "error_mm"]
     yield "residuals", program.json(*residuals)
@@ -364,6 +365,7 @@ DEEP = {
         put("agreement", 0, "judged", "yes"),
         put("floors", "linear_lre_sd", "10"),
     ],
+    "cost": [put("operations", "copies", -1), put("bytes", "state", None)],
     "evaluate": [put("summary", "rmse", ...), put("normality", "ppcc", ...)],
 }
 

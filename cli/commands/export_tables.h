@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+
+#include "models/error_model.h"
+#include "models/export/export_map.h"
+
+namespace errmap::cli {
+
+/// What `export` is told about tables.
+struct TableArguments {
+  std::string increasing;  // model files
+  std::string decreasing;
+  std::string at;   // NAME=VALUE,...
+  std::string log;  // CSV file of the session that leads to the thermal state
+  int row = -1;     // of the log, from 0; -1: the last
+  double resolution = 0.0;
+  std::string units = "mm";
+  int points = 256;
+  std::string over;  // input across the columns of a grid
+  std::string grid = "33x9";
+};
+
+/// `--linuxcnc`: writes a COMP_FILE and says what it holds. `model` stands for
+/// both directions where neither is named.
+void ExportLinuxcnc(const std::string& model,
+                    const TableArguments& arguments,
+                    const std::string& out,
+                    bool quiet);
+
+/// `--table`: the grid of a map, and what is to be said of it in `said`.
+models::ExportedFile ExportTable(const models::FittedModel& fitted,
+                                 const models::MapExport& map,
+                                 const TableArguments& arguments,
+                                 std::string* said);
+
+}  // namespace errmap::cli
