@@ -14,6 +14,8 @@ packages="g++ cmake ninja-build libeigen3-dev libopenblas-dev libceres-dev
   nlohmann-json3-dev libfmt-dev libtomlplusplus-dev libssl-dev libgtest-dev
   libgmock-dev libbenchmark-dev"
 test_packages="clang-format-14 python3-jsonschema chromium gnuplot-nox"
+# Without these a few tests are skipped.
+optional_packages="clang linuxcnc-uspace linuxcnc-uspace-dev"
 example="data/sets/nistir5367_xdisp_down.csv"
 
 usage="usage: sh quickstart.sh [test]"
@@ -61,6 +63,7 @@ have_equivalent() {
   case $1 in
     libboost-dev) have_boost ;;
     gnuplot-nox) have gnuplot ;;
+    clang) have clang ;;
     clang-format-14) have clang-format-14 ;;
     chromium) have chromium || have chromium-browser || have google-chrome ;;
     libopenblas-dev) # Any flavour of it.
@@ -155,6 +158,21 @@ install_packages() {
     -o Acquire::Retries=3 -o DPkg::Lock::Timeout=120 $missing
 }
 
+# What Debian cannot install beside the rest only costs the tests that need it.
+install_optional() {
+  for package in $optional_packages; do
+    if [ -z "$(missing_packages "$package")" ]; then continue; fi
+    if simulate_install "$package" >"$log" && ! grep -q '^Remv ' "$log" &&
+      as_root apt-get install -y --no-install-recommends --no-remove \
+        -o Acquire::Retries=3 -o DPkg::Lock::Timeout=120 "$package" \
+        >"$log" 2>&1 </dev/null; then
+      say "installed $package for the tests"
+    else
+      say "$package cannot be installed: tests that need it are skipped"
+    fi
+  done
+}
+
 # Where there is no Debian, nothing is installed.
 check_tools() {
   absent=""
@@ -215,6 +233,7 @@ if [ "$mode" = test ]; then
 fi
 if have apt-get && have dpkg-query; then
   install_packages
+  if [ "$mode" = test ]; then install_optional; fi
 else
   step=""
   check_tools
