@@ -13,6 +13,21 @@ double FilterGain(double u) {
   return u * sum;
 }
 
+int StatusOfReadings(const MapProgram& program,
+                     const Eigen::VectorXd& readings) {
+  int status = 0;
+  for (std::size_t i = 0; i < program.readings.size(); ++i) {
+    const ProgramReading& trusted = program.readings[i];
+    const double value = readings[static_cast<Index>(i)];
+    if (!std::isfinite(value)) return kMapInvalid;
+    if (value < trusted.trained_min || value > trusted.trained_max) {
+      status |= kMapOutside;
+    }
+    if (value < trusted.far_min || value > trusted.far_max) status |= kMapFar;
+  }
+  return status;
+}
+
 ProgramRun::ProgramRun(const MapProgram& program, Precision precision)
     : program_(program), precision_(precision) {
   for (std::size_t i = 0; i < kNumSpaces; ++i) {
@@ -21,7 +36,7 @@ ProgramRun::ProgramRun(const MapProgram& program, Precision precision)
 }
 
 int ProgramRun::Begin(const Eigen::VectorXd& readings) {
-  const int status = Check(readings);
+  const int status = StatusOfReadings(program_, readings);
   if ((status & kMapInvalid) != 0) return status;
   Load(readings);
   Execute(program_.begin);
@@ -31,7 +46,7 @@ int ProgramRun::Begin(const Eigen::VectorXd& readings) {
 int ProgramRun::Step(double dt,
                      const Eigen::VectorXd& readings,
                      double* error) {
-  const int status = Check(readings);
+  const int status = StatusOfReadings(program_, readings);
   if ((status & kMapInvalid) != 0 || (program_.has_memory() && !(dt >= 0.0))) {
     return status | kMapInvalid;
   }
@@ -47,24 +62,10 @@ int ProgramRun::Step(double dt,
 }
 
 int ProgramRun::Zero(const Eigen::VectorXd& readings) {
-  const int status = Check(readings);
+  const int status = StatusOfReadings(program_, readings);
   if ((status & kMapInvalid) != 0) return status;
   Load(readings);
   Execute(program_.zero);
-  return status;
-}
-
-int ProgramRun::Check(const Eigen::VectorXd& readings) const {
-  int status = 0;
-  for (std::size_t i = 0; i < program_.readings.size(); ++i) {
-    const ProgramReading& trusted = program_.readings[i];
-    const double value = readings[static_cast<Index>(i)];
-    if (!std::isfinite(value)) return kMapInvalid;
-    if (value < trusted.trained_min || value > trusted.trained_max) {
-      status |= kMapOutside;
-    }
-    if (value < trusted.far_min || value > trusted.far_max) status |= kMapFar;
-  }
   return status;
 }
 

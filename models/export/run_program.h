@@ -20,6 +20,10 @@ enum MapStatus : int {
   kMapInvalid = 8,  // a reading or the error is not finite: no error given
 };
 
+/// The status of readings: of the bits all but kMapClipped, or kMapInvalid.
+int StatusOfReadings(const MapProgram& program,
+                     const Eigen::VectorXd& readings);
+
 /// Runs a program as the exported map does, so that an export is checked
 /// against the map before anything is written.
 class ProgramRun {
@@ -37,7 +41,6 @@ class ProgramRun {
   int Zero(const Eigen::VectorXd& readings);
 
  private:
-  int Check(const Eigen::VectorXd& readings) const;
   void Load(const Eigen::VectorXd& readings);
   void Execute(const Instructions& instructions);
   void Apply(const Instruction& instruction);

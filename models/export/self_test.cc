@@ -70,21 +70,6 @@ Eigen::MatrixXd FormInputs(const FittedModel& fitted,
   return inputs;
 }
 
-int StatusOf(const MapProgram& program,
-             const Eigen::VectorXd& readings,
-             bool clipped) {
-  int status = clipped ? kMapClipped : 0;
-  for (std::size_t i = 0; i < program.readings.size(); ++i) {
-    const ProgramReading& trusted = program.readings[i];
-    const double value = readings[static_cast<Index>(i)];
-    if (value < trusted.trained_min || value > trusted.trained_max) {
-      status |= kMapOutside;
-    }
-    if (value < trusted.far_min || value > trusted.far_max) status |= kMapFar;
-  }
-  return status;
-}
-
 }  // namespace
 
 std::vector<SelfTestRow> SelfTestRows(const FittedModel& fitted,
@@ -100,8 +85,8 @@ std::vector<SelfTestRow> SelfTestRows(const FittedModel& fitted,
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto at = static_cast<Index>(i);
     rows[i].error = prediction.errors[at];
-    rows[i].status =
-        StatusOf(program, rows[i].readings, prediction.clipped[at]);
+    rows[i].status = StatusOfReadings(program, rows[i].readings) |
+                     (prediction.clipped[at] ? kMapClipped : 0);
     // A map without guards may overflow; a session ends there.
     if (!std::isfinite(rows[i].error)) break;
     finite.push_back(rows[i]);
