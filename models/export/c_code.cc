@@ -87,22 +87,31 @@ class CLanguage final : public Language {
     return lines;
   }
 
-  // Input by input, so that the sums of all outputs go on side by side; each
-  // still in the order of the inputs.
+  // Input by input, a few outputs side by side: as many sums as registers hold
+  // go on at once, each still in the order of the inputs.
   Lines Affine(const Instruction& it,
                const Eigen::MatrixXd& table) const override {
-    const std::string to = ArrayAt(it.to, "j");
+    constexpr int kAtOnce = 8;
     const std::string from = ArrayAt(it.a, "i");
-    const std::string loop = fmt::format("for (j = 0; j < {}; ++j) ", it.count);
-    return {fmt::format("{}{} = {}_bias{}[j];", loop, to, name_, it.table),
-            fmt::format("for (i = 0; i < {}; ++i) {{", table.cols() - 1),
-            fmt::format("  {}{} += {}_weights{}[i][j] * {};",
-                        loop,
-                        to,
-                        name_,
-                        it.table,
-                        from),
-            "}"};
+    Lines lines{fmt::format("for (j = 0; j < {}; ++j) {} = {}_bias{}[j];",
+                            it.count,
+                            ArrayAt(it.to, "j"),
+                            name_,
+                            it.table)};
+    for (int first = 0; first < it.count; first += kAtOnce) {
+      lines.push_back(
+          fmt::format("for (i = 0; i < {}; ++i) {{", table.cols() - 1));
+      for (int row = first; row < std::min(first + kAtOnce, it.count); ++row) {
+        lines.push_back(fmt::format("  {} += {}_weights{}[i][{}] * {};",
+                                    Place({it.to.space, it.to.index + row}),
+                                    name_,
+                                    it.table,
+                                    row,
+                                    from));
+      }
+      lines.push_back("}");
+    }
+    return lines;
   }
 
   Lines Sigmoids(const Instruction& it) const override {
