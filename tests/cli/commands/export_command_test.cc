@@ -26,7 +26,8 @@ constexpr double kSingle = 1e-5;
 constexpr const char* kStrict =
     "-std=c99 -O2 -Wall -Wextra -Wconversion -pedantic -Werror";
 
-// Reads `start dt inputs...` and prints the error and the status.
+// Reads `start dt inputs...`, start 1 where a session begins and 2 where the
+// zero is taken anew, and prints the error and the status.
 constexpr const char* kDriver = R"(
 #include <stdio.h>
 {3}
@@ -55,9 +56,12 @@ state = None
 for row in sys.stdin:
     start, dt, *inputs = map(float, row.split())
     if hasattr(m, "step"):
-        if start:
+        if start == 1:
             state, _ = m.init(inputs)
         error, status = m.step(state, dt, inputs)
+        if start == 2:
+            m.zero(state, inputs)
+            error, status = m.step(state, 0.0, inputs)
     else:
         error, status = m.error(inputs)
     print(repr(error), status)
@@ -180,9 +184,13 @@ class CliExport : public Cli {
         fmt::format(
             kDriver,
             name,
-            memory ? fmt::format("if (start != 0.0) (void){0}_init(&state, "
+            memory ? fmt::format("if (start == 1.0) (void){0}_init(&state, "
                                  "inputs);\n    status = {0}_step(&state, dt, "
-                                 "inputs, &error);",
+                                 "inputs, &error);\n"
+                                 "    if (start == 2.0) {{\n"
+                                 "      (void){0}_zero(&state, inputs);\n"
+                                 "      status = {0}_step(&state, 0.0, inputs, "
+                                 "&error);\n    }}",
                                  name)
                    : fmt::format("status = {}_error(inputs, &error);", name),
             memory ? name + "_state state;" : "",
@@ -336,6 +344,36 @@ TEST_F(CliExport, ReproducesEveryKindOfDerivedInput) {
   }
   Write("made.csv", csv);
   ExpectExportsAgree((scratch_ / "made.csv").string());
+}
+
+TEST_F(CliExport, TakesTheZeroAnewInEveryLanguage) {
+  const std::string csv = Simulated("x_displacement_up.csv");
+  FitMap(csv, "poly:ridge:view=history+zero", "map.json");
+  Session session = Predict("map.json", csv);
+  std::vector<std::string> rows = SplitLines(session.rows);
+  ASSERT_EQ(rows[20].front(), '0');
+  rows[20].front() = '2';
+  session.rows.clear();
+  for (const std::string& row : rows) session.rows += row + "\n";
+  Export("map.json", {"--c", "--python", "--st"});
+  Write("rows", session.rows);
+  Write("driver.py", fmt::format(kPythonDriver, "map"));
+  const std::string python = Good("python3 driver.py <rows").out;
+  const std::vector<double> kept = std::move(session.predicted);
+  session.predicted.clear();
+  for (const std::string& line : SplitLines(python)) {
+    session.predicted.push_back(std::strtod(line.c_str(), nullptr));
+  }
+  EXPECT_NEAR(session.predicted[19], kept[19], kDouble);
+  EXPECT_GT(std::fabs(session.predicted[20] - kept[20]), 1e-6);
+  ExpectCAgrees("map", session, kDouble);
+  ExpectAgreement(
+      Good(fmt::format("python3 -B {}/cli/commands/read_structured_text.py "
+                       "map.st <rows",
+                       tests::TestDir()))
+          .out,
+      session,
+      kDouble);
 }
 
 TEST_F(CliExport, LinksTwoMapsIntoOneProgramWithoutAHeap) {

@@ -7,7 +7,8 @@ a name, a real literal without a point, a line over 200 characters ends it.
 
   read_structured_text.py FILE.st < ROWS
 
-Each row is `start dt inputs...`; prints Error, Compensation, Valid, Outside,
+Each row is `start dt inputs...`, start 1 where a session begins and 2 where the
+zero is taken anew; prints Error, Compensation, Valid, Outside,
 Far and Clipped after each call.
 """
 
@@ -284,10 +285,12 @@ def main():
         values = iter(inputs)
         for name in reader.inputs:
             if name == "START":
-                block.START = start != 0.0
+                block.START = start == 1.0
             elif name == "DTSECONDS":
                 block.DTSECONDS = dt
-            elif name != "TAKEZERO":
+            elif name == "TAKEZERO":
+                block.TAKEZERO = start == 2.0
+            else:
                 setattr(block, name, next(values))
         assert next(values, None) is None
         block.call()
