@@ -50,7 +50,7 @@ std::optional<std::string> OutputOf(const TemporaryFolder& folder,
     quoted += c == '\'' ? "'\\''" : std::string(1, c);
   }
   const std::string command =
-      fmt::format("cd '{}' && {} 2>/dev/null </dev/null", quoted, line);
+      fmt::format("(cd '{}' && {}) 2>/dev/null </dev/null", quoted, line);
   std::FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return std::nullopt;
   std::string text;

@@ -462,6 +462,15 @@ TEST_F(CliExport, CountsAndTimesWhatAMapCosts) {
   EXPECT_THAT(table.out, HasSubstr("multiplications          6"));
 }
 
+TEST_F(CliExport, CountsWhereNothingCompiles) {
+  FitMap(kDown, "poly:eq8", "map.json");
+  const Outcome outcome = Good(
+      fmt::format("PATH=/nonexistent '{}' cost map.json", tests::Binary()));
+  EXPECT_THAT(outcome.out, HasSubstr("multiplications          6"));
+  EXPECT_THAT(outcome.out, HasSubstr("nothing measured: `cc -std=c99 -O2`"));
+  EXPECT_EQ(outcome.err, "");
+}
+
 TEST_F(CliExport, WritesAComponentForLinuxcnc) {
   FitMap(kDown, "poly:eq8", "map.json");
   Export("map.json", {"--hal", "--joint", "1"});
