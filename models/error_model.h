@@ -127,6 +127,8 @@ struct StartResult {
 };
 
 struct History;
+struct Applicability;
+struct HeldOutErrors;
 
 /// Bounds within which a map was trained: what goes beyond is clipped to them.
 /// A column that hardly moved in training may move far on another day.
@@ -179,6 +181,10 @@ struct FittedModel {
   double inner_rmse = std::numeric_limits<double>::quiet_NaN();
   /// What rows held out say of predictions; nothing where none were.
   std::optional<PredictionInterval> interval;
+  /// Where it was trained (map_experience.h); may be null.
+  std::shared_ptr<const Applicability> applicability;
+  /// The errors behind the interval, or null.
+  std::shared_ptr<const HeldOutErrors> held_out;
 
   /// (m x inputs of the form) of every row; `inputs` are found by name. Throws
   /// std::invalid_argument naming an input not there, or where the sessions

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -19,6 +20,7 @@
 #include "models/blend/form_to_model.h"
 #include "models/history/history.h"
 #include "models/history/history_state.h"
+#include "models/map_experience.h"
 #include "models/version.h"
 
 namespace errmap::models {
@@ -112,6 +114,62 @@ Json ToJson(const PredictionInterval& interval) {
   }
   json["at_least"] = std::move(at_least);
   return json;
+}
+
+// What no prediction depends on is written with so many digits.
+constexpr int kDigits = 6;
+
+double Rounded(double value) {
+  return std::strtod(fmt::format("{:.{}g}", value, kDigits).c_str(), nullptr);
+}
+
+Eigen::VectorXd Rounded(const Eigen::VectorXd& values) {
+  return values.unaryExpr([](double value) { return Rounded(value); });
+}
+
+Eigen::MatrixXd Rounded(const Eigen::MatrixXd& values) {
+  return values.unaryExpr([](double value) { return Rounded(value); });
+}
+
+Json ToJson(const Applicability& trained,
+            const std::vector<TrainedInput>& inputs) {
+  Json derived = Json::array();
+  for (const Applicability::Derived& input : trained.derived) {
+    derived.push_back({{"name", input.column.name},
+                       {"unit", input.column.unit.symbol},
+                       {"min", input.min},
+                       {"max", input.max}});
+  }
+  Json columns = Json::array();
+  for (const Index column : trained.columns) {
+    columns.push_back(inputs[static_cast<std::size_t>(column)].column.name);
+  }
+  return {{"derived", std::move(derived)},
+          {"columns", std::move(columns)},
+          {"rows", trained.rows},
+          {"mean", ToJson(Rounded(trained.mean))},
+          {"scale", ToJson(Rounded(trained.scale))},
+          {"directions", ToJson(Rounded(trained.directions))},
+          {"rest", ToJson(Rounded(trained.rest))},
+          {"states", ToJson(Rounded(trained.states))},
+          {"distance_limit", Rounded(trained.distance_limit)},
+          {"leverage_limit", Rounded(trained.leverage_limit)},
+          {"relation_limit", ToJson(Rounded(trained.relation_limit))}};
+}
+
+Json ToJson(const HeldOutErrors& errors) {
+  Json units = Json::array();
+  for (const HeldOutErrors::Unit& unit : errors.units) {
+    units.push_back({{"label", unit.label},
+                     {"rmse", Rounded(unit.rmse)},
+                     {"elapsed", ToJson(Rounded(unit.elapsed))},
+                     {"position", ToJson(Rounded(unit.position))},
+                     {"residuals", ToJson(Rounded(unit.residuals))}});
+  }
+  return {{"time_unit", errors.time_unit},
+          {"position", errors.position},
+          {"rmse", Rounded(errors.rmse)},
+          {"units", std::move(units)}};
 }
 
 // Bounds may be infinite, which JSON has no word for: null.
@@ -384,6 +442,97 @@ Guards ReadGuards(const Node& node, Index num_inputs) {
   return guards;
 }
 
+Eigen::VectorXd ReadVector(const Node& node, Index size) {
+  Eigen::VectorXd values = node.Vector();
+  if (values.size() != size) {
+    node.Refuse(fmt::format("needs {} numbers, has {}", size, values.size()));
+  }
+  return values;
+}
+
+double ReadPositive(const Node& node) {
+  const double value = node.Number();
+  if (!(value > 0.0)) node.Refuse("must be above 0");
+  return value;
+}
+
+Eigen::VectorXd ReadPositive(const Node& node, Index size) {
+  Eigen::VectorXd values = ReadVector(node, size);
+  if (!(values.array() > 0.0).all()) node.Refuse("must be above 0");
+  return values;
+}
+
+std::vector<Index> ReadColumnsOf(const Node& node,
+                                 const std::vector<TrainedInput>& inputs) {
+  std::vector<Index> columns;
+  for (const Node& name : node.Elements()) {
+    const auto found = std::ranges::find(
+        inputs, name.Text(), [](const TrainedInput& input) -> const auto& {
+          return input.column.name;
+        });
+    if (found == inputs.end()) name.Refuse("is no input of the map");
+    columns.push_back(found - inputs.begin());
+  }
+  return columns;
+}
+
+Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
+  Applicability trained;
+  for (const Node& element : node.At("derived").Elements()) {
+    trained.derived.push_back({.column = ReadColumn(element),
+                               .min = element.At("min").Number(),
+                               .max = element.At("max").Number()});
+    if (fitted.history == nullptr ||
+        std::ranges::find(fitted.history->form_inputs,
+                          trained.derived.back().column.name) ==
+            fitted.history->form_inputs.end()) {
+      element.Refuse("is no input of the form");
+    }
+  }
+  trained.columns = ReadColumnsOf(node.At("columns"), fitted.inputs);
+  const auto size = static_cast<Index>(trained.columns.size());
+  trained.rows = node.At("rows").Count();
+  if (trained.rows < 2) node.At("rows").Refuse("must be at least 2");
+  trained.mean = ReadVector(node.At("mean"), size);
+  trained.scale = ReadPositive(node.At("scale"), size);
+  trained.directions = node.At("directions").Matrix();
+  trained.rest = ReadPositive(node.At("rest"), size);
+  trained.states = node.At("states").Matrix();
+  if (trained.directions.rows() != size || trained.directions.cols() < 1) {
+    node.At("directions").Refuse(fmt::format("needs {} rows", size));
+  }
+  if (trained.states.rows() < 1 ||
+      trained.states.cols() != trained.directions.cols()) {
+    node.At("states").Refuse(
+        fmt::format("needs rows of {} numbers", trained.directions.cols()));
+  }
+  trained.distance_limit = ReadPositive(node.At("distance_limit"));
+  trained.leverage_limit = ReadPositive(node.At("leverage_limit"));
+  trained.relation_limit = ReadPositive(node.At("relation_limit"), size);
+  return trained;
+}
+
+HeldOutErrors ReadHeldOut(const Node& node) {
+  HeldOutErrors errors;
+  errors.time_unit = node.At("time_unit").Text();
+  errors.position = node.At("position").Text();
+  errors.rmse = node.At("rmse").Number();
+  for (const Node& element : node.At("units").Elements()) {
+    HeldOutErrors::Unit unit;
+    unit.label = element.At("label").Text();
+    unit.rmse = element.At("rmse").Number();
+    unit.residuals = element.At("residuals").Vector();
+    if (unit.residuals.size() == 0) element.Refuse("has no residuals");
+    unit.elapsed = ReadVector(element.At("elapsed"), unit.residuals.size());
+    unit.position =
+        ReadVector(element.At("position"),
+                   errors.position.empty() ? 0 : unit.residuals.size());
+    errors.units.push_back(std::move(unit));
+  }
+  if (errors.units.size() < 2) node.At("units").Refuse("needs two units");
+  return errors;
+}
+
 PredictionInterval ReadInterval(const Node& node) {
   PredictionInterval interval{.holdout = node.At("holdout").Text(),
                               .unit = "",
@@ -491,6 +640,13 @@ FittedModel ReadModel(const Node& root) {
   if (const auto interval = root.Find("interval")) {
     fitted.interval = ReadInterval(*interval);
   }
+  if (const auto trained = root.Find("applicability")) {
+    fitted.applicability =
+        std::make_shared<Applicability>(ReadApplicability(*trained, fitted));
+  }
+  if (const auto held_out = root.Find("held_out")) {
+    fitted.held_out = std::make_shared<HeldOutErrors>(ReadHeldOut(*held_out));
+  }
   if (fitted.model->num_parameters() != parameters.Count()) {
     parameters.Refuse(fmt::format("is {}, the model has {}",
                                   parameters.Count(),
@@ -537,6 +693,11 @@ std::string ModelToJson(const FittedModel& fitted,
       fitted.history != nullptr ? ToJson(*fitted.history) : Json();
   document["guards"] = fitted.guards ? ToJson(*fitted.guards) : Json();
   document["interval"] = fitted.interval ? ToJson(*fitted.interval) : Json();
+  document["applicability"] = fitted.applicability != nullptr
+                                  ? ToJson(*fitted.applicability, fitted.inputs)
+                                  : Json();
+  document["held_out"] =
+      fitted.held_out != nullptr ? ToJson(*fitted.held_out) : Json();
   document["provenance"] = Json::object();
   for (const auto& [key, value] : provenance) {
     document["provenance"][key] = value;

@@ -21,7 +21,7 @@
 #include "data/atomic_file.h"
 #include "models/file_recipe.h"
 #include "models/model_file.h"
-#include "models/promise/conformal.h"
+#include "models/promise/promise.h"
 #include "models/study/figure_record.h"
 #include "models/study/fit_blocks.h"
 #include "models/study/fold_pool.h"
@@ -166,14 +166,16 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
   }
   const Json configuration =
       ConfigurationJson(*recipe, prepared.dataset, arguments);
+  models::AddApplicability(prepared.dataset, &fitted);
   if (!arguments.no_interval && !stop.load()) {
     try {
-      fitted.interval = models::PromiseOf(prepared.dataset,
-                                          std::move(recipe),
-                                          {.seed = arguments.seed,
-                                           .jobs = jobs,
-                                           .stop = &stop,
-                                           .indifference = indifference});
+      models::AddPromise(prepared.dataset,
+                         std::move(recipe),
+                         {.seed = arguments.seed,
+                          .jobs = jobs,
+                          .stop = &stop,
+                          .indifference = indifference},
+                         &fitted);
     } catch (const std::invalid_argument& error) {
       Say(fmt::format("no interval: {}", error.what()));
     }

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "cli/study_file/data_arguments.h"
-#include "models/promise/conformal.h"
+#include "models/promise/promise.h"
 
 namespace errmap::cli {
 namespace {
@@ -74,8 +74,11 @@ StudyRun RunPlan(StudyPlan plan,
       const std::size_t h = comparison.judgement.recommendation->holdout;
       for (models::ModelResult& model : comparison.study.models) {
         if (!model.final_fit) continue;
-        model.final_fit->interval = models::PromiseOf(
-            dataset, comparison.holdouts[h], model.holdouts[h]);
+        models::AddApplicability(dataset, &*model.final_fit);
+        models::AddPromise(dataset,
+                           comparison.holdouts[h],
+                           model.holdouts[h],
+                           &*model.final_fit);
       }
       const std::size_t model = comparison.judgement.recommendation->model;
       if (model < component.recipes.size()) {

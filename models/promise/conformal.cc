@@ -5,7 +5,6 @@
 #include <map>
 #include <utility>
 
-#include "models/study/study_defaults.h"
 #include "models/study/units_of_analysis.h"
 
 namespace errmap::models {
@@ -68,21 +67,6 @@ std::optional<PredictionInterval> PromiseOf(const data::Dataset& dataset,
     interval.levels.push_back(ConformalLevel(residuals, codes, coverage));
   }
   return interval;
-}
-
-std::optional<PredictionInterval> PromiseOf(const data::Dataset& dataset,
-                                            std::unique_ptr<ModelRecipe> recipe,
-                                            StudyOptions options) {
-  const Holdout holdout =
-      MakeHoldout(stats::ParseHoldout(DecisiveDefaultHoldout(dataset)),
-                  dataset,
-                  options.seed);
-  options.fit_all_rows = false;
-  std::vector<std::unique_ptr<ModelRecipe>> recipes;
-  recipes.push_back(std::move(recipe));
-  const StudyResult study = RunStudy(dataset, {holdout}, recipes, options);
-  if (study.interrupted) return std::nullopt;
-  return PromiseOf(dataset, holdout, study.models.front().holdouts.front());
 }
 
 }  // namespace errmap::models

@@ -1,13 +1,11 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "data/dataset.h"
-#include "models/error_model.h"
 #include "models/prediction_interval.h"
 #include "models/study/study.h"
 
@@ -29,12 +27,5 @@ PredictionInterval::Level ConformalLevel(const Eigen::VectorXd& residuals,
 std::optional<PredictionInterval> PromiseOf(const data::Dataset& dataset,
                                             const Holdout& holdout,
                                             const HoldoutResult& result);
-
-/// The same of a recipe alone, which is run under
-/// DecisiveDefaultHoldout(dataset). Nothing where a fold fails or was
-/// interrupted.
-std::optional<PredictionInterval> PromiseOf(const data::Dataset& dataset,
-                                            std::unique_ptr<ModelRecipe> recipe,
-                                            StudyOptions options);
 
 }  // namespace errmap::models

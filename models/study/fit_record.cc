@@ -23,6 +23,7 @@
 #include "data/nesting.h"
 #include "models/blend/form_to_model.h"
 #include "models/history/history.h"
+#include "models/map_experience.h"
 #include "models/regression_report.h"
 
 namespace errmap::models {
@@ -174,6 +175,21 @@ ERRMAP_MEMBERS(Guards,
                error_max)
 ERRMAP_MEMBERS(PredictionInterval::Level, coverage, half_width, at_least)
 ERRMAP_MEMBERS(PredictionInterval, holdout, unit, units, levels)
+ERRMAP_MEMBERS(Applicability::Derived, column, min, max)
+ERRMAP_MEMBERS(Applicability,
+               derived,
+               columns,
+               mean,
+               scale,
+               directions,
+               rest,
+               states,
+               rows,
+               distance_limit,
+               leverage_limit,
+               relation_limit)
+ERRMAP_MEMBERS(HeldOutErrors::Unit, label, rmse, elapsed, position, residuals)
+ERRMAP_MEMBERS(HeldOutErrors, time_unit, position, rmse, units)
 ERRMAP_MEMBERS(FittedModel,
                name,
                kind,
@@ -190,7 +206,9 @@ ERRMAP_MEMBERS(FittedModel,
                history,
                guards,
                inner_rmse,
-               interval)
+               interval,
+               applicability,
+               held_out)
 ERRMAP_MEMBERS(Memorisation,
                train_r2,
                shuffled_r2,

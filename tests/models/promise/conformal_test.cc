@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "models/map_experience.h"
+#include "models/promise/promise.h"
 #include "models/recipe_catalog.h"
 #include "models/study/study_defaults.h"
 #include "stats/distributions.h"
@@ -150,8 +152,12 @@ data::Dataset GroupedQuadratic(Index groups) {
 TEST(PromiseOf, ComesFromWholeUnitsAndTellsWhich) {
   const data::Dataset dataset = GroupedQuadratic(12);
   EXPECT_EQ(DecisiveDefaultHoldout(dataset), "groups:5");
-  const auto promise = PromiseOf(dataset, MakeRecipe("mean"), {});
+  FittedModel fitted = MakeRecipe("mean")->Fit(dataset, {});
+  AddPromise(dataset, MakeRecipe("mean"), {}, &fitted);
+  const auto& promise = fitted.interval;
   ASSERT_TRUE(promise.has_value());
+  ASSERT_NE(fitted.held_out, nullptr);
+  EXPECT_EQ(fitted.held_out->units.size(), 12U);
   EXPECT_EQ(promise->holdout, "groups:5");
   EXPECT_EQ(promise->unit, "cycle");
   EXPECT_EQ(promise->units, 12);
@@ -181,8 +187,10 @@ TEST(PromiseOf, MakesNoneFromNeighbouringRowsOrAFitThatFails) {
   const StudyResult study = RunStudy(dataset, {rows}, recipes, {});
   EXPECT_FALSE(
       PromiseOf(dataset, rows, study.models[0].holdouts[0]).has_value());
-  EXPECT_FALSE(
-      PromiseOf(dataset, MakeRecipe("poly:full:degree=12"), {}).has_value());
+  FittedModel fitted = MakeRecipe("mean")->Fit(dataset, {});
+  AddPromise(dataset, MakeRecipe("poly:full:degree=12"), {}, &fitted);
+  EXPECT_FALSE(fitted.interval.has_value());
+  EXPECT_EQ(fitted.held_out, nullptr);
 }
 
 }  // namespace

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/dataset.h"
+
+// What stands in model files beside the map itself, as plain data; how it is
+// made and used is told in models/promise/.
+
+namespace errmap::models {
+
+/// Where a map was trained, besides the range of each of its columns: the
+/// ranges of what it derives from them, and its thermal states (the inputs that
+/// are no positions), taken together.
+///
+/// States are described by a factor model: of x' = (x - mean) / scale the
+/// covariance is W W' + diag(rest), W the leading principal directions
+/// (Tipping & Bishop 1999, with a variance of its own for each column). Scores
+/// z = (W'W)^-1 W' x' have unit variance: the whitened space of distances.
+struct Applicability {
+  struct Derived {
+    data::ColumnInfo column;
+    double min = 0.0;
+    double max = 0.0;
+  };
+  /// Inputs of the form that are derived, in its order.
+  std::vector<Derived> derived;
+
+  std::vector<Eigen::Index> columns;  // (s) index into the map's inputs
+  Eigen::VectorXd mean;               // (s) input's unit
+  Eigen::VectorXd scale;              // (s) input's unit, above 0; one per unit
+  Eigen::MatrixXd directions;         // (s x q) W
+  Eigen::VectorXd rest;               // (s) variances of x', above 0
+  Eigen::MatrixXd states;             // (k x q) trained ones, spread evenly
+  Eigen::Index rows = 0;              // of training
+
+  // What rows held out with their whole unit reached, and half as much again.
+  double distance_limit = 0.0;     // to the nearest of `states`
+  double leverage_limit = 0.0;     // 1 / rows + |z|^2 / (rows - 1)
+  Eigen::VectorXd relation_limit;  // (s) StateMeasures::relation
+};
+
+/// Errors of a map on units that had no part in it, with the time and place of
+/// each: what probes of a further unit are judged and weighed by. Long units
+/// and many of them are thinned evenly; `rmse` and the units' own are of all
+/// rows.
+struct HeldOutErrors {
+  struct Unit {
+    std::string label;
+    double rmse = 0.0;          // target's unit
+    Eigen::VectorXd elapsed;    // (n) since the session began, in time_unit
+    Eigen::VectorXd position;   // (n) of the first position input, or (0)
+    Eigen::VectorXd residuals;  // (n) target less prediction, target's unit
+  };
+  /// "s", "rows", or "" where nothing is known of times: elapsed is then 0.
+  std::string time_unit;
+  std::string position;  // column; "" where there is none
+  double rmse = 0.0;     // of all units together: the error promised
+  std::vector<Unit> units;
+};
+
+}  // namespace errmap::models

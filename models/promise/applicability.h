@@ -1,0 +1,77 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/dataset.h"
+#include "models/error_model.h"
+#include "models/map_experience.h"
+
+namespace errmap::models {
+
+/// Of rows given as thermal states (m x s), against trained ones.
+struct StateMeasures {
+  Eigen::VectorXd distance;  // (m) to the nearest trained state, whitened
+  Eigen::VectorXd leverage;  // (m) of a linear map in the scores
+  /// (m x s) each column less what the others tell of it, over the standard
+  /// deviation that this has by the factor model.
+  Eigen::MatrixXd relation;
+  Eigen::MatrixXd expected;  // (m x s) what the others tell, input's unit
+};
+StateMeasures MeasureStates(const Applicability& trained,
+                            const Eigen::MatrixXd& states);
+
+/// Of a map as it was fitted to these rows; nothing where all its inputs are
+/// positions or the rows are fewer than three.
+std::optional<Applicability> MakeApplicability(const FittedModel& fitted,
+                                               const data::Dataset& training);
+
+/// Why a row is outside of what was trained.
+enum class Outside {
+  kNo,
+  kRange,     // a column, or what is derived from one, leaves its range by
+              // more than 2 % of it
+  kRelation,  // a column is not where the others say it should be
+  kDistance,  // far from every trained state
+  kLeverage,  // far from the middle of them
+};
+/// "no", "range", "relation", "distance", "leverage".
+std::string_view ToString(Outside outside);
+
+/// The worst of what puts a row outside.
+struct RowFlag {
+  Outside why = Outside::kNo;
+  /// Of kRange and kRelation: the column, or what is derived.
+  data::ColumnInfo column;
+  double value = 0.0;     // of that column, its unit; else distance or leverage
+  double low = 0.0;       // where it should be
+  double high = 0.0;      // likewise
+  double severity = 1.0;  // above 1: 2 is a whole range, or limit, beyond
+
+  bool outside() const { return why != Outside::kNo; }
+};
+
+/// A flag per row of `inputs` (m x inputs of the map, their units) and
+/// `form_inputs` (m x inputs of the form, FittedModel::FormInputs). A map that
+/// carries no applicability is judged by its columns' ranges alone.
+std::vector<RowFlag> FlagRows(const FittedModel& fitted,
+                              const Eigen::MatrixXd& inputs,
+                              const Eigen::MatrixXd& form_inputs);
+
+/// A column that stands elsewhere than the others tell, unlike in training.
+struct RelationChange {
+  data::ColumnInfo column;
+  double shift = 0.0;         // median of value less expected, column's unit
+  Eigen::Index num_rows = 0;  // that lie beyond the limit
+};
+
+/// The column that goes with the others least, where it is beyond its limit in
+/// more than half of the rows; nothing otherwise. One alone: it draws those
+/// that are told by it along.
+std::optional<RelationChange> ChangedRelation(const FittedModel& fitted,
+                                              const Eigen::MatrixXd& inputs);
+
+}  // namespace errmap::models

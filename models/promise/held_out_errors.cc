@@ -1,0 +1,119 @@
+#include "models/promise/held_out_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "models/error_model.h"
+#include "models/study/units_of_analysis.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+// A day at every tenth minute; twice as many units as the 95 % interval needs.
+constexpr Index kMostRows = 48;
+constexpr Index kMostUnits = 40;
+
+// `kept` of `count` places at even steps, the first and the last among them.
+std::vector<Index> EvenPlaces(Index count, Index most) {
+  const Index kept = std::min(count, most);
+  std::vector<Index> places;
+  for (Index i = 0; i < kept; ++i) {
+    places.push_back(kept > 1 ? i * (count - 1) / (kept - 1) : 0);
+  }
+  return places;
+}
+
+double RootMeanSquare(const VectorXd& values) {
+  return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
+}
+
+// The held-out rows of each unit, in order of time.
+std::vector<std::vector<Index>> PlacesOfUnits(const std::vector<Index>& codes,
+                                              std::size_t units,
+                                              const VectorXd& elapsed) {
+  std::vector<std::vector<Index>> places(units);
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    places[static_cast<std::size_t>(codes[i])].push_back(static_cast<Index>(i));
+  }
+  for (std::vector<Index>& of_unit : places) {
+    std::ranges::stable_sort(of_unit, {}, [&](Index i) { return elapsed[i]; });
+  }
+  return places;
+}
+
+// Codes may pass numbers over: from 0 without gaps, in their order.
+std::vector<Index> Renumbered(std::vector<Index> codes) {
+  std::vector<Index> present = codes;
+  std::ranges::sort(present);
+  present.erase(std::unique(present.begin(), present.end()), present.end());
+  for (Index& code : codes) {
+    code = std::ranges::lower_bound(present, code) - present.begin();
+  }
+  return codes;
+}
+
+}  // namespace
+
+VectorXd ElapsedOf(const data::Dataset& dataset) {
+  VectorXd elapsed = VectorXd::Zero(dataset.num_rows());
+  const data::SessionLog* log = dataset.log().get();
+  if (log == nullptr) return elapsed;
+  const std::vector<Index> sessions = dataset.session_codes();
+  for (Index row = 0; row < elapsed.size(); ++row) {
+    const auto at = static_cast<std::size_t>(row);
+    const Index first = log->first_rows[static_cast<std::size_t>(sessions[at])];
+    elapsed[row] = log->time[dataset.log_rows()[at]] - log->time[first];
+  }
+  return elapsed;
+}
+
+std::optional<HeldOutErrors> HeldOutErrorsOf(const data::Dataset& dataset,
+                                             const Holdout& holdout,
+                                             const HoldoutResult& result) {
+  if (!result.ok() || holdout.among_neighbours) return std::nullopt;
+  const HeldOutRows held = GatherHeldOut(dataset, holdout);
+  UnitsOfAnalysis units;
+  const std::vector<Index> codes =
+      Renumbered(AssignUnits(holdout, held, &units));
+  const VectorXd residuals = ResidualsOf(held, result);
+  if (units.labels.size() < 2 || !residuals.allFinite()) return std::nullopt;
+  const data::Dataset& source = *held.source;
+  const VectorXd elapsed = ElapsedOf(source)(held.rows);
+  const Index position = FindPosition(source, "");
+  HeldOutErrors errors;
+  errors.rmse = RootMeanSquare(residuals);
+  if (source.log() != nullptr) errors.time_unit = source.log()->time_unit;
+  if (position >= 0) {
+    errors.position = source.inputs()[static_cast<std::size_t>(position)].name;
+  }
+  const auto places = PlacesOfUnits(codes, units.labels.size(), elapsed);
+  for (const Index u :
+       EvenPlaces(static_cast<Index>(places.size()), kMostUnits)) {
+    const std::vector<Index>& all = places[static_cast<std::size_t>(u)];
+    std::vector<Index> kept;
+    for (const Index i :
+         EvenPlaces(static_cast<Index>(all.size()), kMostRows)) {
+      kept.push_back(all[static_cast<std::size_t>(i)]);
+    }
+    HeldOutErrors::Unit unit{.label = units.labels[static_cast<std::size_t>(u)],
+                             .rmse = RootMeanSquare(residuals(all)),
+                             .elapsed = elapsed(kept),
+                             .position = {},
+                             .residuals = residuals(kept)};
+    if (position >= 0) {
+      std::vector<Index> rows;
+      for (const Index i : kept) {
+        rows.push_back(held.rows[static_cast<std::size_t>(i)]);
+      }
+      unit.position = source.input_values().col(position)(rows);
+    }
+    errors.units.push_back(std::move(unit));
+  }
+  return errors;
+}
+
+}  // namespace errmap::models

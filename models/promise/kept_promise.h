@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include <Eigen/Core>
+
+#include "models/error_model.h"
+
+namespace errmap::models {
+
+/// What the error of a map on measured rows is made of.
+enum class ErrorShape {
+  kWithin,  // no larger than promised
+  kOffset,  // larger, and an offset explains it
+  kShape,   // larger, and no offset does
+};
+/// "within", "offset", "shape".
+std::string_view ToString(ErrorShape shape);
+
+/// A map on measured rows, held against what it promised and against doing
+/// without it. Target's unit; NaN where the map promises nothing.
+struct KeptPromise {
+  double promised = 0.0;   // RMSE on unseen units
+  double found = 0.0;      // RMSE here
+  double within_90 = 0.0;  // share of the rows within the promised interval
+  double within_95 = 0.0;
+  double uncompensated = 0.0;  // RMS of the target: no map at all
+  double constant = 0.0;       // sd of the target: the best constant for it
+  double mean = 0.0;           // of target less prediction
+  double offset_share = 0.0;   // of the mean square that its mean is
+  std::optional<ErrorShape> shape;  // nothing without a promise
+
+  /// Whether the map is of use on these rows.
+  bool better_than_nothing() const { return found < uncompensated; }
+  bool better_than_constant() const { return found < constant; }
+};
+
+/// `targets` and `predicted` (m, at least 1).
+KeptPromise HoldToPromise(const FittedModel& fitted,
+                          const Eigen::VectorXd& targets,
+                          const Eigen::VectorXd& predicted);
+
+}  // namespace errmap::models

@@ -1,0 +1,47 @@
+#include "models/promise/promise.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "models/promise/applicability.h"
+#include "models/promise/conformal.h"
+#include "models/promise/held_out_errors.h"
+#include "models/study/study_defaults.h"
+
+namespace errmap::models {
+void AddApplicability(const data::Dataset& dataset, FittedModel* fitted) {
+  if (auto trained = MakeApplicability(*fitted, dataset)) {
+    fitted->applicability =
+        std::make_shared<const Applicability>(std::move(*trained));
+  }
+}
+
+void AddPromise(const data::Dataset& dataset,
+                const Holdout& holdout,
+                const HoldoutResult& result,
+                FittedModel* fitted) {
+  fitted->interval = PromiseOf(dataset, holdout, result);
+  if (auto errors = HeldOutErrorsOf(dataset, holdout, result)) {
+    fitted->held_out =
+        std::make_shared<const HeldOutErrors>(std::move(*errors));
+  }
+}
+
+void AddPromise(const data::Dataset& dataset,
+                std::unique_ptr<ModelRecipe> recipe,
+                StudyOptions options,
+                FittedModel* fitted) {
+  const Holdout holdout =
+      MakeHoldout(stats::ParseHoldout(DecisiveDefaultHoldout(dataset)),
+                  dataset,
+                  options.seed);
+  options.fit_all_rows = false;
+  std::vector<std::unique_ptr<ModelRecipe>> recipes;
+  recipes.push_back(std::move(recipe));
+  const StudyResult study = RunStudy(dataset, {holdout}, recipes, options);
+  if (study.interrupted) return;
+  AddPromise(dataset, holdout, study.models.front().holdouts.front(), fitted);
+}
+
+}  // namespace errmap::models

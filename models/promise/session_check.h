@@ -1,0 +1,81 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "models/map_experience.h"
+
+namespace errmap::models {
+
+/// Whether a map holds in a session, by a few measurements of it.
+enum class SessionStatus { kHolds, kOff, kUnknown };
+/// "holds", "off", "unknown".
+std::string_view ToString(SessionStatus status);
+
+/// What would help where it does not.
+enum class Remedy {
+  kNone,
+  kRezero,   // an offset explains the error
+  kRefit,    // the shape is wrong
+  kUnknown,  // one probe cannot tell
+};
+/// "none", "re-zero", "refit", "unknown".
+std::string_view ToString(Remedy remedy);
+
+/// A session is off where its RMSE is above so many times the one promised.
+inline constexpr double kOffRatio = 1.5;
+
+struct SessionCheck {
+  SessionStatus status = SessionStatus::kUnknown;
+  Remedy remedy = Remedy::kNone;
+  Eigen::Index probes = 0;
+  double promised = 0.0;         // RMSE on unseen units, target's unit
+  double probe_rms = 0.0;        // likewise
+  double probe_mean = 0.0;       // likewise
+  double probe_scatter = 0.0;    // sd about their mean; NaN for one probe
+  double off_probability = 0.0;  // that the session is off
+  /// RMS of probes at these times above which a session is off, and up to
+  /// which it holds: target's unit.
+  double off_above = 0.0;
+  double holds_to = 0.0;
+  double session_low = 0.0;  // 80 % of what the session's RMSE may be
+  double session_high = 0.0;
+  /// Further probes like these that would settle it; nothing where it is
+  /// settled, or where no dozen of them would.
+  std::optional<Eigen::Index> more_probes;
+};
+
+/// Judges `residuals` (n, target's unit) of probes taken `elapsed` (n, in
+/// errors.time_unit) after the session began; without a time unit the times do
+/// not count.
+///
+/// What n probes at these times tell is taken from the held-out units: as many
+/// of each one's errors near those times, drawn again and again, give the
+/// distribution of q = RMS of probes / RMSE of the unit. Each q then says what
+/// the session's RMSE may be, RMS of the probes / q; the share of them above
+/// kOffRatio * promised is the probability that it is off. Throws
+/// std::invalid_argument on no probes, other sizes, or what is not finite.
+SessionCheck CheckSession(const HeldOutErrors& errors,
+                          const Eigen::VectorXd& elapsed,
+                          const Eigen::VectorXd& residuals);
+
+/// How well one probe at some time and place tells a unit's RMSE.
+struct ProbeSite {
+  double from = 0.0;  // elapsed, in the errors' time unit
+  double until = 0.0;
+  double position_from = 0.0;  // NaN where no position is known
+  double position_until = 0.0;
+  /// In half of the cases the probe's size is within this factor of the unit's
+  /// RMSE.
+  double factor = 0.0;
+};
+
+/// Sites of held-out probes, the most telling first: quarters of the units'
+/// length by thirds of the positions.
+std::vector<ProbeSite> RankProbeSites(const HeldOutErrors& errors);
+
+}  // namespace errmap::models

@@ -1,0 +1,230 @@
+#include "models/promise/session_check.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "models/promise/kept_promise.h"
+#include "models/promise/session_offset.h"
+#include "models/recipe_catalog.h"
+#include "stats/distributions.h"
+#include "stats/random.h"
+#include "tests/models/model_test_data.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr Index kRows = 40;
+constexpr double kStep = 300.0;  // s
+
+// An offset that wanders (variance 0.6, memory an hour) and noise (0.4) about
+// `offset`, with a wrong shape of size `slope` over the positions -1 .. 1.
+HeldOutErrors::Unit Day(stats::Random* random,
+                        double offset = 0.0,
+                        double slope = 0.0) {
+  constexpr double kMemory = 3600.0;
+  const auto normal = [&] {
+    return stats::NormalQuantile(std::max(random->Uniform(), 1e-12));
+  };
+  HeldOutErrors::Unit unit{.label = "day",
+                           .rmse = 0.0,
+                           .elapsed = VectorXd(kRows),
+                           .position = VectorXd(kRows),
+                           .residuals = VectorXd(kRows)};
+  double wander = std::sqrt(0.6) * normal();
+  const double kept = std::exp(-kStep / kMemory);
+  for (Index i = 0; i < kRows; ++i) {
+    if (i > 0) {
+      wander = kept * wander + std::sqrt(0.6 * (1.0 - kept * kept)) * normal();
+    }
+    unit.elapsed[i] = kStep * static_cast<double>(i);
+    unit.position[i] = static_cast<double>(i % 5) / 2.0 - 1.0;
+    unit.residuals[i] =
+        offset + wander + std::sqrt(0.4) * normal() + slope * unit.position[i];
+  }
+  unit.rmse = std::sqrt(unit.residuals.squaredNorm() / kRows);
+  return unit;
+}
+
+HeldOutErrors Days(int count, std::uint64_t seed) {
+  stats::Random random(seed);
+  HeldOutErrors errors{
+      .time_unit = "s", .position = "position_mm", .rmse = 0.0, .units = {}};
+  double squares = 0.0;
+  for (int day = 0; day < count; ++day) {
+    errors.units.push_back(Day(&random));
+    squares += std::pow(errors.units.back().rmse, 2);
+  }
+  errors.rmse = std::sqrt(squares / count);
+  return errors;
+}
+
+SessionCheck CheckAt(const HeldOutErrors& errors,
+                     const HeldOutErrors::Unit& day,
+                     const std::vector<Index>& rows) {
+  return CheckSession(errors, day.elapsed(rows), day.residuals(rows));
+}
+
+TEST(CheckSession, TellsSessionsThatAreOffFromThoseThatHold) {
+  const HeldOutErrors errors = Days(10, 1);
+  stats::Random random(2);
+  const std::vector<Index> rows = {4, 18, 35};
+  int caught = 0;
+  int false_alarms = 0;
+  int apart = 0;
+  for (int i = 0; i < 100; ++i) {
+    const bool is_offset = i % 2 == 0;
+    const SessionCheck off =
+        CheckAt(errors,
+                is_offset ? Day(&random, 4.0) : Day(&random, 0.0, 6.0),
+                is_offset ? rows : std::vector<Index>{5, 19, 35});
+    caught += off.status == SessionStatus::kOff ? 1 : 0;
+    apart += off.remedy == (is_offset ? Remedy::kRezero : Remedy::kRefit);
+    const SessionCheck well = CheckAt(errors, Day(&random), rows);
+    false_alarms += well.status == SessionStatus::kOff ? 1 : 0;
+  }
+  EXPECT_GE(caught, 95);
+  EXPECT_LE(false_alarms, 8);
+  EXPECT_GE(apart, 80);
+}
+
+TEST(CheckSession, IsLessSureOfOneProbeThanOfMany) {
+  const HeldOutErrors errors = Days(10, 3);
+  const VectorXd one{{1.0}};
+  const SessionCheck few = CheckSession(errors, VectorXd{{600.0}}, one);
+  EXPECT_EQ(few.status, SessionStatus::kUnknown);
+  EXPECT_TRUE(std::isnan(few.probe_scatter));
+  ASSERT_TRUE(few.more_probes.has_value());
+  EXPECT_GE(*few.more_probes, 1);
+  const SessionCheck many = CheckSession(
+      errors, VectorXd::LinSpaced(8, 0.0, 11000.0), VectorXd::Constant(8, 1.0));
+  EXPECT_LT(many.session_high - many.session_low,
+            few.session_high - few.session_low);
+}
+
+TEST(CheckSession, GrowsSurerThatItIsOffTheLargerTheProbes) {
+  const HeldOutErrors errors = Days(6, 4);
+  const VectorXd times{{0.0, 900.0, 3000.0}};
+  double before = -1.0;
+  for (const double size : {0.2, 0.8, 1.6, 3.2, 9.0}) {
+    const SessionCheck check =
+        CheckSession(errors, times, VectorXd::Constant(3, size));
+    EXPECT_GE(check.off_probability, before);
+    before = check.off_probability;
+  }
+  EXPECT_EQ(before, 1.0);
+}
+
+TEST(CheckSession, RefusesNoProbesAndOnesThatAreNotFinite) {
+  const HeldOutErrors errors = Days(3, 5);
+  EXPECT_THROW(CheckSession(errors, VectorXd(0), VectorXd(0)),
+               std::invalid_argument);
+  EXPECT_THROW(
+      CheckSession(errors, VectorXd::Zero(1), VectorXd{{std::nan("")}}),
+      std::invalid_argument);
+  EXPECT_THROW(CheckSession(errors, VectorXd::Zero(2), VectorXd::Zero(1)),
+               std::invalid_argument);
+}
+
+TEST(RankProbeSites, PutsFirstWhereAProbeIsLikeItsDay) {
+  HeldOutErrors errors = Days(8, 6);
+  // At one end the error is exactly the day's, elsewhere it is noise.
+  for (HeldOutErrors::Unit& unit : errors.units) {
+    for (Index i = 0; i < kRows; ++i) {
+      if (unit.position[i] > 0.4) unit.residuals[i] = unit.rmse;
+    }
+  }
+  const std::vector<ProbeSite> sites = RankProbeSites(errors);
+  ASSERT_GE(sites.size(), 6U);
+  EXPECT_NEAR(sites.front().factor, 1.0, 1e-9);
+  EXPECT_NEAR(sites.front().position_until, 1.0, 1e-12);
+  EXPECT_GT(sites.back().factor, sites.front().factor);
+}
+
+TEST(FitOffset, FindsVarianceMemoryAndNoise) {
+  const OffsetModel model = FitOffset(Days(300, 7));
+  EXPECT_NEAR(model.variance, 0.6, 0.1);
+  EXPECT_NEAR(model.noise, 0.4, 0.1);
+  // The grid has factors of 2.
+  EXPECT_GT(model.memory, 3600.0 / 2.1);
+  EXPECT_LT(model.memory, 3600.0 * 2.1);
+}
+
+TEST(OffsetFilter, WeighsAProbeByWhatItCanKnow) {
+  const OffsetModel model{.variance = 3.0, .memory = 100.0, .noise = 1.0};
+  OffsetFilter filter(model);
+  filter.Advance(50.0);
+  EXPECT_EQ(filter.variance(), 3.0);
+  filter.Update(2.0);
+  EXPECT_NEAR(filter.offset(), 1.5, 1e-15);
+  EXPECT_NEAR(filter.variance(), 0.75, 1e-15);
+  filter.Advance(1e9);  // all of it has faded
+  EXPECT_NEAR(filter.offset(), 0.0, 1e-12);
+  EXPECT_NEAR(filter.variance(), 3.0, 1e-12);
+  EXPECT_THROW(filter.Advance(0.0), std::invalid_argument);
+  EXPECT_NEAR(model.Narrowing(3.0), 1.0, 1e-15);
+  EXPECT_NEAR(model.Narrowing(0.0), 0.5, 1e-15);
+}
+
+TEST(TrackOffset, UsesProbesOfTheSameSessionUpToTheRow) {
+  const OffsetModel model{.variance = 1.0,
+                          .memory = std::numeric_limits<double>::infinity(),
+                          .noise = 1.0};
+  const OffsetTrack track = TrackOffset(model,
+                                        {{"a", 20.0}, {"a", 10.0}, {"b", 0.0}},
+                                        VectorXd{{3.0, 3.0, 100.0}},
+                                        {{"a", 5.0}, {"a", 10.0}, {"a", 30.0}});
+  EXPECT_EQ(track.used, (std::vector<Index>{0, 1, 2}));
+  EXPECT_NEAR(track.offset[0], 0.0, 1e-15);
+  EXPECT_NEAR(track.offset[1], 1.5, 1e-15);
+  EXPECT_NEAR(track.offset[2], 2.0, 1e-15);
+}
+
+TEST(TrackOffset, LowersTheErrorOfLaterRows) {
+  const HeldOutErrors errors = Days(10, 8);
+  const OffsetModel model = FitOffset(errors);
+  stats::Random random(9);
+  double before = 0.0;
+  double after = 0.0;
+  for (int day = 0; day < 50; ++day) {
+    const HeldOutErrors::Unit unit = Day(&random);
+    const std::vector<Index> probes = {0, 4, 8, 12};
+    std::vector<Moment> moments;
+    for (const Index i : probes) moments.push_back({"d", unit.elapsed[i]});
+    std::vector<Moment> later;
+    for (Index i = 13; i < 21; ++i) later.push_back({"d", unit.elapsed[i]});
+    const OffsetTrack track =
+        TrackOffset(model, moments, unit.residuals(probes), later);
+    const VectorXd rest = unit.residuals.segment(13, 8);
+    before += rest.squaredNorm();
+    after += (rest - track.offset).squaredNorm();
+  }
+  EXPECT_LT(after, 0.95 * before);
+}
+
+TEST(HoldToPromise, TellsAnOffsetFromAWrongShape) {
+  FittedModel fitted =
+      MakeRecipe("mean")->Fit(errmap::testing::ShippedMeasurements(), {});
+  fitted.held_out = std::make_shared<HeldOutErrors>(
+      HeldOutErrors{.time_unit = "", .position = "", .rmse = 1.0, .units = {}});
+  const VectorXd predicted = VectorXd::Zero(4);
+  const VectorXd small{{0.5, -0.5, 0.5, -0.5}};
+  EXPECT_EQ(HoldToPromise(fitted, small, predicted).shape, ErrorShape::kWithin);
+  const VectorXd offset = small.array() + 5.0;
+  const KeptPromise kept = HoldToPromise(fitted, offset, predicted);
+  EXPECT_EQ(kept.shape, ErrorShape::kOffset);
+  EXPECT_NEAR(kept.offset_share, 25.0 / 25.25, 1e-12);
+  EXPECT_FALSE(kept.better_than_nothing());
+  EXPECT_EQ(HoldToPromise(fitted, 8.0 * small, predicted).shape,
+            ErrorShape::kShape);
+  fitted.held_out = nullptr;
+  EXPECT_FALSE(HoldToPromise(fitted, small, predicted).shape.has_value());
+}
+
+}  // namespace
+}  // namespace errmap::models
