@@ -122,6 +122,7 @@ int RunCommand(int argc, char** argv) {
   AddFitCommand(&app, &run);
   AddPredictCommand(&app, &run);
   AddEvaluateCommand(&app, &run);
+  AddCheckCommand(&app, &run);
   AddResidualsCommand(&app, &run);
   AddReportCommand(&app, &run);
   AddSimulateCommand(&app, &run);

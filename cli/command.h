@@ -43,6 +43,7 @@ void AddEvaluateCommand(CLI::App* app, Run* run);
 void AddResidualsCommand(CLI::App* app, Run* run);
 void AddReportCommand(CLI::App* app, Run* run);
 void AddCertifyCommand(CLI::App* app, Run* run);
+void AddCheckCommand(CLI::App* app, Run* run);
 void AddSimulateCommand(CLI::App* app, Run* run);
 void AddNetcgCommand(CLI::App* app, Run* run);
 void AddConvertCommand(CLI::App* app, Run* run);

@@ -70,6 +70,61 @@ void SayOutside(const std::vector<models::TrainedInput>& inputs,
   }
 }
 
+std::string FlagText(const models::RowFlag& flag) {
+  const std::string name =
+      data::Printable(flag.column.name, flag.column.name.size());
+  const std::string& symbol = flag.column.unit.symbol;
+  switch (flag.why) {
+    case models::Outside::kNo:
+      return "";
+    case models::Outside::kRange:
+    case models::Outside::kRelation:
+      return fmt::format("{} is {:.6g}{}, {} {:.6g} to {:.6g}",
+                         name,
+                         flag.value,
+                         symbol.empty() ? "" : " " + symbol,
+                         flag.why == models::Outside::kRange
+                             ? "trained"
+                             : "the other inputs tell",
+                         flag.low,
+                         flag.high);
+    case models::Outside::kDistance:
+      return fmt::format(
+          "the thermal state is {:.1f} times as far from every trained one as "
+          "held-out rows were",
+          flag.severity);
+    case models::Outside::kLeverage:
+      return fmt::format(
+          "the leverage of the thermal state is {:.2g}, at most {:.2g} in "
+          "held-out rows",
+          flag.value,
+          flag.high);
+  }
+  return "";
+}
+
+void SayUnlike(const std::vector<models::RowFlag>& flags,
+               const std::vector<Index>& rows) {
+  Index unlike = 0;
+  std::size_t worst = 0;
+  for (std::size_t i = 0; i < flags.size(); ++i) {
+    if (!flags[i].outside()) continue;
+    if (flags[i].severity > flags[worst].severity) worst = i;
+    if (flags[i].why != models::Outside::kRange) ++unlike;
+  }
+  if (unlike > 0) {
+    Say(fmt::format(
+        "warning: {} in a thermal state unlike those of training, or with "
+        "inputs that do not go together as they did there",
+        Count(unlike, "row")));
+  }
+  if (!flags.empty() && flags[worst].outside()) {
+    Say(fmt::format("warning: farthest outside is data row {}: {}",
+                    rows[worst],
+                    FlagText(flags[worst])));
+  }
+}
+
 bool SayNotFinite(const Eigen::VectorXd& predicted,
                   const std::vector<Index>& rows,
                   const std::string& file) {

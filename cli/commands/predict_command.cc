@@ -2,12 +2,14 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
 #include "cli/commands/map_warnings.h"
+#include "cli/commands/probe_correction.h"
 #include "cli/report/claimed_folder.h"
 #include "cli/report/interval_text.h"
 #include "cli/shell/number_text.h"
@@ -27,6 +29,7 @@ struct PredictArguments {
   std::string model;
   std::string file;
   std::string out;
+  std::string probes;
   MapLogArguments log;
   bool quiet = false;
 };
@@ -65,10 +68,30 @@ data::Dataset RowsToPredict(const models::FittedModel& fitted,
   return data::Dataset(std::move(parts));
 }
 
+// Of the interval of one row; NaN without one.
+double HalfWidth(const models::FittedModel& fitted,
+                 std::size_t level,
+                 const std::optional<ProbeCorrection>& probes,
+                 Eigen::Index row) {
+  if (!fitted.interval) return std::numeric_limits<double>::quiet_NaN();
+  return fitted.interval->levels[level].half_width *
+         (probes ? probes->narrowing[row] : 1.0);
+}
+
+// `whole`: whether the session's first rows are known.
+std::string_view WhyOutside(const models::RowFlag& flag,
+                            bool whole,
+                            bool is_finite) {
+  if (flag.outside()) return models::ToString(flag.why);
+  if (!is_finite) return "not finite";
+  return whole ? "" : "start";
+}
+
 int RunPredict(const PredictArguments& arguments) {
-  RefuseInputAsOutput("-o",
-                      arguments.out,
-                      {arguments.model, arguments.file, arguments.log.after});
+  RefuseInputAsOutput(
+      "-o",
+      arguments.out,
+      {arguments.model, arguments.file, arguments.log.after, arguments.probes});
   const models::FittedModel fitted = models::LoadModel(arguments.model);
   const data::CsvTable table =
       ReadForMap(fitted, arguments.file, MapColumns::kInputs, arguments.quiet);
@@ -77,8 +100,20 @@ int RunPredict(const PredictArguments& arguments) {
   std::iota(all_rows.begin(), all_rows.end(), Eigen::Index{0});
   const MapLog map = MakeMapLog(fitted, table, all_rows, arguments.log);
   const data::Dataset rows = RowsToPredict(fitted, table, inputs, map);
-  const models::Prediction prediction =
-      fitted.PredictForm(fitted.FormInputs(rows));
+  const Eigen::MatrixXd form_inputs = fitted.FormInputs(rows);
+  models::Prediction prediction = fitted.PredictForm(form_inputs);
+  std::optional<ProbeCorrection> probes;
+  if (!arguments.probes.empty()) {
+    probes = CorrectByProbes(fitted,
+                             arguments.probes,
+                             table,
+                             all_rows,
+                             arguments.log,
+                             arguments.quiet);
+    prediction.errors += probes->offset;
+  }
+  const std::vector<models::RowFlag> flags =
+      models::FlagRows(fitted, inputs, form_inputs);
   const Eigen::VectorXd& predicted = prediction.errors;
   const std::vector<Eigen::Index> sessions = rows.session_codes();
 
@@ -91,7 +126,7 @@ int RunPredict(const PredictArguments& arguments) {
     ids.push_back(&table.columns[static_cast<std::size_t>(index)]);
     text += data::CsvField(name) + ",";
   }
-  text += "predicted,lower_90,upper_90,lower_95,upper_95,inside\n";
+  text += "predicted,lower_90,upper_90,lower_95,upper_95,inside,why,offender\n";
   for (Eigen::Index row = 0; row < predicted.size(); ++row) {
     for (const data::CsvColumn* id : ids) {
       text +=
@@ -103,21 +138,22 @@ int RunPredict(const PredictArguments& arguments) {
         map.log == nullptr ||
         !map.begin_inside[static_cast<std::size_t>(sessions[at])];
     const bool is_finite = std::isfinite(predicted[row]);
-    const bool inside =
-        whole && is_finite && models::IsInside(fitted.inputs, inputs, row);
+    const models::RowFlag& flag = flags[at];
+    const bool inside = whole && is_finite && !flag.outside();
     text += is_finite ? data::CsvNumber(predicted[row]) : "";
     for (std::size_t i = 0; i < models::PredictionInterval::kCoverages.size();
          ++i) {
-      const double half_width = fitted.interval
-                                    ? fitted.interval->levels[i].half_width
-                                    : std::numeric_limits<double>::quiet_NaN();
+      const double half_width = HalfWidth(fitted, i, probes, row);
       text += is_finite && std::isfinite(half_width)
                   ? fmt::format(",{},{}",
                                 data::CsvNumber(predicted[row] - half_width),
                                 data::CsvNumber(predicted[row] + half_width))
                   : ",,";
     }
-    text += inside ? ",1\n" : ",0\n";
+    text += fmt::format(",{},{},{}\n",
+                        inside ? 1 : 0,
+                        WhyOutside(flag, whole, is_finite),
+                        data::CsvField(flag.column.name));
   }
   if (arguments.out.empty()) {
     PrintResult(text);
@@ -137,8 +173,10 @@ int RunPredict(const PredictArguments& arguments) {
                        ErrorText(fitted.target.unit,
                                  fitted.interval->levels[0].half_width)));
     }
+    if (probes) Say(probes->line);
     for (const std::string& warning : map.warnings) Say(warning);
     SayOutside(fitted.inputs, inputs);
+    SayUnlike(flags, all_rows);
     if (const Eigen::Index clipped = prediction.clipped.count(); clipped > 0) {
       Say(
           fmt::format("warning: {} clipped by the map's guards, since an input "
@@ -166,14 +204,24 @@ void AddPredictCommand(CLI::App* app, Run* run) {
       ->add_option(
           "-o,--output", arguments->out, "File to write (default: stdout)")
       ->type_name("FILE.csv");
+  command
+      ->add_option("--probes",
+                   arguments->probes,
+                   "Measurements of the same session: the map is moved by the "
+                   "offset that\nthey show up to each row, and the interval "
+                   "narrows")
+      ->type_name("PROBES.csv");
   AddMapLogArguments(command, &arguments->log);
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
   command->footer(
       "Columns: record and cycle where the data have them, predicted (in the "
       "target's unit),\nlower_90 ... upper_95 (empty without an interval), "
-      "inside (1 within the trained range, 0 not, or where a session's "
-      "first\nrows are missing). Columns in another unit are converted. Exit "
-      "status 4\nwhere a prediction is not finite: its cell stays empty.");
+      "inside (1 as in training, 0 not),\nwhy not (range: a column leaves its "
+      "trained range; relation: it does not go with\nthe others as it did "
+      "there; distance, leverage: an unlike thermal state; start:\na session's "
+      "first rows are missing) and offender (that column). Columns in\nanother "
+      "unit are converted. Exit status 4 where a prediction is not finite: "
+      "its\ncell stays empty.");
   command->callback([arguments, run] { run->status = RunPredict(*arguments); });
 }
 

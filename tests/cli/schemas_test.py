@@ -209,6 +209,8 @@ def documents(program):
     yield "evaluate", program.json("evaluate", "stepwise.json", "grouped.csv")
     yield "cost", program.json("cost", "stepwise.json")
 
+    yield "check", program.json("check", "stepwise.json", "grouped.csv", statuses=(0, 4))
+
     residuals = ["residuals", "grouped.csv", "--column", "error_mm"]
     yield "residuals", program.json(*residuals)
     yield "residuals, all", program.json(

@@ -306,7 +306,8 @@ TEST_F(Cli, PredictKeepsIdColumnsAndMarksExtrapolation) {
   const Outcome outcome = Run({"predict", "m.json", "p.csv"});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(SplitLines(outcome.out)[0],
-            "record,predicted,lower_90,upper_90,lower_95,upper_95,inside");
+            "record,predicted,lower_90,upper_90,lower_95,upper_95,inside,why,"
+            "offender");
   const auto records = Records(outcome.out);
   ASSERT_EQ(records.size(), 2U);
   EXPECT_EQ(records[0].at("record"), "7");

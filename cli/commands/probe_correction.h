@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "cli/study_file/map_log.h"
+#include "data/csv.h"
+#include "models/error_model.h"
+
+namespace errmap::cli {
+
+/// What probes of a session say of the rows that a map predicts.
+struct ProbeCorrection {
+  Eigen::VectorXd offset;     // (rows) to be added, target's unit
+  Eigen::VectorXd narrowing;  // (rows) of intervals: at most 1
+  std::string line;           // for people
+};
+
+/// Of the probes of a file, for `rows` of `table`; each row is corrected by the
+/// probes of its session up to its time. Throws data::InputError where the map
+/// holds no held-out errors, or as ReadMapRows does.
+ProbeCorrection CorrectByProbes(const models::FittedModel& fitted,
+                                const std::string& probes,
+                                const data::CsvTable& table,
+                                const std::vector<Eigen::Index>& rows,
+                                const MapLogArguments& log,
+                                bool quiet);
+
+}  // namespace errmap::cli

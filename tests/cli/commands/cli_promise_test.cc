@@ -1,0 +1,166 @@
+// What a map promises, and how it is held to it: predict's flags, evaluate's
+// words, check, and predict --probes.
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "data/csv.h"
+#include "tests/cli/cli_fixture.h"
+
+namespace errmap {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Each;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr int kRowsPerDay = 40;
+
+// Days of three thermometers that warm together, each day in its own way, and
+// an error that is theirs and the position's and a little more; `offset` (um)
+// moves the errors, `raise` (degC) the second thermometer.
+std::string Days(int first,
+                 int last,
+                 double offset = 0.0,
+                 double raise = 0.0,
+                 int step = 1) {
+  std::string text =
+      "day,time_s,position_mm,t1_degC,t2_degC,t3_degC,error_um\n";
+  for (int day = first; day <= last; ++day) {
+    const double pace = 8.0 + 3.0 * std::sin(2.3 * day);
+    for (int row = 0; row < kRowsPerDay; row += step) {
+      const double warm = 1.0 - std::exp(-row / pace);
+      const double slow = 1.0 - std::exp(-row / (3.0 * pace));
+      const double air = 20.0 + std::sin(1.7 * day);
+      const double x = 40.0 * (row % 5);
+      const double t1 = air + 8.0 * warm + 0.05 * std::sin(7.1 * row + day);
+      const double t2 = air + 5.0 * warm + 0.05 * std::sin(5.3 * row + day);
+      const double t3 = air + 4.0 * slow + 0.05 * std::sin(3.7 * row + day);
+      const double rest =
+          0.5 * std::sin(0.8 * day) + 0.3 * std::sin(12.7 * row + 3.1 * day);
+      const double error = 2.0 * (t1 - 20.0) + 0.02 * x * (t3 - 20.0) + rest;
+      text += std::to_string(day) + "," + std::to_string(60 * row);
+      for (const double value : {x, t1, t2 + raise, t3, error + offset}) {
+        text += "," + data::CsvNumber(value);
+      }
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+class CliPromise : public Cli {
+ protected:
+  void SetUp() override {
+    Write("train.csv", Days(1, 10));
+    const Outcome outcome = Run({"fit",
+                                 "train.csv",
+                                 "--model",
+                                 "poly:ridge:degree=2",
+                                 "-o",
+                                 "map.json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+  }
+};
+
+TEST_F(CliPromise, PredictNamesWhatPutsARowOutside) {
+  Write("well.csv", Days(3, 3));
+  Write("raised.csv", Days(3, 3, 0.0, 3.0));
+  const Outcome well = Run({"predict", "map.json", "well.csv"});
+  for (const auto& row : Records(well.out)) {
+    EXPECT_EQ(row.at("inside"), "1");
+    EXPECT_EQ(row.at("why"), "");
+    EXPECT_EQ(row.at("offender"), "");
+  }
+  EXPECT_THAT(well.err, Not(HasSubstr("warning")));
+  const Outcome raised = Run({"predict", "map.json", "raised.csv"});
+  int named = 0;
+  for (const auto& row : Records(raised.out)) {
+    EXPECT_EQ(row.at("inside"), "0");
+    named += row.at("offender") == "t2_degC" ? 1 : 0;
+  }
+  EXPECT_GE(named, kRowsPerDay / 2);
+  EXPECT_THAT(raised.err, HasSubstr("warning: farthest outside is data row"));
+}
+
+TEST_F(CliPromise, EvaluateHoldsTheMapToItsPromise) {
+  Write("well.csv", Days(11, 12));
+  const Json well =
+      RunJson({"evaluate", "map.json", "well.csv", "--format", "json"});
+  EXPECT_EQ(well["promise"]["shape"], "within");
+  EXPECT_GT(well["promise"]["within_90"].get<double>(), 0.7);
+  EXPECT_TRUE(well["changed_relation"].is_null());
+  Write("moved.csv", Days(11, 12, 9.0));
+  const Outcome moved = Run({"evaluate", "map.json", "moved.csv"});
+  EXPECT_THAT(moved.out,
+              AllOf(HasSubstr("promised"),
+                    HasSubstr("better than no compensation"),
+                    HasSubstr("re-zero")));
+  Write("raised.csv", Days(11, 12, 0.0, 3.0));
+  EXPECT_THAT(Run({"evaluate", "map.json", "raised.csv"}).out,
+              HasSubstr("above what the other inputs tell"));
+}
+
+TEST_F(CliPromise, CheckTellsWhetherTheMapHolds) {
+  Write("well.csv", Days(11, 11, 0.0, 0.0, 13));
+  const Outcome well = Run({"check", "map.json", "well.csv"});
+  EXPECT_EQ(well.status, 0) << well.out;
+  EXPECT_THAT(well.out, HasSubstr("The map holds in this session"));
+  Write("moved.csv", Days(11, 11, 9.0, 0.0, 13));
+  const Outcome moved = Run({"check", "map.json", "moved.csv"});
+  EXPECT_EQ(moved.status, kEveryFitFailed);
+  EXPECT_THAT(moved.out,
+              AllOf(HasSubstr("does not hold"),
+                    HasSubstr("re-zero by"),
+                    HasSubstr("0 to 39 min after the session began")));
+}
+
+TEST_F(CliPromise, CheckNeedsHeldOutErrors) {
+  ASSERT_EQ(Run({"fit",
+                 "train.csv",
+                 "--model",
+                 "mean",
+                 "-o",
+                 "bare.json",
+                 "--no-interval"})
+                .status,
+            0);
+  Write("probes.csv", Days(11, 11, 0.0, 0.0, 13));
+  EXPECT_THAT(RefusalOf(Run({"check", "bare.json", "probes.csv", "--quiet"}),
+                        kUnusable),
+              HasSubstr("without --no-interval"));
+}
+
+TEST_F(CliPromise, ProbesMoveLaterRowsAndNarrowTheInterval) {
+  const std::string all = Days(11, 11, 9.0);
+  const std::vector<std::string> lines = SplitLines(all);
+  std::string probes = lines[0] + "\n";
+  std::string later = lines[0] + "\n";
+  for (int row = 0; row < kRowsPerDay; ++row) {
+    (row < 8 ? probes : later) +=
+        lines[static_cast<std::size_t>(row) + 1] + "\n";
+  }
+  Write("probes.csv", probes);
+  Write("later.csv", later);
+  const auto before = Records(Run({"predict", "map.json", "later.csv"}).out);
+  const Outcome outcome =
+      Run({"predict", "map.json", "later.csv", "--probes", "probes.csv"});
+  EXPECT_THAT(outcome.err, HasSubstr("8 probes move 32 rows of 32"));
+  const auto after = Records(outcome.out);
+  const double moved = std::stod(after[0].at("predicted")) -
+                       std::stod(before[0].at("predicted"));
+  EXPECT_GT(moved, 5.0);
+  EXPECT_LT(moved, 12.0);
+  const auto width = [](const auto& row) {
+    return std::stod(row.at("upper_90")) - std::stod(row.at("lower_90"));
+  };
+  EXPECT_LT(width(after[0]), width(before[0]));
+}
+
+}  // namespace
+}  // namespace errmap
