@@ -1,0 +1,194 @@
+// What more measurements would do: learning_curve, power_law, sensor_curve,
+// next_states.
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "models/promise/learning_curve.h"
+#include "models/promise/next_states.h"
+#include "models/promise/power_law.h"
+#include "models/promise/sensor_curve.h"
+#include "models/recipe_catalog.h"
+#include "stats/distributions.h"
+#include "stats/random.h"
+#include "tests/models/promise/simulated_days.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using errmap::testing::SimulatedDays;
+
+double Law(double size) { return 1.0 + 4.0 * std::pow(size, -0.8); }
+
+TEST(PowerLaw, HoldsTheLawThatMadeThePoints) {
+  std::vector<LearningPoint> points;
+  for (const double size : {2.0, 3.0, 5.0, 8.0}) {
+    points.push_back({size, Law(size), 0.02});
+  }
+  const PowerLaw law(points);
+  const PowerLaw::Quantiles later = law.ErrorAt(16.0);
+  EXPECT_LT(later.low, Law(16.0));
+  EXPECT_GT(later.high, Law(16.0));
+  EXPECT_NEAR(later.median, Law(16.0), 0.1 * Law(16.0));
+  EXPECT_NEAR(law.ErrorAt(3.0).median, Law(3.0), 0.05 * Law(3.0));
+}
+
+TEST(PowerLaw, CoversTheErrorOfAllFromNoisyHalves) {
+  stats::Random random(5);
+  int covered = 0;
+  for (int run = 0; run < 20; ++run) {
+    std::vector<LearningPoint> points;
+    for (const double size : {2.0, 3.0, 4.0, 5.0}) {
+      const double noise =
+          0.1 * stats::NormalQuantile(std::max(random.Uniform(), 1e-9));
+      points.push_back({size, Law(size) * std::exp(noise), 0.1});
+    }
+    const PowerLaw::Quantiles at = PowerLaw(points).ErrorAt(10.0);
+    covered += at.low <= Law(10.0) && Law(10.0) <= at.high ? 1 : 0;
+  }
+  EXPECT_GE(covered, 17);
+}
+
+TEST(PowerLaw, TellsHowManyAGoalNeedsOrThatItIsNeverReached) {
+  std::vector<LearningPoint> points;
+  for (const double size : {2.0, 3.0, 5.0, 8.0, 12.0, 20.0}) {
+    points.push_back({size, Law(size), 0.005});
+  }
+  const PowerLaw law(points);
+  // 1 + 4 n^-0.8 = 1.25 at n = 16^(1 / 0.8) = 32.
+  const PowerLaw::Quantiles units = law.UnitsFor(1.25);
+  EXPECT_LE(units.low, 32.0);
+  EXPECT_GE(units.high, 32.0);
+  EXPECT_GT(law.NeverReaches(0.5), 0.9);
+  EXPECT_LT(law.NeverReaches(2.0), 0.01);
+  EXPECT_EQ(law.UnitsFor(100.0).median, 1.0);
+}
+
+TEST(PowerLaw, RefusesOneSizeAndErrorsOfNothing) {
+  EXPECT_THROW(PowerLaw({{2.0, 1.0, 0.1}, {2.0, 1.1, 0.1}}),
+               std::invalid_argument);
+  EXPECT_THROW(PowerLaw({{2.0, 1.0, 0.1}, {3.0, 0.0, 0.1}}),
+               std::invalid_argument);
+}
+
+TEST(PlanLearning, TestsWholeUnitsThatTheFoldHasNotSeen) {
+  const data::Dataset days = SimulatedDays(1, 6, 6);
+  const LearningPlan plan = PlanLearning(days, LearnBy::kSessions, 2, 1);
+  EXPECT_EQ(plan.unit, "day");
+  EXPECT_EQ(plan.num_units, 6);
+  EXPECT_EQ(plan.sizes, (std::vector<Index>{2, 3, 4}));
+  const std::vector<Index> sessions = days.session_codes();
+  for (std::size_t i = 0; i < plan.sizes.size(); ++i) {
+    ASSERT_EQ(plan.holdouts[i].folds.size(), 10U);
+    for (const stats::Fold& fold : plan.holdouts[i].folds) {
+      std::set<Index> train;
+      std::set<Index> test;
+      for (const Index row : fold.train) {
+        train.insert(sessions[static_cast<std::size_t>(row)]);
+      }
+      for (const Index row : fold.test) {
+        test.insert(sessions[static_cast<std::size_t>(row)]);
+      }
+      EXPECT_EQ(static_cast<Index>(train.size()), plan.sizes[i]);
+      for (const Index session : test) EXPECT_FALSE(train.contains(session));
+    }
+  }
+  EXPECT_THROW(PlanLearning(SimulatedDays(1, 3, 4), LearnBy::kSessions, 1, 1),
+               std::invalid_argument);
+}
+
+TEST(CurvesOf, FallsWithTheNumberOfDaysAndNamesWhatFails) {
+  const data::Dataset days = SimulatedDays(2, 8, 6);
+  const LearningPlan plan = PlanLearning(days, LearnBy::kSessions, 1, 1);
+  std::vector<std::unique_ptr<ModelRecipe>> recipes;
+  recipes.push_back(MakeRecipe("poly:ridge:view=raw:terms=linear"));
+  recipes.push_back(MakeRecipe("poly:full:degree=12"));
+  const StudyResult study =
+      RunStudy(days, plan.holdouts, recipes, {.fit_all_rows = false});
+  const std::vector<LearningCurve> curves = CurvesOf(days, plan, study);
+  ASSERT_EQ(curves.size(), 2U);
+  ASSERT_EQ(curves[0].points.size(), plan.sizes.size());
+  EXPECT_LT(curves[0].points.back().rmse, curves[0].points.front().rmse);
+  for (const LearningCurve::Point& point : curves[0].points) {
+    EXPECT_LT(point.low, point.rmse);
+    EXPECT_GT(point.high, point.rmse);
+  }
+  EXPECT_TRUE(curves[0].law.has_value());
+  EXPECT_TRUE(curves[1].points.empty());
+  EXPECT_NE(curves[1].why_failed, "");
+}
+
+// The data with a target made of two of its sensors.
+data::Dataset WithTwoSensorTruth(const data::Dataset& days,
+                                 const std::string& one,
+                                 const std::string& other) {
+  data::Dataset::Parts parts{.source = "two sensors",
+                             .inputs = days.inputs(),
+                             .input_values = days.input_values(),
+                             .target = days.target(),
+                             .target_values = {},
+                             .groups = days.groups(),
+                             .weights = {},
+                             .rows = days.rows(),
+                             .log = days.log(),
+                             .log_rows = days.log_rows()};
+  stats::Random random(3);
+  const VectorXd noise = VectorXd::NullaryExpr(
+      days.num_rows(), [&] { return 0.05 * (random.Uniform() - 0.5); });
+  parts.target_values = days.input_values().col(days.FindInput(one)) -
+                        1.5 * days.input_values().col(days.FindInput(other)) +
+                        noise;
+  return data::Dataset(std::move(parts));
+}
+
+TEST(LearnSensors, FindsTheTwoSensorsThatTheTruthUses) {
+  const data::Dataset days =
+      WithTwoSensorTruth(SimulatedDays(4, 6, 8), "t12_degC", "t27_degC");
+  const SensorCurve curve = LearnSensors(days, 4);
+  EXPECT_FALSE(curve.zeroed);
+  ASSERT_GE(curve.order.size(), 2U);
+  EXPECT_EQ(curve.enough, 2);
+  const std::set<std::string> found = {curve.order[0].sensor,
+                                       curve.order[1].sensor};
+  EXPECT_EQ(found, (std::set<std::string>{"t12_degC", "t27_degC"}));
+  EXPECT_EQ(curve.order[0].stability, 1.0);
+}
+
+TEST(LearnSensors, FindsAFewThatDoAsWellAsAll) {
+  const SensorCurve curve = LearnSensors(SimulatedDays(3, 8, 8), 6);
+  EXPECT_EQ(curve.all_sensors, 36);
+  EXPECT_GE(curve.enough, 1);
+  EXPECT_LE(curve.enough, 6);
+  EXPECT_EQ(curve.points.size(), 7U);
+  EXPECT_EQ(curve.points[0].sensors, 0);
+}
+
+TEST(ChooseNext, PrefersTheStateThatNothingLikeItWasMeasured) {
+  const data::Dataset days = SimulatedDays(5, 3, 6);
+  MatrixXd candidates = days.input_values().topRows(20);
+  // The last one is much warmer, in the pattern of the day's own warming.
+  const Eigen::RowVectorXd warming =
+      days.input_values().row(100) - days.input_values().row(0);
+  candidates.row(19) = days.input_values().row(100) + 2.0 * warming;
+  const std::vector<NextState> chosen = ChooseNext(days, candidates, 3, 10.0);
+  ASSERT_EQ(chosen.size(), 3U);
+  EXPECT_EQ(chosen[0].candidate, 19);
+  EXPECT_LT(chosen[0].variance_left, 1.0);
+  EXPECT_LT(chosen[2].variance_left, chosen[0].variance_left);
+  EXPECT_GT(chosen[0].distance, chosen[1].distance);
+  EXPECT_THROW(ChooseNext(days, MatrixXd::Zero(2, 3), 1, 1.0),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace errmap::models
