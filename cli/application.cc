@@ -123,6 +123,7 @@ int RunCommand(int argc, char** argv) {
   AddPredictCommand(&app, &run);
   AddEvaluateCommand(&app, &run);
   AddCheckCommand(&app, &run);
+  AddUpdateCommand(&app, &run);
   AddLearnCommand(&app, &run);
   AddResidualsCommand(&app, &run);
   AddReportCommand(&app, &run);

@@ -51,5 +51,6 @@ void AddConvertCommand(CLI::App* app, Run* run);
 void AddVolumetricCommand(CLI::App* app, Run* run);
 void AddExportCommand(CLI::App* app, Run* run);
 void AddCostCommand(CLI::App* app, Run* run);
+void AddUpdateCommand(CLI::App* app, Run* run);
 
 }  // namespace errmap::cli
