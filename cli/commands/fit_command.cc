@@ -19,9 +19,11 @@
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
+#include "data/text.h"
 #include "models/file_recipe.h"
 #include "models/model_file.h"
 #include "models/promise/promise.h"
+#include "models/promise/sensitivity.h"
 #include "models/study/figure_record.h"
 #include "models/study/fit_blocks.h"
 #include "models/study/fold_pool.h"
@@ -41,7 +43,34 @@ struct FitArguments {
   bool no_interval = false;
 };
 
+Json SensitivityJson(const models::Sensitivity& sensitivity) {
+  return {{"noise", models::Sensitivity::kNoise},
+          {"per_noise", sensitivity.per_noise},
+          {"largest_jump", sensitivity.largest_jump},
+          {"jump_of",
+           sensitivity.jump_of.empty() ? Json() : Json(sensitivity.jump_of)},
+          {"rezero_jump", sensitivity.rezero_jump}};
+}
+
+std::string SensitivityText(const models::Sensitivity& sensitivity,
+                            const ErrorText& error) {
+  if (sensitivity.jump_of.empty()) return "";
+  std::string text = fmt::format(
+      "{:g} degC of noise in each thermometer moves it by {} (RMS), one that "
+      "fails to 0 by up to {} ({})",
+      models::Sensitivity::kNoise,
+      error.WithUnit(sensitivity.per_noise),
+      error.WithUnit(sensitivity.largest_jump),
+      data::Printable(sensitivity.jump_of, sensitivity.jump_of.size()));
+  if (sensitivity.rezero_jump > 0.0) {
+    text += fmt::format(", a zero taken anew by up to {}",
+                        error.WithUnit(sensitivity.rezero_jump));
+  }
+  return text + "\n";
+}
+
 Json FitJson(const models::FittedModel& fitted,
+             const models::Sensitivity& sensitivity,
              const stats::ErrorMetrics& train,
              const data::Dataset& dataset,
              const FitArguments& arguments) {
@@ -60,7 +89,8 @@ Json FitJson(const models::FittedModel& fitted,
       {"equation", fitted.equation.empty() ? Json() : Json(fitted.equation)},
       {"train", models::ToJson(models::MakeRecord(train))},
       {"fit_seconds", fitted.summary.seconds},
-      {"remarks", fitted.remarks}};
+      {"remarks", fitted.remarks},
+      {"sensitivity", SensitivityJson(sensitivity)}};
   json.update(models::ToJson(models::MakeRecord(fitted.summary)));
   if (!fitted.choices.empty()) {
     json["choices"] = models::ToJson(models::MakeRecord(fitted.choices));
@@ -99,6 +129,7 @@ Json ConfigurationJson(const models::ModelRecipe& recipe,
 }
 
 std::string FitText(const models::FittedModel& fitted,
+                    const models::Sensitivity& sensitivity,
                     const stats::ErrorMetrics& train,
                     const data::Dataset& dataset,
                     const FitArguments& arguments) {
@@ -120,6 +151,7 @@ std::string FitText(const models::FittedModel& fitted,
   if (fitted.interval) {
     text += IntervalLine(models::MakeRecord(*fitted.interval), error) + "\n";
   }
+  text += SensitivityText(sensitivity, error);
   text += fmt::format(
       "written to {}; it predicts {}, compensate by minus that\n",
       arguments.out,
@@ -186,14 +218,18 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
       ModelProvenance(
           command_line, input, prepared.dataset.num_rows(), arguments.seed),
       arguments.out);
+  const models::Sensitivity sensitivity =
+      models::MeasureSensitivity(fitted, prepared.dataset);
   const stats::ErrorMetrics train = models::Judge(prepared.dataset, predicted);
   if (arguments.format == "json") {
-    Json document = FitJson(fitted, train, prepared.dataset, arguments);
+    Json document =
+        FitJson(fitted, sensitivity, train, prepared.dataset, arguments);
     document["provenance"] =
         ProvenanceJson(command_line, configuration, {input});
     PrintResult(DumpJson(document));
   } else {
-    PrintResult(FitText(fitted, train, prepared.dataset, arguments));
+    PrintResult(
+        FitText(fitted, sensitivity, train, prepared.dataset, arguments));
   }
   if (stop.load()) {
     Say("interrupted; the best map so far was written");

@@ -14,11 +14,11 @@
 #include "cli/commands/map_warnings.h"
 #include "cli/commands/progress.h"
 #include "cli/json_blocks.h"
-#include "cli/report/output_folder.h"
+#include "cli/report/claimed_folder.h"
 #include "cli/shell/interrupt.h"
+#include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/provenance.h"
-#include "data/atomic_file.h"
 #include "models/model_spec.h"
 #include "models/promise/learning_curve.h"
 #include "models/promise/next_states.h"
@@ -49,6 +49,7 @@ struct LearnArguments {
   int jobs = 0;
   std::string out;
   bool resume = false;
+  bool force = false;
   std::string format = "table";
 };
 
@@ -77,10 +78,11 @@ std::unique_ptr<models::JournalFile> OpenJournal(
     const LearnArguments& arguments) {
   using models::JournalFile;
   if (arguments.out.empty()) return nullptr;
-  PrepareFolder(arguments.out);
+  // Of its own, so that a study in the same folder keeps its fits.
   const std::string folder =
       (std::filesystem::path(arguments.out) / "learn").string();
   PrepareFolder(folder);
+  JournalFile::RequireNoOther(folder, arguments.force);
   return std::make_unique<JournalFile>(folder,
                                        arguments.resume
                                            ? JournalFile::Opening::kResume
@@ -203,7 +205,19 @@ void LearnNext(const LearnArguments& arguments,
   learned->text += NextText(chosen);
 }
 
+std::string Stem(const LearnArguments& arguments) {
+  return arguments.by.empty() ? "learn-next" : "learn-" + arguments.by;
+}
+
 int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
+  std::optional<ClaimedFolder> folder;
+  if (!arguments.out.empty()) {
+    folder.emplace(
+        arguments.out,
+        std::vector{Stem(arguments) + ".json", Stem(arguments) + ".svg"},
+        std::vector{arguments.data.file, arguments.candidates},
+        arguments.force);
+  }
   const data::PreparedDataset prepared = ReadData(arguments.data);
   const data::Dataset& dataset = prepared.dataset;
   const double goal = std::isfinite(arguments.goal)
@@ -235,20 +249,14 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
                                            {"sensors", arguments.sensors},
                                            {"seed", arguments.seed}},
                                           {HashInput(arguments.data.file)});
-  if (!arguments.out.empty()) {
-    PrepareFolder(arguments.out);
-    const std::filesystem::path folder(arguments.out);
-    const std::string stem =
-        arguments.by.empty() ? "learn-next" : "learn-" + arguments.by;
-    data::WriteFileAtomically((folder / (stem + ".json")).string(),
-                              DumpJson(document));
+  PrintResult(arguments.format == "json" ? DumpJson(document) : learned.text);
+  if (folder) {
+    folder->Write(Stem(arguments) + ".json", DumpJson(document));
     if (!learned.svg.empty()) {
-      data::WriteFileAtomically((folder / (stem + ".svg")).string(),
-                                learned.svg);
+      folder->Write(Stem(arguments) + ".svg", learned.svg);
     }
+    folder->Finish();
   }
-  fmt::print("{}",
-             arguments.format == "json" ? DumpJson(document) : learned.text);
   return learned.failed ? kEveryFitFailed : kDone;
 }
 
@@ -285,9 +293,7 @@ void AddLearnCommand(CLI::App* app, Run* run) {
                    "Draws of the units learnt from, per size and fold")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  command
-      ->add_option(
-          "--sensors", arguments->sensors, "Sensors chosen one by one at most")
+  command->add_option("--sensors", arguments->sensors, "Sensors chosen at most")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   command->add_option(
@@ -309,6 +315,7 @@ void AddLearnCommand(CLI::App* app, Run* run) {
   command->add_flag("--resume",
                     arguments->resume,
                     "Go on with the fits of an earlier run in --out");
+  AddForceFlag(command, &arguments->force);
   command->add_option("--format", arguments->format, "table or json")
       ->check(CLI::IsMember({"table", "json"}))
       ->type_name("table|json")

@@ -210,18 +210,18 @@ Json SensorsJson(const models::SensorCurve& curve) {
   for (const auto& point : curve.points) {
     points.push_back({{"sensors", point.sensors}, {"rmse", point.rmse}});
   }
-  Json order = Json::array();
-  for (const auto& chosen : curve.order) {
-    order.push_back({{"sensor", chosen.sensor},
-                     {"stability", chosen.stability},
-                     {"substitutes", chosen.substitutes}});
+  Json sensors = Json::array();
+  for (const auto& chosen : curve.chosen) {
+    sensors.push_back({{"sensor", chosen.sensor},
+                       {"stability", chosen.stability},
+                       {"substitutes", chosen.substitutes}});
   }
   return {{"held_out", curve.unit},
           {"zeroed", curve.zeroed},
           {"points", std::move(points)},
           {"all", {{"sensors", curve.all_sensors}, {"rmse", curve.all_rmse}}},
           {"enough", curve.enough < 0 ? Json() : Json(curve.enough)},
-          {"order", std::move(order)}};
+          {"chosen", std::move(sensors)}};
 }
 
 std::string SensorsText(const models::SensorCurve& curve,
@@ -249,13 +249,11 @@ std::string SensorsText(const models::SensorCurve& curve,
               ? fmt::format("{} of {} sensors do it, within 5 % of all:\n",
                             curve.enough,
                             curve.all_sensors)
-              : "No choice of so few comes within 5 % of all; in order of "
-                "choice:\n";
-  const std::size_t told = curve.enough >= 0
-                               ? static_cast<std::size_t>(curve.enough)
-                               : curve.order.size();
-  for (std::size_t i = 0; i < std::min(told, curve.order.size()); ++i) {
-    const auto& chosen = curve.order[i];
+              : fmt::format(
+                    "No choice of {} comes within 5 % of all; the best "
+                    "of so many:\n",
+                    curve.chosen.size());
+  for (const auto& chosen : curve.chosen) {
     text += fmt::format("  {} (in {:.0f} % of the folds)",
                         data::Printable(chosen.sensor, chosen.sensor.size()),
                         kPercent * chosen.stability);
@@ -281,7 +279,7 @@ std::string SensorsSvg(const models::SensorCurve& curve,
                   .low = 0.0},
             .colour = {},
             .series = {}};
-  Series line{.label = "chosen one by one",
+  Series line{.label = "chosen",
               .mark = Mark::kLine,
               .columns = {{}, {}},
               .colour = kColours[0]};
@@ -303,7 +301,7 @@ std::string SensorsSvg(const models::SensorCurve& curve,
   plot.series.push_back(std::move(all));
   return SvgFile(Svg(plot,
                      "Error against the number of sensors",
-                     "Held-out error with sensors chosen one by one, and with "
+                     "Held-out error with chosen sensors, and with "
                      "all of them"));
 }
 

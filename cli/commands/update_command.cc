@@ -10,8 +10,10 @@
 #include "cli/command.h"
 #include "cli/commands/map_warnings.h"
 #include "cli/json_blocks.h"
+#include "cli/report/claimed_folder.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/number_text.h"
+#include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
@@ -112,6 +114,7 @@ std::string TrialText(const models::UpdateTrial& trial,
 
 int RunUpdate(const UpdateArguments& arguments,
               const std::string& command_line) {
+  RefuseInputAsOutput("-o", arguments.out, {arguments.file, arguments.known});
   const models::FittedModel old_map = models::LoadModel(arguments.model);
   const auto recipe = RecipeFromArgument(old_map.name);
   const data::Dataset fresh = ReadRows(old_map, arguments.file, arguments);
@@ -167,28 +170,28 @@ int RunUpdate(const UpdateArguments& arguments,
     std::vector<InputFile> inputs = {HashInput(arguments.model),
                                      HashInput(arguments.file)};
     if (known) inputs.push_back(HashInput(known_file));
-    fmt::print("{}",
-               DumpJson({{"schema", "errmap-update-1"},
-                         {"model", old_map.name},
-                         {"file", arguments.out},
-                         {"target", old_map.target.name},
-                         {"unit", old_map.target.unit.symbol},
-                         {"updated", better},
-                         {"old_rmse", trial.old_rmse},
-                         {"new_rmse", trial.new_rmse},
-                         {"sessions", TrialJson(trial)},
-                         {"provenance",
-                          ProvenanceJson(command_line,
-                                         {{"missing", arguments.missing},
-                                          {"faults", arguments.faults},
-                                          {"seed", arguments.seed}},
-                                         inputs)}}));
+    PrintResult(DumpJson({{"schema", "errmap-update-1"},
+                          {"model", old_map.name},
+                          {"file", arguments.out},
+                          {"target", old_map.target.name},
+                          {"unit", old_map.target.unit.symbol},
+                          {"updated", better},
+                          {"old_rmse", trial.old_rmse},
+                          {"new_rmse", trial.new_rmse},
+                          {"sessions", TrialJson(trial)},
+                          {"provenance",
+                           ProvenanceJson(command_line,
+                                          {{"missing", arguments.missing},
+                                           {"faults", arguments.faults},
+                                           {"seed", arguments.seed}},
+                                          inputs)}}));
   } else {
-    fmt::print("{}{}\n",
-               TrialText(trial, old_map.target.unit),
-               better ? "the new map is better and stands in " + arguments.out
-                      : "the new map is no better: " + arguments.out +
-                            " is the old one");
+    PrintResult(fmt::format(
+        "{}{}\n",
+        TrialText(trial, old_map.target.unit),
+        better ? "the new map is better and stands in " + arguments.out
+               : "the new map is no better: " + arguments.out +
+                     " is the old one"));
   }
   return kDone;
 }

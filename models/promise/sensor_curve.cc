@@ -4,8 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <optional>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -199,33 +198,76 @@ Training TrainingOf(const Design& design,
   return training;
 }
 
-// Each next sensor is the one that does best beside those before it.
-std::vector<Index> ChooseOneByOne(const Design& design,
-                                  const Training& training,
-                                  Index most) {
-  const auto p = static_cast<Index>(design.names.size());
-  std::vector<Index> chosen;
-  while (static_cast<Index>(chosen.size()) < std::min(most, p)) {
-    Index best = -1;
-    double least = std::numeric_limits<double>::infinity();
-    for (Index candidate = 0; candidate < p; ++candidate) {
-      if (std::ranges::find(chosen, candidate) != chosen.end()) continue;
-      chosen.push_back(candidate);
-      const double squares = JudgeSensors(design, training, chosen).squares;
-      chosen.pop_back();
-      if (squares < least) {
-        least = squares;
-        best = candidate;
-      }
-    }
-    chosen.push_back(best);
+// The sensor at `place` of `chosen` becomes the one that does best there.
+// Returns its squares; `chosen` stays where none does better than `least`.
+double ImprovePlace(const Design& design,
+                    const Training& training,
+                    std::size_t place,
+                    double least,
+                    std::vector<Index>* chosen) {
+  std::vector<Index> trial = *chosen;
+  for (Index other = 0; other < static_cast<Index>(design.names.size());
+       ++other) {
+    if (std::ranges::find(*chosen, other) != chosen->end()) continue;
+    trial[place] = other;
+    const double squares = JudgeSensors(design, training, trial).squares;
+    // What rounding gains is no gain.
+    constexpr double kGain = 1e-9;
+    if (squares >= (1.0 - kGain) * least) continue;
+    least = squares;
+    *chosen = trial;
   }
-  return chosen;
+  return least;
+}
+
+// The best of all pairs: two sensors may do together what neither begins.
+std::vector<Index> BestPair(const Design& design, const Training& training) {
+  const auto p = static_cast<Index>(design.names.size());
+  std::vector<Index> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (Index one = 0; one < p; ++one) {
+    for (Index other = one + 1; other < p; ++other) {
+      const double squares =
+          JudgeSensors(design, training, {one, other}).squares;
+      if (squares >= least) continue;
+      least = squares;
+      best = {one, other};
+    }
+  }
+  return best;
+}
+
+// Sensors by their number, 0 to `most`: each time the best is added, then each
+// replaced while that helps (sequential replacement; Miller 2002, Section 3.7).
+std::vector<std::vector<Index>> ChooseByNumber(const Design& design,
+                                               const Training& training,
+                                               Index most) {
+  constexpr int kMostPasses = 3;
+  std::vector<std::vector<Index>> by_number{{}};
+  std::vector<Index> chosen;
+  while (static_cast<Index>(chosen.size()) < most) {
+    chosen.push_back(-1);
+    double least = ImprovePlace(design,
+                                training,
+                                chosen.size() - 1,
+                                std::numeric_limits<double>::infinity(),
+                                &chosen);
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+      const double before = least;
+      for (std::size_t place = 0; place < chosen.size(); ++place) {
+        least = ImprovePlace(design, training, place, least, &chosen);
+      }
+      if (!(least < before)) break;
+    }
+    if (chosen.size() == 2) chosen = BestPair(design, training);
+    by_number.push_back(chosen);
+  }
+  return by_number;
 }
 
 std::vector<Index> AllSensors(const Design& design) {
   std::vector<Index> all(design.names.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Index>(i);
+  std::iota(all.begin(), all.end(), Index{0});
   return all;
 }
 
@@ -279,7 +321,7 @@ Design BetterDesign(const data::Dataset& dataset,
   if (!dataset.has_sessions()) return raw;
   Design less_first = MakeDesign(dataset, true);
   std::vector<Index> rows(static_cast<std::size_t>(dataset.num_rows()));
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = static_cast<Index>(i);
+  std::iota(rows.begin(), rows.end(), Index{0});
   const auto squares = [&](const Design& design) {
     return JudgeSensors(
                design, TrainingOf(design, rows, folds), AllSensors(design))
@@ -301,19 +343,16 @@ SensorCurve LearnSensors(const data::Dataset& dataset, Index most_sensors) {
   VectorXd squares = VectorXd::Zero(most + 1);
   double all_squares = 0.0;
   double rows = 0.0;
-  std::vector<std::vector<Index>> choices;
+  std::vector<std::vector<std::vector<Index>>> choices;
   for (Index fold = 0; fold < outer.folds.count(); ++fold) {
     const auto [train, test] = outer.folds.Split(fold);
     const Training training = TrainingOf(
         design, train, MakeInnerFolds(dataset.SelectRows(train), {}).folds);
     const Moments held = MomentsOf(design, test);
-    choices.push_back(ChooseOneByOne(design, training, most));
+    choices.push_back(ChooseByNumber(design, training, most));
     for (Index k = 0; k <= most; ++k) {
-      squares[k] +=
-          TestSquares(design,
-                      training,
-                      held,
-                      {choices.back().begin(), choices.back().begin() + k});
+      squares[k] += TestSquares(
+          design, training, held, choices.back()[static_cast<std::size_t>(k)]);
     }
     all_squares += TestSquares(design, training, held, AllSensors(design));
     rows += held.rows;
@@ -328,27 +367,22 @@ SensorCurve LearnSensors(const data::Dataset& dataset, Index most_sensors) {
       curve.enough = point.sensors;
     }
   }
+  const auto number =
+      static_cast<std::size_t>(curve.enough >= 0 ? curve.enough : most);
   std::vector<Index> all_rows(static_cast<std::size_t>(dataset.num_rows()));
-  for (std::size_t i = 0; i < all_rows.size(); ++i) {
-    all_rows[i] = static_cast<Index>(i);
-  }
+  std::iota(all_rows.begin(), all_rows.end(), Index{0});
   const Training training = TrainingOf(design, all_rows, outer.folds);
-  const std::vector<Index> order = ChooseOneByOne(design, training, most);
-  const Index looked_at = curve.enough > 0 ? curve.enough : most;
-  const std::vector<Index> chosen(order.begin(), order.begin() + looked_at);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    SensorCurve::Chosen& entry = curve.order.emplace_back();
-    entry.sensor = design.names[static_cast<std::size_t>(order[i])];
-    const auto among =
-        std::ranges::count_if(choices, [&](const std::vector<Index>& of_fold) {
-          const auto end = of_fold.begin() + looked_at;
-          return std::find(of_fold.begin(), end, order[i]) != end;
-        });
-    entry.stability =
-        static_cast<double>(among) / static_cast<double>(choices.size());
-    if (i < chosen.size()) {
-      entry.substitutes = SubstitutesFor(design, training, chosen, i);
-    }
+  const std::vector<Index> chosen =
+      ChooseByNumber(design, training, static_cast<Index>(number)).back();
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const auto among = std::ranges::count_if(choices, [&](const auto& fold) {
+      return std::ranges::find(fold[number], chosen[i]) != fold[number].end();
+    });
+    curve.chosen.push_back(
+        {.sensor = design.names[static_cast<std::size_t>(chosen[i])],
+         .stability =
+             static_cast<double>(among) / static_cast<double>(choices.size()),
+         .substitutes = SubstitutesFor(design, training, chosen, i)});
   }
   return curve;
 }

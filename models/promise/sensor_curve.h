@@ -32,18 +32,19 @@ struct SensorCurve {
 
   bool zeroed = false;
   std::string unit;           // what was held out whole: "day"
-  std::vector<Point> points;  // 0, 1, 2, ... sensors chosen one by one
+  std::vector<Point> points;  // 0, 1, 2, ... chosen sensors
   double all_rmse = 0.0;      // with every sensor
   Eigen::Index all_sensors = 0;
-  /// Fewest sensors with at most kTolerance times the error of all; those are
-  /// the first of `order`. -1 where none of `points` gets there.
+  /// Fewest sensors with at most kTolerance times the error of all; -1 where
+  /// none of `points` gets there.
   Eigen::Index enough = -1;
-  std::vector<Chosen> order;  // from all rows, as they were chosen
+  /// That many, else as many as `points` has, chosen from all rows.
+  std::vector<Chosen> chosen;
 };
 
-/// Chooses sensors one by one, inside folds of whole units for `points`, and
-/// from all rows for `order`. Throws std::invalid_argument where there are
-/// fewer than two sensors or units.
+/// Chooses sensors by sequential replacement, inside folds of whole units for
+/// `points`, and from all rows for `chosen`. Throws std::invalid_argument where
+/// there are fewer than two sensors or units.
 SensorCurve LearnSensors(const data::Dataset& dataset,
                          Eigen::Index most_sensors);
 

@@ -41,7 +41,7 @@ std::vector<Index> RowsNear(const HeldOutErrors& errors,
                             double time) {
   std::vector<Index> rows(static_cast<std::size_t>(unit.residuals.size()));
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = static_cast<Index>(i);
-  if (errors.time_unit.empty()) return rows;
+  if (errors.time_unit != "s") return rows;
   const auto kept = std::min(kNearest, unit.residuals.size());
   std::ranges::nth_element(rows, rows.begin() + (kept - 1), {}, [&](Index row) {
     return std::abs(unit.elapsed[row] - time);
@@ -211,7 +211,7 @@ std::vector<ProbeSite> RankProbeSites(const HeldOutErrors& errors) {
   constexpr int kPlaces = 3;
   constexpr std::size_t kFewestProbes = 6;
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  const bool timed = !errors.time_unit.empty();
+  const bool timed = errors.time_unit == "s";
   const bool placed = !errors.position.empty();
   double longest = 0.0;
   double low = std::numeric_limits<double>::infinity();

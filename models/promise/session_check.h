@@ -49,9 +49,8 @@ struct SessionCheck {
   std::optional<Eigen::Index> more_probes;
 };
 
-/// Judges `residuals` (n, target's unit) of probes taken `elapsed` (n, in
-/// errors.time_unit) after the session began; without a time unit the times do
-/// not count.
+/// Judges `residuals` (n, target's unit) of probes taken `elapsed` (n, s) after
+/// the session began; times do not count where errors.time_unit is another.
 ///
 /// What n probes at these times tell is taken from the held-out units: as many
 /// of each one's errors near those times, drawn again and again, give the
@@ -65,7 +64,7 @@ SessionCheck CheckSession(const HeldOutErrors& errors,
 
 /// How well one probe at some time and place tells a unit's RMSE.
 struct ProbeSite {
-  double from = 0.0;  // elapsed, in the errors' time unit
+  double from = 0.0;  // elapsed, s; all of them without times in seconds
   double until = 0.0;
   double position_from = 0.0;  // NaN where no position is known
   double position_until = 0.0;

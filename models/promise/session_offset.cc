@@ -119,6 +119,15 @@ void OffsetFilter::Advance(double time) {
 }
 
 void OffsetFilter::Update(double residual) {
+  // What no held-out session showed does not fade as their offsets did: a
+  // machine that was moved stays where it is.
+  constexpr double kSurprise = 9.0;  // three standard deviations, squared
+  const double miss = (residual - offset_) * (residual - offset_);
+  if (miss > kSurprise * (variance_ + model_.noise)) {
+    variance_ = miss;
+    model_.variance = std::max(model_.variance, miss);
+    model_.memory = kInfinity;
+  }
   const double gain = variance_ / (variance_ + model_.noise);
   offset_ += gain * (residual - offset_);
   variance_ *= 1.0 - gain;

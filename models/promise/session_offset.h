@@ -35,7 +35,9 @@ class OffsetFilter {
 
   /// Goes on to `time`, not before the last one; what was known fades.
   void Advance(double time);
-  /// Takes the error (target less prediction) of a probe in at that time.
+  /// Takes the error (target less prediction) of a probe in at that time. One
+  /// that is three standard deviations from what was known begins an offset of
+  /// its size, which does not fade.
   void Update(double residual);
 
   double offset() const { return offset_; }      // target's unit

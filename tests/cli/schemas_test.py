@@ -211,6 +211,16 @@ def documents(program):
 
     yield "check", program.json("check", "stepwise.json", "grouped.csv", statuses=(0, 4))
 
+    yield "learn", program.json(
+        "learn", "grouped.csv", "--by", "cycles", "--models", "mean,poly:eq8",
+        "--next", "grouped.csv"
+    )
+    warm = "day,position_mm,t1_degC,t2_degC,error_mm"
+    program.write("days.csv", warm, [(*r[:3], r[2] + 0.1 * r[0], r[3]) for r in rows])
+    yield "learn sensors", program.json("learn", "days.csv", "--by", "sensors")
+    program.run("fit", "days.csv", "--model", "poly:eq8", "-o", "days.json")
+    yield "update", program.json("update", "days.json", "days.csv", "-o", "new.json")
+
     residuals = ["residuals", "grouped.csv", "--column", "error_mm"]
     yield "residuals", program.json(*residuals)
     yield "residuals, all", program.json(

@@ -95,16 +95,31 @@ TEST(CheckSession, TellsSessionsThatAreOffFromThoseThatHold) {
 
 TEST(CheckSession, IsLessSureOfOneProbeThanOfMany) {
   const HeldOutErrors errors = Days(10, 3);
-  const VectorXd one{{1.0}};
-  const SessionCheck few = CheckSession(errors, VectorXd{{600.0}}, one);
+  const SessionCheck few =
+      CheckSession(errors, VectorXd{{600.0}}, VectorXd{{1.0}});
   EXPECT_EQ(few.status, SessionStatus::kUnknown);
   EXPECT_TRUE(std::isnan(few.probe_scatter));
-  ASSERT_TRUE(few.more_probes.has_value());
-  EXPECT_GE(*few.more_probes, 1);
   const SessionCheck many = CheckSession(
       errors, VectorXd::LinSpaced(8, 0.0, 11000.0), VectorXd::Constant(8, 1.0));
   EXPECT_LT(many.session_high - many.session_low,
             few.session_high - few.session_low);
+}
+
+TEST(CheckSession, TellsHowManyMoreProbesWouldSettleIt) {
+  const HeldOutErrors errors = Days(10, 3);
+  const VectorXd times{{600.0, 8000.0}};
+  int unknown = 0;
+  int can_be_settled = 0;
+  for (double size = 0.3; size < 2.0; size += 0.05) {
+    const SessionCheck check =
+        CheckSession(errors, times, VectorXd::Constant(2, size));
+    const bool open = check.status == SessionStatus::kUnknown;
+    unknown += open ? 1 : 0;
+    can_be_settled += check.more_probes.has_value() ? 1 : 0;
+    EXPECT_TRUE(open || !check.more_probes.has_value());
+  }
+  EXPECT_GT(unknown, 0);
+  EXPECT_GT(can_be_settled, 0);
 }
 
 TEST(CheckSession, GrowsSurerThatItIsOffTheLargerTheProbes) {
