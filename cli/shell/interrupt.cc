@@ -9,16 +9,26 @@ std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free,
               "a signal handler may touch lock-free atomics only");
 
-extern "C" void OnSignal(int signal) {
-  interrupted.store(true);
-  std::signal(signal, SIG_DFL);
+extern "C" void OnSignal(int /*signal*/) { interrupted.store(true); }
+
+// The second signal of a kind ends the program at once. What was ignored when
+// the program began (nohup, a job in the background of a script) stays so.
+void Catch(int signal) {
+  struct sigaction action {};
+  if (sigaction(signal, nullptr, &action) != 0 ||
+      action.sa_handler == SIG_IGN) {
+    return;
+  }
+  action = {};
+  action.sa_handler = OnSignal;
+  action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+  sigaction(signal, &action, nullptr);
 }
 
 }  // namespace
 
 const std::atomic<bool>& InstallInterruptFlag() {
-  std::signal(SIGINT, OnSignal);
-  std::signal(SIGTERM, OnSignal);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) Catch(signal);
   return interrupted;
 }
 

@@ -98,6 +98,7 @@ class Selection {
       SelectionMove move = FindMove(too_many);
       if (move.candidate < 0) {
         result.ended = why_none_;
+        result.at_most_terms = at_most_terms_;
         break;
       }
       const SelectionStep step = Evaluate(move);
@@ -243,10 +244,6 @@ class Selection {
   }
 
   SelectionMove FindEntry() {
-    if (static_cast<Index>(state_.chosen().size()) >= most_terms_) {
-      why_none_ = "no more terms are allowed";
-      return {};
-    }
     if (!(state_.residual_sum_of_squares() > state_.noise())) {
       why_none_ = "what is left is rounding";
       return {};
@@ -255,6 +252,13 @@ class Selection {
     std::vector<bool> open(open_.size());
     for (std::size_t j = 0; j < open.size(); ++j) {
       open[j] = MayEnter(static_cast<Index>(j));
+    }
+    at_most_terms_ =
+        static_cast<Index>(state_.chosen().size()) >= most_terms_ &&
+        std::ranges::count(open, true) > 0;
+    if (at_most_terms_) {
+      why_none_ = "no more terms are allowed";
+      return {};
     }
     if (options_.select == Criterion::kPress) return BestByPress(open);
     if (options_.select == Criterion::kCv) return BestByCv(open);
@@ -432,6 +436,7 @@ class Selection {
   double total_ = 0.0;
   Index most_terms_ = 0;
   std::string why_none_;
+  bool at_most_terms_ = false;
   std::unique_ptr<SweptCandidates> swept_;
   std::vector<std::unique_ptr<SweptCandidates>> swept_folds_;
 };
@@ -502,7 +507,8 @@ SelectionResult SelectStepwise(const SelectionProblem& problem,
 
 std::vector<ExcludedTerm> JudgeExcluded(const SelectionProblem& problem,
                                         const std::vector<Index>& chosen,
-                                        double collinearity) {
+                                        double collinearity,
+                                        const std::atomic<bool>* stop_token) {
   problem.Validate("JudgeExcluded");
   SelectionState state(problem, collinearity);
   for (const Index candidate : chosen) {
@@ -514,6 +520,7 @@ std::vector<ExcludedTerm> JudgeExcluded(const SelectionProblem& problem,
                          static_cast<double>(state.chosen().size()) - 2.0;
   std::vector<ExcludedTerm> excluded;
   for (Index j = 0; j < problem.candidates.cols(); ++j) {
+    if (stop_token != nullptr && stop_token->load()) break;
     if (state.is_chosen(j)) continue;
     ExcludedTerm term;
     term.candidate = j;

@@ -86,7 +86,8 @@ struct SelectionResult {
   std::vector<SelectionStep> steps;  // the start and each move
   std::size_t chosen_step = 0;       // the step whose model was chosen
   std::vector<Eigen::Index> aliased_includes;  // determined by those before
-  std::string ended;  // why the moves ended, for people
+  std::string ended;           // why the moves ended, for people
+  bool at_most_terms = false;  // ... which is StepwiseOptions::max_terms
 };
 
 /// Stepwise selection. From the intercept and `rules.include` (backward: from
@@ -112,10 +113,13 @@ struct ExcludedTerm {
 };
 
 /// Every candidate that is not in `chosen`, with the partial F that it would
-/// have if it entered now; in the order of the columns.
-std::vector<ExcludedTerm> JudgeExcluded(const SelectionProblem& problem,
-                                        const std::vector<Eigen::Index>& chosen,
-                                        double collinearity);
+/// have if it entered now; in the order of the columns. Those judged so far
+/// where `stop_token` becomes true (null: never).
+std::vector<ExcludedTerm> JudgeExcluded(
+    const SelectionProblem& problem,
+    const std::vector<Eigen::Index>& chosen,
+    double collinearity,
+    const std::atomic<bool>* stop_token = nullptr);
 
 /// Squared error of the terms in `design` (n x k, intercept and weights
 /// included) on each judged fold when fitted to the rows that predict it.

@@ -29,6 +29,9 @@ double HeldOutError(const Dataset& rows,
   VectorXd mean_squares(folds.count() - first);
   VectorXd sizes(folds.count() - first);
   for (Index fold = first; fold < folds.count(); ++fold) {
+    if (context.stop != nullptr && context.stop->load()) {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
     const fitting::FoldCodes::Rows split = folds.Split(fold);
     const Dataset test = rows.SelectRows(split.test);
     try {

@@ -73,6 +73,10 @@ double PooledRmse(const InnerFolds& inner,
                        .mean_square);
 }
 
+bool IsStopped(const FitContext& context) {
+  return context.stop != nullptr && context.stop->load();
+}
+
 // Sum of squared errors on the test rows; NaN where there is no fit.
 double HeldOutSquares(const NetDesign& design,
                       const NetTrainer& trainer,
@@ -80,6 +84,7 @@ double HeldOutSquares(const NetDesign& design,
                       const fitting::FoldCodes::Rows& fold,
                       const NetTrial& trial,
                       const FitContext& context) {
+  if (IsStopped(context)) return kNaN;
   try {
     NetDesign tried = design;
     tried.hidden = trial.hidden;
@@ -323,17 +328,25 @@ std::vector<fitting::Minimum> TrainFromStarts(
     const NetRows& rows,
     const NetTrainer& trainer,
     const std::vector<double>& wfactors,
-    const std::vector<std::uint64_t>& seeds,
+    std::vector<std::uint64_t>* seeds,
     const FitContext& context) {
-  std::vector<fitting::Minimum> minima(seeds.size());
-  RunJobs(seeds.size(), context.threads, [&](std::size_t i) {
+  std::vector<fitting::Minimum> minima(seeds->size());
+  RunJobs(seeds->size(), context.threads, [&](std::size_t i) {
+    if (i > 0 && IsStopped(context)) return;
     minima[i] =
         TrainAlong(rows,
                    trainer,
                    wfactors,
-                   seeds[i],
+                   (*seeds)[i],
                    {.stop = context.stop, .keep_trace = context.keep_trace});
   });
+  std::vector<std::uint64_t> begun;
+  for (std::size_t i = 0; i < minima.size(); ++i) {
+    if (minima[i].x.size() != 0) begun.push_back((*seeds)[i]);
+  }
+  std::erase_if(minima,
+                [](const auto& minimum) { return minimum.x.size() == 0; });
+  *seeds = std::move(begun);
   return minima;
 }
 

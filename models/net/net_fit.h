@@ -116,12 +116,14 @@ std::vector<double> InnerHoldoutRmse(const NetDesign& design,
                                      const FitContext& context);
 
 /// The minima of TrainAlong from the starts of these seeds, in their order; on
-/// context.threads, which changes no bit.
+/// context.threads, which changes no bit. Where context.stop comes, those of
+/// the seeds that were begun, the first among them; others are taken out of
+/// `seeds`.
 std::vector<fitting::Minimum> TrainFromStarts(
     const NetRows& rows,
     const NetTrainer& trainer,
     const std::vector<double>& wfactors,
-    const std::vector<std::uint64_t>& seeds,
+    std::vector<std::uint64_t>* seeds,
     const FitContext& context);
 
 }  // namespace errmap::models

@@ -404,7 +404,7 @@ class SpecNetRecipe final : public NetRecipe {
       seeds.push_back(SeedOfStart(context.seed, k));
     }
     std::vector<fitting::Minimum> minima =
-        TrainFromStarts(rows, *trainer_, Wfactors(wfactor), seeds, context);
+        TrainFromStarts(rows, *trainer_, Wfactors(wfactor), &seeds, context);
     fitted->starts = DescribeStarts(seeds, minima);
     std::vector<AveragedMember> members;
     for (std::size_t i = 0; i < minima.size(); ++i) {
@@ -502,7 +502,7 @@ class SpecNetRecipe final : public NetRecipe {
       seeds.push_back(SeedOfStart(context.seed, k));
     }
     std::vector<fitting::Minimum> minima =
-        TrainFromStarts(rows, *trainer_, Wfactors(wfactor), seeds, context);
+        TrainFromStarts(rows, *trainer_, Wfactors(wfactor), &seeds, context);
     if (starts_ == 1) return std::move(minima.front());
     std::vector<double> costs;
     for (const fitting::Minimum& minimum : minima) {

@@ -108,7 +108,7 @@ class BestSubsetRecipe final : public PolynomialRecipe {
       report.selected = true;
       report.candidates = dictionary.design.num_terms();
       ReportExcluded(
-          dictionary, rows, best.chosen, rules_.collinearity, &report);
+          dictionary, rows, best.chosen, rules_.collinearity, context, &report);
       Bootstrap(dictionary, rows, best, context, &report);
     }
     FittedModel fitted = FitTerms(

@@ -40,7 +40,11 @@ ColumnScaling PolynomialScaling(const Dataset& training,
   }
   const auto count = static_cast<Index>(inputs.size());
   ColumnScaling scaling{VectorXd(count), VectorXd(count)};
-  const std::set<TermPowers> set(terms.begin(), terms.end());
+  // Of very many terms the set alone would take seconds.
+  const std::set<TermPowers> set =
+      centring == Centring::kHarmless
+          ? std::set<TermPowers>(terms.begin(), terms.end())
+          : std::set<TermPowers>();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const auto column = training.input_values().col(inputs[i]);
     const bool centred =
@@ -68,14 +72,23 @@ PolynomialDesign::PolynomialDesign(const Dataset& dataset,
       scaling_(std::move(scaling)),
       terms_(std::move(terms)) {}
 
-std::vector<std::string> PolynomialDesign::TermNames() const {
-  std::vector<std::string> inputs;
+std::vector<std::string> PolynomialDesign::InputNames() const {
+  std::vector<std::string> names;
   for (const Index input : inputs_) {
-    inputs.push_back(dataset_.inputs()[static_cast<std::size_t>(input)].name);
+    names.push_back(dataset_.inputs()[static_cast<std::size_t>(input)].name);
   }
+  return names;
+}
+
+std::vector<std::string> PolynomialDesign::TermNames() const {
+  const std::vector<std::string> inputs = InputNames();
   std::vector<std::string> names;
   for (const TermPowers& term : terms_) names.push_back(TermName(term, inputs));
   return names;
+}
+
+std::string PolynomialDesign::NameOf(Index term) const {
+  return TermName(terms_[static_cast<std::size_t>(term)], InputNames());
 }
 
 MatrixXd PolynomialDesign::ScaledInputs() const {
@@ -173,7 +186,8 @@ bool NeedsTriangle(Index rows, Index terms, double most_values) {
 DesignRows CollectRows(const PolynomialDesign& design,
                        const std::vector<Index>& parts,
                        double most_values,
-                       int threads) {
+                       int threads,
+                       const std::atomic<bool>* stop) {
   const Dataset& dataset = design.dataset();
   const Index terms = design.num_terms();
   DesignRows rows;
@@ -202,6 +216,9 @@ DesignRows CollectRows(const PolynomialDesign& design,
   rows.intercept.resize(stacked);
   for (std::size_t part = 0; part < triangles; ++part) {
     const auto fill = [&](Index first, Eigen::Ref<MatrixXd> block) {
+      if (stop != nullptr && stop->load()) {
+        throw std::invalid_argument("interrupted");
+      }
       std::vector<Index> chosen(static_cast<std::size_t>(block.rows()));
       for (std::size_t i = 0; i < chosen.size(); ++i) {
         const Index place = first + static_cast<Index>(i);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -48,6 +49,8 @@ class PolynomialDesign {
   const ColumnScaling& scaling() const { return scaling_; }
   const std::vector<TermPowers>& terms() const { return terms_; }
   std::vector<std::string> TermNames() const;
+  /// One of them: of very many, all take a second.
+  std::string NameOf(Eigen::Index term) const;
 
   /// Scaled inputs (n x p).
   Eigen::MatrixXd ScaledInputs() const;
@@ -63,6 +66,8 @@ class PolynomialDesign {
   double Noise(const Eigen::VectorXd& combination) const;
 
  private:
+  std::vector<std::string> InputNames() const;
+
   const data::Dataset& dataset_;
   std::vector<Eigen::Index> inputs_;
   ColumnScaling scaling_;
@@ -85,11 +90,14 @@ struct DesignRows {
 
 /// The rows themselves while they hold no more than `most_values` numbers,
 /// else a triangle for each part: rows of equal code in `parts` (n, or empty:
-/// one part) stay together. Weights are worked into triangles.
+/// one part) stay together. Weights are worked into triangles. Throws
+/// std::invalid_argument ("interrupted") where `stop` becomes true on the way
+/// to a triangle.
 DesignRows CollectRows(const PolynomialDesign& design,
                        const std::vector<Eigen::Index>& parts,
                        double most_values,
-                       int threads);
+                       int threads,
+                       const std::atomic<bool>* stop = nullptr);
 
 /// True where CollectRows makes triangles of such a design.
 bool NeedsTriangle(Eigen::Index rows, Eigen::Index terms, double most_values);

@@ -144,8 +144,8 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
       inputs,
       PolynomialScaling(training, inputs, terms, form_options.centring),
       terms);
-  DesignRows rows =
-      CollectRows(design, {}, context.most_design_values, context.threads);
+  DesignRows rows = CollectRows(
+      design, {}, context.most_design_values, context.threads, context.stop);
   const bool are_observations = rows.are_observations();
   if (!form_options.intercept) rows.intercept.setZero(rows.response.size());
   const fitting::RegressionProblem problem{rows.terms,
@@ -194,6 +194,17 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
       form.terms.push_back({terms[i], solution.coefficients[column]});
       if (is_among(solution.nearly_aliased)) nearly.push_back(names[i]);
     }
+  }
+  constexpr double kFewRowsToSpare = 10.0;
+  const double to_spare =
+      rows.observations - static_cast<double>(solution.rank);
+  if (to_spare < kFewRowsToSpare) {
+    fitted.remarks.push_back(fmt::format(
+        "{} coefficients leave only {} of {} rows to tell the error: what they "
+        "fit says little about other rows",
+        solution.rank,
+        to_spare,
+        rows.observations));
   }
   if (!aliased.empty()) {
     fitted.remarks.push_back(fmt::format(

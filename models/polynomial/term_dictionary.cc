@@ -202,8 +202,8 @@ DictionaryRows CollectDictionary(const TermDictionary& dictionary,
     rows.parts = parts;
     return rows;
   }
-  DesignRows collected =
-      CollectRows(design, parts, context.most_design_values, context.threads);
+  DesignRows collected = CollectRows(
+      design, parts, context.most_design_values, context.threads, context.stop);
   rows.candidates =
       std::make_unique<fitting::MatrixColumns>(std::move(collected.terms));
   rows.response = std::move(collected.response);
@@ -218,7 +218,12 @@ void ReportExcluded(const TermDictionary& dictionary,
                     const DictionaryRows& rows,
                     const std::vector<Index>& chosen,
                     double collinearity,
+                    const FitContext& context,
                     RegressionReport* report) {
+  const auto is_stopped = [&] {
+    return context.stop != nullptr && context.stop->load();
+  };
+  if (is_stopped()) return;
   const std::vector<std::string> names = dictionary.design.TermNames();
   const auto name = [&](Index term) {
     return names[static_cast<std::size_t>(term)];
@@ -226,8 +231,9 @@ void ReportExcluded(const TermDictionary& dictionary,
   const MatrixXd terms = rows.candidates->Columns(chosen);
   std::vector<std::string> chosen_names;
   for (const Index term : chosen) chosen_names.push_back(name(term));
-  for (const fitting::ExcludedTerm& term :
-       fitting::JudgeExcluded(rows.Problem(), chosen, collinearity)) {
+  for (const fitting::ExcludedTerm& term : fitting::JudgeExcluded(
+           rows.Problem(), chosen, collinearity, context.stop)) {
+    if (is_stopped()) break;
     if (!term.aliased) {
       report->excluded.push_back({name(term.candidate), term.f, term.p});
       continue;

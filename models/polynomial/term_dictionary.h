@@ -70,11 +70,12 @@ DictionaryRows CollectDictionary(const TermDictionary& dictionary,
 int DefaultDegree(Eigen::Index num_inputs);
 
 /// Why candidates that are not in a model add nothing to it, and what F the
-/// others would have: into `report`.
+/// others would have: into `report`; as far as it came where context.stop does.
 void ReportExcluded(const TermDictionary& dictionary,
                     const DictionaryRows& rows,
                     const std::vector<Eigen::Index>& chosen,
                     double collinearity,
+                    const FitContext& context,
                     RegressionReport* report);
 
 }  // namespace errmap::models

@@ -21,7 +21,9 @@ namespace {
 using Eigen::Index;
 using errmap::testing::QuadraticData;
 using errmap::testing::ShippedMeasurements;
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr FitContext kExplain{.explain = true};
 
@@ -66,6 +68,97 @@ data::Dataset ManyRows(bool weighted) {
   }
   for (Index i = 0; i < kRows; ++i) parts.groups.codes.push_back(i % 12);
   return data::Dataset(std::move(parts));
+}
+
+// 60 rows of 100 sensors and a target, all of them noise.
+data::Dataset Noise() {
+  constexpr Index kRows = 60;
+  constexpr Index kSensors = 100;
+  data::Dataset::Parts parts;
+  parts.source = "noise";
+  for (Index j = 0; j < kSensors; ++j) {
+    const std::string name = "t" + std::to_string(j) + "_degC";
+    parts.inputs.push_back({name, data::UnitOfColumn(name)});
+  }
+  parts.input_values = errmap::testing::UniformMatrix(kRows, kSensors, 60);
+  parts.target = {"error_mm", data::UnitOfColumn("error_mm")};
+  parts.target_values = errmap::testing::UniformMatrix(kRows, 1, 61);
+  return data::Dataset(std::move(parts));
+}
+
+TEST(SelectionRecipe, TakesNoMoreTermsThanAFifthOfTheRows) {
+  const data::Dataset noise = Noise();
+  const auto fit = [&](const std::string& options) {
+    return MakeRecipe("poly:stepwise:degree=1" + options)->Fit(noise, {});
+  };
+  const auto size = [](const FittedModel& fitted) {
+    return std::get<PolynomialForm>(fitted.model->Describe()).terms.size();
+  };
+  const FittedModel fifth = fit("");
+  EXPECT_EQ(size(fifth), 12U);
+  EXPECT_THAT(fifth.remarks,
+              Contains("max_terms ends the selection at 12 terms, a fifth of "
+                       "60 rows; max_terms=none goes on as R's step() does"));
+  EXPECT_THAT(fifth.remarks, Not(Contains(HasSubstr("to tell the error"))));
+  // What the limit is there for: as many terms as degrees of freedom.
+  const FittedModel all = fit(":max_terms=none");
+  EXPECT_EQ(size(all), 58U);
+  EXPECT_THAT(all.remarks,
+              Contains("59 coefficients leave only 1 of 60 rows to tell the "
+                       "error: what they fit says little about other rows"));
+  EXPECT_THAT(fit(":max_terms=3").remarks,
+              Contains(HasSubstr("at 3 terms; a larger one")));
+  // Where it does not bind nothing is said, nor is anything else chosen.
+  const data::Dataset shipped = ShippedMeasurements();
+  const FittedModel free =
+      MakeRecipe("poly:stepwise:degree=4:max_terms=none")->Fit(shipped, {});
+  const FittedModel bound =
+      MakeRecipe("poly:stepwise:degree=4")->Fit(shipped, {});
+  EXPECT_EQ(free.remarks, bound.remarks);
+  EXPECT_THAT(bound.remarks, Not(Contains(HasSubstr("max_terms"))));
+  EXPECT_THAT(RefusalOfSpec("poly:stepwise:max_terms=few"),
+              HasSubstr("max_terms"));
+}
+
+// t1 tells the error in one cycle of three and nothing in the others: a
+// bootstrap of whole cycles misses it in (2/3)^3 = 30 % of the draws, one of
+// rows never.
+TEST(SelectionRecipe, BootstrapOfTermsDrawsWholeCycles) {
+  constexpr Index kRows = 90;
+  data::Dataset::Parts parts;
+  parts.source = "cycles";
+  parts.inputs = {{"t1_degC", data::UnitOfColumn("t1_degC")}};
+  parts.input_values = errmap::testing::UniformMatrix(kRows, 1, 7);
+  parts.target = {"error_mm", data::UnitOfColumn("error_mm")};
+  parts.target_values = 1e-3 * errmap::testing::UniformMatrix(kRows, 1, 8);
+  parts.groups = {"cycle", {"1", "2", "3"}, {}};
+  for (Index i = 0; i < kRows; ++i) {
+    parts.groups.codes.push_back(i / 30);
+    if (i >= 30) {
+      parts.input_values(i, 0) = 0.5;
+    } else {
+      parts.target_values[i] += parts.input_values(i, 0);
+    }
+  }
+  const FittedModel fitted =
+      MakeRecipe("poly:stepwise:degree=1:bootstrap=200")
+          ->Fit(data::Dataset(std::move(parts)), kExplain);
+  ASSERT_EQ(fitted.regression->terms.size(), 1U);
+  EXPECT_EQ(fitted.regression->bootstrap_unit, "cycle");
+  EXPECT_NEAR(fitted.regression->terms[0].inclusion, 0.70, 0.12);
+}
+
+TEST(SelectionRecipe, SaysWhatLimitsTheTerms) {
+  const auto option = [](const std::string& spec) {
+    for (const EffectiveOption& one : MakeRecipe(spec)->options()) {
+      if (one.key == "max_terms") return one.value;
+    }
+    return decltype(EffectiveOption::value)();
+  };
+  using Value = decltype(EffectiveOption::value);
+  EXPECT_EQ(option("poly:stepwise"), Value(std::string("rows/5")));
+  EXPECT_EQ(option("poly:stepwise:max_terms=none"), Value(std::string("none")));
+  EXPECT_EQ(option("poly:stepwise:max_terms=7"), Value(std::int64_t{7}));
 }
 
 TEST(SelectionRecipe, TrianglesGiveWhatTheRowsGive) {
