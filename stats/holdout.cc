@@ -281,6 +281,13 @@ HoldoutSpec ParseHoldout(std::string_view text) {
         kind == "groups" ? HoldoutKind::kGroups : HoldoutKind::kSessions;
     spec.k = ParseCount(text, "K", value, 2);
     spec.repeats = take_option("repeats", 1);
+    // Every fold has its rows in memory, and adds little to what is known.
+    constexpr Index kMostRepeats = 1000;
+    if (spec.repeats > kMostRepeats) {
+      Refuse(text,
+             "repeats must be at most " + std::to_string(kMostRepeats) +
+                 ", found " + std::to_string(spec.repeats));
+    }
   } else if (kind == "blocks") {
     spec.kind = HoldoutKind::kBlocks;
     spec.k = ParseCount(text, "K", value, 2);

@@ -41,13 +41,21 @@ stats::ErrorMetrics AverageMetrics(
   return average;
 }
 
+stats::ErrorMetrics JudgeTargets(const VectorXd& targets,
+                                 const VectorXd& predicted) {
+  return stats::ComputeErrorMetrics(
+      targets,
+      targets - predicted,
+      VectorXd::Constant(targets.size(), stats::Summarize(targets).mean));
+}
+
 // Predictions from elsewhere may not cover the training rows.
-stats::ErrorMetrics JudgeTraining(const Dataset& training,
+stats::ErrorMetrics JudgeTraining(const VectorXd& targets,
                                   const VectorXd& predicted) {
-  if (predicted.size() > 0) return Judge(training, predicted);
+  if (predicted.size() > 0) return JudgeTargets(targets, predicted);
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   stats::ErrorMetrics unknown;
-  unknown.residuals.n = training.num_rows();
+  unknown.residuals.n = targets.size();
   for (double* figure : {&unknown.rmse,
                          &unknown.mae,
                          &unknown.r2,
@@ -63,52 +71,66 @@ stats::ErrorMetrics JudgeTraining(const Dataset& training,
 
 }  // namespace
 
-std::vector<std::vector<PreparedFold>> PrepareFolds(
-    const Dataset& dataset, const std::vector<Holdout>& holdouts) {
-  std::vector<std::vector<PreparedFold>> prepared;
-  for (const Holdout& holdout : holdouts) {
-    auto& folds = prepared.emplace_back();
-    for (const stats::Fold& fold : holdout.folds) {
-      auto test =
-          holdout.test_data != nullptr
-              ? holdout.test_data
-              : std::make_shared<const Dataset>(dataset.SelectRows(fold.test));
-      folds.push_back({dataset.SelectRows(fold.train), std::move(test)});
-    }
-  }
-  return prepared;
+PreparedFold PrepareFold(const Dataset& dataset,
+                         const Holdout& holdout,
+                         std::size_t fold) {
+  const stats::Fold& rows = holdout.folds[fold];
+  auto test =
+      holdout.test_data != nullptr
+          ? holdout.test_data
+          : std::make_shared<const Dataset>(dataset.SelectRows(rows.test));
+  return {dataset.SelectRows(rows.train), std::move(test)};
 }
 
-HoldoutResult PoolFolds(const Holdout& holdout,
-                        const std::vector<PreparedFold>& prepared,
-                        std::vector<FitOutcome> outcomes) {
+FoldOutcome JudgeFold(const Dataset& dataset,
+                      const Holdout& holdout,
+                      std::size_t fold,
+                      FitOutcome outcome) {
+  FoldOutcome judged;
+  judged.train =
+      JudgeTraining(dataset.target_values()(holdout.folds[fold].train),
+                    outcome.train_predictions);
+  judged.fit = std::move(outcome);
+  judged.fit.train_predictions.resize(0);
+  return judged;
+}
+
+HoldoutResult PoolFolds(const Dataset& dataset,
+                        const Holdout& holdout,
+                        std::vector<FoldOutcome> outcomes) {
   HoldoutResult result;
   result.holdout = holdout.name;
   for (std::size_t fold = 0; fold < outcomes.size(); ++fold) {
-    if (outcomes[fold].fitted) continue;
-    result.why_failed =
-        outcomes.size() == 1
-            ? outcomes[fold].why_failed
-            : fmt::format("fold {}: {}", fold, outcomes[fold].why_failed);
+    const FitOutcome& fit = outcomes[fold].fit;
+    if (fit.fitted) continue;
+    result.why_failed = outcomes.size() == 1
+                            ? fit.why_failed
+                            : fmt::format("fold {}: {}", fold, fit.why_failed);
     return result;
   }
+  const auto test_targets = [&](const stats::Fold& fold) -> VectorXd {
+    return holdout.test_data != nullptr ? holdout.test_data->target_values()
+                                        : dataset.target_values()(fold.test);
+  };
   Index num_test = 0;
-  for (const PreparedFold& fold : prepared) num_test += fold.test->num_rows();
+  for (const FoldOutcome& outcome : outcomes) {
+    num_test += outcome.fit.test_predictions.size();
+  }
   VectorXd targets(num_test);
   VectorXd residuals(num_test);
   VectorXd baseline(num_test);
   std::vector<stats::ErrorMetrics> train;
   Index begin = 0;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    const PreparedFold& fold = prepared[i];
-    FitOutcome& outcome = outcomes[i];
-    train.push_back(JudgeTraining(fold.training, outcome.train_predictions));
-    const VectorXd& test_targets = fold.test->target_values();
-    const Index size = test_targets.size();
-    targets.segment(begin, size) = test_targets;
-    residuals.segment(begin, size) = test_targets - outcome.test_predictions;
-    baseline.segment(begin, size)
-        .setConstant(stats::Summarize(fold.training.target_values()).mean);
+    const stats::Fold& fold = holdout.folds[i];
+    FitOutcome& outcome = outcomes[i].fit;
+    train.push_back(outcomes[i].train);
+    const Index size = outcome.test_predictions.size();
+    targets.segment(begin, size) = test_targets(fold);
+    residuals.segment(begin, size) =
+        targets.segment(begin, size) - outcome.test_predictions;
+    const VectorXd trained = dataset.target_values()(fold.train);
+    baseline.segment(begin, size).setConstant(stats::Summarize(trained).mean);
     FoldResult folded;
     folded.train_rmse = train.back().rmse;
     folded.test_rmse = stats::RootMeanSquare(residuals.segment(begin, size));
@@ -127,11 +149,7 @@ HoldoutResult PoolFolds(const Holdout& holdout,
 }
 
 stats::ErrorMetrics Judge(const Dataset& dataset, const VectorXd& predicted) {
-  const VectorXd& targets = dataset.target_values();
-  return stats::ComputeErrorMetrics(
-      targets,
-      targets - predicted,
-      VectorXd::Constant(targets.size(), stats::Summarize(targets).mean));
+  return JudgeTargets(dataset.target_values(), predicted);
 }
 
 }  // namespace errmap::models

@@ -7,21 +7,34 @@
 
 namespace errmap::models {
 
-/// Training and test rows of a fold, made once and shared by all models.
+/// Training and test rows of a fold: copies, to be had while it is fitted only.
+/// Of many folds they would be many times the data.
 struct PreparedFold {
   data::Dataset training;
   std::shared_ptr<const data::Dataset> test;
 };
 
-/// One list per hold-out.
-std::vector<std::vector<PreparedFold>> PrepareFolds(
-    const data::Dataset& dataset, const std::vector<Holdout>& holdouts);
+PreparedFold PrepareFold(const data::Dataset& dataset,
+                         const Holdout& holdout,
+                         std::size_t fold);
+
+/// A fit of one fold, its predictions of the training rows judged and gone.
+struct FoldOutcome {
+  FitOutcome fit;
+  stats::ErrorMetrics train;
+};
+
+/// NaN for training predictions that `outcome` lacks.
+FoldOutcome JudgeFold(const data::Dataset& dataset,
+                      const Holdout& holdout,
+                      std::size_t fold,
+                      FitOutcome outcome);
 
 /// Pools the folds of one model under one hold-out; failed where one of its
-/// fits did. An outcome without training predictions has NaN for them.
-HoldoutResult PoolFolds(const Holdout& holdout,
-                        const std::vector<PreparedFold>& prepared,
-                        std::vector<FitOutcome> outcomes);
+/// fits did.
+HoldoutResult PoolFolds(const data::Dataset& dataset,
+                        const Holdout& holdout,
+                        std::vector<FoldOutcome> outcomes);
 
 /// Metrics of `predicted` (m) against the targets of `dataset`, R2 about its
 /// own mean.

@@ -105,19 +105,24 @@ GivenPredictions ReadGivenPredictions(const std::string& name,
 ModelResult JudgeGivenPredictions(const GivenPredictions& given,
                                   const data::Dataset& dataset,
                                   const std::vector<Holdout>& holdouts) {
-  const auto prepared = PrepareFolds(dataset, holdouts);
   ModelResult model;
   model.name = given.name;
   model.kind = ModelKind::kFile;
   model.predict_ns = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t h = 0; h < holdouts.size(); ++h) {
-    std::vector<FitOutcome> outcomes;
-    for (std::size_t fold = 0; fold < prepared[h].size(); ++fold) {
-      outcomes.push_back(OutcomeOf(
-          given, holdouts[h], static_cast<Index>(fold), prepared[h][fold]));
+    std::vector<FoldOutcome> outcomes;
+    for (std::size_t fold = 0; fold < holdouts[h].folds.size(); ++fold) {
+      outcomes.push_back(
+          JudgeFold(dataset,
+                    holdouts[h],
+                    fold,
+                    OutcomeOf(given,
+                              holdouts[h],
+                              static_cast<Index>(fold),
+                              PrepareFold(dataset, holdouts[h], fold))));
     }
     model.holdouts.push_back(
-        PoolFolds(holdouts[h], prepared[h], std::move(outcomes)));
+        PoolFolds(dataset, holdouts[h], std::move(outcomes)));
   }
   return model;
 }

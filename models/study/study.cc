@@ -27,6 +27,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
+constexpr const char* kNotBegun = "interrupted before it began";
+
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -37,7 +39,7 @@ FitOutcome FitOnce(const ModelRecipe& recipe,
                    const FitContext& context) {
   FitOutcome outcome;
   if (context.stop != nullptr && context.stop->load()) {
-    outcome.why_failed = "interrupted before it began";
+    outcome.why_failed = kNotBegun;
     return outcome;
   }
   const auto start = Clock::now();
@@ -209,16 +211,16 @@ StudyResult RunStudy(const Dataset& dataset,
     throw std::invalid_argument(
         "RunStudy: needs at least one model, one hold-out and one job");
   }
-  const std::vector<std::vector<PreparedFold>> prepared =
-      PrepareFolds(dataset, holdouts);
   std::vector<StudyTask> tasks = StudyTasks(holdouts, recipes);
   if (!options.fit_all_rows) {
     std::erase_if(tasks, [](const StudyTask& t) { return t.holdout < 0; });
   }
   std::vector<FitOutcome> final_outcomes(recipes.size());
-  std::vector<std::vector<std::vector<FitOutcome>>> outcomes(recipes.size());
+  std::vector<std::vector<std::vector<FoldOutcome>>> outcomes(recipes.size());
   for (auto& of_model : outcomes) {
-    for (const auto& folds : prepared) of_model.emplace_back(folds.size());
+    for (const Holdout& holdout : holdouts) {
+      of_model.emplace_back(holdout.folds.size());
+    }
   }
   // What the recipes share of the same rows: all rows, then fold by fold.
   SharedWork of_all_rows;
@@ -232,8 +234,13 @@ StudyResult RunStudy(const Dataset& dataset,
     context.shared = task.holdout < 0 ? &of_all_rows
                                       : &of_folds.at({task.holdout, task.fold});
     if (task.holdout < 0) return FitAllRows(recipe, dataset, context);
-    const PreparedFold& fold =
-        prepared[static_cast<std::size_t>(task.holdout)][task.fold];
+    if (context.stop != nullptr && context.stop->load()) {
+      FitOutcome outcome;
+      outcome.why_failed = kNotBegun;
+      return outcome;
+    }
+    const PreparedFold fold = PrepareFold(
+        dataset, holdouts[static_cast<std::size_t>(task.holdout)], task.fold);
     return FitOnce(recipe, fold.training, fold.test.get(), context);
   };
   const auto find_or_fit = [&](const StudyTask& task) {
@@ -247,12 +254,13 @@ StudyResult RunStudy(const Dataset& dataset,
   std::atomic<int> done{0};
   const auto run = [&](std::size_t index) {
     const StudyTask& task = tasks[index];
-    FitOutcome& outcome =
-        task.holdout < 0
-            ? final_outcomes[task.model]
-            : outcomes[task.model][static_cast<std::size_t>(task.holdout)]
-                      [task.fold];
-    outcome = find_or_fit(task);
+    if (task.holdout < 0) {
+      final_outcomes[task.model] = find_or_fit(task);
+    } else {
+      const auto h = static_cast<std::size_t>(task.holdout);
+      outcomes[task.model][h][task.fold] =
+          JudgeFold(dataset, holdouts[h], task.fold, find_or_fit(task));
+    }
     const int now_done = ++done;
     if (options.progress) {
       options.progress(now_done, static_cast<int>(tasks.size()));
@@ -279,7 +287,7 @@ StudyResult RunStudy(const Dataset& dataset,
     judged.options = recipes[model]->options();
     for (std::size_t h = 0; h < holdouts.size(); ++h) {
       judged.holdouts.push_back(
-          PoolFolds(holdouts[h], prepared[h], std::move(outcomes[model][h])));
+          PoolFolds(dataset, holdouts[h], std::move(outcomes[model][h])));
     }
     judged.final_fit = std::move(final_outcomes[model].fitted);
     judged.final_why_failed = final_outcomes[model].why_failed;

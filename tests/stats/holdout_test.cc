@@ -219,6 +219,9 @@ TEST(ParseHoldout, RefusesOptionsThatAKindDoesNotHave) {
 TEST(ParseHoldout, RefusesOptionValuesOutOfRange) {
   ExpectParseError("groups:5:repeats=0",
                    "repeats must be a whole number of at least 1, found '0'");
+  EXPECT_EQ(ParseHoldout("groups:5:repeats=1000").repeats, 1000);
+  ExpectParseError("groups:5:repeats=1001",
+                   "repeats must be at most 1000, found 1001");
   ExpectParseError("groups:5:repeats=",
                    "repeats must be a whole number of at least 1, found ''");
   ExpectParseError("groups:5:repeats=2:x",
