@@ -40,8 +40,10 @@ std::string ListOf(const Scores<Value>& scores, const char* form) {
   return list;
 }
 
+}  // namespace
+
 std::pair<std::int64_t, double> FewestGoodNodes(
-    const Scores<std::int64_t>& scores) {
+    const std::vector<std::pair<std::int64_t, double>>& scores) {
   constexpr double kNearEqual = 1.05;
   const auto best = Lowest(scores);
   if (best == scores.end()) {
@@ -53,6 +55,8 @@ std::pair<std::int64_t, double> FewestGoodNodes(
     return score.second <= enough;
   });
 }
+
+namespace {
 
 class Tuner {
  public:

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "models/net/net_fit.h"
@@ -35,6 +36,12 @@ struct TunedNet {
 /// 10, 20, 40 and 60, those above 5 while each node has at least 4 rows. (P - 1
 /// nodes can reproduce any P targets.)
 std::vector<std::int64_t> HiddenToTry(Eigen::Index rows);
+
+/// Of errors by number of nodes (NaN: not judged) the fewest nodes whose error
+/// is at most 5 % above the least, with it. Throws std::invalid_argument where
+/// none is.
+std::pair<std::int64_t, double> FewestGoodNodes(
+    const std::vector<std::pair<std::int64_t, double>>& scores);
 
 /// Chooses by the pooled error on the inner hold-outs of MakeInnerFolds; every
 /// fit starts from the weights of context.seed.

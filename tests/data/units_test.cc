@@ -19,6 +19,7 @@ TEST(UnitOfColumn, ReadsLengthsFromTheSuffixAndShowsThemInMicrometres) {
   EXPECT_EQ(mm.display_symbol, "um");
   EXPECT_EQ(UnitOfColumn("disp_ch1_um").display_scale, 1.0);
   EXPECT_EQ(UnitOfColumn("gap_nm").display_scale, 1e-3);
+  EXPECT_EQ(UnitOfColumn("travel_cm").display_scale, 1e4);
   EXPECT_EQ(UnitOfColumn("travel [m]").display_scale, 1e6);
 }
 

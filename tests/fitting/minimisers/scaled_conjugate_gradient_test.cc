@@ -499,6 +499,36 @@ TEST(ScaledConjugateGradient, MollerTurnsByTheBetaOfEquation109) {
               kRounding * (x1 - problem.start).norm() * r0.norm());
 }
 
+// Eq. (110) and (111): lambda halves after a good success (comparison >= 0.75),
+// stays after a fair one, grows by delta (1 - comparison) / |p|^2 below 0.25.
+TEST(ScaledConjugateGradient, MollerScalesLambdaByTheComparisonOfEquation110) {
+  const auto problem = errmap::testing::Wood();
+  std::vector<ScgPass> passes;
+  ScaledConjugateGradientOptions options;
+  options.stopping.iterations = 60;
+  options.observer = [&](const ScgPass& pass) { passes.push_back(pass); };
+  ScaledConjugateGradient(options).Minimize(*problem.objective, problem.start);
+  int good = 0;
+  int poor = 0;
+  double before = options.initial_lambda;
+  for (const ScgPass& pass : passes) {
+    if (!pass.made_definite && !pass.restarted && !pass.gave_up_direction) {
+      if (pass.accepted && pass.comparison >= 0.75) {
+        EXPECT_EQ(pass.lambda, 0.5 * before);
+        ++good;
+      } else if (pass.accepted && pass.comparison >= 0.25) {
+        EXPECT_EQ(pass.lambda, before);
+      } else {
+        EXPECT_GT(pass.lambda, before);
+        ++poor;
+      }
+    }
+    before = pass.lambda;
+  }
+  EXPECT_GT(good, 5);
+  EXPECT_GT(poor, 0);
+}
+
 // Trials that fail renew the cost by the path; what is told at the end is the
 // objective's own word all the same.
 TEST(ScaledConjugateGradient, TellsTheObjectivesCostAfterTrialsThatFailed) {

@@ -280,5 +280,16 @@ TEST(QuadraticColumns, AreTheProductsThatAreNeverFormed) {
       formed.cwiseAbs2().transpose() * v, kRelative));
 }
 
+// Hurvich and Tsai (1989): AIC + 2 K (K + 1) / (n - K - 1), K = k + 1 with the
+// error variance.
+TEST(InformationCriteria, AiccAddsThePenaltyOfASmallSample) {
+  constexpr double kRss = 2.0;
+  constexpr double kRows = 20.0;
+  const double aic = kRows * std::log(kRss / kRows) + 2.0 * 3.0;
+  EXPECT_DOUBLE_EQ(Aic(kRss, kRows, 3.0), aic);
+  EXPECT_DOUBLE_EQ(Aicc(kRss, kRows, 3.0), aic + 2.0 * 4.0 * 5.0 / 15.0);
+  EXPECT_EQ(Aicc(kRss, 5.0, 3.0), std::numeric_limits<double>::infinity());
+}
+
 }  // namespace
 }  // namespace errmap::fitting

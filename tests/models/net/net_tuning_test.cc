@@ -38,6 +38,15 @@ data::Dataset OneInput(Eigen::Index rows, double (*target)(double)) {
   return data::Dataset(std::move(parts));
 }
 
+TEST(NetTuning, TakesTheFewestNodesWithinFivePercentOfTheLeast) {
+  const double nan = std::nan("");
+  EXPECT_EQ(
+      FewestGoodNodes({{5, 1.06}, {10, 1.05}, {20, 1.0}, {40, 1.2}}).first, 10);
+  EXPECT_EQ(FewestGoodNodes({{5, 1.051}, {10, 1.2}, {20, 1.0}}).first, 20);
+  EXPECT_EQ(FewestGoodNodes({{5, nan}, {10, 1.0}, {20, 0.96}}).second, 1.0);
+  EXPECT_THROW(FewestGoodNodes({{5, nan}}), std::invalid_argument);
+}
+
 TEST(NetTuning, TriesAsManyNodesAsTheRowsAllow) {
   EXPECT_THAT(HiddenToTry(1), ElementsAre(5));
   EXPECT_THAT(HiddenToTry(39), ElementsAre(5));
