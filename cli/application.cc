@@ -1,6 +1,9 @@
 #include "cli/application.h"
 
+#include <algorithm>
 #include <csignal>
+#include <cstddef>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <sstream>
@@ -11,11 +14,14 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
 
 #include "cli/command.h"
 #include "cli/shell/command_reference.h"
 #include "cli/shell/completion.h"
 #include "cli/shell/man_page.h"
+#include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "data/input_error.h"
 #include "models/version.h"
@@ -38,7 +44,7 @@ constexpr const char* kExample =
     "errmap COMMAND --help explains a command.";
 
 int Fail(int status, const std::string& message) {
-  WriteMessage(fmt::format("errmap: {}\n", message));
+  WriteMessage(message);
   return status;
 }
 
@@ -67,8 +73,10 @@ std::string ShellWord(const std::string& word) {
 std::string ProvenanceCommandLine(int argc, char** argv) {
   std::string line = "errmap";
   for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word == "--quiet" || word == "--resume" || word == "--force") continue;
+    const std::string word = ShownWord(argv[i]);
+    if (word == "--keep-paths" || word == "--quiet" || word == "--resume" ||
+        word == "--force")
+      continue;
     if (word == "--jobs" || word == "--out" || word == "--format" ||
         word == "-o") {
       ++i;
@@ -111,7 +119,11 @@ void RequireKnownCommand(const CLI::App& app, const std::string& word) {
   throw UsageError(fmt::format("no command '{}'; there are {}", word, known));
 }
 
-int RunCommand(int argc, char** argv) {
+int RunParsed(int argc, char** argv) {
+  if (std::find(argv, argv + argc, std::string_view("--keep-paths")) !=
+      argv + argc) {
+    KeepPaths();
+  }
   Run run{.command_line = ProvenanceCommandLine(argc, argv)};
   CLI::App app(kAbout, "errmap");
   app.footer(kExample);
@@ -134,20 +146,26 @@ int RunCommand(int argc, char** argv) {
   AddExportCommand(&app, &run);
   AddCostCommand(&app, &run);
   AddCertifyCommand(&app, &run);
+  if (argc < 2) {
+    PrintResult(app.help());
+    return kWrongCommandLine;
+  }
+  if (RunHiddenCommand(app, argc, argv)) return kDone;
+  RequireKnownCommand(app, argv[1]);
   try {
-    if (argc < 2) {
-      PrintResult(app.help());
-      return kWrongCommandLine;
-    }
-    if (RunHiddenCommand(app, argc, argv)) return kDone;
-    RequireKnownCommand(app, argv[1]);
     app.parse(argc, argv);
-    return run.status;
   } catch (const CLI::Success& asked) {
     std::ostringstream text;  // help or version
     const int status = app.exit(asked, text, text);
     PrintResult(text.str());
     return status;
+  }
+  return run.status;
+}
+
+int RunCommand(int argc, char** argv) {
+  try {
+    return RunParsed(argc, argv);
   } catch (const CLI::ParseError& error) {
     return Fail(kWrongCommandLine,
                 OneLine(error.what()) + "; see errmap --help");
@@ -162,10 +180,51 @@ int RunCommand(int argc, char** argv) {
   }
 }
 
+// Libraries throw where nothing may be thrown (a JSON document allocates while
+// it is freed). Files are whole or not there at any moment.
+[[noreturn]] void EndAtOnce() {
+  try {
+    if (std::current_exception() != nullptr) throw;
+    Fail(kOtherFailure, "ended by an error that cannot be named");
+  } catch (const std::bad_alloc&) {
+    DrawOnTerminal("errmap: not enough memory\n");
+  } catch (const std::exception& error) {
+    Fail(kOtherFailure, error.what());
+  } catch (...) {
+    Fail(kOtherFailure, "ended by an error that has no text");
+  }
+  std::_Exit(kOtherFailure);
+}
+
+// OpenBLAS asks again and again for what it was refused, without end: what it
+// takes at its first products is asked for before.
+bool HasRoomForProducts() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) {
+    return true;
+  }
+  constexpr std::size_t kBytes = std::size_t{256} << 20U;
+  void* const room = mmap(nullptr,
+                          kBytes,
+                          PROT_READ | PROT_WRITE,
+                          MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE,
+                          -1,
+                          0);
+  if (room == MAP_FAILED) return false;
+  munmap(room, kBytes);
+  return true;
+}
+
 }  // namespace
 
 int RunApplication(int argc, char** argv) {
   HoldStandardStreams();
+  std::set_terminate(EndAtOnce);
+  if (!HasRoomForProducts()) {
+    return Fail(kOtherFailure,
+                "not enough memory: the address space is limited (ulimit -v) "
+                "and less than 256 MiB of it are left");
+  }
   // A file that grows too long is then a failed write with a message.
   std::signal(SIGXFSZ, SIG_IGN);
   const int status = RunCommand(argc, argv);

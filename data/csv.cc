@@ -54,6 +54,13 @@ CsvTable ReadCsv(const std::string& path) {
 }
 
 std::string CsvField(std::string_view text) {
+  // Spreadsheets would take it for a formula.
+  double ignored = 0.0;
+  if (!text.empty() &&
+      std::string_view("=+-@").find(text[0]) != std::string_view::npos &&
+      !ParseNumber(text, &ignored)) {
+    return CsvField("'" + std::string(text));
+  }
   const bool needs_quotes =
       text.find_first_of(",;\"\t\r\n") != std::string_view::npos ||
       text.starts_with('#') || Trimmed(text).size() != text.size();

@@ -467,6 +467,7 @@ void AddCompareCommand(CLI::App* app, Run* run) {
                     arguments->resume,
                     "Go on with the run that was broken off in --out DIR: fits "
                     "finished there are not repeated");
+  AddKeepPathsFlag(command);
   AddForceFlag(command, &arguments->force);
   command->footer(
       "Exit status: 0 done, 2 wrong command line, 3 unusable input, 4 every "

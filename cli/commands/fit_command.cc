@@ -183,6 +183,10 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
                           .keep_trace = arguments.format == "json",
                           .indifference = indifference});
   } catch (const std::invalid_argument& error) {
+    if (stop.load()) {
+      Say("interrupted before there was a map; nothing written");
+      return kInterrupted;
+    }
     Say(fmt::format("{} failed: {}", arguments.model, error.what()));
     return kEveryFitFailed;
   }
@@ -259,6 +263,7 @@ void AddFitCommand(CLI::App* app, Run* run) {
                     arguments->no_interval,
                     "Do not fit again with days, cycles or blocks held out to "
                     "find what the map may promise there");
+  AddKeepPathsFlag(command);
   command->add_option("--format", arguments->format, "table or json")
       ->check(CLI::IsMember({"table", "json"}))
       ->type_name("table|json")

@@ -29,7 +29,7 @@ Progress::Progress(bool enabled)
       last_line_(start_) {}
 
 Progress::~Progress() {
-  if (enabled_ && on_terminal_ && shown_ > 0) WriteMessage("\r\033[K");
+  if (enabled_ && on_terminal_ && shown_ > 0) DrawOnTerminal("\r\033[K");
 }
 
 void Progress::Show(int done, int all) {
@@ -47,12 +47,12 @@ void Progress::Show(int done, int all) {
   if (!on_terminal_) {
     if (now - last_line_ < kBetweenLines) return;
     last_line_ = now;
-    WriteMessage(fmt::format("errmap: {}\n", text));
+    WriteMessage(text);
     return;
   }
   const int filled =
       static_cast<int>(static_cast<long long>(kWidth) * done / all);
-  WriteMessage(
+  DrawOnTerminal(
       fmt::format("\r[{}{}] {}\033[K",
                   std::string(static_cast<std::size_t>(filled), '#'),
                   std::string(static_cast<std::size_t>(kWidth - filled), '.'),

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "cli/shell/shown_path.h"
+
 namespace errmap::cli {
 namespace {
 
@@ -25,7 +27,7 @@ models::ComponentConfigurationRecord ComponentOf(
     const ComponentConfig& component) {
   models::ComponentConfigurationRecord record;
   record.name = Text(component.name);
-  record.data = Text(component.data);
+  record.data = Text(ShownPath(component.data));
   if (!component.where.empty()) {
     auto& where = record.where.emplace();
     for (const data::ColumnFilter& filter : component.where) {

@@ -2,6 +2,7 @@
 
 #include "cli/report/configuration_record.h"
 #include "cli/report/verdict_text.h"
+#include "cli/shell/shown_path.h"
 #include "cli/study_file/provenance.h"
 #include "models/study/make_study_record.h"
 #include "models/version.h"
@@ -17,6 +18,9 @@ models::StudyRecord RecordOf(const StudyRun& run) {
   record.provenance.configuration = EffectiveConfiguration(run.config);
   for (const Comparison& component : run.components) {
     record.components.push_back(models::MakeComponentRecord(component));
+    for (auto& table : record.components.back().figures.tables) {
+      table.file = ShownPath(table.file);
+    }
     AddSentences(&record.components.back());
   }
   return record;

@@ -5,6 +5,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 namespace errmap::cli {
 namespace {
 
@@ -23,7 +25,46 @@ int WriteAll(int descriptor, std::string_view text) {
   return 0;
 }
 
+// Bytes of the character that begins at `at`; 0 where that is no UTF-8. What is
+// overlong or beyond Unicode does no harm.
+std::size_t CharacterLength(std::string_view text, std::size_t at) {
+  const auto lead = static_cast<unsigned char>(text[at]);
+  if (lead < 0x80U) return 1;
+  const std::size_t length = lead >= 0xF8U   ? 0
+                             : lead >= 0xF0U ? 4
+                             : lead >= 0xE0U ? 3
+                             : lead >= 0xC2U ? 2
+                                             : 0;
+  if (at + length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((static_cast<unsigned char>(text[at + i]) & 0xC0U) != 0x80U) return 0;
+  }
+  return length;
+}
+
 }  // namespace
+
+std::string WithoutControls(std::string_view text) {
+  std::string safe;
+  safe.reserve(text.size());
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = CharacterLength(text, i);
+    const auto first = static_cast<unsigned char>(text[i]);
+    const bool is_c1 = length == 2 && first == 0xC2U &&
+                       static_cast<unsigned char>(text[i + 1]) < 0xA0U;
+    const bool is_c0 =
+        (first < 0x20U && first != '\n' && first != '\t') || first == 0x7FU;
+    if (length == 0 || is_c0 || is_c1) {
+      const char byte = is_c1 ? text[i + 1] : text[i];
+      safe += fmt::format("\\u{:04x}", static_cast<unsigned char>(byte));
+      i += is_c1 ? 2 : 1;
+    } else {
+      safe += text.substr(i, length);
+      i += length;
+    }
+  }
+  return safe;
+}
 
 void HoldStandardStreams() {
   // open takes the lowest number that is free. What is open in the wrong
@@ -37,12 +78,21 @@ void HoldStandardStreams() {
 }
 
 void PrintResult(std::string_view text) {
-  if (print_error == 0) print_error = WriteAll(STDOUT_FILENO, text);
+  if (print_error != 0) return;
+  print_error = WriteAll(STDOUT_FILENO, WithoutControls(text));
 }
 
 int PrintError() { return print_error; }
 
 void WriteMessage(std::string_view text) {
+  std::string line = WithoutControls(text);
+  for (std::size_t at = 0; (at = line.find('\n', at)) != std::string::npos;) {
+    line.replace(at, 1, "\\n");
+  }
+  DrawOnTerminal("errmap: " + line + "\n");
+}
+
+void DrawOnTerminal(std::string_view text) {
   static_cast<void>(WriteAll(STDERR_FILENO, text));
 }
 

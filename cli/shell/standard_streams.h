@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace errmap::cli {
@@ -9,16 +10,24 @@ namespace errmap::cli {
 /// them our messages. To be called before any file is opened.
 void HoldStandardStreams();
 
-/// The one way of results to standard output. A write that fails is kept for
-/// PrintError, so that one lost answer does not cost the files after it; what
-/// comes after it is not written.
+/// Text that commands no terminal: controls (C0 but line feed and tab, DEL, C1)
+/// and bytes that are no UTF-8 as \\u00XX, which JSON reads back.
+std::string WithoutControls(std::string_view text);
+
+/// The one way of results to standard output, WithoutControls. A write that
+/// fails is kept for PrintError, so that one lost answer does not cost the
+/// files after it; what comes after it is not written.
 void PrintResult(std::string_view text);
 
 /// errno of the first write of PrintResult that failed; 0: none.
 int PrintError();
 
-/// The one way of messages to standard error, as they are. One that cannot be
-/// written is lost: there is nowhere to say so.
+/// The one way of messages to standard error: "errmap: ...", one line whatever
+/// stands in it. One that cannot be written is lost: there is nowhere to say
+/// so.
 void WriteMessage(std::string_view text);
+
+/// What draws on a terminal, as it is; only of our own words.
+void DrawOnTerminal(std::string_view text);
 
 }  // namespace errmap::cli

@@ -10,6 +10,7 @@
 
 #include "cli/command.h"
 #include "cli/shell/number_text.h"
+#include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/fault_text.h"
 #include "models/model_spec.h"
@@ -201,8 +202,14 @@ std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
   }
 }
 
-void Say(const std::string& line) {
-  WriteMessage(fmt::format("errmap: {}\n", line));
+void Say(const std::string& line) { WriteMessage(line); }
+
+void AddKeepPathsFlag(CLI::App* command) {
+  command->add_flag_callback(
+      "--keep-paths",
+      [] { KeepPaths(); },
+      "Write absolute paths into reports, maps and journals; without it, the "
+      "files' names only");
 }
 
 void AddForceFlag(CLI::App* command, bool* force) {

@@ -72,6 +72,9 @@ std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
 /// Says something about the run on stderr: "errmap: ...".
 void Say(const std::string& line);
 
+/// --keep-paths, which the program looks for before any command does.
+void AddKeepPathsFlag(CLI::App* command);
+
 /// --force, which lets a command replace files that errmap did not write.
 void AddForceFlag(CLI::App* command, bool* force);
 

@@ -8,6 +8,7 @@
 #include <oneapi/tbb/version.h>
 #include <openssl/crypto.h>
 
+#include "cli/shell/shown_path.h"
 #include "data/atomic_file.h"
 #include "data/sha256.h"
 #include "fitting/matrix_product.h"
@@ -83,7 +84,8 @@ models::ProvenanceRecord MakeProvenance(const std::string& command_line,
   record.version = models::Version();
   record.command_line = command_line;
   for (const InputFile& input : inputs) {
-    record.inputs.push_back({.file = input.file, .sha256 = input.sha256});
+    record.inputs.push_back(
+        {.file = ShownPath(input.file), .sha256 = input.sha256});
   }
   record.compiler = Compiler();
   record.libraries = LibraryVersions();
@@ -109,7 +111,7 @@ models::Provenance ModelProvenance(const std::string& command_line,
         fmt::format("{}{} {}", libraries.empty() ? "" : ", ", name, version);
   }
   return {{"command_line", command_line},
-          {"data", data.file},
+          {"data", ShownPath(data.file)},
           {"data_sha256", data.sha256},
           {"rows", std::to_string(rows)},
           {"seed", std::to_string(seed)},

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/shell/shown_path.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/fault_text.h"
 #include "data/atomic_file.h"
@@ -70,7 +71,7 @@ class ComponentPlanner {
     // half-built one twice (GCC PR 66139).
     std::vector<models::GivenPredictions> given = ReadGiven();
     return {.comparison = {.name = component_.name,
-                           .file = component_.data,
+                           .file = ShownPath(component_.data),
                            .sha256 = reader_->Sha256Of(component_.data),
                            .goal = FirstGiven(component_.goal,
                                               study_.goal,

@@ -468,6 +468,16 @@ TEST(ParseCsv, SurvivesRandomPiecesOfCsv) {
 
 // ---- Writing.
 
+TEST(CsvField, TurnsFormulasOfSpreadsheetsIntoText) {
+  EXPECT_EQ(CsvField("=1+1"), "'=1+1");
+  EXPECT_EQ(CsvField("@SUM(A1,B1)"), "\"'@SUM(A1,B1)\"");
+  EXPECT_EQ(CsvField("+cmd"), "'+cmd");
+  EXPECT_EQ(CsvField("-down"), "'-down");
+  // Numbers are what they are.
+  EXPECT_EQ(CsvField("-1.5"), "-1.5");
+  EXPECT_EQ(CsvField("+2e3"), "+2e3");
+}
+
 TEST(CsvField, QuotesOnlyWhatNeedsQuotes) {
   EXPECT_EQ(CsvField("plain text_1"), "plain text_1");
   EXPECT_EQ(CsvField(""), "");

@@ -1,13 +1,16 @@
 // What the program does where the machine or the user stands in its way: full
 // disks, closed streams, outputs that are inputs, files without an end.
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 
@@ -29,6 +32,14 @@ class CliFaults : public Cli {
                              tests::Binary() + "' " + words + " 2>.err";
     const int status = std::system(line.c_str());
     return {WEXITSTATUS(status), "", Read(".err")};
+  }
+
+  /// Status of the program in a shell's background, sent a signal after a
+  /// second; its answer is in the file "out".
+  int Background(const std::string& words, const std::string& signal) const {
+    return Shell("--version > out; '" + tests::Binary() + "' " + words +
+                 " > out & p=$!; sleep 1; kill -" + signal + " $p; wait $p")
+        .status;
   }
 };
 
@@ -394,6 +405,189 @@ TEST_F(CliFaults, FoldersThatCannotBeMadeAreSaidInOneLine) {
                       HasSubstr(words[words.size() - 1]),
                       Not(HasSubstr("filesystem error"))));
   }
+}
+
+TEST_F(CliFaults, CtrlCIsAnsweredAtOnce) {
+  // Twenty warm-up cycles of 20 stops with 60 sensors.
+  std::string text = "cycle,position_mm";
+  for (int j = 0; j < 60; ++j) text += ",t" + std::to_string(j) + "_degC";
+  text += ",error_mm\n";
+  unsigned state = 1;
+  const auto random = [&] {
+    state = state * 1664525U + 1013904223U;
+    return std::to_string(state >> 16U);
+  };
+  for (int i = 0; i < 400; ++i) {
+    text += std::to_string(i / 20) + "," + std::to_string(i % 20);
+    for (int j = 0; j < 61; ++j) text += "," + random();
+    text += "\n";
+  }
+  Write("many.csv", text);
+  const std::vector<std::vector<std::string>> commands = {
+      {"fit", kDown, "--model", "net:scg:starts=10000", "-o", "m.json"},
+      {"fit",
+       kDown,
+       "--model",
+       "net:scg:starts=10000:choose=cv",
+       "-o",
+       "m.json"},
+      {"compare", kDown, "--models", "net:scg:starts=10000"},
+      {"fit", "many.csv", "--model", "poly:stepwise:degree=3", "-o", "m.json"},
+      {"compare", "many.csv", "--models", "poly:stepwise:degree=3"}};
+  for (const std::vector<std::string>& words : commands) {
+    SCOPED_TRACE(::testing::PrintToString(words));
+    Process process(scratch_.path(), words);
+    ASSERT_TRUE(process.WaitUntilInterruptible());
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    const auto begin = std::chrono::steady_clock::now();
+    process.Interrupt();
+    EXPECT_EQ(process.Wait().status, kInterrupted);
+    // Half a second on a machine that does nothing else; five to ten before.
+    EXPECT_LT(std::chrono::steady_clock::now() - begin,
+              std::chrono::seconds(3));
+  }
+}
+
+TEST_F(CliFaults, SignalsIgnoredAtTheStartStayIgnored) {
+  // A shell lets what it puts into the background ignore Ctrl-C.
+  EXPECT_EQ(Background("compare " + kDown +
+                           " --models mean,net:scg:iterations=300 --quiet",
+                       "INT"),
+            0);
+  EXPECT_THAT(Read("out"), Not(HasSubstr("interrupted")));
+}
+
+TEST_F(CliFaults, ATerminalThatClosesLeavesThePartialReport) {
+  for (const char* signal : {"HUP", "TERM"}) {
+    EXPECT_EQ(Background("compare " + kDown +
+                             " --models mean,net:scg:starts=10000 --jobs 1 "
+                             "--quiet --out study",
+                         signal),
+              kInterrupted);
+    EXPECT_TRUE(Exists("study/report.md"));
+    std::filesystem::remove_all(scratch_ / "study");
+  }
+}
+
+TEST_F(CliFaults, LimitedMemoryEndsWithALine) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "a sanitizer takes memory of its own";
+#endif
+  EXPECT_THAT(RefusalOf(Shell("--version > out; ulimit -v 300000; '" +
+                              tests::Binary() + "' compare " + kDown),
+                        kFailure),
+              HasSubstr("not enough memory"));
+}
+
+TEST_F(CliFaults, FoldsAreNotHeldAllAtOnce) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "a sanitizer takes memory of its own";
+#endif
+  // 3,000 rows of 41 columns in 300 cycles: held out one by one, their training
+  // rows would be 300 times the data, 300 MB.
+  constexpr int kRows = 3000;
+  std::string text = "cycle,position_mm";
+  for (int j = 0; j < 39; ++j) text += ",t" + std::to_string(j) + "_degC";
+  text += ",error_mm\n";
+  for (int i = 0; i < kRows; ++i) {
+    text += std::to_string(i / 10) + "," + std::to_string(i % 10);
+    for (int j = 0; j < 40; ++j)
+      text += "," + std::to_string((i * (j + 3)) % 97);
+    text += "\n";
+  }
+  Write("many.csv", text);
+  // In a process of its own, whose only child it is.
+  const auto most_kilobytes = [&] {
+    const int status = Run({"compare",
+                            "many.csv",
+                            "--models",
+                            "mean",
+                            "--holdout",
+                            "leave-one-group-out",
+                            "--quiet"})
+                           .status;
+    rusage usage{};
+    getrusage(RUSAGE_CHILDREN, &usage);
+    constexpr long kMostKilobytes = 150'000;
+    std::_Exit(status != 0 ? 2 : usage.ru_maxrss > kMostKilobytes ? 1 : 0);
+  };
+  EXPECT_EXIT(most_kilobytes(), ::testing::ExitedWithCode(0), "");
+}
+
+TEST_F(CliFaults, AbsolutePathsStayOutOfWhatIsHandedOn) {
+  WriteWithoutPosition("d.csv");
+  const std::string folder = scratch_.path().string();
+  const std::string data = folder + "/d.csv";
+  const auto texts = [&] {
+    std::string all = Read("map.json");
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(scratch_ / "study")) {
+      if (entry.is_regular_file()) all += Process::TextOf(entry.path());
+    }
+    return all;
+  };
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> compare{"compare",
+                                     data,
+                                     "--models",
+                                     "mean",
+                                     "--out",
+                                     folder + "/study",
+                                     "--quiet"};
+    std::vector<std::string> fit{
+        "fit", data, "--model=mean", "-o", folder + "/map.json"};
+    compare.insert(compare.end(), more.begin(), more.end());
+    fit.insert(fit.end(), more.begin(), more.end());
+    EXPECT_EQ(Run(compare).status, 0);
+    EXPECT_EQ(Run(fit).status, 0);
+  };
+  run({});
+  EXPECT_THAT(texts(), Not(HasSubstr(folder)));
+  EXPECT_THAT(texts(), HasSubstr("errmap compare d.csv"));
+  run({"--keep-paths"});
+  EXPECT_THAT(Read("study/results.json"), HasSubstr(data));
+  EXPECT_THAT(Read("map.json"), HasSubstr(data));
+}
+
+TEST_F(CliFaults, NothingThatIsReadCommandsTheTerminal) {
+  const std::string escape = "\x1b[2J\x9b\xc2\x9b\x7f";
+  Write("d.csv",
+        "cycle,position_mm,\"t" + escape +
+            "1\nerrmap: all is well\",error_mm\n"
+            "1,0,3,4\n1,1,4,7\n2,0,3,5\n2,1,9,9\n3,0,1,2\n3,1,2,3\n");
+  const std::vector<std::vector<std::string>> commands = {
+      {"compare", "d.csv", "--models", "mean,poly:full:degree=1"},
+      {"compare", "d.csv", "--models", "mean", "--format", "json"},
+      {"compare", "d.csv", "--models", "mean", "--format", "csv"},
+      {"compare", "d.csv", "--models", "file:" + escape},
+      {"compare", "d.csv", "--models", escape},
+      {"compare", "d" + escape + "\nerrmap: done"},
+      {"fit", "d.csv", "--model", "poly:full:degree=1", "-o", "m.json"},
+      {"predict", "m.json", "d.csv"},
+      {"residuals", "d.csv", "--column", escape},
+      {"--" + escape}};
+  for (const std::vector<std::string>& words : commands) {
+    SCOPED_TRACE(::testing::PrintToString(words));
+    const Outcome outcome = Run(words);
+    for (const std::string& text : {outcome.out, outcome.err}) {
+      for (const char* control : {"\x1b", "\x7f", "\xc2\x9b", "\r"}) {
+        EXPECT_THAT(text, Not(HasSubstr(control)));
+      }
+      EXPECT_THAT(text, Not(HasSubstr("[2J\x9b")));
+    }
+    for (const std::string& line : SplitLines(outcome.err)) {
+      EXPECT_FALSE(line.starts_with("errmap: all is well"));
+      EXPECT_FALSE(line.starts_with("errmap: done"));
+    }
+  }
+  EXPECT_EQ(RunJson({"compare",
+                     "d.csv",
+                     "--models",
+                     "mean",
+                     "--format",
+                     "json"})["components"][0]["data"]["inputs"]
+                .size(),
+            2U);
 }
 
 }  // namespace
