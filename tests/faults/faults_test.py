@@ -1,0 +1,179 @@
+#!/usr/bin/env python3
+"""After any call of the system that fails, nothing is lost and nothing is half.
+
+    faults_test.py ERRMAP LIBRARY DATA [MALLOCS]
+
+Runs a small study once for every write, fsync, rename and opening of a file,
+in which that call fails (LIBRARY: failing_calls.cc, preloaded), and once for
+each of MALLOCS (60) allocations drawn with a fixed seed. After each:
+
+  - the program has ended within 10 s of its own time, by itself;
+  - the status is 1 and a line names a file, where the call was one for files; 0
+    where no output is touched: a fit that could not be kept for --resume, which
+    a line says, or a flush after all is in place;
+  - each output is whole, and that of the unbroken run, or not there;
+  - --resume ends in what the unbroken run gave.
+"""
+
+import json
+import os
+import pathlib
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+
+MOST_SECONDS = 60  # 10 of its own, on a machine that does other things too
+failures = []
+findings = {"runs": 0, "killed in a library": 0, "statuses": {}}
+
+
+def fail(what, message):
+    failures.append(f"{what}: {message}")
+    print("FAILED:", what, message, file=sys.stderr)
+
+
+def without_times(node):
+    if isinstance(node, dict):
+        return {
+            key: without_times(value)
+            for key, value in node.items()
+            if "seconds" not in key and not key.endswith("_ns")
+        }
+    return [without_times(item) for item in node] if isinstance(node, list) else node
+
+
+class Study:
+    def __init__(self, errmap, library, data, root):
+        self.errmap, self.library, self.root = errmap, library, root
+        self.words = [
+            errmap, "compare", data, "--models",
+            "mean,poly:eq8,net:scg:hidden=3:iterations=30,poly:formula=no_such_mm",
+            "--holdout", "every:3", "--jobs", "2",
+        ]  # fmt: skip
+        self.log = root / "log"
+
+    def run(self, folder, fault=None, more=()):
+        environment = dict(os.environ)
+        self.log.unlink(missing_ok=True)
+        if fault:
+            environment["LD_PRELOAD"] = self.library
+            environment["ERRMAP_FAIL"] = fault
+            environment["ERRMAP_FAIL_LOG"] = str(self.log)
+        return subprocess.run(
+            self.words + ["--out", str(folder), *more],
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=MOST_SECONDS,
+            check=False,
+        )
+
+    def calls(self, kind):
+        folder = self.root / "counted"
+        self.run(folder, f"{kind}:0")
+        shutil.rmtree(folder)
+        return int(self.log.read_text().split()[-1])
+
+
+def contents(folder):
+    """Outputs by name, times apart; a file that is not whole raises."""
+    found = {}
+    for path in sorted(folder.rglob("*")):
+        name = str(path.relative_to(folder))
+        if path.is_dir() or name.startswith("journal."):
+            continue
+        text = path.read_text(encoding="utf-8")
+        if name == "errmap-files.json":
+            found[name] = sorted(file["name"] for file in json.loads(text)["files"])
+        elif name.endswith(".json"):
+            found[name] = without_times(json.loads(text))
+        elif name.startswith("report."):  # holds measured times
+            end = "</html>" if name.endswith("html") else "\n"
+            if not text.rstrip(" ").endswith(end) and not text.rstrip().endswith(end):
+                raise ValueError(f"{name} has no end")
+            found[name] = "whole"
+        elif ".tmp" in name or not name.endswith((".csv", ".md")):
+            found[name] = "left behind"
+        else:
+            found[name] = text
+    return found
+
+
+def judge(study, unbroken, what, folder, outcome, is_file_fault):
+    findings["runs"] += 1
+    status = outcome.returncode
+    findings["statuses"][status] = findings["statuses"].get(status, 0) + 1
+    lines = outcome.stderr.splitlines()
+    log = study.log.read_text() if study.log.exists() else ""
+    if status < 0:
+        # Libraries that never look at what malloc gives end the program.
+        inside = any(name in log for name in ("libopenblas", "libtbb", "libceres"))
+        findings["killed in a library"] += inside
+        if not inside:
+            fail(what, f"ended by signal {-status}:\n{log}{outcome.stderr}")
+    elif is_file_fault:
+        is_whole = status == 0 and contents(folder) == unbroken
+        names_file = any(
+            line.startswith("errmap: ") and str(folder) in line for line in lines
+        )
+        if status != 1 and not is_whole:
+            fail(what, f"status {status}: {outcome.stderr}")
+        if not names_file and not (is_whole and what.startswith("fsync")):
+            fail(what, f"no line names a file: {outcome.stderr}")
+    elif status not in (0, 1, 4):
+        fail(what, f"status {status}: {outcome.stderr}")
+    if status == 1 and not lines:
+        fail(what, "status 1 without a word")
+    try:
+        found = contents(folder) if folder.exists() else {}
+    except ValueError as error:
+        fail(what, f"an output is not whole: {error}")
+        found = {}
+    for name, content in found.items():
+        if content == "left behind":
+            if status >= 0:
+                fail(what, f"left {name} behind")
+        elif is_file_fault and name != "errmap-files.json" and content != unbroken[name]:
+            fail(what, f"{name} is not that of the unbroken run")
+    again = study.run(folder, more=["--resume"])
+    if again.returncode != 0:
+        fail(what, f"--resume: status {again.returncode}: {again.stderr}")
+    elif contents(folder) != unbroken:
+        fail(what, "--resume ends in other results")
+
+
+def main():
+    errmap, library, data = sys.argv[1:4]
+    mallocs = int(sys.argv[4]) if len(sys.argv) > 4 else 60
+    with tempfile.TemporaryDirectory() as scratch:
+        root = pathlib.Path(scratch)
+        study = Study(errmap, library, data, root)
+        if study.run(root / "unbroken").returncode != 0:
+            sys.exit("the study itself fails")
+        unbroken = contents(root / "unbroken")
+        faults = []
+        for kind in ("write", "fsync", "rename", "open", "ftruncate"):
+            count = study.calls(kind)
+            print(kind, count, "calls")
+            faults += [(f"{kind}:{n + 1}", True) for n in range(count)]
+        count = study.calls("malloc")
+        print("malloc", count, "calls")
+        draw = random.Random(1995)
+        faults += [(f"malloc:{draw.randint(1, count)}", False) for _ in range(mallocs)]
+        for fault, is_file_fault in faults:
+            folder = root / "study"
+            shutil.rmtree(folder, ignore_errors=True)
+            try:
+                outcome = study.run(folder, fault)
+            except subprocess.TimeoutExpired:
+                fail(fault, "does not end")
+                continue
+            judge(study, unbroken, fault, folder, outcome, is_file_fault)
+    print(json.dumps(findings))
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
