@@ -19,6 +19,8 @@
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
+#include "cli/study_file/machine_study.h"
+#include "cli/study_file/provenance.h"
 #include "cli/study_file/study_config.h"
 #include "cli/study_file/study_file.h"
 #include "cli/study_file/study_plan.h"
@@ -55,6 +57,8 @@ struct CompareArguments {
   std::string out;
   std::string format = "table";
   std::string command_line;
+  std::string machine;
+  int later = 1;  // sessions that judge the machine
 };
 
 // What the command line alone can get wrong is said before any file is read.
@@ -269,7 +273,46 @@ StudyFile ConfigOfFile(const CompareArguments& arguments) {
   return file;
 }
 
-StudyPlan PlanOf(const CompareArguments& arguments) {
+// With --machine DATA is the folder of its components' data.
+std::optional<MachineStudy> MachineOf(const CompareArguments& arguments) {
+  if (arguments.machine.empty()) {
+    if (arguments.given.contains("--later")) {
+      throw UsageError("--later goes with --machine");
+    }
+    return std::nullopt;
+  }
+  for (const char* flag : {"--config",
+                           "--target",
+                           "--inputs",
+                           "--weight",
+                           "--split",
+                           "--save-split",
+                           "--predictions"}) {
+    if (arguments.given.contains(flag)) {
+      throw UsageError(fmt::format(
+          "{} is for one component, and --machine has several", flag));
+    }
+  }
+  if (!arguments.given.contains("DATA")) {
+    throw UsageError(
+        "--machine needs the folder of its components' data: errmap compare "
+        "--machine machine.toml DIR");
+  }
+  return ReadMachineStudy(arguments.machine,
+                          arguments.data.file,
+                          arguments.later,
+                          arguments.data.session);
+}
+
+StudyPlan PlanOf(const CompareArguments& arguments,
+                 const std::optional<MachineStudy>& machine) {
+  if (machine) {
+    StudyPlan plan = PlanStudy(ConfigOfMachine(*machine, ConfigOf(arguments)),
+                               arguments.data.quiet);
+    plan.inputs.push_back(HashInput(machine->path));
+    plan.inputs.push_back(HashInput(machine->points.file));
+    return plan;
+  }
   if (arguments.config.empty()) {
     if (!arguments.given.contains("DATA")) {
       throw UsageError("DATA is required; see errmap --help");
@@ -298,7 +341,8 @@ int RunCompare(const CompareArguments& arguments) {
   if (arguments.resume && arguments.out.empty()) {
     throw UsageError("--resume needs the folder of the earlier run: --out DIR");
   }
-  StudyPlan plan = PlanOf(arguments);
+  const std::optional<MachineStudy> machine = MachineOf(arguments);
+  StudyPlan plan = PlanOf(arguments, machine);
   const int cores =
       std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int jobs = arguments.jobs > 0 ? arguments.jobs : cores;
@@ -333,7 +377,8 @@ int RunCompare(const CompareArguments& arguments) {
          .progress = [&](int done, int all) { progress.Show(done, all); }});
   }
   if (journal != nullptr) SayUnlessQuiet(arguments, journal->WritingRemarks());
-  const models::StudyRecord record = RecordOf(run);
+  models::StudyRecord record = RecordOf(run);
+  if (machine && !run.interrupted) record.machine = JudgeMachine(*machine, run);
   // Before the files: a full disk must not cost the answer.
   PrintResult(Formatted(run, record, arguments.format));
   if (folder) WriteOutputs(run, record, &*folder);
@@ -463,6 +508,21 @@ void AddCompareCommand(CLI::App* app, Run* run) {
       ->type_name("table|json|csv|md")
       ->capture_default_str();
   AddJudgingOptions(command, arguments.get());
+  command
+      ->add_option("--machine",
+                   arguments->machine,
+                   "Compare the maps STEM.json of this machine on the data "
+                   "STEM.csv of the folder DATA, and judge them together at "
+                   "the poses of tool_tip.csv there")
+      ->type_name("machine.toml");
+  command
+      ->add_option("--later",
+                   arguments->later,
+                   "With --machine: last sessions that no fit sees and that "
+                   "judge it")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N")
+      ->capture_default_str();
   command->add_flag("--resume",
                     arguments->resume,
                     "Go on with the run that was broken off in --out DIR: fits "

@@ -6,6 +6,7 @@
 
 #include "cli/report/fit_tables.h"
 #include "cli/report/html.h"
+#include "cli/report/machine_tables.h"
 #include "cli/report/report_headline.h"
 #include "cli/report/report_style.h"
 #include "cli/report/report_tables.h"
@@ -383,6 +384,13 @@ std::string Page::Html() const {
   if (views.size() > kOpenComponents) html += Index(views);
   for (std::size_t i = 0; i < views.size(); ++i) {
     html += Component(views[i], i);
+  }
+  if (record_.machine) {
+    html += "<section id=\"machine\">\n<h2>The machine</h2>\n";
+    for (const Table& table : MachineTables(*record_.machine)) {
+      html += HtmlTable(table);
+    }
+    html += "</section>\n";
   }
   html += "<h3>Provenance</h3>\n" + HtmlTable(ProvenanceTable(record_));
   html += "</main>\n<footer>";

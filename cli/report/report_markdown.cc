@@ -4,6 +4,7 @@
 
 #include "cli/report/fit_tables.h"
 #include "cli/report/html.h"
+#include "cli/report/machine_tables.h"
 #include "cli/report/report_headline.h"
 #include "cli/report/report_tables.h"
 #include "cli/report/result_table.h"
@@ -80,6 +81,11 @@ std::string ReportMarkdown(const models::StudyRecord& record) {
   }
   for (const ComponentRecord& component : record.components) {
     text += Component(ViewOf(component));
+  }
+  if (record.machine) {
+    for (const Table& table : MachineTables(*record.machine)) {
+      text += MarkdownTable(table, "##");
+    }
   }
   return text + MarkdownTable(ProvenanceTable(record), "##");
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/report/machine_tables.h"
 #include "cli/report/result_table.h"
 #include "cli/report/verdict_text.h"
 #include "cli/shell/number_text.h"
@@ -99,6 +100,13 @@ std::string StudyTable(const StudyRun& run, const models::StudyRecord& record) {
                       data::Printable(component.name, component.name.size()));
     }
     text += ComponentTable(component, record.components[i]);
+  }
+  if (record.machine) {
+    for (const Table& table :
+         {ToolTipTable(*record.machine), PositioningTable(*record.machine)}) {
+      if (table.rows.empty()) continue;
+      text += "\n" + table.title + "\n\n" + TerminalTable(table);
+    }
   }
   return text;
 }

@@ -45,8 +45,10 @@ struct LinkInFile {
 
 class MachineFileReader {
  public:
-  explicit MachineFileReader(const std::string& file)
-      : file_(file), folder_(std::filesystem::path(file).parent_path()) {}
+  MachineFileReader(const std::string& file, bool with_maps)
+      : file_(file),
+        folder_(std::filesystem::path(file).parent_path()),
+        with_maps_(with_maps) {}
 
   MachineFile Read(const toml::table& root) {
     const Keys keys(root, "the machine", file_);
@@ -267,9 +269,11 @@ class MachineFileReader {
                       "reverse = ... }}",
                       unit.symbol));
     }
-    source.file = folder_.empty()
-                      ? text->get()
-                      : (folder_ / text->get()).lexically_normal().string();
+    source.file = text->get();
+    if (!with_maps_) return source;
+    if (!folder_.empty()) {
+      source.file = (folder_ / text->get()).lexically_normal().string();
+    }
     source.map = LoadMap(key, source.file, node, direction);
     return source;
   }
@@ -365,6 +369,7 @@ class MachineFileReader {
 
   const std::string& file_;
   std::filesystem::path folder_;
+  bool with_maps_;
   data::Unit length_;
   data::Unit angle_;
   std::set<std::string> names_;
@@ -372,12 +377,20 @@ class MachineFileReader {
   std::vector<std::string> warnings_;
 };
 
+MachineFile ReadMachine(const std::string& path, bool with_maps) {
+  const toml::table root =
+      ParseToml(data::ReadFile(path, data::kMostTextOfPeople), path);
+  return MachineFileReader(path, with_maps).Read(root);
+}
+
 }  // namespace
 
 MachineFile ReadMachineFile(const std::string& path) {
-  const toml::table root =
-      ParseToml(data::ReadFile(path, data::kMostTextOfPeople), path);
-  return MachineFileReader(path).Read(root);
+  return ReadMachine(path, true);
+}
+
+MachineFile ReadMachineOutline(const std::string& path) {
+  return ReadMachine(path, false);
 }
 
 }  // namespace errmap::cli

@@ -19,4 +19,8 @@ struct MachineFile {
 /// link's, a model file that is not there, or a map of another quantity.
 MachineFile ReadMachineFile(const std::string& path);
 
+/// The same without the maps, which need not be there yet: a source has the
+/// file's name as machine.toml has it, and no map.
+MachineFile ReadMachineOutline(const std::string& path);
+
 }  // namespace errmap::cli

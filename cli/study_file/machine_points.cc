@@ -192,6 +192,7 @@ class MachineEvaluator {
               .outside = std::vector<bool>(points_.num_rows)};
     }
     const FittedModel& map = *source.map;
+    RequireQuantity(map, unit);
     const MatrixXd inputs = InputsOf(map, coordinate);
     PointLog log;
     const models::Prediction prediction =
@@ -208,6 +209,16 @@ class MachineEvaluator {
                            !models::IsInside(map.inputs, inputs, row));
     }
     return at;
+  }
+
+  void RequireQuantity(const FittedModel& map, const data::Unit& unit) const {
+    if (data::AreConvertible(map.target.unit, unit)) return;
+    throw data::InputError(fmt::format(
+        "{}: the map predicts {} in {}, and the error is in {}",
+        data::PrintablePath(points_.file),
+        QuotedName(map.target.name),
+        map.target.unit.symbol.empty() ? "no unit" : map.target.unit.symbol,
+        unit.symbol));
   }
 
   double HalfWidth(const ErrorSource& source) {

@@ -39,6 +39,7 @@ struct ComponentConfig {
   std::string split;       // split file to judge by
   std::string save_split;  // file that gets the folds
   std::vector<PredictionsFile> predictions;
+  std::vector<std::string> later;  // sessions that no fit may see
 };
 
 /// A study as the user asks for it, on the command line or in a study file:

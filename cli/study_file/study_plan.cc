@@ -14,6 +14,7 @@
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/fault_text.h"
 #include "data/atomic_file.h"
+#include "data/input_error.h"
 #include "data/sha256.h"
 #include "data/text.h"
 #include "models/file_recipe.h"
@@ -113,7 +114,30 @@ class ComponentPlanner {
                            .keep_dead = component_.keep_dead,
                            .where = component_.where});
     SayWhatWasFound(prepared, FaultUse::kFit);
+    if (!component_.later.empty()) {
+      prepared.dataset = WithoutLater(prepared.dataset);
+    }
     return prepared;
+  }
+
+  // Less the sessions that are to judge maps put together.
+  data::Dataset WithoutLater(const data::Dataset& dataset) const {
+    const std::vector<Eigen::Index> codes = dataset.session_codes();
+    std::vector<Eigen::Index> rows;
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+      const std::string& session =
+          dataset.log()->sessions.labels[static_cast<std::size_t>(codes[i])];
+      if (std::ranges::find(component_.later, session) !=
+          component_.later.end()) {
+        rows.push_back(dataset.rows()[i]);
+      }
+    }
+    if (rows.size() == codes.size()) {
+      throw data::InputError(fmt::format(
+          "{}: no session but those that are to judge; more days are needed",
+          data::PrintablePath(component_.data)));
+    }
+    return data::WithoutRows(dataset, rows);
   }
 
   void SayWhatWasFound(const data::PreparedDataset& prepared,

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "models/study/machine_record.h"
 #include "models/study/memorisation.h"
 #include "models/study/record.h"
 #include "models/study/verdict.h"
@@ -1130,9 +1131,16 @@ struct StudyRecord {
   bool interrupted = false;
   ProvenanceRecord provenance;
   std::vector<ComponentRecord> components;
+  LeftOut<MachineRecord> machine;  // where they were put together
 };
-ERRMAP_RECORD(
-    StudyRecord, schema, version, seed, interrupted, provenance, components)
+ERRMAP_RECORD(StudyRecord,
+              schema,
+              version,
+              seed,
+              interrupted,
+              provenance,
+              components,
+              machine)
 
 /// Two models under a hold-out, either way round, or null.
 const PairRecord* FindPair(const ComponentRecord& component,

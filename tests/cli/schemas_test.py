@@ -191,6 +191,13 @@ def documents(program):
     simple = "mean,poly:position"
     yield "angle", program.json("compare", "angle.csv", "--models", simple)
     yield "no groups", program.json("compare", "plain.csv", "--models", simple)
+    program.run(
+        *"simulate turning-centre -o sim --days 3 --cycles 3 --points 9".split(),
+        *"--dead 3,4,16,19 --quiet".split(),
+    )
+    yield "machine", program.json(
+        "compare", "--machine", "sim/machine.toml", "sim", "--models", "poly:ridge:view=raw"
+    )
     yield "nothing fits", program.json(
         "compare", "plain.csv", "--models", "poly:eq8:T=no_such_column", statuses=(4,)
     )

@@ -190,6 +190,27 @@ TEST_F(VolumetricCommand, ConvertsUnitsOnEverySide) {
               kRounding);
 }
 
+// A machine in um and arcsec, points in mm and degrees. A quarter turn of C
+// puts the tip, 100 mm out on X, at (0, 100): EXC stays along X, ECC moves it
+// by -X, EXX turns with the axis.
+TEST_F(VolumetricCommand, TurnsRotaryAxesInTheUnitOfTheirColumn) {
+  Write("m.toml",
+        "length = \"um\"\nangle = \"arcsec\"\n"
+        "[[link]]\nname = \"C\"\nbranch = \"tool\"\njoint = \"rotary\"\n"
+        "axis = [0, 0, 1]\ncoordinate = \"c_deg\"\n"
+        "errors = { EXC = 1.0, ECC = 2.0 }\n"
+        "[[link]]\nname = \"X\"\nbranch = \"tool\"\njoint = \"linear\"\n"
+        "axis = [1, 0, 0]\ncoordinate = \"x_mm\"\nerrors = { EXX = 3.0 }\n");
+  Write("p.csv", "c_deg,x_mm\n90,100\n0,100\n");
+  const std::vector<Record> points = Points("m.toml", "p.csv");
+  const double turned = 2.0 * std::acos(-1.0) / 648000.0 * 1e5;  // um
+  EXPECT_NEAR(Number(points[0], "first_order_x_um"), 1.0 - turned, 1e-9);
+  EXPECT_NEAR(Number(points[0], "first_order_y_um"), 3.0, 1e-9);
+  EXPECT_NEAR(Number(points[1], "first_order_x_um"), 4.0, 1e-9);
+  EXPECT_NEAR(Number(points[1], "first_order_y_um"), turned, 1e-9);
+  EXPECT_NEAR(Number(points[1], "error_y_um"), turned, 1e-4);
+}
+
 TEST_F(VolumetricCommand, APairTakesTheDirectionOfItsCoordinate) {
   WriteMap("down.json", "error_mm", "mm", 0.001, "position_mm", "mm", 1e-5);
   WriteMap("up.json", "error_mm", "mm", -0.002, "position_mm", "mm", 1e-5);

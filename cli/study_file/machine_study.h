@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/study_file/comparison.h"
+#include "cli/study_file/machine_file.h"
+#include "cli/study_file/study_config.h"
+#include "data/csv.h"
+#include "models/study/machine_record.h"
+
+namespace errmap::cli {
+
+/// A machine whose maps are still to be fitted: STEM.json of machine.toml
+/// belongs to STEM.csv of a folder, whose tool_tip.csv has the true errors at
+/// the tool.
+struct MachineStudy {
+  std::string path;  // of machine.toml
+  std::string folder;
+  MachineFile file;                // sources with files, without maps
+  std::vector<std::string> stems;  // distinct, in the machine's order
+  data::CsvTable points;           // tool_tip.csv
+  std::string session;             // column of its sessions
+  std::vector<std::string> later;  // its last ones: no fit sees them
+};
+
+/// Reads machine and points; `later` is the number of sessions to judge by.
+/// Throws data::InputError where a file is missing, the points have no column
+/// of sessions, or no session but the later ones.
+MachineStudy ReadMachineStudy(const std::string& machine,
+                              const std::string& folder,
+                              int later,
+                              const std::string& session);
+
+/// `config` with a component for each stem, the later sessions left out.
+StudyConfig ConfigOfMachine(const MachineStudy& study, StudyConfig config);
+
+/// Puts the maps of a finished run together and judges them at the points of
+/// the later sessions, filters run through the folder's temperatures.csv where
+/// it has one. Throws data::InputError as EvaluateAt does.
+models::MachineRecord JudgeMachine(const MachineStudy& study,
+                                   const StudyRun& run);
+
+}  // namespace errmap::cli

@@ -1,0 +1,153 @@
+#include "models/kinematics/iso230.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixX3d;
+using Eigen::Vector3d;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// Mean and standard deviation of the runs in one direction; NaN where too few.
+struct Runs {
+  std::vector<double> deviations;
+
+  double mean() const {
+    double sum = 0.0;
+    for (const double deviation : deviations) sum += deviation;
+    return sum / static_cast<double>(deviations.size());
+  }
+  double sd() const {
+    double squares = 0.0;
+    for (const double deviation : deviations) {
+      squares += (deviation - mean()) * (deviation - mean());
+    }
+    return std::sqrt(squares / (static_cast<double>(deviations.size()) - 1.0));
+  }
+};
+
+// Largest less smallest of what was added; NaN stays.
+class Range {
+ public:
+  void Add(double value) {
+    low_ = std::isnan(value) ? kNaN : std::min(low_, value);
+    high_ = std::isnan(value) ? kNaN : std::max(high_, value);
+  }
+  double width() const { return high_ - low_; }
+
+ private:
+  double low_ = std::numeric_limits<double>::infinity();
+  double high_ = -std::numeric_limits<double>::infinity();
+};
+
+double LargerOrNaN(double a, double b) {
+  return std::isnan(a) || std::isnan(b) ? kNaN : std::max(a, b);
+}
+
+void Check(const PositioningTest& test) {
+  const Index n = test.deviations.size();
+  if (n == 0 || test.positions.size() != n ||
+      static_cast<Index>(test.upwards.size()) != n) {
+    throw std::invalid_argument(
+        "PositioningFiguresOf: " + std::to_string(test.positions.size()) +
+        " positions, " + std::to_string(n) + " deviations and " +
+        std::to_string(test.upwards.size()) + " directions");
+  }
+}
+
+}  // namespace
+
+PositioningFigures PositioningFiguresOf(const PositioningTest& test) {
+  Check(test);
+  std::map<double, std::array<Runs, 2>> by_position;  // downwards, upwards
+  for (Index i = 0; i < test.deviations.size(); ++i) {
+    const bool up = test.upwards[static_cast<std::size_t>(i)];
+    by_position[test.positions[i]][up ? 1 : 0].deviations.push_back(
+        test.deviations[i]);
+  }
+  Range means;
+  Range both;
+  Range spread;
+  PositioningFigures figures{.num_positions =
+                                 static_cast<Index>(by_position.size())};
+  for (const auto& [position, runs] : by_position) {
+    const auto& [down, up] = runs;
+    const double reversal = std::abs(up.mean() - down.mean());
+    both.Add(0.5 * (up.mean() + down.mean()));
+    for (const Runs* of : {&down, &up}) {
+      means.Add(of->mean());
+      spread.Add(of->mean() + 2.0 * of->sd());
+      spread.Add(of->mean() - 2.0 * of->sd());
+      figures.repeatability =
+          LargerOrNaN(figures.repeatability, 4.0 * of->sd());
+    }
+    figures.repeatability = LargerOrNaN(
+        figures.repeatability, 2.0 * up.sd() + 2.0 * down.sd() + reversal);
+    figures.reversal = LargerOrNaN(figures.reversal, reversal);
+  }
+  figures.systematic = means.width();
+  figures.mean_bidirectional = both.width();
+  figures.accuracy = spread.width();
+  return figures;
+}
+
+std::vector<Diagonal> DiagonalsOf(const Vector3d& low,
+                                  const Vector3d& high,
+                                  Index num_points) {
+  const Vector3d size = high - low;
+  const auto num_axes = (size.array() > 0.0).count();
+  if ((size.array() < 0.0).any() || num_axes < 2 || num_points < 2) {
+    throw std::invalid_argument(
+        "DiagonalsOf: a box of two lengths or more and two points are needed");
+  }
+  std::vector<Diagonal> diagonals;
+  // The first axis with a length goes up; the others either way.
+  for (int signs = 0; signs < 8; ++signs) {
+    Diagonal diagonal{.name = "", .points = {}, .direction = size};
+    bool is_new = true;
+    bool is_first = true;
+    for (Index axis = 0; axis < 3; ++axis) {
+      const bool falls = ((signs >> axis) & 1) != 0;
+      if (size[axis] == 0.0) {
+        diagonal.name += "0";
+        is_new = is_new && !falls;
+        continue;
+      }
+      diagonal.name += falls ? "n" : "p";
+      if (falls) diagonal.direction[axis] = -size[axis];
+      is_new = is_new && !(is_first && falls);
+      is_first = false;
+    }
+    if (!is_new) continue;
+    const Vector3d middle = 0.5 * (low + high);
+    diagonal.points.resize(num_points, 3);
+    for (Index i = 0; i < num_points; ++i) {
+      const double share =
+          static_cast<double>(i) / static_cast<double>(num_points - 1) - 0.5;
+      diagonal.points.row(i) = middle + share * diagonal.direction;
+    }
+    diagonal.direction.normalize();
+    diagonals.push_back(std::move(diagonal));
+  }
+  return diagonals;
+}
+
+double DiagonalDeviation(const Diagonal& diagonal, const MatrixX3d& errors) {
+  if (errors.rows() != diagonal.points.rows()) {
+    throw std::invalid_argument(
+        "DiagonalDeviation: " + std::to_string(errors.rows()) +
+        " errors, expected " + std::to_string(diagonal.points.rows()));
+  }
+  const Eigen::VectorXd along = errors * diagonal.direction;
+  return along.maxCoeff() - along.minCoeff();
+}
+
+}  // namespace errmap::models

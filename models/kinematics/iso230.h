@@ -1,0 +1,63 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace errmap::models {
+
+// What users of machine tools know errors by: figures of ISO 230, all in the
+// unit of the deviations. A deviation is actual - nominal.
+
+/// Deviations of one axis along itself, one per approach to a target position.
+struct PositioningTest {
+  Eigen::VectorXd positions;   // (n) target positions
+  Eigen::VectorXd deviations;  // (n)
+  std::vector<bool> upwards;   // (n) approached in the positive direction
+};
+
+/// ISO 230-2:2014, clause 3, with the means and standard deviations (n - 1) of
+/// the runs at each target position and direction. NaN where runs of one
+/// direction, or fewer than two in a direction, leave a figure open.
+struct PositioningFigures {
+  Eigen::Index num_positions = 0;
+  /// Bidirectional systematic positioning error E: range of all means.
+  double systematic = 0.0;
+  /// Mean bidirectional positioning error M: range of the means of both.
+  double mean_bidirectional = 0.0;
+  /// Reversal error B: largest |mean upwards - mean downwards|.
+  double reversal = 0.0;
+  /// Bidirectional repeatability R: largest of 2 s up + 2 s down + |B_i|, 4 s
+  /// up and 4 s down.
+  double repeatability = 0.0;
+  /// Bidirectional accuracy A: range of the means +- 2 s.
+  double accuracy = 0.0;
+};
+
+/// Throws std::invalid_argument where the sizes do not agree or there is no
+/// deviation.
+PositioningFigures PositioningFiguresOf(const PositioningTest& test);
+
+/// A straight line through the work volume (ISO 230-6:2002): a face diagonal
+/// where one axis stands, else a body diagonal.
+struct Diagonal {
+  std::string name;           // signs of X, Y and Z along it: "ppp", "p0n"
+  Eigen::MatrixX3d points;    // (n x 3) evenly from end to end
+  Eigen::Vector3d direction;  // unit
+};
+
+/// The diagonals of the box between `low` and `high`, with `num_points` (2 or
+/// more) each: four of three axes, two where an axis has low = high. Throws
+/// std::invalid_argument where an axis has low > high, or fewer than two axes
+/// have a length.
+std::vector<Diagonal> DiagonalsOf(const Eigen::Vector3d& low,
+                                  const Eigen::Vector3d& high,
+                                  Eigen::Index num_points);
+
+/// Systematic deviation E of a diagonal displacement test: the range of the
+/// errors (n x 3, at its points) along it.
+double DiagonalDeviation(const Diagonal& diagonal,
+                         const Eigen::MatrixX3d& errors);
+
+}  // namespace errmap::models

@@ -1,0 +1,202 @@
+// errmap compare --machine, as a user runs it.
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/cli_fixture.h"
+
+namespace errmap {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class MachineStudy : public Cli {
+ protected:
+  // Six short days with 40 poses each.
+  void Simulate() const {
+    ASSERT_EQ(Run({"simulate",
+                   "turning-centre",
+                   "-o",
+                   "s",
+                   "--days",
+                   "6",
+                   "--cycles",
+                   "6",
+                   "--points",
+                   "40",
+                   "--dead",
+                   "3,4,16,19",
+                   "--quiet"})
+                  .status,
+              0);
+  }
+
+  std::vector<std::string> Words(const std::vector<std::string>& more) const {
+    std::vector<std::string> words = {"compare",
+                                      "--machine",
+                                      "s/machine.toml",
+                                      "s",
+                                      "--holdout",
+                                      "sessions:4"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+
+  // Length in X and Z of errors along both, by pose of the later days.
+  static std::vector<double> Lengths(
+      const std::vector<std::map<std::string, std::string>>& points,
+      const std::vector<std::map<std::string, std::string>>& less) {
+    std::vector<double> lengths;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (std::stoi(points[i].at("day")) < 5) continue;
+      const auto rest = [&](const char* column) {
+        return std::stod(points[i].at(column)) -
+               (less.empty() ? 0.0 : std::stod(less[i].at(column)));
+      };
+      lengths.push_back(std::hypot(rest("error_x_mm"), rest("error_z_mm")));
+    }
+    return lengths;
+  }
+
+  static double Rms(const std::vector<double>& values) {
+    double squares = 0.0;
+    for (const double value : values) squares += value * value;
+    return std::sqrt(squares / static_cast<double>(values.size()));
+  }
+};
+
+TEST_F(MachineStudy, SaysWhatCompensationIsWorthOnDaysThatNoFitSaw) {
+  Simulate();
+  const Json document =
+      RunJson(Words({"--later",
+                     "2",
+                     "--models",
+                     "poly:ridge:view=raw,net:scg:hidden=2:iterations=60",
+                     "--format",
+                     "json",
+                     "--out",
+                     "study",
+                     "--quiet"}));
+  ASSERT_EQ(document["components"].size(), 15U);
+  for (const Json& component : document["components"]) {
+    // Four days of six cycles train, of 17 positions or 4 readings each.
+    const int rows = component["data"]["rows"];
+    EXPECT_TRUE(rows == 4 * 6 * 17 || rows == 4 * 6 * 4) << rows;
+  }
+  const Json& machine = document["machine"];
+  EXPECT_EQ(machine["unit"], "mm");
+  EXPECT_EQ(machine["sensitive"], "XZ");
+  EXPECT_THAT(machine["later"], ElementsAre("5", "6"));
+  std::vector<std::string> names;
+  for (const Json& choice : machine["choices"]) {
+    names.push_back(choice["name"]);
+    EXPECT_TRUE(choice["why"].is_null()) << choice["why"];
+    EXPECT_EQ(choice["points"], 80);
+    EXPECT_EQ(choice["days"].size(), 2U);
+    EXPECT_EQ(choice["positioning"].size(), 2U);  // EXX and EZZ
+    EXPECT_LE(choice["p95_ci95"][0], choice["p95_ci95"][1]);
+  }
+  EXPECT_THAT(
+      names,
+      ElementsAre("uncompensated", "polynomial", "neural", "recommended"));
+  const Json& before = machine["choices"][0];
+  const Json& polynomial = machine["choices"][1];
+  EXPECT_EQ(before["maps"].size(), 0U);
+  EXPECT_EQ(polynomial["maps"].size(), 15U);
+  EXPECT_LT(polynomial["p95"].get<double>(), before["p95"].get<double>() / 4.0);
+  // Backlash is in the maps of both directions.
+  EXPECT_GT(before["positioning"][0]["reversal"], 0.002);
+  EXPECT_LT(polynomial["positioning"][0]["reversal"], 0.001);
+
+  // The same from the other side: the poses and errmap volumetric.
+  const auto points = Records(Read("s/tool_tip.csv"));
+  EXPECT_NEAR(Rms(Lengths(points, {})), before["rms"], 1e-12);
+  std::string toml = Read("s/machine.toml");
+  for (const Json& map : polynomial["maps"]) {
+    const std::string stem = map["component"];
+    std::string model;
+    for (const auto& entry : std::filesystem::directory_iterator(
+             scratch_ / ("study/models/" + stem))) {
+      const std::string path = entry.path().filename();
+      if (path.find("ridge") != std::string::npos) model = path;
+    }
+    const std::string from = "\"" + stem + ".json\"";
+    toml.replace(toml.find(from),
+                 from.size(),
+                 "\"study/models/" + stem + "/" + model + "\"");
+  }
+  Write("fitted.toml", toml);
+  const Outcome outcome = Run({"volumetric",
+                               "fitted.toml",
+                               "--at",
+                               "s/tool_tip.csv",
+                               "--after",
+                               "s/temperatures.csv",
+                               "--quiet"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NEAR(
+      Rms(Lengths(points, Records(outcome.out))), polynomial["rms"], 1e-12);
+
+  EXPECT_THAT(Read("study/report.html"),
+              AllOf(HasSubstr("Error at the tool of turning centre"),
+                    HasSubstr("Positioning by ISO 230-2:2014")));
+  EXPECT_THAT(Read("study/report.md"),
+              HasSubstr("Error at the tool of turning centre"));
+}
+
+TEST_F(MachineStudy, SaysWhyAChoiceHasNoFigures) {
+  Simulate();
+  const Outcome outcome = Run(Words({"--models", "poly:ridge:view=raw"}));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("Error at the tool of turning centre, um"),
+                    HasSubstr("neural: no such map of parallelism"),
+                    HasSubstr("recommended")));
+}
+
+TEST_F(MachineStudy, RefusesWhatCannotBeJudged) {
+  Simulate();
+  Write("empty.toml",
+        "[[link]]\nname = \"T\"\nbranch = \"tool\"\njoint = \"fixed\"\n"
+        "errors = { EXT = 0.001 }\n");
+  std::filesystem::create_directory(scratch_ / "bare");
+  struct Case {
+    std::vector<std::string> words;
+    int status;
+    const char* says;
+  };
+  const std::vector<Case> cases = {
+      {{"compare", "s/x_yaw.csv", "--later", "2"},
+       kWrongCommandLine,
+       "--later goes with --machine"},
+      {{"compare", "--machine", "s/machine.toml"},
+       kWrongCommandLine,
+       "--machine needs the folder"},
+      {Words({"--target", "error_mm"}),
+       kWrongCommandLine,
+       "--target is for one"},
+      {Words({"--later", "6"}),
+       kUnusable,
+       "s/tool_tip.csv: 6 sessions by 'day', and --later 6"},
+      {{"compare", "--machine", "s/machine.toml", "bare"},
+       kUnusable,
+       "bare/tool_tip.csv"},
+      {{"compare", "--machine", "empty.toml", "s"},
+       kUnusable,
+       "empty.toml: names no map"}};
+  for (const Case& c : cases) {
+    SCOPED_TRACE(::testing::PrintToString(c.words));
+    EXPECT_THAT(RefusalOf(Run(c.words), c.status), HasSubstr(c.says));
+  }
+}
+
+}  // namespace
+}  // namespace errmap

@@ -1,0 +1,132 @@
+#include "models/kinematics/iso230.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace errmap::models {
+namespace {
+
+using Eigen::MatrixX3d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+constexpr double kRounding = 1e-12;
+
+// Two positions, three runs up and down, in um:
+//   position 0:   up 1, 2, 3 (mean 2, s 1)    down -1, -1, -1 (mean -1, s 0)
+//   position 100: up 6, 6, 9 (mean 7, s 1.7320508) down 4, 5, 6 (mean 5, s 1)
+PositioningTest Worked() {
+  return {
+      .positions = VectorXd{{0, 0, 0, 0, 0, 0, 100, 100, 100, 100, 100, 100}},
+      .deviations = VectorXd{{1, 2, 3, -1, -1, -1, 6, 6, 9, 4, 5, 6}},
+      .upwards = {true,
+                  true,
+                  true,
+                  false,
+                  false,
+                  false,
+                  true,
+                  true,
+                  true,
+                  false,
+                  false,
+                  false}};
+}
+
+TEST(PositioningFigures, AreThoseOfAWorkedExample) {
+  const PositioningFigures figures = PositioningFiguresOf(Worked());
+  const double s = std::sqrt(3.0);
+  EXPECT_EQ(figures.num_positions, 2);
+  EXPECT_NEAR(figures.systematic, 7.0 - -1.0, kRounding);         // E
+  EXPECT_NEAR(figures.mean_bidirectional, 6.0 - 0.5, kRounding);  // M
+  EXPECT_NEAR(figures.reversal, 3.0, kRounding);                  // B
+  // 2 * 1 + 3 = 5 and 4 at 0; 2 s + 2 + 2 = 7.46 and 4 s = 6.93 at 100.
+  EXPECT_NEAR(figures.repeatability, 2.0 * s + 4.0, kRounding);    // R
+  EXPECT_NEAR(figures.accuracy, 7.0 + 2.0 * s - -1.0, kRounding);  // A
+}
+
+TEST(PositioningFigures, DoNotChangeWithAConstantAndGrowWithScale) {
+  PositioningTest moved = Worked();
+  moved.deviations = 3.0 * moved.deviations.array() + 17.0;
+  const PositioningFigures before = PositioningFiguresOf(Worked());
+  const PositioningFigures after = PositioningFiguresOf(moved);
+  EXPECT_NEAR(after.systematic, 3.0 * before.systematic, kRounding);
+  EXPECT_NEAR(after.reversal, 3.0 * before.reversal, kRounding);
+  EXPECT_NEAR(after.repeatability, 3.0 * before.repeatability, kRounding);
+  EXPECT_NEAR(after.accuracy, 3.0 * before.accuracy, kRounding);
+}
+
+TEST(PositioningFigures, StayOpenWithoutBothDirectionsOrSecondRuns) {
+  PositioningTest one_way = Worked();
+  one_way.upwards.assign(12, true);
+  EXPECT_TRUE(std::isnan(PositioningFiguresOf(one_way).reversal));
+  const PositioningTest one_run{.positions = VectorXd{{0, 0}},
+                                .deviations = VectorXd{{1, 2}},
+                                .upwards = {true, false}};
+  const PositioningFigures figures = PositioningFiguresOf(one_run);
+  EXPECT_NEAR(figures.reversal, 1.0, kRounding);
+  EXPECT_TRUE(std::isnan(figures.repeatability));
+  EXPECT_TRUE(std::isnan(figures.accuracy));
+}
+
+TEST(PositioningFigures, RefuseShapesThatDoNotAgree) {
+  PositioningTest test = Worked();
+  test.upwards.pop_back();
+  EXPECT_THAT([&] { PositioningFiguresOf(test); },
+              ThrowsMessage<std::invalid_argument>(
+                  HasSubstr("12 deviations and 11 directions")));
+  EXPECT_THROW(PositioningFiguresOf({}), std::invalid_argument);
+}
+
+std::vector<std::string> Names(const std::vector<Diagonal>& diagonals) {
+  std::vector<std::string> names;
+  for (const Diagonal& diagonal : diagonals) names.push_back(diagonal.name);
+  return names;
+}
+
+TEST(Diagonals, AreFourOfABoxAndTwoOfAFace) {
+  const auto body = DiagonalsOf({0, 0, 0}, {300, 400, 1200}, 3);
+  EXPECT_THAT(Names(body), ElementsAre("ppp", "pnp", "ppn", "pnn"));
+  EXPECT_TRUE(body[3].direction.isApprox(Vector3d(3, -4, -12) / 13.0));
+  EXPECT_EQ(Vector3d(body[3].points.row(0)), Vector3d(0, 400, 1200));
+  EXPECT_EQ(Vector3d(body[3].points.row(2)), Vector3d(300, 0, 0));
+  const auto face = DiagonalsOf({-200, 0, -400}, {0, 0, 0}, 5);
+  EXPECT_THAT(Names(face), ElementsAre("p0p", "p0n"));
+  EXPECT_EQ(Vector3d(face[1].points.row(0)), Vector3d(-200, 0, 0));
+}
+
+// A squareness error of 10 urad shows with opposite signs on both.
+TEST(Diagonals, TellSquarenessByTheirDifference) {
+  const auto face = DiagonalsOf({0, 0, 0}, {300, 0, 400}, 11);
+  std::vector<double> deviations;
+  for (const Diagonal& diagonal : face) {
+    MatrixX3d errors = MatrixX3d::Zero(11, 3);
+    errors.col(0) = 1e-5 * diagonal.points.col(2);
+    errors.col(2) = 2e-5 * diagonal.points.col(2);
+    deviations.push_back(DiagonalDeviation(diagonal, errors));
+  }
+  // 400 mm of Z: 8 um along Z times 0.8, with or against 4 um along X times
+  // 0.6.
+  EXPECT_NEAR(deviations[0], 1e-3 * (8.0 * 0.8 + 4.0 * 0.6), kRounding);
+  EXPECT_NEAR(deviations[1], 1e-3 * (8.0 * 0.8 - 4.0 * 0.6), kRounding);
+}
+
+TEST(Diagonals, RefuseWhatIsNoBox) {
+  EXPECT_THROW(DiagonalsOf({0, 0, 0}, {1, 0, 0}, 3), std::invalid_argument);
+  EXPECT_THROW(DiagonalsOf({0, 0, 0}, {1, 1, -1}, 3), std::invalid_argument);
+  EXPECT_THROW(DiagonalsOf({0, 0, 0}, {1, 1, 1}, 1), std::invalid_argument);
+  const auto face = DiagonalsOf({0, 0, 0}, {1, 0, 1}, 3);
+  EXPECT_THROW(DiagonalDeviation(face[0], MatrixX3d::Zero(2, 3)),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace errmap::models
