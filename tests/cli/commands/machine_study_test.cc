@@ -113,8 +113,9 @@ TEST_F(MachineStudy, SaysWhatCompensationIsWorthOnDaysThatNoFitSaw) {
   EXPECT_EQ(polynomial["maps"].size(), 15U);
   EXPECT_LT(polynomial["p95"].get<double>(), before["p95"].get<double>() / 4.0);
   // Backlash is in the maps of both directions.
-  EXPECT_GT(before["positioning"][0]["reversal"], 0.002);
-  EXPECT_LT(polynomial["positioning"][0]["reversal"], 0.001);
+  EXPECT_EQ(before["positioning"][1]["component"], "EXX");
+  EXPECT_GT(before["positioning"][1]["reversal"], 0.002);
+  EXPECT_LT(polynomial["positioning"][1]["reversal"], 0.001);
 
   // The same from the other side: the poses and errmap volumetric.
   const auto points = Records(Read("s/tool_tip.csv"));
@@ -126,7 +127,8 @@ TEST_F(MachineStudy, SaysWhatCompensationIsWorthOnDaysThatNoFitSaw) {
     for (const auto& entry : std::filesystem::directory_iterator(
              scratch_ / ("study/models/" + stem))) {
       const std::string path = entry.path().filename();
-      if (path.find("ridge") != std::string::npos) model = path;
+      const Json saved = Json::parse(Read("study/models/" + stem + "/" + path));
+      if (saved["name"] == map["model"]) model = path;
     }
     const std::string from = "\"" + stem + ".json\"";
     toml.replace(toml.find(from),
