@@ -54,9 +54,9 @@ CsvTable ReadCsv(const std::string& path) {
 }
 
 std::string CsvField(std::string_view text) {
-  // Spreadsheets would take it for a formula.
+  // Spreadsheets would take it for a formula; a sign alone they would not.
   double ignored = 0.0;
-  if (!text.empty() &&
+  if (text.size() > 1 &&
       std::string_view("=+-@").find(text[0]) != std::string_view::npos &&
       !ParseNumber(text, &ignored)) {
     return CsvField("'" + std::string(text));

@@ -476,6 +476,7 @@ TEST(CsvField, TurnsFormulasOfSpreadsheetsIntoText) {
   // Numbers are what they are.
   EXPECT_EQ(CsvField("-1.5"), "-1.5");
   EXPECT_EQ(CsvField("+2e3"), "+2e3");
+  EXPECT_EQ(CsvField("-"), "-");
 }
 
 TEST(CsvField, QuotesOnlyWhatNeedsQuotes) {
