@@ -1,10 +1,10 @@
 #!/bin/sh
-# README.md tells the truth: its commands run, its outputs are real, its C++
-# compiles, links and runs.
+# README.md and the pages that it sends its readers to tell the truth: their
+# commands run, their outputs are real, their C++ compiles, links and runs.
 #
 #   README_commands_test.sh ROOT BUILD_DIR
 #
-# Conventions of README.md that this relies on:
+# Conventions of these pages that this relies on:
 # - In a ```sh block, each line that starts with "errmap " is run (a trailing
 #   backslash continues it), in the order of the text, in one scratch folder that
 #   holds a copy of data/sets. Commands that cannot run stand in another block.
@@ -22,14 +22,19 @@ if [ $# -ne 2 ]; then
 fi
 root=$(CDPATH='' cd -- "$1" && pwd)
 build=$(CDPATH='' cd -- "$2" && pwd)
-readme=$root/README.md
+# In this order, since later commands read what earlier ones wrote.
+pages="README.md cli/study_file/README.md models/README.md
+  models/polynomial/README.md models/net/README.md models/history/README.md
+  models/study/README.md models/promise/README.md models/export/README.md
+  models/certification/README.md models/netcg/README.md
+  data/sets/nistir5367_xdisp_down.md data/sets/turning_centre/README.md
+  data/sets/nistir5367_appendix_b.md data/sets/machines/README.md"
 
 die() {
   printf 'README: %s\n' "$*" >&2
   exit 1
 }
 
-[ -f "$readme" ] || die "there is no $readme"
 [ -x "$build/errmap" ] || die "there is no $build/errmap: build it first"
 
 failures=0
@@ -43,6 +48,18 @@ trap 'rm -rf "$scratch"' EXIT
 blocks=$scratch/blocks
 work=$scratch/work
 mkdir -p "$blocks" "$work/data"
+readme=$scratch/pages.md
+for page in $pages; do
+  [ -f "$root/$page" ] || die "there is no $page"
+  cat "$root/$page" >>"$readme"
+  echo >>"$readme"
+  # Links within the project lead somewhere.
+  for link in $(sed 's/](/\n](/g' "$root/$page" |
+    sed -n 's/^](\([^):#]*\)[^):]*).*/\1/p'); do
+    [ -e "$root/$(dirname "$page")/$link" ] ||
+      fail "$page links to $link, which is not there"
+  done
+done
 cp -R "$root/data/sets" "$work/data/"
 PATH=$build:$PATH
 export PATH
