@@ -318,6 +318,10 @@ class DatasetBuilder {
           (texts.size() == 1 ? " holds text and is" : " hold text and are") +
           " left out of the inputs");
     }
+    if (roles_.inputs.empty() && found_.time_column >= 0) {
+      had_candidates_ = true;
+      Drop(static_cast<std::size_t>(found_.time_column), "is the time");
+    }
     if (roles_.inputs.empty() && had_candidates_) ThrowNoInputs();
   }
 

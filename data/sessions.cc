@@ -63,6 +63,23 @@ class SessionFinder {
     return static_cast<std::size_t>(rows_[i]);
   }
 
+  // What is measured tells no time: filters would see the error itself.
+  bool IsMeasured(std::size_t column) const {
+    const std::string& name = table_.columns[column].name;
+    return name == selection_.target || name == selection_.weight;
+  }
+
+  std::size_t NamedColumn(const std::string& name, const char* option) const {
+    const std::size_t index = RequireColumn(table_, name, option);
+    if (IsMeasured(index)) {
+      throw InputError(PrintablePath(table_.file) + ": column " +
+                       QuotedName(table_.columns[index].name) +
+                       " is the target or the weight; name another with " +
+                       option);
+    }
+    return index;
+  }
+
   bool IsNone(const std::string& name) const {
     return name == "none" && table_.Find(name) < 0;
   }
@@ -81,10 +98,11 @@ class SessionFinder {
     const bool named = !selection_.time.empty();
     std::vector<std::size_t> candidates;
     if (named) {
-      candidates.push_back(RequireColumn(table_, selection_.time, "--time"));
+      candidates.push_back(NamedColumn(selection_.time, "--time"));
     } else {
       for (std::size_t i = 0; i < table_.columns.size(); ++i) {
-        if (StartsWithIgnoringCase(table_.columns[i].name, "time")) {
+        if (StartsWithIgnoringCase(table_.columns[i].name, "time") &&
+            !IsMeasured(i)) {
           candidates.push_back(i);
         }
       }
@@ -182,13 +200,15 @@ class SessionFinder {
   void ChooseSessions() {
     if (IsNone(selection_.session)) return;
     if (!selection_.session.empty()) {
-      TakeSessions(RequireColumn(table_, selection_.session, "--session"),
-                   true);
+      TakeSessions(NamedColumn(selection_.session, "--session"), true);
       return;
     }
     for (const char* name : {"session", "day", "run"}) {
       for (std::size_t i = 0; i < table_.columns.size(); ++i) {
-        if (!EqualsIgnoringCase(table_.columns[i].name, name)) continue;
+        if (!EqualsIgnoringCase(table_.columns[i].name, name) ||
+            IsMeasured(i)) {
+          continue;
+        }
         if (TakeSessions(i, false)) return;
       }
     }

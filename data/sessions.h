@@ -47,11 +47,12 @@ struct FoundSessions {
 /// else `session`, else `day`, else `run`; without one they are cut where time
 /// goes back or leaps by more than 20 median steps. A column that nobody named
 /// and that will not do is passed over with a remark; "none" names none, save
-/// where a column is called so.
+/// where a column is called so. The target and the weight are neither.
 ///
 /// Throws InputError, with row and remedy, where a named column is not there,
-/// holds no times, lacks a cell (kDropRows: such rows are not known) or is not
-/// in order, and where time goes back within a session of a column.
+/// is the target or the weight, holds no times, lacks a cell (kDropRows: such
+/// rows are not known) or is not in order, and where time goes back within a
+/// session of a column.
 FoundSessions FindSessions(const CsvTable& table,
                            const DatasetSelection& selection,
                            const std::vector<Eigen::Index>& rows);

@@ -295,6 +295,7 @@ double PenalizedPath::DegreesOfFreedom(double strength,
     return of_intercept +
            static_cast<double>((coefficients.array() != 0.0).count());
   }
+  if (correlation_.rows() == 0) return of_intercept;
   // The trace of R (R + s I)^-1.
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(correlation_,
                                                       Eigen::EigenvaluesOnly);

@@ -64,6 +64,12 @@ class PenalizedRecipe final : public PolynomialRecipe {
     return options;
   }
 
+  std::optional<std::string> WhatIsMissing(
+      const Dataset& dataset) const override {
+    if (dataset.num_inputs() > 0) return std::nullopt;
+    return "inputs: there is nothing to penalise";
+  }
+
   std::optional<Index> NumCoefficients(const Dataset&) const override {
     return std::nullopt;
   }

@@ -244,6 +244,8 @@ TEST(MakeDatasetError, NoInputIsLeft) {
             "inputs with --inputs, or keep dead ones with --keep-dead");
   EXPECT_THAT(ErrorOf("a,error\n1,1\n2,2\n", {.exclude = {"a"}}),
               HasSubstr("f.csv: no input is left; name inputs"));
+  EXPECT_THAT(ErrorOf("time_s,error_um\n0,1\n1,2\n"),
+              HasSubstr("no input is left: 'time_s' is the time; name"));
   EXPECT_THAT(ErrorOf("d1,d2\n1,1\n2,3\n", {.target = "d1"}),
               HasSubstr("'d2' measures the target's quantity"));
 }

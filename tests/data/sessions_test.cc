@@ -169,6 +169,18 @@ TEST(Sessions, AskWhichOfSeveralTimesIsMeant) {
               Refuses("no column 'clock' (--time)"));
 }
 
+TEST(Sessions, NeverTakeWhatIsMeasuredForTheTime) {
+  const std::string text = "time_to_fail,day\n3,1\n1,2\n2,2\n";
+  const FoundSessions found = Find(text, {.target = "time_to_fail"});
+  EXPECT_EQ(found.time_unit, "rows");
+  EXPECT_THAT(found.sessions.codes, ElementsAre(0, 1, 1));
+  EXPECT_THAT(Find(text, {.target = "day"}).sessions.column, IsEmpty());
+  EXPECT_THAT(
+      [&] { Find(text, {.target = "day", .session = "day"}); },
+      Refuses("column 'day' is the target or the weight; name another with "
+              "--session"));
+}
+
 TEST(AppendedTable, GoesOnWithTheRowsOfTheLater) {
   const CsvTable table =
       AppendedTable(ParseCsv("a,b\n1,x\n2,y\n", "one.csv"),

@@ -174,6 +174,16 @@ TEST(PenalizedPath, FoldsAreTakenAwayFromTheSumsOfAllRows) {
   }
 }
 
+TEST(PenalizedPath, HasTheInterceptAloneWithoutColumns) {
+  const Sample sample = MakeSample(20, 2, false, 71);
+  const CrossProducts sums = SumProducts(
+      MatrixXd(sample.terms.rows(), 0), sample.response, sample.weights);
+  for (const Penalty penalty : {Penalty::kRidge, Penalty::kLasso}) {
+    const PenalizedPath path(penalty, sums, true);
+    EXPECT_EQ(path.DegreesOfFreedom(1.0, VectorXd()), 1.0);
+  }
+}
+
 TEST(PenalizedPath, GoesThroughZeroWithoutAnIntercept) {
   const Sample sample = MakeSample(40, 3, false, 70);
   const CrossProducts sums =
