@@ -231,6 +231,7 @@ std::vector<std::size_t> NearTheBest(
 // the inputs differently is not: it is used unless a single map's error is
 // lower by more than what never matters. Of a few days, or of pieces of one
 // run, the lowest of many errors is chance: they never speak for a single map.
+// An average that a baseline beats is no map at all.
 std::optional<std::size_t> BlendToUse(
     const Holdout& holdout,
     const HoldoutComparison& comparison,
@@ -244,6 +245,10 @@ std::optional<std::size_t> BlendToUse(
     return is_blend(model) && is_map(model);
   });
   if (!blend) return std::nullopt;
+  const auto baseline = BestOf(comparison, study, Choice::kBaseline);
+  if (baseline && RmseOf(comparison, *baseline) < RmseOf(comparison, *blend)) {
+    return std::nullopt;
+  }
   const auto single = BestWhere(comparison, [&](std::size_t model) {
     return !is_blend(model) && is_map(model);
   });

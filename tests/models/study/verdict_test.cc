@@ -361,5 +361,29 @@ TEST(Verdict, NeverRecommendsPredictionsWithoutAMap) {
   EXPECT_EQ(judgement.recommendation->better_but_no_map, 2u);
 }
 
+// A wave in one run, which no straight line follows into the next block.
+TEST(Verdict, RecommendsNoBlendThatABaselineBeats) {
+  data::Dataset::Parts parts;
+  parts.source = "wave";
+  parts.inputs = {{"t1_degC", data::UnitOfColumn("t1_degC")}};
+  parts.input_values.resize(60, 1);
+  parts.target = {"error_mm", data::UnitOfColumn("error_mm")};
+  parts.target_values.resize(60);
+  for (Eigen::Index i = 0; i < 60; ++i) {
+    const double k = static_cast<double>(i);
+    parts.input_values(i, 0) = 20.0 + k;
+    parts.target_values[i] = std::sin(0.16 * k);
+  }
+  StudyResult study;
+  const Judgement judgement =
+      JudgeSpecs(data::Dataset(std::move(parts)),
+                 {"blocks:5"},
+                 {"mean", "blend:view=raw:terms=linear"},
+                 &study);
+  const auto& comparison = judgement.comparisons[0];
+  ASSERT_GT(comparison.tests.rmse[1], comparison.tests.rmse[0]);
+  EXPECT_EQ(study.models[judgement.recommendation->model].name, "mean");
+}
+
 }  // namespace
 }  // namespace errmap::models
