@@ -18,6 +18,7 @@
 #include "models/net/net_trainer.h"
 #include "models/net/net_tuning.h"
 #include "models/net/net_wfactor.h"
+#include "models/net/training_sample.h"
 #include "models/shared_work.h"
 
 namespace errmap::models {
@@ -208,6 +209,13 @@ class SpecNetRecipe final : public NetRecipe {
       throw std::invalid_argument(fmt::format(
           "model '{}': discrepancy= walks a path of its own", spec.text));
     }
+    if (options.IsWord("rows", "all")) {
+      most_rows_ = std::numeric_limits<Index>::max();
+      options.TakeText("rows", "");
+    } else {
+      most_rows_ = options.TakeInteger(
+          "rows", kMostRows, kFewestRows, std::numeric_limits<Index>::max());
+    }
     trainer_ = MakeNetTrainer(
         spec.type, walks_path_ ? RulesOfAStep(stopping_) : stopping_, &options);
     options.RefuseOthers();
@@ -249,6 +257,11 @@ class SpecNetRecipe final : public NetRecipe {
       all.push_back({"choose", StartRules()[chooses_start_by_cv_ ? 1 : 0]});
     }
     if (members_ > 1) all.push_back({"members", members_});
+    if (most_rows_ == std::numeric_limits<Index>::max()) {
+      all.push_back({"rows", std::string("all")});
+    } else if (most_rows_ != kMostRows) {
+      all.push_back({"rows", most_rows_});
+    }
     view_.Describe(&all);
     if (view_.given && !clips_) {
       all.push_back({"clip", std::string("none")});
@@ -290,9 +303,10 @@ class SpecNetRecipe final : public NetRecipe {
   double EffectiveParametersOf(const FittedModel& fitted,
                                const Dataset& training) const override {
     const SpecNetRecipe fixed = FixedTo(fitted);
+    const Dataset sample = Sample(training, most_rows_);
     const Dataset viewed = fitted.history != nullptr
-                               ? DeriveDataset(training, *fitted.history)
-                               : training;
+                               ? DeriveDataset(sample, *fitted.history)
+                               : sample;
     const NetRows rows = ScaleRows(fixed.design_, viewed);
     const ModelDescription description = fitted.model->Describe();
     // Of averaged starts the first speaks for the others.
@@ -308,12 +322,14 @@ class SpecNetRecipe final : public NetRecipe {
  private:
   FittedModel FitAlone(const Dataset& training,
                        const FitContext& context) const {
+    const Dataset sample = Sample(training, most_rows_);
     const std::vector<ViewedRows> views =
-        MakeViews(training, view_, context.indifference);
+        MakeViews(sample, view_, context.indifference);
     std::vector<TunedNet> tuned;
     std::vector<double> scores;
     for (const ViewedRows& viewed : views) {
-      tuned.push_back(Tune(*viewed.rows, views.size() > 1, context));
+      tuned.push_back(Tune(
+          Sample(*viewed.rows, kMostTuningRows), views.size() > 1, context));
       scores.push_back(tuned.back().rmse);
     }
     const std::size_t best = IndexOfLowest(scores);
@@ -339,8 +355,33 @@ class SpecNetRecipe final : public NetRecipe {
     }
     if (viewed.history != nullptr) {
       fitted = WithHistory(std::move(fitted), training, *viewed.history);
+    } else {
+      fitted.inputs = DescribeAllInputs(training);
+    }
+    if (sample.num_rows() < training.num_rows()) {
+      fitted.remarks.push_back(
+          fmt::format("trained on {} of {} rows, drawn from all over them "
+                      "(rows=all takes all)",
+                      sample.num_rows(),
+                      training.num_rows()));
     }
     return fitted;
+  }
+
+  static std::vector<Index> AllColumns(Index count) {
+    std::vector<Index> columns(static_cast<std::size_t>(count));
+    std::iota(columns.begin(), columns.end(), Index{0});
+    return columns;
+  }
+
+  static std::vector<TrainedInput> DescribeAllInputs(const Dataset& rows) {
+    return DescribeInputs(rows, AllColumns(rows.num_inputs()));
+  }
+
+  static Dataset Sample(const Dataset& rows, Index most) {
+    return rows.num_rows() <= most
+               ? rows
+               : rows.SelectRows(StratifiedRows(rows, most));
   }
 
   SpecNetRecipe FixedTo(const FittedModel& fitted) const {
@@ -373,15 +414,13 @@ class SpecNetRecipe final : public NetRecipe {
     fitted.kind = ModelKind::kNet;
     fitted.target = training.target();
     fitted.align = training.align();
-    std::vector<Index> columns(static_cast<std::size_t>(training.num_inputs()));
-    std::iota(columns.begin(), columns.end(), Index{0});
-    fitted.inputs = DescribeInputs(training, columns);
+    fitted.inputs = DescribeAllInputs(training);
     NetDesign design = design_;
     design.hidden = tuned.hidden;
     DescribeTuning(tuned, training, &fitted);
     const NetRows rows = ScaleRows(design, training);
     if (members_ > 1) {
-      AverageStarts(rows, tuned.wfactor, columns, context, &fitted);
+      AverageStarts(rows, tuned.wfactor, context, &fitted);
       return fitted;
     }
     fitting::Minimum minimum =
@@ -396,9 +435,9 @@ class SpecNetRecipe final : public NetRecipe {
 
   void AverageStarts(const NetRows& rows,
                      double wfactor,
-                     const std::vector<Index>& columns,
                      const FitContext& context,
                      FittedModel* fitted) const {
+    const std::vector<Index> columns = AllColumns(rows.training.shape.inputs);
     std::vector<std::uint64_t> seeds;
     for (std::int64_t k = 0; k < members_; ++k) {
       seeds.push_back(SeedOfStart(context.seed, k));
@@ -579,8 +618,14 @@ class SpecNetRecipe final : public NetRecipe {
     return starts;
   }
 
+  // Time grows with the rows, accuracy beyond these hardly.
+  static constexpr std::int64_t kMostRows = 20'000;
+  static constexpr Index kMostTuningRows = 5'000;
+  static constexpr std::int64_t kFewestRows = 100;
+
   std::string name_;
   ViewOptions view_;
+  Index most_rows_ = kMostRows;
   bool clips_ = true;
   std::int64_t members_ = 1;
   NetDesign design_;

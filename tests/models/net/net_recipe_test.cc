@@ -400,5 +400,24 @@ TEST(NetRecipe, CountsARowOfWeightTwoAsTwoRows) {
             kRounding * all.target_values().cwiseAbs().maxCoeff());
 }
 
+TEST(NetRecipe, TrainsOnAShareOfManyRows) {
+  const data::Dataset dataset = ShippedMeasurements();
+  const FittedModel some =
+      FitSpec("net:scg:rows=100:iterations=5:hidden=2", dataset);
+  EXPECT_THAT(some.remarks,
+              ::testing::Contains(HasSubstr("trained on 100 of 397 rows")));
+  // What it was trained for is the range of all rows.
+  const FittedModel all =
+      FitSpec("net:scg:rows=all:iterations=5:hidden=2", dataset);
+  EXPECT_THAT(all.remarks, ::testing::IsEmpty());
+  for (std::size_t i = 0; i < all.inputs.size(); ++i) {
+    EXPECT_EQ(some.inputs[i].min, all.inputs[i].min);
+    EXPECT_EQ(some.inputs[i].max, all.inputs[i].max);
+  }
+  EXPECT_EQ(OptionOf("net:scg:rows=all", "rows"), "all");
+  EXPECT_EQ(OptionOf("net:scg", "rows"), "-");
+  EXPECT_THAT(MessageOf("net:scg:rows=7"), HasSubstr("rows"));
+}
+
 }  // namespace
 }  // namespace errmap::models
