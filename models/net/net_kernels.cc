@@ -1,5 +1,7 @@
 #include "models/net/net_kernels.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <vector>
 
 #include "models/net/net_kernels_versions.h"
@@ -52,5 +54,33 @@ std::span<const NetKernels<float>> AvailableNetKernels<float>() {
 }
 
 #undef ERRMAP_ADDRESS
+
+namespace {
+
+template <typename Scalar>
+const NetKernels<Scalar>& WantedNetKernels() {
+  const auto available = AvailableNetKernels<Scalar>();
+  const char* wanted = std::getenv("ERRMAP_NET_KERNELS");
+  if (wanted != nullptr) {
+    const auto found =
+        std::ranges::find(available, wanted, &NetKernels<Scalar>::name);
+    if (found != available.end()) return *found;
+  }
+  return available.back();
+}
+
+}  // namespace
+
+template <>
+const NetKernels<double>& FastestNetKernels<double>() {
+  static const NetKernels<double>& kernels = WantedNetKernels<double>();
+  return kernels;
+}
+
+template <>
+const NetKernels<float>& FastestNetKernels<float>() {
+  static const NetKernels<float>& kernels = WantedNetKernels<float>();
+  return kernels;
+}
 
 }  // namespace errmap::models

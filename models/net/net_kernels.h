@@ -27,11 +27,26 @@ struct BlockSize {
   std::ptrdiff_t outputs = 0;
 };
 
-/// The elementwise work of a net over a block of patterns. What is written must
-/// not overlap anything else, except that y may stand in the place of s.
+/// The work of a net over a block of patterns. What is written must not overlap
+/// anything else, except that y may stand in the place of s. Each element of a
+/// product is summed in the order of the inner dimension.
 template <typename Scalar>
 struct NetKernels {
   std::string_view name;  // "plain", "baseline", "avx2" or "avx512"
+
+  /// s = w1 x (Eq. 14): w1 (height x inner), x (inner x columns).
+  void (*activate)(BlockSize size,
+                   std::ptrdiff_t inner,
+                   const Scalar* w1,
+                   const Scalar* x,
+                   Scalar* s);
+
+  /// d_w1 += delta x', of delta (height x columns) and the same x.
+  void (*add_products)(BlockSize size,
+                       std::ptrdiff_t inner,
+                       const Scalar* delta,
+                       const Scalar* x,
+                       Scalar* d_w1);
 
   /// y = 1 / (1 + e^-s) of n numbers, Eq. 18; 0 and 1 in the limits, NaN for
   /// NaN. Relative error below 4 epsilon (1 + |s|), the size of
@@ -81,10 +96,9 @@ const NetKernels<Scalar>& PlainNetKernels();
 template <typename Scalar>
 std::span<const NetKernels<Scalar>> AvailableNetKernels();
 
-/// The fastest of them.
+/// The fastest of them, or that whose name the environment variable
+/// ERRMAP_NET_KERNELS has when the program begins to use them.
 template <typename Scalar>
-const NetKernels<Scalar>& FastestNetKernels() {
-  return AvailableNetKernels<Scalar>().back();
-}
+const NetKernels<Scalar>& FastestNetKernels();
 
 }  // namespace errmap::models

@@ -1,11 +1,40 @@
 #include <cmath>
 
+#include <Eigen/Core>
+
 #include "models/net/net_kernels.h"
 
 namespace errmap::models {
 namespace {
 
-// Nothing but the formulas, summed in order.
+// Nothing but the formulas, summed in order; the products as Eigen has them.
+
+template <typename Scalar>
+using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+template <typename Scalar>
+using ConstMap = Eigen::Map<const Matrix<Scalar>>;
+
+template <typename Scalar>
+void Activate(BlockSize size,
+              std::ptrdiff_t inner,
+              const Scalar* w1,
+              const Scalar* x,
+              Scalar* s) {
+  Eigen::Map<Matrix<Scalar>>(s, size.height, size.columns).noalias() =
+      ConstMap<Scalar>(w1, size.height, inner) *
+      ConstMap<Scalar>(x, inner, size.columns);
+}
+
+template <typename Scalar>
+void AddProducts(BlockSize size,
+                 std::ptrdiff_t inner,
+                 const Scalar* delta,
+                 const Scalar* x,
+                 Scalar* d_w1) {
+  Eigen::Map<Matrix<Scalar>>(d_w1, size.height, inner).noalias() +=
+      ConstMap<Scalar>(delta, size.height, size.columns) *
+      ConstMap<Scalar>(x, inner, size.columns).transpose();
+}
 
 template <typename Scalar>
 void Logistic(std::ptrdiff_t n, const Scalar* s, Scalar* y) {
@@ -96,6 +125,8 @@ void Backward(BlockSize size,
 template <typename Scalar>
 const NetKernels<Scalar>& Kernels() {
   static const NetKernels<Scalar> kernels = {"plain",
+                                             Activate<Scalar>,
+                                             AddProducts<Scalar>,
                                              Logistic<Scalar>,
                                              Forward<Scalar>,
                                              ForwardAlong<Scalar>,

@@ -13,15 +13,23 @@ namespace {
 
 using Eigen::Index;
 
-// A block's hidden quantities stay in the second-level cache.
-constexpr Index kBlockBytes = Index{256} << 10;
+// What a block reads and writes stays in the first-level cache, beside the
+// weights: its patterns and a hidden quantity.
+constexpr Index kBlockBytes = Index{128} << 10;
+
+// Sums of the 1995 program's arithmetic go over more patterns at a time.
+constexpr Index kPlainBlockBytes = Index{256} << 10;
 
 template <typename Scalar>
-Index BlockFor(Index height, Index num_patterns) {
-  constexpr Index kLeast = 16;
-  const Index columns = std::max(
-      kLeast, kBlockBytes / (height * static_cast<Index>(sizeof(Scalar))));
-  return std::min(columns, num_patterns);
+Index BlockFor(Index height, Index inner, NetArithmetic arithmetic) {
+  constexpr Index kTile = 12;  // a multiple of every product's tile
+  constexpr Index kFewest = 16;
+  constexpr auto kBytes = static_cast<Index>(sizeof(Scalar));
+  if (arithmetic == NetArithmetic::kPlain) {
+    return std::max(kFewest, kPlainBlockBytes / (height * kBytes));
+  }
+  const Index tiles = kBlockBytes / ((height + inner) * kBytes) / kTile;
+  return std::max(tiles, Index{1}) * kTile;
 }
 
 template <typename Scalar>
@@ -66,8 +74,9 @@ NetProblem<Scalar> MakeProblem(const NetShape& shape,
   problem.decay =
       static_cast<Scalar>(wfactor / static_cast<double>(shape.num_weights()));
   problem.height = PaddedHeight<Scalar>(shape.hidden);
-  problem.block = BlockFor<Scalar>(problem.height, num_patterns);
-  problem.arithmetic = arithmetic;
+  problem.block =
+      std::min(BlockFor<Scalar>(problem.height, shape.inputs + 1, arithmetic),
+               num_patterns);
   problem.kernels = arithmetic == NetArithmetic::kPlain
                         ? &PlainNetKernels<Scalar>()
                         : &FastestNetKernels<Scalar>();

@@ -64,8 +64,8 @@ void NetPath<Scalar>::Renew() {
   w_squared_ = static_cast<double>(w_.squaredNorm());
   weights_.Pack(problem_.shape, w_);
   if (!keeps_) return;
-  problem_.Activate(weights_.w1, 0, problem_.num_patterns(), s_.data());
   ForEachBlock([&](Index begin, Index columns) {
+    problem_.Activate(weights_.w1, begin, columns, s_.column(begin));
     problem_.kernels->forward(problem_.Size(columns),
                               s_.column(begin),
                               weights_.w2.data(),
@@ -91,9 +91,9 @@ typename NetPath<Scalar>::Block NetPath<Scalar>::At(Index begin,
 
 template <typename Scalar>
 const Scalar* NetPath<Scalar>::AlongDirection(Index begin, Index columns) {
-  if (keeps_) return t_.column(begin);
-  problem_.Activate(direction_.w1, begin, columns, t_.data());
-  return t_.data();
+  Scalar* t = keeps_ ? t_.column(begin) : t_.data();
+  if (!has_t_) problem_.Activate(direction_.w1, begin, columns, t);
+  return t;
 }
 
 template <typename Scalar>
@@ -103,9 +103,7 @@ void NetPath<Scalar>::SetDirection(const Vector& p) {
   w_along_ = static_cast<double>(p_.dot(w_));
   direction_.Pack(problem_.shape, p_);
   has_trial_ = false;
-  if (keeps_) {
-    problem_.Activate(direction_.w1, 0, problem_.num_patterns(), t_.data());
-  }
+  has_t_ = false;
 }
 
 template <typename Scalar>
@@ -128,6 +126,7 @@ Scalar NetPath<Scalar>::Curvature() {
                            first_.data(),
                            second_.data());
   });
+  has_t_ = keeps_;
   // Cost halves the sum of squares, whose second derivative is twice `sum`.
   return static_cast<Scalar>(Cost(problem_, 2.0 * sum, 2.0 * p_squared_));
 }
@@ -143,7 +142,7 @@ Scalar NetPath<Scalar>::Value(Scalar a) {
     if (keeps_) {
       problem_.kernels->forward_along(problem_.Size(columns),
                                       s_.column(begin),
-                                      t_.column(begin),
+                                      AlongDirection(begin, columns),
                                       a,
                                       trial_.w2.data(),
                                       trial_s_.column(begin),
@@ -156,6 +155,7 @@ Scalar NetPath<Scalar>::Value(Scalar a) {
     }
     sum += Outputs(problem_, begin, columns, trial_.bias, z);
   });
+  has_t_ = keeps_;
   const auto step = static_cast<double>(a);
   return static_cast<Scalar>(Cost(
       problem_, sum, w_squared_ + step * (2.0 * w_along_ + step * p_squared_)));

@@ -55,6 +55,7 @@ class NetPath final : public fitting::Path<Scalar> {
   double p_squared_ = 0.0;  // |p|^2
   Scalar trial_a_ = 0;
   bool has_trial_ = false;
+  bool has_t_ = false;
   int accepted_ = 0;
   // (height x P) where kept, else of one block.
   AlignedMatrix<Scalar> s_;

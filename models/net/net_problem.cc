@@ -1,7 +1,5 @@
 #include "models/net/net_problem.h"
 
-#include "fitting/matrix_product.h"
-
 namespace errmap::models {
 
 using Eigen::Index;
@@ -11,13 +9,8 @@ void NetProblem<Scalar>::Activate(const AlignedMatrix<Scalar>& w1,
                                   Index begin,
                                   Index columns,
                                   Scalar* s) const {
-  Eigen::Map<Matrix> to(s, height, columns);
-  const auto inputs = patterns.middleCols(begin, columns);
-  if (arithmetic == NetArithmetic::kPlain) {
-    to.noalias() = w1.all() * inputs;
-  } else {
-    fitting::Multiply(w1.all(), inputs, to);
-  }
+  kernels->activate(
+      Size(columns), patterns.rows(), w1.data(), patterns.col(begin).data(), s);
 }
 
 template <typename Scalar>
@@ -191,13 +184,11 @@ void GradientSum<Scalar>::Add(Index begin,
       sum_.bias[j] += d_output_[p * problem_.shape.outputs + j];
     }
   }
-  const auto block = problem_.patterns.middleCols(begin, columns);
-  if (problem_.arithmetic == NetArithmetic::kPlain) {
-    sum_.w1.all().noalias() += delta_.columns(0, columns) * block.transpose();
-  } else {
-    fitting::MultiplyTransposed(
-        delta_.columns(0, columns), block, sum_.w1.all(), true);
-  }
+  problem_.kernels->add_products(problem_.Size(columns),
+                                 problem_.patterns.rows(),
+                                 delta_.data(),
+                                 problem_.patterns.col(begin).data(),
+                                 sum_.w1.data());
 }
 
 template <typename Scalar>

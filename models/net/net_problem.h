@@ -11,7 +11,7 @@ namespace errmap::models {
 
 /// How sums and the logistic function are worked out.
 enum class NetArithmetic {
-  kFast,   // OpenBLAS and the widest vectors: a machine's own last digits
+  kFast,   // the widest vectors: a machine's own last digits
   kPlain,  // as the formulas stand: the last digits of the 1995 program
 };
 
@@ -50,7 +50,6 @@ struct NetProblem {
   Scalar decay = 0;         // wfactor / N
   Eigen::Index height = 0;  // H, padded
   Eigen::Index block = 0;   // patterns worked on at a time
-  NetArithmetic arithmetic = NetArithmetic::kFast;
   const NetKernels<Scalar>* kernels = nullptr;
 
   Eigen::Index num_patterns() const { return patterns.cols(); }

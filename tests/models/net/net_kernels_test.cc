@@ -228,6 +228,59 @@ double Roundings(std::ptrdiff_t terms, double size) {
          static_cast<double>(std::numeric_limits<Scalar>::epsilon());
 }
 
+TYPED_TEST(NetKernelsIn, ProductsAreTheFormulasAndTheLatterAdds) {
+  using Scalar = TypeParam;
+  for (const BlockSize size : BlockSizes<Scalar>()) {
+    if (size.outputs > 1) continue;  // they have no part
+    for (const std::ptrdiff_t inner : {1, 5, 12, 38}) {
+      Block<Scalar> block(size, 8);
+      const auto count = [](std::ptrdiff_t rows, std::ptrdiff_t columns) {
+        return static_cast<std::size_t>(rows * columns);
+      };
+      const auto w1 = block.Draw(count(size.height, inner), 1.0);
+      const auto x = block.Draw(count(inner, size.columns), 1.0);
+      const auto before = block.Draw(count(size.height, inner), 1.0);
+      const auto x_at = [&](std::ptrdiff_t i, std::ptrdiff_t column) {
+        return Exact(x[static_cast<std::size_t>(column * inner + i)]);
+      };
+      for (const auto& kernels : AllKernels<Scalar>()) {
+        SCOPED_TRACE(::testing::Message()
+                     << kernels.name << " " << size.height << " x " << inner
+                     << " x " << size.columns);
+        std::vector<Scalar> s(block.s.size());
+        kernels.activate(size, inner, w1.data(), x.data(), s.data());
+        std::vector<Scalar> d_w1 = before;
+        kernels.add_products(
+            size, inner, block.s.data(), x.data(), d_w1.data());
+        double worst_s = 0.0;
+        double worst_sum = 0.0;
+        for (std::ptrdiff_t h = 0; h < size.height; ++h) {
+          for (std::ptrdiff_t column = 0; column < size.columns; ++column) {
+            Exact sum = 0.0L;
+            for (std::ptrdiff_t i = 0; i < inner; ++i) {
+              sum += w1[block.At(h, i)] * x_at(i, column);
+            }
+            worst_s = std::max(
+                worst_s,
+                static_cast<double>(std::abs(s[block.At(h, column)] - sum)));
+          }
+          for (std::ptrdiff_t i = 0; i < inner; ++i) {
+            Exact sum = before[block.At(h, i)];
+            for (std::ptrdiff_t column = 0; column < size.columns; ++column) {
+              sum += block.s[block.At(h, column)] * x_at(i, column);
+            }
+            worst_sum = std::max(
+                worst_sum,
+                static_cast<double>(std::abs(d_w1[block.At(h, i)] - sum)));
+          }
+        }
+        EXPECT_LE(worst_s, Roundings<Scalar>(inner, 1.0));
+        EXPECT_LE(worst_sum, Roundings<Scalar>(size.columns + 1, 4.0));
+      }
+    }
+  }
+}
+
 TYPED_TEST(NetKernelsIn, ForwardIsTheFormula) {
   using Scalar = TypeParam;
   for (const BlockSize size : BlockSizes<Scalar>()) {
