@@ -53,6 +53,7 @@ void FoldIntoTriangle(MatrixXd* triangle, Eigen::Ref<MatrixXd> block) {
   std::vector<double> work(static_cast<std::size_t>(panel) *
                            static_cast<std::size_t>(columns));
   int info = 0;
+  UseOneThreadPerCall();
   dtpqrt_(&rows,
           &columns,
           &kRectangular,
@@ -83,7 +84,6 @@ MatrixXd ReduceToTriangle(Index rows,
   Require(
       options.block_rows >= 1 && options.chains >= 1 && options.threads >= 1,
       "block_rows, chains and threads must be at least 1");
-  UseOneThreadPerCall();
   const Index blocks = (rows + options.block_rows - 1) / options.block_rows;
   const Index chains = std::clamp<Index>(blocks, 1, options.chains);
   std::vector<MatrixXd> triangles(static_cast<std::size_t>(chains),
