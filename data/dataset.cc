@@ -48,8 +48,9 @@ void CheckLog(const SessionLog& log,
               Eigen::Index num_inputs,
               Eigen::Index num_rows) {
   const Eigen::Index in_log = log.time.size();
-  CheckSize("columns of log.input_values", log.input_values.cols(), num_inputs);
-  if (num_inputs > 0) {
+  if (log.input_values.size() != 0) {
+    CheckSize(
+        "columns of log.input_values", log.input_values.cols(), num_inputs);
     CheckSize("rows of log.input_values", log.input_values.rows(), in_log);
   }
   if (!log.time.allFinite()) {

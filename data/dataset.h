@@ -40,7 +40,7 @@ struct SessionLog {
   std::vector<Eigen::Index> first_rows;  // (sessions) first row that was kept
   Eigen::VectorXd time;   // (rows) finite, never falling within a session
   std::string time_unit;  // "s", or "rows": the number of the row
-  Eigen::MatrixXd input_values;  // (rows x p) NaN where a cell holds no number
+  Eigen::MatrixXd input_values;  // (rows x p) NaN: no number; (0 x 0): made
 };
 
 /// What is taken off the target: the value of the session's first row, as of a

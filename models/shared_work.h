@@ -16,6 +16,10 @@ namespace errmap::models {
 /// key nor run other fits meanwhile. Safe to use from several threads.
 class SharedWork {
  public:
+  /// Whether every penalty of a basis will be asked for, as blends do: one pass
+  /// over the rows then makes them all.
+  bool every_penalty = false;
+
   template <typename Result>
   std::shared_ptr<const Result> Get(
       const std::string& key,

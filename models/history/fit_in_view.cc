@@ -56,8 +56,7 @@ FittedModel FitInView(const Dataset& training,
                       bool guarded,
                       const FitContext& context,
                       const FitRows& fit) {
-  const std::vector<ViewedRows> views =
-      MakeViews(training, options, context.indifference);
+  const std::vector<ViewedRows> views = SharedViews(training, options, context);
   const ViewedRows* chosen = &views.front();
   std::string tried;
   double least = std::numeric_limits<double>::quiet_NaN();

@@ -79,27 +79,41 @@ double LeapOf(const data::SessionLog& log) {
 }
 
 Derived DeriveLog(const data::SessionLog& log,
+                  const std::vector<Index>& log_rows,
                   const std::vector<Index>& columns,
                   HistoryState state) {
-  // Readings by row, so that each stands together in memory.
-  const MatrixXd readings = log.input_values(Eigen::all, columns).transpose();
-  MatrixXd derived(static_cast<Index>(state.form_columns().size()),
-                   log.time.size());
+  // Where in the result each row of the log goes; most views are large.
+  std::vector<Index> place(static_cast<std::size_t>(log.time.size()), -1);
+  std::vector<std::pair<Index, Index>> again;  // rows that stand there twice
+  for (std::size_t i = 0; i < log_rows.size(); ++i) {
+    Index& to = place[static_cast<std::size_t>(log_rows[i])];
+    if (to >= 0) again.emplace_back(static_cast<Index>(i), to);
+    to = static_cast<Index>(i);
+  }
+  MatrixXd derived(static_cast<Index>(log_rows.size()),
+                   static_cast<Index>(state.form_columns().size()));
+  Eigen::VectorXd reading(static_cast<Index>(columns.size()));
   const std::vector<std::vector<Index>> sessions = RowsOfSessions(log);
   for (std::size_t s = 0; s < sessions.size(); ++s) {
     Index before = -1;
     for (const Index row : sessions[s]) {
+      reading = log.input_values(row, columns);
       if (before < 0) {
-        state.Start(readings.col(row));
+        state.Start(reading);
       } else {
-        state.Step(log.time[row] - log.time[before], readings.col(row));
+        state.Step(log.time[row] - log.time[before], reading);
       }
       if (row == log.first_rows[s] && before >= 0) state.TakeZero();
-      derived.col(row) = state.form_inputs();
+      const Index to = place[static_cast<std::size_t>(row)];
+      if (to >= 0) derived.row(to) = state.form_inputs();
       before = row;
     }
   }
-  return {state.form_columns(), derived.transpose()};
+  // Backwards: of three the last was written.
+  for (auto pair = again.rbegin(); pair != again.rend(); ++pair) {
+    derived.row(pair->second) = derived.row(pair->first);
+  }
+  return {state.form_columns(), std::move(derived)};
 }
 
 // Angles alone need no log: any row by itself will do.
@@ -124,6 +138,10 @@ void RequireLog(const data::Dataset& dataset, const History& history) {
         "the map has a memory, and the sessions of {} are not known",
         dataset.source()));
   }
+  if (dataset.log()->input_values.size() == 0) {
+    throw std::invalid_argument("the inputs of " + dataset.source() +
+                                " are derived already");
+  }
   const std::string& unit = dataset.log()->time_unit;
   if (history.needs_time() && unit != history.time_unit) {
     throw std::invalid_argument(
@@ -134,13 +152,16 @@ void RequireLog(const data::Dataset& dataset, const History& history) {
   }
 }
 
-// Of the log where there is one, else of the rows.
+// Of every row, by the log where there is one.
 Derived Derive(const data::Dataset& dataset, const History& history) {
   RequireLog(dataset, history);
   const std::vector<Index> columns = FindColumns(dataset, history.columns());
   HistoryState state(history, InfoOf(dataset, columns));
   return dataset.log() != nullptr
-             ? DeriveLog(*dataset.log(), columns, std::move(state))
+             ? DeriveLog(*dataset.log(),
+                         dataset.log_rows(),
+                         columns,
+                         std::move(state))
              : DeriveRows(dataset, columns, std::move(state));
 }
 
@@ -262,9 +283,7 @@ std::vector<bool> BeginInside(const data::SessionLog& log,
 }
 
 MatrixXd DeriveInputs(const data::Dataset& dataset, const History& history) {
-  const Derived derived = Derive(dataset, history);
-  if (dataset.log() == nullptr) return derived.values;
-  return derived.values(dataset.log_rows(), Eigen::all);
+  return Derive(dataset, history).values;
 }
 
 data::Dataset DeriveDataset(const data::Dataset& dataset,
@@ -272,25 +291,21 @@ data::Dataset DeriveDataset(const data::Dataset& dataset,
   Derived derived = Derive(dataset, history);
   data::Dataset::Parts parts{.source = dataset.source(),
                              .inputs = std::move(derived.columns),
-                             .input_values = {},
+                             .input_values = std::move(derived.values),
                              .target = dataset.target(),
                              .target_values = dataset.target_values(),
                              .groups = dataset.groups(),
                              .weights = dataset.weights(),
                              .rows = dataset.rows(),
                              .align = dataset.align()};
-  if (dataset.log() == nullptr) {
-    parts.input_values = std::move(derived.values);
-    return data::Dataset(std::move(parts));
-  }
-  parts.input_values = derived.values(dataset.log_rows(), Eigen::all);
+  if (dataset.log() == nullptr) return data::Dataset(std::move(parts));
   parts.log_rows = dataset.log_rows();
+  // What is derived already is not derived again: sessions and times serve.
   auto log = std::make_shared<data::SessionLog>();
   log->sessions = dataset.log()->sessions;
   log->first_rows = dataset.log()->first_rows;
   log->time = dataset.log()->time;
   log->time_unit = dataset.log()->time_unit;
-  log->input_values = std::move(derived.values);
   parts.log = std::move(log);
   return data::Dataset(std::move(parts));
 }

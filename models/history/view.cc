@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "models/shared_work.h"
+
 namespace errmap::models {
 namespace {
 
@@ -213,6 +215,18 @@ void ViewOptions::Describe(std::vector<EffectiveOption>* options) const {
   }
 }
 
+std::string ViewOptions::Key() const {
+  std::vector<EffectiveOption> options;
+  Describe(&options);
+  std::string key;
+  for (const EffectiveOption& option : options) {
+    if (option.key == "view") continue;
+    key +=
+        fmt::format("{}={} ", option.key, std::get<std::string>(option.value));
+  }
+  return key;
+}
+
 bool IsPosition(const data::ColumnInfo& column) {
   constexpr std::string_view kWord = "position";
   return std::ranges::equal(
@@ -334,6 +348,23 @@ std::vector<ViewedRows> MakeViews(const Dataset& training,
     views.push_back(std::move(viewed));
   }
   return views;
+}
+
+std::vector<ViewedRows> SharedViews(const Dataset& training,
+                                    const ViewOptions& options,
+                                    const FitContext& context) {
+  if (context.shared == nullptr) {
+    return MakeViews(training, options, context.indifference);
+  }
+  const std::string view =
+      !options.given
+          ? "none"
+          : std::string(options.view ? ToString(*options.view) : "auto");
+  return *context.shared->Get<std::vector<ViewedRows>>(
+      fmt::format("views {} {}", view, options.Key()), [&] {
+        return std::make_shared<const std::vector<ViewedRows>>(
+            MakeViews(training, options, context.indifference));
+      });
 }
 
 }  // namespace errmap::models

@@ -43,6 +43,8 @@ struct ViewOptions {
   bool TakeClip(SpecOptions* options) const;
   /// Those that are not the default.
   void Describe(std::vector<EffectiveOption>* options) const;
+  /// Words that tell which views MakeViews gives, but for the view alone.
+  std::string Key() const;
 };
 
 /// Training rows in one view.
@@ -64,6 +66,12 @@ struct ViewedRows {
 std::vector<ViewedRows> MakeViews(const data::Dataset& training,
                                   const ViewOptions& options,
                                   double indifference);
+
+/// The same of the rows that are fitted, made once for all recipes that share
+/// context.shared.
+std::vector<ViewedRows> SharedViews(const data::Dataset& training,
+                                    const ViewOptions& options,
+                                    const FitContext& context);
 
 /// The median length of the sessions of `training` / 100, / 30 and / 10: what
 /// serves where nothing is known of the machine. Empty without a length.

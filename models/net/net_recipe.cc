@@ -322,9 +322,12 @@ class SpecNetRecipe final : public NetRecipe {
  private:
   FittedModel FitAlone(const Dataset& training,
                        const FitContext& context) const {
-    const Dataset sample = Sample(training, most_rows_);
+    const bool takes_all = training.num_rows() <= most_rows_;
     const std::vector<ViewedRows> views =
-        MakeViews(sample, view_, context.indifference);
+        takes_all
+            ? SharedViews(training, view_, context)
+            : MakeViews(
+                  Sample(training, most_rows_), view_, context.indifference);
     std::vector<TunedNet> tuned;
     std::vector<double> scores;
     for (const ViewedRows& viewed : views) {
@@ -358,11 +361,11 @@ class SpecNetRecipe final : public NetRecipe {
     } else {
       fitted.inputs = DescribeAllInputs(training);
     }
-    if (sample.num_rows() < training.num_rows()) {
+    if (!takes_all) {
       fitted.remarks.push_back(
           fmt::format("trained on {} of {} rows, drawn from all over them "
                       "(rows=all takes all)",
-                      sample.num_rows(),
+                      viewed.rows->num_rows(),
                       training.num_rows()));
     }
     return fitted;

@@ -73,68 +73,132 @@ void ClipColumns(const VectorXd& min,
   }
 }
 
-// The rows of one basis: sums and ranges of each inner fold.
-class BasisRows {
+std::vector<bool> ExcludedTerms(const PenalizedBasis& basis,
+                                const PolynomialDesign& design) {
+  std::vector<bool> excluded(static_cast<std::size_t>(design.num_terms()),
+                             false);
+  std::vector<std::string> names;
+  for (const data::ColumnInfo& input : design.dataset().inputs()) {
+    names.push_back(input.name);
+  }
+  for (const TermPowers& powers :
+       ResolveTerms(basis.exclude, names, "exclude")) {
+    const auto at = std::ranges::find(design.terms(), powers);
+    if (at == design.terms().end()) {
+      throw std::invalid_argument(
+          fmt::format("exclude: {} is not among the {} terms up to degree {}",
+                      TermName(powers, names),
+                      ToString(basis.terms),
+                      basis.degree));
+    }
+    excluded[static_cast<std::size_t>(at - design.terms().begin())] = true;
+  }
+  return excluded;
+}
+
+PolynomialDesign MakeDesign(const ViewedRows& viewed,
+                            const PenalizedBasis& basis) {
+  constexpr Index kMostTerms = 4000;  // 128 MB of products for each inner fold
+  const auto count = CountTerms(basis.terms, viewed.is_position, basis.degree);
+  if (!count || *count > kMostTerms) {
+    throw std::invalid_argument(fmt::format(
+        "degree {} in {} inputs makes {} terms, at most {} can be held; use a "
+        "lower degree, fewer inputs or terms=squares",
+        basis.degree,
+        viewed.is_position.size(),
+        count ? std::to_string(*count) : "countless",
+        kMostTerms));
+  }
+  const Dataset& rows = *viewed.rows;
+  std::vector<TermPowers> terms =
+      MakeTerms(basis.terms, viewed.is_position, basis.degree);
+  std::vector<Index> inputs = AllColumns(rows);
+  ColumnScaling scaling;
+  if (basis.centring != Centring::kStandardised) {
+    scaling = PolynomialScaling(rows, inputs, terms, basis.centring);
+  } else if (viewed.intercept) {
+    scaling = StandardScaling(rows.input_values());
+  } else {
+    scaling = RootMeanSquareScaling(rows.input_values());
+  }
+  return {rows, std::move(inputs), std::move(scaling), std::move(terms)};
+}
+
+}  // namespace
+
+class SummedBasis {
  public:
-  BasisRows(const PolynomialDesign& design,
-            const std::vector<bool>& excluded,
-            const InnerFolds* folds,
-            const FitContext& context)
-      : design_(design),
-        excluded_(excluded),
-        folds_(folds),
-        context_(context),
-        inputs_(design.ScaledInputs()) {
-    const Index n = design.rows();
-    members_.resize(
-        folds == nullptr ? 1 : static_cast<std::size_t>(folds->folds.count()));
+  SummedBasis(std::shared_ptr<const ViewedRows> viewed,
+              const PenalizedBasis& basis,
+              const InnerFolds* folds,
+              const FitContext& context)
+      : viewed_(std::move(viewed)),
+        design_(std::make_shared<const PolynomialDesign>(
+            MakeDesign(*viewed_, basis))),
+        excluded_(ExcludedTerms(basis, *design_)),
+        guarded_(basis.guarded),
+        stop_(context.stop) {
+    if (folds != nullptr) folds_ = *folds;
+    const Index n = design_->rows();
+    if (folds_ && (static_cast<Index>(folds_->folds.codes.size()) != n ||
+                   folds_->folds.count() < 2)) {
+      throw std::invalid_argument(
+          "the penalty is chosen by cross-validation, which needs a fold for "
+          "each row and at least 2 folds");
+    }
+    members_.resize(folds_ ? static_cast<std::size_t>(folds_->folds.count())
+                           : 1);
     for (Index row = 0; row < n; ++row) {
       const Index fold =
-          folds == nullptr ? 0
-                           : folds->folds.codes[static_cast<std::size_t>(row)];
+          folds_ ? folds_->folds.codes[static_cast<std::size_t>(row)] : 0;
       members_[static_cast<std::size_t>(fold)].push_back(row);
     }
     for (const std::vector<Index>& rows : members_) {
-      sums_.push_back(fitting::NoRows(design.num_terms()));
-      ranges_.emplace_back(inputs_.cols());
+      sums_.push_back(fitting::NoRows(design_->num_terms()));
+      ranges_.emplace_back(static_cast<Index>(design_->inputs().size()));
       ForBlocks(rows, [&](const std::vector<Index>& block) {
-        const MatrixXd inputs = inputs_(block, Eigen::all);
+        const MatrixXd inputs = Inputs(block);
         const VectorXd targets = Targets(block);
         ranges_.back().Include(inputs, targets);
         sums_.back() +=
             fitting::SumProducts(Terms(inputs), targets, Weights(block));
       });
     }
+    all_ = sums_.front();
+    for (std::size_t fold = 1; fold < sums_.size(); ++fold) {
+      all_ += sums_[fold];
+    }
   }
 
-  CrossProducts All() const {
-    CrossProducts all = sums_.front();
-    for (std::size_t fold = 1; fold < sums_.size(); ++fold) all += sums_[fold];
-    return all;
+  const std::shared_ptr<const ViewedRows>& viewed() const { return viewed_; }
+  const std::shared_ptr<const PolynomialDesign>& design() const {
+    return design_;
   }
+  // Nothing where the penalty is given.
+  const std::optional<InnerFolds>& inner() const { return folds_; }
+  const CrossProducts& All() const { return all_; }
 
   // Of the rows that predict a fold.
-  CrossProducts TrainingOf(Index fold, const CrossProducts& all) const {
+  CrossProducts TrainingOf(Index fold) const {
     if (!folds_->folds.forward) {
-      CrossProducts others = all;
+      CrossProducts others = all_;
       others -= sums_[static_cast<std::size_t>(fold)];
       return others;
     }
-    CrossProducts earlier = fitting::NoRows(design_.num_terms());
+    CrossProducts earlier = fitting::NoRows(design_->num_terms());
     for (Index f = 0; f < fold; ++f) {
       earlier += sums_[static_cast<std::size_t>(f)];
     }
     return earlier;
   }
 
-  // Predictions (rows of the fold x solutions), clipped where `guarded`.
+  // Predictions (rows of the fold x solutions), clipped where guarded.
   template <typename Take>
   void PredictFold(Index fold,
                    const fitting::PenalizedPath::Solutions& solutions,
-                   bool guarded,
                    Take&& take) const {
     const Guards margins;
-    Ranges trained(inputs_.cols());
+    Ranges trained(static_cast<Index>(design_->inputs().size()));
     for (Index f = 0; f < folds_->folds.count(); ++f) {
       if (f != fold && (!folds_->folds.forward || f < fold)) {
         trained.Include(ranges_[static_cast<std::size_t>(f)]);
@@ -144,8 +208,8 @@ class BasisRows {
         margins.error_margin * (trained.error_max - trained.error_min);
     ForBlocks(members_[static_cast<std::size_t>(fold)],
               [&](const std::vector<Index>& block) {
-                MatrixXd inputs = inputs_(block, Eigen::all);
-                if (guarded) {
+                MatrixXd inputs = Inputs(block);
+                if (guarded_) {
                   ClipColumns(trained.input_min,
                               trained.input_max,
                               margins.input_margin,
@@ -153,7 +217,7 @@ class BasisRows {
                 }
                 MatrixXd predicted = Terms(inputs) * solutions.coefficients;
                 predicted.rowwise() += solutions.intercepts.transpose();
-                if (guarded) {
+                if (guarded_) {
                   predicted = predicted.cwiseMax(trained.error_min - widened)
                                   .cwiseMin(trained.error_max + widened);
                 }
@@ -162,16 +226,22 @@ class BasisRows {
   }
 
   VectorXd Targets(const std::vector<Index>& rows) const {
-    return design_.dataset().target_values()(rows);
+    return design_->dataset().target_values()(rows);
   }
   VectorXd Weights(const std::vector<Index>& rows) const {
-    const VectorXd& weights = design_.dataset().weights();
+    const VectorXd& weights = design_->dataset().weights();
     return weights.size() == 0 ? VectorXd() : VectorXd(weights(rows));
   }
 
  private:
+  MatrixXd Inputs(const std::vector<Index>& rows) const {
+    const MatrixXd inputs =
+        design_->dataset().input_values()(rows, design_->inputs());
+    return design_->scaling().Apply(inputs);
+  }
+
   MatrixXd Terms(const MatrixXd& inputs) const {
-    MatrixXd terms = TermMatrix(inputs, design_.terms());
+    MatrixXd terms = TermMatrix(inputs, design_->terms());
     // A column of zeros takes no part.
     for (Index j = 0; j < terms.cols(); ++j) {
       if (excluded_[static_cast<std::size_t>(j)]) terms.col(j).setZero();
@@ -182,7 +252,7 @@ class BasisRows {
   template <typename Work>
   void ForBlocks(const std::vector<Index>& rows, Work&& work) const {
     for (std::size_t first = 0; first < rows.size(); first += kBlockRows) {
-      if (context_.stop != nullptr && context_.stop->load()) {
+      if (stop_ != nullptr && stop_->load()) {
         throw std::invalid_argument("interrupted");
       }
       const std::size_t last =
@@ -193,36 +263,32 @@ class BasisRows {
     }
   }
 
-  const PolynomialDesign& design_;
-  const std::vector<bool>& excluded_;
-  const InnerFolds* folds_;  // null: none
-  const FitContext& context_;
-  MatrixXd inputs_;  // (n x p) scaled
+  std::shared_ptr<const ViewedRows> viewed_;
+  std::shared_ptr<const PolynomialDesign> design_;
+  std::vector<bool> excluded_;
+  bool guarded_;
+  const std::atomic<bool>* stop_;
+  std::optional<InnerFolds> folds_;
   std::vector<std::vector<Index>> members_;
   std::vector<CrossProducts> sums_;
   std::vector<Ranges> ranges_;
+  CrossProducts all_;
 };
+
+namespace {
 
 // What the inner hold-outs say of each strength tried.
 class StrengthSearch {
  public:
-  StrengthSearch(const BasisRows& rows,
-                 const CrossProducts& all,
-                 const InnerFolds& folds,
-                 Penalty penalty,
-                 bool intercept,
-                 bool guarded,
-                 double indifference,
-                 Index num_rows)
+  StrengthSearch(const SummedBasis& rows, Penalty penalty, double indifference)
       : rows_(rows),
-        folds_(folds),
-        guarded_(guarded),
+        folds_(*rows.inner()),
         indifference_(indifference),
-        keeps_(num_rows <= kMostKept),
-        num_rows_(num_rows) {
-    for (Index fold = folds.folds.first_judged(); fold < folds.folds.count();
+        keeps_(rows.design()->rows() <= kMostKept) {
+    for (Index fold = folds_.folds.first_judged(); fold < folds_.folds.count();
          ++fold) {
-      paths_.emplace_back(penalty, rows.TrainingOf(fold, all), intercept);
+      paths_.emplace_back(
+          penalty, rows.TrainingOf(fold), rows.viewed()->intercept);
     }
   }
 
@@ -233,12 +299,13 @@ class StrengthSearch {
     MatrixXd errors = MatrixXd::Zero(judged, count);  // sums of squares
     VectorXd weights = VectorXd::Zero(judged);
     MatrixXd held_out;
-    if (keeps_) held_out = MatrixXd::Constant(num_rows_, count, kNaN);
+    if (keeps_) {
+      held_out = MatrixXd::Constant(rows_.design()->rows(), count, kNaN);
+    }
     for (Index i = 0; i < judged; ++i) {
       rows_.PredictFold(
           i + folds_.folds.first_judged(),
           paths_[static_cast<std::size_t>(i)].Solve(strengths),
-          guarded_,
           [&](const std::vector<Index>& block, const MatrixXd& predicted) {
             VectorXd w = rows_.Weights(block);
             if (w.size() == 0) w = VectorXd::Ones(predicted.rows());
@@ -296,123 +363,57 @@ class StrengthSearch {
     });
   }
 
-  const BasisRows& rows_;
+  const SummedBasis& rows_;
   const InnerFolds& folds_;
-  bool guarded_;
   double indifference_;
   bool keeps_;
-  Index num_rows_;
   std::vector<fitting::PenalizedPath> paths_;  // of the judged folds
   Results judged_;
 };
 
-std::vector<bool> ExcludedTerms(const PenalizedBasis& basis,
-                                const PolynomialDesign& design) {
-  std::vector<bool> excluded(static_cast<std::size_t>(design.num_terms()),
-                             false);
-  std::vector<std::string> names;
-  for (const data::ColumnInfo& input : design.dataset().inputs()) {
-    names.push_back(input.name);
-  }
-  for (const TermPowers& powers :
-       ResolveTerms(basis.exclude, names, "exclude")) {
-    const auto at = std::ranges::find(design.terms(), powers);
-    if (at == design.terms().end()) {
-      throw std::invalid_argument(
-          fmt::format("exclude: {} is not among the {} terms up to degree {}",
-                      TermName(powers, names),
-                      ToString(basis.terms),
-                      basis.degree));
-    }
-    excluded[static_cast<std::size_t>(at - design.terms().begin())] = true;
-  }
-  return excluded;
-}
-
-PolynomialDesign MakeDesign(const ViewedRows& viewed,
-                            const PenalizedBasis& basis) {
-  constexpr Index kMostTerms = 4000;  // 128 MB of products for each inner fold
-  const auto count = CountTerms(basis.terms, viewed.is_position, basis.degree);
-  if (!count || *count > kMostTerms) {
-    throw std::invalid_argument(fmt::format(
-        "degree {} in {} inputs makes {} terms, at most {} can be held; use a "
-        "lower degree, fewer inputs or terms=squares",
-        basis.degree,
-        viewed.is_position.size(),
-        count ? std::to_string(*count) : "countless",
-        kMostTerms));
-  }
-  const Dataset& rows = *viewed.rows;
-  std::vector<TermPowers> terms =
-      MakeTerms(basis.terms, viewed.is_position, basis.degree);
-  std::vector<Index> inputs = AllColumns(rows);
-  ColumnScaling scaling;
-  if (basis.centring != Centring::kStandardised) {
-    scaling = PolynomialScaling(rows, inputs, terms, basis.centring);
-  } else if (viewed.intercept) {
-    scaling = StandardScaling(rows.input_values());
-  } else {
-    scaling = RootMeanSquareScaling(rows.input_values());
-  }
-  return {rows, std::move(inputs), std::move(scaling), std::move(terms)};
-}
-
 }  // namespace
 
-std::shared_ptr<const PenalizedFits> FitPenalizedBasis(
+std::shared_ptr<const SummedBasis> SumBasis(
     std::shared_ptr<const ViewedRows> viewed,
     const PenalizedBasis& basis,
-    const std::vector<Penalty>& penalties,
-    const PenaltyRule& rule,
-    const InnerFolds& folds,
+    const InnerFolds* folds,
     const FitContext& context) {
-  auto fits = std::make_shared<PenalizedFits>(
-      PenalizedFits{viewed, MakeDesign(*viewed, basis), {}});
-  const Index n = fits->design.rows();
-  if (!rule.strength && (static_cast<Index>(folds.folds.codes.size()) != n ||
-                         folds.folds.count() < 2)) {
-    throw std::invalid_argument(
-        "the penalty is chosen by cross-validation, which needs a fold for "
-        "each row and at least 2 folds");
-  }
-  const std::vector<bool> excluded = ExcludedTerms(basis, fits->design);
-  const BasisRows rows(
-      fits->design, excluded, rule.strength ? nullptr : &folds, context);
-  const CrossProducts all = rows.All();
-  for (const Penalty penalty : penalties) {
-    PenalizedCandidate candidate;
-    candidate.penalty = penalty;
-    candidate.held_out_rmse = kNaN;
-    if (rule.strength) {
-      candidate.strength = *rule.strength;
-    } else {
-      StrengthSearch search(rows,
-                            all,
-                            folds,
-                            penalty,
-                            viewed->intercept,
-                            basis.guarded,
-                            context.indifference,
-                            n);
-      search.Judge(
-          fitting::PenalizedPath(penalty, all, viewed->intercept).Grid());
-      if (penalty == Penalty::kRidge) {
-        // Its grid is coarse, since each strength costs a factorisation.
-        const double half_a_decade = std::sqrt(10.0);
-        const double best = search.Best();
-        search.Judge({best * half_a_decade, best / half_a_decade});
-      }
-      search.Report(rule.one_standard_error, &candidate);
+  return std::make_shared<const SummedBasis>(
+      std::move(viewed), basis, folds, context);
+}
+
+std::shared_ptr<const PenalizedFits> FitPenalty(
+    const std::shared_ptr<const SummedBasis>& basis,
+    Penalty penalty,
+    const PenaltyRule& rule,
+    double indifference) {
+  PenalizedCandidate candidate;
+  candidate.penalty = penalty;
+  candidate.held_out_rmse = kNaN;
+  const fitting::PenalizedPath path(
+      penalty, basis->All(), basis->viewed()->intercept);
+  if (rule.strength) {
+    candidate.strength = *rule.strength;
+  } else if (!basis->inner()) {
+    throw std::invalid_argument("FitPenalty: there are no folds to choose by");
+  } else {
+    StrengthSearch search(*basis, penalty, indifference);
+    search.Judge(path.Grid());
+    if (penalty == Penalty::kRidge) {
+      // Its grid is coarse, since each strength costs a factorisation.
+      const double half_a_decade = std::sqrt(10.0);
+      const double best = search.Best();
+      search.Judge({best * half_a_decade, best / half_a_decade});
     }
-    const fitting::PenalizedPath path(penalty, all, viewed->intercept);
-    const auto solutions = path.Solve({candidate.strength});
-    candidate.coefficients = solutions.coefficients.col(0);
-    candidate.intercept = solutions.intercepts[0];
-    candidate.degrees_of_freedom =
-        path.DegreesOfFreedom(candidate.strength, candidate.coefficients);
-    fits->candidates.push_back(std::move(candidate));
+    search.Report(rule.one_standard_error, &candidate);
   }
-  return fits;
+  const auto solutions = path.Solve({candidate.strength});
+  candidate.coefficients = solutions.coefficients.col(0);
+  candidate.intercept = solutions.intercepts[0];
+  candidate.degrees_of_freedom =
+      path.DegreesOfFreedom(candidate.strength, candidate.coefficients);
+  return std::make_shared<const PenalizedFits>(
+      PenalizedFits{basis->viewed(), basis->design(), std::move(candidate)});
 }
 
 FittedModel MapOfCandidate(const std::string& name,
@@ -421,7 +422,7 @@ FittedModel MapOfCandidate(const std::string& name,
                            const PenalizedCandidate& candidate,
                            bool guarded) {
   FittedModel fitted = MapOfTerms(
-      name, fits.design, candidate.intercept, candidate.coefficients);
+      name, *fits.design, candidate.intercept, candidate.coefficients);
   fitted.inner_rmse = candidate.held_out_rmse;
   if (guarded) {
     fitted.guards = MakeGuards(fitted.inputs, raw.target_values());

@@ -55,26 +55,34 @@ struct PenalizedCandidate {
   Eigen::VectorXd coefficients;  // (terms) in the scaled inputs of the design
 };
 
-/// A basis with its candidates, one per penalty asked for.
+/// A candidate and the basis that its coefficients belong to.
 struct PenalizedFits {
   std::shared_ptr<const ViewedRows> viewed;
-  PolynomialDesign design;  // of viewed->rows
-  std::vector<PenalizedCandidate> candidates;
+  std::shared_ptr<const PolynomialDesign> design;  // of viewed->rows
+  PenalizedCandidate candidate;
 };
 
-/// Fits all `penalties` to one basis from one pass over the rows,
-/// cross-products of each inner fold kept apart. Held-out rows are clipped as
-/// `basis` says, at what their own fold trained on. `folds` are not needed
-/// where the strength is given. Throws std::invalid_argument on too many terms
-/// or folds that are missing; interrupted by context.stop with FitInterrupted's
-/// message.
-std::shared_ptr<const PenalizedFits> FitPenalizedBasis(
+/// Cross-products of a basis over each inner fold, from one pass over the rows:
+/// all that its penalties need of them.
+class SummedBasis;
+
+/// `folds` are needed where the penalty is to be chosen by them; null where it
+/// is given. Throws std::invalid_argument on too many terms or folds that are
+/// missing; interrupted by context.stop with FitInterrupted's message.
+std::shared_ptr<const SummedBasis> SumBasis(
     std::shared_ptr<const ViewedRows> viewed,
     const PenalizedBasis& basis,
-    const std::vector<fitting::Penalty>& penalties,
-    const PenaltyRule& rule,
-    const InnerFolds& folds,
+    const InnerFolds* folds,
     const FitContext& context);
+
+/// Fits a penalty to a basis. Held-out rows are clipped as the basis says, at
+/// what their own fold trained on. Errors far below `indifference` (target's
+/// unit) count alike. Throws std::invalid_argument where folds are missing.
+std::shared_ptr<const PenalizedFits> FitPenalty(
+    const std::shared_ptr<const SummedBasis>& basis,
+    fitting::Penalty penalty,
+    const PenaltyRule& rule,
+    double indifference);
 
 /// The map of a candidate, history and guards attached. `raw` are the training
 /// rows before any view.

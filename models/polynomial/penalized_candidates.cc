@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -17,6 +18,8 @@ namespace {
 using data::Dataset;
 using Eigen::Index;
 using fitting::Penalty;
+
+using FitsByPenalty = std::map<Penalty, std::shared_ptr<const PenalizedFits>>;
 
 // The sets worth a try over these inputs, in order of size.
 std::vector<TermSet> ServingTerms(const std::vector<bool>& is_position,
@@ -92,19 +95,14 @@ std::vector<BasisCandidate> JudgeBases(const Dataset& training,
                                        const std::vector<Penalty>& penalties,
                                        const InnerFolds& folds,
                                        const FitContext& context) {
-  std::vector<std::string> view_words;
-  std::vector<EffectiveOption> view_options;
-  choices.view.Describe(&view_options);
-  for (const EffectiveOption& option : view_options) {
-    if (option.key != "view") {
-      view_words.push_back(option.key + "=" +
-                           std::get<std::string>(option.value));
-    }
-  }
+  const std::string of_views = choices.view.Key();
+  // What others may want as well depends on the words of its key alone.
+  const bool shareable = context.shared != nullptr && choices.exclude.empty() &&
+                         !choices.rule.strength &&
+                         !choices.rule.one_standard_error;
   std::vector<BasisCandidate> judged;
-  for (ViewedRows& made :
-       MakeViews(training, choices.view, context.indifference)) {
-    const auto viewed = std::make_shared<const ViewedRows>(std::move(made));
+  for (const ViewedRows& made : SharedViews(training, choices.view, context)) {
+    const auto viewed = std::make_shared<const ViewedRows>(made);
     std::vector<TermSet> sets;
     if (choices.terms) {
       sets = {*choices.terms};
@@ -124,30 +122,40 @@ std::vector<BasisCandidate> JudgeBases(const Dataset& training,
                                  .centring = choices.centring,
                                  .exclude = choices.exclude,
                                  .guarded = choices.guarded()};
+      const std::string of_basis =
+          fmt::format("view={} {} terms={} degree={} centring={} guarded={}",
+                      viewed->label(),
+                      of_views,
+                      ToString(set),
+                      degree,
+                      static_cast<int>(choices.centring),
+                      basis.guarded);
+      // One pass over the rows serves all that will be asked for.
+      const auto make = [&](const std::vector<Penalty>& wanted) {
+        const auto sums = SumBasis(
+            viewed, basis, choices.rule.strength ? nullptr : &folds, context);
+        auto fits_of = std::make_shared<FitsByPenalty>();
+        for (const Penalty penalty : wanted) {
+          fits_of->emplace(
+              penalty,
+              FitPenalty(sums, penalty, choices.rule, context.indifference));
+        }
+        return fits_of;
+      };
       for (const Penalty penalty : penalties) {
-        const auto make = [&] {
-          return FitPenalizedBasis(
-              viewed, basis, {penalty}, choices.rule, folds, context);
-        };
-        // A fit that others may want as well depends on these words alone.
-        const bool shareable =
-            context.shared != nullptr && choices.exclude.empty() &&
-            !choices.rule.strength && !choices.rule.one_standard_error;
+        const bool all = shareable && context.shared->every_penalty;
+        const std::vector<Penalty> wanted =
+            all ? std::vector{Penalty::kRidge, Penalty::kLasso}
+                : std::vector{penalty};
         const std::string key = fmt::format(
-            "penalized {} view={} {} terms={} degree={} centring={} "
-            "guarded={}",
-            fitting::ToString(penalty),
-            viewed->label(),
-            fmt::join(view_words, " "),
-            ToString(set),
-            degree,
-            static_cast<int>(choices.centring),
-            basis.guarded);
-        const auto fits =
-            shareable ? context.shared->Get<PenalizedFits>(key, make) : make();
+            "{} {}", all ? "penalized" : fitting::ToString(penalty), of_basis);
+        const auto fits = (shareable ? *context.shared->Get<FitsByPenalty>(
+                                           key, [&] { return make(wanted); })
+                                     : *make(wanted))
+                              .at(penalty);
         judged.push_back(
             {.fits = fits,
-             .candidate = &fits->candidates.front(),
+             .candidate = &fits->candidate,
              .terms = set,
              .degree = degree,
              .num_excluded = static_cast<Index>(choices.exclude.size()),

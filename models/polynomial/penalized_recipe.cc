@@ -125,7 +125,7 @@ class PenalizedRecipe final : public PolynomialRecipe {
 
  private:
   static std::string ChosenNames(const BasisCandidate& best) {
-    const std::vector<std::string> names = best.fits->design.TermNames();
+    const std::vector<std::string> names = best.fits->design->TermNames();
     std::string chosen;
     for (Index j = 0; j < best.candidate->coefficients.size(); ++j) {
       if (best.candidate->coefficients[j] == 0.0) continue;
@@ -140,7 +140,7 @@ class PenalizedRecipe final : public PolynomialRecipe {
                const InnerFolds& folds,
                FittedModel* fitted) const {
     auto report = std::make_shared<RegressionReport>();
-    const PolynomialDesign& design = best.fits->design;
+    const PolynomialDesign& design = *best.fits->design;
     const PenalizedCandidate& fit = *best.candidate;
     report->method = fmt::format(
         "{} over {} terms up to degree {}, penalty {:.6g}{} on columns of "

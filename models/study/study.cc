@@ -225,8 +225,13 @@ StudyResult RunStudy(const Dataset& dataset,
   // What the recipes share of the same rows: all rows, then fold by fold.
   SharedWork of_all_rows;
   std::map<std::pair<std::ptrdiff_t, std::size_t>, SharedWork> of_folds;
+  of_all_rows.every_penalty = std::ranges::any_of(
+      recipes,
+      [](const auto& recipe) { return recipe->kind() == ModelKind::kBlend; });
   for (const StudyTask& task : tasks) {
-    if (task.holdout >= 0) of_folds[{task.holdout, task.fold}];
+    if (task.holdout < 0) continue;
+    of_folds[{task.holdout, task.fold}].every_penalty =
+        of_all_rows.every_penalty;
   }
   const auto fit = [&](const StudyTask& task) {
     const ModelRecipe& recipe = *recipes[task.model];
