@@ -20,6 +20,7 @@
 #include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
 #include "data/text.h"
+#include "fitting/interruption.h"
 #include "models/file_recipe.h"
 #include "models/model_file.h"
 #include "models/promise/promise.h"
@@ -175,6 +176,7 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
   const int jobs =
       static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   try {
+    const fitting::InterruptionScope interruptible(&stop);
     fitted = recipe->Fit(prepared.dataset,
                          {.seed = arguments.seed,
                           .stop = &stop,

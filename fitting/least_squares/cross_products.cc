@@ -1,5 +1,6 @@
 #include "fitting/least_squares/cross_products.h"
 
+#include "fitting/interruption.h"
 #include "fitting/matrix_product.h"
 
 namespace errmap::fitting {
@@ -41,6 +42,7 @@ CrossProducts SumProducts(const MatrixXd& columns,
                           const VectorXd& weights) {
   CrossProducts sums = NoRows(columns.cols());
   if (columns.rows() == 0) return sums;
+  ThrowIfInterrupted();
   VectorXd weighted = response;
   MatrixXd rows = columns.transpose();
   if (weights.size() != 0) {

@@ -9,6 +9,7 @@
 
 #include <Eigen/QR>
 
+#include "fitting/interruption.h"
 #include "fitting/least_squares/orthogonal_basis.h"
 
 namespace errmap::fitting {
@@ -85,6 +86,7 @@ class Problem {
         throw std::invalid_argument(
             "SolveLeastSquares: the exact system has another shape");
       }
+      ThrowIfInterrupted();
       for (Index i = 0; i < weights_.size(); ++i) {
         const DoubleDouble root = sqrt(DoubleDouble(weights_[i]));
         exact_->response[i] *= root;
@@ -155,6 +157,7 @@ VectorXd ExactRemainder(const ExtendedSystem& exact,
   along->setZero(basis.size());
   double length = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < kMostPasses; ++pass) {
+    ThrowIfInterrupted();
     const double before = length;
     length = rest.cast<double>().norm();
     if (length <= enough || length > kStalled * before) break;
@@ -221,6 +224,7 @@ class OneByOne {
   }
 
   void Judge(Index j) {
+    ThrowIfInterrupted();
     const auto column = problem_->columns().col(j);
     const double length = column.norm();
     rest_ = basis_.Remainder(column, &along_);
@@ -301,6 +305,9 @@ double PivotRatio(MatrixXd triangle) {
 constexpr double kMostValues = 2e6;
 constexpr double kMostProducts = 2e7;
 
+// Some hundredths of a second in 106 bits.
+constexpr Index kRowsBetweenAsking = 1024;
+
 // The solution for the columns kept (k), and what it leaves.
 struct Refined {
   ExtendedVector coefficients;
@@ -335,6 +342,7 @@ std::optional<Refined> Refine(Problem* problem,
     // Sums side by side: one after the other they would wait for each other.
     ExtendedVector sums = ExtendedVector::Zero(k);  // A' r
     for (Index i = 0; i < n; ++i) {
+      if (i % kRowsBetweenAsking == 0) ThrowIfInterrupted();
       for (Index j = 0; j < k; ++j) {
         sums[j] +=
             design(i, parts.kept[static_cast<std::size_t>(j)]) * residual[i];
@@ -357,6 +365,7 @@ std::optional<Refined> Refine(Problem* problem,
     }
     ExtendedVector left = response;
     for (Index j = 0; j < k; ++j) {
+      ThrowIfInterrupted();
       const auto column = design.col(parts.kept[static_cast<std::size_t>(j)]);
       for (Index i = 0; i < n; ++i) left[i] -= column[i] * x[j];
     }

@@ -1,6 +1,7 @@
 #include "fitting/least_squares/triangular_reduction.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -8,10 +9,34 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "fitting/interruption.h"
 #include "fitting/matrix_product.h"
 
-// LAPACK 3.4: QR of a triangle on top of a pentagonal block.
+// LAPACK 3.4: QR of a triangle on top of a pentagonal block, and its reflectors
+// applied to further columns.
 extern "C" {
+void dtprfb_(const char* side,
+             const char* transpose,
+             const char* direction,
+             const char* storage,
+             const int* m,
+             const int* n,
+             const int* k,
+             const int* l,
+             const double* v,
+             const int* ldv,
+             const double* t,
+             const int* ldt,
+             double* a,
+             const int* lda,
+             double* b,
+             const int* ldb,
+             double* work,
+             const int* ldwork,
+             std::size_t side_length,
+             std::size_t transpose_length,
+             std::size_t direction_length,
+             std::size_t storage_length);
 void dtpqrt_(const int* m,
              const int* n,
              const int* l,
@@ -36,20 +61,22 @@ void Require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument("ReduceToTriangle: " + what);
 }
 
-}  // namespace
+// Columns folded together; wider panels lose in the panel what they win in the
+// products (measured over 16 to 64).
+constexpr int kPanel = 48;
 
-void FoldIntoTriangle(MatrixXd* triangle, Eigen::Ref<MatrixXd> block) {
+// QR of the triangle (n x n) on top of the block (m x n) in their place, the
+// reflectors' factors of each panel in `reflectors`.
+void FoldPanels(Eigen::Ref<MatrixXd> triangle,
+                Eigen::Ref<MatrixXd> block,
+                MatrixXd* reflectors) {
   const int rows = static_cast<int>(block.rows());
   const int columns = static_cast<int>(block.cols());
-  if (rows == 0 || columns == 0) return;
-  // Columns folded together; wider panels lose in the panel what they win in
-  // the products (measured over 16 to 64).
-  constexpr int kPanel = 48;
   const int panel = std::min(kPanel, columns);
-  const int leading = static_cast<int>(triangle->outerStride());
+  const int leading = static_cast<int>(triangle.outerStride());
   const int block_leading = static_cast<int>(block.outerStride());
   constexpr int kRectangular = 0;
-  MatrixXd reflectors(panel, columns);
+  reflectors->resize(panel, columns);
   std::vector<double> work(static_cast<std::size_t>(panel) *
                            static_cast<std::size_t>(columns));
   int info = 0;
@@ -58,11 +85,11 @@ void FoldIntoTriangle(MatrixXd* triangle, Eigen::Ref<MatrixXd> block) {
           &columns,
           &kRectangular,
           &panel,
-          triangle->data(),
+          triangle.data(),
           &leading,
           block.data(),
           &block_leading,
-          reflectors.data(),
+          reflectors->data(),
           &panel,
           work.data(),
           &info);
@@ -71,6 +98,83 @@ void FoldIntoTriangle(MatrixXd* triangle, Eigen::Ref<MatrixXd> block) {
         "FoldIntoTriangle: LAPACK's dtpqrt refuses "
         "argument " +
         std::to_string(-info));
+  }
+}
+
+// Applies the reflectors of a panel, its `rows` x `panel` block and triangle
+// (panel x panel), to further columns.
+void ApplyPanel(const Eigen::Ref<const MatrixXd>& panel,
+                const MatrixXd& reflectors,
+                Eigen::Ref<MatrixXd> triangle,
+                Eigen::Ref<MatrixXd> block) {
+  const int rows = static_cast<int>(block.rows());
+  const int columns = static_cast<int>(block.cols());
+  const int width = static_cast<int>(panel.cols());
+  const int panel_leading = static_cast<int>(panel.outerStride());
+  const int reflectors_leading = static_cast<int>(reflectors.outerStride());
+  const int leading = static_cast<int>(triangle.outerStride());
+  const int block_leading = static_cast<int>(block.outerStride());
+  constexpr int kRectangular = 0;
+  MatrixXd work(width, columns);
+  dtprfb_("L",
+          "T",
+          "F",
+          "C",
+          &rows,
+          &columns,
+          &width,
+          &kRectangular,
+          panel.data(),
+          &panel_leading,
+          reflectors.data(),
+          &reflectors_leading,
+          triangle.data(),
+          &leading,
+          block.data(),
+          &block_leading,
+          work.data(),
+          &width,
+          1,
+          1,
+          1,
+          1);
+}
+
+}  // namespace
+
+void FoldIntoTriangle(MatrixXd* triangle, Eigen::Ref<MatrixXd> block) {
+  const Index rows = block.rows();
+  const Index columns = block.cols();
+  if (rows == 0 || columns == 0) return;
+  // What takes longer than a tenth of a second is done in pieces of that, the
+  // same steps in the same order, so that it can be broken off between them.
+  constexpr double kMostProducts = 1e9;
+  MatrixXd reflectors;
+  const auto panel_products = [&](Index width) {
+    return 2.0 * kPanel * static_cast<double>(rows) *
+           static_cast<double>(width);
+  };
+  if (panel_products(columns) * static_cast<double>(columns) <=
+      kPanel * kMostProducts) {
+    FoldPanels(*triangle, block, &reflectors);
+    return;
+  }
+  const Index piece = std::max<Index>(
+      kPanel, static_cast<Index>(kMostProducts / panel_products(1)));
+  for (Index first = 0; first < columns; first += kPanel) {
+    const Index width = std::min<Index>(kPanel, columns - first);
+    ThrowIfInterrupted();
+    FoldPanels(triangle->block(first, first, width, width),
+               block.middleCols(first, width),
+               &reflectors);
+    for (Index next = first + width; next < columns; next += piece) {
+      const Index count = std::min(piece, columns - next);
+      ThrowIfInterrupted();
+      ApplyPanel(block.middleCols(first, width),
+                 reflectors,
+                 triangle->block(first, next, width, count),
+                 block.middleCols(next, count));
+    }
   }
 }
 

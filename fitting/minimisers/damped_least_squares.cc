@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fitting/interruption.h"
 #include "fitting/least_squares/triangular_reduction.h"
 #include "fitting/matrix_product.h"
 
@@ -45,7 +46,9 @@ class ParameterSpace final : public DampedLeastSquares {
   void Linearize() override {
     const Index n = x_.size();
     MatrixXd jacobian;
+    ThrowIfInterrupted();
     function_.Evaluate(x_, &residuals_, &jacobian);
+    ThrowIfInterrupted();
     gradient_.noalias() = jacobian.transpose() * residuals_;
     gradient_ += ridge_ * x_;
     if (largest_ != nullptr) {
@@ -62,6 +65,7 @@ class ParameterSpace final : public DampedLeastSquares {
       jacobian *= scale_.cwiseInverse().asDiagonal();
     }
     mean_curvature_ = jacobian.squaredNorm() / static_cast<double>(n);
+    ThrowIfInterrupted();
     jacobian.conservativeResize(Eigen::NoChange, n + 1);
     jacobian.col(n) = residuals_;
     triangle_.setZero(n + 1, n + 1);

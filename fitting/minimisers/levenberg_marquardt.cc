@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "fitting/interruption.h"
 #include "fitting/minimisers/damped_least_squares.h"
 #include "fitting/minimisers/run_monitor.h"
 
@@ -52,6 +53,17 @@ class LmRun {
   }
 
   Minimum Minimize() {
+    try {
+      Iterate();
+    } catch (const Interrupted&) {
+      // The point is that of the last iteration that came to its end.
+      monitor_.Stop(Termination::kInterrupted, "interrupted in an iteration");
+    }
+    return Finish();
+  }
+
+ private:
+  void Iterate() {
     // A trial and its Jacobian, a gradient to confirm a claim, and the last
     // evaluation.
     constexpr std::int64_t kEvaluationsPerPass = 4;
@@ -66,10 +78,8 @@ class LmRun {
         Pass();
       }
     }
-    return Finish();
   }
 
- private:
   static constexpr double kMostShrinkage = 1.0 / 3.0;
   static constexpr double kFast = 0.25;
   static constexpr int kMostFruitless = 10;

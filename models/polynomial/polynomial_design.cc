@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fitting/interruption.h"
 #include "fitting/least_squares/triangular_reduction.h"
 
 namespace errmap::models {
@@ -118,6 +119,8 @@ fitting::ExtendedSystem PolynomialDesign::Exact() const {
       fitting::ExtendedMatrix::Constant(rows(), num_terms() + 1, 1.0),
       fitting::ExtendedVector(rows())};
   for (Index i = 0; i < rows(); ++i) {
+    constexpr Index kRowsBetweenAsking = 256;
+    if (i % kRowsBetweenAsking == 0) fitting::ThrowIfInterrupted();
     system.response[i] = stats::DecimalOf(dataset_.target_values()[i]);
     for (Index k = 0; k < inputs.cols(); ++k) {
       const double value =
@@ -144,6 +147,7 @@ double PolynomialDesign::Noise(const VectorXd& combination) const {
   constexpr Index kBlockRows = 4096;
   double squares = 0.0;
   for (Index first = 0; first < rows(); first += kBlockRows) {
+    fitting::ThrowIfInterrupted();
     const Index count = std::min(kBlockRows, rows() - first);
     const MatrixXd inputs =
         dataset_.input_values().middleRows(first, count)(Eigen::all, inputs_);
@@ -216,9 +220,7 @@ DesignRows CollectRows(const PolynomialDesign& design,
   rows.intercept.resize(stacked);
   for (std::size_t part = 0; part < triangles; ++part) {
     const auto fill = [&](Index first, Eigen::Ref<MatrixXd> block) {
-      if (stop != nullptr && stop->load()) {
-        throw std::invalid_argument("interrupted");
-      }
+      if (stop != nullptr && stop->load()) throw fitting::Interrupted();
       std::vector<Index> chosen(static_cast<std::size_t>(block.rows()));
       for (std::size_t i = 0; i < chosen.size(); ++i) {
         const Index place = first + static_cast<Index>(i);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "fitting/interruption.h"
 #include "models/polynomial/polynomial_model.h"
 
 namespace errmap::models {
@@ -67,6 +68,7 @@ fitting::RowDiagnostics JudgeRows(const PolynomialDesign& design,
   fitting::RowDiagnostics judged;
   const Dataset& dataset = design.dataset();
   for (Index first = 0; first < design.rows(); first += kBlockRows) {
+    fitting::ThrowIfInterrupted();
     const Index count = std::min(kBlockRows, design.rows() - first);
     const bool weighted = dataset.weights().size() != 0;
     judged.Add(fit,

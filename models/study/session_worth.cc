@@ -9,6 +9,8 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "fitting/interruption.h"
+
 namespace errmap::models {
 namespace {
 
@@ -31,8 +33,7 @@ std::vector<Index> SessionsOf(const std::vector<Index>& rows,
     sessions.push_back(codes[static_cast<std::size_t>(row)]);
   }
   std::ranges::sort(sessions);
-  const auto repeats = std::ranges::unique(sessions);
-  sessions.erase(repeats.begin(), repeats.end());
+  sessions.erase(std::unique(sessions.begin(), sessions.end()), sessions.end());
   return sessions;
 }
 
@@ -52,6 +53,7 @@ Loss LossOfFold(const Dataset& dataset,
     return codes[static_cast<std::size_t>(row)] != dropped;
   });
   try {
+    const fitting::InterruptionScope interruptible(context.stop);
     const FittedModel fitted = recipe.Fit(dataset.SelectRows(rows), context);
     const Dataset test = dataset.SelectRows(fold.test);
     const Eigen::VectorXd errors = test.target_values() - fitted.Predict(test);

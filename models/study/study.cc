@@ -13,6 +13,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "fitting/interruption.h"
 #include "models/recipe_catalog.h"
 #include "models/shared_work.h"
 #include "models/study/fold_pool.h"
@@ -234,6 +235,7 @@ StudyResult RunStudy(const Dataset& dataset,
         of_all_rows.every_penalty;
   }
   const auto fit = [&](const StudyTask& task) {
+    const fitting::InterruptionScope interruptible(options.stop);
     const ModelRecipe& recipe = *recipes[task.model];
     FitContext context = ContextOfTask(task, holdouts, options);
     context.shared = task.holdout < 0 ? &of_all_rows

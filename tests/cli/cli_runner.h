@@ -18,6 +18,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 #include <sys/types.h>
 #include <sys/wait.h>
 
@@ -85,28 +86,39 @@ class Process {
   Process& operator=(const Process&) = delete;
 
   /// True once the program catches SIGINT; false where it never does.
-  bool WaitUntilInterruptible() const {
-    constexpr int kMostPolls = 3000;
-    for (int poll = 0; poll < kMostPolls; ++poll) {
-      std::ifstream status("/proc/" + std::to_string(pid_) + "/status");
-      std::string key;
-      while (status >> key && key != "SigCgt:") {
-      }
-      unsigned long long caught = 0;
-      status >> std::hex >> caught;
-      if ((caught >> (SIGINT - 1)) & 1U) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return false;
-  }
+  bool WaitUntilInterruptible() const { return WaitUntilCaught(true); }
+
+  /// Until the first Ctrl-C was taken: the next one ends the process.
+  bool WaitUntilInterrupted() const { return WaitUntilCaught(false); }
 
   void Interrupt() const { kill(pid_, SIGINT); }
   void Kill() const { kill(pid_, SIGKILL); }
 
+  /// Processor time that it has used, all threads: what another load of the
+  /// machine does not change. Also after Wait.
+  double CpuSeconds() const {
+    if (pid_ < 0) return cpu_seconds_;
+    std::ifstream status("/proc/" + std::to_string(pid_) + "/stat");
+    std::string word;
+    std::getline(status, word, ')');  // the name may hold blanks
+    constexpr int kFieldsBetween = 11;
+    for (int i = 0; i < kFieldsBetween; ++i) status >> word;
+    double user = 0.0;
+    double system = 0.0;
+    status >> user >> system;
+    return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  }
+
   Outcome Wait() {
     int status = 0;
-    waitpid(pid_, &status, 0);
+    rusage usage{};
+    wait4(pid_, &status, 0, &usage);
     pid_ = -1;
+    const auto seconds = [](const timeval& time) {
+      return static_cast<double>(time.tv_sec) +
+             1e-6 * static_cast<double>(time.tv_usec);
+    };
+    cpu_seconds_ = seconds(usage.ru_utime) + seconds(usage.ru_stime);
     const int code =
         WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return {code, TextOf(out_), TextOf(err_)};
@@ -120,9 +132,25 @@ class Process {
   }
 
  private:
+  bool WaitUntilCaught(bool wanted) const {
+    constexpr int kMostPolls = 30'000;
+    for (int poll = 0; poll < kMostPolls; ++poll) {
+      std::ifstream status("/proc/" + std::to_string(pid_) + "/status");
+      std::string key;
+      while (status >> key && key != "SigCgt:") {
+      }
+      unsigned long long caught = 0;
+      status >> std::hex >> caught;
+      if ((((caught >> (SIGINT - 1)) & 1U) != 0) == wanted) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return false;
+  }
+
   std::filesystem::path out_;
   std::filesystem::path err_;
   pid_t pid_ = -1;
+  double cpu_seconds_ = 0.0;  // of all threads, once it has ended
 };
 
 inline std::string SetPath(const std::string& name) {

@@ -1,0 +1,23 @@
+#include "fitting/interruption.h"
+
+namespace errmap::fitting {
+namespace {
+
+thread_local const std::atomic<bool>* token = nullptr;
+
+}  // namespace
+
+InterruptionScope::InterruptionScope(const std::atomic<bool>* stop)
+    : outer_(token) {
+  if (stop != nullptr) token = stop;
+}
+
+InterruptionScope::~InterruptionScope() { token = outer_; }
+
+void ThrowIfInterrupted() {
+  if (token != nullptr && token->load(std::memory_order_relaxed)) {
+    throw Interrupted();
+  }
+}
+
+}  // namespace errmap::fitting
