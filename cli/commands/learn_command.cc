@@ -19,6 +19,7 @@
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/provenance.h"
+#include "data/atomic_file.h"
 #include "models/model_spec.h"
 #include "models/promise/learning_curve.h"
 #include "models/promise/next_states.h"
@@ -82,6 +83,8 @@ std::unique_ptr<models::JournalFile> OpenJournal(
   const std::string folder =
       (std::filesystem::path(arguments.out) / "learn").string();
   PrepareFolder(folder);
+  // What a killed run was writing.
+  data::RemoveAbandonedFiles(arguments.out);
   JournalFile::RequireNoOther(folder, arguments.force);
   return std::make_unique<JournalFile>(folder,
                                        arguments.resume
@@ -112,7 +115,8 @@ models::StudyResult RunLearning(
   }
   const models::FitLabels labels(
       "learn", dataset, plan.holdouts, recipes, options);
-  models::ComponentJournal journal(file.get(), &labels);
+  models::ComponentJournal journal(
+      file.get(), &labels, &dataset, &plan.holdouts);
   options.journal = &journal;
   return models::RunStudy(dataset, plan.holdouts, recipes, options);
 }

@@ -30,7 +30,8 @@ models::StudyResult RunJournalled(const ComponentPlan& component,
       Say(line);
     }
   }
-  models::ComponentJournal journal(options.journal, &labels);
+  models::ComponentJournal journal(
+      options.journal, &labels, &comparison.data.dataset, &comparison.holdouts);
   study_options.journal = &journal;
   return run();
 }

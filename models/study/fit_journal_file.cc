@@ -231,6 +231,7 @@ std::optional<FitOutcome> JournalFile::Find(const FitLabel& label) const {
   try {
     return FitFromText(text);
   } catch (const data::InputError&) {
+    ++unfit_;
     return std::nullopt;
   }
 }
@@ -303,6 +304,13 @@ std::vector<std::string> JournalFile::WritingRemarks() const {
   const std::lock_guard lock(mutex_);
   const std::string path = data::PrintablePath(path_);
   std::vector<std::string> remarks;
+  if (unfit_ > 0) {
+    remarks.push_back(fmt::format(
+        "{}: {} whose records are not of them (changed by another hand?) made "
+        "again",
+        path,
+        Count(unfit_, "fit")));
+  }
   if (too_long_ > 0) {
     remarks.push_back(
         fmt::format("{}: {} not kept, being above {} MiB each; --resume would "
@@ -320,6 +328,46 @@ std::vector<std::string> JournalFile::WritingRemarks() const {
                     Count(unwritten_, "fit")));
   }
   return remarks;
+}
+
+std::optional<FitOutcome> ComponentJournal::Find(const StudyTask& task) {
+  std::optional<FitOutcome> found = file_.Find(labels_.Of(task));
+  if (found && !IsOf(task, *found)) {
+    file_.CountUnfit();
+    return std::nullopt;
+  }
+  return found;
+}
+
+bool ComponentJournal::IsOf(const StudyTask& task,
+                            const FitOutcome& outcome) const {
+  if (!outcome.fitted) {
+    return !outcome.why_failed.empty() &&
+           outcome.train_predictions.size() == 0 &&
+           outcome.test_predictions.size() == 0;
+  }
+  const bool is_of_all_rows = task.holdout < 0;
+  const Eigen::VectorXd& recorded =
+      is_of_all_rows ? outcome.train_predictions : outcome.test_predictions;
+  const auto predicts = [&](const data::Dataset& rows) {
+    const Eigen::VectorXd predicted = outcome.fitted->Predict(rows);
+    return predicted.allFinite() && predicted.size() == recorded.size() &&
+           predicted == recorded;
+  };
+  try {
+    if (outcome.fitted->model == nullptr) return false;
+    if (is_of_all_rows) return predicts(dataset_);
+    const Holdout& holdout = holdouts_[static_cast<std::size_t>(task.holdout)];
+    const stats::Fold& fold = holdout.folds[task.fold];
+    return outcome.train_predictions.allFinite() &&
+           outcome.train_predictions.size() ==
+               static_cast<Eigen::Index>(fold.train.size()) &&
+           predicts(holdout.test_data != nullptr
+                        ? *holdout.test_data
+                        : dataset_.SelectRows(fold.test));
+  } catch (const std::invalid_argument&) {
+    return false;  // inputs that the data have not, or another number of them
+  }
 }
 
 std::vector<std::string> DescribeResume(const JournalFile& file,

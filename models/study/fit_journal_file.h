@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -61,7 +62,11 @@ class JournalFile {
 
   /// What people should know of what was found, a line each.
   std::vector<std::string> OpeningRemarks() const;
-  /// Of what could not be kept, a line each.
+  /// A record of the right label that is not of its fit: counted for the
+  /// remarks; the fit is made again.
+  void CountUnfit() { ++unfit_; }
+
+  /// Of what could not be kept or not be used, a line each.
   std::vector<std::string> WritingRemarks() const;
 
  private:
@@ -86,6 +91,7 @@ class JournalFile {
   std::map<std::string, Extent> found_;  // by key
   std::map<Place, FitLabel> places_;
 
+  mutable std::atomic<std::size_t> unfit_ = 0;
   mutable std::mutex mutex_;  // of all that follows
   std::int64_t size_ = 0;     // up to the last whole line
   bool torn_ = false;         // a piece of a line could not be taken back
@@ -98,20 +104,31 @@ class JournalFile {
 /// The journal of one component's study in a file that all components share.
 class ComponentJournal final : public FitJournal {
  public:
-  /// Both must outlive it.
-  ComponentJournal(JournalFile* file, const FitLabels* labels)
-      : file_(*file), labels_(*labels) {}
+  /// All must outlive it.
+  ComponentJournal(JournalFile* file,
+                   const FitLabels* labels,
+                   const data::Dataset* dataset,
+                   const std::vector<Holdout>* holdouts)
+      : file_(*file),
+        labels_(*labels),
+        dataset_(*dataset),
+        holdouts_(*holdouts) {}
 
-  std::optional<FitOutcome> Find(const StudyTask& task) override {
-    return file_.Find(labels_.Of(task));
-  }
+  /// Sums in a journal keep damage out and forgers not: the map found must
+  /// predict what stands beside it, bit for bit, on the rows that it is judged
+  /// by.
+  std::optional<FitOutcome> Find(const StudyTask& task) override;
   void Record(const StudyTask& task, const FitOutcome& outcome) override {
     file_.Record(labels_.Of(task), outcome);
   }
 
  private:
+  bool IsOf(const StudyTask& task, const FitOutcome& outcome) const;
+
   JournalFile& file_;
   const FitLabels& labels_;
+  const data::Dataset& dataset_;
+  const std::vector<Holdout>& holdouts_;
 };
 
 /// How many fits of a study are at hand, and why others are made again; a line

@@ -467,7 +467,15 @@ class Reader {
   static void Get(const Json& json, Eigen::MatrixXd* matrix) {
     constexpr std::size_t kParts = 3;
     RequireSize(json, kParts);
-    matrix->resize(json[0].get<Index>(), json[1].get<Index>());
+    const auto rows = json[0].get<Index>();
+    const auto columns = json[1].get<Index>();
+    // A letter stands for less than a byte: no product can overflow.
+    const auto most =
+        static_cast<Index>(json[2].get_ref<const std::string&>().size());
+    if (rows < 0 || columns < 0 || (columns > 0 && rows > most / columns)) {
+      Refuse("a matrix of another shape");
+    }
+    matrix->resize(rows, columns);
     NumbersFromBase64(json[2], matrix->data(), matrix->size());
   }
 

@@ -21,6 +21,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include "data/sha256.h"
 #include "models/study/fit_record.h"
 #include "tests/models/model_test_data.h"
 #include "tests/models/study/study_test_tools.h"
@@ -33,6 +34,7 @@ using errmap::testing::MakeHoldouts;
 using errmap::testing::MakeRecipes;
 using errmap::testing::Recipes;
 using errmap::testing::ShippedMeasurements;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -363,9 +365,32 @@ class JournalledStudy : public FitJournalFile {
     const FitLabels labels(
         "x", dataset_, holdouts_, recipes, options, program_);
     lines_ = DescribeResume(file, labels);
-    ComponentJournal journal(&file, &labels);
+    ComponentJournal journal(&file, &labels, &dataset_, &holdouts_);
     options.journal = &journal;
-    return RunStudy(dataset_, holdouts_, recipes, options);
+    const StudyResult study = RunStudy(dataset_, holdouts_, recipes, options);
+    remarks_ = file.WritingRemarks();
+    return study;
+  }
+
+  // The journal with each outcome changed, and the sums that go with that.
+  template <typename Change>
+  void Forge(Change&& change) const {
+    static const std::string begin = R"({"sum":")";
+    static const std::string before = R"(,"outcome":)";
+    std::istringstream lines(Text());
+    std::string forged;
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t at = line.find(before) + before.size();
+      FitOutcome outcome =
+          FitFromText(std::string_view(line).substr(at, line.size() - at - 1));
+      change(&outcome);
+      constexpr std::size_t kSum = 64;
+      const std::string rest =
+          line.substr(begin.size() + kSum, at - begin.size() - kSum) +
+          FitToText(outcome) + "}";
+      forged += begin + data::Sha256(rest) + rest + "\n";
+    }
+    SetText(forged);
   }
 
   static constexpr int kAll = 1 << 20;
@@ -376,7 +401,40 @@ class JournalledStudy : public FitJournalFile {
   std::atomic<int> fits_ = 0;
   std::atomic<bool> stop_ = false;
   std::vector<std::string> lines_;
+  std::vector<std::string> remarks_;
 };
+
+TEST_F(JournalledStudy, MakesFitsAnewWhoseRecordsAreForged) {
+  const std::vector<std::string> specs = {"mean", "poly:eq8"};
+  const std::string whole =
+      TextOf(RunStudy(dataset_, holdouts_, MakeRecipes(specs), {.jobs = 2}));
+  constexpr int kFits = 2 * 7;
+  const std::vector<std::function<void(FitOutcome*)>> changes = {
+      [](FitOutcome* fit) {
+        (fit->test_predictions.size() > 0 ? fit->test_predictions
+                                          : fit->train_predictions)[0] = 0.0;
+      },
+      [](FitOutcome* fit) { fit->train_predictions.conservativeResize(3); },
+      [](FitOutcome* fit) { fit->test_predictions.resize(0); },
+      [](FitOutcome* fit) { fit->fitted->model = nullptr; },
+      [](FitOutcome* fit) { fit->fitted->inputs.clear(); },
+      [](FitOutcome* fit) { fit->fitted.reset(); },
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    SCOPED_TRACE(i);
+    Run(specs, Opening::kAnew, kAll);
+    Forge(changes[i]);
+    EXPECT_EQ(TextOf(Run(specs, Opening::kResume, kAll)), whole);
+    // What says nothing wrong: no test rows of all rows, no inputs of a mean.
+    EXPECT_GE(fits_, kFits / 2 - 1);
+    ASSERT_EQ(remarks_.size(), 1U);
+    EXPECT_THAT(remarks_[0],
+                AllOf(HasSubstr("journal.jsonl: "),
+                      HasSubstr(" whose records are not of them")));
+    EXPECT_EQ(TextOf(Run(specs, Opening::kResume, kAll)), whole);
+    EXPECT_EQ(fits_, 0);
+  }
+}
 
 TEST_F(JournalledStudy, EndsAsAnUnbrokenOneWithoutRepeatingAFit) {
   // The last one fails on purpose: failures are kept, too.
