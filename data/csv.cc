@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "data/atomic_file.h"
+#include "data/formula_text.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -54,13 +55,9 @@ CsvTable ReadCsv(const std::string& path) {
 }
 
 std::string CsvField(std::string_view text) {
-  // Spreadsheets would take it for a formula; a sign alone they would not.
-  double ignored = 0.0;
-  if (text.size() > 1 &&
-      std::string_view("=+-@").find(text[0]) != std::string_view::npos &&
-      !ParseNumber(text, &ignored)) {
-    return CsvField("'" + std::string(text));
-  }
+  const std::string safe =
+      (NeedsApostrophe(text) ? "'" : "") + std::string(text);
+  text = safe;
   const bool needs_quotes =
       text.find_first_of(",;\"\t\r\n") != std::string_view::npos ||
       text.starts_with('#') || Trimmed(text).size() != text.size();

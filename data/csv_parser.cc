@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "data/csv.h"
+#include "data/formula_text.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -139,6 +140,18 @@ class Parser {
     ++line_;
   }
 
+  bool AtMark() const {
+    const std::string_view rest(cursor_,
+                                static_cast<std::size_t>(end_ - cursor_));
+    return rest.starts_with(kFormulaMark) &&
+           rest.size() > kFormulaMark.size() &&
+           IsLineEnd(rest[kFormulaMark.size()]);
+  }
+
+  std::string_view TextOf(std::string_view field) const {
+    return has_apostrophes_ ? WithoutApostrophe(field) : field;
+  }
+
   bool AtBlankLine() const {
     const char* const p = SkipBlanks(cursor_);
     return p != end_ ? IsLineEnd(*p) : cursor_ != end_;
@@ -170,6 +183,7 @@ class Parser {
   void SkipToHeader() {
     while (cursor_ != end_ && (*cursor_ == '#' || AtBlankLine())) {
       if (*cursor_ == '#') comment_before_header_ = line_;
+      if (line_ == 1 && AtMark()) has_apostrophes_ = true;
       SkipLine();
     }
     if (cursor_ == end_) {
@@ -231,7 +245,7 @@ class Parser {
     std::unordered_map<std::string, std::size_t> numbers;  // by name, 1-based
     for (bool more = true; more;) {
       const std::size_t number = table_.columns.size() + 1;
-      std::string name = AsUtf8(NextField());
+      std::string name = AsUtf8(TextOf(NextField()));
       more = PassCellEnd();
       if (NumberForm form{}; ReadNumber(name, &form)) {
         ThrowAt(line,
@@ -390,7 +404,7 @@ class Parser {
 
   void StoreText(std::string_view field, CsvColumn* column) {
     const std::uint32_t index =
-        texts_[column_].IndexOf(AsUtf8(field), &column->texts);
+        texts_[column_].IndexOf(AsUtf8(TextOf(field)), &column->texts);
     column->exceptions.emplace_back(table_.num_rows, index);
     column->values.push_back(std::numeric_limits<double>::quiet_NaN());
   }
@@ -461,6 +475,7 @@ class Parser {
   std::size_t line_ = 1;  // of the cursor
   char delimiter_ = kNoDelimiter;
   bool decimal_comma_ = false;
+  bool has_apostrophes_ = false;           // kFormulaMark stands at the top
   std::size_t comment_before_header_ = 0;  // line of the last one, or 0
   std::size_t header_line_ = 0;
   bool in_data_ = false;

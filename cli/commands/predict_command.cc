@@ -3,6 +3,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -19,6 +20,7 @@
 #include "data/atomic_file.h"
 #include "data/csv.h"
 #include "data/dataset.h"
+#include "data/formula_text.h"
 #include "models/model_file.h"
 #include "models/trained_range.h"
 
@@ -155,6 +157,7 @@ int RunPredict(const PredictArguments& arguments) {
                         WhyOutside(flag, whole, is_finite),
                         data::CsvField(flag.column.name));
   }
+  text = data::MarkedCsv(std::move(text));
   if (arguments.out.empty()) {
     PrintResult(text);
   } else {

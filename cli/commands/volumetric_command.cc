@@ -25,6 +25,7 @@
 #include "cli/study_file/map_log.h"
 #include "data/atomic_file.h"
 #include "data/csv.h"
+#include "data/formula_text.h"
 #include "data/text.h"
 #include "models/kinematics/machine.h"
 #include "models/kinematics/volumetric.h"
@@ -105,7 +106,7 @@ class OutputTable {
       }
       text += line + "\n";
     }
-    return text;
+    return data::MarkedCsv(std::move(text));
   }
 
  private:

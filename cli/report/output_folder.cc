@@ -11,6 +11,7 @@
 #include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
 #include "data/csv.h"
+#include "data/formula_text.h"
 #include "models/model_file.h"
 
 namespace errmap::cli {
@@ -135,7 +136,7 @@ std::string ResidualsCsv(const Comparison& comparison) {
       }
     }
   }
-  return text;
+  return data::MarkedCsv(std::move(text));
 }
 
 std::vector<std::string> OutputNames(const StudyPlan& plan) {

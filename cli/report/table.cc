@@ -1,11 +1,13 @@
 #include "cli/report/table.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/report/html.h"
 #include "data/csv.h"
+#include "data/formula_text.h"
 
 namespace errmap::cli {
 namespace {
@@ -176,7 +178,7 @@ std::string CsvTable(const Table& table) {
     }
     text += "\n";
   }
-  return text;
+  return data::MarkedCsv(std::move(text));
 }
 
 std::string MarkdownTable(const Table& table, const std::string& level) {

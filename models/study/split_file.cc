@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "data/formula_text.h"
 #include "models/study/row_table.h"
 
 namespace errmap::models {
@@ -132,7 +134,7 @@ std::string SplitFileText(const std::vector<Holdout>& holdouts,
       }
     }
   }
-  return text;
+  return data::MarkedCsv(std::move(text));
 }
 
 }  // namespace errmap::models

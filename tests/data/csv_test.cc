@@ -11,6 +11,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "data/formula_text.h"
+
 namespace errmap::data {
 namespace {
 
@@ -477,6 +479,35 @@ TEST(CsvField, TurnsFormulasOfSpreadsheetsIntoText) {
   EXPECT_EQ(CsvField("-1.5"), "-1.5");
   EXPECT_EQ(CsvField("+2e3"), "+2e3");
   EXPECT_EQ(CsvField("-"), "-");
+  // Else it would be taken for ours.
+  EXPECT_EQ(CsvField("'=1+1"), "''=1+1");
+  EXPECT_EQ(CsvField("'down'"), "'down'");
+}
+
+std::string CsvOf(const std::vector<std::string>& texts) {
+  std::string csv = "row,label\n";
+  for (const std::string& text : texts) csv += "1," + CsvField(text) + "\n";
+  return MarkedCsv(csv);
+}
+
+TEST(FormulaText, ComesBackFromFilesThatCarryTheMark) {
+  const std::vector<std::string> texts = {
+      "=1+1", "'=1+1", "@a,b", "-down", "'quoted'", "plain", "+x \"y\""};
+  const CsvTable table = ParseCsv(CsvOf(texts), "a.csv");
+  for (std::size_t row = 0; row < texts.size(); ++row) {
+    EXPECT_EQ(table.CellText(table.columns[1], row), texts[row]);
+  }
+  EXPECT_EQ(ParseCsv(MarkedCsv(CsvField("=a") + ",b\n1,2\n"), "a.csv")
+                .columns[0]
+                .name,
+            "=a");
+}
+
+TEST(FormulaText, LeavesOtherFilesAsTheyAre) {
+  EXPECT_EQ(CsvOf({"plain", "'quoted'", "-1.5"}),
+            "row,label\n1,plain\n1,'quoted'\n1,-1.5\n");
+  const CsvTable table = ParseCsv("row,label\n1,'=1+1\n", "a.csv");
+  EXPECT_EQ(table.CellText(table.columns[1], 0), "'=1+1");
 }
 
 TEST(CsvField, QuotesOnlyWhatNeedsQuotes) {
