@@ -238,7 +238,7 @@ PatternTable TakeDataset(const CsvTable& csv) {
   // The position first, all others in their order.
   std::vector<Index> order;
   for (Index i = 0; i < dataset.num_inputs(); ++i) order.push_back(i);
-  std::ranges::stable_partition(order, [&](Index i) {
+  std::stable_partition(order.begin(), order.end(), [&](Index i) {
     return StartsWithIgnoringCase(
         dataset.inputs()[static_cast<std::size_t>(i)].name, "position");
   });

@@ -315,8 +315,9 @@ class Overrider {
       } else {
         // A key that is there would keep its place in the file.
         target->erase(key.str());
+        const toml::key& name = key;
         std::move(value).visit([&](auto&& node) {
-          target->insert(toml::key(key), std::forward<decltype(node)>(node));
+          target->insert(toml::key(name), std::forward<decltype(node)>(node));
         });
       }
     }

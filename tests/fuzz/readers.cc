@@ -1,29 +1,53 @@
 #include "tests/fuzz/readers.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "cli/command.h"
+#include "cli/report/claimed_folder.h"
+#include "cli/study_file/machine_file.h"
 #include "cli/study_file/study_file.h"
 #include "data/csv.h"
 #include "data/dataset.h"
+#include "data/date_time.h"
 #include "data/input_error.h"
 #include "data/pattern_file.h"
+#include "data/sha256.h"
+#include "data/units.h"
 #include "models/model_file.h"
 #include "models/netcg/run_file.h"
 #include "models/netcg/weights_file.h"
 #include "models/recipe_catalog.h"
+#include "models/study/fit_journal_file.h"
 #include "models/study/fit_record.h"
+#include "models/study/given_predictions.h"
+#include "models/study/split_file.h"
 #include "models/study/study_record.h"
 #include "stats/holdout.h"
+#include "tests/fuzz/scratch_folder.h"
 
 namespace errmap::fuzz {
 namespace {
 
-// A property that does not hold ends the run as a crash does.
-void Require(bool holds) {
-  if (!holds) std::abort();
+// 12 rows in 4 groups, as files that go with the data are judged by.
+data::Dataset TwelveRows() {
+  constexpr Eigen::Index kRows = 12;
+  data::Dataset::Parts parts;
+  parts.source = "d.csv";
+  parts.inputs = {{"position_mm", data::UnitOfColumn("position_mm")}};
+  parts.target = {"error_mm", data::UnitOfColumn("error_mm")};
+  parts.input_values = Eigen::VectorXd::LinSpaced(kRows, 0.0, 11.0);
+  parts.target_values = Eigen::VectorXd::LinSpaced(kRows, 0.0, 1.0);
+  parts.groups = {"cycle", {"1", "2", "3", "4"}, {}};
+  for (Eigen::Index row = 0; row < kRows; ++row) {
+    parts.groups.codes.push_back(row / 3);
+  }
+  return data::Dataset(std::move(parts));
 }
 
 void ReadCsv(std::string_view bytes) {
@@ -41,6 +65,79 @@ void ReadPatterns(std::string_view bytes) {
     } catch (const data::InputError&) {
     }
   }
+}
+
+void ReadSplit(std::string_view bytes) {
+  static const data::Dataset dataset = TwelveRows();
+  const std::vector<models::Holdout> holdouts = models::ReadSplitFile(
+      data::ParseCsv(std::string(bytes), "s.csv"), dataset);
+  // What was read is written, and says the same.
+  const std::string text = models::SplitFileText(holdouts, dataset);
+  Require(models::SplitFileText(
+              models::ReadSplitFile(data::ParseCsv(text, "s.csv"), dataset),
+              dataset) == text);
+}
+
+void ReadPredictions(std::string_view bytes) {
+  static const data::Dataset dataset = TwelveRows();
+  static const std::vector<models::Holdout> holdouts = [] {
+    std::vector<models::Holdout> made;
+    for (const char* spec : {"every:3", "groups:2"}) {
+      made.push_back(
+          models::MakeHoldout(stats::ParseHoldout(spec), dataset, 1));
+    }
+    return made;
+  }();
+  const models::GivenPredictions given = models::ReadGivenPredictions(
+      "elsewhere", data::ParseCsv(std::string(bytes), "p.csv"));
+  const models::ModelResult judged =
+      models::JudgeGivenPredictions(given, dataset, holdouts);
+  Require(judged.holdouts.size() == holdouts.size());
+}
+
+void ReadMachine(std::string_view bytes) {
+  static const ScratchFolder folder;
+  cli::ReadMachineOutline(folder.Write("machine.toml", bytes));
+}
+
+// Sums are public, so a forger writes them: each line of the text is taken for
+// the rest of one of the journal's.
+void ReadForgedJournal(std::string_view bytes) {
+  static const ScratchFolder folder;
+  std::string text;
+  while (!bytes.empty()) {
+    const std::size_t end = std::min(bytes.find('\n'), bytes.size());
+    const std::string_view rest = bytes.substr(0, end);
+    text += R"({"sum":")" + data::Sha256(rest) + std::string(rest) + "\n";
+    bytes.remove_prefix(std::min(end + 1, bytes.size()));
+  }
+  folder.Write(models::JournalFile::kName, text);
+  const models::JournalFile journal(folder.path(),
+                                    models::JournalFile::Opening::kResume);
+  for (const char* fold : {"0", "1"}) {
+    models::FitLabel label;
+    label.component = "x";
+    label.model = "mean";
+    label.rows = fold;
+    journal.Find(label);
+    journal.FindPlace(label);
+  }
+}
+
+void ReadFileList(std::string_view bytes) {
+  static const ScratchFolder folder;
+  folder.Write(cli::ClaimedFolder::kListName, bytes);
+  folder.Write("results.json", "{}");
+  cli::ClaimedFolder(folder.path(), {"results.json"}, {}, false);
+}
+
+void ReadHeaders(std::string_view bytes) {
+  const data::Header header = data::ReadHeader(bytes);
+  Require(header.base.size() <= bytes.size());
+  data::StemOfColumn(bytes);
+  data::NamesPosition(bytes);
+  const std::optional<double> seconds = data::ParseDateTime(bytes);
+  Require(!seconds || std::isfinite(*seconds));
 }
 
 void ReadHoldout(std::string_view bytes) {
@@ -104,6 +201,10 @@ void Refusable(std::string_view bytes) {
 
 }  // namespace
 
+void Require(bool holds) {
+  if (!holds) std::abort();
+}
+
 const std::vector<Reader>& Readers() {
   static const std::vector<Reader> readers = {
       {"csv", Refusable<ReadCsv>},
@@ -116,6 +217,14 @@ const std::vector<Reader>& Readers() {
       {"study", Refusable<ReadStudy>},
       {"netcg", Refusable<ReadNetcg>},
       {"weights", Refusable<ReadWeights>},
+      {"split", Refusable<ReadSplit>},
+      {"predictions", Refusable<ReadPredictions>},
+      {"machine", Refusable<ReadMachine>},
+      {"forged", Refusable<ReadForgedJournal>},
+      {"file_list", Refusable<ReadFileList>},
+      {"header", Refusable<ReadHeaders>},
+      {"arguments", RunWithArguments},
+      {"compare", CompareSmallModels},
   };
   return readers;
 }
