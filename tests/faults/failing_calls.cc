@@ -5,19 +5,24 @@
 //                          failure, the frames that led to it
 //
 // Kinds: write, fsync (and fdatasync), rename, open (for writing), ftruncate,
-// malloc (calloc and realloc too). Calls on descriptors 1 and 2 do not count:
+// malloc (calloc and realloc too), site: of each place in the program's own
+// code, the first allocation that it leads to. A place is the offset (in
+// hexadecimal, as the log of site:0 lists them) of the innermost frame that is
+// the program's. Calls on descriptors 1 and 2 do not count:
 // what cannot be printed has tests of its own.
 
 #include <atomic>
 #include <cerrno>
 #include <cstdarg>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <fcntl.h>
+#include <link.h>
 #include <unistd.h>
 
 #include <sys/types.h>
@@ -29,6 +34,9 @@ long failing = 0;
 const char* kind = "";
 const char* log_path = nullptr;
 std::atomic<bool> is_ready{false};
+bool by_site = false;
+std::uintptr_t program_begin = 0;  // the program's own code
+std::uintptr_t program_end = 0;
 thread_local bool is_inside = false;
 
 template <typename Function>
@@ -60,6 +68,56 @@ bool Fails(const char* which) {
   return true;
 }
 
+// Offsets of places seen, in a table that never moves: 0 is a free slot.
+constexpr std::size_t kMostSites = 1U << 16U;
+std::atomic<std::uintptr_t> sites[kMostSites];
+
+// True the first time.
+bool IsNewSite(std::uintptr_t site) {
+  for (std::size_t i = site * 2654435761U % kMostSites;;
+       i = (i + 1) % kMostSites) {
+    std::uintptr_t expected = 0;
+    if (sites[i].compare_exchange_strong(expected, site)) return true;
+    if (expected == site) return false;
+  }
+}
+
+// Offset of the innermost of these frames in the program's own code, or 0.
+std::uintptr_t SiteOfCall() {
+  constexpr int kMostFrames = 12;
+  void* frames[kMostFrames];
+  const int count = backtrace(frames, kMostFrames);
+  for (int i = 0; i < count; ++i) {
+    const auto address = reinterpret_cast<std::uintptr_t>(frames[i]);
+    if (address >= program_begin && address < program_end) {
+      return address - program_begin;
+    }
+  }
+  return 0;
+}
+
+bool FailsHere() {
+  if (!is_ready.load() || is_inside) return false;
+  if (!by_site) return Fails("malloc");
+  is_inside = true;
+  const std::uintptr_t site = SiteOfCall();
+  const bool is_new = site != 0 && IsNewSite(site);
+  is_inside = false;
+  return is_new && site == static_cast<std::uintptr_t>(failing);
+}
+
+// The program is the first of the objects loaded.
+int FindProgram(dl_phdr_info* info, std::size_t /*size*/, void* /*data*/) {
+  program_begin = info->dlpi_addr;
+  for (int i = 0; i < info->dlpi_phnum; ++i) {
+    const auto& part = info->dlpi_phdr[i];
+    if (part.p_type == PT_LOAD) {
+      program_end = program_begin + part.p_vaddr + part.p_memsz;
+    }
+  }
+  return 1;
+}
+
 [[gnu::constructor]] void Begin() {
   void* frames[1];
   backtrace(frames, 1);  // loads what it needs before anything can fail
@@ -71,18 +129,37 @@ bool Fails(const char* which) {
   std::snprintf(
       name, sizeof name, "%.*s", static_cast<int>(colon - fail), fail);
   kind = name;
-  failing = std::atol(colon + 1);
+  by_site = std::strcmp(name, "site") == 0;
+  constexpr int kDecimal = 10;
+  constexpr int kHexadecimal = 16;
+  failing = std::strtol(colon + 1, nullptr, by_site ? kHexadecimal : kDecimal);
+  dl_iterate_phdr(FindProgram, nullptr);
   unsetenv("LD_PRELOAD");
-  is_ready = true;
+}
+
+using MainFunction = int (*)(int, char**, char**);
+MainFunction program_main = nullptr;
+
+// What is made before main has nobody to tell: nothing fails until then.
+int BeginMain(int argc, char** argv, char** environment) {
+  is_ready = *kind != '\0';
+  return program_main(argc, argv, environment);
 }
 
 [[gnu::destructor]] void End() {
   if (!is_ready.load() || log_path == nullptr) return;
   is_inside = true;
   char text[64];
+  const int log = OpenLog();
+  if (by_site && failing == 0) {
+    for (const auto& site : sites) {
+      if (site.load() == 0) continue;
+      const int size = std::snprintf(text, sizeof text, "%lx\n", site.load());
+      static_cast<void>(!write(log, text, static_cast<std::size_t>(size)));
+    }
+  }
   const int length =
       std::snprintf(text, sizeof text, "calls %ld\n", calls.load());
-  const int log = OpenLog();
   static_cast<void>(!write(log, text, static_cast<std::size_t>(length)));
   close(log);
 }
@@ -92,6 +169,19 @@ bool IsForWriting(int flags) { return (flags & O_ACCMODE) != O_RDONLY; }
 }  // namespace
 
 extern "C" {
+
+int __libc_start_main(MainFunction main,
+                      int argc,
+                      char** argv,
+                      void (*init)(),
+                      void (*fini)(),
+                      void (*linker_fini)(),
+                      void* stack_end) {
+  static const auto real =
+      Real<decltype(&__libc_start_main)>("__libc_start_main");
+  program_main = main;
+  return real(BeginMain, argc, argv, init, fini, linker_fini, stack_end);
+}
 
 ssize_t write(int descriptor, const void* data, std::size_t size) {
   static const auto real =
@@ -177,7 +267,7 @@ void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* block, std::size_t size);
 
 void* malloc(std::size_t size) {
-  if (Fails("malloc")) {
+  if (FailsHere()) {
     errno = ENOMEM;
     return nullptr;
   }
@@ -185,7 +275,7 @@ void* malloc(std::size_t size) {
 }
 
 void* calloc(std::size_t count, std::size_t size) {
-  if (Fails("malloc")) {
+  if (FailsHere()) {
     errno = ENOMEM;
     return nullptr;
   }
@@ -193,7 +283,7 @@ void* calloc(std::size_t count, std::size_t size) {
 }
 
 void* realloc(void* block, std::size_t size) {
-  if (Fails("malloc")) {
+  if (FailsHere()) {
     errno = ENOMEM;
     return nullptr;
   }

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """After any call of the system that fails, nothing is lost and nothing is half.
 
-    faults_test.py ERRMAP LIBRARY DATA [MALLOCS]
+    faults_test.py ERRMAP LIBRARY DATA [MALLOCS [SITES [--only-memory]]]
 
 Runs a small study once for every write, fsync, rename and opening of a file,
-in which that call fails (LIBRARY: failing_calls.cc, preloaded), and once for
-each of MALLOCS (60) allocations drawn with a fixed seed. After each:
+in which that call fails (LIBRARY: failing_calls.cc, preloaded), once for each
+of MALLOCS (60) allocations drawn with a fixed seed, and once for each of SITES
+(10; "all") places in the program's own code, of which the first allocation
+fails. On demand: 1000 all. After each:
 
   - the program has ended within 10 s of its own time, by itself;
   - the status is 1 and a line names a file, where the call was one for files; 0
@@ -75,6 +77,14 @@ class Study:
         self.run(folder, f"{kind}:0")
         shutil.rmtree(folder)
         return int(self.log.read_text().split()[-1])
+
+    def sites(self):
+        """Places in the program that allocate, as failing_calls.cc names them."""
+        folder = self.root / "counted"
+        self.run(folder, "site:0")
+        shutil.rmtree(folder)
+        lines = self.log.read_text().splitlines()
+        return sorted(line for line in lines if not line.startswith("calls"))
 
 
 def contents(folder):
@@ -147,6 +157,10 @@ def judge(study, unbroken, what, folder, outcome, is_file_fault):
 def main():
     errmap, library, data = sys.argv[1:4]
     mallocs = int(sys.argv[4]) if len(sys.argv) > 4 else 60
+    most_sites = sys.argv[5] if len(sys.argv) > 5 else "10"
+    kinds = ("write", "fsync", "rename", "open", "ftruncate")
+    if "--only-memory" in sys.argv:
+        kinds = ()
     with tempfile.TemporaryDirectory() as scratch:
         root = pathlib.Path(scratch)
         study = Study(errmap, library, data, root)
@@ -154,7 +168,7 @@ def main():
             sys.exit("the study itself fails")
         unbroken = contents(root / "unbroken")
         faults = []
-        for kind in ("write", "fsync", "rename", "open", "ftruncate"):
+        for kind in kinds:
             count = study.calls(kind)
             print(kind, count, "calls")
             faults += [(f"{kind}:{n + 1}", True) for n in range(count)]
@@ -162,15 +176,23 @@ def main():
         print("malloc", count, "calls")
         draw = random.Random(1995)
         faults += [(f"malloc:{draw.randint(1, count)}", False) for _ in range(mallocs)]
-        for fault, is_file_fault in faults:
-            folder = root / "study"
-            shutil.rmtree(folder, ignore_errors=True)
-            try:
-                outcome = study.run(folder, fault)
-            except subprocess.TimeoutExpired:
-                fail(fault, "does not end")
-                continue
-            judge(study, unbroken, fault, folder, outcome, is_file_fault)
+        sites = study.sites()
+        print("site", len(sites), "places")
+        if most_sites != "all":
+            sites = draw.sample(sites, min(int(most_sites), len(sites)))
+        faults += [(f"site:{site}", False) for site in sites]
+        try:
+            for fault, is_file_fault in faults:
+                folder = root / "study"
+                shutil.rmtree(folder, ignore_errors=True)
+                try:
+                    outcome = study.run(folder, fault)
+                except subprocess.TimeoutExpired:
+                    fail(fault, "does not end")
+                    continue
+                judge(study, unbroken, fault, folder, outcome, is_file_fault)
+        except KeyboardInterrupt:
+            print("broken off; so far:")
     print(json.dumps(findings))
     return 1 if failures else 0
 
