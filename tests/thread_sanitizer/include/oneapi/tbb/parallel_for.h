@@ -1,0 +1,2 @@
+#pragma once
+#include "tests/thread_sanitizer/tbb_by_threads.h"
