@@ -1,15 +1,23 @@
 // Two threads that count without a lock: what ThreadSanitizer must report, or
 // its silence about errmap means nothing.
 
+#include <atomic>
+
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 int main() {
-  constexpr int kTimes = 10'000;
   volatile int count = 0;
+  std::atomic<int> arrived{0};
   tbb::task_arena arena(2);
   arena.execute([&] {
-    tbb::parallel_for(0, kTimes, [&](int /*i*/) { count = count + 1; });
+    tbb::parallel_for(0, 2, [&](int /*i*/) {
+      // Each waits for the other, so that there are two.
+      arrived.fetch_add(1, std::memory_order_relaxed);
+      while (arrived.load(std::memory_order_relaxed) < 2) {
+      }
+      count = count + 1;
+    });
   });
   return 0;
 }

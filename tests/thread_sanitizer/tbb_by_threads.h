@@ -72,13 +72,17 @@ void parallel_for(Index begin, Index end, const Work& work) {
   const int concurrency = detail_by_threads::concurrency;
   const auto take_turns = [&] {
     detail_by_threads::concurrency = concurrency;
-    for (std::size_t i = next++; i < count; i = next++) {
+    // Relaxed: taking turns must not make order where the work makes none.
+    const auto take = [&] {
+      return next.fetch_add(1, std::memory_order_relaxed);
+    };
+    for (std::size_t i = take(); i < count; i = take()) {
       try {
         work(static_cast<Index>(begin + static_cast<Index>(i)));
       } catch (...) {
         const std::lock_guard lock(mutex);
         if (thrown == nullptr) thrown = std::current_exception();
-        next = count;
+        next.store(count, std::memory_order_relaxed);
       }
     }
   };
