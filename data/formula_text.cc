@@ -23,10 +23,8 @@ std::string_view AfterApostrophes(std::string_view text) {
 
 bool NeedsApostrophe(std::string_view text) {
   double ignored = 0.0;
-  const std::string_view bare = AfterApostrophes(text);
-  return BeginsFormula(bare) &&
-         (bare.size() < text.size() ||
-          (text.size() > 1 && !ParseNumber(text, &ignored)));
+  return text.size() > 1 && BeginsFormula(AfterApostrophes(text)) &&
+         !ParseNumber(text, &ignored);
 }
 
 std::string_view WithoutApostrophe(std::string_view text) {
