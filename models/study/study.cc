@@ -29,6 +29,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 constexpr const char* kNotBegun = "interrupted before it began";
+constexpr const char* kNoMemory = "not enough memory";  // may be there later
 
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -60,7 +61,7 @@ FitOutcome FitOnce(const ModelRecipe& recipe,
     }
     outcome.fitted = std::move(fitted);
   } catch (const std::bad_alloc&) {
-    outcome.why_failed = "not enough memory";
+    outcome.why_failed = kNoMemory;
     outcome.try_again = true;
   } catch (const std::exception& error) {
     outcome.why_failed = error.what();
@@ -82,6 +83,7 @@ FitOutcome FitAllRows(const ModelRecipe& recipe,
   if (is_net && outcome.fitted) {
     outcome.memorisation =
         AssessMemorisation(recipe, dataset, *outcome.fitted, context);
+    outcome.try_again = outcome.memorisation->why_not == kNoMemory;
   }
   return outcome;
 }

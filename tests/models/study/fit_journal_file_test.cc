@@ -530,6 +530,15 @@ TEST_F(JournalledStudy, DoesNotKeepAFitThatLackedMemory) {
       RunStudy(dataset_, holdouts_, recipes, {.journal = &journal});
   EXPECT_THAT(study.models[0].why(), HasSubstr("not enough memory"));
   EXPECT_EQ(journal.recorded, 0);
+  // A net that is there, and whose fit to shuffled targets is not.
+  int fits = 0;
+  Recipes nets;
+  nets.push_back(std::make_unique<CountingRecipe>(
+      "net:scg:hidden=2:iterations=5", [&fits] {
+        if (++fits == 2) throw std::bad_alloc();
+      }));
+  RunStudy(dataset_, holdouts_, nets, {.journal = &journal});
+  EXPECT_EQ(journal.recorded, 6);  // of seven
 }
 
 }  // namespace
