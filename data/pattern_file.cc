@@ -41,7 +41,8 @@ struct Header {
   double scale = 1.0;
 };
 
-Header ReadHeader(RecordReader* reader) {
+// `text` is the whole file.
+Header ReadHeader(std::string_view text, RecordReader* reader) {
   const std::string what =
       "numbers of patterns, inputs and outputs and a scale factor";
   const std::vector<double> numbers = reader->Numbers(4, what);
@@ -52,6 +53,11 @@ Header ReadHeader(RecordReader* reader) {
     }
     return static_cast<std::size_t>(value);
   };
+  // Targets get their names before the first of them is read.
+  if (count(2) > text.size()) {
+    reader->Refuse("expected " + what +
+                   ", found more outputs than the file has characters");
+  }
   return {count(0), count(1), count(2), numbers[3]};
 }
 
@@ -93,7 +99,7 @@ std::string ThermocoupleName(long long label,
 
 PatternTable ParseStacked(std::string_view text, const std::string& name) {
   RecordReader reader(text, name);
-  const Header header = ReadHeader(&reader);
+  const Header header = ReadHeader(text, &reader);
   const std::size_t thermocouples = header.inputs - 1;
   PatternTable table;
   table.scale = header.scale;
@@ -166,7 +172,7 @@ PatternTable ParseStacked(std::string_view text, const std::string& name) {
 
 PatternTable ParsePlain(std::string_view text, const std::string& name) {
   RecordReader reader(text, name);
-  const Header header = ReadHeader(&reader);
+  const Header header = ReadHeader(text, &reader);
   const std::size_t width = header.inputs + header.outputs;
   PatternTable table;
   table.scale = header.scale;

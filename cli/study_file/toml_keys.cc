@@ -1,5 +1,6 @@
 #include "cli/study_file/toml_keys.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -70,6 +71,15 @@ toml::table ParseToml(const std::string& text, const std::string& path) {
                     data::PrintablePath(path),
                     line,
                     kMostKeyParts));
+  }
+  // The parser asserts that there is none.
+  if (const std::size_t at = text.find('\0'); at != std::string::npos) {
+    const auto before = std::count(
+        text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+    throw data::InputError(
+        fmt::format("{}: line {}: a NUL byte; this is no text file",
+                    data::PrintablePath(path),
+                    before + 1));
   }
   try {
     return toml::parse(text, path);

@@ -92,6 +92,16 @@ std::string Without(std::string text, const std::string& part) {
   return text;
 }
 
+// Names of all columns come before their values: it took all memory.
+TEST(PatternFile, RefusesMoreOutputsThanTheFileCanHold) {
+  for (const char* name : {"x.pat", "x.tab"}) {
+    EXPECT_THAT(
+        [&] { ParsePatterns("12 3 299999999999 1.0\nx1 y1\n1 2\n", name); },
+        ThrowsMessage<InputError>(
+            HasSubstr("found more outputs than the file has characters")));
+  }
+}
+
 TEST(PatternFile, NamesFileLineAndWhatWasExpected) {
   const std::string good = kStacked;
   ExpectRefusal("x\n", "x.pat", "x.pat: line 1: expected numbers of patterns");

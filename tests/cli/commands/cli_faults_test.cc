@@ -393,6 +393,14 @@ TEST_F(CliFaults, DeepNestingIsRefusedByEveryReader) {
               HasSubstr("a key of more than 64 parts"));
 }
 
+// The parser of TOML holds that there is none.
+TEST_F(CliFaults, NulBytesInStudyFilesAreRefusedWithTheirLine) {
+  using std::string_literals::operator""s;
+  Write("study.toml", "seed = 1\n[\0\0omponent]]\n"s);
+  EXPECT_THAT(RefusalOf(Run({"compare", "--config", "study.toml"}), kUnusable),
+              HasSubstr("study.toml: line 2: a NUL byte"));
+}
+
 TEST_F(CliFaults, FoldersThatCannotBeMadeAreSaidInOneLine) {
   Write("file", "");
   const std::vector<std::vector<std::string>> commands = {
