@@ -128,6 +128,17 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
   add_fault("--drifting", &options.drifting, "... that gain 0.04 degC an hour");
   add_fault("--noisy", &options.noisy, "... with 25 times the noise");
   command
+      ->add_option("--from-day",
+                   options.from_day,
+                   "Day on which these faults and --shift-um begin")
+      ->capture_default_str();
+  command
+      ->add_option("--shift-um",
+                   options.shift_um,
+                   "From then on the displacements of both slides are larger "
+                   "by so much: the machine changed")
+      ->capture_default_str();
+  command
       ->add_option("--points",
                    options.points_per_day,
                    "Random poses per day in tool_tip.csv")

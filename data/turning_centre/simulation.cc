@@ -196,6 +196,11 @@ void SimulationOptions::Validate() const {
   CheckFactor("noise", noise_um, kMostNoise);
   CheckFactor("angle-noise", noise_urad, kMostNoise);
   CheckFactor("sensor-noise", sensor_noise, kMostNoise);
+  CheckCount("from-day", from_day, 1, days);
+  if (!std::isfinite(shift_um) || std::abs(shift_um) > kMostNoise) {
+    ThrowInvalid("shift-um " + Shortest(shift_um) +
+                 ": give a number from -1000 to 1000");
+  }
   std::set<int> taken;
   for (const std::vector<int>* list : {&dead, &stuck, &drifting, &noisy}) {
     for (const int number : *list) {
@@ -239,6 +244,7 @@ Simulation Simulate(const SimulationOptions& options) {
   const ThermalNetwork network = MakeTurningCentreNetwork(options.air_factor);
   Thermocouples thermocouples(
       options.seed, options.sensor_noise, FaultsOf(options), options.cycles);
+  if (options.from_day > 1) thermocouples.PostponeFaults();
   Simulation simulation{.options = options,
                         .programmes = {},
                         .stops = {},
@@ -254,6 +260,12 @@ Simulation Simulate(const SimulationOptions& options) {
             ? ReportDay(options.workload, options.cycles)
             : DrawDay(
                   options.workload, options.seed, day_number, options.cycles));
+    if (day_number == options.from_day && day_number > 1) {
+      thermocouples.BeginFaults(hours_before, cycle);
+    }
+    constexpr double kMmPerUm = 1e-3;
+    const double shift =
+        day_number < options.from_day ? 0.0 : kMmPerUm * options.shift_um;
     const std::size_t first_stop = simulation.stops.size();
     Day day(network,
             programme,
@@ -282,8 +294,10 @@ Simulation Simulate(const SimulationOptions& options) {
                .coolant = plan.coolant,
                .cutting_load = plan.cutting_load});
       for (int s = 0; s < kNumSweeps; ++s) {
-        Stop stop{
-            .day = day_number, .cycle = cycle, .sweep = static_cast<Sweep>(s)};
+        Stop stop{.day = day_number,
+                  .shift = shift,
+                  .cycle = cycle,
+                  .sweep = static_cast<Sweep>(s)};
         const bool is_x = stop.slide() == Slide::kX;
         for (int i = 0; i < kStopsPerSweep; ++i) {
           day.Run(kSecondsPerStop,

@@ -32,6 +32,11 @@ struct SimulationOptions {
   std::vector<int> stuck = {};
   std::vector<int> drifting = {};
   std::vector<int> noisy = {};
+  /// Day on which the sensors' faults and the shift begin, 1 to days.
+  int from_day = 1;
+  /// From then on both slides' displacements are larger by this, um: a scale
+  /// that slipped in a collision. -1000 to 1000.
+  double shift_um = 0.0;
   int points_per_day = 100;  // of tool_tip.csv, 0 to 100000
 
   /// Throws std::invalid_argument naming field, value and range.
@@ -46,8 +51,9 @@ inline constexpr int kNumSweeps = 4;
 
 /// The machine at one stop of a sweep.
 struct Stop {
-  int day = 0;    // from 1
-  int cycle = 0;  // from 1, counting on through the days
+  int day = 0;         // from 1
+  double shift = 0.0;  // of the slides' displacements, mm
+  int cycle = 0;       // from 1, counting on through the days
   Sweep sweep = Sweep::kXForward;
   int index = 0;       // place in the sweep, 0 to kStopsPerSweep - 1
   double hours = 0.0;  // from midnight

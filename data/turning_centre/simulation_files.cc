@@ -91,12 +91,15 @@ std::string ComponentCsv(const Simulation& simulation,
   const auto stream = 2 * static_cast<std::uint64_t>(file.component) +
                       static_cast<std::uint64_t>(file.direction);
   RandomStream noise(simulation.options.seed, Purpose::kReadingNoise, stream);
+  const bool is_shifted = file.component == Component::kXDisplacement ||
+                          file.component == Component::kZDisplacement;
   int record = 0;
   for (const Stop& stop : simulation.stops) {
     if (!IsRowOf(file, stop)) continue;
     const double position = has_position ? stop.position() : 0.0;
     const double truth =
-        TrueError(file.component, position, file.direction, stop.rise);
+        TrueError(file.component, position, file.direction, stop.rise) +
+        (is_shifted ? stop.shift : 0.0);
     const double reading = truth + noise_sd * noise.Normal();
     text += std::to_string(++record) + "," + std::to_string(stop.day) + "," +
             std::to_string(stop.cycle) + "," + std::to_string(stop.time_s());
@@ -126,8 +129,9 @@ std::string ToolTipCsv(const Simulation& simulation) {
             "," + SevenDigits(point.x) + "," + word(point.x_direction) + "," +
             SevenDigits(point.z) + "," + word(point.z_direction);
     AppendReadings(stop.readings, &text);
-    text += "," + SevenDigits(error.x) + "," + SevenDigits(error.y) + "," +
-            SevenDigits(error.z) + "\n";
+    text += "," + SevenDigits(error.x + stop.shift) + "," +
+            SevenDigits(error.y) + "," + SevenDigits(error.z + stop.shift) +
+            "\n";
   }
   return text;
 }
@@ -326,6 +330,8 @@ Not measured: made by `errmap simulate turning-centre`, which describes the mode
   row("--stuck", ListOfNumbers(run.stuck));
   row("--drifting", ListOfNumbers(run.drifting));
   row("--noisy", ListOfNumbers(run.noisy));
+  if (run.from_day > 1) row("--from-day", std::to_string(run.from_day));
+  if (run.shift_um != 0.0) row("--shift-um", SevenDigits(run.shift_um));
   row("--points", std::to_string(run.points_per_day));
   row("--truth", options.truth ? "yes" : "no");
   text += R"(

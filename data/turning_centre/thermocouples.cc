@@ -116,6 +116,12 @@ Thermocouples::Thermocouples(
   }
 }
 
+void Thermocouples::BeginFaults(double hours_on, int cycles) {
+  has_faults_ = true;
+  fault_hours_ = hours_on;
+  for (Sensor& sensor : sensors_) sensor.stuck_from_cycle += cycles;
+}
+
 void Thermocouples::StartDay(int day,
                              const std::vector<double>& temperatures,
                              double air) {
@@ -151,8 +157,7 @@ Thermocouples::Readings Thermocouples::Read(double hours_on, int cycle) {
     // noise as it was.
     const double deviate = noise_.Normal();
     readings[i] = Reading(sensor, hours_on, deviate);
-    if (sensor.fault == SensorFault::kStuck &&
-        cycle >= sensor.stuck_from_cycle) {
+    if (Has(sensor, SensorFault::kStuck) && cycle >= sensor.stuck_from_cycle) {
       if (!sensor.is_stuck) sensor.stuck_reading = readings[i];
       sensor.is_stuck = true;
       readings[i] = sensor.stuck_reading;
@@ -175,12 +180,12 @@ Thermocouples::Readings Thermocouples::Log(double hours_on) {
 double Thermocouples::Reading(const Sensor& sensor,
                               double hours_on,
                               double deviate) const {
-  if (sensor.fault == SensorFault::kDead) return 0.0;
+  if (Has(sensor, SensorFault::kDead)) return 0.0;
   double noise = noise_sd_ * deviate;
-  if (sensor.fault == SensorFault::kNoisy) noise *= kNoisyFactor;
+  if (Has(sensor, SensorFault::kNoisy)) noise *= kNoisyFactor;
   double reading = sensor.gain * sensor.own + sensor.offset + noise;
-  if (sensor.fault == SensorFault::kDrifting) {
-    reading += kDriftPerHour * hours_on;
+  if (Has(sensor, SensorFault::kDrifting)) {
+    reading += kDriftPerHour * (hours_on - fault_hours_);
   }
   return std::floor(reading * kReadingsPerKelvin + 0.5) / kReadingsPerKelvin;
 }

@@ -53,6 +53,11 @@ class Thermocouples {
                 const std::array<SensorFault, kNumThermocouples>& faults,
                 int first_day_cycles);
 
+  /// No fault shows until BeginFaults.
+  void PostponeFaults() { has_faults_ = false; }
+  /// From now on faults show: hours_on as for Read, `cycles` gone by.
+  void BeginFaults(double hours_on, int cycles);
+
   /// Starts a day: every sensor has the temperature of its site.
   void StartDay(int day, const std::vector<double>& temperatures, double air);
 
@@ -83,10 +88,15 @@ class Thermocouples {
 
   // To the logger's resolution; `deviate` is standard normal.
   double Reading(const Sensor& sensor, double hours_on, double deviate) const;
+  bool Has(const Sensor& sensor, SensorFault fault) const {
+    return has_faults_ && sensor.fault == fault;
+  }
 
   std::uint64_t seed_;
   double noise_sd_;
   std::array<Sensor, kNumThermocouples> sensors_;
+  bool has_faults_ = true;
+  double fault_hours_ = 0.0;  // on, when the faults began
   RandomStream noise_;
   RandomStream log_noise_;
 };

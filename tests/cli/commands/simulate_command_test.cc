@@ -82,6 +82,53 @@ TEST_F(SimulateCommand, SameSeedSameBytesAnotherSeedAnother) {
   EXPECT_EQ(files, 20);  // and the list of them
 }
 
+TEST_F(SimulateCommand, FaultsAndTheShiftBeginOnTheDayThatIsNamed) {
+  const auto read = [&](const std::string& folder,
+                        std::vector<std::string> more,
+                        const std::string& file = "x_displacement_down.csv") {
+    more.insert(more.begin(),
+                {"-o", folder, "--days", "3", "--cycles", "4", "--quiet"});
+    const Outcome outcome = Simulate(more);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return Records(Read(folder + "/" + file));
+  };
+  const auto healthy = read("healthy", {"--truth"});
+  const auto faulty = read("faulty",
+                           {"--truth",
+                            "--from-day",
+                            "2",
+                            "--shift-um",
+                            "2",
+                            "--drifting",
+                            "11",
+                            "--dead",
+                            "3",
+                            "--stuck",
+                            "7"});
+  ASSERT_EQ(healthy.size(), faulty.size());
+  double first_drift = -1.0;
+  double last_drift = 0.0;
+  for (std::size_t i = 0; i < healthy.size(); ++i) {
+    auto before = healthy[i];
+    auto after = faulty[i];
+    if (before["day"] == "1") {
+      EXPECT_EQ(before, after);
+      continue;
+    }
+    EXPECT_NEAR(std::stod(after["truth_mm"]) - std::stod(before["truth_mm"]),
+                0.002,
+                1e-7);
+    EXPECT_EQ(after["t03_degC"], "0");
+    last_drift = std::stod(after["t11_degC"]) - std::stod(before["t11_degC"]);
+    if (first_drift < 0.0) first_drift = last_drift;
+  }
+  // 0.04 degC an hour, to the logger's 0.01 degC, from when it was switched on.
+  EXPECT_NEAR(first_drift, 0.01, 0.011);
+  EXPECT_GT(last_drift, 0.05);
+  EXPECT_NE(healthy.back().at("t07_degC"), faulty.back().at("t07_degC"));
+  EXPECT_THAT(Read("faulty/README.md"), HasSubstr("| `--from-day` | 2 |"));
+}
+
 TEST_F(SimulateCommand, WrongCommandLinesGetOneLine) {
   struct Case {
     std::vector<std::string> words;
@@ -98,6 +145,8 @@ TEST_F(SimulateCommand, WrongCommandLinesGetOneLine) {
       {{"-o", "s", "--air", "-1"}, "air -1: conductances"},
       {{"-o", "s", "--noise", "-0.1"}, "noise -0.1"},
       {{"-o", "s", "--duty", "nan"}, "duty nan"},
+      {{"-o", "s", "--from-day", "3"}, "from-day 3: give a whole number"},
+      {{"-o", "s", "--shift-um", "inf"}, "shift-um inf"},
       {{"-o", "s", "--seed", "-1"}, "--seed"},
       {{"-o", "s", "more"}, "more"}};
   for (const Case& c : cases) {
