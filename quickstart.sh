@@ -11,7 +11,8 @@ set -eu
 
 packages="g++ cmake ninja-build libeigen3-dev libopenblas-dev libceres-dev
   libnlopt-dev libnlopt-cxx-dev libboost-dev libtbb-dev libcli11-dev
-  nlohmann-json3-dev libfmt-dev libtomlplusplus-dev libssl-dev libgtest-dev
+  nlohmann-json3-dev libfmt-dev libtomlplusplus-dev libssl-dev libsqlite3-dev
+  zlib1g-dev libgtest-dev
   libgmock-dev libbenchmark-dev"
 test_packages="clang-format-14 python3-jsonschema chromium gnuplot-nox"
 # Without these a few tests are skipped.

@@ -18,6 +18,7 @@
 #include <sys/resource.h>
 
 #include "cli/command.h"
+#include "cli/commands/fleet_commands.h"
 #include "cli/shell/command_reference.h"
 #include "cli/shell/completion.h"
 #include "cli/shell/man_page.h"
@@ -78,12 +79,12 @@ std::string ProvenanceCommandLine(int argc, char** argv) {
         word == "--force")
       continue;
     if (word == "--jobs" || word == "--out" || word == "--format" ||
-        word == "-o") {
+        word == "--shard" || word == "-o") {
       ++i;
       continue;
     }
     if (word.starts_with("--jobs=") || word.starts_with("--out=") ||
-        word.starts_with("--format=")) {
+        word.starts_with("--format=") || word.starts_with("--shard=")) {
       continue;
     }
     line += " " + ShellWord(word);
@@ -146,6 +147,8 @@ int RunParsed(int argc, char** argv) {
   AddExportCommand(&app, &run);
   AddCostCommand(&app, &run);
   AddCertifyCommand(&app, &run);
+  AddMergeCommand(&app, &run);
+  AddQueryCommand(&app, &run);
   if (argc < 2) {
     PrintResult(app.help());
     return kWrongCommandLine;

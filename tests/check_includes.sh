@@ -55,6 +55,7 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     rooms["models/study"] = " models models/history models/polynomial " \
                             "models/net models/blend "
     rooms["models/promise"] = rooms["models/study"] "models/study "
+    rooms["models/fleet"] = rooms["models/promise"]
     rooms["models/kinematics"] = " models models/history "
     rooms["models/export"] = " models models/history models/polynomial " \
                              "models/net models/blend "
@@ -64,7 +65,8 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     rooms["cli/shell"] = " cli "
     rooms["cli/study_file"] = " cli cli/shell "
     rooms["cli/report"] = " cli cli/shell cli/study_file "
-    rooms["cli/commands"] = " cli cli/shell cli/study_file cli/report "
+    rooms["cli/fleet"] = " cli cli/shell cli/study_file cli/report "
+    rooms["cli/commands"] = " cli cli/shell cli/study_file cli/report cli/fleet "
     # These know every room, since they put them together.
     knows_all["cli/application.cc"] = 1
     knows_all["models/file_recipe.cc"] = 1
@@ -155,6 +157,14 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     }
     if (name ~ /^toml\+\+\// && FILENAME !~ /^cli\/study_file\//) {
       violation("<" name "> belongs in cli/study_file/")
+      next
+    }
+    if (name ~ /^sqlite3/ && FILENAME !~ /^cli\/fleet\/sqlite[^\/]*\.cc$/) {
+      violation("<" name "> belongs in cli/fleet/sqlite*.cc")
+      next
+    }
+    if (name ~ /^zlib/ && FILENAME !~ /^cli\/fleet\/gzip[^\/]*\.cc$/) {
+      violation("<" name "> belongs in cli/fleet/gzip*.cc")
       next
     }
     if (name ~ /^(gtest|gmock|benchmark)\//) {

@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/compare_fleet.h"
 #include "cli/commands/progress.h"
+#include "cli/fleet/store_folder.h"
 #include "cli/report/claimed_folder.h"
 #include "cli/report/output_folder.h"
 #include "cli/report/result_table.h"
@@ -55,6 +57,7 @@ struct CompareArguments {
   std::uint64_t seed = 1;
   int jobs = 0;
   std::string out;
+  std::string shard;
   std::string format = "table";
   std::string command_line;
   std::string machine;
@@ -328,6 +331,38 @@ StudyPlan PlanOf(const CompareArguments& arguments,
   return plan;
 }
 
+int JobsOf(const CompareArguments& arguments) {
+  if (arguments.jobs > 0) return arguments.jobs;
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+// Of a study of many components, each by itself: components from patterns, a
+// share of a study, or what goes on with one. Nothing for any other.
+std::optional<int> RunIfFleet(const CompareArguments& arguments) {
+  if (arguments.config.empty()) {
+    if (!arguments.shard.empty()) {
+      throw UsageError(
+          "--shard deals the components of a study file; name it "
+          "with --config");
+    }
+    return std::nullopt;
+  }
+  StudyFile study = ConfigOfFile(arguments);
+  if (!study.has_patterns() && arguments.shard.empty() &&
+      (arguments.out.empty() || !IsStore(arguments.out))) {
+    return std::nullopt;
+  }
+  return RunCompareFleet({.study = std::move(study),
+                          .out = arguments.out,
+                          .shard = arguments.shard,
+                          .command_line = arguments.command_line,
+                          .format = arguments.format,
+                          .jobs = JobsOf(arguments),
+                          .dry_run = arguments.dry_run,
+                          .force = arguments.force,
+                          .quiet = arguments.data.quiet});
+}
+
 std::string Formatted(const StudyRun& run,
                       const models::StudyRecord& record,
                       const std::string& format) {
@@ -342,10 +377,9 @@ int RunCompare(const CompareArguments& arguments) {
     throw UsageError("--resume needs the folder of the earlier run: --out DIR");
   }
   const std::optional<MachineStudy> machine = MachineOf(arguments);
+  if (const std::optional<int> status = RunIfFleet(arguments)) return *status;
   StudyPlan plan = PlanOf(arguments, machine);
-  const int cores =
-      std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int jobs = arguments.jobs > 0 ? arguments.jobs : cores;
+  const int jobs = JobsOf(arguments);
   if (arguments.dry_run) {
     PrintResult(PlanText(plan, jobs, arguments.out));
     return kDone;
@@ -500,6 +534,13 @@ void AddCompareCommand(CLI::App* app, Run* run) {
                    "models/")
       ->type_name("DIR");
   command
+      ->add_option("--shard",
+                   arguments->shard,
+                   "Of a study of many components do share I of 0 to N-1 only, "
+                   "or the one that mpirun or Slurm gave this task (env); "
+                   "errmap merge STORE puts the shares together")
+      ->type_name("I/N|env");
+  command
       ->add_option("--format",
                    arguments->format,
                    "What to print; csv and md have a row per component, "
@@ -532,6 +573,11 @@ void AddCompareCommand(CLI::App* app, Run* run) {
   command->footer(
       "Exit status: 0 done, 2 wrong command line, 3 unusable input, 4 every "
       "fit failed, 130 interrupted.\n"
+      "Where a component's data in a study file are a pattern, \"{machine}/"
+      "{component}.csv\", --out is a\nstore of the components of all files "
+      "that "
+      "match, each studied by itself: one that fails stops\nno other, and the "
+      "same command goes on where it was broken off.\n"
       "Example: errmap compare xdown.csv --models mean,poly:eq8,net:scg "
       "--out study");
   command->callback([arguments, run, command] {

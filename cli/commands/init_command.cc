@@ -7,8 +7,10 @@
 
 #include "cli/command.h"
 #include "cli/report/claimed_folder.h"
+#include "cli/shell/number_text.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
+#include "cli/study_file/fleet_proposal.h"
 #include "cli/study_file/study_file_text.h"
 #include "cli/study_file/study_plan.h"
 #include "data/atomic_file.h"
@@ -34,6 +36,26 @@ std::string PathFrom(const std::string& study_file, const std::string& data) {
              : std::filesystem::proximate(data, folder).string();
 }
 
+// For a folder: patterns of the files below it.
+int RunInitFleet(const InitArguments& arguments) {
+  const FleetProposal proposal =
+      ProposeFleet(arguments.data,
+                   PathFrom(arguments.out, arguments.data),
+                   arguments.target);
+  data::WriteFileAtomically(arguments.out, proposal.text);
+  const std::string path = data::PrintablePath(arguments.out);
+  PrintResult(fmt::format(
+      "{}: {}{}; look it over, then errmap compare --config {} --out STORE\n",
+      path,
+      Count(proposal.files, "file"),
+      proposal.left_out == 0
+          ? std::string()
+          : fmt::format(", {} left out that cannot be mapped",
+                        proposal.left_out),
+      path));
+  return kDone;
+}
+
 int RunInit(const InitArguments& arguments) {
   RefuseInputAsOutput("-o", arguments.out, {arguments.data});
   if (!arguments.force && std::filesystem::exists(arguments.out)) {
@@ -41,6 +63,9 @@ int RunInit(const InitArguments& arguments) {
         "{} is there already; write another with -o, or replace it with "
         "--force",
         data::PrintablePath(arguments.out)));
+  }
+  if (std::filesystem::is_directory(arguments.data)) {
+    return RunInitFleet(arguments);
   }
   StudyConfig config = ProposeStudy(data::ReadCsv(arguments.data));
   for (ComponentConfig& component : config.components) {
@@ -65,10 +90,15 @@ int RunInit(const InitArguments& arguments) {
 void AddInitCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<InitArguments>();
   CLI::App* command = app->add_subcommand(
-      "init", "Write a commented study file for a data file");
-  command->add_option("DATA", arguments->data, "CSV file, one row per sample")
+      "init", "Write a commented study file for a data file or a folder");
+  command
+      ->add_option(
+          "DATA",
+          arguments->data,
+          "CSV file, one row per sample; or a folder with such of many "
+          "machines and components below it")
       ->required()
-      ->type_name("FILE.csv");
+      ->type_name("FILE.csv|DIR");
   command
       ->add_option("--target",
                    arguments->target,

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -5,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/fleet/merge.h"
+#include "cli/fleet/store_folder.h"
 #include "cli/report/claimed_folder.h"
 #include "cli/report/figures.h"
 #include "cli/report/report_files.h"
@@ -25,6 +28,7 @@ struct ReportArguments {
   std::string figures;
   std::string image = "pdf";
   std::string format;
+  std::string component;  // of a store
   bool force = false;
 };
 
@@ -47,7 +51,46 @@ models::StudyRecord ReadResults(const std::string& folder) {
   }
 }
 
+// The page of one component of a store, or of all of them together.
+int RunStoreReport(const ReportArguments& arguments) {
+  const StorePaths store{arguments.folder};
+  if (arguments.component.empty()) {
+    if (!arguments.figures.empty() || !arguments.format.empty()) {
+      throw UsageError(
+          "the report of a store is report.html; --format and --figures go "
+          "with --component");
+    }
+    DrawFleetReport(store, ReadSummaries(store));
+    return kDone;
+  }
+  const FleetRecord fleet = ReadFleet(store);
+  if (std::ranges::find(
+          fleet.components, arguments.component, &FleetComponentRecord::name) ==
+      fleet.components.end()) {
+    throw UsageError(fmt::format(
+        "no component {} in {}; errmap query STORE \"SELECT name FROM "
+        "components\" lists them",
+        data::QuotedName(arguments.component),
+        data::PrintablePath(arguments.folder)));
+  }
+  const models::StudyRecord results = ReadResultsOf(store, arguments.component);
+  if (arguments.format == "md") {
+    PrintResult(ReportMarkdown(results));
+  } else if (arguments.format == "html") {
+    PrintResult(ReportHtml(results, MakeFigures(results)));
+  } else {
+    const std::string page = store.InFolder(arguments.component, kPageFile);
+    data::WriteFileAtomically(page, ReportHtml(results, MakeFigures(results)));
+    PrintResult(page + "\n");
+  }
+  return kDone;
+}
+
 int RunReport(const ReportArguments& arguments) {
+  if (IsStore(arguments.folder)) return RunStoreReport(arguments);
+  if (!arguments.component.empty()) {
+    throw UsageError("--component is for stores of many components");
+  }
   const models::StudyRecord results = ReadResults(arguments.folder);
   if (arguments.format == "md") {
     PrintResult(ReportMarkdown(results));
@@ -88,7 +131,7 @@ void AddReportCommand(CLI::App* app, Run* run) {
       ->add_option("DIR",
                    arguments->folder,
                    "Folder that errmap compare --out wrote: report.html and "
-                   "report.md are drawn from its results.json")
+                   "report.md are drawn from its results.json; or a store")
       ->required()
       ->type_name("");
   command
@@ -109,6 +152,12 @@ void AddReportCommand(CLI::App* app, Run* run) {
                    "Print html or md instead of writing into DIR")
       ->check(CLI::IsMember({"html", "md"}))
       ->type_name("html|md");
+  command
+      ->add_option("--component",
+                   arguments->component,
+                   "Of a store: draw this component's page; without it the "
+                   "page of all")
+      ->type_name("NAME");
   AddForceFlag(command, &arguments->force);
   command->footer(
       "Exit status: 0 done, 2 wrong command line, 3 unusable results.json.\n"

@@ -14,6 +14,7 @@
 #include <toml++/toml.h>
 
 #include "cli/command.h"
+#include "cli/study_file/component_pattern.h"
 #include "cli/study_file/toml_keys.h"
 #include "cli/study_file/toml_text.h"
 #include "data/atomic_file.h"
@@ -41,7 +42,7 @@ class StudyFileReader {
   explicit StudyFileReader(const std::string& file)
       : file_(file), folder_(std::filesystem::path(file).parent_path()) {}
 
-  StudyConfig Read(const toml::table& root) const {
+  StudyFile Read(const toml::table& root) const {
     const Keys keys(root, "the study", file_);
     keys.AllowOnly({"seed",
                     "goal",
@@ -50,7 +51,8 @@ class StudyFileReader {
                     "models",
                     "model",
                     "component"});
-    StudyConfig config;
+    StudyFile study;
+    StudyConfig& config = study.config;
     keys.TakeSeed(&config.seed);
     keys.TakeNumber("goal", false, &config.goal);
     keys.TakeNumber("indifference", true, &config.indifference);
@@ -70,14 +72,14 @@ class StudyFileReader {
       config.models.push_back(ReadModel(*table, config.models));
     }
     for (const toml::table* table : keys.Tables("component")) {
-      config.components.push_back(ReadComponent(*table));
+      config.components.push_back(ReadComponent(*table, &study.sources));
     }
     if (config.components.empty()) {
       throw data::InputError(data::PrintablePath(file_) +
                              ": no [[component]]; add one with data = "
                              "\"FILE.csv\", or let errmap init write the file");
     }
-    return config;
+    return study;
   }
 
  private:
@@ -86,7 +88,8 @@ class StudyFileReader {
     return (folder_ / path).lexically_normal().string();
   }
 
-  ComponentConfig ReadComponent(const toml::table& table) const {
+  ComponentConfig ReadComponent(const toml::table& table,
+                                std::vector<ComponentSource>* sources) const {
     const Keys keys(table, "[[component]]", file_);
     keys.AllowOnly({"name",
                     "data",
@@ -110,7 +113,9 @@ class StudyFileReader {
     if (component.data.empty()) {
       keys.RefuseTable("needs data = \"FILE.csv\"");
     }
+    sources->push_back({.path = component.data, .fields = {}});
     component.data = BesideStudyFile(component.data);
+    TakePattern(keys, &component, &sources->back());
     component.where = ReadWhere(keys);
     keys.TakeText("target", &component.target);
     keys.TakeList("inputs", &component.inputs);
@@ -130,6 +135,32 @@ class StudyFileReader {
     keys.TakeNumber("goal", false, &component.goal);
     keys.TakeNumber("indifference", true, &component.indifference);
     return component;
+  }
+
+  // A path with fields in it, unless a file has that very name.
+  void TakePattern(const Keys& keys,
+                   ComponentConfig* component,
+                   ComponentSource* source) const {
+    const std::string path = source->path;
+    std::error_code ignored;
+    if (!PathPattern::HasFields(path) ||
+        std::filesystem::exists(component->data, ignored)) {
+      return;
+    }
+    try {
+      PathFields fields;
+      const PathPattern pattern(path);
+      for (const std::string& field : pattern.fields()) {
+        fields.emplace_back(field, "");
+      }
+      FillIn(component->name, fields);
+    } catch (const std::invalid_argument& error) {
+      keys.RefuseTable(error.what());
+    }
+    const bool is_absolute = std::filesystem::path(path).is_absolute();
+    source->is_pattern = true;
+    source->path = is_absolute ? path.substr(1) : path;
+    component->data = is_absolute ? "/" : folder_.string();
   }
 
   static data::Alignment ReadAlign(const Keys& keys) {
@@ -373,9 +404,9 @@ class Overrider {
 
 }  // namespace
 
-StudyConfig ParseStudyFile(const std::string& text,
-                           const std::string& path,
-                           const std::vector<std::string>& overrides) {
+StudyFile ParseStudyFile(const std::string& text,
+                         const std::string& path,
+                         const std::vector<std::string>& overrides) {
   toml::table root = ParseToml(text, path);
   for (const std::string& change : overrides) {
     Overrider(change).Apply(ParseOverride(change), &root);
@@ -386,8 +417,9 @@ StudyConfig ParseStudyFile(const std::string& text,
 StudyFile ReadStudyFile(const std::string& path,
                         const std::vector<std::string>& overrides) {
   const std::string text = data::ReadFile(path, data::kMostTextOfPeople);
-  return {.config = ParseStudyFile(text, path, overrides),
-          .file = {.file = path, .sha256 = data::Sha256(text)}};
+  StudyFile study = ParseStudyFile(text, path, overrides);
+  study.file = {.file = path, .sha256 = data::Sha256(text)};
+  return study;
 }
 
 }  // namespace errmap::cli

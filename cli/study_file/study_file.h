@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "cli/study_file/comparison.h"
+#include "cli/study_file/component_pattern.h"
 #include "cli/study_file/study_config.h"
 
 namespace errmap::cli {
@@ -12,6 +14,13 @@ namespace errmap::cli {
 struct StudyFile {
   StudyConfig config;
   InputFile file;
+  std::vector<ComponentSource> sources;  // one per component
+
+  /// Components come from files by pattern: each is a study by itself, and one
+  /// that fails stops no other.
+  bool has_patterns() const {
+    return std::ranges::any_of(sources, &ComponentSource::is_pattern);
+  }
 };
 
 /// Reads a study file (TOML). Paths in it are relative to its folder; the
@@ -28,9 +37,9 @@ struct StudyFile {
 StudyFile ReadStudyFile(const std::string& path,
                         const std::vector<std::string>& overrides = {});
 
-/// The same from text in memory; `path` stands for the file.
-StudyConfig ParseStudyFile(const std::string& text,
-                           const std::string& path,
-                           const std::vector<std::string>& overrides = {});
+/// The same from text in memory; `path` stands for the file, which has no hash.
+StudyFile ParseStudyFile(const std::string& text,
+                         const std::string& path,
+                         const std::vector<std::string>& overrides = {});
 
 }  // namespace errmap::cli

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "cli/shell/shown_path.h"
+#include "cli/study_file/component_names.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/fault_text.h"
 #include "data/atomic_file.h"
@@ -266,26 +267,6 @@ class ComponentPlanner {
   bool quiet_;
   TableReader* reader_;
 };
-
-std::string DefaultName(const ComponentConfig& component) {
-  std::string name = std::filesystem::path(component.data).stem().string();
-  for (const data::ColumnFilter& filter : component.where) {
-    name += ", " + ValueText(filter);
-  }
-  return name;
-}
-
-// Every component gets a name of its own: files are called by it.
-void NameComponents(StudyConfig* config) {
-  std::set<std::string> taken;
-  for (ComponentConfig& component : config->components) {
-    if (component.name.empty()) component.name = DefaultName(component);
-    if (taken.insert(component.name).second) continue;
-    throw data::InputError(
-        fmt::format("two components are named {}; give each a name of its own",
-                    data::QuotedName(component.name)));
-  }
-}
 
 // What defaults became, so that a study with these words would do the same.
 // Hold-outs and models that differ between components stay unsaid.

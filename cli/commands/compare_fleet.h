@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "cli/study_file/study_file.h"
+
+namespace errmap::cli {
+
+struct CompareFleetArguments {
+  StudyFile study;
+  std::string out;
+  std::string shard;  // "": all, and put together at the end
+  std::string command_line;
+  std::string format = "table";
+  int jobs = 1;
+  bool dry_run = false;
+  bool force = false;
+  bool quiet = false;
+};
+
+/// compare of a study of many components, each by itself; its exit status.
+int RunCompareFleet(CompareFleetArguments arguments);
+
+}  // namespace errmap::cli

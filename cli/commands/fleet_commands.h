@@ -1,0 +1,11 @@
+#pragma once
+
+#include "cli/command.h"
+
+namespace errmap::cli {
+
+/// As those of command.h: what is done with stores of many components.
+void AddMergeCommand(CLI::App* app, Run* run);
+void AddQueryCommand(CLI::App* app, Run* run);
+
+}  // namespace errmap::cli

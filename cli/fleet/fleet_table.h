@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/report/table.h"
+#include "models/fleet/component_summary.h"
+
+namespace errmap::cli {
+
+/// A row per component: what is recommended and how it does.
+Table FleetTable(const std::vector<models::ComponentSummary>& summaries);
+
+/// What compare --format prints of a fleet; on a terminal, of a large one, the
+/// numbers and the components that failed or do worst.
+std::string FormattedFleet(
+    const std::vector<models::ComponentSummary>& summaries,
+    const std::string& format);
+
+}  // namespace errmap::cli

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace errmap::cli {
+
+/// As `gzip` writes it, without a name or a time: the same text gives the same
+/// bytes.
+std::string Gzip(std::string_view text);
+
+/// Its inverse. Throws data::InputError where it is no gzip, is cut off, or
+/// holds more than `most` bytes.
+std::string Gunzip(std::string_view compressed, std::size_t most);
+
+}  // namespace errmap::cli

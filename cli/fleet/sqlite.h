@@ -1,0 +1,119 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace errmap::cli {
+
+/// SQLite says that something cannot be done; what() says what, in its words.
+class SqliteError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A value of a column: nothing, a whole number, a number or a text.
+using SqlValue =
+    std::variant<std::monostate, std::int64_t, double, std::string>;
+
+/// A prepared statement, run once or again and again.
+class Statement {
+ public:
+  Statement(sqlite3* database, std::string_view sql);
+
+  /// Values of the parameters, in order; NaN and empty optionals are NULL.
+  template <typename... T>
+  Statement& With(const T&... values) {
+    Reset();
+    int index = 0;
+    (Bind(++index, values), ...);
+    return *this;
+  }
+
+  /// Goes to the next row; false at the end. Throws SqliteError.
+  bool Next();
+  /// Runs to the end.
+  void Run();
+
+  int num_columns() const;
+  std::string ColumnName(int column) const;
+  SqlValue Value(int column) const;
+  std::string Text(int column) const;
+  double Number(int column) const;  // NaN where it is NULL
+  std::int64_t Whole(int column) const;
+  bool IsReadOnly() const;
+
+ private:
+  void Reset();
+  void Bind(int index, std::int64_t value);
+  void Bind(int index, int value) { Bind(index, std::int64_t{value}); }
+  void Bind(int index, bool value) { Bind(index, std::int64_t{value}); }
+  void Bind(int index, double value);
+  void Bind(int index, std::string_view value);
+  void Bind(int index, const std::string& value) {
+    Bind(index, std::string_view(value));
+  }
+  void Bind(int index, const char* value) {
+    Bind(index, std::string_view(value));
+  }
+  template <typename T>
+  void Bind(int index, const std::optional<T>& value) {
+    if (value) Bind(index, *value);
+  }
+  void Check(int code) const;
+
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  sqlite3* database_;
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+};
+
+/// An open database.
+class Database {
+ public:
+  enum class Access {
+    /// A file that nobody writes into any more: no locks are taken, and the
+    /// right to read it is all that is needed.
+    kRead,
+    /// A file that nobody else knows of: what is written is not flushed, and of
+    /// a write that fails the whole file is worth nothing.
+    kPrivate,
+  };
+  /// Throws SqliteError where it cannot be opened or is no database.
+  Database(const std::string& path, Access access);
+
+  void Execute(const std::string& sql);
+  Statement Prepare(std::string_view sql) { return {handle_.get(), sql}; }
+  /// The first value of the first row.
+  std::int64_t WholeOf(std::string_view sql);
+
+  /// Prepares one statement that somebody typed: only what reads is allowed.
+  /// Throws SqliteError, also where more than one stands there.
+  Statement PrepareQuery(const std::string& sql);
+  /// Statements end with an error once the flag is set.
+  void StopWhere(const std::atomic<bool>& flag);
+
+  /// Copies all of `from` here (backup API).
+  void CopyFrom(Database* from);
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const;
+  };
+  std::unique_ptr<sqlite3, Close> handle_;
+};
+
+/// Version of the library in use.
+std::string SqliteVersion();
+
+}  // namespace errmap::cli

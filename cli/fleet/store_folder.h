@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "models/fleet/component_summary.h"
+#include "models/study/record.h"
+
+namespace errmap::cli {
+
+/// Where the files of a store are:
+///
+///   fleet.json                          what was asked for
+///   components/COMPONENT/summary.json   at most 20 kB, written last
+///   components/COMPONENT/results.json.gz
+///   components/COMPONENT/map.json.gz    the recommended map
+///   components/COMPONENT/relations.json.gz  how its sensors go together
+///   components/COMPONENT/report.html    on demand
+///   maps/SHA-256.json                   maps that were deployed
+///   errmap.sqlite                       all summaries together
+///   report.html, watch.html
+struct StorePaths {
+  std::string store;
+
+  std::string Fleet() const;
+  std::string Database() const;
+  std::string Lock() const;
+  std::string Report() const;
+  std::string Watch() const;
+  /// Of maps that were deployed.
+  std::string Map(const std::string& sha256) const;
+  /// The component's folder below the store: its name where that is a plain
+  /// file name, else what is safe of it and a hash.
+  static std::string FolderOf(const std::string& component);
+  std::string InFolder(const std::string& component, const char* file) const;
+};
+
+inline constexpr const char* kSummaryFile = "summary.json";
+inline constexpr const char* kResultsFile = "results.json.gz";
+inline constexpr const char* kMapFile = "map.json.gz";
+inline constexpr const char* kRelationsFile = "relations.json.gz";
+inline constexpr const char* kPageFile = "report.html";
+
+struct FleetComponentRecord {
+  std::string name;
+  std::string data;   // relative to the study file
+  std::string asked;  // ComponentSummary::asked
+};
+
+/// fleet.json: a study of many components as it was asked for.
+struct FleetRecord {
+  std::string schema = "errmap-fleet-1";
+  std::string version;
+  std::string file;    // the study file
+  std::string sha256;  // of it
+  std::uint64_t seed = 0;
+  std::string command_line;
+  std::vector<FleetComponentRecord> components;
+};
+
+/// Whether the folder holds a store.
+bool IsStore(const std::string& folder);
+
+/// Makes the folder a store, or finds that it is one. Throws UsageError where
+/// it holds other files, unless `force`.
+void ClaimStore(const StorePaths& paths, bool force);
+
+/// Throws data::InputError where the folder is no store.
+FleetRecord ReadFleet(const StorePaths& paths);
+/// Writes fleet.json unless it says the same already.
+void WriteFleet(const StorePaths& paths, const FleetRecord& fleet);
+
+/// A component's results with the lists of training rows taken out where they
+/// are just those that are not held out: each list of rows stands once.
+std::string PackResults(models::StudyRecord record);
+/// Its inverse. Throws data::InputError naming the path.
+models::StudyRecord ReadResultsOf(const StorePaths& paths,
+                                  const std::string& component);
+
+}  // namespace errmap::cli

@@ -1,0 +1,296 @@
+#include "models/fleet/watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <Eigen/Cholesky>
+
+#include "data/input_error.h"
+#include "data/nesting.h"
+#include "data/text.h"
+#include "models/study/record_json.h"
+#include "stats/distributions.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Index kFewestSessions = 3;
+
+// By how much the statistics of healthy sessions of new days exceed those of
+// the sessions held out, which training's other days lie around: 99 % of
+// healthy components then stay below the t and F of p = 0.01. Measured by
+// tests/benchmarks/fleet_watch.py --calibrate.
+constexpr double kOffsetInflation = 1.5;
+constexpr double kRmsInflation = 1.5;
+constexpr double kSensorInflation = 2.0;
+
+// Of what the spread of one sensor is shrunk to that of all, in sessions.
+constexpr double kPriorSessions = 4.0;
+
+struct Regression {
+  VectorXd mean;
+  MatrixXd weights;
+};
+
+// By the inverse covariance P: value less what the others tell is
+// (x - mean)' P / diag(P).
+Regression RegressOnOthers(const MatrixXd& values) {
+  // A channel that shows one value has no scatter; in units of the reading.
+  constexpr double kLeastVariance = 1e-5;
+  Regression found;
+  found.mean = values.colwise().mean();
+  const MatrixXd centred = values.rowwise() - found.mean.transpose();
+  const Index size = values.cols();
+  const MatrixXd covariance =
+      centred.transpose() * centred / static_cast<double>(values.rows()) +
+      kLeastVariance * MatrixXd::Identity(size, size);
+  const MatrixXd precision =
+      covariance.llt().solve(MatrixXd::Identity(size, size));
+  found.weights = precision * precision.diagonal().cwiseInverse().asDiagonal();
+  return found;
+}
+
+VectorXd MeanResidual(const Regression& regression, const MatrixXd& values) {
+  const VectorXd mean = values.colwise().mean();
+  return regression.weights.transpose() * (mean - regression.mean);
+}
+
+std::vector<Index> SensorsOf(const data::Dataset& dataset) {
+  std::vector<Index> sensors;
+  for (Index i = 0; i < dataset.num_inputs(); ++i) {
+    const data::ColumnInfo& column = dataset.inputs()[std::size_t(i)];
+    if (!data::StartsWithIgnoringCase(column.name, "position")) {
+      sensors.push_back(i);
+    }
+  }
+  return sensors;
+}
+
+double MeanSquareOf(const VectorXd& residuals) {
+  return residuals.squaredNorm() / static_cast<double>(residuals.size());
+}
+
+// Of the newest `count` sessions.
+MapJudgement JudgeNewest(const HeldOutErrors& held_out,
+                         const std::vector<WatchedSession>& sessions,
+                         std::size_t count) {
+  const auto n = static_cast<double>(held_out.units.size());
+  const auto k = static_cast<double>(count);
+  double offsets = 0.0;  // sum of squares
+  double squares = 0.0;
+  double squares_of_squares = 0.0;
+  for (const HeldOutErrors::Unit& unit : held_out.units) {
+    const double offset = unit.residuals.mean();
+    const double square = MeanSquareOf(unit.residuals);
+    offsets += offset * offset;
+    squares += square;
+    squares_of_squares += square * square;
+  }
+  double offset = 0.0;
+  double square = 0.0;
+  for (std::size_t i = sessions.size() - count; i < sessions.size(); ++i) {
+    offset += sessions[i].offset / k;
+    square += sessions[i].mean_square / k;
+  }
+  MapJudgement found;
+  found.promised = held_out.rmse;
+  found.found = std::sqrt(square);
+  const double mean = squares / n;
+  if (!(mean > 0.0) || !(offsets > 0.0)) return found;
+  const double t = offset / (kOffsetInflation * std::sqrt(offsets / n / k));
+  found.p_offset = stats::StudentTwoSided(t, n);
+  // A session's mean square is spread as chi squared with so many degrees of
+  // freedom (Satterthwaite 1946), at most those of its rows.
+  constexpr double kMostFreedom = 1000.0;
+  const double variance = (squares_of_squares - n * mean * mean) / (n - 1.0);
+  const double freedom =
+      std::clamp(2.0 * mean * mean / std::max(variance, mean * mean * 1e-9),
+                 1.0,
+                 kMostFreedom);
+  found.p_rms =
+      stats::FUpperTail(square / (mean * kRmsInflation * kRmsInflation),
+                        k * freedom,
+                        n * freedom);
+  found.p = std::min(1.0, 2.0 * std::min(found.p_offset, found.p_rms));
+  return found;
+}
+
+RecordJson ToArray(const VectorXd& values) {
+  return ToJson(std::vector<double>(values.begin(), values.end()));
+}
+
+VectorXd ToVector(const RecordJson& json, Index size) {
+  std::vector<double> values;
+  FromJson(json, &values);
+  if (static_cast<Index>(values.size()) != size) {
+    throw data::InputError("has lists of other lengths than its columns");
+  }
+  return Eigen::Map<const VectorXd>(values.data(), size);
+}
+
+constexpr const char* kSchema = "errmap-relations-1";
+
+}  // namespace
+
+std::string SensorRelations::ToJsonText() const {
+  RecordJson names = RecordJson::array();
+  RecordJson rows = RecordJson::array();
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    names.push_back(
+        {{"name", columns[i].name}, {"unit", columns[i].unit.symbol}});
+    rows.push_back(ToArray(weights.row(Index(i)).transpose()));
+  }
+  const RecordJson json = {{"schema", kSchema},
+                           {"columns", std::move(names)},
+                           {"mean", ToArray(mean)},
+                           {"weights", std::move(rows)},
+                           {"spread", ToArray(spread)},
+                           {"sessions", sessions}};
+  return json.dump(-1, ' ', false, RecordJson::error_handler_t::replace) + "\n";
+}
+
+SensorRelations SensorRelations::FromJsonText(std::string_view text) {
+  data::RequireShallowJson(text);
+  const RecordJson json = RecordJson::parse(text, nullptr, false);
+  if (!json.is_object() || json.value("schema", RecordJson()) != kSchema) {
+    throw data::InputError("is not what compare wrote (errmap-relations-1)");
+  }
+  SensorRelations found;
+  for (const RecordJson& column : json.value("columns", RecordJson::array())) {
+    std::string name;
+    std::string unit;
+    FromJson(column.value("name", RecordJson()), &name);
+    FromJson(column.value("unit", RecordJson()), &unit);
+    found.columns.push_back({.name = name, .unit = data::UnitOfSymbol(unit)});
+  }
+  const auto size = static_cast<Index>(found.columns.size());
+  found.mean = ToVector(json.value("mean", RecordJson()), size);
+  found.spread = ToVector(json.value("spread", RecordJson()), size);
+  found.weights.resize(size, size);
+  const RecordJson rows = json.value("weights", RecordJson::array());
+  if (!rows.is_array() || static_cast<Index>(rows.size()) != size) {
+    throw data::InputError("has lists of other lengths than its columns");
+  }
+  for (Index i = 0; i < size; ++i) {
+    found.weights.row(i) = ToVector(rows[std::size_t(i)], size).transpose();
+  }
+  FromJson(json.value("sessions", RecordJson()), &found.sessions);
+  return found;
+}
+
+std::optional<SensorRelations> LearnRelations(const data::Dataset& training) {
+  const std::vector<Index> sensors = SensorsOf(training);
+  const std::vector<Index> codes = training.session_codes();
+  const Index sessions =
+      codes.empty() ? 0 : *std::ranges::max_element(codes) + 1;
+  if (sensors.size() < 2 || sessions < kFewestSessions) return std::nullopt;
+  const MatrixXd values = training.input_values()(Eigen::all, sensors);
+  SensorRelations found;
+  for (const Index sensor : sensors) {
+    found.columns.push_back(training.inputs()[std::size_t(sensor)]);
+  }
+  VectorXd squares = VectorXd::Zero(values.cols());
+  Index used = 0;
+  for (Index session = 0; session < sessions; ++session) {
+    std::vector<Index> of_it;
+    std::vector<Index> others;
+    for (std::size_t row = 0; row < codes.size(); ++row) {
+      (codes[row] == session ? of_it : others).push_back(Index(row));
+    }
+    if (of_it.empty() || others.empty()) continue;
+    squares += MeanResidual(RegressOnOthers(values(others, Eigen::all)),
+                            values(of_it, Eigen::all))
+                   .cwiseAbs2();
+    ++used;
+  }
+  if (used < kFewestSessions) return std::nullopt;
+  found.sessions = used;
+  found.spread = (squares / static_cast<double>(used)).cwiseSqrt();
+  const Regression all = RegressOnOthers(values);
+  found.mean = all.mean;
+  found.weights = all.weights;
+  return found;
+}
+
+VectorXd MeanShifts(const SensorRelations& relations, const MatrixXd& values) {
+  return MeanResidual({relations.mean, relations.weights}, values);
+}
+
+void JudgeSensors(const SensorRelations& relations,
+                  const VectorXd& shifts,
+                  WatchedSession* session) {
+  const VectorXd squares = relations.spread.cwiseAbs2();
+  constexpr double kLeast = 1e-12;
+  const double common = std::exp(squares.cwiseMax(kLeast).array().log().mean());
+  const auto n = static_cast<double>(relations.sessions);
+  Index worst = 0;
+  double largest = 0.0;
+  for (Index i = 0; i < shifts.size(); ++i) {
+    const double spread = std::sqrt((n * squares[i] + kPriorSessions * common) /
+                                    (n + kPriorSessions));
+    const double t = std::abs(shifts[i]) / (kSensorInflation * spread);
+    if (t <= largest) continue;
+    largest = t;
+    worst = i;
+  }
+  session->sensor = relations.columns[std::size_t(worst)].name;
+  session->sensor_shift = shifts[worst];
+  session->p_sensor =
+      std::min(1.0,
+               static_cast<double>(shifts.size()) *
+                   stats::StudentTwoSided(largest, n + kPriorSessions - 1.0));
+}
+
+std::optional<MapJudgement> JudgeSessions(
+    const HeldOutErrors& held_out,
+    const std::vector<WatchedSession>& sessions) {
+  if (static_cast<Index>(held_out.units.size()) < kFewestSessions ||
+      sessions.empty()) {
+    return std::nullopt;
+  }
+  MapJudgement best = JudgeNewest(held_out, sessions, 1);
+  if (sessions.size() == 1) return best;
+  const MapJudgement two = JudgeNewest(held_out, sessions, 2);
+  if (two.p < best.p) best = two;
+  best.p = std::min(1.0, 2.0 * best.p);
+  return best;
+}
+
+std::vector<double> FalseDiscoveryRates(const std::vector<double>& p) {
+  std::vector<std::size_t> order(p.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return p[i]; });
+  std::vector<double> rates(p.size());
+  double least = 1.0;
+  for (std::size_t rank = order.size(); rank-- > 0;) {
+    least = std::min(least,
+                     p[order[rank]] * static_cast<double>(p.size()) /
+                         static_cast<double>(rank + 1));
+    rates[order[rank]] = least;
+  }
+  return rates;
+}
+
+std::string_view ToString(WatchStatus status) {
+  switch (status) {
+    case WatchStatus::kAsPromised:
+      return "as promised";
+    case WatchStatus::kWorse:
+      return "worse";
+    case WatchStatus::kSensorChanged:
+      return "sensor changed";
+    case WatchStatus::kOutside:
+      return "outside";
+    case WatchStatus::kNotJudged:
+      return "not judged";
+  }
+  return "";
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,284 @@
+// A fleet study in shards, put together and asked, as a user runs it.
+
+#include <sys/resource.h>
+
+#include "tests/cli/fleet/fleet_fixture.h"
+
+namespace errmap {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+using Fleet = FleetTest;
+
+TEST_F(Fleet, OneBrokenComponentStopsNoOtherAndIsNamed) {
+  WriteFleet();
+  const Outcome outcome = Study("store");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("m02/yaw failed: "));
+  EXPECT_THAT(outcome.err, HasSubstr("8 fitted, 0 unchanged, 1 failed"));
+  EXPECT_THAT(outcome.out, HasSubstr("m01/x, down"));
+  const Json failed =
+      Rows("store", "SELECT name, why FROM components WHERE status = 'failed'");
+  ASSERT_THAT(failed, SizeIs(1));
+  EXPECT_EQ(failed[0][0], "m02/yaw");
+  EXPECT_THAT(failed[0][1].get<std::string>(), HasSubstr("yaw_up.csv"));
+  EXPECT_EQ(Rows("store",
+                 "SELECT field, value FROM fields WHERE component = "
+                 "'m01/x, down' ORDER BY field"),
+            Json::parse(R"([["component", "x"], ["direction", "down"],
+                            ["machine", "m01"]])"));
+}
+
+TEST_F(Fleet, APatternThatMatchesNothingAndAMissingFileAreFailedComponents) {
+  WriteComponent("a.csv", 1);
+  Write("fleet.toml",
+        "models = [\"mean\"]\n"
+        "[[component]]\ndata = \"{machine}/x.csv\"\n"
+        "[[component]]\ndata = \"missing.csv\"\n"
+        "[[component]]\ndata = \"a.csv\"\n");
+  const Outcome outcome = Study("store");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(Rows("store", "SELECT name, status FROM components"),
+            Json::parse(R"([["a", "ok"], ["missing", "failed"],
+                            ["{machine}/x.csv", "failed"]])"));
+}
+
+TEST_F(Fleet, SharesInAnyOrderGiveWhatOneRunGives) {
+  WriteFleet();
+  ASSERT_EQ(Study("whole", {"--jobs", "1"}).status, 0);
+  for (const char* share : {"2/3", "0/3", "2/3", "1/3"}) {
+    const Outcome outcome = Study("shared", {"--shard", share});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  }
+  EXPECT_EQ(Run({"merge", "shared"}).status, 0);
+  EXPECT_EQ(Content("whole"), Content("shared"));
+  EXPECT_EQ(Results("whole"), Results("shared"));
+}
+
+TEST_F(Fleet, SharesThatAreKilledGoOnAndTwoOfTheSameDoNoHarm) {
+  WriteFleet();
+  ASSERT_EQ(Study("whole").status, 0);
+  const std::vector<std::string> words{"compare",
+                                       "--config",
+                                       "fleet.toml",
+                                       "--out",
+                                       "shared",
+                                       "--jobs",
+                                       "1",
+                                       "--shard",
+                                       "0/1"};
+  for (const int pause_ms : {5, 60, 15, 120, 30}) {
+    Process first(scratch_.path(), words);
+    Process second(scratch_.path(), words);
+    std::this_thread::sleep_for(std::chrono::milliseconds(pause_ms));
+    first.Kill();
+    second.Kill();
+    first.Wait();
+    second.Wait();
+  }
+  Process one(scratch_.path(), words);
+  Process two(scratch_.path(), words);
+  EXPECT_EQ(one.Wait().status, 0);
+  EXPECT_EQ(two.Wait().status, 0);
+  EXPECT_EQ(Run({"merge", "shared"}).status, 0);
+  EXPECT_EQ(Content("whole"), Content("shared"));
+}
+
+TEST_F(Fleet, WhatHasNotChangedIsNotFittedAgain) {
+  WriteFleet();
+  ASSERT_EQ(Study("store").status, 0);
+  EXPECT_THAT(Study("store", {"--resume"}).err,
+              HasSubstr("0 fitted, 8 unchanged, 1 failed"));
+  WriteComponent("data/m01/x_down.csv", 77);
+  WriteComponent("data/m03/x_down.csv", 78);
+  EXPECT_THAT(Study("store").err, HasSubstr("2 fitted, 7 unchanged, 1 failed"));
+  EXPECT_THAT(Study("store", {"--goal", "0.001"}).err,
+              HasSubstr("9 fitted, 0 unchanged, 1 failed"));
+}
+
+TEST_F(Fleet, MergeSaysWhatIsMissing) {
+  WriteFleet();
+  EXPECT_EQ(Study("store", {"--shard", "1/3", "--quiet"}).err, "");
+  const Outcome merged = Run({"merge", "store"});
+  EXPECT_EQ(merged.status, kEveryFitFailed);
+  EXPECT_THAT(merged.err,
+              AllOf(HasSubstr("of 9 components are missing: "),
+                    HasSubstr("run the shards again")));
+  EXPECT_FALSE(
+      Rows("store", "SELECT * FROM components WHERE status = 'missing'")
+          .empty());
+  // Shares of another study do not count as this one's.
+  EXPECT_EQ(Study("store", {"--shard", "0/3", "--seed", "2"}).status, 0);
+  EXPECT_GT(Rows("store", "SELECT count(*) FROM components")[0][0], 0);
+  EXPECT_EQ(Run({"merge", "store"}).status, kEveryFitFailed);
+}
+
+TEST_F(Fleet, AComponentThatLeavesTheStudyLeavesTheStore) {
+  WriteFleet();
+  ASSERT_EQ(Study("store").status, 0);
+  std::filesystem::remove(scratch_ / "data/m01/x_down.csv");
+  ASSERT_EQ(Study("store").status, 0);
+  EXPECT_EQ(Rows("store", "SELECT count(*) FROM components")[0][0],
+            kComponents - 1);
+}
+
+TEST_F(Fleet, WrongCommandLinesGetOneLine) {
+  WriteFleet();
+  EXPECT_THAT(
+      RefusalOf(Run({"compare", "--config", "fleet.toml"}), kWrongCommandLine),
+      HasSubstr("needs --out STORE"));
+  EXPECT_THAT(RefusalOf(Study("s", {"--shard", "3/3"}), kWrongCommandLine),
+              HasSubstr("give I/N"));
+  EXPECT_THAT(RefusalOf(Study("data"), kWrongCommandLine),
+              HasSubstr("is no store and not empty"));
+  EXPECT_THAT(
+      RefusalOf(Run({"compare", "x.csv", "--shard", "0/1"}), kWrongCommandLine),
+      HasSubstr("--config"));
+  EXPECT_THAT(RefusalOf(Run({"merge", "data"}), kUnusable),
+              HasSubstr("is no store"));
+  Write("bad.toml", "[[component]]\nname = \"{a}\"\ndata = \"{b}.csv\"\n");
+  EXPECT_THAT(RefusalOf(Run({"compare", "--config", "bad.toml", "--out", "s"}),
+                        kUnusable),
+              HasSubstr("no field {a}"));
+  EXPECT_FALSE(Exists("s"));
+}
+
+TEST_F(Fleet, DryRunFitsNothing) {
+  WriteFleet();
+  const Outcome outcome = Study("store", {"--dry-run"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("9 components"), HasSubstr("unusable: m02/yaw")));
+  EXPECT_FALSE(Exists("store"));
+}
+
+// ---- The database
+
+class FleetQuery : public FleetTest {
+ protected:
+  void SetUp() override {
+    WriteFleet();
+    ASSERT_EQ(Study("store").status, 0);
+  }
+  std::string Refusal(const std::string& sql) const {
+    return RefusalOf(Run({"query", "store", sql}), kWrongCommandLine);
+  }
+};
+
+TEST_F(FleetQuery, PrintsTablesCsvAndJson) {
+  const std::string sql =
+      "SELECT name, sessions, goal FROM components WHERE name LIKE 'm01/x%' "
+      "ORDER BY name";
+  EXPECT_EQ(Run({"query", "store", sql, "--format", "csv"}).out,
+            "name,sessions,goal\n\"m01/x, down\",4,5e-04\n\"m01/x, "
+            "up\",4,5e-04\n");
+  EXPECT_EQ(Rows("store", sql), Json::parse(R"([["m01/x, down", 4, 0.0005],
+                            ["m01/x, up", 4, 0.0005]])"));
+  EXPECT_THAT(Run({"query", "store", sql}).out, HasSubstr("m01/x, up"));
+}
+
+TEST_F(FleetQuery, ChangesNothing) {
+  const std::string before = Read("store/errmap.sqlite");
+  for (const char* sql : {"DELETE FROM components",
+                          "DROP TABLE components",
+                          "PRAGMA user_version = 7",
+                          "ATTACH 'other.sqlite' AS o",
+                          "VACUUM INTO 'copy.sqlite'",
+                          "SELECT 1; DELETE FROM components",
+                          "SELECT load_extension('x')",
+                          "nonsense",
+                          ""}) {
+    EXPECT_THAT(Refusal(sql), HasSubstr("SQL: ")) << sql;
+  }
+  EXPECT_EQ(Read("store/errmap.sqlite"), before);
+  EXPECT_FALSE(Exists("other.sqlite"));
+  EXPECT_FALSE(Exists("copy.sqlite"));
+  EXPECT_FALSE(Exists("store/errmap.sqlite-journal"));
+}
+
+TEST_F(FleetQuery, TheTenQueriesOfTheReadmeAnswer) {
+  const std::string text =
+      Process::TextOf(tests::SourceDir() + "/cli/fleet/README.md");
+  int queries = 0;
+  for (std::size_t at = 0; (at = text.find("```sql\n", at)) != text.npos;) {
+    at += 7;
+    const std::string sql = text.substr(at, text.find("```", at) - at);
+    const Outcome outcome = Run({"query", "store", sql, "--format", "csv"});
+    EXPECT_EQ(outcome.status, 0) << sql << outcome.err;
+    ++queries;
+  }
+  EXPECT_EQ(queries, 10);
+}
+
+TEST_F(FleetQuery, NewerSchemasAndOtherFilesAreRefusedByName) {
+  std::string store = Read("store/errmap.sqlite");
+  constexpr std::size_t kUserVersion = 60;  // of the file format, big-endian
+  store[kUserVersion + 3] = 99;
+  Write("store/errmap.sqlite", store);
+  for (const Outcome& outcome :
+       {Run({"query", "store", "SELECT 1"}), Run({"merge", "store"})}) {
+    EXPECT_THAT(RefusalOf(outcome, kUnusable),
+                AllOf(HasSubstr("store/errmap.sqlite is of schema 99"),
+                      HasSubstr("use the newer errmap")));
+  }
+  EXPECT_EQ(Read("store/errmap.sqlite"), store);
+  Write("store/errmap.sqlite", "no database at all, but quite some text");
+  EXPECT_THAT(RefusalOf(Run({"query", "store", "SELECT 1"}), kUnusable),
+              HasSubstr("store/errmap.sqlite"));
+  std::filesystem::remove(scratch_ / "store/errmap.sqlite");
+  EXPECT_THAT(RefusalOf(Run({"query", "store", "SELECT 1"}), kUnusable),
+              HasSubstr("errmap merge STORE makes it"));
+}
+
+TEST_F(FleetQuery, AFullDiskIsOneLineAndTheStoreStaysAsItWas) {
+  const std::string before = Read("store/errmap.sqlite");
+  rlimit limit{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);
+  const rlimit old = limit;
+  limit.rlim_cur = 40000;  // a file that grows longer is a failed write
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+  const Outcome outcome = Run({"merge", "store"});
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &old), 0);
+  EXPECT_THAT(RefusalOf(outcome, kFailure),
+              AllOf(HasSubstr("cannot write store/errmap.sqlite"),
+                    HasSubstr("it is as it was")));
+  EXPECT_EQ(Read("store/errmap.sqlite"), before);
+  EXPECT_FALSE(Exists("store/errmap.sqlite.new"));
+}
+
+TEST_F(FleetQuery, NeedsTheRightToReadOnly) {
+  std::filesystem::permissions(scratch_ / "store/errmap.sqlite",
+                               std::filesystem::perms::owner_read);
+  std::filesystem::permissions(
+      scratch_ / "store",
+      std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  EXPECT_EQ(Rows("store", "SELECT count(*) FROM components")[0][0],
+            kComponents);
+  std::filesystem::permissions(scratch_ / "store",
+                               std::filesystem::perms::owner_all);
+}
+
+TEST_F(FleetQuery, AMergeThatIsKilledLosesNothingAndReadersSeeWholeStores) {
+  // Processes of one folder share their caught outputs.
+  const ScratchFolder elsewhere;
+  const std::string store = (scratch_ / "store").string();
+  constexpr int kKills = 30;
+  for (int i = 0; i < kKills; ++i) {
+    Process merge(elsewhere.path(), {"merge", store});
+    std::this_thread::sleep_for(std::chrono::milliseconds((i * 7) % 31));
+    EXPECT_EQ(Rows("store", "SELECT count(*) FROM components")[0][0],
+              kComponents);
+    merge.Kill();
+    merge.Wait();
+    EXPECT_EQ(Rows("store", "SELECT count(*) FROM recommendations")[0][0], 8);
+  }
+  EXPECT_EQ(Run({"merge", "store"}).status, 0);
+  EXPECT_FALSE(Exists("store/errmap.sqlite.new"));
+}
+
+}  // namespace
+}  // namespace errmap

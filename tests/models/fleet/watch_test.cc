@@ -1,0 +1,139 @@
+#include "models/fleet/watch.h"
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "data/csv.h"
+#include "data/input_error.h"
+#include "stats/distributions.h"
+
+namespace errmap::models {
+namespace {
+
+using ::testing::DoubleEq;
+using ::testing::ElementsAre;
+
+// Ten held-out days of offset +-1 and mean square 2.
+HeldOutErrors TenDays() {
+  HeldOutErrors errors;
+  errors.rmse = std::sqrt(2.0);
+  for (int day = 0; day < 10; ++day) {
+    HeldOutErrors::Unit& unit = errors.units.emplace_back();
+    const double offset = day % 2 == 0 ? 1.0 : -1.0;
+    unit.residuals.resize(4);
+    unit.residuals << offset + 1.0, offset - 1.0, offset + 1.0, offset - 1.0;
+  }
+  return errors;
+}
+
+WatchedSession Session(double offset, double mean_square) {
+  return {.label = "new",
+          .rows = 100,
+          .offset = offset,
+          .mean_square = mean_square,
+          .sensor = ""};
+}
+
+TEST(JudgeSessions, FindsADayLikeTheOthersAsPromised) {
+  const auto found = JudgeSessions(TenDays(), {Session(1.0, 2.0)});
+  ASSERT_TRUE(found);
+  EXPECT_GT(found->p, 0.3);
+  EXPECT_DOUBLE_EQ(found->found, std::sqrt(2.0));
+  EXPECT_DOUBLE_EQ(found->promised, std::sqrt(2.0));
+}
+
+TEST(JudgeSessions, HoldsAnOffsetAgainstThoseHeldOut) {
+  const auto found = JudgeSessions(TenDays(), {Session(-9.0, 82.0)});
+  // Inflated 1.5 times: t = 9 / 1.5 with 10 degrees of freedom.
+  EXPECT_THAT(found->p_offset, DoubleEq(stats::StudentTwoSided(6.0, 10.0)));
+  EXPECT_LT(found->p, 1e-3);
+}
+
+TEST(JudgeSessions, TwoDaysTogetherSayMoreThanTheNewest) {
+  const WatchedSession day = Session(4.0, 17.0);
+  const double one = JudgeSessions(TenDays(), {day})->p;
+  EXPECT_LT(JudgeSessions(TenDays(), {day, day})->p, one);
+}
+
+TEST(JudgeSessions, JudgesNothingByTwoDays) {
+  HeldOutErrors few = TenDays();
+  few.units.resize(2);
+  EXPECT_FALSE(JudgeSessions(few, {Session(0.0, 1.0)}));
+  EXPECT_FALSE(JudgeSessions(TenDays(), {}));
+}
+
+// Of p.adjust(c(0.01, 0.04, 0.03, 0.5), "BH") in R.
+TEST(FalseDiscoveryRates, AreThoseOfR) {
+  EXPECT_THAT(FalseDiscoveryRates({0.01, 0.04, 0.03, 0.5}),
+              ElementsAre(DoubleEq(0.04),
+                          DoubleEq(0.04 * 4 / 3),
+                          DoubleEq(0.04 * 4 / 3),
+                          DoubleEq(0.5)));
+  EXPECT_TRUE(FalseDiscoveryRates({}).empty());
+}
+
+// Three sensors of one temperature, by day.
+data::Dataset Machine(int days, int first_day, double drift_of_b) {
+  std::string text = "day,position_mm,a_degC,b_degC,c_degC,error_mm\n";
+  std::mt19937_64 random(static_cast<unsigned>(first_day));
+  const auto noise = [&] {
+    return 0.02 * (static_cast<double>(random() % 2001) / 1000.0 - 1.0);
+  };
+  for (int day = first_day; day < first_day + days; ++day) {
+    for (int i = 0; i < 40; ++i) {
+      const double t = 20.0 + 0.1 * i + 0.5 * (day % 3);
+      text += std::to_string(day) + "," + std::to_string(i) + "," +
+              std::to_string(t + noise()) + "," +
+              std::to_string(0.9 * t + drift_of_b + noise()) + "," +
+              std::to_string(1.1 * t + noise()) + "," +
+              std::to_string(0.001 * i + noise()) + "\n";
+    }
+  }
+  return data::MakeDataset(data::ParseCsv(text, "machine.csv"), {}).dataset;
+}
+
+WatchedSession Judged(const SensorRelations& relations,
+                      const data::Dataset& day) {
+  WatchedSession session = Session(0.0, 0.0);
+  JudgeSensors(relations,
+               MeanShifts(relations, day.input_values().rightCols(3)),
+               &session);
+  return session;
+}
+
+TEST(SensorRelations, NamesTheSensorThatDriftsAndLeavesHealthyOnesAlone) {
+  const auto relations = LearnRelations(Machine(10, 1, 0.0));
+  ASSERT_TRUE(relations);
+  EXPECT_EQ(relations->columns.size(), 3U);
+  EXPECT_EQ(relations->sessions, 10);
+  EXPECT_GT(Judged(*relations, Machine(1, 11, 0.0)).p_sensor, 0.05);
+  const WatchedSession drifting = Judged(*relations, Machine(1, 11, 0.3));
+  EXPECT_EQ(drifting.sensor, "b_degC");
+  EXPECT_NEAR(drifting.sensor_shift, 0.3, 0.03);
+  EXPECT_LT(drifting.p_sensor, 1e-4);
+}
+
+TEST(SensorRelations, NeedsThreeDaysAndTwoSensors) {
+  EXPECT_FALSE(LearnRelations(Machine(2, 1, 0.0)));
+}
+
+TEST(SensorRelations, ReadsBackWhatItWroteAndRefusesOtherText) {
+  const auto relations = LearnRelations(Machine(4, 1, 0.0));
+  const SensorRelations read =
+      SensorRelations::FromJsonText(relations->ToJsonText());
+  EXPECT_EQ(read.weights, relations->weights);
+  EXPECT_EQ(read.spread, relations->spread);
+  EXPECT_EQ(read.columns, relations->columns);
+  for (const char* text :
+       {"", "{}", R"({"schema": "errmap-relations-1", "columns": [{}]})"}) {
+    EXPECT_THROW(SensorRelations::FromJsonText(text), data::InputError) << text;
+  }
+}
+
+}  // namespace
+}  // namespace errmap::models
