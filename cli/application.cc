@@ -149,6 +149,8 @@ int RunParsed(int argc, char** argv) {
   AddCertifyCommand(&app, &run);
   AddMergeCommand(&app, &run);
   AddQueryCommand(&app, &run);
+  AddDeployCommand(&app, &run);
+  AddWatchCommand(&app, &run);
   if (argc < 2) {
     PrintResult(app.help());
     return kWrongCommandLine;

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/fleet/deployments.h"
+#include "cli/report/table.h"
+
+namespace errmap::cli {
+
+/// What watch found of one component.
+struct WatchedComponent {
+  Deployment deployment;
+  std::string file;           // the newest measurements
+  std::vector<Check> checks;  // all sessions so far, oldest first
+  std::string why_not;        // nothing could be judged
+  // Of the newest session, and what false discoveries allow for.
+  models::WatchStatus status = models::WatchStatus::kNotJudged;
+  double found = 0.0;  // RMSE, target's unit
+  double p_map = 0.0;  // NaN: not judged
+  double rate_map = 0.0;
+  double rate_sensor = 0.0;
+
+  /// What should be done, "" where nothing.
+  std::string Proposal(const std::string& store) const;
+};
+
+/// A row per component.
+Table WatchTable(const std::vector<WatchedComponent>& components);
+
+/// watch.html: the table, and the sessions of those that are not as promised
+/// against what was promised.
+std::string WatchHtml(const std::string& store,
+                      const std::vector<WatchedComponent>& components);
+
+}  // namespace errmap::cli

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/fleet/deployments.h"
+
+namespace errmap::cli {
+
+/// A file of new measurements and the deployment that it is of.
+struct WatchedFile {
+  std::string file;
+  const Deployment* deployment = nullptr;
+};
+
+struct WatchedFiles {
+  std::vector<WatchedFile> files;    // in order of the deployments
+  std::vector<std::string> unknown;  // of no deployment
+  std::vector<std::string> remarks;  // why a file is of none, a line each
+};
+
+/// Finds whose measurements these are: `paths` are CSV files, folders with such
+/// below them, or COMPONENT=FILE. A file is of the component whose data have
+/// the same name and the most of the same folders above it; where two do alike
+/// it is of none. Throws data::InputError where a path is not there.
+WatchedFiles FindWatchedFiles(const std::vector<Deployment>& deployments,
+                              const std::vector<std::string>& paths);
+
+}  // namespace errmap::cli
