@@ -16,7 +16,8 @@ packages="g++ cmake ninja-build libeigen3-dev libopenblas-dev libceres-dev
   libgmock-dev libbenchmark-dev"
 test_packages="clang-format-14 python3-jsonschema chromium gnuplot-nox"
 # Without these a few tests are skipped.
-optional_packages="clang linuxcnc-uspace linuxcnc-uspace-dev"
+optional_packages="clang linuxcnc-uspace linuxcnc-uspace-dev slurm-wlm munge
+  openmpi-bin"
 example="data/sets/nistir5367_xdisp_down.csv"
 
 usage="usage: sh quickstart.sh [test]"

@@ -149,6 +149,7 @@ int RunParsed(int argc, char** argv) {
   AddCertifyCommand(&app, &run);
   AddMergeCommand(&app, &run);
   AddQueryCommand(&app, &run);
+  AddSubmitCommand(&app, &run);
   AddDeployCommand(&app, &run);
   AddWatchCommand(&app, &run);
   if (argc < 2) {
