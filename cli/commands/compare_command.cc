@@ -11,6 +11,7 @@
 
 #include "cli/command.h"
 #include "cli/commands/compare_fleet.h"
+#include "cli/commands/probe_table.h"
 #include "cli/commands/progress.h"
 #include "cli/fleet/store_folder.h"
 #include "cli/report/claimed_folder.h"
@@ -53,6 +54,7 @@ struct CompareArguments {
   std::string config;
   std::vector<std::string> changes;  // KEY=VALUE of --set
   bool dry_run = false;
+  ProbeArguments probes;
   std::set<std::string> given;  // flags that stand on the command line
   std::uint64_t seed = 1;
   int jobs = 0;
@@ -369,7 +371,11 @@ std::string Formatted(const StudyRun& run,
   if (format == "json") return models::ToJsonText(record);
   if (format == "csv") return CsvTable(LeaderboardRows(record));
   if (format == "md") return MarkdownTable(LeaderboardRows(record));
-  return StudyTable(run, record);
+  std::string text = StudyTable(run, record);
+  for (const models::ComponentRecord& component : record.components) {
+    text += ProbesText(component);
+  }
+  return text;
 }
 
 int RunCompare(const CompareArguments& arguments) {
@@ -413,6 +419,7 @@ int RunCompare(const CompareArguments& arguments) {
   if (journal != nullptr) SayUnlessQuiet(arguments, journal->WritingRemarks());
   models::StudyRecord record = RecordOf(run);
   if (machine && !run.interrupted) record.machine = JudgeMachine(*machine, run);
+  AddProbes(run, arguments.probes, &record);
   // Before the files: a full disk must not cost the answer.
   PrintResult(Formatted(run, record, arguments.format));
   if (folder) WriteOutputs(run, record, &*folder);
@@ -441,6 +448,22 @@ void AddJudgingOptions(CLI::App* command, CompareArguments* arguments) {
                    "unit (default for lengths: 0.02 um)")
       ->check(RefusalOfNumber)
       ->type_name("X");
+  command
+      ->add_option("--probes-per-session",
+                   arguments->probes.numbers,
+                   "What so many probes of each unseen session, from its first "
+                   "row on, would make of every model: 0,1,2,4,8")
+      ->delimiter(',')
+      ->check(CLI::Range(0, 1000))
+      ->type_name("N,N,...");
+  command
+      ->add_option("--probe-spacing",
+                   arguments->probes.spacing,
+                   "Seconds between the probes; rows where there are no times "
+                   "follow one another")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S")
+      ->capture_default_str();
   command
       ->add_option("--split",
                    arguments->split,

@@ -9,6 +9,7 @@
 
 #include "cli/report/interval_text.h"
 #include "cli/shell/wrap_text.h"
+#include "data/text.h"
 #include "stats/comparison/paired_comparison.h"
 
 namespace errmap::cli {
@@ -176,6 +177,29 @@ std::string CostSentence(const RecommendationRecord& advice) {
                      sensors,
                      advice.memory ? MemoryText(*advice.memory) : "",
                      cost);
+}
+
+// ", with elapsed_cycles below 7 or above 27"; "" where nothing is known.
+std::string WhereToMeasure(const RemarkRecord& remark) {
+  if (!remark.columns || !remark.below || !remark.above ||
+      remark.below->size() != remark.columns->size() ||
+      remark.above->size() != remark.columns->size()) {
+    return "";  // of an older record
+  }
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < remark.columns->size(); ++i) {
+    const std::string& name = (*remark.columns)[i];
+    const double below = (*remark.below)[i];
+    const double above = (*remark.above)[i];
+    std::string part = data::Printable(name, name.size());
+    if (std::isfinite(below)) part += fmt::format(" below {:.4g}", below);
+    if (std::isfinite(above)) {
+      part += fmt::format(
+          "{} above {:.4g}", std::isfinite(below) ? " or" : "", above);
+    }
+    parts.push_back(std::move(part));
+  }
+  return parts.empty() ? "" : fmt::format(", with {}", fmt::join(parts, ", "));
 }
 
 // The sentences about one component.
@@ -599,8 +623,9 @@ std::string Sentences::OfRemark(const RemarkRecord& remark) const {
       return fmt::format(
           "In {:.0f} % of the held-out rows an input lies outside what the "
           "fold was trained on: that is extrapolation, and more thermal states "
-          "should be measured.",
-          kPercent * advice.extrapolated_share);
+          "should be measured{}.",
+          kPercent * advice.extrapolated_share,
+          WhereToMeasure(remark));
     case RemarkKind::kNotConverged:
       return fmt::format(
           "Its fit ended without converging ({}): another start or run length "

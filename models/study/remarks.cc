@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace errmap::models {
 namespace {
@@ -11,6 +15,38 @@ constexpr double kBiasWorthSaying = 0.25;
 constexpr double kSignificance = 0.05;
 // Of the held-out rows, what must lie outside of the trained range.
 constexpr double kExtrapolationWorthSaying = 0.05;
+
+// Columns named as those that more should be measured of.
+constexpr std::size_t kMostColumns = 3;
+
+// Where an input was held out beyond all that its fold was trained on.
+struct Beyond {
+  Eigen::Index rows = 0;
+  double below = kNotKnown;
+  double above = kNotKnown;
+};
+
+Beyond BeyondTraining(const data::Dataset& dataset,
+                      const Holdout& holdout,
+                      Eigen::Index column) {
+  const auto& values = dataset.input_values();
+  Beyond beyond;
+  for (const stats::Fold& fold : holdout.folds) {
+    const Eigen::VectorXd trained = values.col(column)(fold.train);
+    const Eigen::VectorXd tested =
+        holdout.test_data != nullptr
+            ? Eigen::VectorXd(holdout.test_data->input_values().col(column))
+            : Eigen::VectorXd(values.col(column)(fold.test));
+    const double low = trained.minCoeff();
+    const double high = trained.maxCoeff();
+    const Eigen::Index under = (tested.array() < low).count();
+    const Eigen::Index over = (tested.array() > high).count();
+    beyond.rows += under + over;
+    if (under > 0) beyond.below = std::fmax(beyond.below, low);
+    if (over > 0) beyond.above = std::fmin(beyond.above, high);
+  }
+  return beyond;
+}
 
 // What is said of a recommendation, from the study and its record.
 class Remarks {
@@ -49,6 +85,7 @@ class Remarks {
   void AddUnits();
   void AddDisagreement();
   void AddCorrelation();
+  void AddExtrapolation();
 };
 
 void Remarks::AddSimplest() {
@@ -166,6 +203,31 @@ void Remarks::AddCorrelation() {
       std::ranges::count(tests_.differ, Confidence::kEstablished));
 }
 
+// The columns that leave what their folds were trained on in most rows.
+void Remarks::AddExtrapolation() {
+  const data::Dataset& dataset = study_.data.dataset;
+  std::vector<std::pair<std::string, Beyond>> found;
+  for (const TrainedInput& input :
+       study_.study.models[advice_.model].final_fit->inputs) {
+    const Beyond beyond = BeyondTraining(dataset,
+                                         study_.holdouts[advice_.holdout],
+                                         dataset.FindInput(input.column.name));
+    if (beyond.rows > 0) found.emplace_back(input.column.name, beyond);
+  }
+  std::ranges::stable_sort(
+      found, std::greater<>(), [](const auto& one) { return one.second.rows; });
+  if (found.size() > kMostColumns) found.resize(kMostColumns);
+  RemarkRecord& remark = Add(RemarkKind::kExtrapolates);
+  remark.columns.emplace();
+  remark.below.emplace();
+  remark.above.emplace();
+  for (auto& [name, beyond] : found) {
+    remark.columns->push_back(std::move(name));
+    remark.below->push_back(beyond.below);
+    remark.above->push_back(beyond.above);
+  }
+}
+
 std::vector<RemarkRecord> Remarks::Doubts() {
   if (record_.interrupted) Add(RemarkKind::kInterrupted);
   AddUnseen();
@@ -173,7 +235,7 @@ std::vector<RemarkRecord> Remarks::Doubts() {
   AddDisagreement();
   AddCorrelation();
   if (advice_.extrapolated_share >= kExtrapolationWorthSaying) {
-    Add(RemarkKind::kExtrapolates);
+    AddExtrapolation();
   }
   if (!model_.final->summary.value.converged) {
     Add(RemarkKind::kNotConverged);

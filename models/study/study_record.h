@@ -750,6 +750,9 @@ struct RemarkRecord {
   LeftOut<double> lag1 = {};
   LeftOut<std::int64_t> pairs = {};
   LeftOut<std::int64_t> established = {};
+  /// Of each of `columns`: below and above what more is to be measured.
+  LeftOut<std::vector<double>> below = {};
+  LeftOut<std::vector<double>> above = {};
 };
 ERRMAP_RECORD(RemarkRecord,
               kind,
@@ -761,7 +764,9 @@ ERRMAP_RECORD(RemarkRecord,
               shares,
               lag1,
               pairs,
-              established)
+              established,
+              below,
+              above)
 
 /// Of one prediction.
 struct CostRecord {
@@ -1016,6 +1021,31 @@ ERRMAP_RECORD(HoldoutRecord,
               units,
               unit_labels)
 
+struct ProbedModelRecord {
+  std::string model;
+  std::vector<double> rmse;  // as `numbers` of the whole
+};
+ERRMAP_RECORD(ProbedModelRecord, model, rmse)
+
+/// What probes of a session would make of each model on sessions held out.
+struct ProbesRecord {
+  std::string holdout;
+  std::string unit;
+  double spacing = kNotKnown;  // in time_unit
+  std::string time_unit;
+  std::vector<std::int64_t> numbers;
+  std::int64_t scored_rows = 0;
+  std::vector<ProbedModelRecord> models;
+};
+ERRMAP_RECORD(ProbesRecord,
+              holdout,
+              unit,
+              spacing,
+              time_unit,
+              numbers,
+              scored_rows,
+              models)
+
 struct ComponentRecord {
   std::string name;
   bool interrupted = false;
@@ -1031,6 +1061,8 @@ struct ComponentRecord {
   std::vector<StabilityRecord> stability;
   std::vector<VerdictRecord> verdict;
   std::optional<RecommendationRecord> recommendation;
+  /// Where it was asked for.
+  LeftOut<ProbesRecord> probes;
   FiguresRecord figures;
 };
 ERRMAP_RECORD(ComponentRecord,
@@ -1048,6 +1080,7 @@ ERRMAP_RECORD(ComponentRecord,
               stability,
               verdict,
               recommendation,
+              probes,
               figures)
 
 // --- The whole -------------------------------------------------------------

@@ -189,6 +189,10 @@ def documents(program):
     for path in files:
         yield path.name, program.read(path)
     simple = "mean,poly:position"
+    yield "probes", program.json(
+        "compare", "grouped.csv", "--models", "mean,poly:eq8", "--session",
+        "cycle", "--probes-per-session", "0,2"
+    )
     yield "angle", program.json("compare", "angle.csv", "--models", simple)
     yield "no groups", program.json("compare", "plain.csv", "--models", simple)
     program.run(
