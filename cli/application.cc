@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <exception>
+#include <memory>
 #include <new>
 #include <sstream>
 #include <string>
@@ -14,6 +15,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 
@@ -22,9 +24,11 @@
 #include "cli/shell/command_reference.h"
 #include "cli/shell/completion.h"
 #include "cli/shell/man_page.h"
+#include "cli/shell/shell_word.h"
 #include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "data/input_error.h"
+#include "data/text.h"
 #include "models/version.h"
 
 namespace errmap::cli {
@@ -42,7 +46,7 @@ constexpr const char* kExample =
     "Lengths are mm and temperatures degC unless a column's suffix says "
     "otherwise (_um, _K);\nerror = actual - nominal, so the compensation is "
     "minus the predicted error.\n"
-    "errmap COMMAND --help explains a command.";
+    "errmap help COMMAND explains a command, errmap models the models.";
 
 int Fail(int status, const std::string& message) {
   WriteMessage(message);
@@ -58,26 +62,15 @@ std::string OneLine(std::string text) {
   return text;
 }
 
-std::string ShellWord(const std::string& word) {
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-      "_-+=:,./^@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
-    return word;
-  }
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
-}
-
 // Results must not depend on where and how fast they were made.
 std::string ProvenanceCommandLine(int argc, char** argv) {
   std::string line = "errmap";
   for (int i = 1; i < argc; ++i) {
     const std::string word = ShownWord(argv[i]);
     if (word == "--keep-paths" || word == "--quiet" || word == "--resume" ||
-        word == "--force")
+        word == "--force" || word == "--all" || word == "--details") {
       continue;
+    }
     if (word == "--jobs" || word == "--out" || word == "--format" ||
         word == "--shard" || word == "-o") {
       ++i;
@@ -109,15 +102,88 @@ bool RunHiddenCommand(const CLI::App& app, int argc, char** argv) {
   return false;
 }
 
+std::vector<std::string> CommandNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) {
+    names.push_back(command->get_name());
+  }
+  return names;
+}
+
+// "did you mean 'compare'? "
+std::string Suggestion(const std::string& word,
+                       const std::vector<std::string>& known) {
+  const std::string nearest = data::NearestName(word, known);
+  return nearest.empty() ? "" : "did you mean '" + nearest + "'? ";
+}
+
 // CLI11 would only say that a subcommand is required.
 void RequireKnownCommand(const CLI::App& app, const std::string& word) {
   if (word.starts_with("-")) return;
-  std::string known;
+  const std::vector<std::string> known = CommandNames(app);
+  if (std::ranges::find(known, word) != known.end()) return;
+  throw UsageError(fmt::format("no command '{}'; {}there are {}",
+                               word,
+                               Suggestion(word, known),
+                               fmt::join(known, ", ")));
+}
+
+// CLI11 says what it did not expect, and not what was probably meant.
+std::string WithSuggestion(const CLI::App& app,
+                           const CLI::ParseError& error,
+                           int argc,
+                           char** argv) {
+  const std::string text = OneLine(error.what());
+  std::vector<std::string> known;
   for (const CLI::App* command : app.get_subcommands(nullptr)) {
-    if (command->get_name() == word) return;
-    known += (known.empty() ? "" : ", ") + command->get_name();
+    if (command->get_name() != argv[1]) continue;
+    for (const CLI::Option* option : command->get_options()) {
+      for (const std::string& name : option->get_lnames()) {
+        known.push_back("--" + name);
+      }
+    }
   }
-  throw UsageError(fmt::format("no command '{}'; there are {}", word, known));
+  for (int i = 2; i < argc; ++i) {
+    const std::string word(argv[i]);
+    const std::string flag = word.substr(0, word.find('='));
+    if (!flag.starts_with("--") || text.find(flag) == std::string::npos ||
+        std::ranges::find(known, flag) != known.end()) {
+      continue;
+    }
+    return fmt::format("no option '{}'; {}see errmap {} --help",
+                       flag,
+                       Suggestion(flag, known),
+                       argv[1]);
+  }
+  // "--format: tabel not in {table,json}"
+  const std::size_t open = text.find(" not in {");
+  const std::size_t begin = text.find(": ");
+  if (open != std::string::npos && begin < open && text.ends_with('}')) {
+    const std::string found = text.substr(begin + 2, open - begin - 2);
+    const std::size_t list = text.find('{', open) + 1;
+    known = CLI::detail::split(text.substr(list, text.size() - list - 1), ',');
+    return fmt::format(
+        "{} must be one of {}, found '{}'; {}see errmap {} "
+        "--help",
+        text.substr(0, begin),
+        fmt::join(known, ", "),
+        found,
+        Suggestion(found, known),
+        argv[1]);
+  }
+  return text + "; see errmap --help";
+}
+
+// CLI11's help is that of the command at work, once there is one.
+void AddHelpCommand(CLI::App* app) {
+  auto name = std::make_shared<std::string>();
+  CLI::App* help = app->add_subcommand("help", "Explain a command");
+  help->add_option("COMMAND", *name, "The command to explain")->type_name("");
+  help->callback([app, name] {
+    if (name->empty()) return;
+    RequireKnownCommand(*app, *name);
+    PrintResult(app->get_subcommand(*name)->help(app->get_name()));
+  });
 }
 
 int RunParsed(int argc, char** argv) {
@@ -152,9 +218,16 @@ int RunParsed(int argc, char** argv) {
   AddSubmitCommand(&app, &run);
   AddDeployCommand(&app, &run);
   AddWatchCommand(&app, &run);
+  AddModelsCommand(&app, &run);
+  AddHelpCommand(&app);
   if (argc < 2) {
     PrintResult(app.help());
     return kWrongCommandLine;
+  }
+  constexpr std::string_view kHelp = "help";
+  if (argc == 2 && argv[1] == kHelp) {
+    PrintResult(app.help());
+    return kDone;
   }
   if (RunHiddenCommand(app, argc, argv)) return kDone;
   RequireKnownCommand(app, argv[1]);
@@ -165,6 +238,8 @@ int RunParsed(int argc, char** argv) {
     const int status = app.exit(asked, text, text);
     PrintResult(text.str());
     return status;
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(WithSuggestion(app, error, argc, argv));
   }
   return run.status;
 }
@@ -172,9 +247,6 @@ int RunParsed(int argc, char** argv) {
 int RunCommand(int argc, char** argv) {
   try {
     return RunParsed(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return Fail(kWrongCommandLine,
-                OneLine(error.what()) + "; see errmap --help");
   } catch (const UsageError& error) {
     return Fail(kWrongCommandLine, error.what());
   } catch (const data::InputError& error) {

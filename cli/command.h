@@ -52,5 +52,6 @@ void AddVolumetricCommand(CLI::App* app, Run* run);
 void AddExportCommand(CLI::App* app, Run* run);
 void AddCostCommand(CLI::App* app, Run* run);
 void AddUpdateCommand(CLI::App* app, Run* run);
+void AddModelsCommand(CLI::App* app, Run* run);
 
 }  // namespace errmap::cli

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "data/text.h"
+
 namespace errmap::models {
 namespace {
 
@@ -169,15 +171,19 @@ std::size_t SpecOptions::TakeChoice(const std::string& key,
 void SpecOptions::RefuseOthers() const {
   for (const auto& [key, value] : spec_.options) {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    const std::string nearest = data::NearestName(key, known_);
     throw UnknownOption(
-        Refusal(spec_.text,
-                known_.empty()
-                    ? fmt::format(
-                          "{} takes no options, found '{}'", spec_.type, key)
-                    : fmt::format("no option '{}'; {} has {}",
-                                  key,
-                                  spec_.type,
-                                  fmt::join(known_, ", "))),
+        Refusal(
+            spec_.text,
+            known_.empty()
+                ? fmt::format(
+                      "{} takes no options, found '{}'", spec_.type, key)
+                : fmt::format(
+                      "no option '{}'; {}{} has {}",
+                      key,
+                      nearest.empty() ? "" : "did you mean '" + nearest + "'? ",
+                      spec_.type,
+                      fmt::join(known_, ", "))),
         known_);
   }
 }

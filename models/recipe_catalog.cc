@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "data/text.h"
 #include "models/blend/blend_recipe.h"
 #include "models/file_recipe.h"
 #include "models/model_spec.h"
@@ -16,27 +17,49 @@
 
 namespace errmap::models {
 
+namespace {
+
+struct ModelType {
+  std::string_view name;
+  std::string_view about;
+};
+
+constexpr std::array kModelTypes = {
+    ModelType{"zero", "no compensation: what the machine does by itself"},
+    ModelType{"mean", "one offset for all"},
+    ModelType{"poly:position", "a parabola over the position, no sensor"},
+    ModelType{"poly:temperature", "a straight line over one temperature"},
+    ModelType{"poly:eq7", "Eq. 7 of 1995: quadratic in position and in T"},
+    ModelType{"poly:eq8", "Eq. 8 of 1995: quadratic in position, T, product"},
+    ModelType{"poly:eq9", "Eq. 9 of 1995: quadratic in position, linear in T"},
+    ModelType{"poly:full", "every product of the inputs up to a degree"},
+    ModelType{"poly:stepwise", "terms that come and go by a criterion"},
+    ModelType{"poly:best", "the best subset of the terms"},
+    ModelType{"poly:ridge", "all terms, large coefficients penalised"},
+    ModelType{"poly:lasso", "few terms, by a penalty that drops them"},
+    ModelType{"net:scg", "a neural net, scaled conjugate gradients (1995)"},
+    ModelType{"net:lm", "a neural net, Levenberg-Marquardt"},
+    ModelType{"net:cg", "a neural net, conjugate gradients"},
+    ModelType{"net:backprop", "a neural net, gradient descent"},
+    ModelType{"net:ceres", "a neural net, a solver of Ceres"},
+    ModelType{"net:nlopt", "a neural net, a solver of NLopt"},
+    ModelType{"blend", "an average of maps that see the inputs differently"}};
+
+}  // namespace
+
 const std::vector<std::string>& ModelTypes() {
-  static const std::vector<std::string> types = {"zero",
-                                                 "mean",
-                                                 "poly:position",
-                                                 "poly:temperature",
-                                                 "poly:eq7",
-                                                 "poly:eq8",
-                                                 "poly:eq9",
-                                                 "poly:full",
-                                                 "poly:stepwise",
-                                                 "poly:best",
-                                                 "poly:ridge",
-                                                 "poly:lasso",
-                                                 "net:scg",
-                                                 "net:lm",
-                                                 "net:cg",
-                                                 "net:backprop",
-                                                 "net:ceres",
-                                                 "net:nlopt",
-                                                 "blend"};
+  static const std::vector<std::string> types = [] {
+    std::vector<std::string> names;
+    for (const ModelType& type : kModelTypes) names.emplace_back(type.name);
+    return names;
+  }();
   return types;
+}
+
+std::string_view AboutModel(std::string_view type) {
+  const auto* const found =
+      std::ranges::find(kModelTypes, type, &ModelType::name);
+  return found == kModelTypes.end() ? "" : found->about;
 }
 
 std::unique_ptr<ModelRecipe> MakeRecipe(std::string_view spec_text) {
@@ -45,11 +68,12 @@ std::unique_ptr<ModelRecipe> MakeRecipe(std::string_view spec_text) {
   if (auto recipe = MakePolynomialRecipe(spec)) return recipe;
   if (auto recipe = MakeNetRecipe(spec)) return recipe;
   if (auto recipe = MakeBlendRecipe(spec)) return recipe;
-  throw std::invalid_argument(
-      fmt::format("model '{}': unknown; there are {}, poly:formula=..., "
-                  "file:model.json",
-                  spec_text,
-                  fmt::join(ModelTypes(), ", ")));
+  const std::string nearest = data::NearestName(spec.type, ModelTypes());
+  throw std::invalid_argument(fmt::format(
+      "model '{}': unknown; {}there are {}, poly:formula=..., file:model.json",
+      spec_text,
+      nearest.empty() ? "" : "did you mean '" + nearest + "'? ",
+      fmt::join(ModelTypes(), ", ")));
 }
 
 std::vector<std::string> OptionNames(std::string_view type) {

@@ -18,6 +18,9 @@ std::unique_ptr<ModelRecipe> MakeRecipe(std::string_view spec);
 /// presented (poly:formula=... is one more).
 const std::vector<std::string>& ModelTypes();
 
+/// What a type of model is, in a line; "" for a type that there is not.
+std::string_view AboutModel(std::string_view type);
+
 /// Names of the options that a type takes, in the order of its own messages.
 /// Throws std::invalid_argument for a type that there is not.
 std::vector<std::string> OptionNames(std::string_view type);

@@ -53,7 +53,7 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     rooms["models/blend"] = " models models/history models/polynomial " \
                             "models/net "
     rooms["models/study"] = " models models/history models/polynomial " \
-                            "models/net models/blend "
+                            "models/net models/blend models/export "
     rooms["models/promise"] = rooms["models/study"] "models/study "
     rooms["models/fleet"] = rooms["models/promise"]
     rooms["models/kinematics"] = " models models/history "

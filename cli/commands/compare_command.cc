@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cli/command.h"
 #include "cli/commands/compare_fleet.h"
@@ -15,12 +16,15 @@
 #include "cli/commands/progress.h"
 #include "cli/fleet/store_folder.h"
 #include "cli/report/claimed_folder.h"
+#include "cli/report/figures.h"
 #include "cli/report/output_folder.h"
+#include "cli/report/report_html.h"
 #include "cli/report/result_table.h"
 #include "cli/report/results_document.h"
 #include "cli/report/study_table.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/machine_study.h"
 #include "cli/study_file/provenance.h"
@@ -32,6 +36,7 @@
 #include "data/atomic_file.h"
 #include "data/text.h"
 #include "models/model_spec.h"
+#include "models/recipe_catalog.h"
 #include "models/study/fit_journal_file.h"
 #include "models/study/split_file.h"
 #include "stats/holdout.h"
@@ -55,6 +60,9 @@ struct CompareArguments {
   std::vector<std::string> changes;  // KEY=VALUE of --set
   bool dry_run = false;
   ProbeArguments probes;
+  bool all = false;
+  bool details = false;
+  std::string page;
   std::set<std::string> given;  // flags that stand on the command line
   std::uint64_t seed = 1;
   int jobs = 0;
@@ -66,6 +74,16 @@ struct CompareArguments {
   int later = 1;  // sessions that judge the machine
 };
 
+// The words before the colon.
+std::vector<std::string> HoldoutNames() {
+  std::vector<std::string> names;
+  for (const stats::HoldoutForm& form : stats::HoldoutForms()) {
+    const std::string text(form.form);
+    names.push_back(text.substr(0, text.find_first_of(":[")));
+  }
+  return names;
+}
+
 // What the command line alone can get wrong is said before any file is read.
 void CheckHoldouts(const std::vector<std::string>& texts) {
   std::set<std::string> seen;
@@ -76,7 +94,12 @@ void CheckHoldouts(const std::vector<std::string>& texts) {
     try {
       stats::ParseHoldout(text);
     } catch (const std::invalid_argument& error) {
-      throw UsageError(error.what());
+      const std::string nearest =
+          data::NearestName(text.substr(0, text.find(':')), HoldoutNames());
+      throw UsageError(
+          nearest.empty() || text.starts_with(nearest)
+              ? error.what()
+              : fmt::format("{}; did you mean {}?", error.what(), nearest));
     }
   }
 }
@@ -365,17 +388,23 @@ std::optional<int> RunIfFleet(const CompareArguments& arguments) {
                           .quiet = arguments.data.quiet});
 }
 
-std::string Formatted(const StudyRun& run,
-                      const models::StudyRecord& record,
-                      const std::string& format) {
-  if (format == "json") return models::ToJsonText(record);
-  if (format == "csv") return CsvTable(LeaderboardRows(record));
-  if (format == "md") return MarkdownTable(LeaderboardRows(record));
-  std::string text = StudyTable(run, record);
+Screen Formatted(const StudyRun& run,
+                 const models::StudyRecord& record,
+                 const CompareArguments& arguments) {
+  const std::string& format = arguments.format;
+  if (format == "json") return {models::ToJsonText(record), {}};
+  if (format == "csv") return {CsvTable(LeaderboardRows(record)), {}};
+  if (format == "md") return {MarkdownTable(LeaderboardRows(record)), {}};
+  Screen screen = StudyTable(run,
+                             record,
+                             {.all = arguments.all,
+                              .details = arguments.details,
+                              .folder = arguments.out,
+                              .terminal = OutputTerminal()});
   for (const models::ComponentRecord& component : record.components) {
-    text += ProbesText(component);
+    screen.Add(ProbesText(component));
   }
-  return text;
+  return screen;
 }
 
 int RunCompare(const CompareArguments& arguments) {
@@ -395,6 +424,7 @@ int RunCompare(const CompareArguments& arguments) {
   for (const ComponentConfig& component : plan.config.components) {
     RefuseInputAsOutput("--save-split", component.save_split, inputs);
   }
+  RefuseInputAsOutput("-o", arguments.page, inputs);
   std::optional<ClaimedFolder> folder;
   if (!arguments.out.empty()) {
     folder.emplace(arguments.out, OutputNames(plan), inputs, arguments.force);
@@ -420,8 +450,13 @@ int RunCompare(const CompareArguments& arguments) {
   models::StudyRecord record = RecordOf(run);
   if (machine && !run.interrupted) record.machine = JudgeMachine(*machine, run);
   AddProbes(run, arguments.probes, &record);
+  if (folder) NameMaps(run, &record);
   // Before the files: a full disk must not cost the answer.
-  PrintResult(Formatted(run, record, arguments.format));
+  PrintScreen(Formatted(run, record, arguments));
+  if (!arguments.page.empty()) {
+    data::WriteFileAtomically(arguments.page,
+                              ReportHtml(record, MakeFigures(record)));
+  }
   if (folder) WriteOutputs(run, record, &*folder);
   return StatusOf(run);
 }
@@ -438,6 +473,10 @@ PredictionsFile ParsePredictions(const std::string& pair) {
 std::string RefusalOfNumber(const std::string& text) {
   double ignored = 0.0;
   return data::ParseNumber(text, &ignored) ? "" : "give a finite number";
+}
+
+std::string KnownModels() {
+  return fmt::format("{}", fmt::join(models::ModelTypes(), ", "));
 }
 
 void AddJudgingOptions(CLI::App* command, CompareArguments* arguments) {
@@ -527,7 +566,8 @@ void AddCompareCommand(CLI::App* app, Run* run) {
   command
       ->add_option("--models",
                    arguments->model_list,
-                   "Models, separated by commas (default: all that suit)")
+                   "Models, separated by commas (default: all that suit): " +
+                       KnownModels() + "; errmap models explains them")
       ->type_name("LIST");
   command
       ->add_option("--model",
@@ -563,6 +603,15 @@ void AddCompareCommand(CLI::App* app, Run* run) {
                    "or the one that mpirun or Slurm gave this task (env); "
                    "errmap merge STORE puts the shares together")
       ->type_name("I/N|env");
+  command
+      ->add_option(
+          "-o,--output", arguments->page, "The page alone: a file to write")
+      ->type_name("PAGE.html");
+  command->add_flag(
+      "--all", arguments->all, "Every model in the table, not the best twelve");
+  command->add_flag("--details",
+                    arguments->details,
+                    "Also print p values, gaps, times and every sentence");
   command
       ->add_option("--format",
                    arguments->format,

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <sstream>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -16,6 +17,8 @@
 #include "cli/shell/interrupt.h"
 #include "cli/shell/number_text.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
+#include "cli/shell/wrap_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
@@ -42,6 +45,7 @@ struct FitArguments {
   std::string format = "table";
   bool correlations = false;
   bool no_interval = false;
+  bool details = false;
 };
 
 Json SensitivityJson(const models::Sensitivity& sensitivity) {
@@ -67,7 +71,7 @@ std::string SensitivityText(const models::Sensitivity& sensitivity,
     text += fmt::format(", a zero taken anew by up to {}",
                         error.WithUnit(sensitivity.rezero_jump));
   }
-  return text + "\n";
+  return text;
 }
 
 Json FitJson(const models::FittedModel& fitted,
@@ -135,30 +139,44 @@ std::string FitText(const models::FittedModel& fitted,
                     const data::Dataset& dataset,
                     const FitArguments& arguments) {
   const ErrorText error(fitted.target.unit, train.rmse);
-  std::string text =
-      fmt::format("{}: {} fitted to {}, RMSE {} on these rows (not held out)\n",
+  Terminal room = OutputTerminal();
+  if (arguments.details) {
+    room.columns = std::string::npos;
+    room.rows = 0;
+  }
+  std::string text;
+  const auto say = [&](const std::string& words) {
+    if (!words.empty()) text += WrapText(words, room.text_columns()) + "\n";
+  };
+  say(fmt::format("{}: {} fitted to {}, RMSE {} on these rows (not held out)",
                   fitted.name,
                   Count(fitted.model->num_parameters(), "parameter"),
                   Count(train.residuals.n, "row"),
-                  error.WithUnit(train.rmse));
-  if (!fitted.equation.empty()) text += fitted.equation + "\n";
-  text += FitSummaryText(fitted.summary);
-  for (const std::string& remark : fitted.remarks) text += remark + "\n";
+                  error.WithUnit(train.rmse)));
+  constexpr Eigen::Index kMostTerms = 12;
+  if (arguments.details || fitted.model->num_parameters() <= kMostTerms + 1) {
+    say(fitted.equation);
+  } else if (!fitted.equation.empty()) {
+    say("The equation is long: it is in the file, and here with --details.");
+  }
+  std::istringstream lines(FitSummaryText(fitted.summary));
+  for (std::string line; std::getline(lines, line);) say(line);
+  for (const std::string& remark : fitted.remarks) say(remark);
   text += StartsText(fitted.starts, error);
-  if (arguments.correlations) text += CorrelationText(dataset);
+  if (arguments.correlations) text += CorrelationText(dataset, room);
   if (fitted.regression) {
-    text += RegressionText(*fitted.regression, fitted.target);
+    text += RegressionText(*fitted.regression, fitted.target, room);
   }
   if (fitted.interval) {
-    text += IntervalLine(models::MakeRecord(*fitted.interval), error) + "\n";
+    say(IntervalLine(models::MakeRecord(*fitted.interval), error));
   }
-  text += SensitivityText(sensitivity, error);
-  text += fmt::format(
-      "written to {}; it predicts {}, compensate by minus that\n",
+  say(SensitivityText(sensitivity, error));
+  say(fmt::format(
+      "written to {}; it predicts {}, compensate by minus that",
       arguments.out,
       fitted.target.unit.symbol.empty()
           ? fitted.target.name
-          : fitted.target.name + " in " + fitted.target.unit.symbol);
+          : fitted.target.name + " in " + fitted.target.unit.symbol));
   return text;
 }
 
@@ -265,6 +283,9 @@ void AddFitCommand(CLI::App* app, Run* run) {
                     arguments->no_interval,
                     "Do not fit again with days, cycles or blocks held out to "
                     "find what the map may promise there");
+  command->add_flag("--details",
+                    arguments->details,
+                    "Print the equation and tables whatever their size");
   AddKeepPathsFlag(command);
   command->add_option("--format", arguments->format, "table or json")
       ->check(CLI::IsMember({"table", "json"}))

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "cli/shell/number_text.h"
+#include "cli/shell/terminal.h"
+#include "cli/shell/wrap_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "data/text.h"
 #include "models/promise/probe_study.h"
@@ -49,18 +51,20 @@ std::string ProbesText(const models::ComponentRecord& component) {
   }
   const data::Unit unit = data::UnitOfSymbol(component.data.unit);
   const ErrorText error(unit, smallest);
-  std::string text = fmt::format(
-      "\nRMSE ({}) on unseen sessions after probes of each, {} apart from its "
-      "first row on\n({}; the same {} for every number; zero: probes without "
-      "a map)\n{:{}}",
-      error.symbol(),
-      probes.time_unit == "s"
-          ? fmt::format("{:g} min", probes.spacing / kMinute)
-          : Count(static_cast<long long>(probes.spacing), "row"),
-      probes.holdout,
-      Count(probes.scored_rows, "row"),
-      "probes",
-      widest + 2);
+  std::string text =
+      "\n" +
+      WrapText(fmt::format(
+                   "RMSE ({}) on unseen sessions after probes of each, {} "
+                   "apart from its first row on ({}; the same {} for every "
+                   "number; zero: probes without a map)",
+                   error.symbol(),
+                   probes.time_unit == "s"
+                       ? fmt::format("{:g} min", probes.spacing / kMinute)
+                       : Count(static_cast<long long>(probes.spacing), "row"),
+                   probes.holdout,
+                   Count(probes.scored_rows, "row")),
+               OutputTerminal().text_columns()) +
+      fmt::format("\n{:{}}", "probes", widest + 2);
   for (const std::int64_t number : probes.numbers) {
     text += fmt::format("{:>10}", number);
   }

@@ -201,8 +201,8 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
   plot.height = kFrame + kRow * static_cast<int>(models.size());
   figure.note =
       view.decisive_is_unseen
-          ? "For another day the filled dot counts; an open one far left of it "
-            "was flattered by knowing the neighbours. Bars: 95 % intervals."
+          ? "What counts is the filled dot; an open one far left of it was "
+            "flattered by knowing the neighbours. Bars: 95 % intervals."
           : "Further left is better. Bars: 95 % intervals.";
   figure.description = GapWords(view, holdouts);
   return figure;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/report/comparison_figures.h"
+#include "cli/report/compensation_figures.h"
 #include "cli/report/residual_figures.h"
 #include "cli/report/svg.h"
 
@@ -13,10 +14,26 @@ namespace errmap::cli {
 namespace {
 
 constexpr std::size_t kFewComponents = 6;
-constexpr std::size_t kManyComponents = 30;
 
 void Append(std::vector<Figure> more, std::vector<Figure>* figures) {
   for (Figure& figure : more) figures->push_back(std::move(figure));
+}
+
+// One scale for pictures that are to be compared.
+void ShareScales(std::vector<Figure>* figures) {
+  double most = 0.0;
+  for (const Figure& figure : *figures) {
+    for (const Series& series : figure.plot.series) {
+      for (const double y : series.columns[1]) {
+        if (std::isfinite(y)) most = std::max(most, std::abs(y));
+      }
+    }
+  }
+  for (Figure& figure : *figures) {
+    if (!(most > 0.0)) break;
+    figure.plot.y.low = -most;
+    figure.plot.y.high = most;
+  }
 }
 
 std::vector<Figure> FiguresOf(const ReportView& view,
@@ -24,19 +41,28 @@ std::vector<Figure> FiguresOf(const ReportView& view,
                               FigureDetail detail) {
   const bool brief = detail == FigureDetail::kBrief;
   const bool everything = detail == FigureDetail::kEverything;
+  const bool whole = everything || detail == FigureDetail::kFull;
   constexpr std::size_t kMostInputs = 12;
   constexpr std::size_t kEveryInput = 1000;
   std::vector<Figure> figures{GapFigure(view, prefix)};
-  if (!view.recommended.empty() && !view.decisive.empty()) {
+  if (!brief) Append(OverTimeFigures(view, prefix), &figures);
+  Append(BeforeAndAfterFigures(view, prefix), &figures);
+  Append(UnitFigures(view, prefix), &figures);
+  if (!brief) {
+    Append(CostFigures(view, prefix), &figures);
+    Append(SurfaceFigures(view, prefix), &figures);
+    Append(TrainingResidualFigures(view, prefix), &figures);
+  }
+  if (!brief && !view.recommended.empty() && !view.decisive.empty()) {
     Append(ResidualFigures(view,
                            view.recommended,
                            view.decisive,
                            prefix + "best-",
-                           brief,
+                           !whole,
                            everything ? kEveryInput : kMostInputs),
            &figures);
   }
-  if (!brief && !view.rival.empty()) {
+  if (whole && !view.rival.empty()) {
     Append(ResidualFigures(view,
                            view.rival,
                            view.decisive,
@@ -45,16 +71,19 @@ std::vector<Figure> FiguresOf(const ReportView& view,
                            everything ? kEveryInput : 0),
            &figures);
   }
-  if (!brief) {
+  if (whole) {
     constexpr std::size_t kMostModels = 24;
+    std::vector<Figure> small;
     for (std::size_t i = 0;
          i < std::min(view.models.size(), everything ? 1000 : kMostModels);
          ++i) {
       const std::string& name = view.models[i]->name;
       if (!std::isfinite(TestRmse(*view.models[i], view.decisive))) continue;
-      figures.push_back(SmallResidualFigure(
+      small.push_back(SmallResidualFigure(
           view, name, view.decisive, fmt::format("{}model-{}", prefix, i + 1)));
     }
+    ShareScales(&small);
+    Append(std::move(small), &figures);
     Append(TrainingFigures(view, prefix), &figures);
     Append(StartFigures(view, prefix), &figures);
     figures.push_back(CorrelationFigure(view, prefix));
@@ -85,16 +114,13 @@ FigureSet MakeFigures(const models::StudyRecord& record, bool everything) {
   const auto& components = record.components;
   FigureDetail detail = components.size() > kFewComponents
                             ? FigureDetail::kBrief
-                            : FigureDetail::kFull;
+                        : components.size() > 1 ? FigureDetail::kSome
+                                                : FigureDetail::kFull;
   if (everything) detail = FigureDetail::kEverything;
   for (std::size_t i = 0; i < components.size(); ++i) {
     const ReportView view = ViewOf(components[i]);
     ComponentFigures figures{.detail = detail, .figures = {}};
     figures.figures = FiguresOf(view, fmt::format("c{}-", i + 1), detail);
-    // A page of very many components has one picture for each.
-    if (!everything && components.size() > kManyComponents) {
-      figures.figures.resize(std::min<std::size_t>(1, figures.figures.size()));
-    }
     set.components.push_back(std::move(figures));
   }
   return set;

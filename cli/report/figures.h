@@ -10,7 +10,15 @@
 namespace errmap::cli {
 
 /// Where in a component's part of the report a figure stands.
-enum class FigurePlace { kAnswer, kResiduals, kEveryModel, kFits, kData };
+enum class FigurePlace {
+  kAnswer,
+  kCompensation,
+  kSurface,  // in one row
+  kResiduals,
+  kEveryModel,
+  kFits,
+  kData
+};
 
 /// A figure of the report.
 struct Figure {
@@ -26,7 +34,7 @@ struct Figure {
 };
 
 /// How much is drawn of one component.
-enum class FigureDetail { kEverything, kFull, kBrief };
+enum class FigureDetail { kEverything, kFull, kSome, kBrief };
 
 /// The figures of one component.
 struct ComponentFigures {

@@ -53,12 +53,25 @@ models::LeastSquaresRecord LeastSquaresOf(
 }
 
 Table Coefficients(const models::RegressionRecord& regression) {
-  Table table{.title = "Coefficients"};
+  Table table{.title = regression.centres.empty()
+                           ? "Coefficients"
+                           : "Coefficients, of centred inputs"};
   table.note =
       "In the target's own unit. Terms chosen with these rows have optimistic "
       "p-values and intervals.";
   if (!LeastSquaresOf(regression).after_selection) {
     table.note = "In the target's own unit.";
+  }
+  if (!regression.centres.empty()) {
+    table.note += " Here an input stands for its value less its centre:";
+    for (const auto& [name, centre] : regression.centres) {
+      table.note += fmt::format("{} {} {} {:.9g}",
+                                table.note.ends_with(':') ? "" : ",",
+                                name,
+                                centre < 0.0 ? "+" : "-",
+                                std::abs(centre));
+    }
+    table.note += ".";
   }
   table.columns = {{"term", false},
                    {"estimate"},
@@ -137,6 +150,44 @@ std::string RegressionSummary(const ReportView& view,
 }
 
 }  // namespace
+
+Table CostTable(const ReportView& view) {
+  Table table{.title = "Error and cost of each map"};
+  table.error = ErrorTextOf(view);
+  table.note =
+      "Operations and bytes of state of one step of the exported program "
+      "(errmap cost times it). No figures: its memory counts rows, which a "
+      "controller does not know.";
+  table.columns = {{"model", false},
+                   {WithUnit(view.decisive + " RMSE", view.shown_unit)},
+                   {"sensors"},
+                   {"additions"},
+                   {"multiplications"},
+                   {"divisions"},
+                   {"exponentials"},
+                   {"bytes of state"}};
+  for (const ModelRecord* model : view.models) {
+    const double rmse = TestRmse(*model, view.decisive);
+    if (!std::isfinite(rmse)) continue;
+    if (model->name == view.recommended) table.marked = table.rows.size();
+    std::vector<Cell> row{
+        model->name,
+        Error{rmse},
+        model->sensors ? Cell(std::ssize(*model->sensors)) : Cell()};
+    if (const auto& cost = model->step_cost) {
+      row.insert(row.end(),
+                 {cost->additions,
+                  cost->multiplications,
+                  cost->divisions,
+                  cost->exponentials,
+                  cost->state_bytes});
+    }
+    row.resize(table.columns.size());
+    table.rows.push_back(std::move(row));
+  }
+  SayIfEmpty("No map was judged.", &table);
+  return table;
+}
 
 Table RunTable(const ReportView& view) {
   Table table{.title = "Run summary"};

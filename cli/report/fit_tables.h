@@ -7,6 +7,9 @@
 
 namespace errmap::cli {
 
+/// Error beside what a step of each map costs on a controller.
+Table CostTable(const ReportView& view);
+
 /// The fits to all rows: what each optimiser did, how it stopped, time per
 /// iteration (the report's Table 4).
 Table RunTable(const ReportView& view);

@@ -65,6 +65,19 @@ std::vector<ComponentFiles> FilesOf(
   return all;
 }
 
+std::vector<ComponentFiles> FilesOf(const StudyRun& run) {
+  std::vector<std::string> names;
+  std::vector<std::vector<std::string>> models;
+  for (const Comparison& component : run.components) {
+    names.push_back(component.name);
+    std::vector<std::string>& of_component = models.emplace_back();
+    for (const models::ModelResult& model : component.study.models) {
+      of_component.push_back(model.name);
+    }
+  }
+  return FilesOf(names, models, run.has_several());
+}
+
 void WriteModels(const StudyRun& run,
                  const Comparison& component,
                  const std::vector<std::string>& names,
@@ -155,20 +168,22 @@ std::vector<std::string> OutputNames(const StudyPlan& plan) {
   return all;
 }
 
+void NameMaps(const StudyRun& run, models::StudyRecord* record) {
+  const std::vector<ComponentFiles> files = FilesOf(run);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    std::vector<models::ModelRecord>& models = record->components[i].models;
+    for (std::size_t j = 0; j < models.size(); ++j) {
+      if (run.components[i].study.models[j].final_fit) {
+        models[j].file = files[i].models[j];
+      }
+    }
+  }
+}
+
 void WriteOutputs(const StudyRun& run,
                   const models::StudyRecord& record,
                   ClaimedFolder* folder) {
-  std::vector<std::string> names;
-  std::vector<std::vector<std::string>> models;
-  for (const Comparison& component : run.components) {
-    names.push_back(component.name);
-    std::vector<std::string>& of_component = models.emplace_back();
-    for (const models::ModelResult& model : component.study.models) {
-      of_component.push_back(model.name);
-    }
-  }
-  const std::vector<ComponentFiles> files =
-      FilesOf(names, models, run.has_several());
+  const std::vector<ComponentFiles> files = FilesOf(run);
   folder->Write(kResults, models::ToJsonText(record));
   for (std::size_t i = 0; i < files.size(); ++i) {
     folder->Write(files[i].residuals, ResidualsCsv(run.components[i]));

@@ -16,6 +16,9 @@ void RemoveAbandoned(const std::string& folder);
 /// Names of all files that WriteOutputs may write of a study.
 std::vector<std::string> OutputNames(const StudyPlan& plan);
 
+/// Says of each map in `record` which file WriteOutputs makes of it.
+void NameMaps(const StudyRun& run, models::StudyRecord* record);
+
 /// Writes results.json (`record`), residuals.csv, models/*.json and the
 /// report into a folder; of several components residuals/COMPONENT.csv and
 /// models/COMPONENT/*.json.

@@ -10,6 +10,7 @@
 
 #include "cli/report/table.h"
 #include "cli/shell/number_text.h"
+#include "cli/shell/wrap_text.h"
 #include "models/study/figure_record.h"
 
 namespace errmap::cli {
@@ -40,7 +41,47 @@ std::string Percent(double share) {
   return std::isnan(share) ? "" : fmt::format("{:.0f}%", 100.0 * share);
 }
 
-std::string StepLog(const RegressionReport& report) {
+// As much of a table as there is room for: lines are not broken, and the
+// terminal is not scrolled away.
+std::string InRoom(Table table, const Terminal& room) {
+  const std::size_t all_rows = table.rows.size();
+  if (room.rows > 0 && all_rows > room.rows) table.rows.resize(room.rows);
+  std::vector<std::string> lines = TerminalLines(table, std::string::npos);
+  std::vector<std::string> dropped;
+  const auto widest = [&] {
+    std::size_t width = 0;
+    for (const std::string& line : lines) {
+      width = std::max(width, WidthOf(line));
+    }
+    return width;
+  };
+  while (widest() > room.columns && table.columns.size() > 2) {
+    dropped.insert(dropped.begin(), table.columns.back().name);
+    table.columns.pop_back();
+    for (std::vector<Cell>& row : table.rows) {
+      if (row.size() > table.columns.size()) row.pop_back();
+    }
+    lines = TerminalLines(table, std::string::npos);
+  }
+  lines = TerminalLines(table, room.columns);
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  std::vector<std::string> more;
+  if (all_rows > table.rows.size()) {
+    more.push_back(Count(static_cast<long long>(all_rows - table.rows.size()),
+                         "more row"));
+  }
+  if (!dropped.empty()) {
+    more.push_back(fmt::format("{}", fmt::join(dropped, ", ")));
+  }
+  if (more.empty()) return text;
+  return text +
+         WrapText(fmt::format("{} with --details.", fmt::join(more, "; ")),
+                  room.text_columns()) +
+         "\n";
+}
+
+std::string StepLog(const RegressionReport& report, const Terminal& room) {
   if (report.steps.empty()) return "";
   const auto has = [&](double fitting::SelectionStep::*member) {
     return std::any_of(
@@ -77,13 +118,18 @@ std::string StepLog(const RegressionReport& report) {
     if (cv) row.push_back(Number{step.cv, 5});
     table.rows.push_back(std::move(row));
   }
-  return "Steps (+ entered, - left, * chosen)\n" + TerminalTable(table) +
-         fmt::format("ended: {}\n", report.ended) +
-         "AIC = n ln(RSS/n) + 2k with k coefficients, as R's step() has it; "
-         "BIC with k ln n; F and p are\nof the term that came or went.\n\n";
+  return "Steps (+ entered, - left, * chosen)\n" + InRoom(table, room) +
+         WrapText(
+             fmt::format("Ended: {}. AIC = n ln(RSS/n) + 2k with k "
+                         "coefficients, as R's step() has it; BIC with k ln n; "
+                         "F and p are of the term that came or went.",
+                         report.ended),
+             room.text_columns()) +
+         "\n\n";
 }
 
-std::string CoefficientTable(const RegressionReport& report) {
+std::string CoefficientTable(const RegressionReport& report,
+                             const Terminal& room) {
   std::vector<ReportTerm> lines;
   if (report.fit.has_intercept) lines.push_back(report.intercept);
   lines.insert(lines.end(), report.terms.begin(), report.terms.end());
@@ -122,26 +168,33 @@ std::string CoefficientTable(const RegressionReport& report) {
       table.rows.push_back(std::move(row));
     }
   }
-  std::string text = "Coefficients\n" + TerminalTable(table);
+  std::string text =
+      (report.centres.empty() ? "Coefficients\n"
+                              : "Coefficients, of centred inputs\n") +
+      InRoom(table, room);
   if (!report.centres.empty()) {
     std::vector<std::string> moved;
     for (const auto& [name, centre] : report.centres) {
       moved.push_back(fmt::format(
           "{} {} {:.9g}", name, centre < 0.0 ? "+" : "-", std::abs(centre)));
     }
-    text += fmt::format(
-        "In this table an input stands for its value less its centre: {}.\n",
-        fmt::join(moved, ", "));
+    text += WrapText(fmt::format("In this table an input stands for its value "
+                                 "less its centre: {}.",
+                                 fmt::join(moved, ", ")),
+                     room.text_columns()) +
+            "\n";
   }
   if (report.penalised) {
-    text +=
-        "Shrunken estimates have no honest standard errors or p-values, so "
-        "none are shown.\n";
+    text += WrapText(
+                "Shrunken estimates have no honest standard errors or "
+                "p-values, so none are shown.",
+                room.text_columns()) +
+            "\n";
   }
   return text + "\n";
 }
 
-std::string Anova(const RegressionReport& report) {
+std::string Anova(const RegressionReport& report, const Terminal& room) {
   const fitting::RegressionDiagnostics& fit = report.fit;
   Table table =
       TextTable({"source", "df", "sum of squares", "mean square", "F", "p"});
@@ -164,7 +217,7 @@ std::string Anova(const RegressionReport& report) {
                         Number{fit.total_sum_of_squares, 7}});
   return fmt::format("Analysis of variance{}\n",
                      report.weighted ? " (weighted)" : "") +
-         TerminalTable(table) + "\n";
+         InRoom(table, room) + "\n";
 }
 
 std::string Quality(const RegressionReport& report,
@@ -179,7 +232,7 @@ std::string Quality(const RegressionReport& report,
                   Text(Fixed{fit.adjusted_r2, 6}));
   if (report.rows.leverage_one > 0) {
     text += fmt::format(
-        "predicted R2 n/a: {} {} leverage 1, a coefficient to itself, so it "
+        "predicted R2 n/a: {} {} leverage 1, a coefficient to itself, so it\n"
         "cannot be left out\n",
         Count(report.rows.leverage_one, "row"),
         report.rows.leverage_one == 1 ? "has" : "have");
@@ -190,7 +243,7 @@ std::string Quality(const RegressionReport& report,
   }
   text += fmt::format(
       "largest residual {} (row {}), largest leverage {}\n"
-      "condition number {} (columns of unit length{}), "
+      "condition number {} (columns of unit length{}),\n"
       "effective rank {} of {}\n",
       error.WithUnit(report.rows.largest_residual),
       report.rows.largest_residual_row,
@@ -202,7 +255,7 @@ std::string Quality(const RegressionReport& report,
   return text + "\n";
 }
 
-std::string Excluded(const RegressionReport& report) {
+std::string Excluded(const RegressionReport& report, const Terminal& room) {
   std::string text;
   constexpr std::size_t kMostShown = 10;
   if (!report.excluded.empty()) {
@@ -221,7 +274,7 @@ std::string Excluded(const RegressionReport& report) {
                         report.excluded.size() > kMostShown
                             ? "; those of largest F, all with --format json"
                             : "") +
-            TerminalTable(table) + "\n";
+            InRoom(table, room) + "\n";
   }
   if (!report.aliased.empty()) {
     text += fmt::format(
@@ -230,7 +283,10 @@ std::string Excluded(const RegressionReport& report) {
     for (std::size_t i = 0; i < std::min(kMostShown, report.aliased.size());
          ++i) {
       text +=
-          fmt::format("{} {}\n", report.aliased[i].name, report.aliased[i].why);
+          WrapText(fmt::format(
+                       "{} {}", report.aliased[i].name, report.aliased[i].why),
+                   room.text_columns()) +
+          "\n";
     }
     if (report.aliased.size() > kMostShown) {
       text += fmt::format("and {} more, all with --format json\n",
@@ -241,21 +297,25 @@ std::string Excluded(const RegressionReport& report) {
   return text;
 }
 
-std::string Warnings(const RegressionReport& report) {
-  std::string text;
+std::string Warnings(const RegressionReport& report, const Terminal& room) {
+  std::vector<std::string> lines;
   if (report.selected) {
-    text +=
+    lines.emplace_back(
         "The terms were chosen with these same rows: p-values, intervals and "
-        "R2 are optimistic.\n";
+        "R2 are optimistic.");
     if (report.bootstrap > 0) {
-      text += fmt::format(
+      lines.push_back(fmt::format(
           "'chosen in' is the share of {} bootstrap repetitions (each {} drawn "
-          "with replacement) that\nchose the term.\n",
+          "with replacement) that chose the term.",
           report.bootstrap,
-          report.bootstrap_unit);
+          report.bootstrap_unit));
     }
   }
-  for (const std::string& note : report.notes) text += note + "\n";
+  lines.insert(lines.end(), report.notes.begin(), report.notes.end());
+  std::string text;
+  for (const std::string& line : lines) {
+    text += WrapText(line, room.text_columns()) + "\n";
+  }
   return text.empty() ? text : text + "\n";
 }
 
@@ -279,15 +339,18 @@ std::string PenaltyText(const RegressionReport& report) {
 }  // namespace
 
 std::string RegressionText(const RegressionReport& report,
-                           const data::ColumnInfo& target) {
-  std::string text = "\n" + report.method + "\n\n" + StepLog(report) +
-                     CoefficientTable(report);
+                           const data::ColumnInfo& target,
+                           const Terminal& room) {
+  std::string text = "\n" + WrapText(report.method, room.text_columns()) +
+                     "\n\n" + StepLog(report, room) +
+                     CoefficientTable(report, room);
   if (report.penalised) return text + PenaltyText(report) + "\n";
-  return text + Anova(report) + Quality(report, target) + Excluded(report) +
-         Warnings(report);
+  return text + Anova(report, room) + Quality(report, target) +
+         Excluded(report, room) + Warnings(report, room);
 }
 
-std::string CorrelationText(const data::Dataset& dataset) {
+std::string CorrelationText(const data::Dataset& dataset,
+                            const Terminal& room) {
   const models::CorrelationRecord correlations = models::Correlate(dataset);
   const std::vector<std::string>& names = correlations.columns;
   std::vector<std::string> head{"correlation"};
@@ -295,12 +358,13 @@ std::string CorrelationText(const data::Dataset& dataset) {
   Table table = TextTable(head);
   for (std::size_t i = 0; i < names.size(); ++i) {
     std::vector<Cell> row{names[i]};
-    for (std::size_t j = 0; j <= i; ++j) {
-      row.push_back(Fixed{correlations.matrix[i][j], 4});
+    for (std::size_t j = 0; j < names.size(); ++j) {
+      row.push_back(j <= i ? Cell(Fixed{correlations.matrix[i][j], 4})
+                           : Cell(""));
     }
     table.rows.push_back(std::move(row));
   }
-  return "\n" + TerminalTable(table);
+  return "\n" + InRoom(table, room);
 }
 
 }  // namespace errmap::cli

@@ -1,5 +1,6 @@
 #include "cli/report/report_headline.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 
@@ -7,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/report/report_tables.h"
+#include "cli/report/result_table.h"
 #include "cli/report/verdict_text.h"
 
 namespace errmap::cli {
@@ -51,6 +53,18 @@ void SayGoal(const ReportView& view, const ErrorText& error, Headline* line) {
                            GoalFigures(*result, error));
 }
 
+bool IsOfGoal(const models::RecommendationRecord& advice,
+              const std::string& words) {
+  for (std::size_t i = 0;
+       i < std::min(advice.grounds.size(), advice.reasons.size());
+       ++i) {
+    if (advice.reasons[i] == words) {
+      return advice.grounds[i].kind == models::RemarkKind::kGoal;
+    }
+  }
+  return false;
+}
+
 std::string CostWords(const models::RecommendationRecord& advice) {
   std::vector<std::string> parts{
       advice.sensors.empty()
@@ -80,10 +94,7 @@ std::string FallbackSentence(const ReportView& view, const Headline& line) {
 Headline HeadlineOf(const ReportView& view) {
   Headline line;
   const ErrorText error = ErrorTextOf(view);
-  line.where = fmt::format(
-      "RMSE on {} ({})",
-      view.decisive_is_unseen ? "whole groups never seen" : "rows held out",
-      view.decisive);
+  line.where = fmt::format("RMSE, {} ({})", UnseenWords(view), view.decisive);
   if (view.component->recommendation) {
     const models::RecommendationRecord& advice =
         *view.component->recommendation;
@@ -94,17 +105,17 @@ Headline HeadlineOf(const ReportView& view) {
     if (std::isfinite(other)) {
       line.beside =
           fmt::format("{} under {}", error.WithUnit(other), view.neighbours);
-      if (view.decisive_is_unseen) {
-        line.beside += ", where rows of the same group are known";
-      }
+      if (view.decisive_is_unseen) line.beside += ", next to known rows";
     }
     SayGoal(view, error, &line);
     line.cost = CostWords(advice);
     line.sensors = fmt::format("{}", fmt::join(advice.sensors, ", "));
     line.sentence = advice.sentence;
-    // The reasons have a list of their own.
-    if (advice.reasons.empty() && advice.why != advice.sentence) {
-      line.why = advice.why;
+    // The goal has a line of its own.
+    constexpr std::size_t kMostTold = 5;
+    for (const std::string& words : FirstWords(*view.component)) {
+      if (words == advice.sentence || IsOfGoal(advice, words)) continue;
+      if (line.told.size() < kMostTold) line.told.push_back(words);
     }
     line.reasons = advice.reasons;
     line.caveats = advice.caveats;

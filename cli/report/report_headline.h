@@ -16,9 +16,9 @@ struct Headline {
   std::string beside;    // the other hold-out's error, "" where there is none
   std::string goal;  // "Goal: RMSE at most 0.5 µm. Not met: RMSE 0.938 µm."
   models::GoalStanding goal_standing = models::GoalStanding::kNone;
-  std::string cost;     // sensors, parameters, time
-  std::string sensors;  // their names, "" where they are not known
-  std::string why;
+  std::string cost;               // sensors, parameters, time
+  std::string sensors;            // their names, "" where they are not known
+  std::vector<std::string> told;  // what is told with it first
   std::vector<std::string> reasons;
   std::vector<std::string> caveats;
 };

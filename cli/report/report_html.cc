@@ -1,16 +1,20 @@
 #include "cli/report/report_html.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include "cli/report/fit_tables.h"
 #include "cli/report/html.h"
 #include "cli/report/machine_tables.h"
+#include "cli/report/next_steps.h"
 #include "cli/report/report_headline.h"
 #include "cli/report/report_style.h"
 #include "cli/report/report_tables.h"
 #include "cli/report/result_table.h"
+#include "cli/shell/number_text.h"
+#include "cli/shell/shell_word.h"
 
 namespace errmap::cli {
 namespace {
@@ -21,7 +25,7 @@ std::string Paragraph(const std::string& text, const char* style = "") {
   if (text.empty()) return "";
   return fmt::format("<p{}>{}</p>\n",
                      *style != '\0' ? fmt::format(" class=\"{}\"", style) : "",
-                     HtmlText(text));
+                     HtmlText(PageWords(text)));
 }
 
 std::string List(const std::string& title,
@@ -30,26 +34,31 @@ std::string List(const std::string& title,
   std::string html =
       title.empty() ? "<ul>" : fmt::format("<h4>{}</h4><ul>", HtmlText(title));
   for (const std::string& line : lines) {
-    html += "<li>" + HtmlText(line) + "</li>";
+    html += "<li>" + HtmlText(PageWords(line)) + "</li>";
   }
   return html + "</ul>\n";
 }
 
-std::string Collapsed(const std::string& title, const std::string& content) {
-  return fmt::format("<details><summary>{}</summary>\n{}</details>\n",
+// "" where there is nothing to unfold.
+std::string Collapsed(const std::string& title,
+                      const std::string& content,
+                      const std::string& id = "") {
+  if (content.empty()) return "";
+  return fmt::format("<details{}><summary>{}</summary>\n{}</details>\n",
+                     id.empty() ? "" : fmt::format(" id=\"{}\"", id),
                      HtmlText(title),
                      content);
 }
 
+// What does not apply is left out.
 std::string FigureHtml(const Figure& figure) {
-  std::string html = fmt::format(
-      "<figure{}><figcaption><b>{}</b></figcaption>",
+  if (!figure.missing.empty()) return "";
+  return fmt::format(
+      "<figure{}><figcaption><b>{}</b></figcaption>{}{}</figure>\n",
       !figure.small && figure.plot.width > 560 ? " class=\"wide\"" : "",
-      HtmlName(figure.title));
-  html += figure.missing.empty()
-              ? FigureSvg(figure) + Paragraph(figure.note, "soft small")
-              : "<p class=\"absent\">" + HtmlText(figure.missing) + "</p>";
-  return html + "</figure>\n";
+      HtmlName(figure.title),
+      FigureSvg(figure),
+      Paragraph(figure.note, "soft small"));
 }
 
 std::string Grid(const std::string& figures, const char* style) {
@@ -59,7 +68,9 @@ std::string Grid(const std::string& figures, const char* style) {
 
 // Those of one place, by the model they are of; small ones in a grid of their
 // own.
-std::string FiguresHtml(const ComponentFigures& figures, FigurePlace place) {
+std::string FiguresHtml(const ComponentFigures& figures,
+                        FigurePlace place,
+                        const char* style = "figures") {
   std::string html;
   for (std::size_t i = 0; i < figures.figures.size();) {
     const std::string& subject = figures.figures[i].subject;
@@ -74,9 +85,59 @@ std::string FiguresHtml(const ComponentFigures& figures, FigurePlace place) {
     if (!subject.empty() && !(large.empty() && small.empty())) {
       html += "<h4>" + HtmlName(subject) + "</h4>\n";
     }
-    html += Grid(large, "figures") + Grid(small, "figures many");
+    html += Grid(large, style) + Grid(small, "figures many");
   }
   return html;
+}
+
+// Share of the error that is left, from nothing to all of it, with its
+// interval.
+std::string Sparkline(const ComponentRecord& component) {
+  const auto& advice = component.recommendation;
+  if (!advice || !(advice->removed_share <= 1.0) ||
+      advice->removed_share < 0.0) {
+    return "";
+  }
+  constexpr double kWidth = 120.0;
+  const double left = 1.0 - advice->removed_share;
+  // 1 is the error without a map.
+  const double unit = left > 0.0 ? left / advice->rmse : 0.0;
+  const auto x = [&](double rmse) {
+    return 4.0 + (kWidth - 8.0) * std::clamp(rmse * unit, 0.0, 1.0);
+  };
+  std::string interval;
+  if (std::isfinite(advice->ci95[0])) {
+    interval = fmt::format(
+        "<path d=\"M{:.1f} 9H{:.1f}\" stroke=\"#0072B2\" "
+        "stroke-width=\"2\"/>",
+        x(advice->ci95[0]),
+        x(advice->ci95[1]));
+  }
+  return fmt::format(
+      "<svg class=\"spark\" viewBox=\"0 0 120 18\" width=\"120\" "
+      "height=\"18\" role=\"img\" aria-label=\"{:.0f} % of the error is "
+      "left\"><path d=\"M4 9H116\" stroke=\"#d5dae0\"/>{}<circle "
+      "cx=\"{:.1f}\" cy=\"9\" r=\"4\" fill=\"#0072B2\"/></svg>",
+      100.0 * left,
+      interval,
+      x(advice->rmse));
+}
+
+// The first rows of a table; the others unfold.
+std::string WithFirstRows(Table table, std::size_t most) {
+  if (table.rows.size() <= most) return HtmlTable(table);
+  Table more = table;
+  table.rows.resize(most);
+  more.rows.erase(more.rows.begin(),
+                  more.rows.begin() + static_cast<std::ptrdiff_t>(most));
+  more.title.clear();
+  more.note.clear();
+  more.marked = more.marked != std::string::npos && more.marked >= most
+                    ? more.marked - most
+                    : std::string::npos;
+  const std::string title =
+      Count(static_cast<long long>(more.rows.size()), "more model");
+  return HtmlTable(table) + Collapsed(title, HtmlTable(more));
 }
 
 // The page and what it is made of.
@@ -101,7 +162,9 @@ class Page {
   std::string Index(const std::vector<ReportView>& views) const;
   std::string Component(const ReportView& view, std::size_t index) const;
   std::string Answer(const ReportView& view,
+                     std::size_t index,
                      const ComponentFigures& figures) const;
+  std::string Next(std::size_t index) const;
   std::string Card(const ReportView& view) const;
   std::string Evidence(const ReportView& view) const;
   std::string Residuals(const ReportView& view,
@@ -142,36 +205,69 @@ std::string Page::Index(const std::vector<ReportView>& views) const {
   std::string html =
       "<nav aria-label=\"Components\"><h2>Components</h2>\n<div "
       "class=\"scroll\" tabindex=\"0\" role=\"region\" "
-      "aria-label=\"Components\"><table><thead><tr><th scope=\"col\" "
-      "class=\"t\">component</th><th scope=\"col\" class=\"t\">use</th>"
-      "<th scope=\"col\" class=\"t\">error</th><th scope=\"col\" "
-      "class=\"t\">hold-out</th><th scope=\"col\" class=\"t\">goal</th>"
-      "</tr></thead><tbody>\n";
+      "aria-label=\"Components\"><table><thead><tr>";
+  for (const char* name : {"component",
+                           "use",
+                           "error",
+                           "left of the error",
+                           "better than a baseline",
+                           "goal"}) {
+    html += fmt::format("<th scope=\"col\" class=\"t\">{}</th>", name);
+  }
+  html += "</tr></thead><tbody>\n";
+  const Table rows = SummaryRows(record_);
   for (std::size_t i = 0; i < views.size(); ++i) {
     const Headline line = HeadlineOf(views[i]);
-    const std::string_view goal =
-        line.goal_standing == models::GoalStanding::kNone
-            ? "none"
-            : models::ToString(line.goal_standing);
     html += fmt::format(
         "<tr><td class=\"t\"><a href=\"#c{}\">{}</a></td><td "
         "class=\"t\">{}</td><td class=\"t\">{}</td><td class=\"t\">{}</td>"
-        "<td class=\"t\">{}</td></tr>\n",
+        "<td class=\"t\">{}</td><td class=\"t\">{}</td></tr>\n",
         i + 1,
         HtmlName(views[i].name),
         views[i].recommended.empty() ? "nothing"
                                      : HtmlName(views[i].recommended),
         line.error.empty() ? "not known" : HtmlText(line.error),
-        views[i].decisive.empty() ? "none" : HtmlName(views[i].decisive),
-        goal);
+        Sparkline(*views[i].component),
+        HtmlText(rows.Shown(rows.rows[i][kProvenColumn])),
+        line.goal_standing == models::GoalStanding::kNone
+            ? "none"
+            : models::ToString(line.goal_standing));
   }
-  return html + "</tbody></table></div></nav>\n";
+  return html +
+         "</tbody></table></div><p class=\"soft small\">Left of the error: "
+         "the dot between 0 and the error without a map, its bar the 95 % "
+         "interval.</p></nav>\n";
+}
+
+std::string Page::Next(std::size_t index) const {
+  const auto& configs = record_.provenance.configuration.component;
+  const std::string data =
+      index < configs.size() && configs[index].data && !configs[index].where
+          ? *configs[index].data
+          : "";
+  const auto& models = Components()[index].models;
+  const bool written = std::ranges::any_of(
+      models, [](const ModelRecord& model) { return model.file.has_value(); });
+  std::string html;
+  constexpr std::size_t kLine = 72;
+  for (const NextStep& step :
+       NextSteps(record_, index, data, written ? "." : "")) {
+    html += fmt::format("<dt>{}</dt><dd>{}</dd>",
+                        HtmlText(step.purpose),
+                        step.words.empty()
+                            ? HtmlText(PageWords(step.text))
+                            : "<code>" +
+                                  HtmlText(ShellCommand(step.words, kLine, 0)) +
+                                  "</code>");
+  }
+  return html.empty() ? html : "<dl class=\"next\">" + html + "</dl>\n";
 }
 
 std::string Page::Card(const ReportView& view) const {
   const Headline line = HeadlineOf(view);
   std::string html = "<div class=\"card\">\n";
-  html += "<p class=\"sentence\">" + HtmlText(line.sentence) + "</p>\n";
+  html +=
+      "<p class=\"sentence\">" + HtmlText(PageWords(line.sentence)) + "</p>\n";
   if (!line.error.empty()) {
     html += "<p class=\"number\">" + HtmlText(line.error) + "</p>\n";
     html += Paragraph(line.where +
@@ -185,37 +281,32 @@ std::string Page::Card(const ReportView& view) const {
                                                                        : "",
                     HtmlText(line.goal));
   }
-  if (!line.beside.empty())
-    html += Paragraph("Beside it: " + line.beside + ".");
-  if (!line.cost.empty()) html += Paragraph(line.cost + ".");
+  for (const std::string& told : line.told) html += Paragraph(told);
+  if (!line.beside.empty()) {
+    html += Paragraph("Beside it: " + line.beside + ".", "small");
+  }
+  if (!line.cost.empty()) html += Paragraph(line.cost + ".", "small");
   if (!line.sensors.empty()) {
     html += Paragraph("Sensors: " + line.sensors + ".", "small");
   }
-  html += Paragraph(line.why, "small");
   return html + "</div>\n";
 }
 
 std::string Page::Answer(const ReportView& view,
+                         std::size_t index,
                          const ComponentFigures& figures) const {
-  const Headline line = HeadlineOf(view);
   std::string html = "<div class=\"answer\">\n<div>" + Card(view);
   html += Paragraph(kSignConvention, "soft small") + "</div>\n<div>";
-  for (const Figure& figure : figures.figures) {
-    if (figure.place == FigurePlace::kAnswer) {
-      html += FigureHtml(figure);
-    }
-  }
-  html += "</div>\n</div>\n" + HtmlTable(PageLeaderboard(view));
-  return html + List("Reasons", line.reasons) + List("Caveats", line.caveats);
+  html += FiguresHtml(figures, FigurePlace::kAnswer, "plain") + Next(index);
+  return html + "</div>\n</div>\n";
 }
 
 std::string Page::Evidence(const ReportView& view) const {
-  std::string html = "<h3>Is it more than chance?</h3>\n";
   std::vector<std::string> lines;
   for (const models::VerdictRecord& verdict : view.component->verdict) {
     if (!verdict.why.empty()) lines.push_back(verdict.why);
   }
-  html += List("", lines);
+  std::string html = List("", lines);
   html += HtmlTable(ComparisonTable(view, view.decisive));
   for (const std::string& holdout : view.holdouts) {
     if (holdout == view.decisive) continue;
@@ -228,20 +319,11 @@ std::string Page::Evidence(const ReportView& view) const {
 
 std::string Page::Residuals(const ReportView& view,
                             const ComponentFigures& figures) const {
-  std::string html = "<h3>Residuals</h3>\n";
-  if (!view.recommended.empty()) {
-    html += fmt::format(
-        "<p>Held-out residuals of the recommended model{} under {}.</p>\n",
-        view.rival.empty()
-            ? ""
-            : " and of its strongest rival, " + HtmlName(view.rival) + ",",
-        HtmlName(view.decisive));
-  }
-  html += FiguresHtml(figures, FigurePlace::kResiduals);
+  std::string html = FiguresHtml(figures, FigurePlace::kResiduals);
   const std::string every = FiguresHtml(figures, FigurePlace::kEveryModel);
   if (!every.empty()) {
     html += "<h4>Residuals of every model, " + HtmlName(view.decisive) +
-            "</h4>\n" + every;
+            ", on one scale</h4>\n" + every;
   }
   if (const Table since = SinceStartTable(view); !since.rows.empty()) {
     html += HtmlTable(since);
@@ -263,8 +345,7 @@ std::string Page::Residuals(const ReportView& view,
 
 std::string Page::Fits(const ReportView& view,
                        const ComponentFigures& figures) const {
-  return "<h3>The fits</h3>\n" + FiguresHtml(figures, FigurePlace::kFits) +
-         HtmlTable(RunTable(view)) +
+  return FiguresHtml(figures, FigurePlace::kFits) + HtmlTable(RunTable(view)) +
          Collapsed("Every start", HtmlTable(StartTable(view))) +
          Collapsed("Every fold", HtmlTable(FoldTable(view))) +
          Collapsed("Options", HtmlTable(OptionTable(view)));
@@ -276,11 +357,12 @@ std::string Page::Polynomials(const ReportView& view, bool brief) const {
     const bool best = model.model == view.recommended;
     if (brief && !best) continue;
     std::string content = Paragraph(model.method);
-    content += model.equation.empty()
-                   ? Paragraph("The equation was not kept.", "absent")
-                   : "<div class=\"equation\" tabindex=\"0\" role=\"region\" "
-                     "aria-label=\"equation\">" +
-                         HtmlText(model.equation) + "</div>\n";
+    if (!model.equation.empty()) {
+      content += Paragraph("In physical units, complete:", "small") +
+                 "<div class=\"equation\" tabindex=\"0\" role=\"region\" "
+                 "aria-label=\"equation\">" +
+                 HtmlText(model.equation) + "</div>\n";
+    }
     content += Paragraph(model.summary);
     if (!brief) {
       content += HtmlTable(model.coefficients) + HtmlTable(model.excluded) +
@@ -291,17 +373,13 @@ std::string Page::Polynomials(const ReportView& view, bool brief) const {
                         HtmlName(model.model),
                         content);
   }
-  if (html.empty()) {
-    html = brief ? "" : Paragraph("No model has an equation.", "absent");
-  }
-  return html.empty() ? html : "<h3>Equations and coefficients</h3>\n" + html;
+  return html;
 }
 
 std::string Page::Data(const ReportView& view,
                        const ComponentFigures& figures) const {
   const models::DataRecord& measured = view.component->data;
-  std::string html = "<h3>Data and hold-outs</h3>\n";
-  html +=
+  std::string html =
       "<p>" +
       fmt::format(
           "{}: {} rows, target {}{}{}{}{}.",
@@ -333,25 +411,59 @@ std::string Page::Component(const ReportView& view, std::size_t index) const {
   const ComponentFigures& figures =
       index < figures_.components.size() ? figures_.components[index] : none;
   const bool brief = figures.detail == FigureDetail::kBrief;
-  std::string html = Answer(view, figures);
-  if (brief) {
-    html += HtmlTable(ComparisonTable(view, view.decisive));
-  } else {
-    html += Evidence(view);
+  const bool alone = NumComponents() <= kOpenComponents;
+  // What stands where, and the list of it.
+  struct Part {
+    const char* title;
+    std::string content;
+    bool folded;
+  };
+  const Headline line = HeadlineOf(view);
+  std::string reasons = List("Reasons", line.reasons);
+  reasons += List("Caveats", line.caveats);
+  const std::string effect =
+      FiguresHtml(figures, FigurePlace::kCompensation, "figures halves") +
+      FiguresHtml(figures, FigurePlace::kSurface, "figures thirds");
+  constexpr std::size_t kMostRows = 12;
+  std::vector<Part> parts;
+  const Table leaderboard = PageLeaderboard(view);
+  parts.push_back({"Every model",
+                   leaderboard.missing.empty()
+                       ? WithFirstRows(leaderboard, kMostRows)
+                       : Paragraph(leaderboard.missing, "absent"),
+                   false});
+  parts.push_back({"What the map does", effect, false});
+  parts.push_back({"Why this map, and what bounds its worth", reasons, true});
+  parts.push_back({"Is it more than chance?", Evidence(view), true});
+  parts.push_back({"Residuals", Residuals(view, figures), true});
+  parts.push_back(
+      {"Costs and fits",
+       HtmlTable(CostTable(view)) +
+           (brief ? HtmlTable(RunTable(view)) : Fits(view, figures)),
+       true});
+  parts.push_back(
+      {"Equations and coefficients", Polynomials(view, brief), true});
+  parts.push_back({"Data and hold-outs", Data(view, figures), true});
+  std::string html = Answer(view, index, figures);
+  std::string contents;
+  std::string body;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].content.empty()) continue;
+    const std::string id = fmt::format("c{}-{}", index + 1, i + 1);
+    contents += fmt::format("{}<a href=\"#{}\">{}</a>",
+                            contents.empty() ? "" : " · ",
+                            id,
+                            parts[i].title);
+    body += parts[i].folded ? Collapsed(parts[i].title, parts[i].content, id)
+                            : fmt::format("<h3 id=\"{}\">{}</h3>\n{}",
+                                          id,
+                                          parts[i].title,
+                                          parts[i].content);
   }
-  html += Residuals(view, figures);
-  html += brief ? HtmlTable(RunTable(view)) : Fits(view, figures);
-  html += Polynomials(view, brief) + Data(view, figures);
-  if (brief) {
-    html +=
-        "<p class=\"soft small\">A short form, for the page has many "
-        "components: errmap report DIR --figures DIR2 draws every figure, "
-        "and results.json has every number.</p>\n";
-  }
-  if (NumComponents() <= kOpenComponents) {
+  html += "<p class=\"contents\">" + contents + "</p>\n" + body;
+  if (alone) {
     return fmt::format("<section id=\"c{}\">\n{}</section>\n", index + 1, html);
   }
-  const Headline line = HeadlineOf(view);
   // The anchor lies inside, so that a link opens what is closed.
   return fmt::format(
       "<details class=\"component\"><summary>{} <span>{}</span></summary>\n"
@@ -392,14 +504,13 @@ std::string Page::Html() const {
     }
     html += "</section>\n";
   }
-  html += "<h3>Provenance</h3>\n" + HtmlTable(ProvenanceTable(record_));
+  html += Collapsed("Provenance", HtmlTable(ProvenanceTable(record_)));
   html += "</main>\n<footer>";
   const std::string& version = record_.version;
   html += fmt::format(
-      "<p>Drawn by errmap{} from results.json beside this file; errmap report "
-      "DIR draws it anew. {}</p>",
-      version.empty() ? "" : " " + HtmlText(version),
-      HtmlText(kSignConvention));
+      "<p>Drawn by errmap{}; errmap report DIR draws it anew from "
+      "results.json.</p>",
+      version.empty() ? "" : " " + HtmlText(version));
   return html + "</footer>\n</body>\n</html>\n";
 }
 

@@ -35,8 +35,8 @@ std::string Answer(const ReportView& view) {
     if (!fact.empty()) facts.push_back(fact);
   }
   if (!line.sensors.empty()) facts.push_back("Sensors: " + line.sensors);
-  text += List(facts) + Paragraph(line.why) + Paragraph(kSignConvention);
-  text += MarkdownTable(PageLeaderboard(view), "###");
+  text += List(facts) + Paragraph(kSignConvention) + "### Every model\n\n" +
+          MarkdownTable(PageLeaderboard(view)) + "\n";
   if (!line.reasons.empty()) text += "### Reasons\n\n" + List(line.reasons);
   if (!line.caveats.empty()) text += "### Caveats\n\n" + List(line.caveats);
   return text;
@@ -80,7 +80,9 @@ std::string ReportMarkdown(const models::StudyRecord& record) {
     text += "results.json holds no component: there is nothing to report.\n\n";
   }
   for (const ComponentRecord& component : record.components) {
-    text += Component(ViewOf(component));
+    ReportView view = ViewOf(component);
+    view.shown_unit = component.display.unit;  // as in every file
+    text += Component(view);
   }
   if (record.machine) {
     for (const Table& table : MachineTables(*record.machine)) {

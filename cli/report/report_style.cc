@@ -56,11 +56,21 @@ details.component{border:1px solid var(--line);border-radius:6px;padding:6px 16p
 details.component>summary{font-size:1.05rem}
 details.component>summary span{font-weight:400;color:var(--soft)}
 .equation{font:0.875rem/1.5 ui-monospace,SFMono-Regular,Menlo,Consolas,"Liberation Mono",monospace;background:var(--tint);border:1px solid var(--line);border-radius:4px;padding:8px 12px;overflow-wrap:anywhere;white-space:pre-wrap;margin:.4rem 0;max-height:16rem;overflow-y:auto}
+.contents{max-width:none;font-size:.875rem;margin:1rem 0 .4rem}
+.plain{display:block}
+.figures.halves{grid-template-columns:repeat(2,minmax(0,1fr))}
+.figures.halves figure.wide svg{max-width:none}
+.figures.thirds{grid-template-columns:repeat(3,minmax(0,1fr));margin-top:18px}
+.next{display:grid;grid-template-columns:max-content minmax(0,1fr);gap:2px 12px;margin:.6rem 0;font-size:.875rem}
+.next dt{font-weight:600}
+.next dd{margin:0;overflow-wrap:anywhere}
+code{font:.8125rem/1.45 ui-monospace,SFMono-Regular,Menlo,Consolas,"Liberation Mono",monospace;white-space:pre-wrap;background:var(--tint);padding:0 3px}
+.spark{display:block;width:120px;height:18px}
 .notice{border:1px solid #a33a00;background:#fff4ec;border-radius:6px;padding:8px 14px;margin:.8rem 0}
 footer{border-top:1px solid var(--line);margin-top:2rem;padding-top:10px;padding-bottom:30px;font-size:.875rem;color:var(--soft)}
-@media (max-width:1000px){.answer{grid-template-columns:minmax(0,1fr)}}
+@media (max-width:1000px){.answer,.figures.halves,.figures.thirds{grid-template-columns:minmax(0,1fr)}}
 @media (max-width:600px){main,header,footer{padding-left:14px;padding-right:14px}.card{padding:12px 14px}h1{font-size:1.3rem}.number{font-size:2rem}td:first-child{white-space:normal;overflow-wrap:anywhere;min-width:8.2rem}td.long:first-child{min-width:9rem}td.long{min-width:11rem}th,td{padding:4px 8px}}
-@media print{body{font-size:10pt}main,header,footer{max-width:none;padding:0}.scroll{overflow:visible;border:0;width:auto}table{font-size:7pt;width:100%}th,td{padding:1px 3px}td:first-child,th:first-child{position:static;min-width:0}td,td.long{white-space:normal;min-width:0}.answer{grid-template-columns:minmax(0,1fr) minmax(0,1.1fr)}.figures{grid-template-columns:repeat(2,minmax(0,1fr))}.figures.many{grid-template-columns:repeat(3,minmax(0,1fr))}h2,h3,h4{break-after:avoid}tr,.card{break-inside:avoid}.equation{max-height:none}details:not([open])::details-content{content-visibility:visible;display:block}a{color:inherit;text-decoration:none}.card,th,tr.mark td,.goal{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
+@media print{body{font-size:10pt}main,header,footer{max-width:none;padding:0}.scroll{overflow:visible;border:0;width:auto}table{font-size:7pt;width:100%}th,td{padding:1px 3px}td:first-child,th:first-child{position:static;min-width:0}td,td.long{white-space:normal;min-width:0}.answer{grid-template-columns:minmax(0,1fr) minmax(0,1.1fr)}.figures.many{grid-template-columns:repeat(3,minmax(0,1fr))}h2,h3,h4{break-after:avoid}tr,.card{break-inside:avoid}.equation{max-height:none}details.component:not([open])::details-content{content-visibility:visible;display:block}details:not(.component):not([open]){display:none}.contents{display:none}.figures.halves{grid-template-columns:repeat(2,minmax(0,1fr))}.figures.thirds{grid-template-columns:repeat(3,minmax(0,1fr))}details.component{border:0;padding:0;break-before:page}a{color:inherit;text-decoration:none}.card,th,tr.mark td,.goal{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 )css";
 
 }  // namespace errmap::cli

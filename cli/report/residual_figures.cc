@@ -548,6 +548,7 @@ HeldOutRows HeldOutRowsOf(const ReportView& view,
   const models::FiguresRecord& figures = RowsOf(view);
   const std::vector<double>* found = nullptr;
   const models::FigureTableRecord* table = nullptr;
+  std::vector<bool> outside;
   for (const models::FigureHoldoutRecord& entry : figures.holdouts) {
     if (entry.name != holdout) continue;
     for (const auto& [name, values] : entry.predictions) {
@@ -555,6 +556,12 @@ HeldOutRows HeldOutRowsOf(const ReportView& view,
     }
     const auto index = static_cast<std::size_t>(entry.table);
     if (index < figures.tables.size()) table = &figures.tables[index];
+    if (table == nullptr || !entry.outside) continue;
+    outside.resize(table->target.size());
+    for (const std::int64_t row : *entry.outside) {
+      const auto at = static_cast<std::size_t>(row);
+      if (at < outside.size()) outside[at] = true;
+    }
   }
   if (figures.tables.empty()) {
     rows.missing =
@@ -570,6 +577,7 @@ HeldOutRows HeldOutRowsOf(const ReportView& view,
   const std::vector<std::vector<double>>& inputs = table->inputs;
   rows.inputs.resize(figures.inputs.size());
   rows.labels = table->labels;
+  if (table->session_labels) rows.session_labels = *table->session_labels;
   rows.thinned = table->rows_total > static_cast<std::int64_t>(target.size());
   for (std::size_t i = 0; i < target.size(); ++i) {
     if (!std::isfinite(predicted[i]) || !std::isfinite(target[i])) continue;
@@ -582,6 +590,13 @@ HeldOutRows HeldOutRowsOf(const ReportView& view,
     if (table->groups.size() == target.size()) {
       rows.group.push_back(static_cast<double>(table->groups[i]));
     }
+    if (table->sessions && table->sessions->size() == target.size()) {
+      rows.session.push_back(static_cast<double>((*table->sessions)[i]));
+    }
+    if (table->time && table->time->size() == target.size()) {
+      rows.time.push_back((*table->time)[i]);
+    }
+    if (i < outside.size()) rows.outside.push_back(outside[i]);
     for (std::size_t j = 0; j < rows.inputs.size(); ++j) {
       rows.inputs[j].push_back(j < inputs.size() && i < inputs[j].size()
                                    ? inputs[j][i]

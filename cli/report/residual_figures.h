@@ -17,6 +17,10 @@ struct HeldOutRows {
   std::vector<double> group;                // index into labels; empty: none
   std::vector<std::vector<double>> inputs;  // (inputs x rows)
   std::vector<std::string> labels;
+  std::vector<double> session;  // index into session_labels
+  std::vector<std::string> session_labels;
+  std::vector<double> time;   // s; empty: not known
+  std::vector<bool> outside;  // of the recommended map's range
   bool thinned = false;
   std::string missing;  // why there are none
 };

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "cli/report/verdict_text.h"
+#include "cli/shell/wrap_text.h"
+#include "data/text.h"
 
 namespace errmap::cli {
 namespace {
@@ -29,12 +31,37 @@ struct ResultColumn {
   /// As in Table::Column, on terminals.
   const char* name = "";
   const char* above = "";
-  std::size_t width = 0;
-  std::size_t gap = 1;
+  std::size_t gap = 2;
   /// On pages.
   const char* page = "";
   const char* explanation = "";
 };
+
+// Not shown to differ in practice from the lowest error of its hold-out.
+bool IsInterchangeable(const Place& place) {
+  return place.result != nullptr && place.result->tier == 1;
+}
+
+Cell Interchangeable(const Place& place) {
+  if (place.result == nullptr) return {};
+  return IsInterchangeable(place) ? "yes" : "no";
+}
+
+// That the model differs from the recommended one.
+Cell Established(const Place& place) {
+  const auto& advice = place.component.recommendation;
+  if (!advice || advice->model == place.model.name) return {};
+  const models::PairRecord* pair =
+      FindPair(place.component, place.holdout, advice->model, place.model.name);
+  if (pair == nullptr) return {};
+  return pair->established ? "yes" : "no";
+}
+
+template <std::size_t kEnd>
+Cell EndOfInterval(const Place& place) {
+  if (place.result == nullptr) return {};
+  return Error{place.result->ci95[kEnd], place.component.display.scale};
+}
 
 Cell Known(double value) { return std::isnan(value) ? Cell() : Number{value}; }
 
@@ -51,13 +78,15 @@ Cell Metric(const Place& place) {
   }
 }
 
-// Terminals have room for so much of a SPEC; notes and files have it whole.
 Cell ModelName(const Place& place) {
-  constexpr std::size_t kMost = 44;
   const std::string& name = place.model.name;
-  return Word{name,
-              name.size() <= kMost ? name : name.substr(0, kMost - 3) + "...",
-              name};
+  const std::string shown = data::Printable(name, name.size());
+  // Beside the recommended one stand those that are as good.
+  const auto& advice = place.component.recommendation;
+  const char* const mark = advice && advice->model == name ? "* "
+                           : IsInterchangeable(place)      ? "= "
+                                                           : "  ";
+  return Word{name, mark + shown, name};
 }
 
 Cell Status(const Place& place) {
@@ -109,7 +138,7 @@ Cell Goal(const Place& place) {
     case models::GoalStanding::kMet:
       return "yes";
     case models::GoalStanding::kMetAfterRezeroing:
-      return Word{"after re-zeroing", "sd", "after re-zeroing"};
+      return Word{"after re-zeroing", "re-zeroed", "after re-zeroing"};
     case models::GoalStanding::kMissed:
       return "no";
     default:
@@ -145,7 +174,9 @@ Cell PredictNs(const Place& place) {
 Cell PAgainstRecommended(const Place& place) {
   const auto& advice = place.component.recommendation;
   if (!advice) return {};
-  if (place.model.name == advice->model) return "recommended";
+  if (place.model.name == advice->model) {
+    return Word{"recommended", "", "recommended"};
+  }
   const models::PairRecord* pair =
       FindPair(place.component, place.holdout, advice->model, place.model.name);
   if (pair == nullptr) return {};
@@ -165,8 +196,7 @@ void AddMetrics(const std::string& rows, std::vector<ResultColumn>* columns) {
       {{.key = rows + "_n", .cell = &Metric<kRows, &MetricsRecord::n>},
        {.key = rows + "_rmse",
         .cell = &Metric<kRows, &MetricsRecord::rmse>,
-        .name = "test",
-        .width = 8,
+        .name = "RMSE",
         .page = "RMSE"},
        {.key = rows + "_mean", .cell = &Metric<kRows, &MetricsRecord::mean>},
        {.key = rows + "_sd", .cell = &Metric<kRows, &MetricsRecord::sd>},
@@ -191,7 +221,7 @@ const std::vector<ResultColumn>& Columns() {
         {.key = "model",
          .cell = &ModelName,
          .is_number = false,
-         .name = "model",
+         .name = "  model",
          .page = "model"},
         {.key = "kind",
          .cell = [](const Place& p) -> Cell { return ToString(p.model.kind); },
@@ -199,48 +229,43 @@ const std::vector<ResultColumn>& Columns() {
         {.key = "status", .cell = &Status, .is_number = false},
         {.key = "parameters",
          .cell = [](const Place& p) -> Cell { return p.model.parameters; },
-         .name = "params",
-         .width = 6,
+         .name = "parameters",
          .page = "parameters"},
         {.key = "sensors",
          .cell = &SensorCount,
-         .name = "sens",
-         .width = 4,
+         .name = "sensors",
          .page = "sensors"},
-        {.key = "training",
-         .cell = &TrainingRmse,
-         .name = "train",
-         .width = 9,
-         .gap = 2},
-        {.key = "ci95", .cell = &RmseInterval, .name = "95 %", .width = 14},
+        {.key = "training", .cell = &TrainingRmse, .name = "training"},
+        {.key = "ci95", .cell = &RmseInterval, .name = "95 %", .gap = 1},
+        {.key = "test_ci95_low", .cell = &EndOfInterval<0>},
+        {.key = "test_ci95_high", .cell = &EndOfInterval<1>},
         {.key = "error", .cell = &RmseWithInterval, .page = "RMSE"},
-        {.key = "tier",
-         .cell = &Tier,
-         .name = "tier",
-         .width = 4,
-         .page = "tier"},
-        {.key = "gap", .cell = &Gap, .name = "gap", .width = 6},
+        {.key = "tier", .cell = &Tier, .name = "tier", .page = "tier"},
+        {.key = "interchangeable",
+         .cell = &Interchangeable,
+         .is_number = false,
+         .page = "as good as the best"},
+        {.key = "gap", .cell = &Gap, .name = "gap"},
         {.key = "goal",
          .cell = &Goal,
          .is_number = false,
-         .name = "goal",
-         .width = 5,
+         .name = "meets goal",
          .page = "meets goal"},
         {.key = "p_recommended",
          .cell = &PAgainstRecommended,
+         .name = "p",
          .page = "p against recommended",
          .explanation = "Holm over all pairs"},
+        {.key = "established", .cell = &Established, .is_number = false},
         {.key = "fit_seconds", .cell = &FitSeconds},
         {.key = "all_fit_seconds",
          .cell = &AllFitSeconds,
          .name = "s",
-         .above = "fit",
-         .width = 8},
+         .above = "fit"},
         {.key = "predict_ns",
          .cell = &PredictNs,
          .name = "ns",
          .above = "predict",
-         .width = 8,
          .page = "predict, ns"},
         {.key = "unit", .cell = &UnitOf, .is_number = false}};
     AddMetrics<&ResultRecord::test>("test", &all);
@@ -296,12 +321,15 @@ std::vector<std::string> HoldoutNames(const ComponentRecord& component) {
 
 Table LeaderboardRows(const models::StudyRecord& record) {
   const std::vector<Slot> slots = SlotsOf(
-      {"component",  "holdout",    "model",       "kind",       "status",
-       "parameters", "test_n",     "test_rmse",   "test_mean",  "test_sd",
-       "test_mae",   "test_min",   "test_max",    "test_range", "test_r2",
-       "train_n",    "train_rmse", "train_mean",  "train_sd",   "train_mae",
-       "train_min",  "train_max",  "train_range", "train_r2",   "fit_seconds",
-       "predict_ns", "unit"});
+      {"component",       "holdout",    "model",         "kind",
+       "status",          "parameters", "test_n",        "test_rmse",
+       "test_mean",       "test_sd",    "test_mae",      "test_min",
+       "test_max",        "test_range", "test_r2",       "train_n",
+       "train_rmse",      "train_mean", "train_sd",      "train_mae",
+       "train_min",       "train_max",  "train_range",   "train_r2",
+       "fit_seconds",     "predict_ns", "test_ci95_low", "test_ci95_high",
+       "interchangeable", "gap",        "sensors",       "goal",
+       "established",     "unit"});
   Table table{.nothing = ""};
   for (const Slot& slot : slots) {
     table.columns.push_back({slot.column->key, slot.column->is_number});
@@ -316,30 +344,138 @@ Table LeaderboardRows(const models::StudyRecord& record) {
   return table;
 }
 
-Table TerminalLeaderboard(const ComponentRecord& component) {
-  std::vector<Slot> slots = SlotsOf({"model", "parameters", "sensors"});
-  for (const std::string& holdout : HoldoutNames(component)) {
-    Append(SlotsOf({"training", "test_rmse", "ci95", "tier"}, holdout), &slots);
+std::string UnseenWords(const ReportView& view) {
+  const models::HoldoutRecord* holdout = HoldoutOf(view, view.decisive);
+  if (holdout == nullptr) return "held-out rows";
+  if (holdout->whole_groups || holdout->whole_sessions) {
+    return "unseen " + holdout->unit_of_analysis;
   }
-  if (component.gap) Append(SlotsOf({"gap"}), &slots);
+  return holdout->another_file ? "another file" : "held-out rows";
+}
+
+Table TerminalLeaderboard(const ReportView& view, std::size_t most_rows) {
+  const ComponentRecord& component = *view.component;
+  std::vector<Slot> slots = SlotsOf({"model"});
+  Append(SlotsOf({"sensors"}), &slots);
+  Append(SlotsOf({"test_rmse", "ci95"}, view.decisive), &slots);
+  if (!view.neighbours.empty()) {
+    Append(SlotsOf({"test_rmse"}, view.neighbours), &slots);
+  }
   if (std::isfinite(component.goal)) {
-    const auto& advice = component.recommendation;
-    Append(SlotsOf({"goal"}, advice ? advice->holdout : ""), &slots);
+    Append(SlotsOf({"goal"}, view.decisive), &slots);
   }
-  Append(SlotsOf({"all_fit_seconds", "predict_ns"}), &slots);
   Table table;
   table.error = ErrorTextOf(component);
-  for (const Slot& slot : slots) {
-    const ResultColumn& column = *slot.column;
-    table.columns.push_back({.name = column.name,
-                             .is_number = column.is_number,
-                             .above = column.above,
-                             .group = column.key == "goal" ? "" : slot.holdout,
-                             .width = column.width,
-                             .gap = column.gap});
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const ResultColumn& column = *slots[i].column;
+    Table::Column shown{
+        .name = column.name, .is_number = column.is_number, .gap = column.gap};
+    if (i == 2 || i == 3) {
+      shown.group = UnseenWords(view);
+      if (!table.error->symbol().empty()) {
+        shown.group += ", " + table.error->symbol();
+      }
+    } else if (!view.neighbours.empty() && i == 4) {
+      shown.name = Squeezed(view.neighbours, 12);
+    }
+    table.columns.push_back(std::move(shown));
   }
-  for (const ModelRecord& model : component.models) {
-    AddRow(component, model, slots, "", &table);
+  // The recommended one always stands in the table.
+  std::vector<const ModelRecord*> models = view.models;
+  if (const auto recommended =
+          std::ranges::find(models, view.recommended, &ModelRecord::name);
+      recommended - models.begin() >= static_cast<std::ptrdiff_t>(most_rows) &&
+      recommended != models.end()) {
+    std::rotate(models.begin() + static_cast<std::ptrdiff_t>(most_rows) - 1,
+                recommended,
+                recommended + 1);
+  }
+  models.resize(std::min(models.size(), most_rows));
+  for (const ModelRecord* model : models) {
+    if (model->name == view.recommended) table.marked = table.rows.size();
+    AddRow(component, *model, slots, view.decisive, &table);
+  }
+  return table;
+}
+
+Table TerminalDetails(const ReportView& view, const std::string& holdout) {
+  std::vector<Slot> slots = SlotsOf({"model",
+                                     "training",
+                                     "test_rmse",
+                                     "ci95",
+                                     "tier",
+                                     "p_recommended",
+                                     "established"});
+  Table table;
+  table.error = ErrorTextOf(*view.component);
+  for (const Slot& slot : slots) {
+    table.columns.push_back({.name = slot.column->name,
+                             .is_number = slot.column->is_number,
+                             .gap = slot.column->gap});
+  }
+  table.columns.back().name = "established";
+  for (const ModelRecord* model : view.models) {
+    if (model->name == view.recommended) table.marked = table.rows.size();
+    AddRow(*view.component, *model, slots, holdout, &table);
+  }
+  return table;
+}
+
+Table TerminalTimes(const ReportView& view) {
+  std::vector<Slot> slots = SlotsOf({"model", "parameters"});
+  if (view.component->gap) Append(SlotsOf({"gap"}), &slots);
+  Append(SlotsOf({"all_fit_seconds", "predict_ns"}), &slots);
+  Table table;
+  for (const Slot& slot : slots) {
+    table.columns.push_back({.name = slot.column->name,
+                             .is_number = slot.column->is_number,
+                             .above = slot.column->above,
+                             .gap = slot.column->gap});
+  }
+  for (const ModelRecord* model : view.models) {
+    if (model->name == view.recommended) table.marked = table.rows.size();
+    AddRow(*view.component, *model, slots, "", &table);
+  }
+  return table;
+}
+
+Table SummaryRows(const models::StudyRecord& record) {
+  Table table{.columns = {{.name = "component", .is_number = false},
+                          {.name = "use", .is_number = false},
+                          {.name = "error"},
+                          {.name = "95 %", .gap = 1},
+                          {.name = "proven", .is_number = false},
+                          {.name = "meets goal", .is_number = false}}};
+  for (const ComponentRecord& component : record.components) {
+    const std::string name =
+        data::Printable(component.name, component.name.size());
+    const auto& advice = component.recommendation;
+    const ModelRecord* found =
+        advice ? FindNamed(component.models, advice->model) : nullptr;
+    if (found == nullptr) {
+      table.rows.push_back({name, "nothing"});
+      table.rows.back().resize(table.columns.size());
+      continue;
+    }
+    const ErrorText error = ErrorTextOf(component);
+    const ModelRecord& model = *found;
+    std::string interval;
+    if (std::isfinite(advice->ci95[0])) {
+      interval =
+          fmt::format("{}-{}", error(advice->ci95[0]), error(advice->ci95[1]));
+    }
+    table.rows.push_back(
+        {name,
+         data::Printable(advice->model, advice->model.size()),
+         error.WithUnit(advice->rmse),
+         interval,
+         !advice->against_baseline                                       ? ""
+         : *advice->against_baseline == models::Confidence::kEstablished ? "yes"
+                                                                         : "no",
+         Goal({component,
+               model,
+               advice->holdout,
+               ResultOf(model, advice->holdout)})});
   }
   return table;
 }
@@ -347,13 +483,13 @@ Table TerminalLeaderboard(const ComponentRecord& component) {
 Table PageLeaderboard(const ReportView& view) {
   const std::string& decisive = view.decisive;
   std::vector<Slot> slots = SlotsOf({"model"});
-  Append(SlotsOf({"tier", "error"}, decisive), &slots);
+  Append(SlotsOf({"error", "interchangeable"}, decisive), &slots);
   for (const std::string& holdout : view.holdouts) {
     if (holdout != decisive) Append(SlotsOf({"test_rmse"}, holdout), &slots);
   }
   Append(SlotsOf({"goal", "p_recommended"}, decisive), &slots);
   Append(SlotsOf({"sensors", "parameters", "predict_ns"}), &slots);
-  Table table{.title = "Leaderboard"};
+  Table table;
   table.error = ErrorTextOf(view);
   for (const Slot& slot : slots) {
     const ResultColumn& column = *slot.column;

@@ -340,7 +340,7 @@ class Pen {
   double height() const { return height_; }
 
   std::string Draw() const {
-    std::string body = Grid();
+    std::string body = HasCells() ? Hatching() : Grid();
     for (const Series& series : plot_.series) body += SeriesShapes(series);
     return body + Frame() + ColourBar() + Legend() + Words();
   }
@@ -480,6 +480,30 @@ class Pen {
     return PathElement(d,
                        "class=\"grid\" fill=\"none\" stroke=\"#ddd\" "
                        "stroke-width=\".6\"");
+  }
+
+  bool HasCells() const {
+    return std::ranges::any_of(plot_.series, [](const Series& series) {
+      return series.mark == Mark::kCells;
+    });
+  }
+
+  // Where no cell is: nothing was measured, which is not zero.
+  std::string Hatching() const {
+    constexpr double kStep = 6.0;
+    const double left = x_.from();
+    const double right = x_.to();
+    const double top = y_.to();
+    const double bottom = y_.from();
+    std::string d;
+    for (double sum = left + top + kStep; sum < right + bottom; sum += kStep) {
+      const double x0 = std::min(right, sum - top);
+      const double x1 = std::max(left, sum - bottom);
+      d += "M" + At(x0, sum - x0) + "L" + At(x1, sum - x1);
+    }
+    return PathElement(d,
+                       "fill=\"none\" stroke=\"#9aa3ad\" "
+                       "stroke-width=\".7\"");
   }
 
   std::string Frame() const {

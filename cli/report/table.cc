@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/report/html.h"
+#include "cli/shell/wrap_text.h"
 #include "data/csv.h"
 #include "data/formula_text.h"
 
@@ -81,15 +82,6 @@ const Word* WordIn(const Cell& cell) {
   return std::get_if<Word>(&cell.value());
 }
 
-// Characters, where a text may be no ASCII.
-std::size_t WidthOf(const std::string& text) {
-  constexpr unsigned kContinuationMask = 0xC0U;
-  constexpr unsigned kContinuation = 0x80U;
-  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) {
-    return (static_cast<unsigned char>(c) & kContinuationMask) != kContinuation;
-  }));
-}
-
 std::string Padded(const std::string& text, std::size_t width, bool right) {
   const std::string blanks(width - std::min(width, WidthOf(text)), ' ');
   return right ? blanks + text : text + blanks;
@@ -97,7 +89,30 @@ std::string Padded(const std::string& text, std::size_t width, bool right) {
 
 void EndLine(std::string* text) {
   text->erase(text->find_last_not_of(' ') + 1);
-  *text += '\n';
+}
+
+// Takes from the widest column of words what is too much; numbers stay whole.
+void Squeeze(const Table& table,
+             std::size_t width,
+             std::vector<std::size_t>* widths) {
+  constexpr std::size_t kLeast = 8;
+  std::size_t all = 0;
+  for (std::size_t i = 0; i < widths->size(); ++i) {
+    all += (*widths)[i] + (i == 0 ? 0 : table.columns[i].gap);
+  }
+  while (all > width) {
+    std::size_t* widest = nullptr;
+    for (std::size_t i = 0; i < widths->size(); ++i) {
+      if (i > 0 && table.columns[i].is_number) continue;
+      if ((*widths)[i] > kLeast &&
+          (widest == nullptr || (*widths)[i] > *widest)) {
+        widest = &(*widths)[i];
+      }
+    }
+    if (widest == nullptr) return;
+    --*widest;
+    --all;
+  }
 }
 
 // Above the names: what columns have there, a group's once and centred.
@@ -108,7 +123,7 @@ std::string LineAbove(const Table& table,
     const Table::Column& first = table.columns[i];
     line += std::string(i == 0 ? 0 : first.gap, ' ');
     if (first.group.empty()) {
-      line += Padded(first.above, widths[i], i > 0);
+      line += Padded(first.above, widths[i], i > 0 && first.is_number);
       ++i;
       continue;
     }
@@ -119,7 +134,28 @@ std::string LineAbove(const Table& table,
     line += fmt::format("{:^{}}", first.group, width);
   }
   EndLine(&line);
-  return line == "\n" ? "" : line;
+  return line;
+}
+
+// Columns in which no row has anything are dropped, but for the first.
+Table WithoutEmptyColumns(Table table) {
+  const auto is_empty = [&](std::size_t column) {
+    return std::ranges::all_of(table.rows, [&](const std::vector<Cell>& row) {
+      if (column >= row.size()) return true;
+      const std::string shown = table.Shown(row[column]);
+      return shown.empty() || shown == table.nothing;
+    });
+  };
+  for (std::size_t column = table.columns.size();
+       !table.rows.empty() && column-- > 1;) {
+    if (!is_empty(column)) continue;
+    const auto at = static_cast<std::ptrdiff_t>(column);
+    table.columns.erase(table.columns.begin() + at);
+    for (std::vector<Cell>& row : table.rows) {
+      if (column < row.size()) row.erase(row.begin() + at);
+    }
+  }
+  return table;
 }
 
 }  // namespace
@@ -130,7 +166,7 @@ std::string Table::Shown(const Cell& cell) const {
   return text.empty() && !known ? nothing : text;
 }
 
-std::string TerminalTable(const Table& table) {
+std::vector<std::string> TerminalLines(const Table& table, std::size_t width) {
   std::vector<std::vector<std::string>> lines(1);
   for (const Table::Column& column : table.columns) {
     lines.front().push_back(column.name);
@@ -149,14 +185,29 @@ std::string TerminalTable(const Table& table) {
       if (i < line.size()) widths[i] = std::max(widths[i], WidthOf(line[i]));
     }
   }
-  std::string text = LineAbove(table, widths);
+  Squeeze(table, width, &widths);
+  std::vector<std::string> text;
+  if (std::string above = LineAbove(table, widths); !above.empty()) {
+    text.push_back(std::move(above));
+  }
   for (const std::vector<std::string>& line : lines) {
+    std::string& shown = text.emplace_back();
     for (std::size_t i = 0; i < line.size(); ++i) {
       const Table::Column& column = table.columns[i];
-      text += std::string(i == 0 ? 0 : column.gap, ' ') +
-              Padded(line[i], widths[i], i > 0);
+      shown += std::string(i == 0 ? 0 : column.gap, ' ') +
+               Padded(Squeezed(line[i], widths[i]),
+                      widths[i],
+                      i > 0 && column.is_number);
     }
-    EndLine(&text);
+    EndLine(&shown);
+  }
+  return text;
+}
+
+std::string TerminalTable(const Table& table, std::size_t width) {
+  std::string text;
+  for (const std::string& line : TerminalLines(table, width)) {
+    text += line + "\n";
   }
   return text;
 }
@@ -181,7 +232,8 @@ std::string CsvTable(const Table& table) {
   return data::MarkedCsv(std::move(text));
 }
 
-std::string MarkdownTable(const Table& table, const std::string& level) {
+std::string MarkdownTable(const Table& whole, const std::string& level) {
+  const Table table = WithoutEmptyColumns(whole);
   std::string text =
       table.title.empty()
           ? ""
@@ -210,12 +262,12 @@ std::string MarkdownTable(const Table& table, const std::string& level) {
          (table.note.empty() ? "" : MarkdownText(table.note) + "\n\n");
 }
 
-std::string HtmlTable(const Table& table) {
+std::string HtmlTable(const Table& whole) {
+  // What does not apply is left out of a page.
+  if (!whole.missing.empty()) return "";
+  const Table table = WithoutEmptyColumns(whole);
   std::string html;
   if (!table.title.empty()) html += "<h4>" + HtmlText(table.title) + "</h4>\n";
-  if (!table.missing.empty()) {
-    return html + "<p class=\"absent\">" + HtmlText(table.missing) + "</p>\n";
-  }
   html += fmt::format(
       "<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
       "aria-label=\"{}\"><table><thead><tr>",

@@ -113,12 +113,18 @@ struct Table {
   std::string Shown(const Cell& cell) const;
 };
 
-/// Aligned in columns, all but the first to the right.
-std::string TerminalTable(const Table& table);
+/// Aligned in columns, numbers to the right; words are cut in the middle where
+/// a line would be longer than `width`. First what stands above the names, if
+/// anything, then the names, then the rows.
+std::vector<std::string> TerminalLines(const Table& table, std::size_t width);
+std::string TerminalTable(const Table& table,
+                          std::size_t width = std::string::npos);
 /// A header and a line per row, values in full.
 std::string CsvTable(const Table& table);
-/// `level`: what marks the title, "###".
-std::string MarkdownTable(const Table& table, const std::string& level = "");
-std::string HtmlTable(const Table& table);
+/// `level`: what marks the title, "###". Like HtmlTable without columns that
+/// are empty.
+std::string MarkdownTable(const Table& whole, const std::string& level = "");
+/// "" for a table that says only what it misses.
+std::string HtmlTable(const Table& whole);
 
 }  // namespace errmap::cli

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -238,6 +239,9 @@ class Sentences {
   std::string OfGoal() const;
   std::string OfDisagreement(const RemarkRecord& remark) const;
   std::string OfCorrelation(const RemarkRecord& remark) const;
+  std::string OfTooFew(const RemarkRecord& remark) const;
+  std::string OfWhatIsLeft(const RemarkRecord& remark) const;
+  std::string OfFlattered(const std::string& model) const;
   std::string OfOtherCuts() const;
 };
 
@@ -252,19 +256,18 @@ std::string Sentences::RmseWithInterval(const std::string& model,
   return text;
 }
 
-// "on cycles never seen (groups:5)", "on another file (file:test.csv)", ...
+// "on cycles it never saw", "on another file (test.csv)", ...
 std::string Sentences::WhereJudged(const HoldoutRecord& holdout) const {
   if (holdout.whole_groups || holdout.whole_sessions) {
-    return fmt::format(
-        "on {} never seen ({})", PluralOfUnit(holdout), holdout.name);
+    return fmt::format("on {} it never saw", PluralOfUnit(holdout));
   }
   if (holdout.another_file) {
     return fmt::format("on another file ({})", holdout.name);
   }
   if (holdout.among_neighbours) {
-    return fmt::format("between neighbours ({})", holdout.name);
+    return fmt::format("next to rows that it knew ({})", holdout.name);
   }
-  return fmt::format("under {}", holdout.name);
+  return fmt::format("on rows it never saw ({})", holdout.name);
 }
 
 // "0.707 um less RMSE than net:scg (95 % 0.4 to 1.1), p 0.0002 ..."
@@ -372,41 +375,41 @@ std::string Sentences::OfVerdict(const VerdictRecord& verdict) const {
 
 std::string Sentences::OfAdvice() const {
   const RecommendationRecord& advice = Advice();
-  const std::string error =
-      fmt::format("{} {}",
+  const std::string use =
+      fmt::format("Use {}: {} {}.",
+                  advice.model,
                   RmseWithInterval(advice.model, advice.holdout),
                   WhereJudged(Holdout(advice.holdout)));
-  const bool beats_baselines =
-      !advice.against_baseline ||
-      *advice.against_baseline == Confidence::kEstablished;
+  const bool sure = !advice.against_baseline ||
+                    *advice.against_baseline == Confidence::kEstablished;
   if (advice.choice == Choice::kBaseline) {
-    return advice.model == "zero"
-               ? fmt::format(
-                     "Compensate with nothing: no map {} better than none, "
-                     "{}.",
-                     advice.against_baseline && beats_baselines
-                         ? "does"
-                         : "is known to do",
-                     error)
-               : fmt::format("Compensate with nothing better than {}: {}.",
-                             advice.model,
-                             error);
+    const char* const proven = advice.against_baseline && sure
+                                   ? ", and that is proven"
+                                   : ", as far as these data tell";
+    if (advice.model == "zero") {
+      return fmt::format(
+          "No map is worth its effort here{}. Compensate with nothing: {} {}.",
+          proven,
+          RmseWithInterval(advice.model, advice.holdout),
+          WhereJudged(Holdout(advice.holdout)));
+    }
+    return fmt::format("{} here{}. {}",
+                       advice.sensors.empty()
+                           ? "No temperature map earns its sensors"
+                           : "No richer map earns its effort",
+                       proven,
+                       use);
   }
-  const std::string use =
-      advice.choice == Choice::kNoPracticalDifference
-          ? fmt::format(
-                "Polynomial or net makes no practical difference: use {}, {}.",
-                advice.model,
-                error)
-          : fmt::format("Use {} ({}): {}.",
-                        advice.model,
-                        models::ToString(advice.choice),
-                        error);
-  if (beats_baselines) return use;
+  std::string text;
+  if (advice.choice == Choice::kNoPracticalDifference) {
+    text = "Polynomial or net makes no practical difference. ";
+  }
+  text += use;
   // What the headline owes where the map is not surely worth its sensors.
-  return use +
+  if (sure) return text;
+  return text +
          fmt::format(
-             " That it beats the best baseline, {} ({}), is not established.",
+             " That it beats {} ({}), the best baseline, is not proven.",
              *advice.best_baseline,
              error_.WithUnit(Rmse(*advice.best_baseline, advice.holdout)));
 }
@@ -513,16 +516,51 @@ std::string Sentences::OfDisagreement(const RemarkRecord& remark) const {
 std::string Sentences::OfCorrelation(const RemarkRecord& remark) const {
   return fmt::format(
       "Neighbouring {} resemble each other (lag-1 correlation {:.2f} of the "
-      "loss differences), so p and intervals are too sure and {} under {} is "
-      "called established; more days, held out whole, would tell.",
+      "loss differences), so their number proves little, and {} is called "
+      "established; more days, held out whole, would tell.",
       PluralOfUnit(Holdout(Advice().holdout)),
       *remark.lag1,
       *remark.established == 0
           ? "nothing"
           : fmt::format("only what is free of that, {} of {},",
                         *remark.established,
-                        Count(*remark.pairs, "difference")),
-      Advice().holdout);
+                        Count(*remark.pairs, "difference")));
+}
+
+// "6 cycles cannot prove a difference between 9 maps: ..."
+std::string Sentences::OfTooFew(const RemarkRecord& remark) const {
+  const RecommendationRecord& advice = Advice();
+  const HoldoutRecord& holdout = Holdout(advice.holdout);
+  const models::ObstacleRecord& obstacle =
+      *std::ranges::find(
+           record_.verdict, advice.holdout, &VerdictRecord::holdout)
+           ->obstacle;
+  const std::string found = Count(obstacle.units, holdout.unit_of_analysis);
+  const bool one = obstacle.units == 1;
+  if (remark.kind == RemarkKind::kTooManyMaps) {
+    std::size_t maps = 0;
+    for (const auto& tier : *FindNamed(record_.tiers, advice.holdout)) {
+      maps += tier.size();
+    }
+    return fmt::format(
+        "{} cannot prove a difference between {} maps: {}compare fewer.",
+        found,
+        maps,
+        obstacle.needed > 0
+            ? fmt::format("measure {} or more, or ", obstacle.needed)
+            : "");
+  }
+  if (obstacle.kind == Kind::kPerhapsOneSession) {
+    return fmt::format(
+        "{} that may be of one day cannot prove which map is better: measure "
+        "{} or more, or on several days (a column day or session).",
+        found,
+        obstacle.needed);
+  }
+  return fmt::format(
+      "{} alone cannot prove which map is better: measure {} or more.",
+      one ? "One " + holdout.unit_of_analysis : found,
+      obstacle.needed);
 }
 
 std::string Sentences::OfOtherCuts() const {
@@ -544,6 +582,46 @@ std::string Sentences::OfOtherCuts() const {
   return text;
 }
 
+// What is left is no noise where it has an offset per cycle, or repeats along
+// the position.
+std::string Sentences::OfWhatIsLeft(const RemarkRecord& remark) const {
+  const auto& by_group =
+      Result(Advice().model, Advice().holdout).randomness.by_group;
+  std::string text;
+  for (std::size_t i = 0; i < remark.columns->size(); ++i) {
+    const std::string& column = (*remark.columns)[i];
+    const double percent = kPercent * (*remark.shares)[i];
+    text += text.empty() ? "" : " ";
+    text += by_group && by_group->column == column
+                ? fmt::format(
+                      "{:.0f} % of what is left is an offset per {}: a thermal "
+                      "state that the sensors do not see. Add a sensor, or "
+                      "re-zero each {}.",
+                      percent,
+                      column,
+                      column)
+                : fmt::format(
+                      "{:.0f} % of what is left repeats along {}: the map is "
+                      "too smooth there.",
+                      percent,
+                      column);
+  }
+  return text;
+}
+
+std::string Sentences::OfFlattered(const std::string& model) const {
+  const models::GapModelRecord& row = *std::ranges::find(
+      record_.gap->models, model, &models::GapModelRecord::model);
+  return fmt::format(
+      "Ignore the {} column for {}: {} next to known rows, {} on a {} it "
+      "never saw.",
+      record_.gap->neighbours,
+      model,
+      error_.WithUnit(row.neighbours_rmse),
+      error_.WithUnit(row.unseen_rmse),
+      Holdout(record_.gap->unseen).unit_of_analysis);
+}
+
 std::string Sentences::OfRemark(const RemarkRecord& remark) const {
   const RecommendationRecord& advice = Advice();
   const HoldoutRecord& holdout = Holdout(advice.holdout);
@@ -558,6 +636,10 @@ std::string Sentences::OfRemark(const RemarkRecord& remark) const {
     case RemarkKind::kSimplestNearLowest:
     case RemarkKind::kSimplestOfTier:
       return OfSimplest(remark);
+    case RemarkKind::kRemoves:
+      return fmt::format("It removes {:.0f} % of the error ({} without a map).",
+                         std::floor(kPercent * advice.removed_share),
+                         error_.WithUnit(Rmse("zero", advice.holdout)));
     case RemarkKind::kBeatsBaseline:
       return fmt::format("The best baseline, {}, has {}.",
                          *remark.model,
@@ -580,17 +662,8 @@ std::string Sentences::OfRemark(const RemarkRecord& remark) const {
       return OfGoal();
     case RemarkKind::kCost:
       return CostSentence(advice);
-    case RemarkKind::kNotNoise: {
-      std::vector<std::string> parts;
-      for (std::size_t i = 0; i < remark.columns->size(); ++i) {
-        parts.push_back(fmt::format("the means by {} explain {:.0f} %",
-                                    (*remark.columns)[i],
-                                    kPercent * (*remark.shares)[i]));
-      }
-      return fmt::format(
-          "What it leaves is not noise: of its squared residuals there {}.",
-          fmt::join(parts, ", "));
-    }
+    case RemarkKind::kNotNoise:
+      return OfWhatIsLeft(remark);
     case RemarkKind::kInterrupted:
       return "The run was interrupted; fits are incomplete.";
     case RemarkKind::kOneRunOnly:
@@ -608,13 +681,10 @@ std::string Sentences::OfRemark(const RemarkRecord& remark) const {
           "which may still resemble each other.",
           Count(holdout.units, "block"));
     case RemarkKind::kTooFewUnits:
-      return fmt::format(
-          "With {} nothing can be established: {}.",
-          Count(holdout.units, holdout.unit_of_analysis),
-          ObstacleText(*std::ranges::find(record_.verdict,
-                                          advice.holdout,
-                                          &VerdictRecord::holdout)
-                            ->obstacle));
+    case RemarkKind::kTooManyMaps:
+      return OfTooFew(remark);
+    case RemarkKind::kIgnoreNeighbours:
+      return OfFlattered(*remark.model);
     case RemarkKind::kHoldoutsDisagree:
       return OfDisagreement(remark);
     case RemarkKind::kUnitsCorrelated:
@@ -622,8 +692,8 @@ std::string Sentences::OfRemark(const RemarkRecord& remark) const {
     case RemarkKind::kExtrapolates:
       return fmt::format(
           "In {:.0f} % of the held-out rows an input lies outside what the "
-          "fold was trained on: that is extrapolation, and more thermal states "
-          "should be measured{}.",
+          "fold was trained on, and the map extrapolates: measure more thermal "
+          "states{}.",
           kPercent * advice.extrapolated_share,
           WhereToMeasure(remark));
     case RemarkKind::kNotConverged:
@@ -649,21 +719,17 @@ std::string Sentences::OfRemark(const RemarkRecord& remark) const {
 
 std::string GoalFigures(const models::ResultRecord& result,
                         const ErrorText& error) {
-  switch (result.goal_standing) {
-    case GoalStanding::kNone:
-      return "";
-    case GoalStanding::kNotJudged:
-      return "the run was interrupted or a fit failed";
-    case GoalStanding::kMetAfterRezeroing:
-      return fmt::format("RMSE {}, sd {} about an offset of {}",
-                         error.WithUnit(result.test.rmse),
-                         error.WithUnit(result.test.sd),
-                         error.WithUnit(result.test.mean));
-    case GoalStanding::kMet:
-    case GoalStanding::kMissed:
-      break;
+  if (result.goal_standing == GoalStanding::kNone) return "";
+  if (result.goal_standing == GoalStanding::kNotJudged) {
+    return "the run was interrupted or a fit failed";
   }
-  return "RMSE " + error.WithUnit(result.test.rmse);
+  std::string text = "RMSE " + error.WithUnit(result.test.rmse);
+  if (std::isfinite(result.test.sd)) {
+    text += fmt::format(", scatter {} about an offset of {}",
+                        error.WithUnit(result.test.sd),
+                        error.WithUnit(result.test.mean));
+  }
+  return text;
 }
 
 void AddSentences(models::ComponentRecord* record) {
@@ -689,8 +755,83 @@ void AddSentences(models::ComponentRecord* record) {
   }
 }
 
-std::string VerdictParagraphs(const models::ComponentRecord& record) {
-  constexpr std::size_t kWidth = 80;
+std::vector<std::string> FirstWords(const models::ComponentRecord& record) {
+  if (!record.recommendation) {
+    return {record.interrupted
+                ? "The run was interrupted before a map could be recommended."
+                : "No map can be recommended: none could be judged."};
+  }
+  const RecommendationRecord& advice = *record.recommendation;
+  std::vector<std::pair<std::int64_t, const std::string*>> ranked;
+  const auto add = [&](const std::vector<RemarkRecord>& remarks,
+                       const std::vector<std::string>& words) {
+    for (std::size_t i = 0; i < std::min(remarks.size(), words.size()); ++i) {
+      if (remarks[i].rank) ranked.emplace_back(*remarks[i].rank, &words[i]);
+    }
+  };
+  add(advice.grounds, advice.reasons);
+  add(advice.doubts, advice.caveats);
+  std::ranges::sort(ranked, {}, [](const auto& one) { return one.first; });
+  std::vector<std::string> words{advice.sentence};
+  for (const auto& [rank, text] : ranked) words.push_back(*text);
+  return words;
+}
+
+std::vector<std::string> VerdictLines(const models::ComponentRecord& record,
+                                      std::size_t width) {
+  std::string told;
+  for (const std::string& sentence : FirstWords(record)) {
+    const std::string longer = told + (told.empty() ? "" : " ") + sentence;
+    if (!told.empty() && WrapLines(longer, width).size() > kMostVerdictLines) {
+      continue;  // a later one may be shorter
+    }
+    told = longer;
+  }
+  return WrapLines(told, width);
+}
+
+std::string MeasureNext(const models::ComponentRecord& record) {
+  if (!record.recommendation) return "";
+  std::vector<std::string> wanted;
+  const auto want = [&](std::string what) {
+    if (std::ranges::find(wanted, what) == wanted.end()) {
+      wanted.push_back(std::move(what));
+    }
+  };
+  const RecommendationRecord& advice = *record.recommendation;
+  const HoldoutRecord* holdout = FindNamed(record.holdouts, advice.holdout);
+  const auto verdict = std::ranges::find(
+      record.verdict, advice.holdout, &VerdictRecord::holdout);
+  const bool hindered = verdict != record.verdict.end() && verdict->obstacle &&
+                        verdict->obstacle->needed > 0 && holdout != nullptr;
+  for (const RemarkRecord& doubt : advice.doubts) {
+    switch (doubt.kind) {
+      case RemarkKind::kOneRunOnly:
+      case RemarkKind::kUnitsCorrelated:
+        want("other days");
+        break;
+      case RemarkKind::kTooFewUnits:
+      case RemarkKind::kTooManyMaps:
+        if (hindered) {
+          want(fmt::format("{} {} or more",
+                           verdict->obstacle->needed,
+                           PluralOfUnit(*holdout)));
+        }
+        break;
+      case RemarkKind::kExtrapolates:
+        if (const std::string where = WhereToMeasure(doubt); !where.empty()) {
+          want("states" + where.substr(where.find(' ')));
+        }
+        break;
+      default:
+        break;
+    }
+  }
+  return fmt::format("{}", fmt::join(wanted, "; "));
+}
+
+std::string VerdictParagraphs(const models::ComponentRecord& record,
+                              std::size_t width) {
   std::vector<std::string> paragraphs;
   for (const HoldoutRecord& holdout : record.holdouts) {
     const auto verdict = std::ranges::find(
@@ -705,15 +846,11 @@ std::string VerdictParagraphs(const models::ComponentRecord& record) {
     const RecommendationRecord& advice = *record.recommendation;
     paragraphs.push_back(advice.why);
     paragraphs.push_back(fmt::format("{}", fmt::join(advice.caveats, " ")));
-    paragraphs.emplace_back(
-        "Error = actual - nominal; compensate by minus the predicted error.");
-  } else if (record.interrupted) {
-    paragraphs.emplace_back("The run was interrupted; fits are incomplete.");
   }
   std::string text;
   for (const std::string& paragraph : paragraphs) {
     if (paragraph.empty()) continue;
-    text += (text.empty() ? "" : "\n") + WrapText(paragraph, kWidth) + "\n";
+    text += (text.empty() ? "" : "\n") + WrapText(paragraph, width) + "\n";
   }
   return text;
 }

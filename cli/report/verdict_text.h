@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "cli/report/report_view.h"
 
@@ -16,8 +18,21 @@ extern const char* const kIntervalCoverage;
 /// verdicts, the memorisation checks and the recommendation.
 void AddSentences(models::ComponentRecord* record);
 
-/// The sentences in paragraphs, wrapped for a terminal.
-std::string VerdictParagraphs(const models::ComponentRecord& record);
+/// The recommendation and what is told with it first, most important first.
+std::vector<std::string> FirstWords(const models::ComponentRecord& record);
+
+/// As much of it as eight lines hold.
+inline constexpr std::size_t kMostVerdictLines = 8;
+std::vector<std::string> VerdictLines(const models::ComponentRecord& record,
+                                      std::size_t width);
+
+/// What measurements would make the answer surer: "cycles with t1 below 20 or
+/// above 27"; "" where nothing is known to.
+std::string MeasureNext(const models::ComponentRecord& record);
+
+/// All sentences in paragraphs.
+std::string VerdictParagraphs(const models::ComponentRecord& record,
+                              std::size_t width);
 
 /// What a goal was held against: "RMSE 4.98 um, sd 0.2 um about an offset of
 /// 4.97 um"; "" without a goal.

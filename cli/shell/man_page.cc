@@ -141,7 +141,10 @@ std::string Models() {
       ".\nThese are the options of each, with their defaults where they are "
       "fixed:\n";
   for (const std::string& type : models::ModelTypes()) {
-    roff += ".TP\n" + Bold(type) + "\n" + Escape(ModelOptions(type)) + "\n";
+    roff += fmt::format(".TP\n{}\n{}: {}\n",
+                        Bold(type),
+                        Escape(models::AboutModel(type)),
+                        Escape(ModelOptions(type)));
   }
   return roff + ".TP\n" + Bold("poly:formula=") + Italic("x+x^2+x*t") +
          "\nthe terms as written\n";

@@ -82,6 +82,12 @@ void PrintResult(std::string_view text) {
   print_error = WriteAll(STDOUT_FILENO, WithoutControls(text));
 }
 
+void PrintStrong(std::string_view text) {
+  if (print_error != 0) return;
+  print_error =
+      WriteAll(STDOUT_FILENO, "\033[1m" + WithoutControls(text) + "\033[0m");
+}
+
 int PrintError() { return print_error; }
 
 void WriteMessage(std::string_view text) {

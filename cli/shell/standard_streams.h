@@ -19,6 +19,9 @@ std::string WithoutControls(std::string_view text);
 /// files after it; what comes after it is not written.
 void PrintResult(std::string_view text);
 
+/// The same in bold; for terminals.
+void PrintStrong(std::string_view text);
+
 /// errno of the first write of PrintResult that failed; 0: none.
 int PrintError();
 

@@ -1,27 +1,74 @@
 #include "cli/shell/wrap_text.h"
 
-namespace errmap::cli {
+#include <algorithm>
 
-std::string WrapText(const std::string& text, std::size_t width) {
-  std::string wrapped;
-  std::size_t column = 0;
-  std::size_t begin = 0;
-  while (begin < text.size()) {
-    std::size_t end = text.find(' ', begin);
-    if (end == std::string::npos) end = text.size();
-    const std::size_t length = end - begin;
-    if (column > 0 && column + 1 + length > width) {
-      wrapped += '\n';
-      column = 0;
-    } else if (column > 0) {
-      wrapped += ' ';
-      ++column;
+namespace errmap::cli {
+namespace {
+
+bool Continues(char c) {
+  constexpr unsigned kMask = 0xC0U;
+  constexpr unsigned kContinuation = 0x80U;
+  return (static_cast<unsigned char>(c) & kMask) == kContinuation;
+}
+
+// Bytes of the first `most` characters.
+std::size_t BytesOf(std::string_view text, std::size_t most) {
+  std::size_t bytes = 0;
+  for (std::size_t i = 0; i < most && bytes < text.size(); ++i) {
+    do {
+      ++bytes;
+    } while (bytes < text.size() && Continues(text[bytes]));
+  }
+  return bytes;
+}
+
+}  // namespace
+
+std::size_t WidthOf(std::string_view text) {
+  return text.size() -
+         static_cast<std::size_t>(std::ranges::count_if(text, Continues));
+}
+
+std::vector<std::string> WrapLines(std::string_view text, std::size_t width) {
+  std::vector<std::string> lines;
+  std::string line;
+  while (!text.empty()) {
+    std::string_view word = text.substr(0, text.find(' '));
+    text.remove_prefix(std::min(word.size() + 1, text.size()));
+    if (word.empty()) continue;
+    if (!line.empty() && WidthOf(line) + 1 + WidthOf(word) > width) {
+      lines.push_back(std::move(line));
+      line.clear();
     }
-    wrapped.append(text, begin, length);
-    column += length;
-    begin = end + 1;
+    while (WidthOf(word) > width) {
+      const std::size_t bytes = BytesOf(word, width);
+      lines.emplace_back(word.substr(0, bytes));
+      word.remove_prefix(bytes);
+    }
+    if (!line.empty()) line += ' ';
+    line += word;
+  }
+  if (!line.empty()) lines.push_back(std::move(line));
+  return lines;
+}
+
+std::string WrapText(std::string_view text, std::size_t width) {
+  std::string wrapped;
+  for (const std::string& line : WrapLines(text, width)) {
+    wrapped += (wrapped.empty() ? "" : "\n") + line;
   }
   return wrapped;
+}
+
+std::string Squeezed(const std::string& text, std::size_t most) {
+  constexpr std::size_t kDots = 3;
+  const std::size_t all = WidthOf(text);
+  if (all <= most) return text;
+  if (most <= kDots) return text.substr(0, BytesOf(text, most));
+  const std::size_t tail = (most - kDots) / 2;
+  const std::size_t head = most - kDots - tail;
+  return text.substr(0, BytesOf(text, head)) + "..." +
+         text.substr(BytesOf(text, all - tail));
 }
 
 }  // namespace errmap::cli

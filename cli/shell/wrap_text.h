@@ -1,11 +1,23 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace errmap::cli {
 
-/// `text` in lines of at most `width` columns, broken at blanks; a longer word
-/// has a line of its own.
-std::string WrapText(const std::string& text, std::size_t width);
+/// `text` in lines of at most `width` columns, broken at blanks, and where a
+/// word alone is longer.
+std::vector<std::string> WrapLines(std::string_view text, std::size_t width);
+
+/// The same with line feeds between them.
+std::string WrapText(std::string_view text, std::size_t width);
+
+/// Characters, where a text may be no ASCII.
+std::size_t WidthOf(std::string_view text);
+
+/// At most `most` characters, "..." in place of the middle.
+std::string Squeezed(const std::string& text, std::size_t most);
 
 }  // namespace errmap::cli

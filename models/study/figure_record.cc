@@ -65,6 +65,21 @@ FigureTableRecord MakeTable(const data::Dataset& source,
     table.target.push_back(Rounded(source.target_values()[row]));
     if (source.has_groups()) table.groups.push_back(source.groups().codes[i]);
   }
+  if (source.has_sessions()) {
+    const std::vector<Eigen::Index> codes = source.session_codes();
+    table.session_labels = source.log()->sessions.labels;
+    table.sessions.emplace();
+    for (const Eigen::Index row : rows) {
+      table.sessions->push_back(codes[static_cast<std::size_t>(row)]);
+    }
+  }
+  if (source.log() != nullptr && source.log()->time_unit == "s") {
+    table.time.emplace();
+    for (const Eigen::Index row : rows) {
+      const auto of_log = source.log_rows()[static_cast<std::size_t>(row)];
+      table.time->push_back(Rounded(source.log()->time[of_log]));
+    }
+  }
   for (const FigureInputRecord& input : inputs) {
     const Eigen::Index column = source.FindInput(input.name);
     std::vector<double>& values = table.inputs.emplace_back();
@@ -101,7 +116,8 @@ FigureHoldoutRecord MakeHoldout(const ComponentStudy& study,
                                 Eigen::Index num_rows) {
   FigureHoldoutRecord record{.name = study.holdouts[index].name,
                              .table = static_cast<std::int64_t>(table),
-                             .predictions = {}};
+                             .predictions = {},
+                             .outside = {}};
   for (const ModelResult& model : study.study.models) {
     if (index >= model.holdouts.size()) continue;
     const HoldoutResult& result = model.holdouts[index];
@@ -113,6 +129,47 @@ FigureHoldoutRecord MakeHoldout(const ComponentStudy& study,
     record.predictions.emplace_back(model.name, std::move(values));
   }
   return record;
+}
+
+// Entries of `rows` with an input of the map outside what its fold saw.
+std::vector<std::int64_t> RowsOutside(const data::Dataset& dataset,
+                                      const Holdout& holdout,
+                                      const FittedModel& map,
+                                      const std::vector<Eigen::Index>& rows) {
+  std::vector<bool> outside(static_cast<std::size_t>(
+      holdout.test_data != nullptr ? holdout.test_data->num_rows()
+                                   : dataset.num_rows()));
+  for (const stats::Fold& fold : holdout.folds) {
+    for (const TrainedInput& input : map.inputs) {
+      const Eigen::Index column = dataset.FindInput(input.column.name);
+      const Eigen::VectorXd trained =
+          dataset.input_values().col(column)(fold.train);
+      const double low = trained.minCoeff();
+      const double high = trained.maxCoeff();
+      const auto mark = [&](Eigen::Index row, double value) {
+        if (value < low || value > high) {
+          outside[static_cast<std::size_t>(row)] = true;
+        }
+      };
+      if (holdout.test_data == nullptr) {
+        for (const Eigen::Index row : fold.test) {
+          mark(row, dataset.input_values()(row, column));
+        }
+        continue;
+      }
+      const Eigen::MatrixXd& tested = holdout.test_data->input_values();
+      for (Eigen::Index row = 0; row < tested.rows(); ++row) {
+        mark(row, tested(row, column));
+      }
+    }
+  }
+  std::vector<std::int64_t> entries;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (outside[static_cast<std::size_t>(rows[i])]) {
+      entries.push_back(static_cast<std::int64_t>(i));
+    }
+  }
+  return entries;
 }
 
 // Of rows scaled by the roots of their weights.
@@ -178,6 +235,20 @@ FiguresRecord MakeFiguresRecord(const ComponentStudy& study) {
     record.holdouts.push_back(MakeHoldout(
         study, h, record.tables.size(), its, elsewhere->num_rows()));
     record.tables.push_back(MakeTable(*elsewhere, its, record.inputs));
+  }
+  if (const auto& advice = study.judgement.recommendation) {
+    const FittedModel& map = *study.study.models[advice->model].final_fit;
+    const auto& elsewhere = study.holdouts[advice->holdout].test_data;
+    record.holdouts[advice->holdout].outside = RowsOutside(
+        dataset,
+        study.holdouts[advice->holdout],
+        map,
+        elsewhere == nullptr ? rows : ThinnedRows(elsewhere->num_rows()));
+    const Eigen::VectorXd fitted = map.Predict(dataset);
+    record.fitted.emplace();
+    for (const Eigen::Index row : rows) {
+      record.fitted->push_back(Rounded(fitted[row]));
+    }
   }
   record.correlation = Correlate(dataset);
   for (std::vector<double>& row : record.correlation.matrix) {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "models/export/map_program.h"
+#include "models/export/program_cost.h"
 #include "models/history/history.h"
 #include "models/inner_folds.h"
 #include "models/study/figure_record.h"
@@ -153,6 +155,20 @@ MemorisationRecord MakeMemorisation(const Memorisation& found) {
           .sentence = {}};
 }
 
+// Nothing for a map that no controller could run.
+LeftOut<StepCostRecord> StepCostOf(const FittedModel& map) {
+  try {
+    const ProgramCost cost = CostOf(MakeMapProgram(map));
+    return StepCostRecord{.additions = cost.additions,
+                          .multiplications = cost.multiplications,
+                          .divisions = cost.divisions,
+                          .exponentials = cost.exponentials,
+                          .state_bytes = cost.state_bytes};
+  } catch (const std::invalid_argument&) {
+    return {};
+  }
+}
+
 ModelRecord MakeModel(const ComponentStudy& study, std::size_t index) {
   const ModelResult& model = study.study.models[index];
   ModelRecord record;
@@ -170,6 +186,7 @@ ModelRecord MakeModel(const ComponentStudy& study, std::size_t index) {
     for (const TrainedInput& input : map.inputs) {
       inputs.push_back(input.column.name);
     }
+    record.step_cost = StepCostOf(map);
     record.final = MakeFitRecord(model.final_fit_seconds,
                                  map.summary,
                                  map.remarks,
@@ -219,7 +236,20 @@ class JudgementRecord {
     return names;
   }
   PairRecord Pair(const HoldoutComparison& tests, std::size_t index) const;
+  double RemovedShare(std::size_t holdout, const HoldoutResult& of_map) const;
 };
+
+// Against the same rows without compensation.
+double JudgementRecord::RemovedShare(std::size_t holdout,
+                                     const HoldoutResult& of_map) const {
+  const auto zero =
+      std::ranges::find(study_.study.models, "zero", &ModelResult::name);
+  if (zero == study_.study.models.end() || !zero->holdouts[holdout].ok()) {
+    return kNotKnown;
+  }
+  const double without = zero->holdouts[holdout].test.rmse;
+  return without > 0.0 ? 1.0 - of_map.test.rmse / without : kNotKnown;
+}
 
 std::optional<GapRecord> JudgementRecord::Gap() const {
   const auto& gap = judgement_.gap;
@@ -438,6 +468,7 @@ std::optional<RecommendationRecord> JudgementRecord::Advice() const {
       judgement_.goals[advice->model][advice->holdout].standing;
   record.meets_goal = MeetsGoal(record.goal_standing);
   record.extrapolated_share = advice->extrapolated_share;
+  record.removed_share = RemovedShare(advice->holdout, result);
   const PredictionCost cost = CostOf(model.final_fit->model->Describe());
   record.cost = {.multiplications = cost.multiplications,
                  .exponentials = cost.exponentials};

@@ -1,6 +1,7 @@
 #include "models/study/remarks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -15,6 +16,25 @@ constexpr double kBiasWorthSaying = 0.25;
 constexpr double kSignificance = 0.05;
 // Of the held-out rows, what must lie outside of the trained range.
 constexpr double kExtrapolationWorthSaying = 0.05;
+
+// What a screen has room for is told in this order; all else on request.
+constexpr std::array kToldFirst = {RemarkKind::kInterrupted,
+                                   RemarkKind::kRemoves,
+                                   RemarkKind::kGoal,
+                                   RemarkKind::kBetterWithoutMap,
+                                   RemarkKind::kOneRunOnly,
+                                   RemarkKind::kGroupFitsFailed,
+                                   RemarkKind::kNoGroupsHeldOut,
+                                   RemarkKind::kNoGroups,
+                                   RemarkKind::kTooFewUnits,
+                                   RemarkKind::kTooManyMaps,
+                                   RemarkKind::kNotNoise,
+                                   RemarkKind::kIgnoreNeighbours,
+                                   RemarkKind::kNoiseLearning,
+                                   RemarkKind::kUnitsCorrelated,
+                                   RemarkKind::kHoldoutsDisagree,
+                                   RemarkKind::kNotConverged,
+                                   RemarkKind::kCost};
 
 // Columns named as those that more should be measured of.
 constexpr std::size_t kMostColumns = 3;
@@ -70,8 +90,12 @@ class Remarks {
   std::vector<RemarkRecord> remarks_;
 
   RemarkRecord& Add(RemarkKind kind) {
-    remarks_.emplace_back().kind = kind;
-    return remarks_.back();
+    RemarkRecord& remark = remarks_.emplace_back();
+    remark.kind = kind;
+    const auto* const place = std::ranges::find(kToldFirst, kind);
+    if (place != kToldFirst.end())
+      remark.rank = 1 + (place - kToldFirst.begin());
+    return remark;
   }
   RemarkRecord& Add(RemarkKind kind, std::size_t of_model) {
     RemarkRecord& remark = Add(kind);
@@ -83,6 +107,7 @@ class Remarks {
   void AddNotNoise();
   void AddUnseen();
   void AddUnits();
+  void AddFlattered();
   void AddDisagreement();
   void AddCorrelation();
   void AddExtrapolation();
@@ -129,6 +154,7 @@ void Remarks::AddNotNoise() {
 }
 
 std::vector<RemarkRecord> Remarks::Grounds() {
+  if (record_.recommendation->removed_share > 0.0) Add(RemarkKind::kRemoves);
   AddSimplest();
   // Where that is not sure, the recommendation itself says so.
   if (advice_.has_baseline && advice_.choice != Choice::kBaseline &&
@@ -172,7 +198,24 @@ void Remarks::AddUnits() {
   } else if (tests_.obstacle.kind == Obstacle::Kind::kTooFewUnits ||
              tests_.obstacle.kind == Obstacle::Kind::kPerhapsOneSession) {
     Add(RemarkKind::kTooFewUnits);
+  } else if (tests_.obstacle.exists()) {
+    Add(RemarkKind::kTooManyMaps);
   }
+}
+
+// Who reads the wrong column is tempted by the lowest error there.
+void Remarks::AddFlattered() {
+  const auto& gap = study_.judgement.gap;
+  if (!gap) return;
+  const InterpolationGap::Row* tempting = nullptr;
+  for (const InterpolationGap::Row& row : gap->rows) {
+    if (!row.flatters() || study_.study.models[row.model].baseline) continue;
+    if (tempting == nullptr ||
+        row.neighbours_rmse < tempting->neighbours_rmse) {
+      tempting = &row;
+    }
+  }
+  if (tempting != nullptr) Add(RemarkKind::kIgnoreNeighbours, tempting->model);
 }
 
 // Other hold-outs of unseen rows in whose first tier the map is not.
@@ -232,6 +275,7 @@ std::vector<RemarkRecord> Remarks::Doubts() {
   if (record_.interrupted) Add(RemarkKind::kInterrupted);
   AddUnseen();
   AddUnits();
+  AddFlattered();
   AddDisagreement();
   AddCorrelation();
   if (advice_.extrapolated_share >= kExtrapolationWorthSaying) {
@@ -240,7 +284,12 @@ std::vector<RemarkRecord> Remarks::Doubts() {
   if (!model_.final->summary.value.converged) {
     Add(RemarkKind::kNotConverged);
   }
-  if (model_.memorisation) Add(RemarkKind::kNoiseLearning);
+  if (model_.memorisation) {
+    RemarkRecord& remark = Add(RemarkKind::kNoiseLearning);
+    if (model_.memorisation->learning != NoiseLearning::kMuch) {
+      remark.rank.reset();
+    }
+  }
   if (!record_.stability.empty()) Add(RemarkKind::kOtherCuts);
   if (advice_.better_but_no_map) {
     Add(RemarkKind::kBetterWithoutMap, *advice_.better_but_no_map);

@@ -28,6 +28,8 @@ std::string_view ToString(RemarkKind kind) {
       return "simplest near lowest";
     case RemarkKind::kSimplestOfTier:
       return "simplest of tier";
+    case RemarkKind::kRemoves:
+      return "removes";
     case RemarkKind::kBeatsBaseline:
       return "beats baseline";
     case RemarkKind::kPromise:
@@ -56,6 +58,10 @@ std::string_view ToString(RemarkKind kind) {
       return "blocks for units";
     case RemarkKind::kTooFewUnits:
       return "too few units";
+    case RemarkKind::kTooManyMaps:
+      return "too many maps";
+    case RemarkKind::kIgnoreNeighbours:
+      return "ignore neighbours";
     case RemarkKind::kHoldoutsDisagree:
       return "hold-outs disagree";
     case RemarkKind::kUnitsCorrelated:

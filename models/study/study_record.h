@@ -523,6 +523,21 @@ ERRMAP_RECORD(ResultRecord,
               goal_standing,
               unit_rmse)
 
+/// Of one step of the exported map; ProgramCost.
+struct StepCostRecord {
+  std::int64_t additions = 0;
+  std::int64_t multiplications = 0;
+  std::int64_t divisions = 0;
+  std::int64_t exponentials = 0;
+  std::int64_t state_bytes = 0;
+};
+ERRMAP_RECORD(StepCostRecord,
+              additions,
+              multiplications,
+              divisions,
+              exponentials,
+              state_bytes)
+
 enum class ModelStatus { kFailed, kOk };
 std::string_view ToString(ModelStatus status);
 
@@ -536,6 +551,8 @@ struct ModelRecord {
   std::optional<std::string> equation;
   std::optional<std::vector<std::string>> sensors;
   std::optional<std::vector<std::string>> inputs_used;
+  LeftOut<std::string> file;  // of the map, beside results.json
+  LeftOut<StepCostRecord> step_cost;
   std::optional<FitRecord> final;  // the fit to all rows
   std::optional<RegressionRecord> regression;
   std::optional<MemorisationRecord> memorisation;
@@ -554,6 +571,8 @@ ERRMAP_RECORD(ModelRecord,
               equation,
               sensors,
               inputs_used,
+              file,
+              step_cost,
               final,
               regression,
               memorisation,
@@ -713,6 +732,7 @@ enum class RemarkKind {
   kLowestAndSimplest,   // of the first tier
   kSimplestNearLowest,  // of one unit only; model: of the lowest error
   kSimplestOfTier,      // model: of the lowest error; excess, confidence
+  kRemoves,             // removed_share of what is there without a map
   kBeatsBaseline,       // model: the best one
   kGap,
   kPromise,
@@ -727,6 +747,8 @@ enum class RemarkKind {
   kNoGroups,
   kBlocksForUnits,
   kTooFewUnits,
+  kTooManyMaps,       // for so few units
+  kIgnoreNeighbours,  // model: what they flatter most temptingly
   kHoldoutsDisagree,  // holdouts: in whose first tier the map is not
   kUnitsCorrelated,   // lag1, pairs, established
   kExtrapolates,
@@ -740,6 +762,8 @@ std::string_view ToString(RemarkKind kind);
 
 struct RemarkRecord {
   RemarkKind kind = RemarkKind::kCost;
+  /// Its place among what is told first, from 1; nothing: told on request.
+  LeftOut<std::int64_t> rank = {};
   LeftOut<std::string> model = {};
   LeftOut<std::vector<std::string>> holdouts = {};
   LeftOut<double> excess = {};  // of its RMSE over the model's, at most; 95 %
@@ -756,6 +780,7 @@ struct RemarkRecord {
 };
 ERRMAP_RECORD(RemarkRecord,
               kind,
+              rank,
               model,
               holdouts,
               excess,
@@ -837,6 +862,8 @@ struct RecommendationRecord {
   std::optional<bool> meets_goal;
   GoalStanding goal_standing = GoalStanding::kNotJudged;
   double extrapolated_share = kNotKnown;
+  /// Of the error without compensation, 1 - RMSE / RMSE; below 0: it adds.
+  double removed_share = kNotKnown;
   CostRecord cost;
   std::optional<MemoryRecord> memory;
   LeftOut<PromiseRecord> promise;
@@ -865,6 +892,7 @@ ERRMAP_RECORD(RecommendationRecord,
               meets_goal,
               goal_standing,
               extrapolated_share,
+              removed_share,
               cost,
               memory,
               promise,
@@ -894,16 +922,31 @@ struct FigureTableRecord {
   std::vector<std::int64_t> groups;  // index into labels
   std::vector<double> target;
   std::vector<std::vector<double>> inputs;  // one list per input
+  LeftOut<std::vector<std::string>> session_labels;
+  LeftOut<std::vector<std::int64_t>> sessions;  // index into them
+  LeftOut<std::vector<double>> time;  // in data.time_unit, where that is s
 };
-ERRMAP_RECORD(
-    FigureTableRecord, file, rows_total, rows, labels, groups, target, inputs)
+ERRMAP_RECORD(FigureTableRecord,
+              file,
+              rows_total,
+              rows,
+              labels,
+              groups,
+              target,
+              inputs,
+              session_labels,
+              sessions,
+              time)
 
 struct FigureHoldoutRecord {
   std::string name;
   std::int64_t table = 0;
   ByName<std::vector<double>> predictions;  // NaN: not held out
+  /// Entries of the table where an input of the recommended map lay outside
+  /// what its fold was trained on.
+  LeftOut<std::vector<std::int64_t>> outside;
 };
-ERRMAP_RECORD(FigureHoldoutRecord, name, table, predictions)
+ERRMAP_RECORD(FigureHoldoutRecord, name, table, predictions, outside)
 
 struct CorrelationRecord {
   std::vector<std::string> columns;
@@ -918,6 +961,8 @@ struct FiguresRecord {
   std::optional<std::string> group;
   std::vector<FigureTableRecord> tables;
   std::vector<FigureHoldoutRecord> holdouts;
+  /// Of the recommended map, fitted to all rows, of the first table.
+  LeftOut<std::vector<double>> fitted;
   CorrelationRecord correlation;
 };
 ERRMAP_RECORD(FiguresRecord,
@@ -927,6 +972,7 @@ ERRMAP_RECORD(FiguresRecord,
               group,
               tables,
               holdouts,
+              fitted,
               correlation)
 
 // --- A component -----------------------------------------------------------

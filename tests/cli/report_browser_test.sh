@@ -1,11 +1,14 @@
 #!/bin/sh
-# The report as a browser shows it, on a desk (1280 px) and on a phone (390 px):
+# The report as a browser shows it, on a desk (1280 px), on a phone (390 px) and
+# on paper:
 #
 #   report_browser_test.sh ERRMAP ROOT
 #
 # No message on the console, nothing fetched, every figure there and described,
-# no overflow, no empty panel, no NaN, contrast at least 4.5 to 1. Exit status
-# 77 where there is no Chromium.
+# no overflow, no labels on one another, no NaN, one unit of length, the headline's
+# error the table's, contrast at least 4.5 to 1, and no longer than is read: 6000 px
+# at 1280 before anything is unfolded, 8 pages for a component, 3 and 2 per
+# component for six. Exit status 77 where there is no Chromium.
 set -eu
 
 errmap=$1
@@ -30,16 +33,20 @@ complain() {
   failed=1
 }
 
-# browse OUTPUT FLAG... URL: the page's DOM, and its console in OUTPUT.err.
-browse() {
-  output=$1
-  shift
+# run FLAG... URL
+run() {
   timeout 60 "$browser" --headless --no-sandbox --disable-gpu \
     --disable-dev-shm-usage --no-first-run --disable-background-networking \
     --disable-component-update --user-data-dir="$scratch/profile" \
     --enable-logging=stderr --host-resolver-rules='MAP * ~NOTFOUND' \
-    --virtual-time-budget=15000 --dump-dom "$@" \
-    >"$output" 2>"$output.err" </dev/null
+    "$@" </dev/null
+}
+
+# browse OUTPUT FLAG... URL: the page's DOM, and its console in OUTPUT.err.
+browse() {
+  output=$1
+  shift
+  run --virtual-time-budget=15000 --dump-dom "$@" >"$output" 2>"$output.err"
 }
 
 # Runs in a copy of the page and tells the page around it what it found.
@@ -51,7 +58,14 @@ cat >"$scratch/check.js" <<'END'
     return e.tagName + '.' + (e.getAttribute('class') || '') + ' "' +
       (e.textContent || '').trim().slice(0, 40) + '"';
   }
+  var length = document.documentElement.scrollHeight;
   document.querySelectorAll('details').forEach(function (d) { d.open = true; });
+  var number = document.querySelector('section .number');
+  var marked = document.querySelector('section tr.mark td:nth-child(2)');
+  if (number && marked &&
+      number.textContent.split(' ')[0] !== marked.textContent.split(' ')[0]) {
+    say('the headline says ' + number.textContent + ', the table ' + marked.textContent);
+  }
   var width = document.documentElement.clientWidth;
   if (document.documentElement.scrollWidth > width) {
     say('the page is ' + document.documentElement.scrollWidth + ' px wide');
@@ -65,9 +79,8 @@ cat >"$scratch/check.js" <<'END'
   var drawn = 0;
   figures.forEach(function (f) {
     var svg = f.querySelector('svg');
-    var absent = f.querySelector('.absent');
     if (!svg) {
-      if (!absent || absent.textContent.trim().length < 10) say('empty panel: ' + place(f));
+      say('empty panel: ' + place(f));
       return;
     }
     drawn += 1;
@@ -80,6 +93,18 @@ cat >"$scratch/check.js" <<'END'
     });
     if (svg.querySelectorAll('path,polygon,circle').length < 3) say('nothing drawn: ' + place(f));
     if (svg.querySelectorAll('text').length < 4) say('no labels: ' + place(f));
+    var level = Array.from(svg.querySelectorAll('text')).filter(function (t) {
+      return !t.getAttribute('transform');
+    }).map(function (t) { return [t, t.getBoundingClientRect()]; });
+    level.forEach(function (one, i) {
+      level.slice(i + 1).forEach(function (other) {
+        var a = one[1], b = other[1];
+        if (a.left < b.right - 1 && b.left < a.right - 1 &&
+            a.top < b.bottom - 3 && b.top < a.bottom - 3) {
+          say('"' + one[0].textContent + '" on "' + other[0].textContent + '" of ' + place(f));
+        }
+      });
+    });
     var frame = svg.getBoundingClientRect();
     svg.querySelectorAll('text').forEach(function (t) {
       var b = t.getBoundingClientRect();
@@ -126,6 +151,7 @@ cat >"$scratch/check.js" <<'END'
     if (/(^|[^A-Za-z])(nan|NaN|null|undefined|inf|Infinity)($|[^A-Za-z])/.test(text)) {
       say('not a figure: "' + text.slice(0, 60) + '"');
     }
+    if (/[0-9] um($|[^A-Za-z_])/.test(text)) say('um beside µm: "' + text.slice(0, 60) + '"');
     var style = getComputedStyle(holder);
     var ink = channels(holder.closest('svg') ? style.fill : style.color);
     var a = luminance(ink), b = luminance(background(holder));
@@ -133,15 +159,18 @@ cat >"$scratch/check.js" <<'END'
     if (ratio < 4.5) say('contrast ' + ratio.toFixed(2) + ': ' + place(holder));
   }
   performance.getEntriesByType('resource').forEach(function (r) { say('fetched ' + r.name); });
-  window.top.postMessage({width: width, figures: figures.length, drawn: drawn,
+  window.top.postMessage({width: width, length: length, figures: figures.length, drawn: drawn,
                       texts: texts, found: found}, '*');
 })();
 END
 
-# look PAGE LEAST: LEAST is how many figures there must be.
+# look PAGE LEAST LONGEST PAGES: LEAST is how many figures there must be, LONGEST
+# the px at 1280, PAGES the pages of paper.
 look() {
   page=$1
   least=$2
+  longest=$3
+  pages=$4
   # The page's own policy forbids the scripts of this test; nothing else goes.
   {
     sed -e 's/<meta http-equiv="Content-Security-Policy"[^>]*>//' \
@@ -183,7 +212,22 @@ END
     if [ "$drawn" -lt "$least" ]; then
       complain "$page: $drawn figures, at least $least are needed"
     fi
+    length=$(printf '%s\n' "$line" | sed 's/.*"length":\([0-9]*\).*/\1/')
+    case $line in
+      *'"width":1280'* | *'"width":126'*)
+        if [ "$length" -gt "$longest" ]; then
+          complain "$page is $length px long, at most $longest are read"
+        fi
+        ;;
+    esac
   done <"$scratch/seen"
+  run --no-pdf-header-footer --print-to-pdf="$scratch/page.pdf" \
+    "file://$page" >/dev/null 2>&1 || complain "$browser cannot print $page"
+  printed=$(LC_ALL=C grep -a -o '/Count [0-9]*' "$scratch/page.pdf" |
+    sed -n '1s/.* //p')
+  if [ "${printed:-0}" -lt 1 ] || [ "$printed" -gt "$pages" ]; then
+    complain "$page prints on $printed pages, at most $pages are carried about"
+  fi
   # The page itself, with its own policy.
   browse "$scratch/plain" --window-size=1280,900 "file://$page" ||
     complain "$browser failed on $page itself"
@@ -197,7 +241,25 @@ data="$root/data/sets/nistir5367_xdisp_down.csv"
   --models zero,mean,poly:position,poly:eq8,poly:full:degree=3,net:scg:iterations=60 \
   >"$scratch/table"
 "$errmap" report "$scratch/study"
-look "$scratch/study/report.html" 18
+look "$scratch/study/report.html" 18 6000 8
+
+# Six components.
+mkdir "$scratch/six"
+{
+  echo 'models = ["mean", "poly:eq8", "poly:full:degree=3"]'
+  for i in 1 2 3 4 5 6; do
+    cp "$data" "$scratch/six/c$i.csv"
+    printf '[[component]]\nname = "component %s"\ndata = "c%s.csv"\n' "$i" "$i"
+  done
+} >"$scratch/six/study.toml"
+(
+  cd "$scratch/six"
+  "$errmap" compare --config study.toml --quiet --out study >table
+)
+look "$scratch/six/study/report.html" 18 6000 15
+if [ "$(wc -c <"$scratch/six/study/report.html")" -gt 2000000 ]; then
+  complain "the page of six components is larger than 2 MB"
+fi
 
 # Names that try to become something else, in a table of their own.
 mkdir "$scratch/hostile"
@@ -217,10 +279,10 @@ long=$(printf '%0200d' 0 | tr 0 n)
     --models mean,poly:eq8,poly:full:degree=2 >table
   "$errmap" report study
 )
-look "$scratch/hostile/study/report.html" 12
+look "$scratch/hostile/study/report.html" 12 6000 8
 if [ -n "$(find "$scratch" -name 'pwned*')" ]; then
   complain "a name was run as a command"
 fi
 
 if [ "$failed" -ne 0 ]; then exit 1; fi
-echo "report_browser: looked at two reports in two widths, nothing amiss"
+echo "report_browser: looked at three reports in two widths and on paper, nothing amiss"

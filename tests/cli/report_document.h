@@ -35,8 +35,10 @@ class ReportDocument {
 
   Json Make() const {
     Json components = Json::array();
+    Json configured = Json::array();
     for (std::size_t i = 0; i < spec_.components; ++i) {
       components.push_back(Component(i));
+      configured.push_back({{"data", spec_.file}});
     }
     return {{"schema", "errmap-results-1"},
             {"version", "0.1.0"},
@@ -44,6 +46,7 @@ class ReportDocument {
             {"interrupted", false},
             {"provenance",
              {{"command_line", "errmap compare " + spec_.file},
+              {"configuration", {{"component", std::move(configured)}}},
               {"compiler", "g++"},
               {"inputs",
                Json::array({{{"file", spec_.file}, {"sha256", "abc"}}})}}},
@@ -77,7 +80,12 @@ class ReportDocument {
     const auto test = [](const char* key, double value) {
       return Json{{key, value}, {"p", 0.04}};
     };
+    Json unit_rmse = Json::array();
+    for (std::size_t g = 0; g < spec_.groups; ++g) {
+      unit_rmse.push_back(rmse * (1.0 + 0.3 * Noise(g)));
+    }
     return {
+        {"unit_rmse", std::move(unit_rmse)},
         {"train", Metrics(0.8 * rmse, spec_.rows)},
         {"test", Metrics(rmse, spec_.rows)},
         {"ci95", {0.8 * rmse, 1.3 * rmse}},
@@ -116,6 +124,12 @@ class ReportDocument {
         {"status", "ok"},
         {"why", nullptr},
         {"predict_ns", 12.0},
+        {"step_cost",
+         {{"additions", 10 * i + 2},
+          {"multiplications", 10 * i + 3},
+          {"divisions", 0},
+          {"exponentials", net ? 5 : 0},
+          {"state_bytes", 0}}},
         {"results", {{kNear, Result(i, false)}, {kFar, Result(i, true)}}}};
     Json fit = {{"fit_seconds", 0.5},
                 {"stop", "iteration_limit"},
@@ -144,6 +158,14 @@ class ReportDocument {
     }
     model["final"] = std::move(fit);
     return model;
+  }
+
+  Json UnitLabels() const {
+    Json labels = Json::array();
+    for (std::size_t g = 0; g < spec_.groups; ++g) {
+      labels.push_back(spec_.group_prefix + std::to_string(g + 1));
+    }
+    return labels;
   }
 
   // Reproducible figures between -1 and 1.
@@ -182,7 +204,13 @@ class ReportDocument {
       near[spec_.models[m]] = std::move(a);
       far[spec_.models[m]] = std::move(b);
     }
+    Json fitted = Json::array();
+    for (std::size_t i = 0; i < spec_.rows; ++i) {
+      fitted.push_back(target[i].get<double>() + 1e-4 * Noise(3 * i));
+    }
+    Json outside = Json::array({0, spec_.rows - 1});
     return {
+        {"fitted", std::move(fitted)},
         {"inputs",
          Json::array({{{"name", spec_.position}, {"unit", "mm"}},
                       {{"name", spec_.temperature}, {"unit", "degC"}}})},
@@ -199,7 +227,10 @@ class ReportDocument {
                        {"inputs", Json::array({position, temperature})}}})},
         {"holdouts",
          Json::array({{{"name", kNear}, {"table", 0}, {"predictions", near}},
-                      {{"name", kFar}, {"table", 0}, {"predictions", far}}})},
+                      {{"name", kFar},
+                       {"table", 0},
+                       {"predictions", far},
+                       {"outside", std::move(outside)}}})},
         {"correlation",
          {{"columns",
            Json::array({spec_.position, spec_.temperature, spec_.target})},
@@ -213,60 +244,67 @@ class ReportDocument {
     }
     const std::size_t best = spec_.models.size() > 1 ? 1 : 0;
     const double rmse = Rmse(best, true);
-    return {
-        {"name",
-         spec_.name +
-             (spec_.components > 1 ? " " + std::to_string(index + 1) : "")},
-        {"data",
-         {{"file", spec_.file},
-          {"sha256", "abc"},
-          {"rows", spec_.rows},
-          {"target", spec_.target},
-          {"unit", spec_.unit},
-          {"inputs", Json::array({spec_.position, spec_.temperature})},
-          {"group", spec_.group},
-          {"dropped",
-           Json::array({{{"column", "t99_degC"}, {"why", "all zero"}}})}}},
-        {"goal", 5e-4},
-        {"display", {{"unit", "um"}, {"scale", 1000.0}}},
-        {"holdouts",
-         Json::array({{{"name", kNear}, {"folds", 1}, {"whole_groups", false}},
-                      {{"name", kFar}, {"folds", 5}, {"whole_groups", true}}})},
-        {"models", std::move(models)},
-        {"comparisons",
-         Json::array({{{"a", spec_.models[best]},
-                       {"b", spec_.models.back()},
-                       {"holdout", kFar},
-                       {"rmse_a", rmse},
-                       {"rmse_b", 2.0 * rmse},
-                       {"difference", -rmse},
-                       {"ci95", {-1.5 * rmse, -0.5 * rmse}},
-                       {"p", 0.001},
-                       {"p_holm", 0.003},
-                       {"units", 6},
-                       {"established", true}}})},
-        {"verdict",
-         Json::array({{{"holdout", kFar},
-                       {"choice", "polynomial"},
-                       {"model", spec_.models[best]},
-                       {"established", true},
-                       {"why", "It has the lowest error."}}})},
-        {"recommendation",
-         {{"choice", "polynomial"},
-          {"model", spec_.models[best]},
-          {"holdout", kFar},
-          {"rmse", rmse},
-          {"ci95", {0.8 * rmse, 1.3 * rmse}},
-          {"sensors", Json::array({spec_.temperature})},
-          {"parameters", 11},
-          {"predict_ns", 12.0},
-          {"meets_goal", false},
-          {"goal_standing", "not met"},
-          {"sentence", "Use " + spec_.models[best] + " on another day."},
-          {"why", "It is the simplest of the first tier."},
-          {"reasons", Json::array({"A reason."})},
-          {"caveats", Json::array({"A caveat."})}}},
-        {"figures", Figures()}};
+    return {{"name",
+             spec_.name +
+                 (spec_.components > 1 ? " " + std::to_string(index + 1) : "")},
+            {"data",
+             {{"file", spec_.file},
+              {"sha256", "abc"},
+              {"rows", spec_.rows},
+              {"target", spec_.target},
+              {"unit", spec_.unit},
+              {"inputs", Json::array({spec_.position, spec_.temperature})},
+              {"group", spec_.group},
+              {"dropped",
+               Json::array({{{"column", "t99_degC"}, {"why", "all zero"}}})}}},
+            {"goal", 5e-4},
+            {"display", {{"unit", "um"}, {"scale", 1000.0}}},
+            {"holdouts",
+             Json::array({{{"name", kNear},
+                           {"folds", 1},
+                           {"whole_groups", false},
+                           {"unit_of_analysis", spec_.group}},
+                          {{"name", kFar},
+                           {"folds", 5},
+                           {"whole_groups", true},
+                           {"unit_of_analysis", spec_.group},
+                           {"units", spec_.groups},
+                           {"unit_labels", UnitLabels()}}})},
+            {"models", std::move(models)},
+            {"comparisons",
+             Json::array({{{"a", spec_.models[best]},
+                           {"b", spec_.models.back()},
+                           {"holdout", kFar},
+                           {"rmse_a", rmse},
+                           {"rmse_b", 2.0 * rmse},
+                           {"difference", -rmse},
+                           {"ci95", {-1.5 * rmse, -0.5 * rmse}},
+                           {"p", 0.001},
+                           {"p_holm", 0.003},
+                           {"units", 6},
+                           {"established", true}}})},
+            {"verdict",
+             Json::array({{{"holdout", kFar},
+                           {"choice", "polynomial"},
+                           {"model", spec_.models[best]},
+                           {"established", true},
+                           {"why", "It has the lowest error."}}})},
+            {"recommendation",
+             {{"choice", "polynomial"},
+              {"model", spec_.models[best]},
+              {"holdout", kFar},
+              {"rmse", rmse},
+              {"ci95", {0.8 * rmse, 1.3 * rmse}},
+              {"sensors", Json::array({spec_.temperature})},
+              {"parameters", 11},
+              {"predict_ns", 12.0},
+              {"meets_goal", false},
+              {"goal_standing", "not met"},
+              {"sentence", "Use " + spec_.models[best] + " on another day."},
+              {"why", "It is the simplest of the first tier."},
+              {"reasons", Json::array({"A reason."})},
+              {"caveats", Json::array({"A caveat."})}}},
+            {"figures", Figures()}};
   }
 };
 

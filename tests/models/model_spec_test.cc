@@ -62,11 +62,14 @@ TEST(RecipeCatalog, NamesTheRangeOfAnOptionAndWhatThereIs) {
   EXPECT_THAT(MessageOf([] { MakeRecipe("net:scg:scale=raw"); }),
               HasSubstr("one of standard, range, none"));
   EXPECT_THAT(MessageOf([] { MakeRecipe("net:scg:hiden=3"); }),
-              HasSubstr("no option 'hiden'; net:scg has hidden"));
+              HasSubstr("no option 'hiden'; did you mean 'hidden'? net:scg "
+                        "has hidden"));
   EXPECT_THAT(MessageOf([] { MakeRecipe("zero:a=1"); }),
               HasSubstr("zero takes no options"));
   EXPECT_THAT(MessageOf([] { MakeRecipe("poly:eq10"); }),
-              HasSubstr("unknown; there are zero, mean"));
+              HasSubstr("there are zero, mean"));
+  EXPECT_THAT(MessageOf([] { MakeRecipe("poly:eq88"); }),
+              HasSubstr("did you mean 'poly:eq8'?"));
 }
 
 TEST(RecipeCatalog, NamesTheOptionsOfEveryTypeAndNoOthers) {
@@ -76,6 +79,7 @@ TEST(RecipeCatalog, NamesTheOptionsOfEveryTypeAndNoOthers) {
   EXPECT_THROW(OptionNames("poly:eq10"), std::invalid_argument);
   // Every default in use is of an option that there is.
   for (const std::string& type : ModelTypes()) {
+    EXPECT_NE(AboutModel(type), "") << type;
     for (const EffectiveOption& option : MakeRecipe(type)->options()) {
       EXPECT_THAT(OptionNames(type), ::testing::Contains(option.key)) << type;
     }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/cli_fixture.h"
+#include "tests/cli/one_line.h"
 
 namespace errmap {
 namespace {
@@ -28,7 +29,8 @@ class CliFit : public Cli {
 };
 
 TEST_F(CliFit, PrintsWhatAStatisticianExpects) {
-  const std::string text = Print("poly:stepwise:degree=4", {"--correlations"});
+  const std::string text =
+      OneLine(Print("poly:stepwise:degree=4", {"--correlations", "--details"}));
   for (const char* part : {"chosen by forward BIC",
                            "correlation",
                            "Steps (+ entered, - left, * chosen)",
@@ -79,7 +81,7 @@ TEST_F(CliFit, GivesTheSameAsJson) {
 }
 
 TEST_F(CliFit, ShrunkenFitsShowNoPValues) {
-  const std::string text = Print("poly:ridge");
+  const std::string text = OneLine(Print("poly:ridge"));
   EXPECT_THAT(text, HasSubstr("by cross-validation over groups:5 of cycle"));
   EXPECT_THAT(text, HasSubstr("no honest standard errors or p-values"));
   EXPECT_THAT(text, ::testing::Not(HasSubstr("std. error")));
@@ -155,7 +157,7 @@ TEST_F(CliFit, WeightsEnterAndTemperaturesNeedNoPosition) {
                                "m.json"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("Analysis of variance (weighted)"));
-  EXPECT_THAT(outcome.out, HasSubstr("(each row drawn"));
+  EXPECT_THAT(OneLine(outcome.out), HasSubstr("(each row drawn"));
 }
 
 TEST_F(CliFit, RefusesBadSpecsInOneClearLine) {

@@ -10,6 +10,7 @@
 
 #include "data/csv.h"
 #include "tests/cli/cli_fixture.h"
+#include "tests/cli/one_line.h"
 
 namespace errmap {
 namespace {
@@ -275,7 +276,7 @@ TEST_F(CliPromise, ComparesWhatProbesOfASessionBuy) {
   EXPECT_EQ(map["model"], "poly:full:degree=2");
   EXPECT_LT(map["rmse"][1], 0.8 * map["rmse"][0].get<double>()) << map;
   EXPECT_LT(map["rmse"][2], map["rmse"][1]) << map;
-  EXPECT_THAT(Run(words).out,
+  EXPECT_THAT(OneLine(Run(words).out),
               AllOf(HasSubstr("after probes of each, 5 min apart"),
                     HasSubstr("zero: probes without a map")));
 }

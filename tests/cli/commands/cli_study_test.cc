@@ -109,7 +109,11 @@ TEST_F(CliStudy, TableNamesTheComponentsAndCsvHasARowPerModel) {
   WriteStudy();
   const Outcome table = Run({"compare", "--config", "study.toml"});
   EXPECT_EQ(table.status, 0) << table.err;
-  EXPECT_THAT(table.out, AllOf(HasSubstr("== x, down =="), HasSubstr("x, up")));
+  EXPECT_THAT(table.out, AllOf(HasSubstr("\nx, down "), HasSubstr("\nx, up ")));
+  const Outcome blocks =
+      Run({"compare", "--config", "study.toml", "--details"});
+  EXPECT_THAT(blocks.out,
+              AllOf(HasSubstr("== x, down =="), HasSubstr("== x, up ==")));
   const Outcome csv =
       Run({"compare", "--config", "study.toml", "--format", "csv"});
   EXPECT_EQ(SplitLines(csv.out).size(), 1U + 2U * 4U);

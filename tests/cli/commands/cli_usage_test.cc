@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/cli_fixture.h"
+#include "tests/cli/one_line.h"
 
 namespace errmap {
 namespace {
@@ -95,7 +96,7 @@ TEST_F(Cli, FailedFitsAreRowsAndTheOthersGoOn) {
                                        "every:3"};
   const Outcome table = Run(words);
   EXPECT_EQ(table.status, 0);
-  EXPECT_THAT(table.out,
+  EXPECT_THAT(OneLine(table.out),
               HasSubstr("poly:full:degree=12 failed, every:3: degree 12 in 2 "
                         "inputs has 91 coefficients, more than the 13 "
                         "training rows"));
@@ -119,7 +120,7 @@ TEST_F(Cli, EveryFitFailedIsItsOwnStatus) {
                                "--holdout",
                                "every:3"});
   EXPECT_EQ(outcome.status, kEveryFitFailed);
-  EXPECT_THAT(outcome.out,
+  EXPECT_THAT(OneLine(outcome.out),
               AllOf(HasSubstr("91 coefficients"),
                     HasSubstr("poly:eq8 failed, every:3: the data lack a "
                               "position")));

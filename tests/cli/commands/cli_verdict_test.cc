@@ -35,8 +35,8 @@ TEST_F(Cli, RecommendsWhatHoldsOnUnseenCyclesAndSaysWhy) {
   // The headline says that even the best baseline is not surely beaten.
   EXPECT_EQ(advice["against_baseline"], "units correlated");
   EXPECT_THAT(advice["sentence"].get<std::string>(),
-              HasSubstr("That it beats the best baseline, poly:position (2.165 "
-                        "um), is not established."));
+              HasSubstr("That it beats poly:position (2.165 um), the best "
+                        "baseline, is not proven."));
   EXPECT_FALSE(advice["reasons"].empty());
   EXPECT_FALSE(advice["caveats"].empty());
   for (const Json& row : component["gap"]["models"]) {
@@ -235,11 +235,11 @@ TEST_F(Cli, MeetsAGoalByItsRmseAndSaysWhereAnOffsetHidesIt) {
   EXPECT_EQ(result(missed)["goal_standing"], "not met");
   std::string screen = Run(compare("today.csv", "0.0005", "table")).out;
   std::ranges::replace(screen, '\n', ' ');
-  EXPECT_THAT(screen, ContainsRegex("file:map.json .* sd +[0-9.]+ +[0-9]+ "));
+  EXPECT_THAT(screen, ContainsRegex("file:map.json .* re-zeroed "));
   EXPECT_THAT(screen,
               ContainsRegex("The goal .RMSE at most 0.5 um. is met after "
-                            "re-zeroing: RMSE 5.0[0-9]+ um, sd 0.2[0-9]+ um "
-                            "about an offset of 5.0[0-9]+ um."));
+                            "re-zeroing: RMSE 5.0[0-9]+ um, scatter 0.2[0-9]+ "
+                            "um about an offset of 5.0[0-9]+ um."));
 }
 
 TEST_F(Cli, EstablishesNothingFromFiveCycles) {
@@ -256,7 +256,7 @@ TEST_F(Cli, EstablishesNothingFromFiveCycles) {
     EXPECT_EQ(verdict["established"], false);
   }
   EXPECT_THAT(component["recommendation"]["caveats"].dump(),
-              HasSubstr("nothing can be established"));
+              HasSubstr("cannot prove which map is better"));
 }
 
 }  // namespace

@@ -27,6 +27,14 @@ const Figure* FigureNamed(const FigureSet& set, const std::string& name) {
 TEST(MakeFigures, MakesEveryFigureOfTheReport) {
   const FigureSet set = MakeFigures(Recorded(MakeReportDocument()));
   for (const char* name : {"c1-gap",
+                           "c1-time",
+                           "c1-compensation",
+                           "c1-units",
+                           "c1-cost",
+                           "c1-surface-measured",
+                           "c1-surface-mapped",
+                           "c1-surface-left",
+                           "c1-both",
                            "c1-best-predicted",
                            "c1-best-position",
                            "c1-best-group",
@@ -83,6 +91,44 @@ TEST(MakeFigures, DrawsWhatAResidualIs) {
     EXPECT_DOUBLE_EQ(rows.row[i], 3.0 * static_cast<double>(i) + 2.0);
     EXPECT_NEAR(rows.residual[i], rows.target[i] - rows.predicted[i], 1e-12);
   }
+}
+
+TEST(MakeFigures, ShowsSurfacesAndSmallOnesOnOneScale) {
+  const FigureSet set = MakeFigures(Recorded(MakeReportDocument()));
+  const double high = FigureNamed(set, "c1-surface-measured")->plot.colour.high;
+  for (const char* name : {"c1-surface-mapped", "c1-surface-left"}) {
+    EXPECT_EQ(FigureNamed(set, name)->plot.colour.high, high);
+  }
+  EXPECT_EQ(FigureNamed(set, "c1-model-1")->plot.y.high,
+            FigureNamed(set, "c1-model-3")->plot.y.high);
+}
+
+TEST(MakeFigures, MarksRowsOutsideTheTrainedRange) {
+  const FigureSet set = MakeFigures(Recorded(MakeReportDocument()));
+  const Figure* figure = FigureNamed(set, "c1-time");
+  ASSERT_NE(figure, nullptr);
+  EXPECT_EQ(figure->plot.series.front().label, "outside the trained range");
+  EXPECT_EQ(figure->plot.series.front().columns[0].size(), 2U);
+  EXPECT_THAT(figure->note, HasSubstr("Of 60 rows 2 lie outside"));
+}
+
+TEST(MakeFigures, PartsSessions) {
+  Json document = MakeReportDocument();
+  Json& table = document["components"][0]["figures"]["tables"][0];
+  table["session_labels"] = {"Monday", "Tuesday"};
+  table["sessions"] = Json::array();
+  for (int i = 0; i < 60; ++i) table["sessions"].push_back(i / 30);
+  const FigureSet set = MakeFigures(Recorded(document));
+  EXPECT_EQ(FigureNamed(set, "c1-time")->plot.series.front().label,
+            "a session begins");
+}
+
+TEST(MakeFigures, LeavesOutWhatTheMapHasNoSensorsFor) {
+  Json document = MakeReportDocument();
+  document["components"][0]["recommendation"]["sensors"] = Json::array();
+  const FigureSet set = MakeFigures(Recorded(document));
+  EXPECT_EQ(FigureNamed(set, "c1-surface-measured"), nullptr);
+  EXPECT_NE(FigureNamed(set, "c1-time"), nullptr);
 }
 
 TEST(MakeFigures, SaysWhatIsNotThere) {
@@ -146,7 +192,7 @@ TEST(MakeFigures, DrawsLessOfManyComponents) {
   spec.components = 7;
   const FigureSet seven = MakeFigures(Recorded(MakeReportDocument(spec)));
   EXPECT_EQ(seven.components[0].detail, FigureDetail::kBrief);
-  EXPECT_EQ(seven.components[6].figures.size(), 4U);
+  EXPECT_EQ(seven.components[6].figures.size(), 3U);
   const FigureSet all = MakeFigures(Recorded(MakeReportDocument(spec)), true);
   EXPECT_GT(all.components[6].figures.size(), 20U);
 }

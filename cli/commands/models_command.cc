@@ -1,0 +1,103 @@
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <variant>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/report/table.h"
+#include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
+#include "cli/shell/wrap_text.h"
+#include "models/recipe_catalog.h"
+
+namespace errmap::cli {
+namespace {
+
+std::string ListText(std::size_t width) {
+  Table table{.columns = {{.name = "model", .is_number = false},
+                          {.name = "what it is", .is_number = false}}};
+  for (const std::string& type : models::ModelTypes()) {
+    table.rows.push_back({type, models::AboutModel(type)});
+  }
+  table.rows.push_back({"poly:formula=x+x^2+x*t", "the terms as written"});
+  table.rows.push_back({"file:model.json", "an existing map, as it is"});
+  return TerminalTable(table, width) + "\n" +
+         WrapText(
+             "Options follow after colons, as in "
+             "net:scg:hidden=60:wfactor=1e-3; errmap models MODEL lists those "
+             "of a model.",
+             width) +
+         "\n";
+}
+
+// Values that serve unless others are given.
+std::map<std::string, std::string> DefaultsOf(const std::string& type) {
+  std::map<std::string, std::string> defaults;
+  for (const auto& option : models::MakeRecipe(type)->options()) {
+    std::visit(
+        [&](const auto& value) {
+          defaults[option.key] = fmt::format("{}", value);
+        },
+        option.value);
+  }
+  return defaults;
+}
+
+// The values that an option takes, as it says to whoever gives another.
+std::string ValuesOf(const std::string& type, const std::string& option) {
+  constexpr std::string_view kMust = " must be ";
+  try {
+    models::MakeRecipe(fmt::format("{}:{}=?", type, option));
+  } catch (const std::invalid_argument& error) {
+    const std::string text = error.what();
+    const std::size_t begin = text.find(option + std::string(kMust));
+    if (begin == std::string::npos) return "text";
+    const std::size_t from = begin + option.size() + kMust.size();
+    return text.substr(from, text.rfind(", found") - from);
+  }
+  return "text";
+}
+
+std::string ModelText(const std::string& type, std::size_t width) {
+  const std::vector<std::string> names = models::OptionNames(type);
+  std::map<std::string, std::string> defaults = DefaultsOf(type);
+  std::string text = fmt::format("{}: {}\n", type, models::AboutModel(type));
+  if (names.empty()) return text + "It takes no options.\n";
+  constexpr std::size_t kIndent = 26;
+  text += fmt::format("\n{:14}{:12}values\n", "option", "default");
+  for (const std::string& name : names) {
+    std::string begin = fmt::format("{:13} {:11} ", name, defaults[name]);
+    for (const std::string& line :
+         WrapLines(ValuesOf(type, name), width - kIndent)) {
+      text += fmt::format("{:{}}{}\n", begin, kIndent, line);
+      begin.clear();
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+void AddModelsCommand(CLI::App* app, Run* run) {
+  auto model = std::make_shared<std::string>();
+  CLI::App* command =
+      app->add_subcommand("models", "List the models, or a model's options");
+  command->add_option("MODEL", *model, "Its options with their ranges")
+      ->type_name("");
+  command->footer("Example: errmap models net:scg");
+  command->callback([model, run] {
+    const std::size_t width = OutputTerminal().columns;
+    try {
+      PrintResult(model->empty() ? ListText(width) : ModelText(*model, width));
+    } catch (const std::invalid_argument& error) {
+      throw UsageError(error.what());
+    }
+    run->status = kDone;
+  });
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,281 @@
+// What people look at in a terminal: width, length, next steps, suggestions.
+
+#include <cmath>
+#include <cstdlib>
+#include <regex>
+
+#include "cli/shell/wrap_text.h"
+#include "tests/cli/cli_fixture.h"
+#include "tests/cli/one_line.h"
+
+namespace errmap {
+namespace {
+
+using cli::WidthOf;
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+class Screens : public Cli {
+ protected:
+  void SetUp() override { unsetenv("COLUMNS"); }
+  void TearDown() override {
+    unsetenv("COLUMNS");
+    unsetenv("LINES");
+  }
+
+  // No line is wider than the terminal, in three of them.
+  void ExpectToFit(const std::vector<std::string>& words) {
+    for (const char* columns : {"80", "100", "160"}) {
+      setenv("COLUMNS", columns, 1);
+      const Outcome outcome = Run(words);
+      EXPECT_EQ(outcome.status, 0) << outcome.err;
+      for (const std::string& line : SplitLines(outcome.out)) {
+        EXPECT_LE(WidthOf(line), std::stoul(columns)) << line;
+      }
+    }
+  }
+
+  // `sensors` thermometers beside a position, `days` of 30 rows.
+  void WriteDays(const std::string& name, int sensors, int days) {
+    std::string text = "day,position_mm";
+    for (int s = 1; s <= sensors; ++s) {
+      text += ",temperature_of_place_" + std::to_string(s) + "_degC";
+    }
+    text += ",error_mm\n";
+    for (int i = 0; i < 30 * days; ++i) {
+      const double position = 10.0 * (i % 10);
+      text += std::to_string(i / 30) + "," + std::to_string(position);
+      double error = 0.0;
+      for (int s = 1; s <= sensors; ++s) {
+        const double t = 20.0 + 5.0 * std::sin(0.07 * i + s) + 0.1 * (i / 30);
+        text += "," + std::to_string(t);
+        error += 1e-5 * s * (t - 20.0);
+      }
+      error += 1e-5 * position + 2e-4 * std::sin(12.9898 * i * i);
+      text += "," + std::to_string(error) + "\n";
+    }
+    Write(name, text);
+  }
+};
+
+const std::vector<std::string> kQuick = {"--models",
+                                         "poly:eq8,poly:full:degree=2,"
+                                         "poly:stepwise,poly:ridge:view=auto",
+                                         "--quiet"};
+
+std::vector<std::string> With(std::vector<std::string> words,
+                              const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+TEST_F(Screens, FitTheShippedSet) {
+  ExpectToFit(With({"compare", kDown}, kQuick));
+  ExpectToFit(With({"compare", kDown, "--details", "--all"}, kQuick));
+}
+
+TEST_F(Screens, FitSeventeenInputs) {
+  WriteDays("spindle.csv", 16, 6);
+  ExpectToFit(With({"compare", "spindle.csv"}, kQuick));
+}
+
+TEST_F(Screens, FitFortyOneInputs) {
+  ExpectToFit({"compare",
+               SetPath("turning_centre/x_displacement_down.csv"),
+               "--models",
+               "mean,poly:eq8,poly:stepwise:max_terms=6",
+               "--quiet"});
+}
+
+TEST_F(Screens, FitSixComponentsInARowEach) {
+  std::string study = "models = [\"mean\", \"poly:eq8\"]\n";
+  for (int i = 1; i <= 6; ++i) {
+    const std::string name = "c" + std::to_string(i) + ".csv";
+    WriteDays(name, 1 + i, 6);
+    study += "[[component]]\nname = \"a long name of the component number " +
+             std::to_string(i) + "\"\ndata = \"" + name + "\"\n";
+  }
+  Write("study.toml", study);
+  const std::vector<std::string> words{
+      "compare", "--config", "study.toml", "--quiet"};
+  ExpectToFit(words);
+  ExpectToFit(With(words, {"--details"}));
+  const Outcome outcome = Run(words);
+  EXPECT_THAT(outcome.out, StartsWith("6 components: "));
+  EXPECT_LT(SplitLines(outcome.out).size(), 20U);
+}
+
+TEST_F(Screens, FitALongFit) {
+  setenv("LINES", "24", 1);
+  ExpectToFit({"fit",
+               SetPath("turning_centre/x_displacement_down.csv"),
+               "--model",
+               "poly:full:degree=1",
+               "-o",
+               "map.json",
+               "--no-interval",
+               "--quiet"});
+  const Outcome outcome = Run({"fit",
+                               kDown,
+                               "--model",
+                               "poly:full:degree=4",
+                               "-o",
+                               "m.json",
+                               "--no-interval",
+                               "--quiet"});
+  EXPECT_THAT(outcome.out,
+              HasSubstr("The equation is long: it is in the "
+                        "file"));
+  EXPECT_THAT(Run({"fit",
+                   kDown,
+                   "--model",
+                   "poly:full:degree=4",
+                   "-o",
+                   "m.json",
+                   "--no-interval",
+                   "--quiet",
+                   "--details"})
+                  .out,
+              HasSubstr("error_mm = "));
+}
+
+TEST_F(Screens, BeginWithAVerdictOfEightLines) {
+  const std::vector<std::string> lines =
+      SplitLines(Run(With({"compare", kDown}, kQuick)).out);
+  std::size_t verdict = 0;
+  while (!lines[verdict].empty()) ++verdict;
+  EXPECT_LE(verdict, 8U);
+  EXPECT_THAT(lines[0], StartsWith("Use "));
+}
+
+TEST_F(Screens, HaveAtMostTwelveModelsUnlessAllAreAskedFor) {
+  const auto rows = [&](const std::vector<std::string>& more) {
+    const std::string text =
+        Run(With({"compare",
+                  kDown,
+                  "--models",
+                  "poly:eq7,poly:eq8,poly:eq9,poly:full:degree=1,"
+                  "poly:full:degree=2,poly:full:degree=3,poly:full:degree=4,"
+                  "poly:full:degree=5,poly:full:degree=6,poly:stepwise",
+                  "--quiet"},
+                 more))
+            .out;
+    const std::regex row(
+        "[*= ] (zero|mean|poly:)[^ ]* +[0-9]+ +[0-9]+\\.[0-9].*");
+    std::size_t count = 0;
+    for (const std::string& line : SplitLines(text)) {
+      if (std::regex_match(line, row)) ++count;
+    }
+    return std::pair(count, text);
+  };
+  const auto [few, text] = rows({});
+  EXPECT_EQ(few, 12U) << text;
+  EXPECT_THAT(text, HasSubstr("2 more with --all."));
+  const auto [all, whole] = rows({"--all"});
+  EXPECT_EQ(all, 14U) << whole;
+}
+
+TEST_F(Screens, TellTheNextCommandsWhichWorkAsTheyStand) {
+  const Outcome outcome = Run(With({"compare", kDown}, kQuick));
+  std::string text = outcome.out;
+  for (std::size_t at = 0; (at = text.find(" \\\n", at)) != text.npos;) {
+    const std::size_t end = text.find_first_not_of(' ', at + 3);
+    text.replace(at, end - at, " ");
+  }
+  const std::size_t at = text.find("errmap fit ");
+  ASSERT_NE(at, std::string::npos) << text;
+  std::istringstream line(text.substr(at, text.find('\n', at) - at));
+  std::vector<std::string> words;
+  for (std::string word; line >> word;) words.push_back(word);
+  words.erase(words.begin());
+  words.emplace_back("--quiet");
+  EXPECT_EQ(Run(words).status, 0) << line.str();
+  EXPECT_THAT(OneLine(text),
+              AllOf(HasSubstr("errmap check map.json PROBES.csv"),
+                    ContainsRegex("It removes 9[0-9] % of the error")));
+}
+
+TEST_F(Screens, NameTheMapThatWasWritten) {
+  const Outcome outcome =
+      Run(With({"compare", kDown, "--out", "study"}, kQuick));
+  const std::size_t at = outcome.out.find("study/models/");
+  ASSERT_NE(at, std::string::npos) << outcome.out;
+  const std::string map =
+      outcome.out.substr(at, outcome.out.find_first_of("\n ", at) - at);
+  EXPECT_EQ(Run({"predict", map, kDown}).status, 0) << map;
+  const Json results = Json::parse(Read("study/results.json"));
+  const Json component = results["components"][0];
+  EXPECT_EQ(
+      "study/" + Model(component, component["recommendation"]["model"])["file"]
+                     .get<std::string>(),
+      map);
+}
+
+TEST_F(Screens, WriteThePageAlone) {
+  EXPECT_EQ(Run(With({"compare", kDown, "-o", "page.html"}, kQuick)).status, 0);
+  EXPECT_THAT(Read("page.html"), HasSubstr("</html>"));
+  EXPECT_EQ(Run(With({"compare", kDown, "-o", kDown}, kQuick)).status,
+            kWrongCommandLine);
+}
+
+TEST_F(Screens, HaveNoColourInPipes) {
+  EXPECT_THAT(Run(With({"compare", kDown}, kQuick)).out,
+              Not(HasSubstr("\033")));
+}
+
+TEST_F(Screens, ExplainCommandsAndModels) {
+  EXPECT_EQ(Run({"help", "compare"}).out, Run({"compare", "--help"}).out);
+  EXPECT_EQ(Run({"help"}).out, Run({"--help"}).out);
+  EXPECT_THAT(Run({"help", "compare"}).out,
+              AllOf(HasSubstr("net:scg"), HasSubstr("groups:K")));
+  EXPECT_THAT(Run({"models"}).out, ContainsRegex("poly:eq8 +Eq. 8 of 1995"));
+  EXPECT_THAT(Run({"models", "net:scg"}).out,
+              AllOf(ContainsRegex("hidden +20 +a whole number from 1 to 10000"),
+                    ContainsRegex("wfactor")));
+  EXPECT_EQ(Run({"models", "net:sgc"}).status, kWrongCommandLine);
+}
+
+TEST_F(Screens, GuessWhatWasMeant) {
+  const auto err = [&](const std::vector<std::string>& words) {
+    const Outcome outcome = Run(words);
+    EXPECT_EQ(outcome.status, kWrongCommandLine) << outcome.err;
+    EXPECT_EQ(SplitLines(outcome.err).size(), 1U) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_THAT(err({"comprae", kDown}), HasSubstr("did you mean 'compare'?"));
+  EXPECT_THAT(err({"help", "comprae"}), HasSubstr("did you mean 'compare'?"));
+  EXPECT_THAT(err({"compare", kDown, "--modles", "mean"}),
+              HasSubstr("no option '--modles'; did you mean '--models'?"));
+  EXPECT_THAT(err({"compare", kDown, "--models", "poly:eq88"}),
+              HasSubstr("did you mean 'poly:eq8'?"));
+  EXPECT_THAT(err({"compare", kDown, "--models", "net:scg:hiden=3"}),
+              HasSubstr("did you mean 'hidden'?"));
+  EXPECT_THAT(err({"compare", kDown, "--holdout", "evry:3"}),
+              HasSubstr("did you mean every?"));
+  EXPECT_THAT(err({"compare", kDown, "--format", "tabel"}),
+              HasSubstr("did you mean 'table'?"));
+}
+
+TEST_F(Screens, CarryTheAnswerInCsvAndMarkdown) {
+  const auto rows =
+      Records(Run(With({"compare", kDown, "--format", "csv"}, kQuick)).out);
+  for (const auto& row : rows) {
+    EXPECT_EQ(row.at("unit"), "mm");
+    EXPECT_LE(std::stod(row.at("test_ci95_low")),
+              std::stod(row.at("test_rmse")));
+    EXPECT_GE(std::stod(row.at("test_ci95_high")),
+              std::stod(row.at("test_rmse")));
+    for (const char* key :
+         {"interchangeable", "gap", "sensors", "goal", "established"}) {
+      EXPECT_TRUE(row.contains(key)) << key;
+    }
+  }
+  EXPECT_THAT(Run(With({"compare", kDown, "--format", "md"}, kQuick)).out,
+              AllOf(HasSubstr("interchangeable"), HasSubstr("| um |")));
+}
+
+}  // namespace
+}  // namespace errmap
