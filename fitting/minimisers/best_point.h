@@ -41,8 +41,9 @@ class BestPoint {
       return false;
     }
     x.swap(trial_);
-    monitor.EndIteration(cost, gradient_norm);
+    monitor.EndIteration(cost, gradient_norm, x);
     if (cost <= best_cost_) Keep();
+    if (monitor.stopped()) return false;
     ++steps_since_check_;
     if (monitor.StopAtSlowProgress(cost, &steps_since_check_)) return false;
     if (monitor.ReachesGradientGoal(gradient_norm, x.norm()) &&

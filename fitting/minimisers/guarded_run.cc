@@ -86,7 +86,7 @@ void GuardedRun::Keep() {
 void GuardedRun::EndIteration() {
   if (!is_iteration_open_) return;
   is_iteration_open_ = false;
-  monitor_.EndIteration(best_cost_, best_gradient_norm_);
+  monitor_.EndIteration(best_cost_, best_gradient_norm_, best_);
   ++steps_since_check_;
   if (!stopped()) {
     monitor_.StopAtSlowProgress(best_cost_, &steps_since_check_);

@@ -213,7 +213,8 @@ class LmRun {
     own_is_current_ = false;
     const double cost = here_->cost();
     const double gradient_norm = here_->gradient().norm();
-    monitor_.EndIteration(cost, gradient_norm);
+    monitor_.EndIteration(cost, gradient_norm, x_);
+    if (monitor_.stopped()) return;
     ++steps_since_check_;
     if (monitor_.StopAtSlowProgress(cost, &steps_since_check_)) return;
     const double x_norm = x_.norm();

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -89,10 +90,20 @@ struct FitSummary {
   }
 };
 
+/// Where a run stands after an iteration.
+struct Iterate {
+  std::int64_t iteration = 0;
+  double cost = 0.0;
+  double gradient_norm = 0.0;
+  const Eigen::VectorXd& x;  // (n) valid during the call alone
+};
+
 /// What surrounds a run without changing its mathematics.
 struct RunControl {
   const std::atomic<bool>* stop = nullptr;  // set from outside to interrupt
   bool keep_trace = false;
+  /// Called after every iteration; false ends the run there, as kInterrupted.
+  std::function<bool(const Iterate&)> after_iteration = {};
 };
 
 struct Minimum {

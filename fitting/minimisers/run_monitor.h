@@ -43,8 +43,9 @@ class RunMonitor {
     return true;
   }
 
-  /// An iteration has ended at this cost and gradient.
-  void EndIteration(double cost, double gradient_norm) {
+  /// An iteration has ended at x, with this cost and gradient.
+  template <typename Vector>
+  void EndIteration(double cost, double gradient_norm, const Vector& x) {
     ++summary_.iterations;
     const Clock::time_point now = Clock::now();
     const std::chrono::duration<double> taken = now - last_;
@@ -54,6 +55,11 @@ class RunMonitor {
     mean_seconds_ += offset / static_cast<double>(summary_.iterations);
     squares_ += offset * (taken.count() - mean_seconds_);
     Trace(cost, gradient_norm);
+    if (!run_.after_iteration) return;
+    const Eigen::VectorXd at = x.template cast<double>();
+    if (!run_.after_iteration({summary_.iterations, cost, gradient_norm, at})) {
+      Stop(Termination::kInterrupted, "ended by the caller");
+    }
   }
 
   /// Ends the run where a limit forbids another pass of at most `needed`

@@ -85,7 +85,7 @@ class MollerRun {
       Shorten(delta, feasible ? comparison : kInfeasible);
     }
     Observe(report, alpha, comparison);
-    if (report.accepted) CheckStops();
+    if (report.accepted && !monitor_.stopped()) CheckStops();
   }
 
   void TakeDirection() {
@@ -143,7 +143,7 @@ class MollerRun {
       p_ = r_ + static_cast<Scalar>((r_squared - overlap) / mu_) * p_;
     }
     is_new_direction_ = true;
-    monitor_.EndIteration(cost_, r_norm_);
+    monitor_.EndIteration(cost_, r_norm_, w_);
     return true;
   }
 

@@ -102,8 +102,9 @@ class NetcgRun {
     // Step 8.
     if (comparison < kPoor) lambda_ *= Scalar(4);
     r_norm_ = OrderedNorm(r_);
-    if (report.accepted) monitor_.EndIteration(cost_, r_.norm());
+    if (report.accepted) monitor_.EndIteration(cost_, r_.norm(), w_);
     Observe(report, alpha, comparison);
+    if (monitor_.stopped()) return;
     if (accepted_ && monitor_.StopAtSlowProgress(cost_, &steps_since_check_)) {
       return;
     }

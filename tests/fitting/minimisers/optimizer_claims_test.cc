@@ -338,5 +338,31 @@ INSTANTIATE_TEST_SUITE_P(
       return instance.param.name;
     });
 
+TEST(EveryOptimizer, EndsAfterTheIterationAtWhichItsCallerSaysSo) {
+  for (const OptimizerCase& tried : errmap::testing::AllOptimizers()) {
+    SCOPED_TRACE(tried.name);
+    const errmap::testing::TestProblem problem = errmap::testing::Rosenbrock();
+    constexpr std::int64_t kLast = 3;
+    std::vector<double> costs;
+    Eigen::VectorXd x;
+    const auto goes_on = [&](const Iterate& at) {
+      EXPECT_EQ(at.iteration, static_cast<std::int64_t>(costs.size()) + 1);
+      EXPECT_NEAR(at.cost,
+                  problem.objective->Evaluate(at.x, nullptr),
+                  1e-12 * (1.0 + at.cost));
+      costs.push_back(at.cost);
+      x = at.x;
+      return at.iteration < kLast;
+    };
+    const Minimum minimum = tried.make({})->Minimize(
+        *problem.objective, problem.start, {.after_iteration = goes_on});
+    EXPECT_EQ(minimum.summary.termination, Termination::kInterrupted);
+    EXPECT_EQ(minimum.summary.message, "ended by the caller");
+    EXPECT_EQ(minimum.summary.iterations, kLast);
+    EXPECT_EQ(costs.size(), static_cast<std::size_t>(kLast));
+    EXPECT_LE(minimum.summary.final_cost, costs.back() * (1.0 + 1e-12));
+  }
+}
+
 }  // namespace
 }  // namespace errmap::fitting
