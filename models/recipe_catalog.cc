@@ -91,6 +91,7 @@ DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
                                   Eigen::Index fewest_training_rows) {
   constexpr int kHighestFullDegree = 6;
   constexpr Eigen::Index kRowsPerCoefficient = 5;
+  constexpr double kMostProducts = 5e10;  // some seconds
   constexpr std::array<std::string_view, 6> kWhenNamed = {"poly:best",
                                                           "net:lm",
                                                           "net:cg",
@@ -111,8 +112,11 @@ DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
       for (int degree = lowest; degree <= kHighestFullDegree; ++degree) {
         auto recipe = MakeRecipe(fmt::format("poly:full:degree={}", degree));
         const Eigen::Index coefficients = *recipe->NumCoefficients(dataset);
+        const auto wide = static_cast<double>(coefficients);
+        const auto tall = static_cast<double>(fewest_training_rows);
         if (dataset.num_inputs() > 0 &&
-            coefficients <= fewest_training_rows / kRowsPerCoefficient) {
+            coefficients <= fewest_training_rows / kRowsPerCoefficient &&
+            tall * wide * wide <= kMostProducts) {
           defaults.recipes.push_back(std::move(recipe));
         }
       }

@@ -34,7 +34,7 @@ struct DefaultRecipes {
 /// but for best subset, ridge and lasso.
 /// A full polynomial takes part while it has at most a fifth as many
 /// coefficients as `fewest_training_rows`, the smallest training side of the
-/// study's folds.
+/// study's folds, and its fits take some seconds at most.
 DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
                                   Eigen::Index fewest_training_rows);
 
