@@ -1,8 +1,11 @@
 #include "models/averaged_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
+
+#include "models/row_scratch.h"
 
 namespace errmap::models {
 
@@ -63,6 +66,8 @@ ModelDescription AveragedModel::Describe() const {
                                 {}};
     if (const auto* polynomial = std::get_if<PolynomialForm>(&description)) {
       described.form = *polynomial;
+    } else if (std::holds_alternative<OpaqueForm>(description)) {
+      return OpaqueForm{num_inputs_, {}};
     } else {
       described.form = std::get<NetForm>(description);
     }
@@ -71,13 +76,17 @@ ModelDescription AveragedModel::Describe() const {
   return form;
 }
 
-Eigen::VectorXd AveragedModel::DoPredict(const Eigen::MatrixXd& inputs) const {
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(inputs.rows());
+double AveragedModel::DoPredictRow(const double* inputs) const {
+  double mean = 0.0;
   for (const AveragedMember& member : members_) {
-    const Eigen::VectorXd predicted =
-        member.model->Predict(inputs(Eigen::all, member.inputs));
+    RowScratch own(member.inputs.size());
+    for (std::size_t i = 0; i < member.inputs.size(); ++i) {
+      own[i] = inputs[member.inputs[i]];
+    }
+    const double predicted =
+        member.model->PredictRow({own.data(), member.inputs.size()});
     mean += member.weight *
-            predicted.cwiseMax(member.lowest).cwiseMin(member.highest);
+            std::min(std::max(predicted, member.lowest), member.highest);
   }
   return mean;
 }

@@ -38,7 +38,7 @@ class AveragedModel final : public ErrorModel {
   ModelDescription Describe() const override;
 
  private:
-  Eigen::VectorXd DoPredict(const Eigen::MatrixXd& inputs) const override;
+  double DoPredictRow(const double* inputs) const override;
 
   Eigen::Index num_inputs_;
   std::string rule_;

@@ -69,8 +69,17 @@ PredictionCost CostOf(const BlendForm& form) {
   return sum;
 }
 
+PredictionCost CostOf(const OpaqueForm& form) { return form.cost; }
+
 PredictionCost CostOf(const ModelDescription& form) {
   return std::visit([](const auto& known) { return CostOf(known); }, form);
+}
+
+void RequireFormula(const ModelDescription& form, std::string_view what) {
+  if (!std::holds_alternative<OpaqueForm>(form)) return;
+  throw std::invalid_argument(
+      std::string(what) +
+      " needs a map's formula, and a model of a program's own has none");
 }
 
 Eigen::VectorXd ErrorModel::Predict(const Eigen::MatrixXd& inputs) const {
@@ -79,7 +88,26 @@ Eigen::VectorXd ErrorModel::Predict(const Eigen::MatrixXd& inputs) const {
         "Predict: the model reads " + std::to_string(num_inputs()) +
         " inputs, found " + std::to_string(inputs.cols()) + " columns");
   }
-  return DoPredict(inputs);
+  Eigen::VectorXd errors(inputs.rows());
+  Eigen::VectorXd row(inputs.cols());
+  for (Eigen::Index i = 0; i < inputs.rows(); ++i) {
+    row = inputs.row(i);
+    errors[i] = DoPredictRow(row.data());
+  }
+  return errors;
+}
+
+double ErrorModel::PredictRow(std::span<const double> inputs) const {
+  if (static_cast<Eigen::Index>(inputs.size()) != num_inputs()) {
+    throw std::invalid_argument(
+        "PredictRow: the model reads " + std::to_string(num_inputs()) +
+        " inputs, found " + std::to_string(inputs.size()));
+  }
+  return DoPredictRow(inputs.data());
+}
+
+ModelDescription ErrorModel::Describe() const {
+  return OpaqueForm{num_inputs(), {}};
 }
 
 Eigen::Index FindPosition(const data::Dataset& dataset,

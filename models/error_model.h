@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -64,21 +65,36 @@ struct BlendForm {
   std::vector<Member> members;
 };
 
-/// What a model is, as plain data: for model files and exporters.
-using ModelDescription = std::variant<PolynomialForm, NetForm, BlendForm>;
-
 /// Work of one prediction, counted rather than timed: the same on any machine.
 struct PredictionCost {
   Eigen::Index multiplications = 0;
   Eigen::Index exponentials = 0;
 };
+
+/// A model that says no more of itself: it takes part in studies and reports,
+/// but no file can hold it and no controller can run it.
+struct OpaqueForm {
+  Eigen::Index num_inputs = 0;
+  PredictionCost cost;  // 0 where it does not say
+};
+
+/// What a model is, as plain data: for model files and exporters.
+using ModelDescription =
+    std::variant<PolynomialForm, NetForm, BlendForm, OpaqueForm>;
+
+/// Throws std::invalid_argument, "<what> needs a map's formula, ...", where the
+/// form is opaque.
+void RequireFormula(const ModelDescription& form, std::string_view what);
+
 PredictionCost CostOf(const PolynomialForm& form);
 PredictionCost CostOf(const NetForm& form);
 PredictionCost CostOf(const BlendForm& form);
+PredictionCost CostOf(const OpaqueForm& form);
 PredictionCost CostOf(const ModelDescription& form);
 
 /// A fitted map from p inputs to one predicted error; immutable, and safe to
-/// use from several threads.
+/// use from several threads. Others may derive models of their own: a recipe
+/// that makes them (ModelRecipe) can be put into any study.
 class ErrorModel {
  public:
   virtual ~ErrorModel() = default;
@@ -88,10 +104,15 @@ class ErrorModel {
   /// row's prediction does not depend on the rows around it, to the last bit.
   /// Throws std::invalid_argument unless inputs.cols() == p.
   Eigen::VectorXd Predict(const Eigen::MatrixXd& inputs) const;
-  virtual ModelDescription Describe() const = 0;
+  /// The same of one row (p); asks for no memory in the models of this library,
+  /// but for very large ones.
+  double PredictRow(std::span<const double> inputs) const;
+  /// An OpaqueForm, unless a model knows better.
+  virtual ModelDescription Describe() const;
 
  private:
-  virtual Eigen::VectorXd DoPredict(const Eigen::MatrixXd& inputs) const = 0;
+  // Of num_inputs() numbers.
+  virtual double DoPredictRow(const double* inputs) const = 0;
 };
 
 /// kFile: a map, or predictions, made elsewhere.
@@ -193,6 +214,10 @@ struct FittedModel {
   /// Clips, predicts, clips. Throws std::invalid_argument on another number of
   /// columns than the form has inputs.
   Prediction PredictForm(const Eigen::MatrixXd& form_inputs) const;
+  /// The same of one row, without memory being asked for; `clipped` may be
+  /// null.
+  double PredictFormRow(std::span<const double> form_inputs,
+                        bool* clipped) const;
   /// Predicted error (m) of every row, in the unit of `target`. Throws as
   /// FormInputs.
   Eigen::VectorXd Predict(const data::Dataset& dataset) const;
@@ -249,19 +274,29 @@ class ModelRecipe {
   /// The SPEC as the user wrote it.
   virtual std::string name() const = 0;
   virtual ModelKind kind() const = 0;
-  virtual std::vector<EffectiveOption> options() const = 0;
+  virtual std::vector<EffectiveOption> options() const { return {}; }
   /// What the data lack for this model ("a position column"), if anything.
   virtual std::optional<std::string> WhatIsMissing(
-      const data::Dataset& dataset) const = 0;
+      const data::Dataset& /*dataset*/) const {
+    return std::nullopt;
+  }
   /// Number of coefficients over these data where it is known before the fit.
   virtual std::optional<Eigen::Index> NumCoefficients(
-      const data::Dataset& dataset) const = 0;
+      const data::Dataset& /*dataset*/) const {
+    return std::nullopt;
+  }
   /// Fits the rows of `training` and sees no others: scaling and every tuned
   /// choice are learnt here. Throws std::invalid_argument with the reason
   /// where these rows cannot be fitted (too few, an input missing).
   virtual FittedModel Fit(const data::Dataset& training,
                           const FitContext& context) const = 0;
 };
+
+/// What a recipe's Fit returns of a model that reads every input of `training`
+/// as it is and took no iterations.
+FittedModel MapOfModel(const ModelRecipe& recipe,
+                       const data::Dataset& training,
+                       std::shared_ptr<const ErrorModel> model);
 
 /// Position of a data set: the input `wanted`, or by default the first whose
 /// name starts with "position" in any case; -1 where there is none. Throws

@@ -1,9 +1,12 @@
 // FittedModel of models/error_model.h: derive, clip, predict, clip.
 
+#include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "models/error_model.h"
 #include "models/history/history.h"
+#include "models/row_scratch.h"
 
 namespace errmap::models {
 namespace {
@@ -97,8 +100,62 @@ Prediction FittedModel::PredictForm(const MatrixXd& form_inputs) const {
   return prediction;
 }
 
+double FittedModel::PredictFormRow(std::span<const double> form_inputs,
+                                   bool* clipped) const {
+  bool is_clipped = false;
+  const auto clip = [&](double value, double min, double max, double margin) {
+    const double widened = margin * (max - min);
+    const double low = min - widened;
+    const double high = max + widened;
+    is_clipped = is_clipped || value < low || value > high;
+    return value < low ? low : value > high ? high : value;
+  };
+  double error = 0.0;
+  if (!guards) {
+    error = model->PredictRow(form_inputs);
+  } else {
+    if (static_cast<Index>(form_inputs.size()) != guards->input_min.size()) {
+      throw std::invalid_argument("PredictFormRow: the guards know " +
+                                  std::to_string(guards->input_min.size()) +
+                                  " inputs, found " +
+                                  std::to_string(form_inputs.size()));
+    }
+    RowScratch inside(form_inputs.size());
+    for (std::size_t i = 0; i < form_inputs.size(); ++i) {
+      const auto at = static_cast<Index>(i);
+      inside[i] = clip(form_inputs[i],
+                       guards->input_min[at],
+                       guards->input_max[at],
+                       guards->input_margin);
+    }
+    error = clip(model->PredictRow({inside.data(), form_inputs.size()}),
+                 guards->error_min,
+                 guards->error_max,
+                 guards->error_margin);
+  }
+  if (clipped != nullptr) *clipped = is_clipped;
+  return error;
+}
+
 Eigen::VectorXd FittedModel::Predict(const data::Dataset& dataset) const {
   return PredictForm(FormInputs(dataset)).errors;
+}
+
+FittedModel MapOfModel(const ModelRecipe& recipe,
+                       const data::Dataset& training,
+                       std::shared_ptr<const ErrorModel> model) {
+  FittedModel fitted;
+  fitted.name = recipe.name();
+  fitted.kind = recipe.kind();
+  fitted.target = training.target();
+  fitted.align = training.align();
+  std::vector<Index> columns(static_cast<std::size_t>(training.num_inputs()));
+  std::iota(columns.begin(), columns.end(), Index{0});
+  fitted.inputs = DescribeInputs(training, columns);
+  fitted.model = std::move(model);
+  fitted.summary.termination = fitting::Termination::kDirect;
+  fitted.summary.message.clear();
+  return fitted;
 }
 
 }  // namespace errmap::models

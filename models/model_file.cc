@@ -679,6 +679,7 @@ std::string ModelToJson(const FittedModel& fitted,
       {"inputs", std::move(inputs)},
       {"parameters", fitted.model->num_parameters()}};
   const ModelDescription description = fitted.model->Describe();
+  RequireFormula(description, "a model file");
   if (const auto* polynomial = std::get_if<PolynomialForm>(&description)) {
     document["polynomial"] = ToJson(*polynomial, fitted.equation);
   } else if (const auto* net = std::get_if<NetForm>(&description)) {

@@ -10,7 +10,7 @@
 namespace errmap::cli {
 models::StudyRecord RecordOf(const StudyRun& run) {
   models::StudyRecord record;
-  record.schema = "errmap-results-1";
+  record.schema = models::kResultsSchema;
   record.version = models::Version();
   record.seed = run.seed;
   record.interrupted = run.interrupted;

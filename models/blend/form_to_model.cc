@@ -39,6 +39,12 @@ std::shared_ptr<const ErrorModel> ModelOf(BlendForm form,
       form.num_inputs, std::move(form.rule), std::move(members));
 }
 
+std::shared_ptr<const ErrorModel> ModelOf(const OpaqueForm& form,
+                                          Eigen::Index /*parameters*/) {
+  RequireFormula(form, "a model from plain data");
+  return nullptr;
+}
+
 }  // namespace
 
 std::shared_ptr<const ErrorModel> ModelOfForm(ModelDescription form,

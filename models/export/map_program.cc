@@ -378,7 +378,9 @@ MapProgram MakeMapProgram(const FittedModel& fitted) {
   std::vector<Operand> inputs = layout.form();
   FormWriter writer(&program);
   if (fitted.guards) writer.ClipInputs(*fitted.guards, &inputs);
-  writer.Form(fitted.model->Describe(), inputs);
+  const ModelDescription form = fitted.model->Describe();
+  RequireFormula(form, "an exported map");
+  writer.Form(form, inputs);
   if (fitted.guards) writer.ClipError(*fitted.guards);
   MeasureSpaces(&program);
   return program;

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "models/row_scratch.h"
 #include "stats/random.h"
 
 namespace errmap::models {
@@ -40,32 +41,29 @@ FeedforwardNet::FeedforwardNet(NetForm form) : form_(std::move(form)) {
   if (form_.target_slope[0] == 0.0) refuse("target_slope must not be 0");
 }
 
-// One row at a time, sums over inputs in order: the hidden nodes are the inner
-// loop, so that the compiler may use vectors without changing a single sum.
-Eigen::VectorXd FeedforwardNet::DoPredict(const Eigen::MatrixXd& inputs) const {
+// Sums over inputs in order: the hidden nodes are the inner loop, so that the
+// compiler may use vectors without changing a single sum.
+double FeedforwardNet::DoPredictRow(const double* inputs) const {
   const Index num_inputs = form_.w1.cols() - 1;
   const Index num_hidden = form_.w1.rows();
-  Eigen::VectorXd predicted(inputs.rows());
-  Eigen::VectorXd activation(num_hidden);
-  for (Index row = 0; row < inputs.rows(); ++row) {
-    for (Index h = 0; h < num_hidden; ++h) {
-      activation[h] = form_.w1(h, num_inputs);
-    }
-    for (Index i = 0; i < num_inputs; ++i) {
-      const double scaled =
-          (inputs(row, i) - form_.input_offset[i]) * form_.input_scale[i];
-      for (Index h = 0; h < num_hidden; ++h) {
-        activation[h] += form_.w1(h, i) * scaled;
-      }
-    }
-    double output = form_.w2(0, num_hidden);
-    for (Index h = 0; h < num_hidden; ++h) {
-      output += form_.w2(0, h) * Sigmoid(activation[h]);
-    }
-    if (form_.output == OutputFunction::kSigmoid) output = Sigmoid(output);
-    predicted[row] = (output - form_.target_offset[0]) / form_.target_slope[0];
+  RowScratch scratch(static_cast<std::size_t>(num_hidden));
+  double* activation = scratch.data();
+  for (Index h = 0; h < num_hidden; ++h) {
+    activation[h] = form_.w1(h, num_inputs);
   }
-  return predicted;
+  for (Index i = 0; i < num_inputs; ++i) {
+    const double scaled =
+        (inputs[i] - form_.input_offset[i]) * form_.input_scale[i];
+    for (Index h = 0; h < num_hidden; ++h) {
+      activation[h] += form_.w1(h, i) * scaled;
+    }
+  }
+  double output = form_.w2(0, num_hidden);
+  for (Index h = 0; h < num_hidden; ++h) {
+    output += form_.w2(0, h) * Sigmoid(activation[h]);
+  }
+  if (form_.output == OutputFunction::kSigmoid) output = Sigmoid(output);
+  return (output - form_.target_offset[0]) / form_.target_slope[0];
 }
 
 Eigen::VectorXd InitialWeights(const NetShape& shape, std::uint64_t seed) {

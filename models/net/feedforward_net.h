@@ -22,7 +22,7 @@ class FeedforwardNet final : public ErrorModel {
   const NetForm& form() const { return form_; }
 
  private:
-  Eigen::VectorXd DoPredict(const Eigen::MatrixXd& inputs) const override;
+  double DoPredictRow(const double* inputs) const override;
 
   NetForm form_;
 };

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "models/row_scratch.h"
+
 namespace errmap::models {
 
 using Eigen::Index;
@@ -56,33 +58,28 @@ PolynomialModel::PolynomialModel(PolynomialForm form, Index num_parameters)
   }
 }
 
-Eigen::VectorXd PolynomialModel::DoPredict(
-    const Eigen::MatrixXd& inputs) const {
-  Eigen::VectorXd predicted(inputs.rows());
+double PolynomialModel::DoPredictRow(const double* inputs) const {
+  const Index num_inputs = form_.input_offset.size();
   // powers[i * highest + k - 1] = k-th power of scaled input i.
-  std::vector<double> powers(
-      static_cast<std::size_t>(inputs.cols() * highest_power_));
-  for (Index row = 0; row < inputs.rows(); ++row) {
-    for (Index i = 0; i < inputs.cols(); ++i) {
-      const double scaled =
-          (inputs(row, i) - form_.input_offset[i]) * form_.input_scale[i];
-      double power = 1.0;
-      for (int k = 0; k < highest_power_; ++k) {
-        power *= scaled;
-        powers[static_cast<std::size_t>(i * highest_power_ + k)] = power;
-      }
+  RowScratch powers(static_cast<std::size_t>(num_inputs * highest_power_));
+  for (Index i = 0; i < num_inputs; ++i) {
+    const double scaled =
+        (inputs[i] - form_.input_offset[i]) * form_.input_scale[i];
+    double power = 1.0;
+    for (int k = 0; k < highest_power_; ++k) {
+      power *= scaled;
+      powers[static_cast<std::size_t>(i * highest_power_ + k)] = power;
     }
-    double sum = form_.intercept;
-    for (const SparseTerm& term : sparse_terms_) {
-      double product = term.coefficient;
-      for (const Index factor : term.factors) {
-        product *= powers[static_cast<std::size_t>(factor)];
-      }
-      sum += product;
-    }
-    predicted[row] = sum;
   }
-  return predicted;
+  double sum = form_.intercept;
+  for (const SparseTerm& term : sparse_terms_) {
+    double product = term.coefficient;
+    for (const Index factor : term.factors) {
+      product *= powers[static_cast<std::size_t>(factor)];
+    }
+    sum += product;
+  }
+  return sum;
 }
 
 }  // namespace errmap::models

@@ -25,7 +25,7 @@ class PolynomialModel final : public ErrorModel {
     double coefficient;
   };
 
-  Eigen::VectorXd DoPredict(const Eigen::MatrixXd& inputs) const override;
+  double DoPredictRow(const double* inputs) const override;
 
   PolynomialForm form_;
   Eigen::Index num_parameters_;

@@ -242,6 +242,11 @@ const FitLabel* JournalFile::FindPlace(const FitLabel& label) const {
 }
 
 void JournalFile::Record(const FitLabel& label, const FitOutcome& outcome) {
+  // A model without a form could not be made again: it is fitted again.
+  if (outcome.fitted &&
+      std::holds_alternative<OpaqueForm>(outcome.fitted->model->Describe())) {
+    return;
+  }
   const std::string line = LineOf(label, outcome);
   const std::lock_guard lock(mutex_);
   if (line.size() > kLongestRecord) {

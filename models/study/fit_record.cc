@@ -58,6 +58,8 @@ ERRMAP_MEMBERS(NetForm,
 ERRMAP_MEMBERS(
     BlendForm::Member, name, weight, inputs, lowest, highest, parameters, form)
 ERRMAP_MEMBERS(BlendForm, num_inputs, rule, members)
+ERRMAP_MEMBERS(PredictionCost, multiplications, exponentials)
+ERRMAP_MEMBERS(OpaqueForm, num_inputs, cost)
 ERRMAP_MEMBERS(fitting::TracePoint, iteration, rms_error, gradient_norm)
 ERRMAP_MEMBERS(fitting::FitSummary,
                termination,

@@ -55,15 +55,20 @@ DataRecord MakeData(const ComponentStudy& study) {
                     .unit = dataset.target().unit.symbol,
                     .inputs = {},
                     .group = {},
-                    .session = TextOrNothing(dataset.log()->sessions.column),
+                    .session = {},
                     .time = TextOrNothing(study.data.time_column),
-                    .time_unit = dataset.log()->time_unit,
+                    .time_unit = "rows",
                     .sessions = dataset.num_sessions(),
                     .align = dataset.align(),
                     .dropped = {},
                     .faults = MakeFaultRecords(study.data)};
   for (const data::ColumnInfo& input : dataset.inputs()) {
     record.inputs.push_back(input.name);
+  }
+  // Data made in memory may know of no sessions.
+  if (dataset.log() != nullptr) {
+    record.session = TextOrNothing(dataset.log()->sessions.column);
+    record.time_unit = dataset.log()->time_unit;
   }
   if (dataset.has_groups()) record.group = dataset.groups().column;
   for (const data::DroppedColumn& column : study.data.dropped) {

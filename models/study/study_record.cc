@@ -107,7 +107,7 @@ StudyRecord FromJsonText(std::string_view text) {
   }
   StudyRecord record;
   FromJson(json, &record);
-  constexpr const char* kSchema = "errmap-results-1";
+  constexpr std::string_view kSchema = kResultsSchema;
   if (record.schema != kSchema) {
     throw data::InputError(fmt::format(
         "schema is {}, this version reads {}; run errmap compare again",

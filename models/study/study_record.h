@@ -1203,6 +1203,8 @@ ERRMAP_RECORD(ProvenanceRecord,
               libraries,
               platform)
 
+inline constexpr std::string_view kResultsSchema = "errmap-results-1";
+
 struct StudyRecord {
   std::string schema;
   std::string version;

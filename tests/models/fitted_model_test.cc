@@ -6,8 +6,12 @@
 #include <gtest/gtest.h>
 
 #include "models/error_model.h"
+#include "models/export/map_program.h"
+#include "models/model_file.h"
 #include "models/recipe_catalog.h"
+#include "models/study/make_study_record.h"
 #include "tests/models/model_test_data.h"
+#include "tests/models/study/study_test_tools.h"
 
 namespace errmap::models {
 namespace {
@@ -73,6 +77,97 @@ TEST(FittedModel, RefusesGuardsOfAnotherNumberOfInputs) {
   const FittedModel fitted = Guarded(QuadraticData(60));
   EXPECT_THROW(fitted.PredictForm(Eigen::RowVector3d::Zero()),
                std::invalid_argument);
+}
+
+TEST(FittedModel, PredictsARowAsItPredictsAllToTheLastBit) {
+  const data::Dataset training = QuadraticData(60);
+  for (const char* spec :
+       {"poly:full:degree=3",
+        "net:scg:hidden=3:iterations=20",
+        "blend:view=raw:terms=linear",
+        "net:scg:view=raw:wfactor=0.01:hidden=2:iterations=20"}) {
+    FittedModel fitted = MakeRecipe(spec)->Fit(training, {});
+    for (const bool guarded : {false, true}) {
+      if (guarded) {
+        fitted.guards = MakeGuards(fitted.inputs, training.target_values());
+        fitted.guards->error_margin = 0.0;
+        fitted.guards->input_margin = -0.1;
+      } else {
+        fitted.guards.reset();
+      }
+      const Eigen::MatrixXd inputs = fitted.FormInputs(training);
+      const Prediction all = fitted.PredictForm(inputs);
+      for (Index row = 0; row < inputs.rows(); ++row) {
+        const Eigen::VectorXd one = inputs.row(row);
+        bool clipped = false;
+        EXPECT_EQ(
+            fitted.PredictFormRow(
+                {one.data(), static_cast<std::size_t>(one.size())}, &clipped),
+            all.errors[row])
+            << spec << " " << row;
+        EXPECT_EQ(clipped, all.clipped[row]) << spec << " " << row;
+      }
+      EXPECT_EQ(all.clipped.any(), guarded) << spec;
+    }
+  }
+}
+
+TEST(FittedModel, RefusesARowOfAnotherSize) {
+  const data::Dataset training = QuadraticData(60);
+  FittedModel fitted = Guarded(training);
+  const std::vector<double> row(3, 1.0);
+  EXPECT_THROW(fitted.PredictFormRow(row, nullptr), std::invalid_argument);
+  fitted.guards.reset();
+  EXPECT_THROW(fitted.PredictFormRow(row, nullptr), std::invalid_argument);
+}
+
+// A model of somebody's own, without a form.
+struct Constant final : ErrorModel {
+  Index num_inputs() const override { return 3; }
+  Index num_parameters() const override { return 1; }
+  double DoPredictRow(const double* /*inputs*/) const override { return 0.5; }
+};
+
+struct ConstantRecipe final : ModelRecipe {
+  std::string name() const override { return "my:constant"; }
+  ModelKind kind() const override { return ModelKind::kFile; }
+  FittedModel Fit(const data::Dataset& training,
+                  const FitContext& /*context*/) const override {
+    return MapOfModel(*this, training, std::make_shared<Constant>());
+  }
+};
+
+TEST(OpaqueModel, PredictsButNoFileHoldsIt) {
+  const data::Dataset training = QuadraticData(60);
+  const FittedModel fitted = ConstantRecipe().Fit(training, {});
+  EXPECT_EQ(fitted.Predict(training), Eigen::VectorXd::Constant(60, 0.5));
+  EXPECT_TRUE(std::holds_alternative<OpaqueForm>(fitted.model->Describe()));
+  EXPECT_THAT([&] { ModelToJson(fitted, {}); },
+              ::testing::ThrowsMessage<std::invalid_argument>(
+                  ::testing::HasSubstr("a model file needs a map's formula")));
+  EXPECT_THROW(MakeMapProgram(fitted), std::invalid_argument);
+}
+
+TEST(OpaqueModel, TakesPartInAStudyAndIsFittedAgainOnResume) {
+  const data::Dataset training = QuadraticData(60);
+  std::vector<std::unique_ptr<ModelRecipe>> recipes;
+  recipes.push_back(std::make_unique<ConstantRecipe>());
+  recipes.push_back(MakeRecipe("mean"));
+  const auto holdouts = errmap::testing::MakeHoldouts(training, {"every:3"});
+  const StudyResult study = RunStudy(training, holdouts, recipes, {});
+  ASSERT_TRUE(study.models[0].ok()) << study.models[0].why();
+  const Judgement judgement = JudgeStudy(training, holdouts, study, {});
+  EXPECT_TRUE(judgement.recommendation);
+  ComponentStudy component{
+      .name = "x",
+      .file = "x.csv",
+      .sha256 = "",
+      .data = {.dataset = training, .dropped = {}, .remarks = {}, .faults = {}},
+      .holdouts = holdouts,
+      .study = study,
+      .judgement = judgement};
+  const ComponentRecord record = MakeComponentRecord(component);
+  EXPECT_EQ(record.models[0].name, "my:constant");
 }
 
 }  // namespace
