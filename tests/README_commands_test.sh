@@ -212,7 +212,11 @@ while read -r number language gap; do
       cp "$block" "$scratch/readme_example.cc"
       status=0
       # shellcheck disable=SC2086 # lists of words
-      (cd "$build" && "${compiler:-g++}" -std=c++20 $flags -I "$root" \
+      "${CMAKE_COMMAND:-cmake}" -DERRMAP_SOURCE="$root" \
+        -DERRMAP_INCLUDE="$scratch/include" \
+        -P "$root/cli/package/install_headers.cmake" >"$scratch/log" 2>&1 ||
+        fail "the headers cannot be installed"
+      (cd "$build" && "${compiler:-g++}" -std=c++20 $flags -I "$scratch/include" \
         -isystem /usr/include/eigen3 "$scratch/readme_example.cc" \
         -o "$work/readme_example" $libraries) >"$scratch/log" 2>&1 || status=$?
       if [ "$status" -ne 0 ]; then

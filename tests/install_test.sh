@@ -73,11 +73,42 @@ quietly "building the outside project" "$cmake" --build "$outside"
 share=$prefix/share/errmap
 table=$share/sets/nistir5367_xdisp_down.csv
 [ -f "$table" ] || die "no $table"
-(cd "$scratch/elsewhere" && quietly "running the outside project" \
-  "$outside/outside" "$table" map.json)
-grep -Fq 'poly:full:degree=3 0.553' "$log" ||
-  fail "the outside project prints: $(cat "$log")"
-quietly "running the part" "$outside/part"
+# prints PROGRAM ARGUMENTS... -- WORDS: the program says these words.
+prints() {
+  program=$1
+  shift
+  arguments=""
+  while [ "$1" != -- ]; do
+    arguments="$arguments $1"
+    shift
+  done
+  # shellcheck disable=SC2086 # a list of words
+  (cd "$scratch/elsewhere" && quietly "running $program" \
+    "$outside/$program" $arguments)
+  grep -Fq -e "$2" "$log" || fail "$program prints: $(cat "$log")"
+}
+cp "$table" "$scratch/elsewhere/data.csv"
+prints fit_predict_save data.csv map.json -- 'poly:full:degree=3 0.553'
+prints early_stopping 6 -- 'ended by the caller'
+prints lilliefors -- 'D = 0.10095'
+prints one_row map.json -- '0 allocations'
+prints my_model data.csv -- 'mm by neighbours'
+prints compare data.csv results.json -- 'use blend'
+grep -q '"schema": *"errmap-results-1"' "$scratch/elsewhere/results.json" ||
+  fail "compare writes no results.json"
+for source in "$root"/tests/outside_project/*.cc; do
+  most=25
+  case $source in */my_model.cc) most=40 ;; esac
+  # Programs as short as the library is said to make them.
+  [ "$(grep -c '[^ ]' "$source")" -le "$most" ] ||
+    fail "$(basename "$source") has more than $most lines"
+done
+rm -rf "$outside"
+quietly "configuring with the statistics alone" configure \
+  -DERRMAP_PARTS=stats -DCMAKE_DISABLE_FIND_PACKAGE_Ceres=TRUE \
+  -DCMAKE_DISABLE_FIND_PACKAGE_NLopt=TRUE
+quietly "building with the statistics alone" "$cmake" --build "$outside"
+quietly "running with the statistics alone" "$outside/lilliefors"
 if configure -DERRMAP_WANTED=99 >"$log" 2>&1; then
   fail "the package calls itself version 99"
 fi

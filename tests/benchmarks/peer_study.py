@@ -38,8 +38,8 @@ from sklearn.preprocessing import PolynomialFeatures, StandardScaler
 FAMILIES = {
     "ridge": "poly:ridge:view=raw:terms=full:degree=2",
     "lasso": "poly:lasso:view=raw:terms=full:degree=2",
-    "forward": "poly:stepwise:degree=1:criterion=cv",
-    "net": "net:scg:hidden=10:wfactor=cv",
+    "forward": "poly:stepwise:degree=1",
+    "net": "net:scg:hidden=10:output=linear:wfactor=cv",
 }
 WFACTORS = [10.0 ** (-half / 2.0) for half in range(15)]
 
