@@ -2,7 +2,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "errmap/errmap.h"
+#include <errmap/errmap.h>
 
 int main(int argc, char** argv) {
   using namespace errmap::models;

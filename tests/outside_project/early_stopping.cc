@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "errmap/errmap.h"
+#include <errmap/errmap.h>
 
 int main(int argc, char** argv) {
   const Eigen::Index h = argc > 1 ? std::atoi(argv[1]) : 6;

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "errmap/errmap.h"
+#include <errmap/errmap.h>
 
 int main(int argc, char** argv) {
   if (argc != 3) return 2;

@@ -1,7 +1,7 @@
 // A test of normality, from the statistics alone.
-#include "errmap/stats/normality/lilliefors.h"
-
 #include <iostream>
+
+#include <errmap/stats/normality/lilliefors.h>
 
 int main() {
   const Eigen::VectorXd sample{

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "errmap/errmap.h"
+#include <errmap/errmap.h>
 using namespace errmap;
 using namespace errmap::models;
 struct Neighbours final : ErrorModel {

@@ -3,7 +3,7 @@
 #include <iostream>
 #include <new>
 
-#include "errmap/errmap.h"
+#include <errmap/errmap.h>
 
 static long allocations = 0;
 void* operator new(std::size_t n) {
