@@ -48,8 +48,34 @@ class SharedWork {
     return std::static_pointer_cast<const Result>(result.get());
   }
 
+  /// The same of what is large and quickly made again: kept while somebody
+  /// holds it.
+  template <typename Result>
+  std::shared_ptr<const Result> GetWhileHeld(
+      const std::string& key,
+      const std::function<std::shared_ptr<const Result>()>& make) {
+    Held* held = nullptr;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      held = &held_[key];
+    }
+    const std::lock_guard<std::mutex> lock(held->mutex);
+    auto result = std::static_pointer_cast<const Result>(held->result.lock());
+    if (result == nullptr) {
+      result = make();
+      held->result = result;
+    }
+    return result;
+  }
+
  private:
+  struct Held {
+    std::mutex mutex;
+    std::weak_ptr<const void> result;
+  };
+
   std::mutex mutex_;
+  std::map<std::string, Held> held_;
   std::map<std::string, std::shared_future<std::shared_ptr<const void>>>
       results_;
 };

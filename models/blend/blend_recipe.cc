@@ -129,7 +129,7 @@ class BlendRecipe final : public ModelRecipe {
     std::vector<Score> scores;
     for (const BasisCandidate& basis : bases) {
       scores.push_back(
-          {basis.candidate->held_out_rmse, &basis.candidate->held_out});
+          {basis.fit->candidate.held_out_rmse, &basis.fit->candidate.held_out});
     }
     std::optional<FittedModel> net;
     if (with_net_ && rule_ != WeightRule::kStack) {
@@ -175,18 +175,19 @@ class BlendRecipe final : public ModelRecipe {
     std::vector<Part> parts;
     std::map<std::pair<std::string, TermSet>, std::vector<std::size_t>> alike;
     for (std::size_t i = 0; i < bases.size(); ++i) {
-      alike[{bases[i].fits->viewed->label(), bases[i].terms}].push_back(i);
+      alike[{bases[i].viewed->label(), bases[i].terms}].push_back(i);
     }
     for (const auto& [basis, members] : alike) {
       double weight = 0.0;
       PenalizedCandidate mean;
+      const BasisCandidate& any = bases[members.front()];
       mean.coefficients =
-          VectorXd::Zero(bases[members.front()].candidate->coefficients.size());
+          VectorXd::Zero(any.fit->candidate.coefficients.size());
       for (const std::size_t i : members) {
         const double share = weights[static_cast<Index>(i)];
         weight += share;
-        mean.intercept += share * bases[i].candidate->intercept;
-        mean.coefficients += share * bases[i].candidate->coefficients;
+        mean.intercept += share * bases[i].fit->candidate.intercept;
+        mean.coefficients += share * bases[i].fit->candidate.coefficients;
       }
       if (!(weight > kLeastWeight)) continue;
       mean.intercept /= weight;
@@ -197,9 +198,10 @@ class BlendRecipe final : public ModelRecipe {
                        weight,
                        MapOfCandidate(name,
                                       training,
-                                      *bases[members.front()].fits,
+                                      *any.viewed,
+                                      any.fit->DesignOf(*any.viewed),
                                       mean,
-                                      bases[members.front()].guarded)});
+                                      any.guarded)});
     }
     return parts;
   }

@@ -56,7 +56,8 @@ FittedModel FitInView(const Dataset& training,
                       bool guarded,
                       const FitContext& context,
                       const FitRows& fit) {
-  const std::vector<ViewedRows> views = SharedViews(training, options, context);
+  const auto shared = SharedViews(training, options, context);
+  const std::vector<ViewedRows>& views = *shared;
   const ViewedRows* chosen = &views.front();
   std::string tried;
   double least = std::numeric_limits<double>::quiet_NaN();

@@ -350,21 +350,21 @@ std::vector<ViewedRows> MakeViews(const Dataset& training,
   return views;
 }
 
-std::vector<ViewedRows> SharedViews(const Dataset& training,
-                                    const ViewOptions& options,
-                                    const FitContext& context) {
-  if (context.shared == nullptr) {
-    return MakeViews(training, options, context.indifference);
-  }
+std::shared_ptr<const std::vector<ViewedRows>> SharedViews(
+    const Dataset& training,
+    const ViewOptions& options,
+    const FitContext& context) {
+  const auto make = [&] {
+    return std::make_shared<const std::vector<ViewedRows>>(
+        MakeViews(training, options, context.indifference));
+  };
+  if (context.shared == nullptr) return make();
   const std::string view =
       !options.given
           ? "none"
           : std::string(options.view ? ToString(*options.view) : "auto");
-  return *context.shared->Get<std::vector<ViewedRows>>(
-      fmt::format("views {} {}", view, options.Key()), [&] {
-        return std::make_shared<const std::vector<ViewedRows>>(
-            MakeViews(training, options, context.indifference));
-      });
+  return context.shared->GetWhileHeld<std::vector<ViewedRows>>(
+      fmt::format("views {} {}", view, options.Key()), make);
 }
 
 }  // namespace errmap::models

@@ -67,9 +67,9 @@ std::vector<ViewedRows> MakeViews(const data::Dataset& training,
                                   const ViewOptions& options,
                                   double indifference);
 
-/// The same of the rows that are fitted, made once for all recipes that share
-/// context.shared.
-std::vector<ViewedRows> SharedViews(const data::Dataset& training,
+/// The same of the rows that are fitted, shared with the recipes that hold them
+/// at the same time by way of context.shared.
+std::shared_ptr<const std::vector<ViewedRows>> SharedViews(const data::Dataset& training,
                                     const ViewOptions& options,
                                     const FitContext& context);
 

@@ -323,11 +323,12 @@ class SpecNetRecipe final : public NetRecipe {
   FittedModel FitAlone(const Dataset& training,
                        const FitContext& context) const {
     const bool takes_all = training.num_rows() <= most_rows_;
-    const std::vector<ViewedRows> views =
+    const auto shared =
         takes_all
             ? SharedViews(training, view_, context)
-            : MakeViews(
-                  Sample(training, most_rows_), view_, context.indifference);
+            : std::make_shared<const std::vector<ViewedRows>>(MakeViews(
+                  Sample(training, most_rows_), view_, context.indifference));
+    const std::vector<ViewedRows>& views = *shared;
     std::vector<TunedNet> tuned;
     std::vector<double> scores;
     for (const ViewedRows& viewed : views) {

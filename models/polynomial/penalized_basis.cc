@@ -382,7 +382,7 @@ std::shared_ptr<const SummedBasis> SumBasis(
       std::move(viewed), basis, folds, context);
 }
 
-std::shared_ptr<const PenalizedFits> FitPenalty(
+std::shared_ptr<const PenalizedFit> FitPenalty(
     const std::shared_ptr<const SummedBasis>& basis,
     Penalty penalty,
     const PenaltyRule& rule,
@@ -412,23 +412,25 @@ std::shared_ptr<const PenalizedFits> FitPenalty(
   candidate.intercept = solutions.intercepts[0];
   candidate.degrees_of_freedom =
       path.DegreesOfFreedom(candidate.strength, candidate.coefficients);
-  return std::make_shared<const PenalizedFits>(
-      PenalizedFits{basis->viewed(), basis->design(), std::move(candidate)});
+  const PolynomialDesign& design = *basis->design();
+  return std::make_shared<const PenalizedFit>(PenalizedFit{
+      design.inputs(), design.scaling(), design.terms(), std::move(candidate)});
 }
 
 FittedModel MapOfCandidate(const std::string& name,
                            const Dataset& raw,
-                           const PenalizedFits& fits,
+                           const ViewedRows& viewed,
+                           const PolynomialDesign& design,
                            const PenalizedCandidate& candidate,
                            bool guarded) {
-  FittedModel fitted = MapOfTerms(
-      name, *fits.design, candidate.intercept, candidate.coefficients);
+  FittedModel fitted =
+      MapOfTerms(name, design, candidate.intercept, candidate.coefficients);
   fitted.inner_rmse = candidate.held_out_rmse;
   if (guarded) {
     fitted.guards = MakeGuards(fitted.inputs, raw.target_values());
   }
-  if (fits.viewed->history != nullptr) {
-    fitted = WithHistory(std::move(fitted), raw, *fits.viewed->history);
+  if (viewed.history != nullptr) {
+    fitted = WithHistory(std::move(fitted), raw, *viewed.history);
   }
   return fitted;
 }

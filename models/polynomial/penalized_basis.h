@@ -55,11 +55,18 @@ struct PenalizedCandidate {
   Eigen::VectorXd coefficients;  // (terms) in the scaled inputs of the design
 };
 
-/// A candidate and the basis that its coefficients belong to.
-struct PenalizedFits {
-  std::shared_ptr<const ViewedRows> viewed;
-  std::shared_ptr<const PolynomialDesign> design;  // of viewed->rows
+/// A candidate and the basis that its coefficients belong to, without the rows:
+/// those of all folds would be many.
+struct PenalizedFit {
+  std::vector<Eigen::Index> inputs;  // of the rows in their view
+  ColumnScaling scaling;
+  std::vector<TermPowers> terms;
   PenalizedCandidate candidate;
+
+  /// `viewed` are the rows that were fitted; they must outlive the design.
+  PolynomialDesign DesignOf(const ViewedRows& viewed) const {
+    return {*viewed.rows, inputs, scaling, terms};
+  }
 };
 
 /// Cross-products of a basis over each inner fold, from one pass over the rows:
@@ -78,17 +85,18 @@ std::shared_ptr<const SummedBasis> SumBasis(
 /// Fits a penalty to a basis. Held-out rows are clipped as the basis says, at
 /// what their own fold trained on. Errors far below `indifference` (target's
 /// unit) count alike. Throws std::invalid_argument where folds are missing.
-std::shared_ptr<const PenalizedFits> FitPenalty(
+std::shared_ptr<const PenalizedFit> FitPenalty(
     const std::shared_ptr<const SummedBasis>& basis,
     fitting::Penalty penalty,
     const PenaltyRule& rule,
     double indifference);
 
-/// The map of a candidate, history and guards attached. `raw` are the training
-/// rows before any view.
+/// The map of a candidate over the basis `design` of `viewed`, history and
+/// guards attached. `raw` are the training rows before any view.
 FittedModel MapOfCandidate(const std::string& name,
                            const data::Dataset& raw,
-                           const PenalizedFits& fits,
+                           const ViewedRows& viewed,
+                           const PolynomialDesign& design,
                            const PenalizedCandidate& candidate,
                            bool guarded);
 

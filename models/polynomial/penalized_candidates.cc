@@ -19,7 +19,7 @@ using data::Dataset;
 using Eigen::Index;
 using fitting::Penalty;
 
-using FitsByPenalty = std::map<Penalty, std::shared_ptr<const PenalizedFits>>;
+using FitsByPenalty = std::map<Penalty, std::shared_ptr<const PenalizedFit>>;
 
 // The sets worth a try over these inputs, in order of size.
 std::vector<TermSet> ServingTerms(const std::vector<bool>& is_position,
@@ -101,8 +101,10 @@ std::vector<BasisCandidate> JudgeBases(const Dataset& training,
                          !choices.rule.strength &&
                          !choices.rule.one_standard_error;
   std::vector<BasisCandidate> judged;
-  for (const ViewedRows& made : SharedViews(training, choices.view, context)) {
-    const auto viewed = std::make_shared<const ViewedRows>(made);
+  const auto views = SharedViews(training, choices.view, context);
+  for (const ViewedRows& made : *views) {
+    // Holds all of them.
+    const std::shared_ptr<const ViewedRows> viewed(views, &made);
     std::vector<TermSet> sets;
     if (choices.terms) {
       sets = {*choices.terms};
@@ -149,13 +151,13 @@ std::vector<BasisCandidate> JudgeBases(const Dataset& training,
                 : std::vector{penalty};
         const std::string key = fmt::format(
             "{} {}", all ? "penalized" : fitting::ToString(penalty), of_basis);
-        const auto fits = (shareable ? *context.shared->Get<FitsByPenalty>(
-                                           key, [&] { return make(wanted); })
-                                     : *make(wanted))
-                              .at(penalty);
+        const auto fit = (shareable ? *context.shared->Get<FitsByPenalty>(
+                                          key, [&] { return make(wanted); })
+                                    : *make(wanted))
+                             .at(penalty);
         judged.push_back(
-            {.fits = fits,
-             .candidate = &fits->candidate,
+            {.viewed = viewed,
+             .fit = fit,
              .terms = set,
              .degree = degree,
              .num_excluded = static_cast<Index>(choices.exclude.size()),

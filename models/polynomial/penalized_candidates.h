@@ -33,8 +33,8 @@ struct PenalizedChoices {
 
 /// A family over one basis, judged.
 struct BasisCandidate {
-  std::shared_ptr<const PenalizedFits> fits;
-  const PenalizedCandidate* candidate = nullptr;  // of fits
+  std::shared_ptr<const ViewedRows> viewed;
+  std::shared_ptr<const PenalizedFit> fit;
   TermSet terms = TermSet::kLinear;
   int degree = 1;
   Eigen::Index num_excluded = 0;

@@ -87,11 +87,13 @@ class PenalizedRecipe final : public PolynomialRecipe {
         JudgeBases(training, choices_, {penalty_}, folds, context);
     const BasisCandidate& best =
         *std::ranges::min_element(candidates, [](const auto& a, const auto& b) {
-          return a.candidate->held_out_rmse < b.candidate->held_out_rmse;
+          return a.fit->candidate.held_out_rmse <
+                 b.fit->candidate.held_out_rmse;
         });
-    const PenalizedCandidate& chosen = *best.candidate;
-    FittedModel fitted =
-        MapOfCandidate(name(), training, *best.fits, chosen, best.guarded);
+    const PenalizedCandidate& chosen = best.fit->candidate;
+    const PolynomialDesign design = best.fit->DesignOf(*best.viewed);
+    FittedModel fitted = MapOfCandidate(
+        name(), training, *best.viewed, design, chosen, best.guarded);
     fitted.summary.message = fmt::format(
         "penalty {:.3g}{}, {:.1f} effective parameters, {} of {} terms up to "
         "degree {}",
@@ -103,8 +105,8 @@ class PenalizedRecipe final : public PolynomialRecipe {
         best.degree);
     if (choices_.view.given) {
       fitted.choices.push_back(
-          {"view", std::string(ToString(best.fits->viewed->view))});
-      if (best.fits->viewed->sine_and_cosine) {
+          {"view", std::string(ToString(best.viewed->view))});
+      if (best.viewed->sine_and_cosine) {
         fitted.choices.push_back({"angles", std::string("sincos")});
       }
     }
@@ -117,18 +119,19 @@ class PenalizedRecipe final : public PolynomialRecipe {
                       candidates.size()));
     }
     if (penalty_ == Penalty::kLasso) {
-      fitted.remarks.push_back("chosen: " + ChosenNames(best));
+      fitted.remarks.push_back("chosen: " + ChosenNames(design, chosen));
     }
-    if (context.explain) Explain(training, best, folds, &fitted);
+    if (context.explain) Explain(training, design, best, folds, &fitted);
     return fitted;
   }
 
  private:
-  static std::string ChosenNames(const BasisCandidate& best) {
-    const std::vector<std::string> names = best.fits->design->TermNames();
+  static std::string ChosenNames(const PolynomialDesign& design,
+                                 const PenalizedCandidate& fit) {
+    const std::vector<std::string> names = design.TermNames();
     std::string chosen;
-    for (Index j = 0; j < best.candidate->coefficients.size(); ++j) {
-      if (best.candidate->coefficients[j] == 0.0) continue;
+    for (Index j = 0; j < fit.coefficients.size(); ++j) {
+      if (fit.coefficients[j] == 0.0) continue;
       if (!chosen.empty()) chosen += ", ";
       chosen += names[static_cast<std::size_t>(j)];
     }
@@ -136,12 +139,12 @@ class PenalizedRecipe final : public PolynomialRecipe {
   }
 
   void Explain(const Dataset& training,
+               const PolynomialDesign& design,
                const BasisCandidate& best,
                const InnerFolds& folds,
                FittedModel* fitted) const {
     auto report = std::make_shared<RegressionReport>();
-    const PolynomialDesign& design = *best.fits->design;
-    const PenalizedCandidate& fit = *best.candidate;
+    const PenalizedCandidate& fit = best.fit->candidate;
     report->method = fmt::format(
         "{} over {} terms up to degree {}, penalty {:.6g}{} on columns of "
         "variance 1",
