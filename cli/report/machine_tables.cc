@@ -72,8 +72,7 @@ Table ToolTipTable(const MachineRecord& machine) {
                   {"within 90 %: X Y Z"}}};
   for (const MachineChoiceRecord& choice : machine.choices) {
     if (choice.why) {
-      table.rows.push_back({choice.name + ": " + *choice.why});
-      table.rows.back().resize(table.columns.size());
+      table.note += fmt::format(" {}: {}.", choice.name, *choice.why);
       continue;
     }
     table.rows.push_back({choice.name,

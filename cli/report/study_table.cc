@@ -252,14 +252,33 @@ std::string DataForFit(const StudyRun& run) {
                                                             : "";
 }
 
+// Its last columns are on the page, where a terminal has no room for them.
+std::string LeadingColumns(Table table, std::size_t width) {
+  const auto is_wide = [&] {
+    return std::ranges::any_of(
+        TerminalLines(table, std::string::npos),
+        [&](const std::string& line) { return WidthOf(line) > width; });
+  };
+  constexpr std::size_t kFewest = 4;
+  while (table.columns.size() > kFewest && is_wide()) {
+    table.columns.pop_back();
+    for (std::vector<Cell>& row : table.rows) {
+      if (row.size() > table.columns.size()) row.pop_back();
+    }
+  }
+  return TerminalTable(table, width);
+}
+
 void AddMachine(const models::MachineRecord& machine,
-                std::size_t width,
+                const Terminal& terminal,
                 Screen* screen) {
+  const std::size_t width = terminal.text_columns();
   for (const Table& table :
        {ToolTipTable(machine), PositioningTable(machine)}) {
     if (table.rows.empty()) continue;
     screen->Add("\n" + WrapText(table.title, width) + "\n\n" +
-                TerminalTable(table, width));
+                LeadingColumns(table, terminal.columns) +
+                WrapText(table.note, width) + "\n");
   }
 }
 
@@ -312,7 +331,7 @@ Screen StudyTable(const StudyRun& run,
     words += " Each component's verdict, table and next steps: --details.";
   }
   screen.Add(WrapText(words, width) + "\n");
-  if (record.machine) AddMachine(*record.machine, width, &screen);
+  if (record.machine) AddMachine(*record.machine, options.terminal, &screen);
   screen.Add(std::string("\n") + kSign + "\n");
   return screen;
 }

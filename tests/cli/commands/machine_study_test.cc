@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/cli_fixture.h"
+#include "tests/cli/one_line.h"
 
 namespace errmap {
 namespace {
@@ -158,7 +159,7 @@ TEST_F(MachineStudy, SaysWhyAChoiceHasNoFigures) {
   Simulate();
   const Outcome outcome = Run(Words({"--models", "poly:ridge:view=raw"}));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out,
+  EXPECT_THAT(OneLine(outcome.out),
               AllOf(HasSubstr("Error at the tool of turning centre, um"),
                     HasSubstr("neural: no such map of parallelism"),
                     HasSubstr("recommended")));
