@@ -23,9 +23,9 @@ using Eigen::VectorXd;
 constexpr Index kFewestSessions = 3;
 
 // By how much the statistics of healthy sessions of new days exceed those of
-// the sessions held out, which training's other days lie around: 99 % of
-// healthy components then stay below the t and F of p = 0.01. Measured by
-// tests/benchmarks/fleet_watch.py --calibrate.
+// the sessions held out, which training's other days lie around: rough figures
+// of simulated machines, with which 6 of 288 healthy ones were accused
+// (tests/benchmarks/fleet_watch.py).
 constexpr double kOffsetInflation = 1.5;
 constexpr double kRmsInflation = 1.5;
 constexpr double kSensorInflation = 2.0;

@@ -69,9 +69,10 @@ std::vector<ViewedRows> MakeViews(const data::Dataset& training,
 
 /// The same of the rows that are fitted, shared with the recipes that hold them
 /// at the same time by way of context.shared.
-std::shared_ptr<const std::vector<ViewedRows>> SharedViews(const data::Dataset& training,
-                                    const ViewOptions& options,
-                                    const FitContext& context);
+std::shared_ptr<const std::vector<ViewedRows>> SharedViews(
+    const data::Dataset& training,
+    const ViewOptions& options,
+    const FitContext& context);
 
 /// The median length of the sessions of `training` / 100, / 30 and / 10: what
 /// serves where nothing is known of the machine. Empty without a length.
