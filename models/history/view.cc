@@ -363,8 +363,13 @@ std::shared_ptr<const std::vector<ViewedRows>> SharedViews(
       !options.given
           ? "none"
           : std::string(options.view ? ToString(*options.view) : "auto");
-  return context.shared->GetWhileHeld<std::vector<ViewedRows>>(
+  auto views = context.shared->GetWhileHeld<std::vector<ViewedRows>>(
       fmt::format("views {} {}", view, options.Key()), make);
+  // Whoever fits other rows must not share; a wrong map would be silent.
+  if (views->front().rows->target_values() != training.target_values()) {
+    throw std::logic_error("SharedViews: the rows are not those shared");
+  }
+  return views;
 }
 
 }  // namespace errmap::models

@@ -33,6 +33,7 @@ void RefitShuffled(const ModelRecipe& recipe,
     return;
   }
   FitContext plain = context;
+  plain.shared = nullptr;  // these are other rows
   plain.explain = false;
   plain.keep_trace = false;
   for (const StartResult& start : fitted.starts) {
