@@ -20,7 +20,7 @@
 #include <sys/resource.h>
 
 #include "cli/command.h"
-#include "cli/commands/fleet_commands.h"
+#include "cli/commands/fleet/fleet_commands.h"
 #include "cli/shell/command_reference.h"
 #include "cli/shell/completion.h"
 #include "cli/shell/man_page.h"

@@ -14,7 +14,7 @@
 
 #include <Eigen/Core>
 
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "fitting/minimisers/optimizer.h"
 #include "models/prediction_interval.h"
 

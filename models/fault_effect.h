@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 
 namespace errmap::models {
 

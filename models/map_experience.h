@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 
 // What stands in model files beside the map itself, as plain data; how it is
 // made and used is told in models/promise/.

@@ -15,7 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "data/atomic_file.h"
-#include "data/nesting.h"
+#include "data/formats/nesting.h"
 #include "data/text.h"
 #include "models/blend/form_to_model.h"
 #include "models/history/history.h"

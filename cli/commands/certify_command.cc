@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/report/certify_json.h"
-#include "cli/report/certify_text.h"
+#include "cli/report/words/certify_json.h"
+#include "cli/report/words/certify_text.h"
 #include "cli/shell/number_text.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"

@@ -9,7 +9,7 @@
 #include "cli/shell/number_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "data/atomic_file.h"
-#include "data/pattern_file.h"
+#include "data/formats/pattern_file.h"
 #include "data/text.h"
 
 namespace errmap::cli {

@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
+#include "cli/report/documents/report_style.h"
+#include "cli/report/figures/svg.h"
 #include "cli/report/html.h"
 #include "cli/report/plot.h"
-#include "cli/report/report_style.h"
-#include "cli/report/svg.h"
 #include "cli/report/table.h"
 
 namespace errmap::cli {

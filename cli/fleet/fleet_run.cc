@@ -15,7 +15,7 @@
 #include "cli/fleet/gzip.h"
 #include "cli/report/claimed_folder.h"
 #include "cli/report/configuration_record.h"
-#include "cli/report/results_document.h"
+#include "cli/report/documents/results_document.h"
 #include "cli/shell/shown_path.h"
 #include "cli/study_file/component_names.h"
 #include "cli/study_file/data_arguments.h"
@@ -29,7 +29,7 @@
 #include "models/file_recipe.h"
 #include "models/fleet/watch.h"
 #include "models/model_file.h"
-#include "models/study/record_json.h"
+#include "models/study/record/record_json.h"
 #include "models/version.h"
 #include "stats/holdout.h"
 

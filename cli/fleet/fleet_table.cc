@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/json_blocks.h"
-#include "models/study/record_json.h"
+#include "models/study/record/record_json.h"
 
 namespace errmap::cli {
 namespace {

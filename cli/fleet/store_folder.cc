@@ -10,11 +10,11 @@
 #include "cli/fleet/gzip.h"
 #include "cli/report/claimed_folder.h"
 #include "data/atomic_file.h"
+#include "data/formats/nesting.h"
 #include "data/input_error.h"
-#include "data/nesting.h"
 #include "data/sha256.h"
 #include "data/text.h"
-#include "models/study/record_json.h"
+#include "models/study/record/record_json.h"
 
 namespace errmap::cli {
 

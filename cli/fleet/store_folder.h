@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "models/fleet/component_summary.h"
-#include "models/study/record.h"
+#include "models/study/record/record.h"
 
 namespace errmap::cli {
 

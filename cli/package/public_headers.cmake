@@ -3,9 +3,9 @@
 # change without notice.
 set(ERRMAP_PUBLIC_HEADERS
   data/csv.h
-  data/dataset.h
   data/input_error.h
-  data/sessions.h
+  data/measurements/dataset.h
+  data/measurements/sessions.h
   data/turning_centre/machine.h
   data/turning_centre/simulation.h
   data/units.h
@@ -57,11 +57,11 @@ set(ERRMAP_PUBLIC_HEADERS
   models/regression_report.h
   models/scaling.h
   models/study/given_predictions.h
-  models/study/make_study_record.h
+  models/study/judgement/verdict.h
+  models/study/record/make_study_record.h
+  models/study/record/study_record.h
   models/study/study.h
   models/study/study_defaults.h
-  models/study/study_record.h
-  models/study/verdict.h
   models/version.h
   stats/bias.h
   stats/comparison/holm.h

@@ -11,7 +11,7 @@
 #include "cli/command.h"
 #include "cli/json_blocks.h"
 #include "data/atomic_file.h"
-#include "data/nesting.h"
+#include "data/formats/nesting.h"
 #include "data/same_file.h"
 #include "data/sha256.h"
 #include "data/text.h"

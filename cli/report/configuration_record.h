@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/study_file/study_config.h"
-#include "models/study/study_record.h"
+#include "models/study/record/study_record.h"
 
 namespace errmap::cli {
 

@@ -6,7 +6,7 @@
 
 #include "cli/report/plot.h"
 #include "cli/shell/number_text.h"
-#include "models/study/study_record.h"
+#include "models/study/record/study_record.h"
 
 namespace errmap::cli {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cli/shell/number_text.h"
-#include "models/study/study_record.h"
+#include "models/study/record/study_record.h"
 
 // Tables of typed cells, which are written for terminals, spreadsheets,
 // Markdown and pages by the functions below and nowhere else.

@@ -6,7 +6,7 @@
 
 #include "cli/study_file/provenance.h"
 #include "cli/study_file/study_config.h"
-#include "models/study/component_study.h"
+#include "models/study/record/component_study.h"
 
 namespace errmap::cli {
 

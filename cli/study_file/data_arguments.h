@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/study_file/study_config.h"
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "models/error_model.h"
 
 namespace CLI {

@@ -10,10 +10,10 @@
 
 #include "cli/shell/number_text.h"
 #include "cli/study_file/point_log.h"
-#include "data/column_checks.h"
-#include "data/column_match.h"
-#include "data/dataset.h"
 #include "data/input_error.h"
+#include "data/measurements/column_checks.h"
+#include "data/measurements/column_match.h"
+#include "data/measurements/dataset.h"
 #include "data/text.h"
 #include "models/history/view.h"
 #include "models/trained_range.h"

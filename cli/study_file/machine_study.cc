@@ -14,9 +14,9 @@
 
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/machine_points.h"
-#include "data/column_match.h"
-#include "data/dataset.h"
 #include "data/input_error.h"
+#include "data/measurements/column_match.h"
+#include "data/measurements/dataset.h"
 #include "data/text.h"
 #include "models/kinematics/iso230.h"
 #include "models/kinematics/volumetric.h"

@@ -7,7 +7,7 @@
 #include "cli/study_file/machine_file.h"
 #include "cli/study_file/study_config.h"
 #include "data/csv.h"
-#include "models/study/machine_record.h"
+#include "models/study/record/machine_record.h"
 
 namespace errmap::cli {
 

@@ -7,9 +7,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "data/column_checks.h"
-#include "data/column_match.h"
 #include "data/input_error.h"
+#include "data/measurements/column_checks.h"
+#include "data/measurements/column_match.h"
 #include "data/text.h"
 
 namespace errmap::cli {

@@ -7,8 +7,8 @@
 #include <Eigen/Core>
 
 #include "data/csv.h"
-#include "data/dataset.h"
-#include "data/sessions.h"
+#include "data/measurements/dataset.h"
+#include "data/measurements/sessions.h"
 #include "models/error_model.h"
 #include "models/history/history.h"
 
@@ -44,7 +44,7 @@ struct MapLog {
 
 /// `kept`: the rows of the table that are predicted. Throws data::InputError
 /// where the tables lack the column of sessions or times that the map needs, or
-/// where those will not do (data/sessions.h).
+/// where those will not do (data/measurements/sessions.h).
 MapLog MakeMapLog(const models::FittedModel& fitted,
                   const data::CsvTable& table,
                   const std::vector<Eigen::Index>& kept,

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "data/sessions.h"
+#include "data/measurements/sessions.h"
 
 namespace errmap::cli {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "cli/study_file/map_log.h"
 #include "data/csv.h"
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "models/history/history.h"
 
 namespace errmap::cli {

@@ -15,7 +15,7 @@
 #include "fitting/minimisers/ceres_optimizer.h"
 #include "fitting/minimisers/nlopt_optimizer.h"
 #include "models/net/net_kernels.h"
-#include "models/study/record_json.h"
+#include "models/study/record/record_json.h"
 #include "models/version.h"
 #include "stats/distributions.h"
 

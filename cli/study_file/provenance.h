@@ -6,7 +6,7 @@
 
 #include "cli/json_blocks.h"
 #include "models/model_file.h"
-#include "models/study/study_record.h"
+#include "models/study/record/study_record.h"
 
 namespace errmap::cli {
 

@@ -6,7 +6,7 @@
 
 #include "cli/study_file/comparison.h"
 #include "cli/study_file/study_plan.h"
-#include "models/study/fit_journal_file.h"
+#include "models/study/journal/fit_journal_file.h"
 
 namespace errmap::cli {
 

@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "data/csv.h"
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "models/certification/certification.h"
 #include "models/certification/strd_functions.h"
 #include "models/recipe_catalog.h"

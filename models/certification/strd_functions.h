@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "data/strd_problem.h"
+#include "data/formats/strd_problem.h"
 #include "fitting/nonlinear/nonlinear_regression.h"
 
 namespace errmap::models {

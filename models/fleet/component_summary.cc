@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "data/formats/nesting.h"
 #include "data/input_error.h"
-#include "data/nesting.h"
-#include "models/study/record_json.h"
+#include "models/study/record/record_json.h"
 
 namespace errmap::models {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "models/study/record.h"
-#include "models/study/study_record.h"
+#include "models/study/record/record.h"
+#include "models/study/record/study_record.h"
 
 // What a fleet keeps of one component's study: a file of at most 20 kB, schema
 // errmap-summary-1, which alone is read when results are put together. Lengths

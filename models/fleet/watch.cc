@@ -7,10 +7,10 @@
 
 #include <Eigen/Cholesky>
 
+#include "data/formats/nesting.h"
 #include "data/input_error.h"
-#include "data/nesting.h"
 #include "data/text.h"
-#include "models/study/record_json.h"
+#include "models/study/record/record_json.h"
 #include "stats/distributions.h"
 
 namespace errmap::models {

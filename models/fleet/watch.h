@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "models/map_experience.h"
 
 // Whether a map still does what it promised, and its sensors still go together

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/history/view.h"
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "data/csv.h"
-#include "data/sessions.h"
+#include "data/measurements/sessions.h"
 #include "models/history/history_state.h"
 
 namespace errmap::models {

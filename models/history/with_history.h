@@ -1,6 +1,6 @@
 #pragma once
 
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/history/history.h"
 

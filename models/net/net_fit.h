@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/inner_folds.h"
 #include "models/net/net_trainer.h"

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "data/atomic_file.h"
+#include "data/formats/pattern_file.h"
 #include "data/input_error.h"
-#include "data/pattern_file.h"
 #include "data/same_file.h"
 #include "data/text.h"
 

@@ -13,9 +13,9 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "data/csv.h"
-#include "data/dataset.h"
+#include "data/formats/pattern_file.h"
 #include "data/input_error.h"
-#include "data/pattern_file.h"
+#include "data/measurements/dataset.h"
 #include "data/text.h"
 
 namespace errmap::models {

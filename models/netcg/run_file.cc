@@ -1,7 +1,7 @@
 #include "models/netcg/run_file.h"
 
 #include "data/csv.h"
-#include "data/record_reader.h"
+#include "data/formats/record_reader.h"
 #include "data/text.h"
 
 namespace errmap::models {

@@ -1,6 +1,6 @@
 #include "models/netcg/run_report.h"
 
-#include "data/fortran_format.h"
+#include "data/formats/fortran_format.h"
 
 namespace errmap::models {
 namespace {

@@ -1,8 +1,8 @@
 #include "models/netcg/weights_file.h"
 
 #include "data/csv.h"
-#include "data/fortran_format.h"
-#include "data/record_reader.h"
+#include "data/formats/fortran_format.h"
+#include "data/formats/record_reader.h"
 #include "data/text.h"
 
 namespace errmap::models {

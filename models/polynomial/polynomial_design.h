@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "fitting/least_squares/linear_least_squares.h"
 #include "models/polynomial/polynomial_basis.h"
 #include "models/scaling.h"

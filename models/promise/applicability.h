@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/map_experience.h"
 

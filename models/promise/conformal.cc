@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "models/study/units_of_analysis.h"
+#include "models/study/judgement/units_of_analysis.h"
 
 namespace errmap::models {
 namespace {

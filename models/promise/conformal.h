@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "models/prediction_interval.h"
 #include "models/study/study.h"
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "models/error_model.h"
-#include "models/study/units_of_analysis.h"
+#include "models/study/judgement/units_of_analysis.h"
 
 namespace errmap::models {
 namespace {

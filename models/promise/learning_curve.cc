@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "models/study/units_of_analysis.h"
+#include "models/study/judgement/units_of_analysis.h"
 #include "stats/distributions.h"
 #include "stats/random.h"
 

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "models/promise/power_law.h"
 #include "models/study/study.h"
 

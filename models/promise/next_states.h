@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 
 namespace errmap::models {
 

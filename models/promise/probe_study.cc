@@ -8,7 +8,7 @@
 
 #include "models/promise/held_out_errors.h"
 #include "models/promise/session_offset.h"
-#include "models/study/units_of_analysis.h"
+#include "models/study/judgement/units_of_analysis.h"
 
 namespace errmap::models {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <Eigen/Core>
 
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
+#include "models/study/record/study_record.h"
 #include "models/study/study.h"
-#include "models/study/study_record.h"
 
 namespace errmap::models {
 

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/study/study.h"
 

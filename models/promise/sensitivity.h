@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "models/error_model.h"
 
 namespace errmap::models {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "data/csv.h"
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "models/study/study.h"
 
 namespace errmap::models {

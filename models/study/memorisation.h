@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "models/error_model.h"
 
 namespace errmap::models {

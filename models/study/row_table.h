@@ -5,7 +5,7 @@
 #include <unordered_map>
 
 #include "data/csv.h"
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 
 namespace errmap::models {
 

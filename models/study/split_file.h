@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "data/csv.h"
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "models/study/study.h"
 
 namespace errmap::models {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 
 namespace errmap::models {
 

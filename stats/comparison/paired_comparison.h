@@ -42,7 +42,7 @@ struct ComparisonOptions {
 
 /// Model a against model b; d = loss of a - loss of b, one mean per unit, so
 /// below 0 where a is better. What these figures establish is decided in one
-/// place, models/study/confidence.h.
+/// place, models/study/judgement/confidence.h.
 struct PairComparison {
   Eigen::Index a = 0;
   Eigen::Index b = 0;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cli/json_blocks.h"
-#include "models/study/record_json.h"
-#include "models/study/study_record.h"
+#include "models/study/record/record_json.h"
+#include "models/study/record/study_record.h"
 
 namespace errmap {
 

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "cli/command.h"
-#include "cli/report/results_document.h"
-#include "cli/report/study_table.h"
+#include "cli/report/documents/results_document.h"
+#include "cli/report/documents/study_table.h"
 #include "cli/study_file/study_plan.h"
 #include "cli/study_file/study_run.h"
 #include "data/csv.h"
 #include "data/input_error.h"
-#include "models/study/study_record.h"
+#include "models/study/record/study_record.h"
 #include "tests/fuzz/readers.h"
 #include "tests/fuzz/scratch_folder.h"
 

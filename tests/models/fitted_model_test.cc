@@ -9,7 +9,7 @@
 #include "models/export/map_program.h"
 #include "models/model_file.h"
 #include "models/recipe_catalog.h"
-#include "models/study/make_study_record.h"
+#include "models/study/record/make_study_record.h"
 #include "tests/models/model_test_data.h"
 #include "tests/models/study/study_test_tools.h"
 

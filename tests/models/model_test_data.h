@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "data/csv.h"
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "tests/places.h"
 
 namespace errmap::testing {

@@ -11,7 +11,7 @@
 
 #include "data/atomic_file.h"
 #include "data/csv.h"
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "tests/places.h"
 
 namespace errmap::data::turning_centre {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 
 namespace errmap::testing {
 

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "data/csv.h"
-#include "data/pattern_file.h"
+#include "data/formats/pattern_file.h"
 #include "models/netcg/run_file.h"
 #include "tests/places.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "data/csv.h"
-#include "data/dataset.h"
+#include "data/measurements/dataset.h"
 #include "data/turning_centre/simulation.h"
 #include "data/turning_centre/simulation_files.h"
 

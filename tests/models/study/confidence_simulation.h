@@ -11,7 +11,7 @@
 
 #include <Eigen/Core>
 
-#include "models/study/confidence.h"
+#include "models/study/judgement/confidence.h"
 #include "stats/normality/monte_carlo.h"
 #include "stats/random.h"
 

@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "models/study/judgement/verdict.h"
 #include "models/study/study_defaults.h"
-#include "models/study/verdict.h"
 #include "tests/models/history/history_data.h"
 #include "tests/models/study/study_test_tools.h"
 

@@ -1,0 +1,141 @@
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/commands/control/measured_cost.h"
+#include "cli/json_blocks.h"
+#include "cli/shell/standard_streams.h"
+#include "data/input_error.h"
+#include "data/text.h"
+#include "models/export/export_map.h"
+#include "models/export/program_cost.h"
+#include "models/model_file.h"
+
+namespace errmap::cli {
+namespace {
+
+struct CostArguments {
+  std::string model;
+  bool single = false;
+  std::string format = "table";
+};
+
+models::MapExport Prepare(const CostArguments& arguments) {
+  try {
+    return models::PrepareExport(models::LoadModel(arguments.model),
+                                 "map",
+                                 arguments.single ? models::Precision::kSingle
+                                                  : models::Precision::kDouble);
+  } catch (const std::invalid_argument& error) {
+    throw data::InputError(fmt::format(
+        "{}: {}", data::PrintablePath(arguments.model), error.what()));
+  }
+}
+
+Json CostJson(const models::MapExport& map,
+              const models::ProgramCost& counted,
+              const std::optional<MeasuredCost>& measured) {
+  const auto known = [&](auto member) {
+    return measured ? Json((*measured).*member) : Json(nullptr);
+  };
+  return {{"schema", "errmap-cost-1"},
+          {"model", map.program.model},
+          {"precision",
+           map.precision == models::Precision::kSingle ? "single" : "double"},
+          {"inputs", map.program.size(models::Space::kReading)},
+          {"operations",
+           {{"additions", counted.additions},
+            {"multiplications", counted.multiplications},
+            {"divisions", counted.divisions},
+            {"exponentials", counted.exponentials},
+            {"sines", counted.sines},
+            {"comparisons", counted.comparisons},
+            {"copies", counted.copies}}},
+          {"bytes",
+           {{"code", known(&MeasuredCost::code_bytes)},
+            {"constants", known(&MeasuredCost::constant_bytes)},
+            {"state", counted.state_bytes}}},
+          {"compiler", kCostCompiler},
+          {"median_ns", known(&MeasuredCost::median_ns)},
+          {"worst_ns", known(&MeasuredCost::worst_ns)}};
+}
+
+std::string CostText(const models::MapExport& map,
+                     const models::ProgramCost& counted,
+                     const std::optional<MeasuredCost>& measured,
+                     const std::string& why) {
+  std::string text = fmt::format(
+      "{}: one step of the exported C\n"
+      "additions        {:>9}\n"
+      "multiplications  {:>9}\n"
+      "divisions        {:>9}\n"
+      "exponentials     {:>9}\n"
+      "sines, cosines   {:>9}\n"
+      "comparisons      {:>9}\n"
+      "copies           {:>9}\n"
+      "bytes of state   {:>9}\n",
+      data::Printable(map.program.model, map.program.model.size()),
+      counted.additions,
+      counted.multiplications,
+      counted.divisions,
+      counted.exponentials,
+      counted.sines,
+      counted.comparisons,
+      counted.copies,
+      counted.state_bytes);
+  if (!measured) return text + why + "\n";
+  return text + fmt::format(
+                    "bytes of code    {:>9}\n"
+                    "bytes, constants {:>9}\n"
+                    "median           {:>9.1f} ns\n"
+                    "worst of 100000  {:>9.0f} ns\n"
+                    "measured here, {}; the worst has this system's "
+                    "interrupts in it\n",
+                    measured->code_bytes,
+                    measured->constant_bytes,
+                    measured->median_ns,
+                    measured->worst_ns,
+                    kCostCompiler);
+}
+
+int RunCost(const CostArguments& arguments) {
+  const models::MapExport map = Prepare(arguments);
+  const models::ProgramCost counted = models::CostOf(map.program);
+  std::string why;
+  const std::optional<MeasuredCost> measured = MeasureCost(map, &why);
+  PrintResult(arguments.format == "json"
+                  ? DumpJson(CostJson(map, counted, measured))
+                  : CostText(map, counted, measured, why));
+  return kDone;
+}
+
+}  // namespace
+
+void AddCostCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<CostArguments>();
+  CLI::App* command = app->add_subcommand(
+      "cost", "Count and time what a map asks of a controller");
+  command->add_option("MODEL", arguments->model, "Model file")
+      ->required()
+      ->type_name("FILE.json");
+  command->add_flag(
+      "--float", arguments->single, "In single precision, but for the state");
+  command->add_option("--format", arguments->format, "table or json")
+      ->check(CLI::IsMember({"table", "json"}))
+      ->capture_default_str();
+  command->footer(
+      "Operations are counted from the program that errmap export writes; "
+      "bytes "
+      "and times are\nmeasured on its C, compiled here. A polynomial of 10 "
+      "terms takes some 10 ns, a net with\n37 inputs and 10 hidden nodes some "
+      "200 ns: both fit a servo period of 1 ms.\n"
+      "Example: errmap cost map.json");
+  command->callback([arguments, run] { run->status = RunCost(*arguments); });
+}
+
+}  // namespace errmap::cli

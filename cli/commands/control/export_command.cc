@@ -1,0 +1,285 @@
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/commands/control/export_tables.h"
+#include "cli/report/claimed_folder.h"
+#include "cli/shell/number_text.h"
+#include "cli/study_file/data_arguments.h"
+#include "data/input_error.h"
+#include "data/text.h"
+#include "models/export/c_code.h"
+#include "models/export/compensation_table.h"
+#include "models/export/export_map.h"
+#include "models/export/hal_component.h"
+#include "models/export/python_code.h"
+#include "models/export/safe_names.h"
+#include "models/export/structured_text.h"
+#include "models/model_file.h"
+
+namespace errmap::cli {
+namespace {
+
+struct ExportArguments {
+  std::string model;
+  bool c = false;
+  bool python = false;
+  bool structured_text = false;
+  bool single = false;
+  bool table = false;
+  bool linuxcnc = false;
+  bool hal = false;
+  int joint = 0;
+  TableArguments tables;
+  std::string out;
+  std::string name;
+  bool force = false;
+  bool quiet = false;
+};
+
+models::MapExport Prepare(const ExportArguments& arguments,
+                          const models::FittedModel& fitted) {
+  const std::string name =
+      !arguments.name.empty()
+          ? arguments.name
+          : models::SafeIdentifier(
+                std::filesystem::path(arguments.model).stem().string(),
+                models::kLongestMapName);
+  if (!arguments.name.empty() &&
+      models::SafeIdentifier(name, models::kLongestMapName) != name) {
+    throw UsageError(fmt::format(
+        "--name takes letters, digits and single '_', a letter first, at most "
+        "{} of them; such as {}",
+        models::kLongestMapName,
+        models::SafeIdentifier(name, models::kLongestMapName)));
+  }
+  try {
+    return models::PrepareExport(fitted,
+                                 name,
+                                 arguments.single ? models::Precision::kSingle
+                                                  : models::Precision::kDouble);
+  } catch (const std::invalid_argument& error) {
+    throw data::InputError(fmt::format(
+        "{}: {}", data::PrintablePath(arguments.model), error.what()));
+  }
+}
+
+std::vector<models::ExportedFile> HalFiles(const ExportArguments& arguments,
+                                           const models::MapExport& map) {
+  try {
+    return models::HalComponent(
+               map,
+               {.unit = data::UnitOfSymbol(arguments.tables.units),
+                .joint = arguments.joint})
+        .files;
+  } catch (const std::invalid_argument& error) {
+    throw data::InputError(fmt::format(
+        "{}: {}", data::PrintablePath(arguments.model), error.what()));
+  }
+}
+
+std::vector<models::ExportedFile> FilesOf(const ExportArguments& arguments,
+                                          const models::MapExport& map) {
+  std::vector<models::ExportedFile> files;
+  const auto add = [&](std::vector<models::ExportedFile> more) {
+    for (models::ExportedFile& file : more) files.push_back(std::move(file));
+  };
+  if (arguments.c) {
+    add(models::CCode(
+        map.program, map.name, map.precision, map.rows, map.tolerance()));
+  }
+  if (arguments.python) {
+    add(models::PythonCode(map.program, map.name, map.rows, map.tolerance()));
+  }
+  if (arguments.structured_text) {
+    add(models::StructuredText(map.program, map.name));
+  }
+  if (arguments.hal) add(HalFiles(arguments, map));
+  return files;
+}
+
+void SayWhatWasWritten(const models::MapExport& map,
+                       const std::vector<models::ExportedFile>& files,
+                       const std::string& folder) {
+  std::string names;
+  for (const models::ExportedFile& file : files) {
+    names += (names.empty() ? "" : ", ") + file.name;
+  }
+  const std::string& unit = map.program.target.unit.symbol;
+  Say(fmt::format("{} in {}", names, data::PrintablePath(folder)));
+  Say(fmt::format("{}: error{} of {}, {} of state; compensation = -error",
+                  map.name,
+                  unit.empty() ? "" : " in " + unit,
+                  Count(map.program.size(models::Space::kReading), "input"),
+                  Count(map.program.size(models::Space::kState), "number")));
+  Say(
+      fmt::format("its arithmetic agrees with errmap predict to {:.1e} of the "
+                  "error's range over {}",
+                  map.deviations.anywhere,
+                  Count(static_cast<long long>(map.rows.size()), "row")));
+  if (map.deviations.inside > models::AllowedDeviation(map.precision)) {
+    Say("warning: the map's own sums cancel; a penalised map (poly:ridge) "
+        "would be steadier");
+  }
+}
+
+void CheckArguments(const ExportArguments& arguments) {
+  const bool program = arguments.c || arguments.python ||
+                       arguments.structured_text || arguments.hal;
+  if (!program && !arguments.table && !arguments.linuxcnc) {
+    throw UsageError(
+        "export: say what to write: --c, --python, --st, --hal, --table or "
+        "--linuxcnc");
+  }
+  if (arguments.single && (!arguments.c || arguments.python ||
+                           arguments.structured_text || arguments.hal)) {
+    throw UsageError("export: --float goes with --c alone");
+  }
+  if (arguments.linuxcnc && (program || arguments.table)) {
+    throw UsageError("export: --linuxcnc writes one file and goes alone");
+  }
+  if (!arguments.linuxcnc && arguments.model.empty()) {
+    throw UsageError("export: name the model file");
+  }
+}
+
+int RunExport(const ExportArguments& arguments) {
+  CheckArguments(arguments);
+  if (arguments.linuxcnc) {
+    ExportLinuxcnc(
+        arguments.model, arguments.tables, arguments.out, arguments.quiet);
+    return kDone;
+  }
+  const models::FittedModel fitted = models::LoadModel(arguments.model);
+  const models::MapExport map = Prepare(arguments, fitted);
+  std::vector<models::ExportedFile> files = FilesOf(arguments, map);
+  std::string of_table;
+  if (arguments.table) {
+    files.push_back(ExportTable(fitted, map, arguments.tables, &of_table));
+  }
+  std::vector<std::string> names;
+  for (const models::ExportedFile& file : files) names.push_back(file.name);
+  ClaimedFolder folder(arguments.out,
+                       names,
+                       {arguments.model, arguments.tables.log},
+                       arguments.force);
+  for (const models::ExportedFile& file : files) {
+    folder.Write(file.name, file.content);
+  }
+  folder.Finish();
+  if (!arguments.quiet) {
+    SayWhatWasWritten(map, files, arguments.out);
+    if (!of_table.empty()) Say(of_table);
+  }
+  return kDone;
+}
+
+void AddTableOptions(CLI::App* command, TableArguments* tables) {
+  command
+      ->add_option("--increasing",
+                   tables->increasing,
+                   "--linuxcnc: map of the motion towards increasing positions")
+      ->type_name("FILE.json");
+  command
+      ->add_option("--decreasing",
+                   tables->decreasing,
+                   "--linuxcnc: map of the motion towards decreasing positions")
+      ->type_name("FILE.json");
+  command
+      ->add_option("--at",
+                   tables->at,
+                   "Tables: thermal state (default: the trained means)")
+      ->type_name("NAME=VALUE,...");
+  command
+      ->add_option("--log",
+                   tables->log,
+                   "Tables: thermal state where this session leads to")
+      ->type_name("FILE.csv");
+  command
+      ->add_option(
+          "--row", tables->row, "Row of --log, from 0 (default: the last)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--resolution",
+                   tables->resolution,
+                   "--linuxcnc: errors in steps of this (machine unit)")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--units",
+                   tables->units,
+                   "--hal, --linuxcnc: the machine's unit of length")
+      ->check(CLI::IsMember({"mm", "in"}))
+      ->capture_default_str();
+  command->add_option("--points", tables->points, "--linuxcnc: at most so many")
+      ->check(CLI::Range(2, models::kMostCompPoints))
+      ->capture_default_str();
+  command
+      ->add_option("--over",
+                   tables->over,
+                   "--table: the input across the columns (default: the only "
+                   "one beside the position)")
+      ->type_name("NAME");
+  command->add_option("--grid", tables->grid, "--table: positions and columns")
+      ->type_name("ROWSxCOLUMNS")
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void AddExportCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<ExportArguments>();
+  CLI::App* command = app->add_subcommand(
+      "export", "Write a map as a program that a controller runs");
+  command->add_option("MODEL", arguments->model, "Model file")
+      ->type_name("FILE.json");
+  command->add_flag("--c", arguments->c, "NAME.h and NAME.c in C99");
+  command->add_flag("--python", arguments->python, "NAME.py in plain Python 3");
+  command->add_flag("--st",
+                    arguments->structured_text,
+                    "NAME.st in IEC 61131-3 structured text");
+  command->add_flag(
+      "--float", arguments->single, "C in single precision, but for the state");
+  command->add_option("-o,--output", arguments->out, "Folder to write into")
+      ->required()
+      ->type_name("DIR");
+  command
+      ->add_option("--name",
+                   arguments->name,
+                   "What every symbol begins with (default: the model file's "
+                   "name, made safe)")
+      ->type_name("NAME");
+  command->add_flag("--hal",
+                    arguments->hal,
+                    "A component for LinuxCNC (.comp) and its wiring (.hal)");
+  command->add_option("--joint", arguments->joint, "--hal: joint to compensate")
+      ->check(CLI::Range(0, 8))
+      ->capture_default_str();
+  command->add_flag("--table",
+                    arguments->table,
+                    "NAME.csv, the compensation over position and one other "
+                    "input");
+  command->add_flag("--linuxcnc",
+                    arguments->linuxcnc,
+                    "A COMP_FILE of type 0 for a joint of LinuxCNC");
+  AddTableOptions(command, &arguments->tables);
+  AddForceFlag(command, &arguments->force);
+  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
+  command->footer(
+      "Every file states inputs, their order and units, and the sign: "
+      "compensation = -error.\nWhat is written is checked against errmap "
+      "predict first, and tests itself:\n"
+      "  cc -DNAME_SELF_TEST NAME.c -lm && ./a.out\n"
+      "LinuxCNC's forward column holds where the position increases.\n"
+      "Examples: errmap export map.json --c -o controller\n"
+      "  errmap export --linuxcnc --increasing up.json --decreasing down.json "
+      "-o x.comp.txt");
+  command->callback([arguments, run] { run->status = RunExport(*arguments); });
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,347 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/command.h"
+#include "cli/commands/maps/map_warnings.h"
+#include "cli/report/claimed_folder.h"
+#include "cli/shell/number_text.h"
+#include "cli/shell/standard_streams.h"
+#include "cli/study_file/data_arguments.h"
+#include "cli/study_file/machine_file.h"
+#include "cli/study_file/machine_points.h"
+#include "cli/study_file/map_log.h"
+#include "data/atomic_file.h"
+#include "data/csv.h"
+#include "data/formula_text.h"
+#include "data/text.h"
+#include "models/kinematics/machine.h"
+#include "models/kinematics/volumetric.h"
+#include "stats/summary.h"
+
+namespace errmap::cli {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixX3d;
+using Eigen::VectorXd;
+using models::Machine;
+using models::VolumetricErrors;
+
+constexpr std::array<const char*, 3> kDirections = {"x", "y", "z"};
+
+struct VolumetricArguments {
+  std::string machine;
+  std::string points;
+  std::string out;
+  MapLogArguments log;
+  models::VolumetricOptions options;
+  bool quiet = false;
+};
+
+// What was computed, for the table and the remarks.
+struct Synthesis {
+  const Machine& machine;
+  const data::CsvTable& points;
+  const MachinePoints& maps;
+  const VolumetricErrors& errors;
+  VectorXd sensitive;  // (m) length of the error in the sensitive directions
+};
+
+VectorXd SensitiveLengths(const Machine& machine, const MatrixX3d& errors) {
+  VectorXd squares = VectorXd::Zero(errors.rows());
+  for (std::size_t d = 0; d < machine.sensitive.size(); ++d) {
+    if (!machine.sensitive[d]) continue;
+    squares += errors.col(static_cast<Index>(d)).cwiseAbs2();
+  }
+  return squares.cwiseSqrt();
+}
+
+// ---- The table.
+
+struct Column {
+  std::string name;
+  std::function<std::string(Index)> cell;
+};
+
+class OutputTable {
+ public:
+  explicit OutputTable(const Synthesis& synthesis) : s_(synthesis) {
+    AddGiven();
+    AddVector("error", s_.errors.exact);
+    AddNumbers("error_sensitive", s_.sensitive);
+    AddVector("first_order", s_.errors.first_order);
+    AddVector("half_width_90", s_.errors.half_widths);
+    AddVector("lower_90", s_.errors.lower);
+    AddVector("upper_90", s_.errors.upper);
+    AddOutside();
+    for (std::size_t k = 0; k < s_.machine.errors.size(); ++k) {
+      AddVector(s_.machine.errors[k].name, s_.errors.contributions[k]);
+    }
+  }
+
+  std::string Text() const {
+    std::string text;
+    for (const Column& column : columns_) {
+      text += (text.empty() ? "" : ",") + data::CsvField(column.name);
+    }
+    text += "\n";
+    for (Index row = 0; row < s_.errors.exact.rows(); ++row) {
+      std::string line;
+      for (const Column& column : columns_) {
+        if (&column != columns_.data()) line += ",";
+        line += column.cell(row);
+      }
+      text += line + "\n";
+    }
+    return data::MarkedCsv(std::move(text));
+  }
+
+ private:
+  // What tells a point apart: numbers of rows, coordinates, directions.
+  void AddGiven() {
+    std::vector<std::string> names = {"record", "day", "cycle"};
+    for (const std::string& column : s_.machine.columns) {
+      names.push_back(column);
+      names.push_back(models::DirectionColumn(column));
+    }
+    for (const std::string& name : names) {
+      const std::ptrdiff_t index = s_.points.Find(name);
+      if (index < 0) continue;
+      const data::CsvColumn& column =
+          s_.points.columns[static_cast<std::size_t>(index)];
+      columns_.push_back({name, [this, &column](Index row) {
+                            return data::CsvField(s_.points.CellText(
+                                column, static_cast<std::size_t>(row)));
+                          }});
+    }
+  }
+
+  void AddVector(const std::string& name, const MatrixX3d& values) {
+    for (Index d = 0; d < 3; ++d) {
+      AddNumbers(
+          fmt::format("{}_{}", name, kDirections[static_cast<std::size_t>(d)]),
+          values.col(d));
+    }
+  }
+
+  void AddNumbers(const std::string& name,
+                  const Eigen::Ref<const VectorXd>& values) {
+    columns_.push_back({fmt::format("{}_{}", name, s_.machine.length.symbol),
+                        [values = VectorXd(values)](Index row) {
+                          // The sum turns -0, of an arm of no length, into 0.
+                          return std::isfinite(values[row])
+                                     ? data::CsvNumber(values[row] + 0.0)
+                                     : std::string();
+                        }});
+  }
+
+  // 1 where every map is within its trained range, and those that are not.
+  void AddOutside() {
+    columns_.push_back({"inside", [this](Index row) {
+                          return Outside(row).empty() ? "1" : "0";
+                        }});
+    columns_.push_back({"outside", [this](Index row) { return Outside(row); }});
+  }
+
+  std::string Outside(Index row) const {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < s_.maps.outside.size(); ++k) {
+      if (!s_.maps.outside[k][static_cast<std::size_t>(row)]) continue;
+      names.push_back(s_.machine.errors[k].name);
+    }
+    return fmt::format("{}", fmt::join(names, " "));
+  }
+
+  const Synthesis& s_;
+  std::vector<Column> columns_;
+};
+
+// ---- What is said of it.
+
+double Quantile95(const VectorXd& values) {
+  VectorXd ascending = values;
+  std::ranges::sort(ascending);
+  constexpr double kShare = 0.95;
+  return stats::Quantile(ascending, kShare);
+}
+
+std::string SensitiveText(const Machine& machine) {
+  std::vector<char> letters;
+  for (std::size_t d = 0; d < machine.sensitive.size(); ++d) {
+    if (machine.sensitive[d]) letters.push_back(static_cast<char>('X' + d));
+  }
+  return fmt::format("{}", fmt::join(letters, ", "));
+}
+
+void SayErrors(const Synthesis& s) {
+  const double most = s.sensitive.maxCoeff();
+  const ErrorText text(s.machine.length, most);
+  Say(
+      fmt::format("{} of {}: tool less work, in {} at most {}, 95 % within {}; "
+                  "compensate by minus that",
+                  Count(s.sensitive.size(), "point"),
+                  data::QuotedText(s.machine.name),
+                  SensitiveText(s.machine),
+                  text.WithUnit(most),
+                  text.WithUnit(Quantile95(s.sensitive))));
+  const double difference = s.errors.LargestDifference();
+  Say(fmt::format(
+      "exact and first order differ by at most {}",
+      ErrorText(s.machine.length, difference).WithUnit(difference)));
+}
+
+// The components that matter most, by the RMS of what each adds.
+void SayContributions(const Synthesis& s) {
+  std::vector<std::pair<double, std::string>> sizes;
+  for (std::size_t k = 0; k < s.machine.errors.size(); ++k) {
+    const VectorXd lengths =
+        SensitiveLengths(s.machine, s.errors.contributions[k]);
+    sizes.emplace_back(
+        std::sqrt(lengths.squaredNorm() / static_cast<double>(lengths.size())),
+        s.machine.errors[k].name);
+  }
+  std::ranges::stable_sort(
+      sizes, std::greater{}, &decltype(sizes)::value_type::first);
+  constexpr std::size_t kMost = 6;
+  sizes.resize(std::min(sizes.size(), kMost));
+  if (sizes.empty()) return;
+  const ErrorText text(s.machine.length, sizes.front().first);
+  std::vector<std::string> parts;
+  for (const auto& [size, name] : sizes) {
+    parts.push_back(fmt::format("{} {}", name, text(size)));
+  }
+  Say(fmt::format(
+      "RMS of what each adds, {}: {}", text.symbol(), fmt::join(parts, ", ")));
+}
+
+void SayOutsidePoints(const Synthesis& s) {
+  for (std::size_t k = 0; k < s.maps.outside.size(); ++k) {
+    const auto count = std::ranges::count(s.maps.outside[k], true);
+    if (count == 0) continue;
+    Say(
+        fmt::format("warning: {} extrapolates at {}: outside the trained range "
+                    "of a map, or in a session whose first rows are missing "
+                    "(inside = 0)",
+                    s.machine.errors[k].name,
+                    Count(count, "point")));
+  }
+}
+
+// ---- The command.
+
+std::vector<std::string> InputsOf(const VolumetricArguments& arguments,
+                                  const Machine& machine) {
+  std::vector<std::string> files = {
+      arguments.machine, arguments.points, arguments.log.after};
+  for (const models::MachineError& error : machine.errors) {
+    for (const models::ErrorSource& source : error.sources) {
+      files.push_back(source.file);
+    }
+  }
+  return files;
+}
+
+int RunVolumetric(const VolumetricArguments& arguments) {
+  try {
+    arguments.options.Validate();
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  const MachineFile file = ReadMachineFile(arguments.machine);
+  RefuseInputAsOutput("-o", arguments.out, InputsOf(arguments, file.machine));
+  const data::CsvTable points = data::ReadCsv(arguments.points);
+  std::optional<data::CsvTable> log;
+  if (!arguments.log.after.empty()) log = data::ReadCsv(arguments.log.after);
+  const MachinePoints maps =
+      EvaluateAt(file.machine, points, log ? &*log : nullptr, arguments.log);
+  const VolumetricErrors errors = models::CombineErrors(
+      file.machine.chain, maps.coordinates, maps.components, arguments.options);
+  const Synthesis synthesis{file.machine,
+                            points,
+                            maps,
+                            errors,
+                            SensitiveLengths(file.machine, errors.exact)};
+  const std::string text = OutputTable(synthesis).Text();
+  if (arguments.out.empty()) {
+    PrintResult(text);
+  } else {
+    data::WriteFileAtomically(arguments.out, text);
+  }
+  std::vector<Index> all_rows(points.num_rows);
+  std::iota(all_rows.begin(), all_rows.end(), Index{0});
+  const bool finite =
+      !SayNotFinite(errors.exact.rowwise().sum(), all_rows, arguments.points);
+  if (!arguments.quiet) {
+    for (const std::string& line : file.warnings) Say(line);
+    for (const std::string& line : maps.remarks) Say(line);
+    if (finite) {
+      SayErrors(synthesis);
+      SayContributions(synthesis);
+    }
+    SayOutsidePoints(synthesis);
+  }
+  return finite ? kDone : kEveryFitFailed;
+}
+
+}  // namespace
+
+void AddVolumetricCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<VolumetricArguments>();
+  CLI::App* command = app->add_subcommand(
+      "volumetric",
+      "Combine the maps of a machine's components into the error at the tool");
+  command
+      ->add_option("MACHINE",
+                   arguments->machine,
+                   "Kinematic chain with a map for each error")
+      ->required()
+      ->type_name("FILE.toml");
+  command
+      ->add_option("--at",
+                   arguments->points,
+                   "Points: coordinates, directions, temperatures")
+      ->required()
+      ->type_name("POINTS.csv");
+  command
+      ->add_option(
+          "-o,--output", arguments->out, "File to write (default: stdout)")
+      ->type_name("OUT.csv");
+  AddMapLogArguments(command, &arguments->log);
+  command
+      ->add_option("--draws",
+                   arguments->options.draws,
+                   "Monte Carlo draws per point for lower_90 and upper_90; 0 "
+                   "for none")
+      ->capture_default_str();
+  AddSeedOption(command, &arguments->options.seed, "Seed of the draws");
+  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
+  command->footer(
+      "Columns, in the machine's unit of length: error_x ... error_z, tool "
+      "less "
+      "work in the base frame\n(the product of the matrices), error_sensitive "
+      "(its length in the machine's sensitive directions),\nfirst_order_*, "
+      "half_width_90_* (first order), lower_90_*, upper_90_* (draws; empty "
+      "without intervals),\ninside and outside (maps that extrapolate), and "
+      "what each error adds. A map's position is the\ncoordinate of its link; "
+      "a pair { forward, reverse } takes x_direction for x_mm. --after: the "
+      "log of\ntemperatures through which filters run. Components are taken as "
+      "independent. Exit status 4 where an\nerror is not finite. Examples: "
+      "data/sets/machines/README.md.");
+  command->callback(
+      [arguments, run] { run->status = RunVolumetric(*arguments); });
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,54 @@
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/commands/fleet/fleet_commands.h"
+#include "cli/fleet/fleet_table.h"
+#include "cli/fleet/merge.h"
+#include "cli/shell/standard_streams.h"
+
+namespace errmap::cli {
+namespace {
+
+struct MergeArguments {
+  std::string store;
+  std::string format = "table";
+};
+
+int RunMerge(const MergeArguments& arguments) {
+  const FleetSummaries found = MergeStore(StorePaths{arguments.store});
+  PrintResult(FormattedFleet(found.summaries, arguments.format));
+  return found.missing.empty() ? kDone : kEveryFitFailed;
+}
+
+}  // namespace
+
+void AddMergeCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<MergeArguments>();
+  CLI::App* command = app->add_subcommand(
+      "merge", "Put the shares of a fleet study together in one database");
+  command
+      ->add_option("STORE",
+                   arguments->store,
+                   "Folder that errmap compare --shard wrote into")
+      ->required()
+      ->type_name("DIR");
+  command
+      ->add_option("--format",
+                   arguments->format,
+                   "What to print; csv and md have a row per component")
+      ->check(CLI::IsMember({"table", "json", "csv", "md"}))
+      ->type_name("table|json|csv|md")
+      ->capture_default_str();
+  command->footer(
+      "Reads the components' summaries and writes errmap.sqlite and "
+      "report.html there, whole or\nnot at all; others may read the database "
+      "meanwhile.\nExit status: 0 done, 3 no store, or one of a newer errmap, "
+      "4 components are missing.\nExample: errmap merge fleet && errmap query "
+      "fleet \"SELECT name, after, unit FROM fleet WHERE goal_standing = 'not "
+      "met'\"");
+  command->callback([arguments, run] { run->status = RunMerge(*arguments); });
+}
+
+}  // namespace errmap::cli

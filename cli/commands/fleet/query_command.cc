@@ -1,0 +1,138 @@
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/commands/fleet/fleet_commands.h"
+#include "cli/fleet/store.h"
+#include "cli/json_blocks.h"
+#include "cli/report/table.h"
+#include "cli/shell/interrupt.h"
+#include "cli/shell/standard_streams.h"
+
+namespace errmap::cli {
+namespace {
+
+struct QueryArguments {
+  std::string store;
+  std::string sql;
+  std::string format = "table";
+};
+
+Json JsonOf(const SqlValue& value) {
+  return std::visit(
+      [](const auto& held) -> Json {
+        using Held = std::decay_t<decltype(held)>;
+        if constexpr (std::is_same_v<Held, std::monostate>) {
+          return nullptr;
+        } else {
+          return held;
+        }
+      },
+      value);
+}
+
+Cell CellOf(const SqlValue& value) {
+  constexpr int kDigits = 6;
+  return std::visit(
+      [](const auto& held) -> Cell {
+        using Held = std::decay_t<decltype(held)>;
+        if constexpr (std::is_same_v<Held, std::monostate>) {
+          return {};
+        } else if constexpr (std::is_same_v<Held, double>) {
+          return Number{held, kDigits};
+        } else {
+          return held;
+        }
+      },
+      value);
+}
+
+std::string JsonText(Statement* query) {
+  Json columns = Json::array();
+  for (int i = 0; i < query->num_columns(); ++i) {
+    columns.push_back(query->ColumnName(i));
+  }
+  Json rows = Json::array();
+  while (query->Next()) {
+    Json row = Json::array();
+    for (int i = 0; i < query->num_columns(); ++i) {
+      row.push_back(JsonOf(query->Value(i)));
+    }
+    rows.push_back(std::move(row));
+  }
+  return DumpJson({{"schema", "errmap-query-1"},
+                   {"columns", std::move(columns)},
+                   {"rows", std::move(rows)}});
+}
+
+Table TableOf(Statement* query) {
+  Table table;
+  for (int i = 0; i < query->num_columns(); ++i) {
+    table.columns.push_back({.name = query->ColumnName(i), .is_number = true});
+  }
+  while (query->Next()) {
+    std::vector<Cell>& row = table.rows.emplace_back();
+    for (int i = 0; i < query->num_columns(); ++i) {
+      const SqlValue value = query->Value(i);
+      if (std::holds_alternative<std::string>(value)) {
+        table.columns[static_cast<std::size_t>(i)].is_number = false;
+      }
+      row.push_back(CellOf(value));
+    }
+  }
+  return table;
+}
+
+int RunQuery(const QueryArguments& arguments) {
+  Database store = OpenStore(StorePaths{arguments.store});
+  store.StopWhere(InstallInterruptFlag());
+  try {
+    Statement query = store.PrepareQuery(arguments.sql);
+    if (arguments.format == "json") {
+      PrintResult(JsonText(&query));
+    } else {
+      const Table table = TableOf(&query);
+      PrintResult(arguments.format == "csv" ? CsvTable(table)
+                                            : TerminalTable(table));
+    }
+  } catch (const SqliteError& error) {
+    if (InstallInterruptFlag()) return kInterrupted;
+    throw UsageError(fmt::format(
+        "SQL: {}; only one SELECT is allowed, and errmap query STORE \"SELECT "
+        "sql FROM sqlite_schema\" shows the tables",
+        error.what()));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void AddQueryCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<QueryArguments>();
+  CLI::App* command = app->add_subcommand(
+      "query", "Ask a fleet's database something in SQL; changes nothing");
+  command->add_option("STORE", arguments->store, "Folder with an errmap.sqlite")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("SQL", arguments->sql, "One SELECT, in quotes")
+      ->required()
+      ->type_name("TEXT");
+  command->add_option("--format", arguments->format, "What to print")
+      ->check(CLI::IsMember({"table", "csv", "json"}))
+      ->type_name("table|csv|json")
+      ->capture_default_str();
+  command->footer(
+      "The view fleet has a line per component: name, status, choice, model, "
+      "before and after\n(RMSE held out without and with the map), goal_"
+      "standing, in the unit that it names; the tables\nhave the data file's "
+      "own unit. cli/fleet/README.md has ten queries.\nExit status: 0 done, 2 "
+      "wrong SQL, 3 no store, or one of a newer errmap.\nExample: errmap query "
+      "fleet \"SELECT choice, count(*) FROM recommendations GROUP BY choice\"");
+  command->callback([arguments, run] { run->status = RunQuery(*arguments); });
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,123 @@
+#include <cerrno>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <spawn.h>
+#include <string>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include "cli/commands/fleet/fleet_commands.h"
+#include "cli/fleet/fleet_plan.h"
+#include "cli/fleet/fleet_run.h"
+#include "cli/fleet/slurm_scripts.h"
+#include "cli/report/claimed_folder.h"
+#include "cli/shell/standard_streams.h"
+#include "cli/study_file/data_arguments.h"
+#include "data/atomic_file.h"
+#include "data/text.h"
+
+extern char** environ;
+
+namespace errmap::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SubmitArguments {
+  std::string scheduler;
+  std::string config;
+  std::string store;
+  std::int64_t tasks = 0;
+  int cpus = 1;
+  bool now = false;
+  bool force = false;
+};
+
+// Runs a shell script with our own standard streams; its exit status.
+int RunScript(const std::string& path) {
+  std::string shell = "sh";
+  std::string word = path;
+  char* const argv[] = {shell.data(), word.data(), nullptr};
+  pid_t child = 0;
+  const int error = posix_spawnp(&child, "sh", nullptr, nullptr, argv, environ);
+  if (error != 0) {
+    throw std::system_error(error, std::generic_category(), "cannot run sh");
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : kOtherFailure;
+}
+
+int RunSubmit(const SubmitArguments& arguments,
+              const std::string& command_line) {
+  const StudyFile study = ExpandFleet(ReadStudyFile(arguments.config));
+  const StorePaths store{arguments.store};
+  ClaimStore(store, arguments.force);
+  const std::string folder = (fs::absolute(arguments.store) / "slurm").string();
+  const SlurmJob job{.program = fs::read_symlink("/proc/self/exe").string(),
+                     .config = fs::absolute(arguments.config).string(),
+                     .store = fs::absolute(arguments.store).string(),
+                     .folder = folder,
+                     .tasks = arguments.tasks,
+                     .cpus = arguments.cpus,
+                     .plan = PlanFleet(study.config)};
+  WriteFleet(store, FleetOf(study, command_line));
+  PrepareFolder(folder);
+  data::WriteFileAtomically(folder + "/shards.sh", ShardsScript(job));
+  data::WriteFileAtomically(folder + "/merge.sh", MergeScript(job));
+  data::WriteFileAtomically(folder + "/submit.sh", SubmitScript(job));
+  for (const std::string& line : job.plan.unusable) Say("unusable: " + line);
+  if (arguments.now) {
+    return RunScript(folder + "/submit.sh") == 0 ? kDone : kOtherFailure;
+  }
+  PrintResult(fmt::format(
+      "{0}/shards.sh, merge.sh and submit.sh are written; look them over, then "
+      "sh {0}/submit.sh\n",
+      data::PrintablePath(folder)));
+  return kDone;
+}
+
+}  // namespace
+
+void AddSubmitCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<SubmitArguments>();
+  CLI::App* command = app->add_subcommand(
+      "submit", "Write the scripts that have a cluster do a fleet study");
+  command->add_option("SCHEDULER", arguments->scheduler, "slurm: a job array")
+      ->required()
+      ->check(CLI::IsMember({"slurm"}))
+      ->type_name("NAME");
+  command->add_option("--config", arguments->config, "Study file")
+      ->required()
+      ->type_name("FILE.toml");
+  command->add_option("--out", arguments->store, "Store to fill")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("--tasks", arguments->tasks, "Tasks of the array")
+      ->required()
+      ->check(CLI::Range(1, 100000))
+      ->type_name("N");
+  command->add_option("--cpus", arguments->cpus, "Processors of each task")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_flag("--now", arguments->now, "Submit them, too");
+  AddForceFlag(command, &arguments->force);
+  command->footer(
+      "Writes STORE/slurm/shards.sh, a job array, merge.sh, which runs after "
+      "it whatever became of its\ntasks, and submit.sh, which submits both. "
+      "Time and memory are those of a dry run, with margins.\nExit status: 0 "
+      "done, 1 sbatch refused, 3 unusable study file.\nExample: errmap submit "
+      "slurm --config fleet.toml --out fleet --tasks 64 --cpus 4");
+  command->callback([arguments, run] {
+    run->status = RunSubmit(*arguments, run->command_line);
+  });
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,264 @@
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/commands/maps/map_rows.h"
+#include "cli/commands/maps/map_warnings.h"
+#include "cli/json_blocks.h"
+#include "cli/report/documents/summary_text.h"
+#include "cli/shell/number_text.h"
+#include "cli/shell/standard_streams.h"
+#include "cli/study_file/data_arguments.h"
+#include "cli/study_file/provenance.h"
+#include "data/text.h"
+#include "models/model_file.h"
+#include "models/promise/kept_promise.h"
+#include "models/study/fold_pool.h"
+#include "models/study/record/fit_blocks.h"
+#include "models/study/record/make_study_record.h"
+#include "models/study/record/record_json.h"
+#include "models/study/record/residual_record.h"
+#include "models/trained_range.h"
+#include "stats/kolmogorov_smirnov.h"
+
+namespace errmap::cli {
+namespace {
+
+struct EvaluateArguments {
+  std::string model;
+  MapRowsArguments rows;
+  std::string format = "table";
+  bool quiet = false;
+};
+
+// Rows outside of the trained range, and the inputs that are so.
+Json OutsideJson(const std::vector<models::TrainedInput>& trained,
+                 const Eigen::MatrixXd& values) {
+  Eigen::Index rows = 0;
+  for (Eigen::Index row = 0; row < values.rows(); ++row) {
+    rows += models::IsInside(trained, values, row) ? 0 : 1;
+  }
+  Json inputs = Json::array();
+  for (const models::InputOutside& found :
+       models::InputsOutside(trained, values)) {
+    const models::TrainedInput& input =
+        trained[static_cast<std::size_t>(found.input)];
+    inputs.push_back(
+        {{"input", input.column.name},
+         {"rows", found.num_rows},
+         {"min", found.min},
+         {"max", found.max},
+         {"trained_min", input.min},
+         {"trained_max", input.max},
+         {"looks_like",
+          found.looks_like.empty() ? Json() : Json(found.looks_like)}});
+  }
+  return {{"rows", rows}, {"inputs", std::move(inputs)}};
+}
+
+Json NumberOrNull(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
+Json PromiseJson(const models::KeptPromise& kept) {
+  return {{"promised", NumberOrNull(kept.promised)},
+          {"found", kept.found},
+          {"within_90", NumberOrNull(kept.within_90)},
+          {"within_95", NumberOrNull(kept.within_95)},
+          {"uncompensated", kept.uncompensated},
+          {"constant", kept.constant},
+          {"mean", kept.mean},
+          {"offset_share", kept.offset_share},
+          {"shape", kept.shape ? Json(ToString(*kept.shape)) : Json()}};
+}
+
+// Rows unlike training, by what they are unlike in, and the worst.
+Json UnlikeJson(const std::vector<models::RowFlag>& flags,
+                const std::vector<Eigen::Index>& rows) {
+  Json json = {{"rows", 0},
+               {"range", 0},
+               {"relation", 0},
+               {"distance", 0},
+               {"leverage", 0},
+               {"worst", nullptr}};
+  double worst = 0.0;
+  for (std::size_t i = 0; i < flags.size(); ++i) {
+    const models::RowFlag& flag = flags[i];
+    if (!flag.outside()) continue;
+    const std::string why(ToString(flag.why));
+    json["rows"] = json["rows"].get<int>() + 1;
+    json[why] = json[why].get<int>() + 1;
+    if (flag.severity <= worst) continue;
+    worst = flag.severity;
+    json["worst"] = {
+        {"row", rows[i]},
+        {"why", why},
+        {"column", flag.column.name.empty() ? Json() : Json(flag.column.name)},
+        {"value", flag.value},
+        {"low", flag.low},
+        {"high", flag.high},
+        {"severity", NumberOrNull(flag.severity)}};
+  }
+  return json;
+}
+
+Json ChangeJson(const std::optional<models::RelationChange>& change) {
+  if (!change) return nullptr;
+  return {{"column", change->column.name},
+          {"shift", change->shift},
+          {"rows", change->num_rows}};
+}
+
+std::string BaselineText(const models::KeptPromise& kept,
+                         const ErrorText& error) {
+  if (!kept.better_than_nothing()) {
+    return fmt::format(
+        "it is worse than no compensation, {}: do not use it here",
+        error.WithUnit(kept.uncompensated));
+  }
+  if (!kept.better_than_constant()) {
+    return fmt::format("no compensation {}; a constant would do better, {}",
+                       error.WithUnit(kept.uncompensated),
+                       error.WithUnit(kept.constant));
+  }
+  return fmt::format(
+      "better than no compensation ({}) and than any constant "
+      "({})",
+      error.WithUnit(kept.uncompensated),
+      error.WithUnit(kept.constant));
+}
+
+std::string ChangeText(const models::RelationChange& change) {
+  const std::string& symbol = change.column.unit.symbol;
+  return fmt::format(
+      "{} reads {:.3g}{} {} the other inputs tell, in {}: moved, loose or "
+      "mixed up?\n",
+      data::Printable(change.column.name, change.column.name.size()),
+      std::abs(change.shift),
+      symbol.empty() ? "" : " " + symbol,
+      change.shift > 0.0 ? "above what" : "below what",
+      Count(change.num_rows, "row"));
+}
+
+// What a user wants to know of it, in words.
+std::string PromiseText(const models::KeptPromise& kept,
+                        const ErrorText& error) {
+  constexpr double kPercent = 100.0;
+  std::string text;
+  if (std::isfinite(kept.promised)) {
+    text += fmt::format("found {} RMSE, promised {}",
+                        error.WithUnit(kept.found),
+                        error.WithUnit(kept.promised));
+    if (std::isfinite(kept.within_90)) {
+      text += fmt::format("; {:.0f} % of the errors within the 90 % interval",
+                          kPercent * kept.within_90);
+    }
+    text += "\n";
+  }
+  text += BaselineText(kept, error) + "\n";
+  if (kept.shape == models::ErrorShape::kOffset) {
+    text += fmt::format(
+        "an offset of {} is {:.0f} % of its mean square: re-zero, the map's "
+        "shape holds\n",
+        error.WithUnit(kept.mean),
+        kPercent * kept.offset_share);
+  } else if (kept.shape == models::ErrorShape::kShape) {
+    text += "no offset explains what it errs by: measure here and fit again\n";
+  }
+  return text;
+}
+
+int RunEvaluate(const EvaluateArguments& arguments,
+                const std::string& command_line) {
+  const models::FittedModel fitted = models::LoadModel(arguments.model);
+  const MapRows rows = ReadMapRows(fitted, arguments.rows, arguments.quiet);
+  const data::Dataset& dataset = rows.dataset;
+  const RowsJudged judged = JudgeMapRows(fitted, rows, arguments.quiet);
+  const models::Prediction prediction = fitted.PredictForm(judged.form_inputs);
+  const Eigen::VectorXd& predicted = prediction.errors;
+  if (SayNotFinite(predicted, dataset.rows(), arguments.rows.file)) {
+    return kEveryFitFailed;
+  }
+  const Eigen::Index clipped = prediction.clipped.count();
+  if (clipped > 0 && !arguments.quiet) {
+    Say(fmt::format("warning: {} clipped by the map's guards",
+                    Count(clipped, "row")));
+  }
+  const std::optional<models::RelationChange> change =
+      models::ChangedRelation(fitted, dataset.input_values());
+  const models::KeptPromise kept =
+      models::HoldToPromise(fitted, dataset.target_values(), predicted);
+  const Eigen::VectorXd residuals = dataset.target_values() - predicted;
+  const stats::ErrorMetrics metrics = models::Judge(dataset, predicted);
+  const double ks_d = stats::KsDistanceFromNormal(
+      residuals, metrics.residuals.mean, metrics.residuals.sd);
+  const double ks_p = stats::KsProbabilityMeanSdGiven(ks_d, residuals.size());
+  if (arguments.format == "json") {
+    PrintResult(DumpJson(
+        {{"schema", "errmap-evaluate-1"},
+         {"model", fitted.name},
+         {"file", arguments.rows.file},
+         {"target", fitted.target.name},
+         {"unit", fitted.target.unit.symbol},
+         {"align", data::ToString(fitted.align)},
+         {"clipped", clipped},
+         {"summary", models::ToJson(models::MakeRecord(metrics))},
+         {"promise", PromiseJson(kept)},
+         {"outside", OutsideJson(fitted.inputs, dataset.input_values())},
+         {"unlike", UnlikeJson(judged.flags, dataset.rows())},
+         {"changed_relation", ChangeJson(change)},
+         {"faults", models::ToJson(models::MakeFaultRecords(rows.prepared))},
+         {"normality",
+          models::ToJson(models::MakeRecord(
+              stats::AssessNormality(stats::OrderedSample(residuals)), {}))},
+         {"provenance",
+          ProvenanceJson(
+              command_line,
+              {{"missing", arguments.rows.missing},
+               {"faults", arguments.rows.faults}},
+              {HashInput(arguments.model), HashInput(arguments.rows.file)})}}));
+    return kDone;
+  }
+  PrintResult(
+      fmt::format("{} ({}) on {}: target - predicted of {}\n{}{}{}",
+                  arguments.model,
+                  fitted.name,
+                  arguments.rows.file,
+                  TargetText(dataset),
+                  SummaryText(metrics, fitted.target.unit, ks_d, ks_p),
+                  PromiseText(kept, ErrorText(fitted.target.unit, kept.found)),
+                  change ? ChangeText(*change) : ""));
+  return kDone;
+}
+
+}  // namespace
+
+void AddEvaluateCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<EvaluateArguments>();
+  CLI::App* command = app->add_subcommand(
+      "evaluate", "Judge a fitted map on measurements it may not know");
+  command->add_option("MODEL", arguments->model, "Model file")
+      ->required()
+      ->type_name("FILE.json");
+  command
+      ->add_option(
+          "DATA", arguments->rows.file, "CSV file with inputs and target")
+      ->required()
+      ->type_name("FILE.csv");
+  AddRowOptions(command, &arguments->rows.missing, &arguments->rows.faults);
+  command->add_option("--format", arguments->format, "table or json")
+      ->check(CLI::IsMember({"table", "json"}))
+      ->type_name("table|json")
+      ->capture_default_str();
+  AddMapLogArguments(command, &arguments->rows.log);
+  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
+  command->callback([arguments, run] {
+    run->status = RunEvaluate(*arguments, run->command_line);
+  });
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,344 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/commands/maps/learning_text.h"
+#include "cli/commands/maps/map_warnings.h"
+#include "cli/commands/progress.h"
+#include "cli/json_blocks.h"
+#include "cli/report/claimed_folder.h"
+#include "cli/shell/interrupt.h"
+#include "cli/shell/standard_streams.h"
+#include "cli/study_file/data_arguments.h"
+#include "cli/study_file/provenance.h"
+#include "data/atomic_file.h"
+#include "models/model_spec.h"
+#include "models/promise/learning_curve.h"
+#include "models/promise/next_states.h"
+#include "models/promise/sensor_curve.h"
+#include "models/study/journal/fit_journal_file.h"
+#include "models/study/journal/fit_label.h"
+#include "models/study/study_defaults.h"
+
+namespace errmap::cli {
+namespace {
+
+using Eigen::Index;
+
+// One family each of what is simple, linear and chosen.
+constexpr const char* kDefaultModels =
+    "mean,poly:temperature,poly:full:degree=1,poly:ridge";
+
+struct LearnArguments {
+  DataArguments data;
+  std::string by;
+  std::string model_list = kDefaultModels;
+  std::string candidates;
+  int repeats = 2;
+  int sensors = 8;
+  int next = 5;
+  double goal = std::numeric_limits<double>::quiet_NaN();
+  std::uint64_t seed = 1;
+  int jobs = 0;
+  std::string out;
+  bool resume = false;
+  bool force = false;
+  std::string format = "table";
+};
+
+std::vector<std::unique_ptr<models::ModelRecipe>> RecipesOf(
+    const LearnArguments& arguments, const data::Dataset& dataset) {
+  std::vector<std::unique_ptr<models::ModelRecipe>> recipes;
+  std::vector<std::string> specs;
+  try {
+    specs = models::SplitList(arguments.model_list);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--models: {}", error.what()));
+  }
+  for (const std::string& spec : specs) {
+    auto recipe = RecipeFromArgument(spec);
+    if (const auto missing = recipe->WhatIsMissing(dataset)) {
+      Say(fmt::format("{} is left out: it needs {}", spec, *missing));
+      continue;
+    }
+    recipes.push_back(std::move(recipe));
+  }
+  if (recipes.empty()) throw UsageError("no model is left to learn with");
+  return recipes;
+}
+
+std::unique_ptr<models::JournalFile> OpenJournal(
+    const LearnArguments& arguments) {
+  using models::JournalFile;
+  if (arguments.out.empty()) return nullptr;
+  // Of its own, so that a study in the same folder keeps its fits.
+  const std::string folder =
+      (std::filesystem::path(arguments.out) / "learn").string();
+  PrepareFolder(folder);
+  // What a killed run was writing.
+  data::RemoveAbandonedFiles(arguments.out);
+  JournalFile::RequireNoOther(folder, arguments.force);
+  return std::make_unique<JournalFile>(folder,
+                                       arguments.resume
+                                           ? JournalFile::Opening::kResume
+                                           : JournalFile::Opening::kAnew);
+}
+
+// Fits of the curve, resumed from those of an earlier run where there are any.
+models::StudyResult RunLearning(
+    const LearnArguments& arguments,
+    const data::Dataset& dataset,
+    const models::LearningPlan& plan,
+    const std::vector<std::unique_ptr<models::ModelRecipe>>& recipes) {
+  Progress progress(!arguments.data.quiet);
+  models::StudyOptions options{
+      .seed = arguments.seed,
+      .jobs = arguments.jobs > 0
+                  ? arguments.jobs
+                  : static_cast<int>(
+                        std::max(1U, std::thread::hardware_concurrency())),
+      .stop = &InstallInterruptFlag(),
+      .indifference = models::DefaultIndifference(dataset.target().unit),
+      .fit_all_rows = false,
+      .progress = [&](int done, int all) { progress.Show(done, all); }};
+  const std::unique_ptr<models::JournalFile> file = OpenJournal(arguments);
+  if (file == nullptr) {
+    return models::RunStudy(dataset, plan.holdouts, recipes, options);
+  }
+  const models::FitLabels labels(
+      "learn", dataset, plan.holdouts, recipes, options);
+  models::ComponentJournal journal(
+      file.get(), &labels, &dataset, &plan.holdouts);
+  options.journal = &journal;
+  return models::RunStudy(dataset, plan.holdouts, recipes, options);
+}
+
+// Rows of the candidates with the inputs of `dataset`, in its units.
+Eigen::MatrixXd ReadCandidates(const std::string& file,
+                               const data::Dataset& dataset,
+                               bool quiet) {
+  models::FittedModel columns;
+  for (const data::ColumnInfo& input : dataset.inputs()) {
+    columns.inputs.push_back({.column = input});
+  }
+  const data::CsvTable table =
+      ReadForMap(columns, file, MapColumns::kInputs, quiet);
+  Eigen::MatrixXd values(static_cast<Index>(table.num_rows),
+                         dataset.num_inputs());
+  for (Index i = 0; i < values.cols(); ++i) {
+    values.col(i) =
+        data::NumericColumn(table,
+                            dataset.inputs()[static_cast<std::size_t>(i)].name,
+                            data::MissingPolicy::kError,
+                            nullptr);
+  }
+  return values;
+}
+
+// What a run finds; each part where it was asked for.
+struct Learned {
+  Json json = Json::object();
+  std::string text;
+  std::string svg;
+  bool interrupted = false;
+  bool failed = false;
+};
+
+void LearnCurves(const LearnArguments& arguments,
+                 const data::Dataset& dataset,
+                 double goal,
+                 Learned* learned) {
+  models::LearningPlan plan;
+  try {
+    plan = models::PlanLearning(dataset,
+                                arguments.by == "sessions"
+                                    ? models::LearnBy::kSessions
+                                    : models::LearnBy::kGroups,
+                                arguments.repeats,
+                                arguments.seed);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--by {}: {}", arguments.by, error.what()));
+  }
+  const auto recipes = RecipesOf(arguments, dataset);
+  const models::StudyResult study =
+      RunLearning(arguments, dataset, plan, recipes);
+  learned->interrupted = study.interrupted;
+  if (study.interrupted) return;
+  const std::vector<models::LearningCurve> curves =
+      models::CurvesOf(dataset, plan, study);
+  learned->failed = std::ranges::all_of(
+      curves,
+      [](const models::LearningCurve& curve) { return curve.points.empty(); });
+  learned->json["curves"] = CurvesJson(plan, curves, goal);
+  learned->text += CurvesText(plan, curves, goal, dataset.target().unit);
+  learned->svg = CurvesSvg(plan, curves, dataset.target().unit);
+}
+
+void LearnBySensors(const LearnArguments& arguments,
+                    const data::Dataset& dataset,
+                    Learned* learned) {
+  models::SensorCurve curve;
+  try {
+    curve = models::LearnSensors(dataset, arguments.sensors);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--by sensors: {}", error.what()));
+  }
+  learned->json["sensors"] = SensorsJson(curve);
+  learned->text += SensorsText(curve, dataset.target().unit);
+  learned->svg = SensorsSvg(curve, dataset.target().unit);
+}
+
+void LearnNext(const LearnArguments& arguments,
+               const data::Dataset& dataset,
+               Learned* learned) {
+  // A candidate is visited as long as a state of the data: some rows of it.
+  constexpr double kRowsPerCandidate = 10.0;
+  const Eigen::MatrixXd candidates =
+      ReadCandidates(arguments.candidates, dataset, arguments.data.quiet);
+  const std::vector<models::NextState> chosen = models::ChooseNext(
+      dataset, candidates, arguments.next, kRowsPerCandidate);
+  learned->json["next"] = NextJson(chosen);
+  learned->text += NextText(chosen);
+}
+
+std::string Stem(const LearnArguments& arguments) {
+  return arguments.by.empty() ? "learn-next" : "learn-" + arguments.by;
+}
+
+int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
+  std::optional<ClaimedFolder> folder;
+  if (!arguments.out.empty()) {
+    folder.emplace(
+        arguments.out,
+        std::vector{Stem(arguments) + ".json", Stem(arguments) + ".svg"},
+        std::vector{arguments.data.file, arguments.candidates},
+        arguments.force);
+  }
+  const data::PreparedDataset prepared = ReadData(arguments.data);
+  const data::Dataset& dataset = prepared.dataset;
+  const double goal = std::isfinite(arguments.goal)
+                          ? arguments.goal
+                          : models::DefaultGoal(dataset.target().unit);
+  Learned learned;
+  if (arguments.by == "sensors") {
+    LearnBySensors(arguments, dataset, &learned);
+  } else if (!arguments.by.empty()) {
+    LearnCurves(arguments, dataset, goal, &learned);
+  }
+  if (!arguments.candidates.empty()) LearnNext(arguments, dataset, &learned);
+  if (learned.interrupted) {
+    Say("interrupted; with --out the fits that are done are kept for --resume");
+    return kInterrupted;
+  }
+  Json document = {{"schema", "errmap-learn-1"},
+                   {"file", arguments.data.file},
+                   {"target", dataset.target().name},
+                   {"unit", dataset.target().unit.symbol},
+                   {"by", arguments.by.empty() ? Json() : Json(arguments.by)},
+                   {"curves", nullptr},
+                   {"sensors", nullptr},
+                   {"next", nullptr}};
+  document.update(learned.json);
+  document["provenance"] = ProvenanceJson(command_line,
+                                          {{"models", arguments.model_list},
+                                           {"repeats", arguments.repeats},
+                                           {"sensors", arguments.sensors},
+                                           {"seed", arguments.seed}},
+                                          {HashInput(arguments.data.file)});
+  PrintResult(arguments.format == "json" ? DumpJson(document) : learned.text);
+  if (folder) {
+    folder->Write(Stem(arguments) + ".json", DumpJson(document));
+    if (!learned.svg.empty()) {
+      folder->Write(Stem(arguments) + ".svg", learned.svg);
+    }
+    folder->Finish();
+  }
+  return learned.failed ? kEveryFitFailed : kDone;
+}
+
+}  // namespace
+
+void AddLearnCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<LearnArguments>();
+  CLI::App* command = app->add_subcommand(
+      "learn",
+      "Tell what more days, cycles or fewer sensors would do to the error");
+  AddDataArguments(command, &arguments->data);
+  command
+      ->add_option("--by",
+                   arguments->by,
+                   "What is learnt from one after another: sessions, cycles "
+                   "(the groups) or sensors")
+      ->check(CLI::IsMember({"sessions", "cycles", "sensors"}))
+      ->type_name("sessions|cycles|sensors");
+  command
+      ->add_option("--models",
+                   arguments->model_list,
+                   "Models whose curves are drawn, separated by commas")
+      ->type_name("LIST")
+      ->capture_default_str();
+  command
+      ->add_option("--next",
+                   arguments->candidates,
+                   "States that could be measured next, a row each with the "
+                   "inputs: which of\nthem lower the predicted error most")
+      ->type_name("CANDIDATES.csv");
+  command
+      ->add_option("--repeats",
+                   arguments->repeats,
+                   "Draws of the units learnt from, per size and fold")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  command->add_option("--sensors", arguments->sensors, "Sensors chosen at most")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  command->add_option(
+      "--goal",
+      arguments->goal,
+      "RMSE wanted, target's unit (default: 0.5 um for lengths)");
+  AddSeedOption(command, &arguments->seed);
+  command
+      ->add_option("--jobs",
+                   arguments->jobs,
+                   "Fits at a time (default: one per processor)")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--out",
+                   arguments->out,
+                   "Folder for learn-*.json, learn-*.svg and the journal of "
+                   "fits")
+      ->type_name("DIR");
+  command->add_flag("--resume",
+                    arguments->resume,
+                    "Go on with the fits of an earlier run in --out");
+  AddForceFlag(command, &arguments->force);
+  command->add_option("--format", arguments->format, "table or json")
+      ->check(CLI::IsMember({"table", "json"}))
+      ->type_name("table|json")
+      ->capture_default_str();
+  command->footer(
+      "Example: errmap learn days.csv --by sessions --goal 0.002\nWhole units "
+      "are held out, others learnt from; a power law through the curve tells\n"
+      "how many more would reach the goal, or that none would. Sensors are "
+      "chosen inside\nthe folds, by a map linear in each.");
+  command->callback([arguments, run] {
+    if (arguments->by.empty() && arguments->candidates.empty()) {
+      throw UsageError(
+          "learn: say --by sessions|cycles|sensors or --next FILE");
+    }
+    if (arguments->resume && arguments->out.empty()) {
+      throw UsageError("--resume needs --out DIR");
+    }
+    run->status = RunLearn(*arguments, run->command_line);
+  });
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,144 @@
+#include "cli/commands/maps/map_rows.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "cli/commands/maps/map_warnings.h"
+#include "cli/study_file/data_arguments.h"
+#include "cli/study_file/fault_text.h"
+#include "data/measurements/sessions.h"
+#include "models/history/history.h"
+
+namespace errmap::cli {
+namespace {
+
+using Eigen::Index;
+
+data::DatasetSelection SelectionFor(const models::FittedModel& fitted,
+                                    const MapRowsArguments& arguments) {
+  data::DatasetSelection selection{
+      .target = fitted.target.name,
+      .inputs = {},
+      .exclude = {},
+      .group = "",
+      .time = arguments.log.time,
+      .session = arguments.log.session,
+      .weight = "",
+      .align = fitted.align,
+      .missing = MissingPolicyOf(arguments.missing),
+      .faults = FaultPolicyOf(arguments.faults),
+      .keep_dead = true,
+      .only_to_judge = true,
+      .with_log = fitted.align != data::Alignment::kNone};
+  for (const models::TrainedInput& input : fitted.inputs) {
+    selection.inputs.push_back(input.column.name);
+  }
+  return selection;
+}
+
+data::Dataset WithMapLog(const data::Dataset& dataset, const MapLog& map) {
+  if (map.log == nullptr) return dataset;
+  std::vector<Index> log_rows;
+  for (const Index row : dataset.rows()) {
+    log_rows.push_back(map.first_row + row);
+  }
+  return dataset.WithLog(map.log, std::move(log_rows));
+}
+
+}  // namespace
+
+std::vector<models::Moment> MomentsOf(const models::FittedModel& fitted,
+                                      const data::CsvTable& table,
+                                      const std::vector<Index>& rows,
+                                      const MapLogArguments& arguments) {
+  data::DatasetSelection selection;
+  selection.time = arguments.time;
+  selection.session = arguments.session;
+  if (selection.session.empty() && fitted.history != nullptr &&
+      table.Find(fitted.history->session) >= 0) {
+    selection.session = fitted.history->session;
+  }
+  const data::FoundSessions found = data::FindSessions(table, selection, rows);
+  const bool has_times = found.time_column >= 0;
+  std::vector<models::Moment> moments;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto session = static_cast<std::size_t>(found.sessions.codes[i]);
+    moments.push_back(
+        {.session = found.sessions.labels[session],
+         .time = has_times ? found.time[static_cast<Index>(i)] : 0.0});
+  }
+  return moments;
+}
+
+Eigen::VectorXd ElapsedSinceStart(const models::FittedModel& fitted,
+                                  const MapRows& rows,
+                                  const MapLogArguments& arguments) {
+  std::vector<Index> all(rows.table.num_rows);
+  std::iota(all.begin(), all.end(), Index{0});
+  const std::vector<models::Moment> moments =
+      MomentsOf(fitted, rows.table, all, arguments);
+  std::map<std::string, double> start;
+  const auto begin = [&](const std::string& session, double time) {
+    const auto [at, is_new] = start.try_emplace(session, time);
+    if (!is_new) at->second = std::min(at->second, time);
+  };
+  for (const models::Moment& moment : moments) {
+    begin(moment.session, moment.time);
+  }
+  // The log of a map with a memory holds the rows of --after, too.
+  if (const data::SessionLog* log = rows.dataset.log().get();
+      log != nullptr && log->time_unit == "s") {
+    for (std::size_t row = 0; row < log->sessions.codes.size(); ++row) {
+      const auto session = static_cast<std::size_t>(log->sessions.codes[row]);
+      begin(log->sessions.labels[session], log->time[static_cast<Index>(row)]);
+    }
+  }
+  Eigen::VectorXd elapsed(rows.dataset.num_rows());
+  for (Index i = 0; i < elapsed.size(); ++i) {
+    const Index row = rows.dataset.rows()[static_cast<std::size_t>(i)];
+    const models::Moment& moment = moments[static_cast<std::size_t>(row)];
+    elapsed[i] = moment.time - start.at(moment.session);
+  }
+  return elapsed;
+}
+
+MapRows ReadMapRows(const models::FittedModel& fitted,
+                    const MapRowsArguments& arguments,
+                    bool quiet) {
+  data::CsvTable table =
+      ReadForMap(fitted, arguments.file, MapColumns::kInputsAndTarget, quiet);
+  const data::DatasetSelection selection = SelectionFor(fitted, arguments);
+  data::PreparedDataset prepared = data::MakeDataset(table, selection);
+  const MapLog map =
+      MakeMapLog(fitted, table, prepared.dataset.rows(), arguments.log);
+  if (!quiet) {
+    for (const std::string& remark : prepared.remarks) Say(remark);
+    for (const std::string& line :
+         FaultLines(prepared, selection.faults, FaultUse::kJudge)) {
+      Say(line);
+    }
+    for (const std::string& warning : map.warnings) Say(warning);
+  }
+  data::Dataset dataset = WithMapLog(prepared.dataset, map);
+  return {.table = std::move(table),
+          .prepared = std::move(prepared),
+          .dataset = std::move(dataset)};
+}
+
+RowsJudged JudgeMapRows(const models::FittedModel& fitted,
+                        const MapRows& rows,
+                        bool quiet) {
+  RowsJudged judged{.form_inputs = fitted.FormInputs(rows.dataset),
+                    .flags = {}};
+  const Eigen::MatrixXd& inputs = rows.dataset.input_values();
+  judged.flags = models::FlagRows(fitted, inputs, judged.form_inputs);
+  if (!quiet) {
+    SayOutside(fitted.inputs, inputs);
+    SayUnlike(judged.flags, rows.dataset.rows());
+  }
+  return judged;
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,231 @@
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/commands/maps/map_warnings.h"
+#include "cli/commands/maps/probe_correction.h"
+#include "cli/report/claimed_folder.h"
+#include "cli/report/words/interval_text.h"
+#include "cli/shell/number_text.h"
+#include "cli/shell/standard_streams.h"
+#include "cli/study_file/data_arguments.h"
+#include "cli/study_file/map_log.h"
+#include "data/atomic_file.h"
+#include "data/csv.h"
+#include "data/formula_text.h"
+#include "data/measurements/dataset.h"
+#include "models/model_file.h"
+#include "models/trained_range.h"
+
+namespace errmap::cli {
+namespace {
+
+struct PredictArguments {
+  std::string model;
+  std::string file;
+  std::string out;
+  std::string probes;
+  MapLogArguments log;
+  bool quiet = false;
+};
+
+// The model's inputs out of a table, every row; the target need not be there.
+Eigen::MatrixXd InputsOf(const models::FittedModel& fitted,
+                         const data::CsvTable& table) {
+  Eigen::MatrixXd inputs(static_cast<Eigen::Index>(table.num_rows),
+                         static_cast<Eigen::Index>(fitted.inputs.size()));
+  Eigen::Index column = 0;
+  for (const models::TrainedInput& input : fitted.inputs) {
+    inputs.col(column++) = data::NumericColumn(
+        table, input.column.name, data::MissingPolicy::kError, nullptr);
+  }
+  return inputs;
+}
+
+// The rows as a data set whose target is not known, and so 0.
+data::Dataset RowsToPredict(const models::FittedModel& fitted,
+                            const data::CsvTable& table,
+                            Eigen::MatrixXd inputs,
+                            const MapLog& map) {
+  data::Dataset::Parts parts;
+  parts.source = table.file;
+  for (const models::TrainedInput& input : fitted.inputs) {
+    parts.inputs.push_back(input.column);
+  }
+  parts.target = fitted.target;
+  parts.target_values = Eigen::VectorXd::Zero(inputs.rows());
+  parts.input_values = std::move(inputs);
+  parts.log = map.log;
+  if (map.log != nullptr) {
+    parts.log_rows.resize(table.num_rows);
+    std::iota(parts.log_rows.begin(), parts.log_rows.end(), map.first_row);
+  }
+  return data::Dataset(std::move(parts));
+}
+
+// Of the interval of one row; NaN without one.
+double HalfWidth(const models::FittedModel& fitted,
+                 std::size_t level,
+                 const std::optional<ProbeCorrection>& probes,
+                 Eigen::Index row) {
+  if (!fitted.interval) return std::numeric_limits<double>::quiet_NaN();
+  return fitted.interval->levels[level].half_width *
+         (probes ? probes->narrowing[row] : 1.0);
+}
+
+// `whole`: whether the session's first rows are known.
+std::string_view WhyOutside(const models::RowFlag& flag,
+                            bool whole,
+                            bool is_finite) {
+  if (flag.outside()) return models::ToString(flag.why);
+  if (!is_finite) return "not finite";
+  return whole ? "" : "start";
+}
+
+int RunPredict(const PredictArguments& arguments) {
+  RefuseInputAsOutput(
+      "-o",
+      arguments.out,
+      {arguments.model, arguments.file, arguments.log.after, arguments.probes});
+  const models::FittedModel fitted = models::LoadModel(arguments.model);
+  const data::CsvTable table =
+      ReadForMap(fitted, arguments.file, MapColumns::kInputs, arguments.quiet);
+  const Eigen::MatrixXd inputs = InputsOf(fitted, table);
+  std::vector<Eigen::Index> all_rows(table.num_rows);
+  std::iota(all_rows.begin(), all_rows.end(), Eigen::Index{0});
+  const MapLog map = MakeMapLog(fitted, table, all_rows, arguments.log);
+  const data::Dataset rows = RowsToPredict(fitted, table, inputs, map);
+  const Eigen::MatrixXd form_inputs = fitted.FormInputs(rows);
+  models::Prediction prediction = fitted.PredictForm(form_inputs);
+  std::optional<ProbeCorrection> probes;
+  if (!arguments.probes.empty()) {
+    probes = CorrectByProbes(fitted,
+                             arguments.probes,
+                             table,
+                             all_rows,
+                             arguments.log,
+                             arguments.quiet);
+    prediction.errors += probes->offset;
+  }
+  const std::vector<models::RowFlag> flags =
+      models::FlagRows(fitted, inputs, form_inputs);
+  const Eigen::VectorXd& predicted = prediction.errors;
+  const std::vector<Eigen::Index> sessions = rows.session_codes();
+
+  // The columns that tell a row apart, where the file has them.
+  std::vector<const data::CsvColumn*> ids;
+  std::string text;
+  for (const char* name : {"record", "cycle"}) {
+    const std::ptrdiff_t index = table.Find(name);
+    if (index < 0) continue;
+    ids.push_back(&table.columns[static_cast<std::size_t>(index)]);
+    text += data::CsvField(name) + ",";
+  }
+  text += "predicted,lower_90,upper_90,lower_95,upper_95,inside,why,offender\n";
+  for (Eigen::Index row = 0; row < predicted.size(); ++row) {
+    for (const data::CsvColumn* id : ids) {
+      text +=
+          data::CsvField(table.CellText(*id, static_cast<std::size_t>(row))) +
+          ",";
+    }
+    const auto at = static_cast<std::size_t>(row);
+    const bool whole =
+        map.log == nullptr ||
+        !map.begin_inside[static_cast<std::size_t>(sessions[at])];
+    const bool is_finite = std::isfinite(predicted[row]);
+    const models::RowFlag& flag = flags[at];
+    const bool inside = whole && is_finite && !flag.outside();
+    text += is_finite ? data::CsvNumber(predicted[row]) : "";
+    for (std::size_t i = 0; i < models::PredictionInterval::kCoverages.size();
+         ++i) {
+      const double half_width = HalfWidth(fitted, i, probes, row);
+      text += is_finite && std::isfinite(half_width)
+                  ? fmt::format(",{},{}",
+                                data::CsvNumber(predicted[row] - half_width),
+                                data::CsvNumber(predicted[row] + half_width))
+                  : ",,";
+    }
+    text += fmt::format(",{},{},{}\n",
+                        inside ? 1 : 0,
+                        WhyOutside(flag, whole, is_finite),
+                        data::CsvField(flag.column.name));
+  }
+  text = data::MarkedCsv(std::move(text));
+  if (arguments.out.empty()) {
+    PrintResult(text);
+  } else {
+    data::WriteFileAtomically(arguments.out, text);
+  }
+  if (!arguments.quiet) {
+    const std::string& unit = fitted.target.unit.symbol;
+    const bool aligned = fitted.align == data::Alignment::kFirst;
+    Say(fmt::format("{} predicted as {}{}{}; compensate by minus that",
+                    Count(predicted.size(), "row"),
+                    fitted.target.name,
+                    unit.empty() ? "" : " in " + unit,
+                    aligned ? " since the session's first row" : ""));
+    if (fitted.interval) {
+      Say(IntervalLine(models::MakeRecord(*fitted.interval),
+                       ErrorText(fitted.target.unit,
+                                 fitted.interval->levels[0].half_width)));
+    }
+    if (probes) Say(probes->line);
+    for (const std::string& warning : map.warnings) Say(warning);
+    SayOutside(fitted.inputs, inputs);
+    SayUnlike(flags, all_rows);
+    if (const Eigen::Index clipped = prediction.clipped.count(); clipped > 0) {
+      Say(
+          fmt::format("warning: {} clipped by the map's guards, since an input "
+                      "or the error went far beyond its trained range",
+                      Count(clipped, "row")));
+    }
+  }
+  return SayNotFinite(predicted, all_rows, arguments.file) ? kEveryFitFailed
+                                                           : kDone;
+}
+
+}  // namespace
+
+void AddPredictCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<PredictArguments>();
+  CLI::App* command = app->add_subcommand(
+      "predict", "Predict the error of every row with a fitted map");
+  command->add_option("MODEL", arguments->model, "Model file")
+      ->required()
+      ->type_name("FILE.json");
+  command->add_option("DATA", arguments->file, "CSV file with its inputs")
+      ->required()
+      ->type_name("FILE.csv");
+  command
+      ->add_option(
+          "-o,--output", arguments->out, "File to write (default: stdout)")
+      ->type_name("FILE.csv");
+  command
+      ->add_option("--probes",
+                   arguments->probes,
+                   "Measurements of the same session: the map is moved by the "
+                   "offset that\nthey show up to each row, and the interval "
+                   "narrows")
+      ->type_name("PROBES.csv");
+  AddMapLogArguments(command, &arguments->log);
+  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
+  command->footer(
+      "Columns: record and cycle where the data have them, predicted (in the "
+      "target's unit),\nlower_90 ... upper_95 (empty without an interval), "
+      "inside (1 as in training, 0 not),\nwhy not (range: a column leaves its "
+      "trained range; relation: it does not go with\nthe others as it did "
+      "there; distance, leverage: an unlike thermal state; start:\na session's "
+      "first rows are missing) and offender (that column). Columns in\nanother "
+      "unit are converted. Exit status 4 where a prediction is not finite: "
+      "its\ncell stays empty.");
+  command->callback([arguments, run] { run->status = RunPredict(*arguments); });
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,245 @@
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/commands/maps/map_warnings.h"
+#include "cli/json_blocks.h"
+#include "cli/report/claimed_folder.h"
+#include "cli/shell/interrupt.h"
+#include "cli/shell/number_text.h"
+#include "cli/shell/standard_streams.h"
+#include "cli/study_file/data_arguments.h"
+#include "cli/study_file/provenance.h"
+#include "data/atomic_file.h"
+#include "data/text.h"
+#include "models/model_file.h"
+#include "models/promise/map_update.h"
+#include "models/promise/promise.h"
+#include "models/study/study_defaults.h"
+
+namespace errmap::cli {
+namespace {
+
+struct UpdateArguments {
+  std::string model;
+  std::string file;
+  std::string known;  // rows that the map was fitted to; "": as it says itself
+  std::string time;
+  std::string session;
+  std::string missing = "error";
+  std::string faults = "keep";
+  std::string out;
+  std::uint64_t seed = 1;
+  std::string format = "table";
+  bool quiet = false;
+};
+
+// The map's own inputs and target; sessions and times as the data have them.
+data::Dataset ReadRows(const models::FittedModel& map,
+                       const std::string& file,
+                       const UpdateArguments& arguments) {
+  data::DatasetSelection selection{
+      .target = map.target.name,
+      .time = arguments.time,
+      .session = arguments.session,
+      .align = map.align,
+      .missing = MissingPolicyOf(arguments.missing),
+      .faults = FaultPolicyOf(arguments.faults),
+      .keep_dead = true,
+      .only_to_judge = true};
+  for (const models::TrainedInput& input : map.inputs) {
+    selection.inputs.push_back(input.column.name);
+  }
+  data::PreparedDataset prepared = data::MakeDataset(
+      ReadForMap(map, file, MapColumns::kInputsAndTarget, arguments.quiet),
+      selection);
+  if (!arguments.quiet) {
+    for (const std::string& remark : prepared.remarks) Say(remark);
+  }
+  return std::move(prepared.dataset);
+}
+
+// The file that the map was fitted to, where it is still there as it was.
+std::string KnownFile(const UpdateArguments& arguments) {
+  if (!arguments.known.empty()) return arguments.known;
+  const Json document = Json::parse(data::ReadFile(arguments.model));
+  const Json provenance = document.value("provenance", Json::object());
+  const std::string file = provenance.value("data", "");
+  const std::string sha256 = provenance.value("data_sha256", "");
+  if (!file.empty() && std::filesystem::exists(file) &&
+      HashInput(file).sha256 == sha256) {
+    return file;
+  }
+  Say(fmt::format(
+      "warning: {} is not at hand as it was, so the new map would learn from "
+      "the new sessions alone; name it with --known",
+      file.empty() ? "the file that the map was fitted to"
+                   : data::PrintablePath(file)));
+  return "";
+}
+
+Json TrialJson(const models::UpdateTrial& trial) {
+  Json sessions = Json::array();
+  for (const auto& session : trial.sessions) {
+    sessions.push_back({{"session", session.label},
+                        {"old_rmse", session.old_rmse},
+                        {"new_rmse", session.new_rmse}});
+  }
+  return sessions;
+}
+
+std::string TrialText(const models::UpdateTrial& trial,
+                      const data::Unit& unit) {
+  const ErrorText error(unit, std::min(trial.old_rmse, trial.new_rmse));
+  std::string text =
+      fmt::format("RMSE ({}) on new sessions, each unseen\n", error.symbol());
+  text += fmt::format("  {:<12}  {:>9}  {:>9}\n", "session", "old", "new");
+  for (const auto& session : trial.sessions) {
+    text += fmt::format("  {:<12}  {:>9}  {:>9}\n",
+                        data::Printable(session.label, session.label.size()),
+                        error(session.old_rmse),
+                        error(session.new_rmse));
+  }
+  return text + fmt::format("  {:<12}  {:>9}  {:>9}\n",
+                            "all",
+                            error(trial.old_rmse),
+                            error(trial.new_rmse));
+}
+
+int RunUpdate(const UpdateArguments& arguments,
+              const std::string& command_line) {
+  RefuseInputAsOutput("-o", arguments.out, {arguments.file, arguments.known});
+  const models::FittedModel old_map = models::LoadModel(arguments.model);
+  const auto recipe = RecipeFromArgument(old_map.name);
+  const data::Dataset fresh = ReadRows(old_map, arguments.file, arguments);
+  std::optional<data::Dataset> known;
+  const std::string known_file = KnownFile(arguments);
+  if (!known_file.empty()) known = ReadRows(old_map, known_file, arguments);
+  const double indifference = models::DefaultIndifference(old_map.target.unit);
+  const std::atomic<bool>& stop = InstallInterruptFlag();
+  const int jobs =
+      static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const models::FitContext context{.seed = arguments.seed,
+                                   .stop = &stop,
+                                   .threads = jobs,
+                                   .indifference = indifference};
+  models::UpdateTrial trial;
+  std::optional<data::Dataset> all;
+  try {
+    trial = models::TryUpdate(
+        old_map, known ? &*known : nullptr, fresh, *recipe, context);
+    all = known ? models::Joined(*known, fresh) : fresh;
+  } catch (const std::invalid_argument& error) {
+    throw data::InputError(fmt::format(
+        "{}: {}", data::PrintablePath(arguments.file), error.what()));
+  }
+  if (stop.load()) return kInterrupted;
+  if (!trial.why_failed.empty()) {
+    Say(fmt::format(
+        "{} failed: {}; the old map stays", old_map.name, trial.why_failed));
+    return kEveryFitFailed;
+  }
+  const bool better = trial.better(indifference);
+  if (better) {
+    models::FittedModel fitted = recipe->Fit(*all, context);
+    models::AddApplicability(*all, &fitted);
+    models::AddPromise(*all,
+                       RecipeFromArgument(old_map.name),
+                       {.seed = arguments.seed,
+                        .jobs = jobs,
+                        .stop = &stop,
+                        .indifference = indifference},
+                       &fitted);
+    if (stop.load()) return kInterrupted;
+    models::SaveModel(fitted,
+                      ModelProvenance(command_line,
+                                      HashInput(arguments.file),
+                                      all->num_rows(),
+                                      arguments.seed),
+                      arguments.out);
+  } else {
+    data::WriteFileAtomically(arguments.out, data::ReadFile(arguments.model));
+  }
+  if (arguments.format == "json") {
+    std::vector<InputFile> inputs = {HashInput(arguments.model),
+                                     HashInput(arguments.file)};
+    if (known) inputs.push_back(HashInput(known_file));
+    PrintResult(DumpJson({{"schema", "errmap-update-1"},
+                          {"model", old_map.name},
+                          {"file", arguments.out},
+                          {"target", old_map.target.name},
+                          {"unit", old_map.target.unit.symbol},
+                          {"updated", better},
+                          {"old_rmse", trial.old_rmse},
+                          {"new_rmse", trial.new_rmse},
+                          {"sessions", TrialJson(trial)},
+                          {"provenance",
+                           ProvenanceJson(command_line,
+                                          {{"missing", arguments.missing},
+                                           {"faults", arguments.faults},
+                                           {"seed", arguments.seed}},
+                                          inputs)}}));
+  } else {
+    PrintResult(fmt::format(
+        "{}{}\n",
+        TrialText(trial, old_map.target.unit),
+        better ? "the new map is better and stands in " + arguments.out
+               : "the new map is no better: " + arguments.out +
+                     " is the old one"));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void AddUpdateCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<UpdateArguments>();
+  CLI::App* command = app->add_subcommand(
+      "update", "Fit a map again with new sessions, if that makes it better");
+  command->add_option("MODEL", arguments->model, "Model file")
+      ->required()
+      ->type_name("FILE.json");
+  command
+      ->add_option("NEW",
+                   arguments->file,
+                   "CSV file of new sessions, two at least: inputs and target")
+      ->required()
+      ->type_name("NEW.csv");
+  command->add_option("-o,--output", arguments->out, "Model file to write")
+      ->required()
+      ->type_name("FILE.json");
+  command
+      ->add_option("--known",
+                   arguments->known,
+                   "Rows that the map was fitted to (default: the file that it "
+                   "names, if unchanged)")
+      ->type_name("DATA.csv");
+  command->add_option("--time", arguments->time, "Column of times")
+      ->type_name("COL");
+  command->add_option("--session", arguments->session, "Column of sessions")
+      ->type_name("COL");
+  AddRowOptions(command, &arguments->missing, &arguments->faults);
+  AddSeedOption(command, &arguments->seed);
+  command->add_option("--format", arguments->format, "table or json")
+      ->check(CLI::IsMember({"table", "json"}))
+      ->type_name("table|json")
+      ->capture_default_str();
+  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
+  command->footer(
+      "The same type of model is fitted to old and new sessions, with the "
+      "map's own inputs. Each new session is\npredicted by the old map and by "
+      "one that has not seen it; the new one is taken where its RMSE is lower "
+      "by\nmore than makes a difference, and in more than half of the "
+      "sessions. Else FILE.json is the old map.");
+  command->callback([arguments, run] {
+    run->status = RunUpdate(*arguments, run->command_line);
+  });
+}
+
+}  // namespace errmap::cli

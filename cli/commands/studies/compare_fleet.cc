@@ -1,0 +1,102 @@
+#include "cli/commands/studies/compare_fleet.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/commands/progress.h"
+#include "cli/fleet/fleet_plan.h"
+#include "cli/fleet/fleet_run.h"
+#include "cli/fleet/fleet_table.h"
+#include "cli/fleet/launcher.h"
+#include "cli/fleet/merge.h"
+#include "cli/shell/interrupt.h"
+#include "cli/shell/number_text.h"
+#include "cli/shell/standard_streams.h"
+#include "cli/study_file/data_arguments.h"
+#include "data/text.h"
+
+namespace errmap::cli {
+namespace {
+
+void CheckWords(const CompareFleetArguments& arguments) {
+  if (arguments.out.empty() && !arguments.dry_run) {
+    throw UsageError(
+        "a study of files by pattern, or a share of one, needs --out STORE");
+  }
+  for (const ComponentConfig& component : arguments.study.config.components) {
+    if (component.save_split.empty() && component.split.empty() &&
+        component.predictions.empty()) {
+      continue;
+    }
+    throw UsageError(
+        "--split, --save-split and --predictions are for one component, and "
+        "here are many");
+  }
+}
+
+int StatusOf(const FleetSummaries& found) {
+  const bool any = std::ranges::any_of(
+      found.summaries, [](const models::ComponentSummary& summary) {
+        return summary.status == models::ModelStatus::kOk;
+      });
+  if (any) return kDone;
+  Say("every component failed");
+  return kEveryFitFailed;
+}
+
+}  // namespace
+
+int RunCompareFleet(CompareFleetArguments arguments) {
+  CheckWords(arguments);
+  models::Share share;
+  if (!arguments.shard.empty()) {
+    share = ShareOf(arguments.shard,
+                    [](const char* name) { return std::getenv(name); });
+  }
+  const StudyFile study = ExpandFleet(std::move(arguments.study));
+  if (arguments.dry_run) {
+    PrintResult(FleetPlanText(
+        PlanFleet(study.config), share.count, arguments.jobs, arguments.out));
+    return kDone;
+  }
+  const StorePaths store{arguments.out};
+  ClaimStore(store, arguments.force);
+  WriteFleet(store, FleetOf(study, arguments.command_line));
+  FleetRunResult result;
+  {
+    Progress progress(!arguments.quiet);
+    result = RunFleet(
+        study,
+        store,
+        {.jobs = arguments.jobs,
+         .stop = &InstallInterruptFlag(),
+         .share = share,
+         .command_line = arguments.command_line,
+         .quiet = arguments.quiet,
+         .progress = [&](int done, int all) { progress.Show(done, all); }});
+  }
+  if (!arguments.quiet || result.interrupted) {
+    Say(fmt::format(
+        "{}{}: {} fitted, {} unchanged, {} failed{}",
+        arguments.shard.empty()
+            ? std::string()
+            : fmt::format(
+                  "share {} of 0 to {}, ", share.index, share.count - 1),
+        Count(result.components, "component"),
+        result.fitted,
+        result.kept,
+        result.failed,
+        result.interrupted ? "; interrupted, the same command goes on" : ""));
+  }
+  if (result.interrupted) return kInterrupted;
+  if (!arguments.shard.empty()) return kDone;
+  const FleetSummaries found = MergeStore(store);
+  PrintResult(FormattedFleet(found.summaries, arguments.format));
+  return StatusOf(found);
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,301 @@
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/json_blocks.h"
+#include "cli/report/claimed_folder.h"
+#include "cli/report/documents/start_report.h"
+#include "cli/report/words/fit_summary.h"
+#include "cli/report/words/interval_text.h"
+#include "cli/report/words/regression_text.h"
+#include "cli/shell/interrupt.h"
+#include "cli/shell/number_text.h"
+#include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
+#include "cli/shell/wrap_text.h"
+#include "cli/study_file/data_arguments.h"
+#include "cli/study_file/provenance.h"
+#include "data/atomic_file.h"
+#include "data/text.h"
+#include "fitting/interruption.h"
+#include "models/file_recipe.h"
+#include "models/model_file.h"
+#include "models/promise/promise.h"
+#include "models/promise/sensitivity.h"
+#include "models/study/fold_pool.h"
+#include "models/study/record/figure_record.h"
+#include "models/study/record/fit_blocks.h"
+#include "models/study/record/record_json.h"
+#include "models/study/study_defaults.h"
+
+namespace errmap::cli {
+namespace {
+
+struct FitArguments {
+  DataArguments data;
+  std::string model;
+  std::string out;
+  std::uint64_t seed = 1;
+  std::string format = "table";
+  bool correlations = false;
+  bool no_interval = false;
+  bool details = false;
+};
+
+Json SensitivityJson(const models::Sensitivity& sensitivity) {
+  return {{"noise", models::Sensitivity::kNoise},
+          {"per_noise", sensitivity.per_noise},
+          {"largest_jump", sensitivity.largest_jump},
+          {"jump_of",
+           sensitivity.jump_of.empty() ? Json() : Json(sensitivity.jump_of)},
+          {"rezero_jump", sensitivity.rezero_jump}};
+}
+
+std::string SensitivityText(const models::Sensitivity& sensitivity,
+                            const ErrorText& error) {
+  if (sensitivity.jump_of.empty()) return "";
+  std::string text = fmt::format(
+      "{:g} degC of noise in each thermometer moves it by {} (RMS), one that "
+      "fails to 0 by up to {} ({})",
+      models::Sensitivity::kNoise,
+      error.WithUnit(sensitivity.per_noise),
+      error.WithUnit(sensitivity.largest_jump),
+      data::Printable(sensitivity.jump_of, sensitivity.jump_of.size()));
+  if (sensitivity.rezero_jump > 0.0) {
+    text += fmt::format(", a zero taken anew by up to {}",
+                        error.WithUnit(sensitivity.rezero_jump));
+  }
+  return text;
+}
+
+Json FitJson(const models::FittedModel& fitted,
+             const models::Sensitivity& sensitivity,
+             const stats::ErrorMetrics& train,
+             const data::Dataset& dataset,
+             const FitArguments& arguments) {
+  Json inputs = Json::array();
+  for (const models::TrainedInput& input : fitted.inputs) {
+    inputs.push_back(input.column.name);
+  }
+  Json json = {
+      {"schema", "errmap-fit-1"},
+      {"model", fitted.name},
+      {"file", arguments.out},
+      {"target", fitted.target.name},
+      {"unit", fitted.target.unit.symbol},
+      {"inputs", std::move(inputs)},
+      {"parameters", fitted.model->num_parameters()},
+      {"equation", fitted.equation.empty() ? Json() : Json(fitted.equation)},
+      {"train", models::ToJson(models::MakeRecord(train))},
+      {"fit_seconds", fitted.summary.seconds},
+      {"remarks", fitted.remarks},
+      {"sensitivity", SensitivityJson(sensitivity)}};
+  json.update(models::ToJson(models::MakeRecord(fitted.summary)));
+  if (!fitted.choices.empty()) {
+    json["choices"] = models::ToJson(models::MakeRecord(fitted.choices));
+  }
+  if (!fitted.starts.empty()) {
+    json["starts"] = models::ToJson(models::MakeRecord(fitted.starts));
+  }
+  if (fitted.regression) {
+    json["regression"] = models::ToJson(models::MakeRecord(*fitted.regression));
+  }
+  if (arguments.correlations) {
+    json["correlations"] = models::ToJson(models::Correlate(dataset));
+  }
+  return json;
+}
+
+// What took effect, defaults included.
+Json ConfigurationJson(const models::ModelRecipe& recipe,
+                       const data::Dataset& dataset,
+                       const FitArguments& arguments) {
+  Json inputs = Json::array();
+  for (const data::ColumnInfo& input : dataset.inputs()) {
+    inputs.push_back(input.name);
+  }
+  const std::string& weight = arguments.data.weight;
+  return {
+      {"model", recipe.name()},
+      {"options", models::ToJson(models::MakeRecord(recipe.options()))},
+      {"target", dataset.target().name},
+      {"inputs", std::move(inputs)},
+      {"group", dataset.has_groups() ? Json(dataset.groups().column) : Json()},
+      {"weight", weight.empty() ? Json() : Json(weight)},
+      {"missing", arguments.data.missing},
+      {"faults", arguments.data.faults},
+      {"seed", arguments.seed}};
+}
+
+std::string FitText(const models::FittedModel& fitted,
+                    const models::Sensitivity& sensitivity,
+                    const stats::ErrorMetrics& train,
+                    const data::Dataset& dataset,
+                    const FitArguments& arguments) {
+  const ErrorText error(fitted.target.unit, train.rmse);
+  Terminal room = OutputTerminal();
+  if (arguments.details) {
+    room.columns = std::string::npos;
+    room.rows = 0;
+  }
+  std::string text;
+  const auto say = [&](const std::string& words) {
+    if (!words.empty()) text += WrapText(words, room.text_columns()) + "\n";
+  };
+  say(fmt::format("{}: {} fitted to {}, RMSE {} on these rows (not held out)",
+                  fitted.name,
+                  Count(fitted.model->num_parameters(), "parameter"),
+                  Count(train.residuals.n, "row"),
+                  error.WithUnit(train.rmse)));
+  constexpr Eigen::Index kMostTerms = 12;
+  if (arguments.details || fitted.model->num_parameters() <= kMostTerms + 1) {
+    say(fitted.equation);
+  } else if (!fitted.equation.empty()) {
+    say("The equation is long: it is in the file, and here with --details.");
+  }
+  std::istringstream lines(FitSummaryText(fitted.summary));
+  for (std::string line; std::getline(lines, line);) say(line);
+  for (const std::string& remark : fitted.remarks) say(remark);
+  text += StartsText(fitted.starts, error);
+  if (arguments.correlations) text += CorrelationText(dataset, room);
+  if (fitted.regression) {
+    text += RegressionText(*fitted.regression, fitted.target, room);
+  }
+  if (fitted.interval) {
+    say(IntervalLine(models::MakeRecord(*fitted.interval), error));
+  }
+  say(SensitivityText(sensitivity, error));
+  say(fmt::format(
+      "written to {}; it predicts {}, compensate by minus that",
+      arguments.out,
+      fitted.target.unit.symbol.empty()
+          ? fitted.target.name
+          : fitted.target.name + " in " + fitted.target.unit.symbol));
+  return text;
+}
+
+int RunFit(const FitArguments& arguments, const std::string& command_line) {
+  RefuseInputAsOutput(
+      "-o",
+      arguments.out,
+      {arguments.data.file, models::FileOfSpec(arguments.model)});
+  auto recipe = RecipeFromArgument(arguments.model);
+  const data::PreparedDataset prepared = ReadData(arguments.data);
+  const double indifference =
+      models::DefaultIndifference(prepared.dataset.target().unit);
+  models::FittedModel fitted;
+  const std::atomic<bool>& stop = InstallInterruptFlag();
+  const int jobs =
+      static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  try {
+    const fitting::InterruptionScope interruptible(&stop);
+    fitted = recipe->Fit(prepared.dataset,
+                         {.seed = arguments.seed,
+                          .stop = &stop,
+                          .explain = true,
+                          .threads = jobs,
+                          .keep_trace = arguments.format == "json",
+                          .indifference = indifference});
+  } catch (const std::invalid_argument& error) {
+    if (stop.load()) {
+      Say("interrupted before there was a map; nothing written");
+      return kInterrupted;
+    }
+    Say(fmt::format("{} failed: {}", arguments.model, error.what()));
+    return kEveryFitFailed;
+  }
+  const Eigen::VectorXd predicted = fitted.Predict(prepared.dataset);
+  if (fitted.summary.termination == fitting::Termination::kFailed ||
+      !predicted.allFinite()) {
+    Say(fmt::format("{} failed: {}; nothing written",
+                    arguments.model,
+                    predicted.allFinite()
+                        ? fitted.summary.message
+                        : std::string("a prediction is not finite")));
+    return kEveryFitFailed;
+  }
+  const Json configuration =
+      ConfigurationJson(*recipe, prepared.dataset, arguments);
+  models::AddApplicability(prepared.dataset, &fitted);
+  if (!arguments.no_interval && !stop.load()) {
+    try {
+      models::AddPromise(prepared.dataset,
+                         std::move(recipe),
+                         {.seed = arguments.seed,
+                          .jobs = jobs,
+                          .stop = &stop,
+                          .indifference = indifference},
+                         &fitted);
+    } catch (const std::invalid_argument& error) {
+      Say(fmt::format("no interval: {}", error.what()));
+    }
+  }
+  const InputFile input = HashInput(arguments.data.file);
+  models::SaveModel(
+      fitted,
+      ModelProvenance(
+          command_line, input, prepared.dataset.num_rows(), arguments.seed),
+      arguments.out);
+  const models::Sensitivity sensitivity =
+      models::MeasureSensitivity(fitted, prepared.dataset);
+  const stats::ErrorMetrics train = models::Judge(prepared.dataset, predicted);
+  if (arguments.format == "json") {
+    Json document =
+        FitJson(fitted, sensitivity, train, prepared.dataset, arguments);
+    document["provenance"] =
+        ProvenanceJson(command_line, configuration, {input});
+    PrintResult(DumpJson(document));
+  } else {
+    PrintResult(
+        FitText(fitted, sensitivity, train, prepared.dataset, arguments));
+  }
+  if (stop.load()) {
+    Say("interrupted; the best map so far was written");
+    return kInterrupted;
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void AddFitCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<FitArguments>();
+  CLI::App* command =
+      app->add_subcommand("fit", "Fit one map to all rows and write it");
+  AddDataArguments(command, &arguments->data);
+  command->add_option("--model", arguments->model, "The model, e.g. poly:eq8")
+      ->required()
+      ->type_name("SPEC");
+  command->add_option("-o,--output", arguments->out, "Model file to write")
+      ->required()
+      ->type_name("FILE.json");
+  AddSeedOption(command, &arguments->seed);
+  command->add_flag("--correlations",
+                    arguments->correlations,
+                    "Also print the correlations of inputs and target");
+  command->add_flag("--no-interval",
+                    arguments->no_interval,
+                    "Do not fit again with days, cycles or blocks held out to "
+                    "find what the map may promise there");
+  command->add_flag("--details",
+                    arguments->details,
+                    "Print the equation and tables whatever their size");
+  AddKeepPathsFlag(command);
+  command->add_option("--format", arguments->format, "table or json")
+      ->check(CLI::IsMember({"table", "json"}))
+      ->type_name("table|json")
+      ->capture_default_str();
+  command->footer(
+      "Example: errmap fit xdown.csv --model poly:full:degree=3 -o map.json");
+  command->callback([arguments, run] {
+    run->status = RunFit(*arguments, run->command_line);
+  });
+}
+
+}  // namespace errmap::cli

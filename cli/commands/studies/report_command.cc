@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/fleet/merge.h"
+#include "cli/fleet/store_folder.h"
+#include "cli/report/claimed_folder.h"
+#include "cli/report/documents/report_files.h"
+#include "cli/report/documents/report_html.h"
+#include "cli/report/documents/report_markdown.h"
+#include "cli/report/figures/figures.h"
+#include "cli/shell/standard_streams.h"
+#include "cli/study_file/data_arguments.h"
+#include "data/atomic_file.h"
+#include "data/input_error.h"
+#include "data/text.h"
+#include "models/study/record/study_record.h"
+
+namespace errmap::cli {
+namespace {
+
+struct ReportArguments {
+  std::string folder;
+  std::string figures;
+  std::string image = "pdf";
+  std::string format;
+  std::string component;  // of a store
+  bool force = false;
+};
+
+ImageFormat FormatNamed(const std::string& name) {
+  if (name == "svg") return ImageFormat::kSvg;
+  return name == "png" ? ImageFormat::kPng : ImageFormat::kPdf;
+}
+
+std::string ResultsPath(const std::string& folder) {
+  return (std::filesystem::path(folder) / "results.json").string();
+}
+
+models::StudyRecord ReadResults(const std::string& folder) {
+  const std::string path = ResultsPath(folder);
+  const std::string text = data::ReadFile(path, data::kMostTextOfPrograms);
+  try {
+    return models::FromJsonText(text);
+  } catch (const data::InputError& error) {
+    throw data::InputError(data::PrintablePath(path) + ": " + error.what());
+  }
+}
+
+// The page of one component of a store, or of all of them together.
+int RunStoreReport(const ReportArguments& arguments) {
+  const StorePaths store{arguments.folder};
+  if (arguments.component.empty()) {
+    if (!arguments.figures.empty() || !arguments.format.empty()) {
+      throw UsageError(
+          "the report of a store is report.html; --format and --figures go "
+          "with --component");
+    }
+    DrawFleetReport(store, ReadSummaries(store));
+    return kDone;
+  }
+  const FleetRecord fleet = ReadFleet(store);
+  if (std::ranges::find(
+          fleet.components, arguments.component, &FleetComponentRecord::name) ==
+      fleet.components.end()) {
+    throw UsageError(fmt::format(
+        "no component {} in {}; errmap query STORE \"SELECT name FROM "
+        "components\" lists them",
+        data::QuotedName(arguments.component),
+        data::PrintablePath(arguments.folder)));
+  }
+  const models::StudyRecord results = ReadResultsOf(store, arguments.component);
+  if (arguments.format == "md") {
+    PrintResult(ReportMarkdown(results));
+  } else if (arguments.format == "html") {
+    PrintResult(ReportHtml(results, MakeFigures(results)));
+  } else {
+    const std::string page = store.InFolder(arguments.component, kPageFile);
+    data::WriteFileAtomically(page, ReportHtml(results, MakeFigures(results)));
+    PrintResult(page + "\n");
+  }
+  return kDone;
+}
+
+int RunReport(const ReportArguments& arguments) {
+  if (IsStore(arguments.folder)) return RunStoreReport(arguments);
+  if (!arguments.component.empty()) {
+    throw UsageError("--component is for stores of many components");
+  }
+  const models::StudyRecord results = ReadResults(arguments.folder);
+  if (arguments.format == "md") {
+    PrintResult(ReportMarkdown(results));
+  } else if (arguments.format == "html") {
+    PrintResult(ReportHtml(results, MakeFigures(results)));
+  } else {
+    ClaimedFolder folder(arguments.folder,
+                         {kReportPage, kReportText},
+                         {ResultsPath(arguments.folder)},
+                         arguments.force);
+    WriteReport(results, &folder);
+    folder.Finish();
+  }
+  if (arguments.figures.empty()) return kDone;
+  const FigureSet figures = MakeFigures(results, true);
+  ClaimedFolder folder(arguments.figures,
+                       FigureFileNames(figures),
+                       {ResultsPath(arguments.folder)},
+                       arguments.force);
+  const std::size_t written =
+      WriteFigures(figures, FormatNamed(arguments.image), &folder);
+  folder.Finish();
+  Say(fmt::format(
+      "{} figures as svg in {}; gnuplot *.gp there draws them as {}",
+      written,
+      data::PrintablePath(arguments.figures),
+      arguments.image));
+  return kDone;
+}
+
+}  // namespace
+
+void AddReportCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<ReportArguments>();
+  CLI::App* command = app->add_subcommand(
+      "report", "Draw the report of a comparison anew, without fitting");
+  command
+      ->add_option("DIR",
+                   arguments->folder,
+                   "Folder that errmap compare --out wrote: report.html and "
+                   "report.md are drawn from its results.json; or a store")
+      ->required()
+      ->type_name("");
+  command
+      ->add_option("--figures",
+                   arguments->figures,
+                   "Also write every figure here: NAME.svg, and NAME.gp, a "
+                   "gnuplot script with its data")
+      ->type_name("DIR2");
+  command
+      ->add_option(
+          "--image", arguments->image, "What the scripts draw: pdf, png or svg")
+      ->check(CLI::IsMember({"pdf", "png", "svg"}))
+      ->type_name("pdf|png|svg")
+      ->capture_default_str();
+  command
+      ->add_option("--format",
+                   arguments->format,
+                   "Print html or md instead of writing into DIR")
+      ->check(CLI::IsMember({"html", "md"}))
+      ->type_name("html|md");
+  command
+      ->add_option("--component",
+                   arguments->component,
+                   "Of a store: draw this component's page; without it the "
+                   "page of all")
+      ->type_name("NAME");
+  AddForceFlag(command, &arguments->force);
+  command->footer(
+      "Exit status: 0 done, 2 wrong command line, 3 unusable results.json.\n"
+      "Example: errmap report study --figures paper, then in paper gnuplot "
+      "*.gp");
+  command->callback([arguments, run] { run->status = RunReport(*arguments); });
+}
+
+}  // namespace errmap::cli

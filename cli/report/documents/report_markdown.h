@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "models/study/record/study_record.h"
+
+namespace errmap::cli {
+
+/// report.md: the answer, the tables and the equations of results.json, for
+/// repositories; no figures.
+std::string ReportMarkdown(const models::StudyRecord& record);
+
+}  // namespace errmap::cli

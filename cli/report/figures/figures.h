@@ -1,0 +1,68 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/report/claimed_folder.h"
+#include "cli/report/figures/gnuplot.h"
+#include "cli/report/report_view.h"
+
+namespace errmap::cli {
+
+/// Where in a component's part of the report a figure stands.
+enum class FigurePlace {
+  kAnswer,
+  kCompensation,
+  kSurface,  // in one row
+  kResiduals,
+  kEveryModel,
+  kFits,
+  kData
+};
+
+/// A figure of the report.
+struct Figure {
+  FigurePlace place = FigurePlace::kResiduals;
+  std::string subject;      // the model it is of, "" where it is of all
+  std::string title;        // what is shown
+  std::string note;         // how to read it, a sentence or two
+  std::string description;  // what it shows, for those who do not see it
+  /// Why there is nothing to draw; "" = there is.
+  std::string missing;
+  bool small = false;  // one of many of a kind
+  Plot plot;           // plot.name: "c1-gap", unique in the report
+};
+
+/// How much is drawn of one component.
+enum class FigureDetail { kEverything, kFull, kSome, kBrief };
+
+/// The figures of one component.
+struct ComponentFigures {
+  FigureDetail detail = FigureDetail::kFull;
+  std::vector<Figure> figures;
+};
+
+/// All figures of a report, by component.
+struct FigureSet {
+  std::vector<ComponentFigures> components;
+};
+
+/// Figures of a study: everything of each component, or
+/// (`everything` false) what keeps a report of many components usable.
+FigureSet MakeFigures(const models::StudyRecord& record,
+                      bool everything = false);
+
+/// The figure as SVG.
+std::string FigureSvg(const Figure& figure);
+
+/// Names of the files that WriteFigures writes.
+std::vector<std::string> FigureFileNames(const FigureSet& figures);
+
+/// Writes every figure as DIR/NAME.svg with DIR/NAME.gp, the gnuplot script
+/// that draws it as NAME.FORMAT, data included. Returns their number. Throws
+/// std::system_error where the folder cannot be written.
+std::size_t WriteFigures(const FigureSet& figures,
+                         ImageFormat format,
+                         ClaimedFolder* folder);
+
+}  // namespace errmap::cli

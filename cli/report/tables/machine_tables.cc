@@ -1,0 +1,166 @@
+#include "cli/report/tables/machine_tables.h"
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "data/units.h"
+
+namespace errmap::cli {
+namespace {
+
+using models::MachineChoiceRecord;
+using models::MachineRecord;
+
+// As people read lengths.
+struct Shown {
+  double scale;
+  std::string symbol;
+};
+
+Shown ShownUnit(const MachineRecord& machine) {
+  const data::Unit unit = data::UnitOfSymbol(machine.unit);
+  return {unit.display_scale, unit.display_symbol};
+}
+
+Cell Length(double value, const Shown& shown) {
+  return Number{value, 3, shown.scale};
+}
+
+// "0.92 0.95 0.90"
+Cell Shares(const models::SharesRecord& shares) {
+  if (std::isnan(shares[0] + shares[1] + shares[2])) return Cell();
+  return fmt::format("{:.2f} {:.2f} {:.2f}", shares[0], shares[1], shares[2]);
+}
+
+Cell Interval95(const std::array<double, 2>& ends, const Shown& shown) {
+  if (std::isnan(ends[0] + ends[1])) return Cell();
+  return fmt::format(
+      "{:.3g} to {:.3g}", shown.scale * ends[0], shown.scale * ends[1]);
+}
+
+// How many times smaller the 95th percentile is than without compensation.
+Cell Ratio(const MachineRecord& machine, double p95) {
+  return Number{machine.choices.front().p95 / p95, 3};
+}
+
+}  // namespace
+
+Table ToolTipTable(const MachineRecord& machine) {
+  const Shown shown = ShownUnit(machine);
+  Table table{
+      .title = fmt::format(
+          "Error at the tool of {}, {}", machine.name, shown.symbol),
+      .note = fmt::format(
+          "Tool less work, length in {}, at the poses of {} on sessions that "
+          "no fit saw ({}). Over days: 95 % interval of the geometric mean of "
+          "the days' 95th percentiles.",
+          machine.sensitive,
+          machine.points,
+          fmt::join(machine.later, ", ")),
+      .columns = {{"maps", false},
+                  {"points"},
+                  {"RMS"},
+                  {"95th percentile"},
+                  {"over days"},
+                  {"largest"},
+                  {"times smaller"},
+                  {"within 90 %: X Y Z"}}};
+  for (const MachineChoiceRecord& choice : machine.choices) {
+    if (choice.why) {
+      table.note += fmt::format(" {}: {}.", choice.name, *choice.why);
+      continue;
+    }
+    table.rows.push_back({choice.name,
+                          choice.points,
+                          Length(choice.rms, shown),
+                          Length(choice.p95, shown),
+                          Interval95(choice.p95_ci95, shown),
+                          Length(choice.max, shown),
+                          Ratio(machine, choice.p95),
+                          Shares(choice.within_90)});
+  }
+  return table;
+}
+
+Table ToolTipDayTable(const MachineRecord& machine) {
+  const Shown shown = ShownUnit(machine);
+  Table table{
+      .title = fmt::format("Error at the tool by day, {}", shown.symbol),
+      .columns = {{"maps", false},
+                  {"session"},
+                  {"points"},
+                  {"RMS"},
+                  {"95th percentile"},
+                  {"largest"},
+                  {"within 90 %: X Y Z"}}};
+  for (const MachineChoiceRecord& choice : machine.choices) {
+    for (const models::MachineDayRecord& day : choice.days) {
+      table.rows.push_back({choice.name,
+                            day.session,
+                            day.points,
+                            Length(day.rms, shown),
+                            Length(day.p95, shown),
+                            Length(day.max, shown),
+                            Shares(day.within_90)});
+    }
+  }
+  return table;
+}
+
+Table PositioningTable(const MachineRecord& machine) {
+  const Shown shown = ShownUnit(machine);
+  Table table{
+      .title = fmt::format("Positioning by ISO 230-2:2014, {}", shown.symbol),
+      .note =
+          "Of the readings of those sessions, less the map: the runs are "
+          "its cycles, warm-up included.",
+      .columns = {{"axis", false},
+                  {"maps", false},
+                  {"A accuracy"},
+                  {"E systematic"},
+                  {"M mean"},
+                  {"B reversal"},
+                  {"R repeatability"}}};
+  for (const MachineChoiceRecord& choice : machine.choices) {
+    for (const models::PositioningRecord& figures : choice.positioning) {
+      table.rows.push_back({figures.component,
+                            choice.name,
+                            Length(figures.accuracy, shown),
+                            Length(figures.systematic, shown),
+                            Length(figures.mean_bidirectional, shown),
+                            Length(figures.reversal, shown),
+                            Length(figures.repeatability, shown)});
+    }
+  }
+  return table;
+}
+
+Table MachineMapTable(const MachineRecord& machine) {
+  Table table{
+      .title = "Maps of the machine",
+      .columns = {{"component", false}, {"maps", false}, {"model", false}}};
+  for (const MachineChoiceRecord& choice : machine.choices) {
+    for (const models::MachineMapRecord& map : choice.maps) {
+      table.rows.push_back({map.component, choice.name, map.model});
+    }
+  }
+  return table;
+}
+
+std::vector<Table> MachineTables(const MachineRecord& machine) {
+  std::vector<Table> tables;
+  for (Table& table : std::array{ToolTipTable(machine),
+                                 ToolTipDayTable(machine),
+                                 PositioningTable(machine),
+                                 MachineMapTable(machine)}) {
+    if (!table.rows.empty()) tables.push_back(std::move(table));
+  }
+  return tables;
+}
+
+}  // namespace errmap::cli

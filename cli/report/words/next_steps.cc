@@ -1,0 +1,96 @@
+#include "cli/report/words/next_steps.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include "cli/report/words/verdict_text.h"
+#include "cli/shell/shell_word.h"
+
+namespace errmap::cli {
+namespace {
+
+using Words = std::vector<std::string>;
+
+// The options by which the study's command read its measurements; fit has them
+// too.
+void AddDataOptions(const Words& command, Words* words) {
+  constexpr std::array<std::string_view, 11> kOfData = {"--target",
+                                                        "--inputs",
+                                                        "--exclude",
+                                                        "--group",
+                                                        "--session",
+                                                        "--time",
+                                                        "--align",
+                                                        "--weight",
+                                                        "--missing",
+                                                        "--faults",
+                                                        "--seed"};
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    const std::string& word = command[i];
+    const std::string_view flag =
+        std::string_view(word).substr(0, word.find('='));
+    if (word == "--keep-dead") words->push_back(word);
+    if (std::ranges::find(kOfData, flag) == kOfData.end()) continue;
+    words->push_back(word);
+    if (flag.size() == word.size() && i + 1 < command.size()) {
+      words->push_back(command[++i]);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<NextStep> NextSteps(const models::StudyRecord& record,
+                                std::size_t component,
+                                const std::string& data,
+                                const std::string& folder) {
+  const models::ComponentRecord& of = record.components[component];
+  std::vector<NextStep> steps;
+  const models::ModelRecord* found =
+      of.recommendation ? models::FindNamed(of.models, of.recommendation->model)
+                        : nullptr;
+  if (found != nullptr && found->name != "zero") {
+    const models::ModelRecord& model = *found;
+    std::string map = "map.json";
+    if (model.kind == models::ModelKind::kFile) {
+      map = model.name.substr(model.name.find(':') + 1);
+      steps.push_back({"the map", {}, map});
+    } else if (model.file && !folder.empty()) {
+      map = (std::filesystem::path(folder) / *model.file)
+                .lexically_normal()
+                .string();
+      steps.push_back({"the map", {}, map});
+    } else if (data.empty() || record.components.size() > 1) {
+      // Rows of a part of a file, or defaults of a study file: no other command
+      // has them.
+      map = "STUDY/models/...json";
+      steps.push_back(
+          {"write the map", {}, "the same command with --out STUDY"});
+    } else {
+      Words words{"errmap", "fit", data, "--model", model.name};
+      AddDataOptions(ShellWords(record.provenance.command_line), &words);
+      words.insert(words.end(), {"-o", map});
+      steps.push_back({"write the map", std::move(words)});
+    }
+    steps.push_back({"does it hold?", {"errmap", "check", map, "PROBES.csv"}});
+    steps.push_back({"run it", {"errmap", "predict", map, "TODAY.csv"}});
+    if (model.step_cost) {
+      steps.push_back({"to the control",
+                       {"errmap", "export", map, "--c", "-o", "control"}});
+    } else {
+      steps.push_back({"to the control",
+                       {},
+                       "not yet: its memory counts rows; a column of times "
+                       "(--time) makes it exportable"});
+    }
+  }
+  if (std::string measure = MeasureNext(of); !measure.empty()) {
+    steps.push_back({"measure next", {}, std::move(measure)});
+  }
+  return steps;
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "models/study/record/study_record.h"
+
+namespace errmap::cli {
+
+/// What to do with a recommendation.
+struct NextStep {
+  std::string purpose;             // "write the map", at most 14 characters
+  std::vector<std::string> words;  // of the command; none: `text` says it
+  std::string text = {};
+};
+
+/// The file of the map, or the command that makes it; that checks it, runs it,
+/// exports it; what to measure next. `data`: the measurements as fit can open
+/// them, "" where it cannot have the same rows; `folder`: where compare --out
+/// has written the maps, "" nowhere.
+std::vector<NextStep> NextSteps(const models::StudyRecord& record,
+                                std::size_t component,
+                                const std::string& data,
+                                const std::string& folder);
+
+}  // namespace errmap::cli

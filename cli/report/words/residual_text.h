@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+#include "data/units.h"
+#include "models/study/judgement/residual_assessment.h"
+#include "stats/error_metrics.h"
+
+namespace errmap::cli {
+
+/// Location and spread, a few lines.
+std::string SampleText(const stats::ErrorMetrics& metrics,
+                       const Eigen::VectorXd& values,
+                       const stats::ShapeMoments& shape,
+                       const data::Unit& unit);
+
+/// The tests of shape as a table; each line says what its p assumes.
+std::string NormalityText(const models::ResidualReport& report, Eigen::Index n);
+
+/// The tests of order, halves, biases and spread as a table.
+std::string RandomnessText(const models::ResidualReport& report);
+
+/// Bias per group and position, histogram (`bins` 0: Freedman-Diaconis) and
+/// the Tukey-lambda curve in full.
+std::string DetailsText(const models::ResidualReport& report,
+                        const Eigen::VectorXd& values,
+                        const data::Unit& unit,
+                        Eigen::Index bins);
+
+/// What the program of NISTIR 5367 prints for these residuals; `r_squared`
+/// NaN where no fitted values are known.
+std::string Report1995Text(const stats::Report1995Statistics& printed,
+                           double r_squared,
+                           const data::Unit& unit);
+
+}  // namespace errmap::cli

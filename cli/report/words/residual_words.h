@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "data/units.h"
+#include "models/study/judgement/residual_assessment.h"
+
+namespace errmap::cli {
+
+/// What the figures say about the residuals, in sentences that follow from
+/// them and from nothing else: their shape, how the 1995 program would have
+/// judged them, whether they are independent, where they are biased.
+std::string ResidualSentences(const models::ResidualReport& report,
+                              const stats::SampleSummary& summary,
+                              const stats::Report1995Statistics& printed,
+                              const data::Unit& unit);
+
+}  // namespace errmap::cli

@@ -1,0 +1,388 @@
+#include "data/measurements/column_checks.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <system_error>
+
+#include "data/text.h"
+#include "data/units.h"
+
+namespace errmap::data {
+namespace {
+
+constexpr std::size_t kMostNames = 20;  // in one message
+
+bool IsInfinity(std::string_view text) {
+  if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
+  return EqualsIgnoringCase(text, "inf") ||
+         EqualsIgnoringCase(text, "infinity");
+}
+
+bool IsOutOfRange(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const char* const end = text.data() + text.size();
+  double value = 0.0;
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc::result_out_of_range && stop == end;
+}
+
+bool HasDecimalComma(std::string_view text) {
+  std::string with_point(text);
+  std::replace(with_point.begin(), with_point.end(), ',', '.');
+  double value = 0.0;
+  return with_point != text && ParseNumber(with_point, &value);
+}
+
+// Whether a word is a unit where it is sure to mean one.
+bool IsUnit(std::string_view word) {
+  return ReadHeader("x [" + std::string(word) + "]").source ==
+         UnitSource::kStated;
+}
+
+// "12.7 mm", "1.234,5", "1 234": a number with its unit, or with separators
+// that only people read.
+bool IsNumberForPeople(std::string_view text) {
+  if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
+  if (text.empty() || text.front() < '0' || text.front() > '9') return false;
+  const std::string_view rest = text.substr(
+      std::min(text.find_first_not_of("0123456789.,' "), text.size()));
+  return rest.empty() || IsUnit(rest);
+}
+
+// What is wrong with a cell that is no finite number, and how to mend it.
+std::string Complaint(std::string_view text) {
+  if (text.empty()) return "empty cell; fill it in";
+  const std::string quoted = QuotedText(text);
+  if (IsMissingText(text)) return quoted + " is a missing value; fill it in";
+  if (IsInfinity(text)) return quoted + " is not finite; correct it";
+  if (IsOutOfRange(text)) {
+    return quoted + " is beyond the range of a double; correct it";
+  }
+  if (HasDecimalComma(text)) {
+    return quoted +
+           " is no number here; write a decimal point, or separate the "
+           "columns with ; or tab";
+  }
+  if (IsNumberForPeople(text)) {
+    return quoted +
+           " is no plain number; write it without its unit and without "
+           "thousands separators";
+  }
+  return quoted + " is no number; correct it";
+}
+
+// A cell of a column in use that is no finite number.
+struct BadCell {
+  std::size_t row;
+  const CsvColumn* column;
+  ColumnUse use;
+  std::uint32_t text;
+};
+
+[[noreturn]] void ThrowBadCell(const CsvTable& table,
+                               const BadCell& cell,
+                               std::size_t num_missing) {
+  const std::string& text = cell.column->texts[cell.text];
+  std::string what =
+      table.Where(cell.row, cell.column->name) + ": " + Complaint(text);
+  if (cell.use == ColumnUse::kInput) {
+    what += ", or leave the column out with --exclude " +
+            Printable(cell.column->name, text.max_size());
+  }
+  if (IsMissingText(text)) {
+    what += ", or drop such rows with --missing drop-rows";
+    if (num_missing > 1) {
+      what += " (the columns in use have " + std::to_string(num_missing) +
+              " such cells)";
+    }
+  }
+  throw InputError(what);
+}
+
+// The exception that stands at `row`, or null where there is a number.
+const std::pair<std::size_t, std::uint32_t>* FindException(
+    const CsvColumn& column, std::size_t row) {
+  const auto found = std::lower_bound(
+      column.exceptions.begin(),
+      column.exceptions.end(),
+      row,
+      [](const auto& exception, std::size_t r) { return exception.first < r; });
+  const bool is_there = found != column.exceptions.end() && found->first == row;
+  return is_there ? &*found : nullptr;
+}
+
+[[noreturn]] void ThrowNothingPasses(const CsvTable& table,
+                                     const CsvColumn& column,
+                                     const std::vector<ColumnFilter>& filters,
+                                     const ColumnFilter& filter) {
+  std::vector<std::string> values;
+  for (std::size_t row = 0; row < table.num_rows; ++row) {
+    const std::string value = table.CellText(column, row);
+    if (std::find(values.begin(), values.end(), value) == values.end()) {
+      values.push_back(value);
+    }
+    if (values.size() == kMostNames) break;
+  }
+  throw InputError(PrintablePath(table.file) + ": no row is left where " +
+                   QuotedName(filter.column) + " is " +
+                   QuotedText(ValueText(filter)) +
+                   (&filter == &filters.front()
+                        ? ""
+                        : " and the columns before it are as asked") +
+                   "; the column has " + ListOfNames(values));
+}
+
+}  // namespace
+
+bool IsMissingText(std::string_view text) {
+  return text.empty() || EqualsIgnoringCase(text, "na") ||
+         EqualsIgnoringCase(text, "nan");
+}
+
+std::string ListOfNames(const std::vector<std::string>& names) {
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostNames); ++i) {
+    if (i > 0) list += ", ";
+    list += QuotedName(names[i]);
+  }
+  if (names.size() > kMostNames) {
+    list += " and " + std::to_string(names.size() - kMostNames) + " more";
+  }
+  return list;
+}
+
+std::size_t RequireColumn(const CsvTable& table,
+                          std::string_view name,
+                          std::string_view option) {
+  const std::ptrdiff_t found = table.Find(name);
+  if (found >= 0) return static_cast<std::size_t>(found);
+  std::vector<std::string> known;
+  for (const CsvColumn& column : table.columns) known.push_back(column.name);
+  const std::string nearest = NearestName(name, known);
+  throw InputError(
+      PrintablePath(table.file) + ": no column " + QuotedName(name) + " (" +
+      std::string(option) + "); " +
+      (nearest.empty() ? "" : "did you mean " + QuotedName(nearest) + "? ") +
+      "the columns are " + ListOfNames(known));
+}
+
+void RequireNumbers(const CsvTable& table, const ColumnInUse& column) {
+  const CsvColumn& cells = table.columns[column.index];
+  if (!cells.is_text()) return;
+  std::string what =
+      PrintablePath(table.file) + ": column " + QuotedName(cells.name);
+  if (cells.texts.empty()) {
+    what += " holds no numbers";
+  } else {
+    what += " holds no numbers (data row 0 is " +
+            QuotedText(table.CellText(cells, 0)) + ")";
+  }
+  switch (column.use) {
+    case ColumnUse::kTarget:
+      what += "; name a column of measured errors with --target";
+      break;
+    case ColumnUse::kInput:
+      what += " and cannot be an input; leave it out of --inputs";
+      break;
+    case ColumnUse::kWeight:
+      what += "; name a column of positive numbers with --weight";
+      break;
+    case ColumnUse::kGroup:
+    case ColumnUse::kOther:
+      what += "; name a column of numbers";
+      break;
+  }
+  throw InputError(what);
+}
+
+std::string WhyNoUnit(const Header& header) {
+  return QuotedText(header.unit_text) +
+         (IsUnit(header.unit_text)
+              ? " counts as a unit in brackets or parentheses only"
+              : " is no unit known here");
+}
+
+void RequireKnownUnit(const CsvTable& table, const ColumnInUse& column) {
+  const std::string& name = table.columns[column.index].name;
+  const Header header = ReadHeader(name);
+  const bool is_refused = header.source == UnitSource::kUnknown ||
+                          (header.source == UnitSource::kUnread &&
+                           column.use == ColumnUse::kTarget);
+  if (!is_refused) return;
+  throw InputError(
+      PrintablePath(table.file) + ": column " + QuotedName(name) + ": " +
+      WhyNoUnit(header) +
+      "; rename the column, with one of these in brackets: " + KnownUnits());
+}
+
+void RefuseNumbersAsText(const CsvTable& table, const CsvColumn& column) {
+  if (!column.is_text()) return;
+  bool any = false;
+  bool all_numbers = true;
+  for (const std::string& text : column.texts) {
+    if (IsMissingText(text)) continue;
+    any = true;
+    all_numbers = all_numbers && IsNumberForPeople(text);
+  }
+  if (!NamesPosition(column.name) && !(any && all_numbers)) return;
+  std::size_t row = 0;
+  while (any && row + 1 < table.num_rows &&
+         IsMissingText(table.CellText(column, row))) {
+    ++row;
+  }
+  throw InputError(table.Where(row, column.name) + ": " +
+                   Complaint(table.CellText(column, row)) +
+                   " (no cell of the column is a plain number), or exclude "
+                   "the column");
+}
+
+void RefuseMixedDecimals(const CsvTable& table,
+                         const std::vector<ColumnInUse>& columns) {
+  const CsvColumn* with_comma = nullptr;
+  const CsvColumn* with_point = nullptr;
+  for (const ColumnInUse& used : columns) {
+    if (used.use == ColumnUse::kGroup) continue;
+    const CsvColumn& column = table.columns[used.index];
+    if (with_comma == nullptr && column.first_decimal_comma >= 0) {
+      with_comma = &column;
+    }
+    if (with_point == nullptr && column.first_decimal_point >= 0) {
+      with_point = &column;
+    }
+  }
+  if (with_comma == nullptr || with_point == nullptr) return;
+  const auto comma_row =
+      static_cast<std::size_t>(with_comma->first_decimal_comma);
+  const auto point_row =
+      static_cast<std::size_t>(with_point->first_decimal_point);
+  std::string comma_text = CsvNumber(with_comma->values[comma_row]);
+  std::replace(comma_text.begin(), comma_text.end(), '.', ',');
+  throw InputError(
+      table.Where(point_row, with_point->name) + ": decimal point (" +
+      CsvNumber(with_point->values[point_row]) + "), but decimal comma (" +
+      comma_text + ") at line " + std::to_string(table.LineOfRow(comma_row)) +
+      " (data row " + std::to_string(comma_row) + "), column " +
+      QuotedName(with_comma->name) +
+      "; write all numbers one way, without thousands separators");
+}
+
+std::vector<bool> RowsThatPass(const CsvTable& table,
+                               const std::vector<ColumnFilter>& filters) {
+  std::vector<bool> passes(table.num_rows, true);
+  for (const ColumnFilter& filter : filters) {
+    const CsvColumn& column =
+        table.columns[RequireColumn(table, filter.column, "where")];
+    const auto* const number = std::get_if<double>(&filter.value);
+    bool any = false;
+    for (std::size_t row = 0; row < table.num_rows; ++row) {
+      passes[row] =
+          passes[row] &&
+          (number != nullptr ? column.values[row] == *number
+                             : table.CellText(column, row) ==
+                                   std::get<std::string>(filter.value));
+      any = any || passes[row];
+    }
+    if (!any) ThrowNothingPasses(table, column, filters, filter);
+  }
+  return passes;
+}
+
+KeptRows CheckCells(const CsvTable& table,
+                    const std::vector<ColumnInUse>& columns,
+                    const std::vector<bool>& passes,
+                    MissingPolicy missing) {
+  std::vector<bool> is_dropped(table.num_rows, false);
+  std::optional<BadCell> first_missing;
+  std::optional<BadCell> first_wrong;
+  std::size_t num_missing = 0;
+  const CsvColumn* emptiest = nullptr;
+  std::size_t most_missing = 0;
+  for (const ColumnInUse& used : columns) {
+    const CsvColumn& column = table.columns[used.index];
+    std::vector<bool> text_is_missing(column.texts.size());
+    std::transform(column.texts.begin(),
+                   column.texts.end(),
+                   text_is_missing.begin(),
+                   IsMissingText);
+    std::size_t missing_here = 0;
+    for (const auto& [row, text] : column.exceptions) {
+      if (!passes[row]) continue;
+      const bool is_missing = text_is_missing[text];
+      if (!is_missing && used.use == ColumnUse::kGroup) continue;
+      std::optional<BadCell>& first = is_missing ? first_missing : first_wrong;
+      if (!first.has_value() || row < first->row) {
+        first = BadCell{row, &column, used.use, text};
+      }
+      if (is_missing) {
+        ++missing_here;
+        is_dropped[row] = true;
+      }
+    }
+    num_missing += missing_here;
+    if (missing_here > most_missing) {
+      most_missing = missing_here;
+      emptiest = &column;
+    }
+  }
+
+  const bool missing_comes_first =
+      first_missing.has_value() &&
+      (!first_wrong.has_value() || first_missing->row < first_wrong->row);
+  if (missing == MissingPolicy::kError && missing_comes_first) {
+    ThrowBadCell(table, *first_missing, num_missing);
+  }
+  if (first_wrong.has_value()) ThrowBadCell(table, *first_wrong, num_missing);
+
+  KeptRows kept;
+  const auto num_dropped = static_cast<std::size_t>(
+      std::count(is_dropped.begin(), is_dropped.end(), true));
+  const auto num_passed =
+      static_cast<std::size_t>(std::count(passes.begin(), passes.end(), true));
+  kept.rows.reserve(num_passed - num_dropped);
+  for (std::size_t row = 0; row < table.num_rows; ++row) {
+    if (passes[row] && !is_dropped[row])
+      kept.rows.push_back(static_cast<Eigen::Index>(row));
+  }
+  if (kept.rows.empty()) {
+    throw InputError(PrintablePath(table.file) +
+                     ": no row is left: each has a missing cell in the "
+                     "columns in use (" +
+                     QuotedName(emptiest->name) + " lacks " +
+                     std::to_string(most_missing) + " of " +
+                     std::to_string(num_passed) +
+                     "); fill them in, or leave such columns out with "
+                     "--exclude");
+  }
+  if (num_dropped > 0) {
+    kept.remark = std::to_string(num_dropped) + " of " +
+                  std::to_string(num_passed) +
+                  (num_dropped == 1 ? " rows is" : " rows are") +
+                  " dropped for missing cells; the first: " +
+                  table.Where(first_missing->row, first_missing->column->name);
+  }
+  return kept;
+}
+
+void RefuseMissingCell(const CsvTable& table,
+                       const ColumnInUse& column,
+                       std::size_t row) {
+  const CsvColumn& cells = table.columns[column.index];
+  const auto* const exception = FindException(cells, row);
+  if (exception == nullptr || !IsMissingText(cells.texts[exception->second])) {
+    return;
+  }
+  ThrowBadCell(table, {row, &cells, column.use, exception->second}, 1);
+}
+
+Eigen::VectorXd ValuesOfRows(const CsvColumn& column,
+                             const std::vector<Eigen::Index>& rows) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    values(static_cast<Eigen::Index>(i)) =
+        column.values[static_cast<std::size_t>(rows[i])];
+  }
+  return values;
+}
+
+}  // namespace errmap::data

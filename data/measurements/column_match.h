@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "data/csv.h"
+#include "data/measurements/dataset.h"
+
+namespace errmap::data {
+
+/// A column of a file that stands for one that a map knows.
+struct MatchedColumn {
+  ColumnInfo of_map;
+  ColumnInfo of_file;
+
+  bool is_converted() const {
+    return of_map.unit.symbol != of_file.unit.symbol;
+  }
+  /// Of a value in the file, in the map's unit.
+  double InMapUnit(double value) const;
+  /// "t1_degC is read from 't1 [K]' and converted from K to degC", "" where
+  /// name and unit are the same.
+  std::string Remark() const;
+};
+
+/// The column of that name, or else the only one that has the name in another
+/// unit ("t1 [K]" for "t1_degC", letters in any case). Throws InputError where
+/// there is none or more than one, or where its unit cannot be converted.
+MatchedColumn MatchColumn(const CsvTable& table, const ColumnInfo& of_map);
+
+/// A table in the names and units of a map, and what was done for it.
+struct TableForMap {
+  CsvTable table;
+  std::vector<std::string> remarks;  // one line for each column that differs
+};
+
+/// Renames and converts the columns that stand for those of the map; throws as
+/// MatchColumn does.
+TableForMap InMapUnits(CsvTable table, const std::vector<ColumnInfo>& of_map);
+
+}  // namespace errmap::data

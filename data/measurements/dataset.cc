@@ -1,0 +1,293 @@
+#include "data/measurements/dataset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+
+#include "data/measurements/column_checks.h"
+#include "data/text.h"
+
+namespace errmap::data {
+namespace {
+
+[[noreturn]] void ThrowInvalid(const std::string& what) {
+  throw std::invalid_argument("errmap::data::Dataset: " + what);
+}
+
+void CheckSize(const char* what, Eigen::Index found, Eigen::Index expected) {
+  if (found == expected) return;
+  ThrowInvalid(std::string(what) + ": found " + std::to_string(found) +
+               ", expected " + std::to_string(expected));
+}
+
+void CheckGroups(const Grouping& groups, Eigen::Index num_rows) {
+  const auto num_codes = static_cast<Eigen::Index>(groups.codes.size());
+  const auto num_labels = static_cast<Eigen::Index>(groups.labels.size());
+  if (groups.column.empty()) {
+    CheckSize("group codes without a group column", num_codes, 0);
+    CheckSize("group labels without a group column", num_labels, 0);
+    return;
+  }
+  CheckSize("group codes", num_codes, num_rows);
+  for (const Eigen::Index code : groups.codes) {
+    if (code < 0 || code >= num_labels) {
+      ThrowInvalid("group code " + std::to_string(code) +
+                   " is outside the labels 0.." +
+                   std::to_string(num_labels - 1));
+    }
+  }
+}
+
+void CheckLog(const SessionLog& log,
+              const std::vector<Eigen::Index>& log_rows,
+              Eigen::Index num_inputs,
+              Eigen::Index num_rows) {
+  const Eigen::Index in_log = log.time.size();
+  if (log.input_values.size() != 0) {
+    CheckSize(
+        "columns of log.input_values", log.input_values.cols(), num_inputs);
+    CheckSize("rows of log.input_values", log.input_values.rows(), in_log);
+  }
+  if (!log.time.allFinite()) {
+    ThrowInvalid("log.time has a value that is not finite");
+  }
+  const auto check_codes = [](const char* what,
+                              const std::vector<Eigen::Index>& codes,
+                              Eigen::Index expected,
+                              Eigen::Index limit) {
+    CheckSize(what, static_cast<Eigen::Index>(codes.size()), expected);
+    for (const Eigen::Index code : codes) {
+      if (code >= 0 && code < limit) continue;
+      ThrowInvalid(std::string(what) + ": " + std::to_string(code) +
+                   " is outside 0.." + std::to_string(limit - 1));
+    }
+  };
+  const auto sessions = static_cast<Eigen::Index>(log.sessions.labels.size());
+  check_codes("log.sessions.codes", log.sessions.codes, in_log, sessions);
+  check_codes("log.first_rows", log.first_rows, sessions, in_log);
+  check_codes("log_rows", log_rows, num_rows, in_log);
+}
+
+// Numbers come out sorted and each with its shortest text.
+Grouping GroupByNumber(const std::string& column,
+                       const std::vector<double>& values,
+                       const std::vector<Eigen::Index>& rows) {
+  // Negative zero would compare equal to zero, yet be written "-0".
+  const auto value_of = [&](Eigen::Index row) {
+    return values[static_cast<std::size_t>(row)] + 0.0;
+  };
+  std::map<double, Eigen::Index> code_of;
+  for (const Eigen::Index row : rows) code_of.emplace(value_of(row), 0);
+  Grouping groups{.column = column, .labels = {}, .codes = {}};
+  for (auto& [value, code] : code_of) {
+    code = static_cast<Eigen::Index>(groups.labels.size());
+    groups.labels.push_back(CsvNumber(value));
+  }
+  groups.codes.reserve(rows.size());
+  for (const Eigen::Index row : rows) {
+    groups.codes.push_back(code_of.at(value_of(row)));
+  }
+  return groups;
+}
+
+// Texts, numbers among them or not, in order of appearance.
+Grouping GroupByText(const CsvTable& table,
+                     const CsvColumn& column,
+                     const std::vector<Eigen::Index>& rows) {
+  Grouping groups{.column = column.name, .labels = {}, .codes = {}};
+  groups.codes.reserve(rows.size());
+  std::unordered_map<std::string, Eigen::Index> code_of;
+  for (const Eigen::Index row : rows) {
+    const std::string text =
+        table.CellText(column, static_cast<std::size_t>(row));
+    const auto [found, is_new] =
+        code_of.emplace(text, static_cast<Eigen::Index>(groups.labels.size()));
+    if (is_new) groups.labels.push_back(text);
+    groups.codes.push_back(found->second);
+  }
+  return groups;
+}
+
+}  // namespace
+
+std::string_view ToString(Alignment align) {
+  return align == Alignment::kFirst ? "first" : "none";
+}
+
+std::string_view ToString(MissingPolicy policy) {
+  return policy == MissingPolicy::kError ? "error" : "drop-rows";
+}
+
+std::string_view ToString(FaultPolicy policy) {
+  return policy == FaultPolicy::kKeep ? "keep" : "drop-rows";
+}
+
+std::string ValueText(const ColumnFilter& filter) {
+  const auto* const number = std::get_if<double>(&filter.value);
+  return number != nullptr ? CsvNumber(*number)
+                           : std::get<std::string>(filter.value);
+}
+
+Dataset::Dataset(Parts parts) : parts_(std::move(parts)) {
+  const Eigen::Index m = parts_.target_values.size();
+  CheckSize("columns of input_values",
+            parts_.input_values.cols(),
+            static_cast<Eigen::Index>(parts_.inputs.size()));
+  if (num_inputs() > 0) {
+    CheckSize("rows of input_values", parts_.input_values.rows(), m);
+  }
+  if (!parts_.target_values.allFinite()) {
+    ThrowInvalid("target_values has a value that is not finite");
+  }
+  if (!parts_.input_values.allFinite()) {
+    ThrowInvalid("input_values has a value that is not finite");
+  }
+  if (parts_.weights.size() != 0) {
+    CheckSize("weights", parts_.weights.size(), m);
+    if (!parts_.weights.allFinite() || !(parts_.weights.array() > 0.0).all()) {
+      ThrowInvalid("weights has a value that is not positive and finite");
+    }
+  }
+  CheckGroups(parts_.groups, m);
+  // Without inputs the shape still says how many rows there are.
+  if (num_inputs() == 0) parts_.input_values.resize(m, 0);
+  if (parts_.rows.empty()) {
+    parts_.rows.reserve(static_cast<std::size_t>(m));
+    for (Eigen::Index row = 0; row < m; ++row) parts_.rows.push_back(row);
+  }
+  CheckSize("rows", static_cast<Eigen::Index>(parts_.rows.size()), m);
+  if (parts_.log != nullptr) {
+    CheckLog(*parts_.log, parts_.log_rows, num_inputs(), m);
+  } else {
+    CheckSize("log_rows without a log",
+              static_cast<Eigen::Index>(parts_.log_rows.size()),
+              0);
+  }
+}
+
+std::vector<Eigen::Index> Dataset::session_codes() const {
+  std::vector<Eigen::Index> codes;
+  codes.reserve(parts_.log_rows.size());
+  for (const Eigen::Index row : parts_.log_rows) {
+    codes.push_back(parts_.log->sessions.codes[static_cast<std::size_t>(row)]);
+  }
+  return codes;
+}
+
+Eigen::Index Dataset::num_sessions() const {
+  const std::vector<Eigen::Index> codes = session_codes();
+  return static_cast<Eigen::Index>(
+      std::set<Eigen::Index>(codes.begin(), codes.end()).size());
+}
+
+Eigen::Index Dataset::FindInput(std::string_view name) const {
+  for (std::size_t i = 0; i < parts_.inputs.size(); ++i) {
+    if (parts_.inputs[i].name == name) return static_cast<Eigen::Index>(i);
+  }
+  return -1;
+}
+
+Dataset Dataset::SelectRows(const std::vector<Eigen::Index>& indices) const {
+  for (const Eigen::Index index : indices) {
+    if (index < 0 || index >= num_rows()) {
+      throw std::invalid_argument(
+          "errmap::data::Dataset::SelectRows: index " + std::to_string(index) +
+          " is outside the rows 0.." + std::to_string(num_rows() - 1));
+    }
+  }
+  Parts parts{.source = parts_.source,
+              .inputs = parts_.inputs,
+              .input_values = parts_.input_values(indices, Eigen::all),
+              .target = parts_.target,
+              .target_values = parts_.target_values(indices),
+              .groups = {.column = parts_.groups.column,
+                         .labels = parts_.groups.labels,
+                         .codes = {}},
+              .weights = {},
+              .rows = {},
+              .align = parts_.align,
+              .log = parts_.log,
+              .log_rows = {}};
+  if (parts_.weights.size() != 0) parts.weights = parts_.weights(indices);
+  parts.rows.reserve(indices.size());
+  for (const Eigen::Index index : indices) {
+    const auto i = static_cast<std::size_t>(index);
+    parts.rows.push_back(parts_.rows[i]);
+    if (has_groups()) parts.groups.codes.push_back(parts_.groups.codes[i]);
+    if (parts_.log) parts.log_rows.push_back(parts_.log_rows[i]);
+  }
+  return Dataset(std::move(parts));
+}
+
+Dataset Dataset::WithLog(std::shared_ptr<const SessionLog> log,
+                         std::vector<Eigen::Index> log_rows) const {
+  Parts parts = parts_;
+  parts.log = std::move(log);
+  parts.log_rows = std::move(log_rows);
+  return Dataset(std::move(parts));
+}
+
+Dataset Dataset::WithInputs(std::vector<ColumnInfo> inputs,
+                            Eigen::MatrixXd input_values) const {
+  Parts parts = parts_;
+  parts.inputs = std::move(inputs);
+  parts.input_values = std::move(input_values);
+  parts.log = nullptr;
+  parts.log_rows.clear();
+  return Dataset(std::move(parts));
+}
+
+Dataset WithoutRows(const Dataset& dataset,
+                    const std::vector<Eigen::Index>& rows) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < dataset.num_rows(); ++i) {
+    if (!std::ranges::binary_search(
+            rows, dataset.rows()[static_cast<std::size_t>(i)])) {
+      kept.push_back(i);
+    }
+  }
+  return dataset.SelectRows(kept);
+}
+
+Grouping GroupByColumn(const CsvTable& table,
+                       const std::string& column,
+                       const std::vector<Eigen::Index>& rows) {
+  const std::size_t index = RequireColumn(table, column, "--group");
+  const CsvColumn& cells = table.columns[index];
+  bool all_numbers = true;
+  for (const Eigen::Index row : rows) {
+    if (row < 0 || static_cast<std::size_t>(row) >= table.num_rows) {
+      throw std::invalid_argument(
+          "errmap::data::GroupByColumn: row " + std::to_string(row) +
+          " is outside the rows 0.." + std::to_string(table.num_rows - 1));
+    }
+    if (!std::isnan(cells.values[static_cast<std::size_t>(row)])) continue;
+    all_numbers = false;
+    RefuseMissingCell(
+        table, {index, ColumnUse::kGroup}, static_cast<std::size_t>(row));
+  }
+  return all_numbers ? GroupByNumber(column, cells.values, rows)
+                     : GroupByText(table, cells, rows);
+}
+
+Eigen::VectorXd NumericColumn(const CsvTable& table,
+                              const std::string& column,
+                              MissingPolicy missing,
+                              std::vector<Eigen::Index>* rows) {
+  const std::size_t index = RequireColumn(table, column, "--column");
+  const ColumnInUse used{index, ColumnUse::kOther};
+  RequireNumbers(table, used);
+  RefuseMixedDecimals(table, {used});
+  KeptRows kept = CheckCells(
+      table, {used}, std::vector<bool>(table.num_rows, true), missing);
+  Eigen::VectorXd values = ValuesOfRows(table.columns[index], kept.rows);
+  if (rows != nullptr) *rows = std::move(kept.rows);
+  return values;
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,228 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/csv.h"
+#include "data/measurements/column_faults.h"
+#include "data/units.h"
+
+namespace errmap::data {
+
+/// Name and unit of a column.
+struct ColumnInfo {
+  std::string name;
+  Unit unit;
+
+  bool operator==(const ColumnInfo&) const = default;
+};
+
+/// The group of each row (warm-up cycle, day, segment).
+struct Grouping {
+  std::string column;
+  /// Distinct groups: sorted numerically if all are numbers, else in order of
+  /// appearance.
+  std::vector<std::string> labels;
+  std::vector<Eigen::Index> codes;  // (rows) index into labels
+};
+
+/// Every row of the table as it was read, in file order, rows dropped or held
+/// out included: what filters of the inputs run through.
+struct SessionLog {
+  /// Of all rows. A session is an uninterrupted run; column "" where sessions
+  /// were cut by time or the table is one.
+  Grouping sessions;
+  std::vector<Eigen::Index> first_rows;  // (sessions) first row that was kept
+  Eigen::VectorXd time;   // (rows) finite, never falling within a session
+  std::string time_unit;  // "s", or "rows": the number of the row
+  Eigen::MatrixXd input_values;  // (rows x p) NaN: no number; (0 x 0): made
+};
+
+/// What is taken off the target: the value of the session's first row, as of a
+/// shop that re-zeroes at the start.
+enum class Alignment { kNone, kFirst };
+/// "none", "first".
+std::string_view ToString(Alignment align);
+
+/// Measurements ready to be mapped: m finite rows of p inputs, one target.
+///
+/// Immutable once built; constructed by MakeDataset, or from its parts for
+/// data that are already in memory.
+class Dataset {
+ public:
+  struct Parts {
+    std::string source;              // file or name, for messages
+    std::vector<ColumnInfo> inputs;  // (p)
+    Eigen::MatrixXd input_values;    // (m x p)
+    ColumnInfo target;
+    Eigen::VectorXd target_values;   // (m)
+    Grouping groups;                 // column "" where there are none
+    Eigen::VectorXd weights;         // (m) positive, or (0): all equal
+    std::vector<Eigen::Index> rows;  // (m) data row in the file; empty: 0..m-1
+    /// What was taken off the target.
+    Alignment align = Alignment::kNone;
+    /// Null where nothing is known of sessions and times.
+    std::shared_ptr<const SessionLog> log = {};
+    std::vector<Eigen::Index> log_rows = {};  // (m) rows of the log
+  };
+
+  /// Throws std::invalid_argument on shapes that do not agree, values that are
+  /// not finite, weights that are not positive, or codes out of range.
+  explicit Dataset(Parts parts);
+
+  const std::string& source() const { return parts_.source; }
+  Eigen::Index num_rows() const { return parts_.target_values.size(); }
+  Eigen::Index num_inputs() const { return parts_.input_values.cols(); }
+  const std::vector<ColumnInfo>& inputs() const { return parts_.inputs; }
+  const Eigen::MatrixXd& input_values() const { return parts_.input_values; }
+  const ColumnInfo& target() const { return parts_.target; }
+  const Eigen::VectorXd& target_values() const { return parts_.target_values; }
+  bool has_groups() const { return !parts_.groups.column.empty(); }
+  const Grouping& groups() const { return parts_.groups; }
+  const Eigen::VectorXd& weights() const { return parts_.weights; }
+  const std::vector<Eigen::Index>& rows() const { return parts_.rows; }
+  Alignment align() const { return parts_.align; }
+  /// Shared with every selection of rows; may be null.
+  const std::shared_ptr<const SessionLog>& log() const { return parts_.log; }
+  const std::vector<Eigen::Index>& log_rows() const { return parts_.log_rows; }
+  /// Session of each row (m), an index into log()->sessions.labels; empty
+  /// without a log.
+  std::vector<Eigen::Index> session_codes() const;
+  /// Sessions that these rows are of; 0 without a log.
+  Eigen::Index num_sessions() const;
+  bool has_sessions() const { return num_sessions() >= 2; }
+
+  /// Index of the input of that name, or -1.
+  Eigen::Index FindInput(std::string_view name) const;
+  /// Input or target.
+  const ColumnInfo& ColumnOf(const ColumnFault& fault) const {
+    return fault.input < 0
+               ? parts_.target
+               : parts_.inputs[static_cast<std::size_t>(fault.input)];
+  }
+
+  /// The rows of these indices, in this order (group labels and log kept).
+  Dataset SelectRows(const std::vector<Eigen::Index>& indices) const;
+
+  /// The same rows with another log of theirs.
+  Dataset WithLog(std::shared_ptr<const SessionLog> log,
+                  std::vector<Eigen::Index> log_rows) const;
+
+  /// The same rows with other inputs (m x p), without a log.
+  Dataset WithInputs(std::vector<ColumnInfo> inputs,
+                     Eigen::MatrixXd input_values) const;
+
+ private:
+  Parts parts_;
+};
+
+/// The data set less these data rows of the file (ascending).
+Dataset WithoutRows(const Dataset& dataset,
+                    const std::vector<Eigen::Index>& rows);
+
+enum class MissingPolicy { kError, kDropRows };
+/// "error", "drop-rows".
+std::string_view ToString(MissingPolicy policy);
+
+/// What becomes of rows with readings that no machine made
+/// (RowsOfCellFaults).
+enum class FaultPolicy { kKeep, kDropRows };
+/// "keep", "drop-rows".
+std::string_view ToString(FaultPolicy policy);
+
+/// Rows whose cell in `column` is this number, or this text (a number's text
+/// is its shortest form).
+struct ColumnFilter {
+  std::string column;
+  std::variant<std::string, double> value;
+
+  bool operator==(const ColumnFilter&) const = default;
+};
+
+/// The value as text: "down", "2".
+std::string ValueText(const ColumnFilter& filter);
+
+/// What of a table becomes the data set; empty means the default of the
+/// command line. (The `= {}` let designated initialisers leave fields out.)
+struct DatasetSelection {
+  std::string target = {};                // default: the only column "error*"
+  std::vector<std::string> inputs = {};   // default: every other numeric column
+  std::vector<std::string> exclude = {};  // never inputs
+  std::string group = {};                 // default: "cycle" if there is one
+  std::string time = {};     // default: the only column "time*"; see sessions.h
+  std::string session = {};  // default: "session", "day" or "run"
+  std::string weight = {};   // default: none
+  Alignment align = Alignment::kNone;
+  MissingPolicy missing = MissingPolicy::kError;
+  FaultPolicy faults = FaultPolicy::kKeep;
+  bool keep_dead = false;
+  /// Only rows that pass all of these are used and checked.
+  std::vector<ColumnFilter> where = {};
+  /// Rows that a fitted map is judged on: exactly the named inputs, be there
+  /// none, and a target that need not vary.
+  bool only_to_judge = false;
+  /// Without sessions and times the data set has no log.
+  bool with_log = true;
+};
+
+struct DroppedColumn {
+  std::string column;
+  std::string why;
+};
+
+/// A data set and what was decided on the way to it.
+struct PreparedDataset {
+  Dataset dataset;
+  std::vector<DroppedColumn> dropped;  // would-be inputs left out, and why
+  std::vector<std::string> remarks;    // one line each, for people
+  std::string time_column = {};        // "": the numbers of the rows
+  /// What was found in the columns in use, rows left out for it included.
+  std::vector<ColumnFault> faults;
+};
+
+/// Picks target, inputs, group and weight from a table and checks the columns
+/// in use (all others may hold anything).
+///
+/// Default inputs are the numeric columns other than target, group, weight,
+/// time, session, `cycle`, `session`, `day`, `run`, `segment`, `record`,
+/// `index`, `row`, `id`, `sample` and names starting with `time` or `truth`; a
+/// column of the target's stem
+/// (StemOfColumn) is left out with a remark unless named in `inputs`. Dead
+/// inputs (all zero, constant, or one value in at least 90 % of the rows) are
+/// dropped with a remark unless `keep_dead`; an input that repeats another
+/// value for value is named in a remark and kept. Columns of `where`, and those
+/// that the header leaves unnamed, are no default inputs. The log holds the
+/// rows that `where` lets pass. kFirst takes the first value kept of each
+/// session off the target, with a remark. Readings that no machine made come
+/// back as `faults`.
+///
+/// Throws InputError naming file, row, column and remedy: unknown column, no
+/// or several candidates for the target, a cell of a used column that is
+/// empty, NA, NaN, infinite or no number (kDropRows drops rows with empty, NA
+/// or NaN cells only), a unit that is not known, positions or other numbers
+/// that stand there as text, decimal commas and points mixed, constant target,
+/// non-positive weight, times that will not do (sessions.h), no rows (`where`
+/// included) or no inputs left (no inputs is allowed where the table has no
+/// other numeric column).
+PreparedDataset MakeDataset(const CsvTable& table,
+                            const DatasetSelection& selection);
+
+/// Grouping of a column of the table, for the given data rows. Text and
+/// numbers both serve; empty cells are an InputError.
+Grouping GroupByColumn(const CsvTable& table,
+                       const std::string& column,
+                       const std::vector<Eigen::Index>& rows);
+
+/// Values of a numeric column for all rows, checked as MakeDataset checks; the
+/// rows kept come back in `rows` (may be null).
+Eigen::VectorXd NumericColumn(const CsvTable& table,
+                              const std::string& column,
+                              MissingPolicy missing,
+                              std::vector<Eigen::Index>* rows);
+
+}  // namespace errmap::data

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "data/csv.h"
+#include "data/measurements/dataset.h"
+
+namespace errmap::data {
+
+/// A step of time of more than this many median ones is a break.
+inline constexpr double kLeapSteps = 20.0;
+
+/// The median of the steps above 0 (the lower of two), infinite where there is
+/// none.
+double MedianStep(std::vector<double> steps);
+
+/// The first row of every session among those kept (indices into the log), else
+/// its first row.
+std::vector<Eigen::Index> FirstRows(const Grouping& sessions,
+                                    const std::vector<Eigen::Index>& kept);
+
+/// `later` below `earlier`, the columns of `columns` alone. Throws InputError
+/// where a column is in one of them only.
+CsvTable AppendedTable(const CsvTable& earlier,
+                       const CsvTable& later,
+                       const std::vector<std::string>& columns);
+
+/// What a table says of sessions and times in the rows asked for (n).
+struct FoundSessions {
+  Grouping sessions;  // (n) column "" where cut by time, or one run
+  Eigen::VectorXd time;
+  std::string time_unit;            // "s" or "rows"
+  std::ptrdiff_t time_column = -1;  // index into the table; -1: row numbers
+  std::vector<bool> known;          // (n) false: the time or session is missing
+  /// What was found, one line each; nothing of one run without a time.
+  std::vector<std::string> remarks;
+};
+
+/// Finds sessions, uninterrupted runs with rows in order of time, by the
+/// columns `time`, `session` and the policy `missing` of the selection.
+///
+/// Time is the column named, else the only one whose name starts with "time":
+/// numbers in seconds by its unit (s, ms, min, h), or dates and times as ISO
+/// 8601 has them; else the number of the row. Sessions are the column named,
+/// else `session`, else `day`, else `run`; without one they are cut where time
+/// goes back or leaps by more than 20 median steps. A column that nobody named
+/// and that will not do is passed over with a remark; "none" names none, save
+/// where a column is called so. The target and the weight are neither.
+///
+/// Throws InputError, with row and remedy, where a named column is not there,
+/// is the target or the weight, holds no times, lacks a cell (kDropRows: such
+/// rows are not known) or is not in order, and where time goes back within a
+/// session of a column.
+FoundSessions FindSessions(const CsvTable& table,
+                           const DatasetSelection& selection,
+                           const std::vector<Eigen::Index>& rows);
+
+}  // namespace errmap::data

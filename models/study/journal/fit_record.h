@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "models/study/fit_outcome.h"
+#include "models/study/journal/fit_label.h"
+
+namespace errmap::models {
+
+/// An outcome as one line of JSON without a line break: every number, text and
+/// list of it, so that it reads back to the same bits. Numbers that are not
+/// finite are their 16 hexadecimal digits, vectors base64 of their bytes.
+std::string FitToText(const FitOutcome& outcome);
+
+/// What FitToText wrote; its model predicts the same bits. Throws
+/// data::InputError where the text is not of this version.
+FitOutcome FitFromText(std::string_view text);
+
+/// The same for a label.
+std::string LabelToText(const FitLabel& label);
+FitLabel LabelFromText(std::string_view text);
+
+}  // namespace errmap::models

@@ -1,0 +1,141 @@
+#include "models/study/judgement/confidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using Kind = Obstacle::Kind;
+using stats::PairComparison;
+
+Kind UnitsObstacle(Index units, bool separate_sessions) {
+  if (units < kFewestUnits) return Kind::kTooFewUnits;
+  if (units < kFewestUnitsOfOneSession && !separate_sessions) {
+    return Kind::kPerhapsOneSession;
+  }
+  return Kind::kNone;
+}
+
+bool IsSignificant(double p) { return p <= stats::kSignificance; }
+
+// The least that all sign patterns of so many units can reach: 2 / 2^n.
+double SmallestP(Index units) {
+  return std::ldexp(2.0, -static_cast<int>(units));
+}
+
+// Whether bounds of a difference lie wholly on the side of `sign`.
+bool AreOnSide(const stats::Bounds95& bounds, double sign) {
+  return sign > 0.0 ? bounds.lower > 0.0 : bounds.upper < 0.0;
+}
+
+double ExcessAtMost(const stats::Bounds95& bounds, bool is_first) {
+  return is_first ? bounds.at_most : -bounds.at_least;
+}
+
+}  // namespace
+
+std::string_view ToString(Confidence confidence) {
+  switch (confidence) {
+    case Confidence::kEstablished:
+      return "established";
+    case Confidence::kOutOfReach:
+      return "out of reach";
+    case Confidence::kNotShown:
+      return "not shown";
+    case Confidence::kUnitsCorrelated:
+      return "units correlated";
+    case Confidence::kMemoryNotExcluded:
+      return "memory not excluded";
+    case Confidence::kBlocksDisagree:
+      return "blocks disagree";
+  }
+  return "";
+}
+
+std::string_view ToString(Obstacle::Kind kind) {
+  switch (kind) {
+    case Kind::kNone:
+      return "none";
+    case Kind::kTooFewUnits:
+      return "too few units";
+    case Kind::kPerhapsOneSession:
+      return "perhaps one session";
+    case Kind::kTooManyPairs:
+      return "too many pairs";
+    case Kind::kTooFewSignPatterns:
+      return "too few sign patterns";
+  }
+  return "";
+}
+
+Obstacle FindObstacle(const stats::Comparison& tests, bool separate_sessions) {
+  Obstacle obstacle{.kind = UnitsObstacle(tests.num_units, separate_sessions),
+                    .units = tests.num_units,
+                    .pairs = static_cast<Index>(tests.pairs.size())};
+  if (obstacle.kind == Kind::kTooFewUnits) {
+    obstacle.needed = kFewestUnits;
+  } else if (obstacle.kind == Kind::kPerhapsOneSession) {
+    obstacle.needed = kFewestUnitsOfOneSession;
+  }
+  if (obstacle.exists() || tests.pairs.empty()) return obstacle;
+  const double pairs = static_cast<double>(obstacle.pairs);
+  if (tests.num_units > stats::kMostForExactFlips) {
+    const double smallest =
+        std::ranges::min(tests.pairs, {}, [](const PairComparison& pair) {
+          return pair.sign_flip.smallest_p;
+        }).sign_flip.smallest_p;
+    if (!IsSignificant(smallest * pairs)) {
+      obstacle.kind = Kind::kTooFewSignPatterns;
+    }
+    return obstacle;
+  }
+  if (!IsSignificant(SmallestP(tests.num_units) * pairs)) {
+    obstacle.kind = Kind::kTooManyPairs;
+    obstacle.needed = tests.num_units;
+    while (!IsSignificant(SmallestP(obstacle.needed) * pairs)) {
+      ++obstacle.needed;
+    }
+  }
+  return obstacle;
+}
+
+Confidence ThatTheyDiffer(const stats::Comparison& tests,
+                          const PairComparison& pair,
+                          bool separate_sessions) {
+  if (FindObstacle(tests, separate_sessions).exists()) {
+    return Confidence::kOutOfReach;
+  }
+  const double side = pair.sign_flip.test.statistic;
+  if (!IsSignificant(pair.p_holm) || !AreOnSide(pair.bounds, side)) {
+    return Confidence::kNotShown;
+  }
+  if (pair.correlated) return Confidence::kUnitsCorrelated;
+  if (!IsSignificant(pair.p_memory_holm)) return Confidence::kMemoryNotExcluded;
+  // Where it does not apply, the runs do not differ at all.
+  const stats::TestResult& blocks = pair.block_t.test;
+  return blocks.ok() && !IsSignificant(blocks.p) ? Confidence::kBlocksDisagree
+                                                 : Confidence::kEstablished;
+}
+
+Confidence ThatItLosesAtMost(double margin,
+                             const stats::Comparison& tests,
+                             Index model,
+                             Index than,
+                             bool separate_sessions) {
+  if (UnitsObstacle(tests.num_units, separate_sessions) != Kind::kNone) {
+    return Confidence::kOutOfReach;
+  }
+  const PairComparison& pair = tests.Pair(model, than);
+  const bool is_first = pair.a == model;
+  if (!(ExcessAtMost(pair.bounds, is_first) <= margin)) {
+    return Confidence::kNotShown;
+  }
+  if (pair.correlated) return Confidence::kUnitsCorrelated;
+  return ExcessAtMost(pair.memory.bounds, is_first) <= margin
+             ? Confidence::kEstablished
+             : Confidence::kMemoryNotExcluded;
+}
+
+}  // namespace errmap::models

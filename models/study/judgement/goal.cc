@@ -1,0 +1,55 @@
+#include "models/study/judgement/goal.h"
+
+#include <cmath>
+
+namespace errmap::models {
+
+std::string_view ToString(GoalStanding standing) {
+  switch (standing) {
+    case GoalStanding::kNone:
+      return "no goal";
+    case GoalStanding::kNotJudged:
+      return "not judged";
+    case GoalStanding::kMet:
+      return "met";
+    case GoalStanding::kMetAfterRezeroing:
+      return "met after re-zeroing";
+    case GoalStanding::kMissed:
+      return "not met";
+  }
+  return "";
+}
+
+std::optional<GoalStanding> GoalStandingFromString(std::string_view word) {
+  for (const GoalStanding standing : {GoalStanding::kNone,
+                                      GoalStanding::kNotJudged,
+                                      GoalStanding::kMet,
+                                      GoalStanding::kMetAfterRezeroing,
+                                      GoalStanding::kMissed}) {
+    if (ToString(standing) == word) return standing;
+  }
+  return std::nullopt;
+}
+
+GoalJudgement JudgeGoal(double goal,
+                        const stats::ErrorMetrics& test,
+                        bool complete) {
+  GoalJudgement judged{.goal = goal,
+                       .rmse = test.rmse,
+                       .sd = test.residuals.sd,
+                       .offset = test.residuals.mean};
+  if (!std::isfinite(goal)) {
+    judged.standing = GoalStanding::kNone;
+  } else if (!complete || !std::isfinite(judged.rmse)) {
+    judged.standing = GoalStanding::kNotJudged;
+  } else if (judged.rmse <= goal) {
+    judged.standing = GoalStanding::kMet;
+  } else if (judged.sd <= goal) {
+    judged.standing = GoalStanding::kMetAfterRezeroing;
+  } else {
+    judged.standing = GoalStanding::kMissed;
+  }
+  return judged;
+}
+
+}  // namespace errmap::models

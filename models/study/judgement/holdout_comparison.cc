@@ -1,0 +1,159 @@
+#include "models/study/judgement/holdout_comparison.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "stats/error_metrics.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+stats::FoldLosses GatherFolds(const Holdout& holdout,
+                              const HeldOutRows& held,
+                              const MatrixXd& residuals) {
+  const auto folds = static_cast<Index>(holdout.folds.size());
+  stats::FoldLosses losses;
+  losses.mean_squares = MatrixXd::Zero(folds, residuals.cols());
+  losses.test_rows = Eigen::VectorXd::Zero(folds);
+  losses.train_rows.resize(folds);
+  for (std::size_t i = 0; i < held.fold_of.size(); ++i) {
+    const auto fold = static_cast<Index>(held.fold_of[i]);
+    losses.mean_squares.row(fold) +=
+        residuals.row(static_cast<Index>(i)).cwiseAbs2();
+    losses.test_rows[fold] += 1.0;
+  }
+  for (Index fold = 0; fold < folds; ++fold) {
+    losses.mean_squares.row(fold) /= losses.test_rows[fold];
+    losses.train_rows[fold] = static_cast<double>(
+        holdout.folds[static_cast<std::size_t>(fold)].train.size());
+  }
+  return losses;
+}
+
+// Folds come cut by cut; each cut has a winner by its pooled RMSE. A tie counts
+// for the model that stands first.
+std::vector<WinShare> CountWins(const stats::FoldLosses& folds,
+                                Index repeats,
+                                const std::vector<std::size_t>& models) {
+  const Index folds_of_cut = folds.mean_squares.rows() / repeats;
+  std::vector<double> wins(models.size(), 0.0);
+  for (Index cut = 0; cut < repeats; ++cut) {
+    const Index begin = cut * folds_of_cut;
+    const Eigen::RowVectorXd sums =
+        folds.test_rows.segment(begin, folds_of_cut).transpose() *
+        folds.mean_squares.middleRows(begin, folds_of_cut);
+    Index best = 0;
+    sums.minCoeff(&best);
+    wins[static_cast<std::size_t>(best)] += 1.0;
+  }
+  std::vector<WinShare> shares;
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    if (wins[m] > 0.0) {
+      shares.push_back({models[m], wins[m] / static_cast<double>(repeats)});
+    }
+  }
+  std::ranges::stable_sort(shares, std::greater(), &WinShare::share);
+  return shares;
+}
+
+HoldoutComparison CompareOne(const data::Dataset& dataset,
+                             const Holdout& holdout,
+                             const StudyResult& study,
+                             std::size_t index,
+                             const stats::ComparisonOptions& options) {
+  HoldoutComparison comparison;
+  comparison.holdout = holdout.name;
+  for (std::size_t m = 0; m < study.models.size(); ++m) {
+    if (study.models[m].holdouts[index].ok()) comparison.models.push_back(m);
+  }
+  if (comparison.models.empty()) return comparison;
+  const HeldOutRows held = GatherHeldOut(dataset, holdout);
+  MatrixXd residuals(static_cast<Index>(held.rows.size()),
+                     static_cast<Index>(comparison.models.size()));
+  for (std::size_t m = 0; m < comparison.models.size(); ++m) {
+    residuals.col(static_cast<Index>(m)) =
+        ResidualsOf(held, study.models[comparison.models[m]].holdouts[index]);
+  }
+  const std::vector<Index> codes =
+      AssignUnits(holdout, held, &comparison.units);
+  stats::UnitLosses losses = stats::GatherByUnit(residuals, codes);
+  losses.time_ordered = holdout.forward;
+  comparison.unit_rmse = losses.mean_squares.cwiseSqrt();
+  const stats::FoldLosses folds = GatherFolds(holdout, held, residuals);
+  comparison.tests = stats::CompareModels(
+      losses, folds.test_rows.size() > 1 ? &folds : nullptr, options);
+  const bool separate = comparison.units.separate_sessions;
+  comparison.obstacle = FindObstacle(comparison.tests, separate);
+  for (const stats::PairComparison& pair : comparison.tests.pairs) {
+    comparison.differ.push_back(
+        ThatTheyDiffer(comparison.tests, pair, separate));
+  }
+  if (holdout.repeats > 1) {
+    comparison.wins = CountWins(folds, holdout.repeats, comparison.models);
+  }
+  return comparison;
+}
+
+}  // namespace
+
+std::optional<Index> HoldoutComparison::PlaceOf(std::size_t model) const {
+  const auto found = std::ranges::find(models, model);
+  if (found == models.end()) return std::nullopt;
+  return static_cast<Index>(found - models.begin());
+}
+
+int HoldoutComparison::TierOf(std::size_t model) const {
+  const auto place = PlaceOf(model);
+  if (!place) return 0;
+  for (std::size_t tier = 0; tier < tests.tiers.size(); ++tier) {
+    if (std::ranges::find(tests.tiers[tier], *place) !=
+        tests.tiers[tier].end()) {
+      return static_cast<int>(tier) + 1;
+    }
+  }
+  return 0;
+}
+
+Confidence HoldoutComparison::ThatItIsBetter(std::size_t model,
+                                             std::size_t than) const {
+  const Index place = PlaceOf(model).value();
+  const stats::PairComparison& pair = tests.Pair(place, PlaceOf(than).value());
+  const bool is_better = (pair.difference < 0.0) == (pair.a == place);
+  return is_better
+             ? differ[static_cast<std::size_t>(&pair - tests.pairs.data())]
+             : Confidence::kNotShown;
+}
+
+Confidence HoldoutComparison::ThatItLosesAtMost(double margin,
+                                                std::size_t model,
+                                                std::size_t than) const {
+  return models::ThatItLosesAtMost(margin,
+                                   tests,
+                                   PlaceOf(model).value(),
+                                   PlaceOf(than).value(),
+                                   units.separate_sessions);
+}
+
+std::vector<HoldoutComparison> CompareHoldouts(
+    const data::Dataset& dataset,
+    const std::vector<Holdout>& holdouts,
+    const StudyResult& study,
+    double indifference,
+    std::uint64_t seed) {
+  stats::ComparisonOptions options;
+  options.seed = seed;
+  options.margin.indifference = indifference;
+  std::vector<HoldoutComparison> comparisons;
+  for (std::size_t h = 0; h < holdouts.size(); ++h) {
+    comparisons.push_back(CompareOne(dataset, holdouts[h], study, h, options));
+  }
+  return comparisons;
+}
+
+}  // namespace errmap::models

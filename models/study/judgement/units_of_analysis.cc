@@ -1,0 +1,158 @@
+#include "models/study/judgement/units_of_analysis.h"
+
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "stats/comparison/unit_losses.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+
+// Takes the units that `codes`, one per row of the source, number. One unit
+// alone is none: its rows are all that there is to resample.
+bool TakeUnits(const HeldOutRows& held,
+               const std::vector<Index>& codes,
+               const data::Grouping& grouping,
+               std::vector<Index>* of_held,
+               UnitsOfAnalysis* units) {
+  std::vector<Index> found;
+  for (const Index row : held.rows) {
+    found.push_back(codes[static_cast<std::size_t>(row)]);
+  }
+  const std::set<Index> present(found.begin(), found.end());
+  if (present.size() < 2) return false;
+  units->name = grouping.column.empty() ? "session" : grouping.column;
+  units->are_groups = true;
+  for (const Index code : present) {
+    units->labels.push_back(grouping.labels[static_cast<std::size_t>(code)]);
+  }
+  *of_held = std::move(found);
+  return true;
+}
+
+std::size_t NumUnits(const HeldOutRows& held, const std::vector<Index>& codes) {
+  std::set<Index> present;
+  for (const Index row : held.rows) {
+    present.insert(codes[static_cast<std::size_t>(row)]);
+  }
+  return present.size();
+}
+
+// Codes of the units of the held-out rows; `units` gets name and labels. Where
+// sessions and groups are both held out whole, the coarser are the units: what
+// shares one may be alike.
+std::vector<Index> UnitCodes(const Holdout& holdout,
+                             const HeldOutRows& held,
+                             UnitsOfAnalysis* units) {
+  std::vector<Index> codes;
+  const data::Dataset& source = *held.source;
+  const bool groups_are_coarser = holdout.whole_sessions &&
+                                  holdout.whole_groups && source.has_groups() &&
+                                  NumUnits(held, source.groups().codes) <
+                                      NumUnits(held, source.session_codes());
+  if (holdout.whole_sessions && !groups_are_coarser &&
+      TakeUnits(held,
+                source.session_codes(),
+                source.log()->sessions,
+                &codes,
+                units)) {
+    units->are_sessions = true;
+    return codes;
+  }
+  if (source.has_groups() &&
+      TakeUnits(held, source.groups().codes, source.groups(), &codes, units)) {
+    return codes;
+  }
+  units->name = kBlockOfRows;
+  const std::set<Index> ordered(held.rows.begin(), held.rows.end());
+  const std::vector<Index> blocks =
+      stats::BlocksInOrder(static_cast<Index>(ordered.size()));
+  std::map<Index, Index> block_of;
+  std::vector<std::pair<Index, Index>> ends;  // data rows of each block
+  std::size_t at = 0;
+  for (const Index row : ordered) {
+    const Index block = blocks[at++];
+    block_of[row] = block;
+    const Index data_row = held.source->rows()[static_cast<std::size_t>(row)];
+    if (block == static_cast<Index>(ends.size())) {
+      ends.emplace_back(data_row, data_row);
+    }
+    ends.back().second = data_row;
+  }
+  for (const auto& [first, last] : ends) {
+    units->labels.push_back(fmt::format("rows {}-{}", first, last));
+  }
+  for (const Index row : held.rows) codes.push_back(block_of[row]);
+  return codes;
+}
+
+// Whether no two units of the held-out rows share a session, and none spans
+// two. Sessions that were cut by time alone are a guess: a clock may start anew
+// with each cycle.
+bool AreSeparateSessions(const HeldOutRows& held,
+                         const std::vector<Index>& units) {
+  const data::SessionLog* log = held.source->log().get();
+  if (log == nullptr || log->sessions.column.empty()) return false;
+  const std::vector<Index> sessions = held.source->session_codes();
+  std::map<Index, Index> session_of;
+  std::map<Index, Index> unit_of;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const Index session = sessions[static_cast<std::size_t>(held.rows[i])];
+    if (session_of.try_emplace(units[i], session).first->second != session ||
+        unit_of.try_emplace(session, units[i]).first->second != units[i]) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+HeldOutRows GatherHeldOut(const data::Dataset& dataset,
+                          const Holdout& holdout) {
+  HeldOutRows held;
+  held.source =
+      holdout.test_data != nullptr ? holdout.test_data.get() : &dataset;
+  for (std::size_t fold = 0; fold < holdout.folds.size(); ++fold) {
+    const Index size =
+        holdout.test_data != nullptr
+            ? held.source->num_rows()
+            : static_cast<Index>(holdout.folds[fold].test.size());
+    for (Index i = 0; i < size; ++i) {
+      held.rows.push_back(
+          holdout.test_data != nullptr
+              ? i
+              : holdout.folds[fold].test[static_cast<std::size_t>(i)]);
+      held.fold_of.push_back(fold);
+    }
+  }
+  return held;
+}
+
+Eigen::VectorXd ResidualsOf(const HeldOutRows& held,
+                            const HoldoutResult& result) {
+  Eigen::VectorXd residuals(static_cast<Index>(held.rows.size()));
+  Index at = 0;
+  for (const FoldResult& fold : result.folds) {
+    for (const double predicted : fold.test_predictions) {
+      const Index row = held.rows[static_cast<std::size_t>(at)];
+      residuals[at++] = held.source->target_values()[row] - predicted;
+    }
+  }
+  return residuals;
+}
+
+std::vector<Index> AssignUnits(const Holdout& holdout,
+                               const HeldOutRows& held,
+                               UnitsOfAnalysis* units) {
+  std::vector<Index> codes = UnitCodes(holdout, held, units);
+  units->separate_sessions = AreSeparateSessions(held, codes);
+  return codes;
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,436 @@
+#include "models/study/judgement/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <tuple>
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+
+double RmseOf(const HoldoutComparison& comparison, std::size_t model) {
+  return comparison.tests.rmse[*comparison.PlaceOf(model)];
+}
+
+// The model of lowest RMSE among those that `wanted` accepts.
+std::optional<std::size_t> BestWhere(
+    const HoldoutComparison& comparison,
+    const std::function<bool(std::size_t)>& wanted) {
+  std::optional<std::size_t> best;
+  for (const std::size_t model : comparison.models) {
+    if (!wanted(model)) continue;
+    if (!best || RmseOf(comparison, model) < RmseOf(comparison, *best)) {
+      best = model;
+    }
+  }
+  return best;
+}
+
+std::vector<std::size_t> FirstTier(const HoldoutComparison& comparison) {
+  std::vector<std::size_t> models;
+  for (const Index place : comparison.tests.tiers.front()) {
+    models.push_back(comparison.models[static_cast<std::size_t>(place)]);
+  }
+  return models;
+}
+
+// That both statements hold: what the first lacks, else the second.
+Confidence Both(Confidence first, Confidence second) {
+  return first == Confidence::kEstablished ? second : first;
+}
+
+std::optional<std::size_t> BestOf(const HoldoutComparison& comparison,
+                                  const StudyResult& study,
+                                  Choice choice) {
+  return BestWhere(comparison, [&](std::size_t model) {
+    return ChoiceOf(study.models[model]) == choice;
+  });
+}
+
+// What does not matter beside the lowest error of all.
+double MarginOf(const HoldoutComparison& comparison, double indifference) {
+  return stats::Margin{.indifference = indifference}.Of(
+      comparison.tests.rmse.minCoeff());
+}
+
+// That no model is better than `baseline` by more than the margin. A baseline
+// of the lowest error may owe that to chance, so the bound is asked for there
+// too. Without another model there is nothing to hold it against.
+Confidence ThatNothingIsBetter(const HoldoutComparison& comparison,
+                               const StudyResult& study,
+                               std::size_t baseline,
+                               double margin) {
+  const auto best = BestWhere(comparison, [&](std::size_t model) {
+    return ChoiceOf(study.models[model]) != Choice::kBaseline;
+  });
+  return best ? comparison.ThatItLosesAtMost(margin, baseline, *best)
+              : Confidence::kNotShown;
+}
+
+Confidence ConfidenceOf(const Verdict& verdict,
+                        const HoldoutComparison& comparison,
+                        const StudyResult& study,
+                        double margin) {
+  const auto& baseline = verdict.best_baseline;
+  if (verdict.choice == Choice::kBaseline) {
+    return ThatNothingIsBetter(comparison, study, *baseline, margin);
+  }
+  if (verdict.choice == Choice::kNoPracticalDifference) {
+    const std::size_t one = *BestOf(comparison, study, Choice::kPolynomial);
+    const std::size_t other = *BestOf(comparison, study, Choice::kNeural);
+    return Both(comparison.ThatItLosesAtMost(margin, one, other),
+                comparison.ThatItLosesAtMost(margin, other, one));
+  }
+  if (!verdict.rival) return Confidence::kNotShown;
+  const Confidence against_rival =
+      comparison.ThatItIsBetter(verdict.best, *verdict.rival);
+  return baseline ? Both(against_rival,
+                         comparison.ThatItIsBetter(verdict.best, *baseline))
+                  : against_rival;
+}
+
+Verdict JudgeHoldout(const HoldoutComparison& comparison,
+                     const StudyResult& study,
+                     double indifference) {
+  Verdict verdict;
+  verdict.holdout = comparison.holdout;
+  const std::vector<std::size_t> tier = FirstTier(comparison);
+  verdict.best = tier.front();
+  const auto in_tier = [&](Choice choice) {
+    return std::ranges::any_of(tier, [&](std::size_t model) {
+      return ChoiceOf(study.models[model]) == choice;
+    });
+  };
+  const Choice of_best = ChoiceOf(study.models[verdict.best]);
+  if (in_tier(Choice::kBaseline)) {
+    verdict.choice = Choice::kBaseline;
+  } else if (in_tier(Choice::kPolynomial) && in_tier(Choice::kNeural)) {
+    verdict.choice = Choice::kNoPracticalDifference;
+  } else {
+    verdict.choice = of_best;
+  }
+  verdict.best_baseline = BestOf(comparison, study, Choice::kBaseline);
+  verdict.rival = BestWhere(comparison, [&](std::size_t model) {
+    const Choice choice = ChoiceOf(study.models[model]);
+    // A blend is made of the others: it settles nothing between them.
+    return choice != of_best && choice != Choice::kBaseline &&
+           choice != Choice::kBlend;
+  });
+  if (!verdict.rival && of_best != Choice::kBaseline) {
+    verdict.rival = verdict.best_baseline;
+  }
+  verdict.confidence = ConfidenceOf(
+      verdict, comparison, study, MarginOf(comparison, indifference));
+  return verdict;
+}
+
+// How much a hold-out tells of another day, from 0: enough whole sessions,
+// whole groups, another file, whole blocks, few sessions, rows.
+int RankOf(const Holdout& holdout, const HoldoutComparison& comparison) {
+  if (comparison.units.are_sessions &&
+      static_cast<Index>(comparison.units.labels.size()) >=
+          kFewestSessionsToDecide) {
+    return 0;
+  }
+  if (holdout.whole_groups && holdout.test_data == nullptr) return 1;
+  if (holdout.test_data != nullptr) return 2;
+  if (holdout.inner == InnerHoldout::kBlocks) return 3;
+  if (holdout.whole_sessions) return 4;
+  return 5;
+}
+
+// The hold-out to go by: the first of those that tell most.
+std::optional<std::size_t> DecisiveHoldout(
+    const std::vector<Holdout>& holdouts,
+    const std::vector<HoldoutComparison>& comparisons) {
+  std::optional<std::size_t> decisive;
+  for (std::size_t h = 0; h < holdouts.size(); ++h) {
+    if (comparisons[h].models.empty()) continue;
+    if (!decisive || RankOf(holdouts[h], comparisons[h]) <
+                         RankOf(holdouts[*decisive], comparisons[*decisive])) {
+      decisive = h;
+    }
+  }
+  return decisive;
+}
+
+std::optional<InterpolationGap> MeasureGap(
+    const std::vector<Holdout>& holdouts,
+    const std::vector<HoldoutComparison>& comparisons) {
+  std::optional<std::size_t> neighbours;
+  for (std::size_t h = 0; h < holdouts.size(); ++h) {
+    if (comparisons[h].models.empty()) continue;
+    if (!neighbours && holdouts[h].among_neighbours) neighbours = h;
+  }
+  const auto unseen = DecisiveHoldout(holdouts, comparisons);
+  if (!unseen ||
+      !(holdouts[*unseen].whole_groups || holdouts[*unseen].whole_sessions)) {
+    return std::nullopt;
+  }
+  if (!neighbours) return std::nullopt;
+  InterpolationGap gap{*neighbours, *unseen, {}};
+  for (const std::size_t model : comparisons[*neighbours].models) {
+    if (!comparisons[*unseen].PlaceOf(model)) continue;
+    gap.rows.push_back({model,
+                        RmseOf(comparisons[*neighbours], model),
+                        RmseOf(comparisons[*unseen], model)});
+  }
+  return gap;
+}
+
+// Share of the held-out rows with an input outside what its fold trained on.
+double ExtrapolatedShare(const data::Dataset& dataset,
+                         const Holdout& holdout,
+                         const FittedModel& fitted) {
+  std::vector<Index> columns;
+  for (const TrainedInput& input : fitted.inputs) {
+    columns.push_back(dataset.FindInput(input.column.name));
+  }
+  Index outside = 0;
+  Index all = 0;
+  for (const stats::Fold& fold : holdout.folds) {
+    const data::Dataset test = holdout.test_data != nullptr
+                                   ? *holdout.test_data
+                                   : dataset.SelectRows(fold.test);
+    Eigen::Array<bool, Eigen::Dynamic, 1> beyond =
+        Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(test.num_rows(), false);
+    for (const Index column : columns) {
+      const auto trained = dataset.input_values().col(column)(fold.train);
+      const auto tested = test.input_values().col(column).array();
+      beyond =
+          beyond || tested < trained.minCoeff() || tested > trained.maxCoeff();
+    }
+    outside += beyond.count();
+    all += test.num_rows();
+  }
+  return all > 0 ? static_cast<double>(outside) / static_cast<double>(all)
+                 : 0.0;
+}
+
+// Models with an RMSE within the margin of `best`, by RMSE.
+std::vector<std::size_t> NearTheBest(
+    const HoldoutComparison& comparison,
+    const std::function<bool(std::size_t)>& wanted,
+    double best,
+    double indifference) {
+  const double most =
+      best + stats::Margin{.indifference = indifference}.Of(best);
+  std::vector<std::size_t> near;
+  for (const std::size_t model : comparison.models) {
+    const double rmse = RmseOf(comparison, model);
+    if (wanted(model) && rmse >= best && rmse <= most) near.push_back(model);
+  }
+  std::ranges::stable_sort(
+      near, {}, [&](std::size_t model) { return RmseOf(comparison, model); });
+  return near;
+}
+
+// One choice among near-equals is a gamble, which an average of maps that see
+// the inputs differently is not: it is used unless a single map's error is
+// lower by more than what never matters. Of a few days, or of pieces of one
+// run, the lowest of many errors is chance: they never speak for a single map.
+// An average that a baseline beats is no map at all.
+std::optional<std::size_t> BlendToUse(
+    const Holdout& holdout,
+    const HoldoutComparison& comparison,
+    const StudyResult& study,
+    const std::function<bool(std::size_t)>& is_map,
+    double indifference) {
+  const auto is_blend = [&](std::size_t model) {
+    return ChoiceOf(study.models[model]) == Choice::kBlend;
+  };
+  const auto blend = BestWhere(comparison, [&](std::size_t model) {
+    return is_blend(model) && is_map(model);
+  });
+  if (!blend) return std::nullopt;
+  const auto baseline = BestOf(comparison, study, Choice::kBaseline);
+  if (baseline && RmseOf(comparison, *baseline) < RmseOf(comparison, *blend)) {
+    return std::nullopt;
+  }
+  const auto single = BestWhere(comparison, [&](std::size_t model) {
+    return !is_blend(model) && is_map(model);
+  });
+  const bool can_tell = (holdout.whole_groups || holdout.whole_sessions) &&
+                        comparison.tests.num_units >= kFewestUnits;
+  if (single && can_tell &&
+      RmseOf(comparison, *single) + indifference < RmseOf(comparison, *blend)) {
+    return std::nullopt;
+  }
+  return blend;
+}
+
+std::optional<Recommendation> Recommend(
+    const data::Dataset& dataset,
+    const std::vector<Holdout>& holdouts,
+    const StudyResult& study,
+    const std::vector<HoldoutComparison>& comparisons,
+    double indifference) {
+  const auto decisive = DecisiveHoldout(holdouts, comparisons);
+  if (!decisive) return std::nullopt;
+  const HoldoutComparison& comparison = comparisons[*decisive];
+  const auto is_map = [&](std::size_t model) {
+    return study.models[model].final_fit.has_value();
+  };
+  Recommendation advice;
+  advice.holdout = *decisive;
+  // The first tier that holds a map: predictions alone cannot be run.
+  for (const std::vector<Index>& tier : comparison.tests.tiers) {
+    for (const Index place : tier) {
+      const std::size_t model =
+          comparison.models[static_cast<std::size_t>(place)];
+      if (is_map(model)) {
+        advice.first_tier.push_back(model);
+      } else if (advice.first_tier.empty() && !advice.better_but_no_map) {
+        advice.better_but_no_map = model;
+      }
+    }
+    if (!advice.first_tier.empty()) break;
+  }
+  if (advice.first_tier.empty()) return std::nullopt;
+  // One unit bounds no difference, so a tier is a model alone; what is near it
+  // by the margin may be better just as well, and simpler.
+  if (comparison.tests.num_units < 2) {
+    advice.first_tier =
+        NearTheBest(comparison,
+                    is_map,
+                    RmseOf(comparison, advice.first_tier.front()),
+                    indifference);
+  }
+  std::vector<std::size_t> candidates;
+  std::ranges::copy_if(advice.first_tier,
+                       std::back_inserter(candidates),
+                       [&](std::size_t model) {
+                         return ChoiceOf(study.models[model]) ==
+                                Choice::kBaseline;
+                       });
+  if (candidates.empty()) candidates = advice.first_tier;
+  advice.model =
+      *std::ranges::min_element(candidates, {}, [&](std::size_t model) {
+        const FittedModel& map = *study.models[model].final_fit;
+        return std::tuple(SensorsOf(map).size(),
+                          map.model->num_parameters(),
+                          RmseOf(comparison, model));
+      });
+  if (const auto blend = BlendToUse(
+          holdouts[*decisive], comparison, study, is_map, indifference)) {
+    advice.single = advice.model;
+    // Alone in its tier: the best of the others.
+    if (ChoiceOf(study.models[advice.model]) == Choice::kBlend) {
+      advice.single = BestWhere(comparison, [&](std::size_t model) {
+        return is_map(model) && ChoiceOf(study.models[model]) != Choice::kBlend;
+      });
+    }
+    advice.model = *blend;
+  }
+  const auto best_baseline = BestOf(comparison, study, Choice::kBaseline);
+  advice.has_baseline = best_baseline.has_value();
+  advice.best_baseline = best_baseline.value_or(0);
+  advice.choice = ChoiceOf(study.models[advice.model]);
+  const double margin = MarginOf(comparison, indifference);
+  if (advice.choice == Choice::kBaseline) {
+    advice.against_baseline =
+        ThatNothingIsBetter(comparison, study, advice.model, margin);
+  } else if (best_baseline) {
+    advice.against_baseline =
+        comparison.ThatItIsBetter(advice.model, *best_baseline);
+  }
+  if (advice.model != advice.first_tier.front()) {
+    advice.within_tier = comparison.ThatItLosesAtMost(
+        margin, advice.model, advice.first_tier.front());
+  }
+  const auto in_tier = [&](Choice choice) {
+    return std::ranges::any_of(advice.first_tier, [&](std::size_t model) {
+      return ChoiceOf(study.models[model]) == choice;
+    });
+  };
+  if (advice.choice != Choice::kBaseline && in_tier(Choice::kPolynomial) &&
+      in_tier(Choice::kNeural)) {
+    advice.choice = Choice::kNoPracticalDifference;
+  }
+  advice.extrapolated_share = ExtrapolatedShare(
+      dataset, holdouts[*decisive], *study.models[advice.model].final_fit);
+  return advice;
+}
+
+}  // namespace
+
+std::string_view ToString(Choice choice) {
+  switch (choice) {
+    case Choice::kPolynomial:
+      return "polynomial";
+    case Choice::kNeural:
+      return "neural";
+    case Choice::kNoPracticalDifference:
+      return "no practical difference";
+    case Choice::kBlend:
+      return "blend";
+    case Choice::kBaseline:
+      return "baseline";
+    case Choice::kGiven:
+      return "given";
+  }
+  return "";
+}
+
+Choice ChoiceOf(const ModelResult& model) {
+  if (model.baseline) return Choice::kBaseline;
+  // An existing map is what it was fitted as.
+  ModelKind kind = model.kind;
+  if (kind == ModelKind::kFile && model.final_fit) {
+    kind = model.final_fit->kind;
+  }
+  switch (kind) {
+    case ModelKind::kBaseline:
+      return Choice::kBaseline;
+    case ModelKind::kPolynomial:
+      return Choice::kPolynomial;
+    case ModelKind::kNet:
+      return Choice::kNeural;
+    case ModelKind::kBlend:
+      return Choice::kBlend;
+    case ModelKind::kFile:
+      return Choice::kGiven;
+  }
+  return Choice::kGiven;
+}
+
+Judgement JudgeStudy(const data::Dataset& dataset,
+                     const std::vector<Holdout>& holdouts,
+                     const StudyResult& study,
+                     const JudgeOptions& options) {
+  Judgement judgement;
+  judgement.comparisons = CompareHoldouts(
+      dataset, holdouts, study, options.indifference, options.seed);
+  for (const HoldoutComparison& comparison : judgement.comparisons) {
+    judgement.verdicts.push_back(
+        comparison.models.empty()
+            ? std::nullopt
+            : std::optional(
+                  JudgeHoldout(comparison, study, options.indifference)));
+  }
+  judgement.gap = MeasureGap(holdouts, judgement.comparisons);
+  judgement.recommendation = Recommend(
+      dataset, holdouts, study, judgement.comparisons, options.indifference);
+  for (const ModelResult& model : study.models) {
+    std::vector<GoalJudgement>& goals = judgement.goals.emplace_back();
+    for (const HoldoutResult& result : model.holdouts) {
+      goals.push_back(JudgeGoal(
+          options.goal, result.test, result.ok() && !study.interrupted));
+    }
+  }
+  return judgement;
+}
+
+std::vector<std::string> SensorsOf(const FittedModel& fitted) {
+  std::vector<std::string> sensors;
+  for (const TrainedInput& input : fitted.inputs) {
+    if (!data::NamesPosition(input.column.name)) {
+      sensors.push_back(input.column.name);
+    }
+  }
+  return sensors;
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "models/study/judgement/goal.h"
+#include "models/study/judgement/holdout_comparison.h"
+#include "models/study/study.h"
+
+namespace errmap::models {
+
+/// What a hold-out speaks for. kGiven: predictions without a map.
+enum class Choice {
+  kPolynomial,
+  kNeural,
+  kBlend,
+  kNoPracticalDifference,  // a polynomial and a net share the first tier
+  kBaseline,               // a baseline is in the first tier
+  kGiven,
+};
+
+/// "polynomial", "neural", "blend", "no practical difference", "baseline",
+/// "given".
+std::string_view ToString(Choice choice);
+
+/// The class of a model by what it is; never kNoPracticalDifference.
+Choice ChoiceOf(const ModelResult& model);
+
+/// What one hold-out says.
+struct Verdict {
+  std::string holdout;
+  Choice choice = Choice::kBaseline;
+  std::size_t best = 0;  // lowest RMSE: index into StudyResult::models
+  /// The best model of another class, or the best baseline where the table has
+  /// no other class: what the choice was made against.
+  std::optional<std::size_t> rival;
+  std::optional<std::size_t> best_baseline;  // by RMSE
+  /// kPolynomial, kNeural, kGiven: that the best is better than its rival and
+  /// than the best baseline. kBaseline: that the best baseline loses at most
+  /// the margin to the best of all others. kNoPracticalDifference: that the
+  /// best polynomial and the best net lose at most the margin to each other.
+  Confidence confidence = Confidence::kOutOfReach;
+
+  bool established() const { return confidence == Confidence::kEstablished; }
+};
+
+/// The error of each model among neighbours beside that on unseen groups.
+struct InterpolationGap {
+  struct Row {
+    std::size_t model = 0;
+    double neighbours_rmse = 0.0;
+    double unseen_rmse = 0.0;
+    double ratio() const { return unseen_rmse / neighbours_rmse; }
+    /// The first flatters: unseen groups are met with twice the error.
+    bool flatters() const { return ratio() >= kFlatteringRatio; }
+  };
+  static constexpr double kFlatteringRatio = 2.0;
+
+  std::size_t neighbours = 0;  // index of the hold-out
+  std::size_t unseen = 0;
+  std::vector<Row> rows;  // models that both could judge
+};
+
+/// The map to use.
+struct Recommendation {
+  std::size_t holdout = 0;  // that it follows
+  std::size_t model = 0;
+  Choice choice = Choice::kBaseline;
+  /// By RMSE; where there is one unit only, the models within the margin.
+  std::vector<std::size_t> first_tier;
+  std::size_t best_baseline = 0;  // by RMSE, under that hold-out
+  bool has_baseline = false;
+  /// That the map is better than the best baseline; of a baseline, that it
+  /// loses at most the margin to the best of all others.
+  Confidence against_baseline = Confidence::kOutOfReach;
+  /// That it loses at most the margin to the lowest error of its tier.
+  Confidence within_tier = Confidence::kOutOfReach;
+  /// Where a blend is to be used, the simplest single map of the first tier,
+  /// or the best one where there is none.
+  std::optional<std::size_t> single;
+  /// Predictions without a map that were better than every map, if any.
+  std::optional<std::size_t> better_but_no_map;
+  /// Of the held-out rows, those with an input of the model outside what the
+  /// fold trained on (0 to 1).
+  double extrapolated_share = 0.0;
+};
+
+/// Everything that the hold-outs say together.
+struct Judgement {
+  std::vector<HoldoutComparison> comparisons;    // one per hold-out
+  std::vector<std::optional<Verdict>> verdicts;  // nothing where all failed
+  std::optional<InterpolationGap> gap;  // where both kinds of hold-out are
+  std::optional<Recommendation> recommendation;
+  std::vector<std::vector<GoalJudgement>> goals;  // (models x hold-outs)
+};
+
+struct JudgeOptions {
+  /// The difference in RMSE that never matters; target's unit, at least 0.
+  double indifference = 0.0;
+  double goal = GoalJudgement::kNaN;  // target's unit; NaN: none
+  std::uint64_t seed = 1;
+};
+
+/// Judges a study.
+///
+/// The recommendation follows the first hold-out of kFewestSessionsToDecide
+/// whole sessions or more, else of whole unseen groups, else of another file,
+/// else of blocks, else of fewer sessions, else the first; within its first
+/// tier the simplest map wins: fewest sensors (inputs other than position),
+/// then fewest parameters, then the lower RMSE. Where a baseline is in the
+/// first tier it is the simplest baseline there: nothing better is known. A
+/// blend comes before all of these, unless a single map's RMSE is lower by more
+/// than the indifference over six whole groups or sessions at least.
+Judgement JudgeStudy(const data::Dataset& dataset,
+                     const std::vector<Holdout>& holdouts,
+                     const StudyResult& study,
+                     const JudgeOptions& options);
+
+/// Inputs of the model other than positions, in its order.
+std::vector<std::string> SensorsOf(const FittedModel& fitted);
+
+}  // namespace errmap::models

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/measurements/dataset.h"
+#include "models/study/judgement/verdict.h"
+#include "models/study/record/session_worth.h"
+#include "models/study/study.h"
+
+namespace errmap::models {
+
+/// One component's study with all that its outputs need.
+struct ComponentStudy {
+  std::string name;  // of the component
+  std::string file;
+  std::string sha256;
+  double goal = 0.0;          // target's unit; NaN: none
+  double indifference = 0.0;  // target's unit
+  data::PreparedDataset data;
+  std::vector<Holdout> holdouts;
+  StudyResult study;
+  /// Models of the study that nobody asked for, baselines, from `first_added`.
+  std::size_t first_added = 0;
+  std::size_t num_added = 0;
+  Judgement judgement;
+  std::optional<SessionWorth> session_worth = {};  // to the recommended map
+};
+
+}  // namespace errmap::models

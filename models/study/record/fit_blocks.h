@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "models/regression_report.h"
+#include "models/study/record/study_record.h"
+
+namespace errmap::models {
+
+// Fits and their figures as records.
+
+MetricsRecord MakeRecord(const stats::ErrorMetrics& metrics);
+SummaryRecord MakeRecord(const fitting::FitSummary& summary);
+/// One or more starts.
+StartsRecord MakeRecord(const std::vector<StartResult>& starts);
+RegressionRecord MakeRecord(const RegressionReport& report);
+
+ByName<OptionValue> MakeRecord(const std::vector<EffectiveOption>& options);
+
+/// What a fit took and how it went; empty lists are left out.
+FitRecord MakeFitRecord(double fit_seconds,
+                        const fitting::FitSummary& summary,
+                        const std::vector<std::string>& remarks,
+                        const std::vector<EffectiveOption>& choices,
+                        const std::vector<StartResult>& starts);
+
+}  // namespace errmap::models

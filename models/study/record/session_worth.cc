@@ -1,0 +1,116 @@
+#include "models/study/record/session_worth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include "fitting/interruption.h"
+
+namespace errmap::models {
+namespace {
+
+using data::Dataset;
+using Eigen::Index;
+
+constexpr Index kFewestSessions = 4;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// How a fold's error grows when its training rows lose a session.
+struct Loss {
+  double log_ratio = kNaN;
+  Index sessions = 0;  // in the fold's training rows
+};
+
+std::vector<Index> SessionsOf(const std::vector<Index>& rows,
+                              const std::vector<Index>& codes) {
+  std::vector<Index> sessions;
+  for (const Index row : rows) {
+    sessions.push_back(codes[static_cast<std::size_t>(row)]);
+  }
+  std::ranges::sort(sessions);
+  sessions.erase(std::unique(sessions.begin(), sessions.end()), sessions.end());
+  return sessions;
+}
+
+Loss LossOfFold(const Dataset& dataset,
+                const stats::Fold& fold,
+                std::size_t number,
+                const ModelRecipe& recipe,
+                double rmse,
+                const FitContext& context) {
+  const std::vector<Index> codes = dataset.session_codes();
+  const std::vector<Index> sessions = SessionsOf(fold.train, codes);
+  Loss loss{.sessions = static_cast<Index>(sessions.size())};
+  if (sessions.size() < 2) return loss;
+  const Index dropped = sessions[number % sessions.size()];
+  std::vector<Index> rows;
+  std::ranges::copy_if(fold.train, std::back_inserter(rows), [&](Index row) {
+    return codes[static_cast<std::size_t>(row)] != dropped;
+  });
+  try {
+    const fitting::InterruptionScope interruptible(context.stop);
+    const FittedModel fitted = recipe.Fit(dataset.SelectRows(rows), context);
+    const Dataset test = dataset.SelectRows(fold.test);
+    const Eigen::VectorXd errors = test.target_values() - fitted.Predict(test);
+    loss.log_ratio = std::log(
+        std::sqrt(errors.squaredNorm() / static_cast<double>(errors.size())) /
+        rmse);
+  } catch (const std::invalid_argument&) {
+    // What is left cannot be fitted.
+  }
+  return loss;
+}
+
+}  // namespace
+
+std::optional<SessionWorth> WorthOfASession(const Dataset& dataset,
+                                            const Holdout& holdout,
+                                            const ModelRecipe& recipe,
+                                            const HoldoutResult& result,
+                                            const StudyOptions& options) {
+  if (!holdout.whole_sessions || holdout.test_data != nullptr ||
+      dataset.num_sessions() < kFewestSessions || !result.ok()) {
+    return std::nullopt;
+  }
+  FitContext context{.seed = options.seed,
+                     .stop = options.stop,
+                     .indifference = options.indifference};
+  context.inner_holdout = holdout.inner;
+  std::vector<Loss> losses(holdout.folds.size());
+  oneapi::tbb::task_arena arena(options.jobs);
+  arena.execute([&] {
+    oneapi::tbb::parallel_for(
+        std::size_t{0}, losses.size(), [&](std::size_t i) {
+          losses[i] = LossOfFold(dataset,
+                                 holdout.folds[i],
+                                 i,
+                                 recipe,
+                                 result.folds[i].test_rmse,
+                                 context);
+        });
+  });
+  if (options.stop != nullptr && options.stop->load()) return std::nullopt;
+  double log_ratio = 0.0;
+  double log_sessions = 0.0;
+  for (const Loss& loss : losses) {
+    if (!std::isfinite(loss.log_ratio)) return std::nullopt;
+    const auto sessions = static_cast<double>(loss.sessions);
+    log_ratio += loss.log_ratio;
+    log_sessions += std::log(sessions / (sessions - 1.0));
+  }
+  const auto folds = static_cast<double>(losses.size());
+  const double exponent = std::max(0.0, log_ratio / log_sessions);
+  const auto all = static_cast<double>(dataset.num_sessions());
+  return SessionWorth{
+      .sessions = dataset.num_sessions(),
+      .folds = static_cast<Index>(losses.size()),
+      .ratio_of_one_fewer = std::exp(log_ratio / folds),
+      .ratio_of_one_more = std::pow(all / (all + 1.0), exponent)};
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,297 @@
+#include "data/measurements/column_faults.h"
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "data/measurements/dataset.h"
+#include "data/turning_centre/simulation.h"
+#include "tests/places.h"
+
+namespace errmap::data {
+namespace {
+
+using Eigen::Index;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+constexpr Index kRows = 240;
+constexpr double kPi = 3.14159265358979323846;
+
+// A machine that warms up on four days: position, five thermometers of noise
+// 0.02 degC and resolution 0.01, an error in mm.
+struct Machine {
+  std::vector<ColumnInfo> inputs;
+  Eigen::MatrixXd values;
+  ColumnInfo target{"error_mm", UnitOfColumn("error_mm")};
+  Eigen::VectorXd errors;
+  std::vector<Index> rows;
+  Index num_sessions = 4;
+
+  explicit Machine(const std::string& unit = "degC") {
+    inputs.push_back({"position_mm", UnitOfColumn("position_mm")});
+    for (int t = 1; t <= 5; ++t) {
+      inputs.push_back(
+          {"t" + std::to_string(t) + " [" + unit + "]", UnitOfSymbol(unit)});
+    }
+    values.resize(kRows, 6);
+    errors.resize(kRows);
+    std::mt19937_64 random(3);
+    for (Index i = 0; i < kRows; ++i) {
+      const double hours = static_cast<double>(i % 60) / 10.0;
+      values(i, 0) = static_cast<double>(i % 12) * 25.0;
+      for (Index t = 1; t <= 5; ++t) {
+        const double k = static_cast<double>(t);
+        double reading = 20.0 + 2.0 * k * (1.0 - std::exp(-hours / (1.0 + k)));
+        double noise = -6.0;  // sum of twelve uniforms: nearly normal
+        for (int n = 0; n < 12; ++n) {
+          noise += static_cast<double>(random() >> 11U) * 0x1p-53;
+        }
+        reading += 0.02 * noise;
+        values(i, t) = Converted(std::round(100.0 * reading) / 100.0,
+                                 UnitOfSymbol("degC"),
+                                 UnitOfSymbol(unit));
+      }
+      errors[i] =
+          1e-4 * values(i, 0) + 1e-3 * std::sin(2.0 * kPi * hours / 6.0);
+      rows.push_back(i);
+    }
+  }
+
+  std::vector<ColumnFault> Faults() const {
+    return FindColumnFaults({.target = target,
+                             .target_values = errors,
+                             .inputs = inputs,
+                             .input_values = values,
+                             .rows = rows,
+                             .num_sessions = num_sessions});
+  }
+
+  ColumnFault OnlyFault() const {
+    const std::vector<ColumnFault> faults = Faults();
+    EXPECT_EQ(faults.size(), 1U);
+    return faults.empty() ? ColumnFault{} : faults.front();
+  }
+};
+
+TEST(FindColumnFaults, FindsNoneInAHealthyMachine) {
+  EXPECT_THAT(Machine().Faults(), IsEmpty());
+  EXPECT_THAT(Machine("K").Faults(), IsEmpty());
+  EXPECT_THAT(Machine("degF").Faults(), IsEmpty());
+}
+
+TEST(FindColumnFaults, NamesValuesBeyondAnyThermometer) {
+  Machine machine;
+  machine.values(17, 3) = 999.9;
+  machine.values(90, 3) = -127.0;
+  const ColumnFault fault = machine.OnlyFault();
+  EXPECT_EQ(fault.kind, FaultKind::kImpossible);
+  EXPECT_EQ(fault.input, 3);
+  EXPECT_THAT(fault.rows, ElementsAre(17, 90));
+  EXPECT_TRUE(fault.of_cells);
+  EXPECT_EQ(fault.value, 999.9);
+  EXPECT_GT(fault.low, 19.0);
+  EXPECT_LT(fault.high, 30.0);
+  EXPECT_THAT(RowsOfCellFaults({fault, fault}), ElementsAre(17, 90));
+}
+
+TEST(FindColumnFaults, DoubtsTheUnitOfAColumnThatIsAllImpossible) {
+  Machine machine;
+  machine.values.col(2).array() += 273.15;
+  const ColumnFault fault = machine.OnlyFault();
+  EXPECT_EQ(fault.kind, FaultKind::kImpossible);
+  EXPECT_FALSE(fault.of_cells);
+  EXPECT_THAT(RowsOfCellFaults({fault}), IsEmpty());
+}
+
+TEST(FindColumnFaults, NamesCodesAndFarValuesOfTargetAndPosition) {
+  Machine machine;
+  machine.errors[5] = 9999.0;
+  machine.errors[6] = 9999.0;
+  machine.values(40, 0) = -999.0;
+  const std::vector<ColumnFault> faults = machine.Faults();
+  ASSERT_EQ(faults.size(), 2U);
+  EXPECT_EQ(faults[0].kind, FaultKind::kOutlying);
+  EXPECT_EQ(faults[0].input, -1);
+  EXPECT_THAT(faults[0].rows, ElementsAre(5, 6));
+  EXPECT_EQ(faults[1].input, 0);
+  EXPECT_THAT(faults[1].rows, ElementsAre(40));
+  EXPECT_THAT(RowsOfCellFaults(faults), ElementsAre(5, 6, 40));
+}
+
+TEST(FindColumnFaults, TakesAWideTargetAsItIs) {
+  Machine machine;
+  machine.errors[5] = 3.0 * machine.errors.maxCoeff();
+  EXPECT_THAT(machine.Faults(), IsEmpty());
+}
+
+TEST(FindColumnFaults, NamesJumpsThatComeBack) {
+  Machine machine;
+  machine.values(30, 4) = 0.0;
+  machine.values(31, 4) = 0.0;
+  machine.values(100, 4) = 85.0;
+  const ColumnFault fault = machine.OnlyFault();
+  EXPECT_EQ(fault.kind, FaultKind::kJump);
+  EXPECT_THAT(fault.rows, ElementsAre(30, 31, 100));
+  EXPECT_EQ(fault.value, 0.0);
+  EXPECT_EQ(fault.low, machine.values(29, 4));
+}
+
+TEST(FindColumnFaults, ReportsDataRowsOfTheFile) {
+  Machine machine;
+  for (Index& row : machine.rows) row += 1000;
+  machine.values(100, 4) = 85.0;
+  EXPECT_THAT(machine.OnlyFault().rows, ElementsAre(1100));
+}
+
+TEST(FindColumnFaults, NamesAStepThatNoOtherThermometerMakes) {
+  Machine machine;
+  machine.values.col(2).segment(30, 20).array() += 6.0;
+  const ColumnFault fault = machine.OnlyFault();
+  EXPECT_EQ(fault.kind, FaultKind::kStep);
+  EXPECT_EQ(fault.input, 2);
+  EXPECT_FALSE(fault.of_cells);
+  EXPECT_THAT(fault.rows, ElementsAre(30, 50));
+  EXPECT_NEAR(fault.value, 6.0, 0.3);
+}
+
+TEST(FindColumnFaults, NamesAThermometerThatIsStuckInASession) {
+  Machine machine;
+  machine.values.col(5).segment(60, 60).setConstant(machine.values(60, 5));
+  const ColumnFault fault = machine.OnlyFault();
+  EXPECT_EQ(fault.kind, FaultKind::kStuck);
+  EXPECT_EQ(fault.input, 5);
+  EXPECT_EQ(fault.rows.front(), 60);
+  EXPECT_GE(fault.rows.back(), 119);
+  EXPECT_EQ(fault.value, machine.values(60, 5));
+  EXPECT_GT(fault.high, 1.0);
+}
+
+TEST(FindColumnFaults, NamesANoisyThermometer) {
+  Machine machine;
+  std::mt19937_64 random(5);
+  for (Index i = 0; i < kRows; ++i) {
+    machine.values(i, 1) +=
+        static_cast<double>(random() >> 11U) * 0x1p-52 - 1.0;
+  }
+  const ColumnFault fault = machine.OnlyFault();
+  EXPECT_EQ(fault.kind, FaultKind::kNoisy);
+  EXPECT_EQ(fault.input, 1);
+  EXPECT_GT(fault.value, 10.0 * fault.high);
+}
+
+TEST(FindColumnFaults, NamesADriftFromSessionToSession) {
+  Machine machine;
+  for (Index i = 0; i < kRows; ++i) {
+    machine.values(i, 3) += 1.5 * static_cast<double>(i) / kRows;
+  }
+  const ColumnFault fault = machine.OnlyFault();
+  EXPECT_EQ(fault.kind, FaultKind::kDrifting);
+  EXPECT_EQ(fault.input, 3);
+  EXPECT_NEAR(fault.value, 1.5, 0.3);
+  machine.num_sessions = 1;  // it might as well be one slow warm-up
+  EXPECT_THAT(machine.Faults(), IsEmpty());
+}
+
+TEST(FindColumnFaults, SaysNothingOfFewRows) {
+  Machine machine;
+  machine.values.conservativeResize(8, Eigen::NoChange);
+  machine.errors.conservativeResize(8);
+  machine.rows.resize(8);
+  machine.values(3, 2) = 85.0;
+  EXPECT_THAT(machine.Faults(), IsEmpty());
+}
+
+PreparedDataset Shipped(const std::string& name) {
+  return MakeDataset(ReadCsv(tests::SourceDir() + "/data/sets/" + name), {});
+}
+
+TEST(FindColumnFaults, FindsNoneInTheShippedSets) {
+  EXPECT_THAT(Shipped("nistir5367_xdisp_down.csv").faults, IsEmpty());
+  EXPECT_THAT(Shipped("turning_centre/x_displacement_down.csv").faults,
+              IsEmpty());
+  EXPECT_THAT(Shipped("turning_centre/x_displacement_up.csv").faults,
+              IsEmpty());
+}
+
+// Thermocouples and positions of one sweep of a simulated machine.
+struct SimulatedSweep {
+  explicit SimulatedSweep(const turning_centre::SimulationOptions& options) {
+    const turning_centre::Simulation simulation =
+        turning_centre::Simulate(options);
+    std::vector<const turning_centre::Stop*> stops;
+    for (const turning_centre::Stop& stop : simulation.stops) {
+      if (stop.sweep == turning_centre::Sweep::kXForward)
+        stops.push_back(&stop);
+    }
+    const auto m = static_cast<Index>(stops.size());
+    constexpr auto kSensors =
+        static_cast<Index>(turning_centre::kNumThermocouples);
+    values.resize(m, kSensors);
+    positions.resize(m);
+    for (Index i = 0; i < m; ++i) {
+      const turning_centre::Stop& stop = *stops[static_cast<std::size_t>(i)];
+      positions[i] = stop.position();
+      for (Index t = 0; t < kSensors; ++t) {
+        values(i, t) = stop.readings[static_cast<std::size_t>(t)];
+      }
+      rows.push_back(i);
+    }
+    for (Index t = 0; t < kSensors; ++t) {
+      inputs.push_back(
+          {"t" + std::to_string(t) + "_degC", UnitOfSymbol("degC")});
+    }
+    num_sessions = options.days;
+  }
+
+  std::vector<ColumnFault> Faults() const {
+    return FindColumnFaults({.target = target,
+                             .target_values = positions,
+                             .inputs = inputs,
+                             .input_values = values,
+                             .rows = rows,
+                             .num_sessions = num_sessions});
+  }
+
+  ColumnInfo target{"error_mm", UnitOfSymbol("mm")};
+  Eigen::VectorXd positions;
+  std::vector<ColumnInfo> inputs;
+  Eigen::MatrixXd values;
+  std::vector<Index> rows;
+  Index num_sessions = 0;
+};
+
+TEST(FindColumnFaults, RaisesNoFalseAlarmOverSimulatedMachines) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const int days = 1 + static_cast<int>(seed % 5);
+    EXPECT_THAT(SimulatedSweep({.seed = seed, .days = days}).Faults(),
+                IsEmpty())
+        << seed;
+  }
+}
+
+TEST(FindColumnFaults, FindsWhatFailsInASimulatedMachine) {
+  const std::vector<ColumnFault> faults = SimulatedSweep({.seed = 24,
+                                                          .days = 5,
+                                                          .stuck = {8, 26},
+                                                          .drifting = {11, 30},
+                                                          .noisy = {13, 24}})
+                                              .Faults();
+  std::vector<std::pair<Index, FaultKind>> found;
+  for (const ColumnFault& fault : faults) {
+    found.emplace_back(fault.input, fault.kind);
+  }
+  EXPECT_THAT(found,
+              ElementsAre(std::pair(8, FaultKind::kStuck),
+                          std::pair(11, FaultKind::kDrifting),
+                          std::pair(13, FaultKind::kNoisy),
+                          std::pair(24, FaultKind::kNoisy),
+                          std::pair(26, FaultKind::kStuck),
+                          std::pair(30, FaultKind::kDrifting)));
+}
+
+}  // namespace
+}  // namespace errmap::data

@@ -1,0 +1,230 @@
+#include "data/measurements/sessions.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace errmap::data {
+namespace {
+
+using Eigen::Index;
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::ThrowsMessage;
+
+FoundSessions Find(const std::string& text, DatasetSelection selection = {}) {
+  const CsvTable table = ParseCsv(text, "log.csv");
+  std::vector<Index> rows;
+  for (std::size_t i = 0; i < table.num_rows; ++i) {
+    rows.push_back(static_cast<Index>(i));
+  }
+  return FindSessions(table, selection, rows);
+}
+
+std::vector<double> Times(const FoundSessions& found) {
+  return {found.time.begin(), found.time.end()};
+}
+
+auto Refuses(const std::string& what) {
+  return ThrowsMessage<InputError>(HasSubstr(what));
+}
+
+TEST(Sessions, AreThoseOfTheColumnSessionElseDayElseRun) {
+  const std::string rows = "1,1,1\n1,1,1\n1,1,2\n1,2,2\n2,2,2\n2,2,2\n";
+  EXPECT_EQ(Find("Session,day,run\n" + rows).sessions.column, "Session");
+  EXPECT_EQ(Find("x,day,run\n" + rows).sessions.column, "day");
+  EXPECT_EQ(Find("x,y,run\n" + rows).sessions.column, "run");
+  const FoundSessions found = Find("x,y,run\n" + rows, {.session = "y"});
+  EXPECT_EQ(found.sessions.column, "y");
+  EXPECT_THAT(found.sessions.codes, ElementsAre(0, 0, 0, 1, 1, 1));
+  EXPECT_THAT(found.remarks,
+              ElementsAre("2 sessions by 'y'; time is the number of the row"));
+  EXPECT_EQ(found.time_unit, "rows");
+  EXPECT_THAT(Times(found), ElementsAre(0, 1, 2, 3, 4, 5));
+}
+
+TEST(Sessions, AreTextsToo) {
+  const FoundSessions found = Find("session,x\nmo,1\nmo,2\ntu,3\ntu,4\n");
+  EXPECT_THAT(found.sessions.labels, ElementsAre("mo", "tu"));
+}
+
+TEST(Sessions, PassOverADefaultColumnThatCountsRows) {
+  const FoundSessions found = Find("run,x\n1,1\n2,2\n3,3\n4,4\n");
+  EXPECT_EQ(found.sessions.column, "");
+  EXPECT_THAT(found.sessions.labels, ElementsAre("1"));
+  EXPECT_THAT(found.remarks,
+              Contains(HasSubstr("column 'run' has 4 values in 4 rows, which "
+                                 "are no sessions")));
+}
+
+TEST(Sessions, TimeIsInSecondsByItsUnit) {
+  EXPECT_THAT(Times(Find("time_s\n1\n2\n")), ElementsAre(1, 2));
+  EXPECT_THAT(Times(Find("Time_min\n1\n2\n")), ElementsAre(60, 120));
+  EXPECT_THAT(Times(Find("time_h\n1\n2\n")), ElementsAre(3600, 7200));
+  EXPECT_THAT(Times(Find("time_ms\n1000\n2000\n")), ElementsAre(1, 2));
+  const FoundSessions unnamed = Find("time\n1\n2\n");
+  EXPECT_EQ(unnamed.time_unit, "s");
+  EXPECT_THAT(unnamed.remarks,
+              ElementsAre(HasSubstr("time by 'time', taken for seconds")));
+  EXPECT_THAT(Times(Find("clock\n5\n7\n", {.time = "clock"})),
+              ElementsAre(5, 7));
+}
+
+TEST(Sessions, TimeMayBeDates) {
+  const FoundSessions found = Find(
+      "time,x\n2024-03-01T23:59:58,1\n2024-03-02 00:00:01,2\n"
+      "2024-03-02T01:00:03+01:00,3\n");
+  EXPECT_EQ(found.time[1] - found.time[0], 3.0);
+  EXPECT_EQ(found.time[2] - found.time[1], 2.0);
+  EXPECT_EQ(found.time_unit, "s");
+}
+
+TEST(Sessions, AreCutWhereTimeGoesBackOrLeaps) {
+  std::string text = "time_s\n";
+  for (const int time :
+       {0, 10, 20, 30, 40, 50, 250, 260, 461, 471, 481, 0, 10, 20, 30, 40}) {
+    text += std::to_string(time) + "\n";
+  }
+  // Steps of 10: 200 is no leap, 201 is one.
+  const FoundSessions found = Find(text);
+  EXPECT_THAT(found.sessions.codes,
+              ElementsAre(0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2, 2));
+  EXPECT_THAT(found.remarks,
+              ElementsAre("3 sessions, cut where 'time_s' goes back or leaps "
+                          "(first at data row 8); time by 'time_s'"));
+  EXPECT_EQ(found.sessions.column, "");
+}
+
+TEST(Sessions, AreOneWhereNothingTells) {
+  const FoundSessions found = Find("x\n1\n2\n");
+  EXPECT_THAT(found.sessions.codes, ElementsAre(0, 0));
+  EXPECT_THAT(found.remarks, IsEmpty());
+  EXPECT_THAT(found.known, Each(true));
+  EXPECT_THAT(Find("time_s\n1\n2\n").remarks,
+              ElementsAre("one session (no column session, day or run, no "
+                          "break in time); time by 'time_s'"));
+}
+
+TEST(Sessions, MayHaveSeveralRowsAtOneTime) {
+  EXPECT_THAT(Times(Find("time_s,day\n0,1\n5,1\n5,1\n5,1\n9,1\n")),
+              ElementsAre(0, 5, 5, 5, 9));
+  EXPECT_THAT(Find("time_s\n5\n5\n5\n").sessions.codes, ElementsAre(0, 0, 0));
+}
+
+TEST(Sessions, RefuseTimeThatGoesBackInANamedOne) {
+  EXPECT_THAT([] { Find("time_s,day\n0,1\n9,1\n0,2\n5,2\n3,2\n"); },
+              Refuses("log.csv: line 6 (data row 4), column 'time_s': time "
+                      "goes back by 2 s within 'day' '2'; sort its rows"));
+  // Another session may begin anew, and rows of two may alternate.
+  EXPECT_NO_THROW(Find("time_s,day\n5,1\n0,2\n6,1\n1,2\n"));
+  EXPECT_EQ(
+      Find("time_s,day\n9,1\n0,1\n9,2\n0,2\n", {.time = "none"}).time_unit,
+      "rows");
+}
+
+TEST(Sessions, PassOverATimeWithoutOrder) {
+  const std::string text = "time_s\n5\n3\n8\n1\n9\n2\n7\n4\n";
+  const FoundSessions found = Find(text);
+  EXPECT_EQ(found.time_unit, "rows");
+  EXPECT_EQ(found.sessions.labels.size(), 1U);
+  EXPECT_THAT(found.remarks,
+              Contains(HasSubstr("'time_s' goes back at 4 of 7 steps, so the "
+                                 "rows are not in order of time")));
+  EXPECT_THAT([&] { Find(text, {.time = "time_s"}); },
+              Refuses("sort them, or name the column of sessions"));
+}
+
+TEST(Sessions, PassOverATimeInWordsThatNobodyNamed) {
+  const std::string text = "time,x\nmorning,1\nnoon,2\n";
+  EXPECT_THAT(Find(text).remarks,
+              Contains(HasSubstr("column 'time': 'morning' is no time; the "
+                                 "column is passed over")));
+  EXPECT_THAT([&] { Find(text, {.time = "time"}); },
+              Refuses("'morning' is no time; write seconds, or dates"));
+}
+
+TEST(Sessions, SayWhereACellIsMissing) {
+  const std::string text = "time_s,x\n0,1\n,2\n8,3\n";
+  EXPECT_THAT(Find(text).remarks, Contains(HasSubstr("no value there")));
+  EXPECT_THAT([&] { Find(text, {.time = "time_s"}); },
+              Refuses("line 3 (data row 1), column 'time_s': empty cell"));
+  const FoundSessions found =
+      Find(text, {.time = "time_s", .missing = MissingPolicy::kDropRows});
+  EXPECT_THAT(found.known, ElementsAre(true, false, true));
+  EXPECT_THAT(Times(found), ElementsAre(0, 0, 8));
+  EXPECT_THAT([] { Find("day,x\n1,1\n,2\n", {.session = "day"}); },
+              Refuses("column 'day': empty cell"));
+}
+
+TEST(Sessions, AskWhichOfSeveralTimesIsMeant) {
+  EXPECT_THAT(Find("time_s,time_h\n0,1\n1,2\n").remarks,
+              Contains(HasSubstr("name one with --time")));
+  EXPECT_THAT([] { Find("x\n0\n", {.time = "clock"}); },
+              Refuses("no column 'clock' (--time)"));
+}
+
+TEST(Sessions, NeverTakeWhatIsMeasuredForTheTime) {
+  const std::string text = "time_to_fail,day\n3,1\n1,2\n2,2\n";
+  const FoundSessions found = Find(text, {.target = "time_to_fail"});
+  EXPECT_EQ(found.time_unit, "rows");
+  EXPECT_THAT(found.sessions.codes, ElementsAre(0, 1, 1));
+  EXPECT_THAT(Find(text, {.target = "day"}).sessions.column, IsEmpty());
+  EXPECT_THAT(
+      [&] { Find(text, {.target = "day", .session = "day"}); },
+      Refuses("column 'day' is the target or the weight; name another with "
+              "--session"));
+}
+
+TEST(AppendedTable, GoesOnWithTheRowsOfTheLater) {
+  const CsvTable table =
+      AppendedTable(ParseCsv("a,b\n1,x\n2,y\n", "one.csv"),
+                    ParseCsv("b,c,a\n,0,3\nz,0,4\n", "two.csv"),
+                    {"b", "a"});
+  ASSERT_EQ(table.num_rows, 4U);
+  ASSERT_EQ(table.columns.size(), 2U);
+  EXPECT_THAT(table.columns[1].values, ElementsAre(1, 2, 3, 4));
+  std::vector<std::string> cells;
+  for (std::size_t row = 0; row < 4; ++row) {
+    cells.push_back(table.CellText(table.columns[0], row));
+  }
+  EXPECT_THAT(cells, ElementsAre("x", "y", "", "z"));
+  EXPECT_EQ(table.Where(2, "a"),
+            "one.csv, then two.csv: line 2 (data row 2), column 'a'");
+}
+
+TEST(MakeDataset, KnowsTheSessionsOfEveryRowRead) {
+  const PreparedDataset prepared = MakeDataset(
+      ParseCsv("day,time_s,t1_degC,error_um\n1,0,,1\n1,5,20,2\n2,60,21,3\n"
+               "2,65,,4\n2,70,22,6\n",
+               "log.csv"),
+      {.missing = MissingPolicy::kDropRows});
+  const Dataset& dataset = prepared.dataset;
+  ASSERT_NE(dataset.log(), nullptr);
+  EXPECT_THAT(dataset.log_rows(), ElementsAre(1, 2, 4));
+  EXPECT_THAT(dataset.session_codes(), ElementsAre(0, 1, 1));
+  EXPECT_THAT(dataset.log()->first_rows, ElementsAre(1, 2));
+  EXPECT_EQ(dataset.log()->input_values.rows(), 5);
+  EXPECT_TRUE(std::isnan(dataset.log()->input_values(3, 0)));
+  EXPECT_EQ(dataset.log()->input_values(4, 0), 22.0);
+  EXPECT_EQ(dataset.num_inputs(), 1);  // neither day nor time
+}
+
+TEST(MakeDataset, TakesTheFirstValueOfEachSessionOffTheTarget) {
+  const PreparedDataset prepared =
+      MakeDataset(ParseCsv("day,t1_degC,error_um\n1,20,5\n1,21,7\n2,20,-3\n"
+                           "2,22,1\n",
+                           "log.csv"),
+                  {.align = Alignment::kFirst});
+  EXPECT_EQ(prepared.dataset.target_values(), Eigen::Vector4d(0, 2, 0, 4));
+  EXPECT_EQ(prepared.dataset.align(), Alignment::kFirst);
+  EXPECT_THAT(prepared.remarks, Contains(HasSubstr("--align first")));
+}
+
+}  // namespace
+}  // namespace errmap::data

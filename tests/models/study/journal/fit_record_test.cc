@@ -1,0 +1,353 @@
+#include "models/study/journal/fit_record.h"
+
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "data/input_error.h"
+#include "models/history/history.h"
+#include "models/polynomial/polynomial_model.h"
+#include "models/recipe_catalog.h"
+#include "models/regression_report.h"
+#include "tests/models/model_test_data.h"
+
+namespace errmap::models {
+namespace {
+
+using errmap::testing::QuadraticData;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kDenormal = std::numeric_limits<double>::denorm_min();
+constexpr double kMost = std::numeric_limits<double>::max();
+
+FitOutcome OutcomeOf(const std::string& spec, const data::Dataset& dataset) {
+  FitOutcome outcome;
+  outcome.fitted = MakeRecipe(spec)->Fit(
+      dataset, {.seed = 7, .explain = true, .keep_trace = true});
+  outcome.seconds = 0.1;
+  outcome.train_predictions = outcome.fitted->Predict(dataset);
+  outcome.test_predictions = outcome.train_predictions.reverse();
+  return outcome;
+}
+
+// An outcome in which every list has something.
+FitOutcome FullOutcome() {
+  FitOutcome outcome;
+  FittedModel fitted;
+  fitted.name = "poly:eq8";
+  fitted.inputs.resize(1);
+  PolynomialForm form;
+  form.input_offset = form.input_scale = Eigen::VectorXd::Ones(1);
+  form.terms = {{{2}, 0.25}};
+  fitted.model = std::make_shared<PolynomialModel>(form, 2);
+  fitted.summary.trace.resize(1);
+  fitted.remarks = {"one"};
+  fitted.choices = {{"wfactor", 1.5}};
+  fitted.starts.resize(1);
+  auto report = std::make_shared<RegressionReport>();
+  report->steps.resize(1);
+  report->excluded.resize(1);
+  report->aliased.resize(1);
+  report->terms.resize(1);
+  report->fit.coefficients.resize(1);
+  report->fit.triangle = Eigen::MatrixXd::Identity(2, 3);
+  fitted.regression = report;
+  fitted.history = std::make_shared<History>(
+      History{.time_unit = "s",
+              .session = "day",
+              .derived = {Zeroed(fitted.inputs[0].column)},
+              .form_inputs = {"zeroed()"}});
+  fitted.guards = MakeGuards(fitted.inputs, Eigen::Vector2d(-1.0, 2.0));
+  outcome.fitted = std::move(fitted);
+  outcome.train_predictions = Eigen::VectorXd::LinSpaced(5, 0.1, 0.7);
+  return outcome;
+}
+
+RegressionReport& Report(FitOutcome* outcome) {
+  auto copy = std::make_shared<RegressionReport>(*outcome->fitted->regression);
+  RegressionReport& report = *copy;
+  outcome->fitted->regression = std::move(copy);
+  return report;
+}
+
+History& Memory(FitOutcome* outcome) {
+  auto copy = std::make_shared<History>(*outcome->fitted->history);
+  History& history = *copy;
+  outcome->fitted->history = std::move(copy);
+  return history;
+}
+
+TEST(FitRecord, BringsBackEveryKindOfModelToTheBit) {
+  constexpr Eigen::Index kRows = 60;
+  const data::Dataset dataset = QuadraticData(kRows);
+  std::vector<std::string> specs = ModelTypes();
+  specs.push_back("poly:formula=position_mm+t1_degC^2");
+  specs.push_back("net:scg:hidden=3:iterations=20:starts=3");
+  for (const std::string& spec : specs) {
+    const FitOutcome outcome = OutcomeOf(spec, dataset);
+    const std::string text = FitToText(outcome);
+    EXPECT_EQ(text.find('\n'), std::string::npos) << spec;
+    const FitOutcome back = FitFromText(text);
+    EXPECT_EQ(FitToText(back), text) << spec;
+    EXPECT_EQ(back.fitted->Predict(dataset), outcome.train_predictions) << spec;
+    EXPECT_EQ(back.train_predictions, outcome.train_predictions) << spec;
+    EXPECT_EQ(back.test_predictions, outcome.test_predictions) << spec;
+    EXPECT_EQ(back.fitted->summary.trace.size(),
+              outcome.fitted->summary.trace.size())
+        << spec;
+    EXPECT_EQ(back.fitted->regression == nullptr,
+              outcome.fitted->regression == nullptr)
+        << spec;
+    EXPECT_EQ(back.fitted->target, outcome.fitted->target) << spec;
+  }
+}
+
+TEST(FitRecord, BringsBackAFailure) {
+  FitOutcome failed;
+  failed.why_failed = "20 coefficients need 21 rows, \"found\" 8\n";
+  failed.seconds = 3.0;
+  const FitOutcome back = FitFromText(FitToText(failed));
+  EXPECT_FALSE(back.fitted.has_value());
+  EXPECT_EQ(back.why_failed, failed.why_failed);
+  EXPECT_EQ(back.seconds, failed.seconds);
+  EXPECT_EQ(back.train_predictions.size(), 0);
+}
+
+TEST(FitRecord, KeepsTheBitsOfEveryNumber) {
+  const std::vector<double> numbers = {0.0,
+                                       -0.0,
+                                       0.1,
+                                       1.0 / 3.0,
+                                       1e23,
+                                       kDenormal,
+                                       kMost,
+                                       kInf,
+                                       -kInf,
+                                       kNaN,
+                                       -kNaN,
+                                       5e-324,
+                                       123456789012345680.0};
+  for (const double number : numbers) {
+    FitOutcome outcome;
+    outcome.seconds = number;
+    outcome.train_predictions = Eigen::VectorXd::Constant(3, number);
+    const FitOutcome back = FitFromText(FitToText(outcome));
+    const auto bits = std::bit_cast<std::uint64_t>(number);
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(back.seconds), bits) << number;
+    for (const double prediction : back.train_predictions) {
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(prediction), bits) << number;
+    }
+  }
+}
+
+TEST(FitRecord, KeepsVectorsOfEveryLength) {
+  for (Eigen::Index size = 0; size < 12; ++size) {
+    FitOutcome outcome;
+    outcome.test_predictions = Eigen::VectorXd::LinSpaced(size, -1.0, 1e-3);
+    EXPECT_EQ(FitFromText(FitToText(outcome)).test_predictions,
+              outcome.test_predictions);
+  }
+}
+
+TEST(FitRecord, KeepsTextsOfAnyBytes) {
+  std::string bytes;
+  for (int byte = 0; byte < 256; ++byte) bytes += static_cast<char>(byte);
+  FitOutcome outcome;
+  outcome.why_failed = bytes;
+  EXPECT_EQ(FitFromText(FitToText(outcome)).why_failed, bytes);
+}
+
+using Mutation = std::function<void(FitOutcome*)>;
+
+std::vector<Mutation> MutationsOfTheModel() {
+  return {
+      [](auto* o) { o->seconds = 2.0; },
+      [](auto* o) { o->why_failed = "x"; },
+      [](auto* o) { o->try_again = true; },
+      [](auto* o) { o->train_predictions[2] += 1e-16; },
+      [](auto* o) { o->test_predictions = Eigen::VectorXd::Zero(1); },
+      [](auto* o) { o->fitted.reset(); },
+      [](auto* o) { o->fitted->name += "x"; },
+      [](auto* o) { o->fitted->kind = ModelKind::kNet; },
+      [](auto* o) { o->fitted->target.name = "x"; },
+      [](auto* o) { o->fitted->target.unit.symbol = "x"; },
+      [](auto* o) { o->fitted->target.unit.display_scale = 2.0; },
+      [](auto* o) { o->fitted->target.unit.display_symbol = "x"; },
+      [](auto* o) { o->fitted->target.unit.quantity = data::Quantity::kAngle; },
+      [](auto* o) { o->fitted->inputs[0].column.name = "x"; },
+      [](auto* o) { o->fitted->inputs[0].min = -1.0; },
+      [](auto* o) { o->fitted->inputs[0].max = 1.0; },
+      [](auto* o) { o->fitted->inputs[0].mean = 1.0; },
+      [](auto* o) { o->fitted->inputs[0].sd = 1.0; },
+      [](auto* o) { o->fitted->model.reset(); },
+      [](auto* o) { o->fitted->equation = "x"; },
+      [](auto* o) { o->fitted->remarks.push_back("x"); },
+      [](auto* o) { o->fitted->choices[0].key = "x"; },
+      [](auto* o) { o->fitted->choices[0].value = std::int64_t{1}; },
+      [](auto* o) { o->fitted->choices[0].value = "1.5"; },
+      [](auto* o) { o->fitted->starts[0].seed = ~std::uint64_t{0}; },
+      [](auto* o) { o->fitted->starts[0].final_cost = 1.0; },
+      [](auto* o) {
+        o->fitted->starts[0].termination = fitting::Termination::kGradient;
+      },
+      [](auto* o) { o->fitted->starts[0].iterations = 1; },
+      [](auto* o) { o->fitted->starts[0].holdout_rmse = 1.0; },
+      [](auto* o) { o->fitted->starts[0].chosen = true; },
+      [](auto* o) { o->fitted->regression.reset(); },
+      [](auto* o) { o->fitted->history.reset(); },
+      [](auto* o) { Memory(o).time_unit = "rows"; },
+      [](auto* o) { Memory(o).session = "x"; },
+      [](auto* o) { Memory(o).derived[0].column.name = "x"; },
+      [](auto* o) { Memory(o).derived[0].of = "x"; },
+      [](auto* o) { Memory(o).derived[0].filter = Filter::kSine; },
+      [](auto* o) { Memory(o).derived[0].tau = 3.0; },
+      [](auto* o) { Memory(o).form_inputs = {"x"}; },
+      [](auto* o) { Memory(o).latest_start = 3.0; },
+      [](auto* o) { o->fitted->align = data::Alignment::kFirst; },
+      [](auto* o) { o->fitted->guards.reset(); },
+      [](auto* o) { o->fitted->guards->input_margin = 3.0; },
+      [](auto* o) { o->fitted->guards->error_margin = 3.0; },
+      [](auto* o) { o->fitted->guards->input_min[0] = 3.0; },
+      [](auto* o) { o->fitted->guards->input_max[0] = 3.0; },
+      [](auto* o) { o->fitted->guards->error_min = 3.0; },
+      [](auto* o) { o->fitted->guards->error_max = 3.0; },
+  };
+}
+
+std::vector<Mutation> MutationsOfTheSummary() {
+  using fitting::FitSummary;
+  std::vector<Mutation> mutations;
+  for (const auto member : {&FitSummary::initial_cost,
+                            &FitSummary::final_cost,
+                            &FitSummary::initial_gradient_norm,
+                            &FitSummary::final_gradient_norm,
+                            &FitSummary::seconds,
+                            &FitSummary::mean_iteration_seconds,
+                            &FitSummary::sd_iteration_seconds}) {
+    mutations.push_back([=](auto* o) { o->fitted->summary.*member = 3.0; });
+  }
+  for (const auto member : {&FitSummary::iterations,
+                            &FitSummary::value_evaluations,
+                            &FitSummary::gradient_evaluations,
+                            &FitSummary::curvature_evaluations}) {
+    mutations.push_back([=](auto* o) { o->fitted->summary.*member = 3; });
+  }
+  const std::vector<Mutation> more = {
+      [](auto* o) {
+        o->fitted->summary.termination = fitting::Termination::kDirect;
+      },
+      [](auto* o) { o->fitted->summary.message = "x"; },
+      [](auto* o) { o->fitted->summary.trace[0].iteration = 1; },
+      [](auto* o) { o->fitted->summary.trace[0].rms_error = 1.0; },
+      [](auto* o) { o->fitted->summary.trace[0].gradient_norm = 1.0; },
+  };
+  mutations.insert(mutations.end(), more.begin(), more.end());
+  return mutations;
+}
+
+std::vector<Mutation> MutationsOfTheReport() {
+  return {
+      [](auto* o) { Report(o).method = "x"; },
+      [](auto* o) { Report(o).candidates = 1; },
+      [](auto* o) { Report(o).steps[0].term = "x"; },
+      [](auto* o) { Report(o).steps[0].numbers.entered = false; },
+      [](auto* o) { Report(o).steps[0].numbers.cv = 1.0; },
+      [](auto* o) { Report(o).chosen_step = 1; },
+      [](auto* o) { Report(o).ended = "x"; },
+      [](auto* o) { Report(o).selected = true; },
+      [](auto* o) { Report(o).bootstrap = 1; },
+      [](auto* o) { Report(o).bootstrap_unit = "x"; },
+      [](auto* o) { Report(o).cross_validation = "x"; },
+      [](auto* o) { Report(o).excluded[0].f = 1.0; },
+      [](auto* o) { Report(o).aliased[0].why = "x"; },
+      [](auto* o) { Report(o).fit.aliased = {1}; },
+      [](auto* o) { Report(o).fit.coefficients[0].vif = 1.0; },
+      [](auto* o) { Report(o).fit.triangle(1, 2) = kNaN; },
+      [](auto* o) { Report(o).fit.triangle.transposeInPlace(); },
+      [](auto* o) { Report(o).fit.means = Eigen::VectorXd::Ones(1); },
+      [](auto* o) { Report(o).fit.sum_of_weights = 1.0; },
+      [](auto* o) { Report(o).rows.press = kInf; },
+      [](auto* o) { Report(o).rows.largest_residual_row = 1; },
+      [](auto* o) { Report(o).intercept.inclusion = 1.0; },
+      [](auto* o) { Report(o).terms[0].numbers.t = 1.0; },
+      [](auto* o) {
+        Report(o).centres = {{"x", 1.0}};
+      },
+      [](auto* o) { Report(o).weighted = true; },
+      [](auto* o) { Report(o).penalised = true; },
+      [](auto* o) { Report(o).strength = 1.0; },
+      [](auto* o) { Report(o).degrees_of_freedom = 1.0; },
+      [](auto* o) { Report(o).strengths = {1.0}; },
+      [](auto* o) { Report(o).mean_squared_errors = {1.0}; },
+      [](auto* o) { Report(o).standard_errors = {1.0}; },
+      [](auto* o) { Report(o).notes = {"x"}; },
+  };
+}
+
+// That no member is forgotten is the compiler's care (MembersOf); this is that
+// none is written and not read, or read into another one's place.
+TEST(FitRecord, NoticesAndBringsBackEveryChange) {
+  const std::string text = FitToText(FullOutcome());
+  for (const auto& mutations : {MutationsOfTheModel(),
+                                MutationsOfTheSummary(),
+                                MutationsOfTheReport()}) {
+    for (std::size_t i = 0; i < mutations.size(); ++i) {
+      FitOutcome outcome = FullOutcome();
+      mutations[i](&outcome);
+      const std::string changed = FitToText(outcome);
+      EXPECT_NE(changed, text) << i;
+      EXPECT_EQ(FitToText(FitFromText(changed)), changed) << i;
+    }
+  }
+}
+
+TEST(FitRecord, RefusesWhatIsNoRecordOfThisVersion) {
+  const std::string text = FitToText(FullOutcome());
+  const std::string more = text.substr(0, text.size() - 1) + ",1]";
+  const std::string cut = text.substr(0, text.size() / 2);
+  const std::string other = R"({"fitted":null})";
+  for (const std::string& bad : {more, cut, other, std::string()}) {
+    EXPECT_THAT([&] { FitFromText(bad); },
+                ThrowsMessage<data::InputError>(HasSubstr("record of a fit")))
+        << bad;
+  }
+}
+
+TEST(FitRecord, RefusesAModelThatCannotBe) {
+  // The only power of the model, which must not be negative.
+  std::string text = FitToText(FullOutcome());
+  const std::size_t powers = text.find("[[2],0.25]");
+  ASSERT_NE(powers, std::string::npos);
+  text.replace(powers, 4, "[[-2]");
+  EXPECT_THAT([&] { FitFromText(text); },
+              ThrowsMessage<data::InputError>(HasSubstr("power")));
+}
+
+TEST(FitRecord, BringsBackALabel) {
+  FitLabel label;
+  label.component = "x \"displacement\", down\xb5";
+  label.holdout = "groups:5";
+  label.fold = 3;
+  label.model = "net:scg";
+  label.program = "errmap 9";
+  label.options = "hidden=20";
+  label.context = "seed=1";
+  label.rows = "ab";
+  const FitLabel back = LabelFromText(LabelToText(label));
+  EXPECT_EQ(back.component, label.component);
+  EXPECT_EQ(back.Key(), label.Key());
+  EXPECT_EQ(LabelToText(back), LabelToText(label));
+}
+
+}  // namespace
+}  // namespace errmap::models
