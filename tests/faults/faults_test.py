@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """After any call of the system that fails, nothing is lost and nothing is half.
 
-    faults_test.py ERRMAP LIBRARY DATA [MALLOCS [SITES [--only-memory]]]
+    faults_test.py ERRMAP PRELOADED DATA [MALLOCS [SITES [--only-memory]]]
 
 Runs a small study once for every write, fsync, rename and opening of a file,
-in which that call fails (LIBRARY: failing_calls.cc, preloaded), once for each
+in which that call fails (PRELOADED: failing_calls.cc), once for each
 of MALLOCS (60) allocations drawn with a fixed seed, and once for each of SITES
 (10; "all") places in the program's own code, of which the first allocation
 fails. On demand: 1000 all. After each:
@@ -28,30 +28,16 @@ import subprocess
 import sys
 import tempfile
 
+from outputs import LEFT_BEHIND, contents, fail, failures
+
 MOST_SECONDS = 10  # of its own: a busy machine does not change that
 MOST_WAITING = 600  # for what waits for ever
-failures = []
 findings = {"runs": 0, "killed in a library": 0, "statuses": {}}
 
 
-def fail(what, message):
-    failures.append(f"{what}: {message}")
-    print("FAILED:", what, message, file=sys.stderr)
-
-
-def without_times(node):
-    if isinstance(node, dict):
-        return {
-            key: without_times(value)
-            for key, value in node.items()
-            if "seconds" not in key and not key.endswith("_ns")
-        }
-    return [without_times(item) for item in node] if isinstance(node, list) else node
-
-
 class Study:
-    def __init__(self, errmap, library, data, root):
-        self.errmap, self.library, self.root = errmap, library, root
+    def __init__(self, errmap, preloaded, data, root):
+        self.errmap, self.preloaded, self.root = errmap, preloaded, root
         self.words = [
             errmap, "compare", data, "--models",
             "mean,poly:eq8,net:scg:hidden=3:iterations=30,poly:formula=no_such_mm",
@@ -63,7 +49,7 @@ class Study:
         environment = dict(os.environ)
         self.log.unlink(missing_ok=True)
         if fault:
-            environment["LD_PRELOAD"] = self.library
+            environment["LD_PRELOAD"] = self.preloaded
             environment["ERRMAP_FAIL"] = fault
             environment["ERRMAP_FAIL_LOG"] = str(self.log)
         return subprocess.run(
@@ -91,30 +77,6 @@ class Study:
         shutil.rmtree(folder)
         lines = self.log.read_text().splitlines()
         return sorted(line for line in lines if not line.startswith("calls"))
-
-
-def contents(folder):
-    """Outputs by name, times apart; a file that is not whole raises."""
-    found = {}
-    for path in sorted(folder.rglob("*")):
-        name = str(path.relative_to(folder))
-        if path.is_dir() or name.startswith("journal."):
-            continue
-        text = path.read_text(encoding="utf-8")
-        if name == "errmap-files.json":
-            found[name] = sorted(file["name"] for file in json.loads(text)["files"])
-        elif name.endswith(".json"):
-            found[name] = without_times(json.loads(text))
-        elif name.startswith("report."):  # holds measured times
-            end = "</html>" if name.endswith("html") else "\n"
-            if not text.rstrip(" ").endswith(end) and not text.rstrip().endswith(end):
-                raise ValueError(f"{name} has no end")
-            found[name] = "whole"
-        elif ".tmp" in name or not name.endswith((".csv", ".md")):
-            found[name] = "left behind"
-        else:
-            found[name] = text
-    return found
 
 
 def judge(study, unbroken, what, folder, outcome, is_file_fault):
@@ -152,7 +114,7 @@ def judge(study, unbroken, what, folder, outcome, is_file_fault):
         fail(what, f"an output is not whole: {error}")
         found = {}
     for name, content in found.items():
-        if content == "left behind":
+        if content == LEFT_BEHIND:
             if status >= 0:
                 fail(what, f"left {name} behind")
         elif is_file_fault and name != "errmap-files.json" and content != unbroken[name]:
@@ -165,7 +127,7 @@ def judge(study, unbroken, what, folder, outcome, is_file_fault):
 
 
 def main():
-    errmap, library, data = sys.argv[1:4]
+    errmap, preloaded, data = sys.argv[1:4]
     mallocs = int(sys.argv[4]) if len(sys.argv) > 4 else 60
     most_sites = sys.argv[5] if len(sys.argv) > 5 else "10"
     kinds = ("write", "fsync", "rename", "open", "ftruncate")
@@ -173,7 +135,7 @@ def main():
         kinds = ()
     with tempfile.TemporaryDirectory() as scratch:
         root = pathlib.Path(scratch)
-        study = Study(errmap, library, data, root)
+        study = Study(errmap, preloaded, data, root)
         if study.run(root / "unbroken").returncode != 0:
             sys.exit("the study itself fails")
         unbroken = contents(root / "unbroken")
