@@ -470,6 +470,13 @@ TEST(ParseCsv, SurvivesRandomPiecesOfCsv) {
 
 // ---- Writing.
 
+// The delimiter is what both lines have as many of.
+TEST(ParseCsv, TakesCommasInNamesForNoDelimiter) {
+  const CsvTable table = ParseCsv("t1, bed, front;error_mm\n20;0.001\n", "a");
+  ASSERT_EQ(table.columns.size(), 2U);
+  EXPECT_EQ(table.columns[0].name, "t1, bed, front");
+}
+
 TEST(CsvField, TurnsFormulasOfSpreadsheetsIntoText) {
   EXPECT_EQ(CsvField("=1+1"), "'=1+1");
   EXPECT_EQ(CsvField("@SUM(A1,B1)"), "\"'@SUM(A1,B1)\"");

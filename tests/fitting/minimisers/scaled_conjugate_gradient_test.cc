@@ -582,5 +582,31 @@ TEST(ScaledConjugateGradientOptions, RefuseEachValueOutOfRange) {
               HasSubstr("iterations"));
 }
 
+// 1 + cos x, whose Hessian is negative where the run begins.
+class Cosine final : public Objective {
+ public:
+  Eigen::Index num_parameters() const override { return 1; }
+  double Evaluate(const Eigen::VectorXd& x,
+                  Eigen::VectorXd* gradient) const override {
+    if (gradient != nullptr) {
+      *gradient = Eigen::VectorXd::Constant(1, -std::sin(x[0]));
+    }
+    return 1.0 + std::cos(x[0]);
+  }
+};
+
+// Eq. (105) turns delta = p'Hp + lambda p'p into -p'Hp, whatever lambda was.
+TEST(ScaledConjugateGradient, MollerTurnsNegativeCurvatureRound) {
+  std::vector<ScgPass> passes;
+  ScaledConjugateGradientOptions options;
+  options.stopping.iterations = 1;
+  options.observer = [&](const ScgPass& pass) { passes.push_back(pass); };
+  ScaledConjugateGradient(options).Minimize(Cosine(), Eigen::VectorXd::Ones(1));
+  ASSERT_FALSE(passes.empty());
+  EXPECT_TRUE(passes[0].made_definite);
+  constexpr double kOfDifferences = 1e-4;  // p'Hp by default
+  EXPECT_NEAR(passes[0].alpha, 1.0 / std::cos(1.0), kOfDifferences);
+}
+
 }  // namespace
 }  // namespace errmap::fitting
