@@ -73,6 +73,15 @@ void CheckLog(const SessionLog& log,
   check_codes("log_rows", log_rows, num_rows, in_log);
 }
 
+// Inputs that are the log's stand in it row by row.
+void CheckAreAllRows(const std::vector<Eigen::Index>& log_rows) {
+  for (std::size_t i = 0; i < log_rows.size(); ++i) {
+    if (log_rows[i] == static_cast<Eigen::Index>(i)) continue;
+    ThrowInvalid("log_rows: found " + std::to_string(log_rows[i]) + " at " +
+                 std::to_string(i) + ", and input_values are the log's");
+  }
+}
+
 // Numbers come out sorted and each with its shortest text.
 Grouping GroupByNumber(const std::string& column,
                        const std::vector<double>& values,
@@ -135,16 +144,14 @@ std::string ValueText(const ColumnFilter& filter) {
 
 Dataset::Dataset(Parts parts) : parts_(std::move(parts)) {
   const Eigen::Index m = parts_.target_values.size();
-  CheckSize("columns of input_values",
-            parts_.input_values.cols(),
-            static_cast<Eigen::Index>(parts_.inputs.size()));
+  CheckSize("columns of input_values", input_values().cols(), num_inputs());
   if (num_inputs() > 0) {
-    CheckSize("rows of input_values", parts_.input_values.rows(), m);
+    CheckSize("rows of input_values", input_values().rows(), m);
   }
   if (!parts_.target_values.allFinite()) {
     ThrowInvalid("target_values has a value that is not finite");
   }
-  if (!parts_.input_values.allFinite()) {
+  if (!input_values().allFinite()) {
     ThrowInvalid("input_values has a value that is not finite");
   }
   if (parts_.weights.size() != 0) {
@@ -163,6 +170,7 @@ Dataset::Dataset(Parts parts) : parts_(std::move(parts)) {
   CheckSize("rows", static_cast<Eigen::Index>(parts_.rows.size()), m);
   if (parts_.log != nullptr) {
     CheckLog(*parts_.log, parts_.log_rows, num_inputs(), m);
+    if (reads_log()) CheckAreAllRows(parts_.log_rows);
   } else {
     CheckSize("log_rows without a log",
               static_cast<Eigen::Index>(parts_.log_rows.size()),
@@ -202,7 +210,7 @@ Dataset Dataset::SelectRows(const std::vector<Eigen::Index>& indices) const {
   }
   Parts parts{.source = parts_.source,
               .inputs = parts_.inputs,
-              .input_values = parts_.input_values(indices, Eigen::all),
+              .input_values = input_values()(indices, Eigen::all),
               .target = parts_.target,
               .target_values = parts_.target_values(indices),
               .groups = {.column = parts_.groups.column,
@@ -227,6 +235,7 @@ Dataset Dataset::SelectRows(const std::vector<Eigen::Index>& indices) const {
 Dataset Dataset::WithLog(std::shared_ptr<const SessionLog> log,
                          std::vector<Eigen::Index> log_rows) const {
   Parts parts = parts_;
+  parts.input_values = input_values();
   parts.log = std::move(log);
   parts.log_rows = std::move(log_rows);
   return Dataset(std::move(parts));

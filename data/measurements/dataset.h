@@ -58,7 +58,8 @@ class Dataset {
   struct Parts {
     std::string source;              // file or name, for messages
     std::vector<ColumnInfo> inputs;  // (p)
-    Eigen::MatrixXd input_values;    // (m x p)
+    /// (m x p); empty where the rows are those of the log: its values.
+    Eigen::MatrixXd input_values;
     ColumnInfo target;
     Eigen::VectorXd target_values;   // (m)
     Grouping groups;                 // column "" where there are none
@@ -77,9 +78,13 @@ class Dataset {
 
   const std::string& source() const { return parts_.source; }
   Eigen::Index num_rows() const { return parts_.target_values.size(); }
-  Eigen::Index num_inputs() const { return parts_.input_values.cols(); }
+  Eigen::Index num_inputs() const {
+    return static_cast<Eigen::Index>(parts_.inputs.size());
+  }
   const std::vector<ColumnInfo>& inputs() const { return parts_.inputs; }
-  const Eigen::MatrixXd& input_values() const { return parts_.input_values; }
+  const Eigen::MatrixXd& input_values() const {
+    return reads_log() ? parts_.log->input_values : parts_.input_values;
+  }
   const ColumnInfo& target() const { return parts_.target; }
   const Eigen::VectorXd& target_values() const { return parts_.target_values; }
   bool has_groups() const { return !parts_.groups.column.empty(); }
@@ -118,6 +123,11 @@ class Dataset {
                      Eigen::MatrixXd input_values) const;
 
  private:
+  bool reads_log() const {
+    return parts_.input_values.cols() == 0 && num_inputs() > 0 &&
+           parts_.log != nullptr;
+  }
+
   Parts parts_;
 };
 

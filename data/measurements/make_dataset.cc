@@ -474,13 +474,6 @@ class DatasetBuilder {
     log->sessions = std::move(found_.sessions);
     log->time = std::move(found_.time);
     log->time_unit = std::move(found_.time_unit);
-    log->input_values.resize(static_cast<Eigen::Index>(log_rows_.size()),
-                             parts_.input_values.cols());
-    for (Eigen::Index i = 0; i < log->input_values.cols(); ++i) {
-      const std::string& name = parts_.inputs[static_cast<std::size_t>(i)].name;
-      log->input_values.col(i) =
-          ValuesOfRows(Column(table_.Find(name)), log_rows_);
-    }
     // Both lists ascend, and the rows kept are among those of the log.
     auto at = log_rows_.begin();
     for (const Eigen::Index row : parts_.rows) {
@@ -488,8 +481,25 @@ class DatasetBuilder {
       parts_.log_rows.push_back(at - log_rows_.begin());
     }
     log->first_rows = FirstRows(log->sessions, parts_.log_rows);
-    if (selection_.faults == FaultPolicy::kDropRows) BlankFaults(log.get());
+    if (log_rows_ == parts_.rows) {
+      log->input_values = std::move(parts_.input_values);
+      parts_.input_values.resize(0, 0);
+    } else {
+      log->input_values = LoggedInputs();
+      if (selection_.faults == FaultPolicy::kDropRows) BlankFaults(log.get());
+    }
     parts_.log = std::move(log);
+  }
+
+  // Of all rows, those that were dropped too.
+  Eigen::MatrixXd LoggedInputs() const {
+    Eigen::MatrixXd values(static_cast<Eigen::Index>(log_rows_.size()),
+                           parts_.input_values.cols());
+    for (Eigen::Index i = 0; i < values.cols(); ++i) {
+      const std::string& name = parts_.inputs[static_cast<std::size_t>(i)].name;
+      values.col(i) = ValuesOfRows(Column(table_.Find(name)), log_rows_);
+    }
+    return values;
   }
 
   // A reading that no machine made is none that a filter may run through.

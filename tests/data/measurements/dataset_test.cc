@@ -102,6 +102,33 @@ TEST(Dataset, SelectsRowsWithTheirSessions) {
   EXPECT_EQ(Dataset(SmallParts()).num_sessions(), 0);
 }
 
+// A million rows of 41 inputs are not kept twice.
+TEST(Dataset, ReadsTheInputsOfALogThatHasNoOtherRows) {
+  Dataset::Parts parts = SmallParts();
+  auto log = std::make_shared<SessionLog>();
+  log->sessions = {"day", {"a"}, {0, 0, 0}};
+  log->first_rows = {0};
+  log->time = Eigen::Vector3d(0, 1, 2);
+  log->time_unit = "s";
+  log->input_values = std::move(parts.input_values);
+  parts.input_values.resize(0, 0);
+  parts.log = log;
+  parts.log_rows = {0, 1, 2};
+  const Dataset dataset(parts);
+  EXPECT_EQ(&dataset.input_values(), &log->input_values);
+  EXPECT_EQ(dataset.SelectRows({2}).input_values(),
+            (Eigen::MatrixXd{{3.0, 6.0}}));
+  EXPECT_EQ(dataset.SelectRows({}).input_values().rows(), 0);
+  auto other = std::make_shared<SessionLog>(*log);
+  other->input_values.setZero();
+  EXPECT_EQ(dataset.WithLog(other, {0, 1, 2}).input_values(),
+            log->input_values);
+  parts.log_rows = {0, 2, 1};
+  EXPECT_THAT([&] { Dataset{parts}; },
+              ThrowsMessage<std::invalid_argument>(
+                  HasSubstr("log_rows: found 2 at 1")));
+}
+
 TEST(Dataset, RefusesALogThatDoesNotAgree) {
   const auto refused = [](const auto& change, const char* what) {
     Dataset::Parts parts = PartsWithLog();

@@ -213,6 +213,18 @@ TEST(MakeDataset, KnowsTheSessionsOfEveryRowRead) {
   EXPECT_TRUE(std::isnan(dataset.log()->input_values(3, 0)));
   EXPECT_EQ(dataset.log()->input_values(4, 0), 22.0);
   EXPECT_EQ(dataset.num_inputs(), 1);  // neither day nor time
+  EXPECT_NE(&dataset.input_values(), &dataset.log()->input_values);
+}
+
+TEST(MakeDataset, KeepsTheInputsOnceWhereNoRowWasDropped) {
+  const PreparedDataset prepared = MakeDataset(
+      ParseCsv("day,time_s,t1_degC,error_um\n1,0,20,1\n1,5,21,2\n2,60,22,3\n",
+               "log.csv"),
+      {});
+  const Dataset& dataset = prepared.dataset;
+  ASSERT_NE(dataset.log(), nullptr);
+  EXPECT_EQ(&dataset.input_values(), &dataset.log()->input_values);
+  EXPECT_EQ(dataset.input_values(), Eigen::Vector3d(20, 21, 22));
 }
 
 TEST(MakeDataset, TakesTheFirstValueOfEachSessionOffTheTarget) {
