@@ -14,6 +14,7 @@
 #include "cli/report/figures/svg.h"
 #include "cli/report/html.h"
 #include "cli/report/plot.h"
+#include "cli/report/report_view.h"
 #include "cli/report/table.h"
 
 namespace errmap::cli {
@@ -258,7 +259,7 @@ class FleetPage {
         series.columns[i].push_back(numbers[i]);
       }
     }
-    const int height = std::clamp(16 * static_cast<int>(rows.size()), 160, 900);
+    const int height = std::clamp(16 * static_cast<int>(rows.size()), 240, 900);
     Plot plot;
     plot.name = "matrix";
     plot.width = 820;
@@ -356,7 +357,7 @@ class FleetPage {
           std::isfinite(found.uncompensated)
               ? fmt::format("{:.3g}", scale * found.uncompensated)
               : "-",
-          HtmlText(summary->display.unit),
+          HtmlText(PrettyUnit(summary->display.unit)),
           HtmlName(found.model));
     }
     return html + "</table></div>\n";
@@ -385,7 +386,7 @@ class FleetPage {
       list += fmt::format("<li>{} {:.3g} {}, {}</li>\n",
                           Linked(summary),
                           summary.display.scale * found.rmse,
-                          HtmlText(summary.display.unit),
+                          HtmlText(PrettyUnit(summary.display.unit)),
                           ToString(found.goal));
     }
     if (list.empty()) return "";

@@ -2,8 +2,9 @@
 # The report as a browser shows it, on a desk (1280 px), on a phone (390 px) and
 # on paper:
 #
-#   report_browser_test.sh ERRMAP ROOT
+#   report_browser_test.sh ERRMAP ROOT [PAGE]
 #
+# PAGE, of a fleet, is looked at alone.
 # No message on the console, nothing fetched, every figure there and described,
 # no overflow, no labels on one another, no NaN, one unit of length, the headline's
 # error the table's, contrast at least 4.5 to 1, and no longer than is read: 6000 px
@@ -236,6 +237,11 @@ END
   fi
 }
 
+if [ $# -gt 2 ]; then
+  look "$3" 1 6000 15
+  exit "$failed"
+fi
+
 data="$root/data/sets/nistir5367_xdisp_down.csv"
 "$errmap" compare "$data" --quiet --out "$scratch/study" \
   --models zero,mean,poly:position,poly:eq8,poly:full:degree=3,net:scg:iterations=60 \
@@ -261,6 +267,25 @@ if [ "$(wc -c <"$scratch/six/study/report.html")" -gt 2000000 ]; then
   complain "the page of six components is larger than 2 MB"
 fi
 
+# A fleet of two machines.
+mkdir -p "$scratch/fleet/m1" "$scratch/fleet/m2"
+for machine in m1 m2; do
+  for component in x y; do
+    cp "$data" "$scratch/fleet/$machine/$component.csv"
+  done
+done
+cat >"$scratch/fleet/fleet.toml" <<'END'
+models = ["mean", "poly:eq8", "poly:full:degree=3"]
+[[component]]
+name = "{machine}/{component}"
+data = "{machine}/{component}.csv"
+END
+(
+  cd "$scratch/fleet"
+  "$errmap" compare --config fleet.toml --quiet --out store >table
+)
+look "$scratch/fleet/store/report.html" 2 6000 3
+
 # Names that try to become something else, in a table of their own.
 mkdir "$scratch/hostile"
 long=$(printf '%0200d' 0 | tr 0 n)
@@ -285,4 +310,4 @@ if [ -n "$(find "$scratch" -name 'pwned*')" ]; then
 fi
 
 if [ "$failed" -ne 0 ]; then exit 1; fi
-echo "report_browser: looked at three reports in two widths and on paper, nothing amiss"
+echo "report_browser: looked at four reports in two widths and on paper, nothing amiss"
