@@ -9,6 +9,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "tests/cli/cli_fixture.h"
 
@@ -76,6 +77,27 @@ class FleetTest : public CliTest {
         "compare", "--config", "fleet.toml", "--out", store};
     words.insert(words.end(), more.begin(), more.end());
     return Run(words);
+  }
+
+  // Where no file can grow beyond so many bytes, as on a disk that is full.
+  Outcome RunWithFilesUpTo(rlim_t bytes,
+                           const std::vector<std::string>& words) const {
+    rlimit old{};
+    EXPECT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
+    rlimit limit = old;
+    limit.rlim_cur = bytes;
+    EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+    const Outcome outcome = Run(words);
+    EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &old), 0);
+    return outcome;
+  }
+
+  // Of schema 99: the user version stands in bytes 60 to 63, big-endian.
+  void MakeSchemaNewer(const std::string& database) const {
+    std::string content = Read(database);
+    constexpr std::size_t kLastOfUserVersion = 63;
+    content[kLastOfUserVersion] = 99;
+    Write(database, content);
   }
 
   Json Rows(const std::string& store, const std::string& sql) const {

@@ -1,7 +1,5 @@
 // Maps that are deployed and watched, as a user does it.
 
-#include <sys/resource.h>
-
 #include "tests/cli/fleet/fleet_fixture.h"
 
 namespace errmap {
@@ -120,6 +118,31 @@ TEST_F(Watch, WhatCannotBeDeployedOrFoundGetsOneLine) {
               HasSubstr("missing.csv"));
   EXPECT_THAT(Run({"watch", "store", "data"}).err,
               HasSubstr("of no component with a map deployed"));
+}
+
+TEST_F(Watch, FullDisksAndNewerSchemasChangeNothing) {
+  ASSERT_EQ(Run({"deploy", "store", kName}).status, 0);
+  const std::vector<std::vector<std::string>> commands{
+      {"deploy", "store", kName},
+      {"watch",
+       "store",
+       std::string(kName) + "=data/m1/x_displacement_down.csv"}};
+  const std::string before = Read("store/errmap.sqlite");
+  for (const std::vector<std::string>& words : commands) {
+    SCOPED_TRACE(words.front());
+    EXPECT_THAT(RefusalOf(RunWithFilesUpTo(50000, words), kFailure),
+                HasSubstr("cannot write store/"));
+    EXPECT_EQ(Read("store/errmap.sqlite"), before);
+    EXPECT_FALSE(Exists("store/errmap.sqlite.new"));
+  }
+  MakeSchemaNewer("store/errmap.sqlite");
+  const std::string newer = Read("store/errmap.sqlite");
+  for (const std::vector<std::string>& words : commands) {
+    EXPECT_THAT(RefusalOf(Run(words), kUnusable),
+                HasSubstr("store/errmap.sqlite is of schema 99"))
+        << words.front();
+  }
+  EXPECT_EQ(Read("store/errmap.sqlite"), newer);
 }
 
 TEST_F(Watch, KilledDeploymentsAndChecksLoseNothing) {
