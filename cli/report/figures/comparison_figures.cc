@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/report/figures/figure_parts.h"
+
 namespace errmap::cli {
 namespace {
 
-constexpr const char* kVermillion = "#D55E00";
-constexpr const char* kBlue = "#0072B2";
 // Okabe and Ito's colours for lines on white, the palest left out.
 constexpr std::array kColours = {
     "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#000000"};

@@ -10,19 +10,16 @@
 
 #include <fmt/format.h>
 
-#include "cli/report/figures/residual_figures.h"
+#include "cli/report/figures/figure_parts.h"
+#include "cli/report/figures/held_out_rows.h"
 
 namespace errmap::cli {
 namespace {
 
-constexpr const char* kBlue = "#0072B2";
-constexpr const char* kVermillion = "#D55E00";
 constexpr const char* kGreen = "#009E73";
-constexpr const char* kGrey = "#666666";
 constexpr int kWide = 1180;
 constexpr int kHalf = 560;
-
-std::string Plain(double value) { return fmt::format("{:.3g}", value); }
+constexpr std::size_t kLongName = 34;  // characters under a figure
 
 Figure Begin(const ReportView& view,
              const std::string& name,
@@ -43,28 +40,6 @@ HeldOutRows RowsOfAdvice(const ReportView& view) {
     return none;
   }
   return HeldOutRowsOf(view, view.recommended, view.decisive);
-}
-
-double Rms(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value * value;
-  return std::sqrt(sum / static_cast<double>(values.size()));
-}
-
-std::size_t PositionIndex(const ReportView& view) {
-  const models::FiguresRecord& figures = view.component->figures;
-  for (std::size_t i = 0; i < figures.inputs.size(); ++i) {
-    if (figures.inputs[i].name == figures.position) return i;
-  }
-  return std::string::npos;
-}
-
-Axis InputAxis(const ReportView& view, std::size_t index) {
-  constexpr std::size_t kMost = 34;
-  const models::FigureInputRecord& input =
-      view.component->figures.inputs[index];
-  return {.quantity = Shortened(input.name, kMost),
-          .unit = PrettyUnit(input.unit)};
 }
 
 // Bins of equal width, or the values themselves where they are few.
@@ -252,7 +227,7 @@ std::vector<Figure> OverTimeFigures(const ReportView& view,
       Plain(*low),
       Plain(*high),
       x.size(),
-      WithUnit(Plain(Rms(rows.residual)), view.shown_unit));
+      WithUnit(Plain(RmsOf(rows.residual)), view.shown_unit));
   return {std::move(figure)};
 }
 
@@ -286,8 +261,8 @@ std::vector<Figure> SurfaceFigures(const ReportView& view,
     figure.place = FigurePlace::kSurface;
     figure.plot.width = 390;
     figure.plot.height = 280;
-    figure.plot.x = InputAxis(view, position);
-    figure.plot.y = InputAxis(view, sensor);
+    figure.plot.x = InputAxis(view, position, kLongName);
+    figure.plot.y = InputAxis(view, sensor, kLongName);
     figure.plot.colour = {.quantity = "error", .unit = view.shown_unit};
     figure.plot.series = {{.mark = Mark::kCells, .columns = surface.cells}};
     figure.description = fmt::format(
@@ -317,7 +292,7 @@ std::vector<Figure> BeforeAndAfterFigures(const ReportView& view,
   Figure figure =
       Begin(view, prefix + "compensation", "Before and after compensation");
   figure.plot.width = kHalf;
-  figure.plot.x = InputAxis(view, position);
+  figure.plot.x = InputAxis(view, position, kLongName);
   std::vector<std::string> words;
   struct Part {
     const char* label;
@@ -367,7 +342,7 @@ std::vector<Figure> BeforeAndAfterFigures(const ReportView& view,
     words.push_back(
         fmt::format("{} {}",
                     part.label,
-                    WithUnit(Plain(Rms(*part.values)), view.shown_unit)));
+                    WithUnit(Plain(RmsOf(*part.values)), view.shown_unit)));
     figure.plot.series.push_back(std::move(band));
     figure.plot.series.push_back(std::move(mean));
   }
@@ -464,8 +439,8 @@ std::vector<Figure> TrainingResidualFigures(const ReportView& view,
   figure.description = fmt::format(
       "Residuals by row: root mean square {} of rows that were fitted, {} of "
       "the same rows held out.",
-      Plain(Rms(residual)),
-      WithUnit(Plain(Rms(rows.residual)), view.shown_unit));
+      Plain(RmsOf(residual)),
+      WithUnit(Plain(RmsOf(rows.residual)), view.shown_unit));
   figure.plot.series = {{.label = "held out",
                          .mark = Mark::kPoints,
                          .columns = {rows.row, rows.residual},

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/report/figures/residual_figures.h"
+#include "cli/report/figures/held_out_rows.h"
 #include "tests/cli/report_document.h"
 
 namespace errmap::cli {
