@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "cli/commands/studies/probe_table.h"
+#include "cli/study_file/data_arguments.h"
+#include "cli/study_file/study_config.h"
+
+namespace CLI {
+class App;
+}
+
+namespace errmap::cli {
+
+/// What `errmap compare` is told.
+struct CompareArguments {
+  DataArguments data;
+  std::vector<std::string> holdouts;
+  std::string model_list;
+  std::vector<std::string> models;
+  double goal = std::numeric_limits<double>::quiet_NaN();
+  double indifference = std::numeric_limits<double>::quiet_NaN();
+  std::string split;
+  std::string save_split;
+  std::vector<PredictionsFile> predictions;
+  bool resume = false;
+  bool force = false;
+  std::string config;
+  std::vector<std::string> changes;  // KEY=VALUE of --set
+  bool dry_run = false;
+  ProbeArguments probes;
+  bool all = false;
+  bool details = false;
+  std::string page;
+  std::set<std::string> given;  // flags that stand on the command line
+  std::uint64_t seed = 1;
+  int jobs = 0;
+  std::string out;
+  std::string shard;
+  std::string format = "table";
+  std::string command_line;
+  std::string machine;
+  int later = 1;  // sessions that judge the machine
+};
+
+/// Adds all options of the command and DATA.
+void AddCompareOptions(CLI::App* command, CompareArguments* arguments);
+
+/// --jobs, or the processor's cores.
+int JobsOf(const CompareArguments& arguments);
+
+}  // namespace errmap::cli

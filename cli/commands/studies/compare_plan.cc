@@ -1,0 +1,242 @@
+#include "cli/commands/studies/compare_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/study_file/provenance.h"
+#include "data/text.h"
+#include "models/model_spec.h"
+#include "stats/holdout.h"
+
+namespace errmap::cli {
+namespace {
+
+// The words before the colon.
+std::vector<std::string> HoldoutNames() {
+  std::vector<std::string> names;
+  for (const stats::HoldoutForm& form : stats::HoldoutForms()) {
+    const std::string text(form.form);
+    names.push_back(text.substr(0, text.find_first_of(":[")));
+  }
+  return names;
+}
+
+// What the command line alone can get wrong is said before any file is read.
+void CheckHoldouts(const std::vector<std::string>& texts) {
+  std::set<std::string> seen;
+  for (const std::string& text : texts) {
+    if (!seen.insert(text).second) {
+      throw UsageError("--holdout " + text + " is given twice");
+    }
+    try {
+      stats::ParseHoldout(text);
+    } catch (const std::invalid_argument& error) {
+      const std::string nearest =
+          data::NearestName(text.substr(0, text.find(':')), HoldoutNames());
+      throw UsageError(
+          nearest.empty() || text.starts_with(nearest)
+              ? error.what()
+              : fmt::format("{}; did you mean {}?", error.what(), nearest));
+    }
+  }
+}
+
+std::vector<std::string> ModelSpecs(const CompareArguments& arguments) {
+  std::vector<std::string> specs;
+  if (!arguments.model_list.empty()) {
+    try {
+      specs = models::SplitList(arguments.model_list);
+    } catch (const std::invalid_argument& error) {
+      throw UsageError(fmt::format("--models: {}", error.what()));
+    }
+  }
+  specs.insert(specs.end(), arguments.models.begin(), arguments.models.end());
+  std::set<std::string> seen;
+  for (const std::string& spec : specs) {
+    if (!seen.insert(spec).second) {
+      throw UsageError("model " + spec + " is given twice");
+    }
+    RecipeFromArgument(spec);
+  }
+  return specs;
+}
+
+void CheckLength(const char* flag, double value, bool may_be_zero) {
+  if (std::isnan(value)) return;  // not given
+  if (std::isfinite(value) && (value > 0.0 || (may_be_zero && value == 0.0))) {
+    return;
+  }
+  throw UsageError(fmt::format("{} must be {} 0, found {}",
+                               flag,
+                               may_be_zero ? "at least" : "above",
+                               value));
+}
+
+// Without a study file the command line asks for one component.
+StudyConfig ConfigOf(const CompareArguments& arguments) {
+  CheckLength("--goal", arguments.goal, false);
+  CheckLength("--indifference", arguments.indifference, true);
+  CheckHoldouts(arguments.holdouts);
+  const DataArguments& data = arguments.data;
+  ComponentConfig component;
+  component.data = data.file;
+  component.target = data.target;
+  component.inputs = SplitNames(data.inputs, "--inputs");
+  component.exclude = SplitNames(data.exclude, "--exclude");
+  component.group = data.group;
+  component.time = data.time;
+  component.session = data.session;
+  component.align = AlignOf(data.align);
+  component.weight = data.weight;
+  component.missing = MissingPolicyOf(data.missing);
+  component.faults = FaultPolicyOf(data.faults);
+  component.keep_dead = data.keep_dead;
+  component.split = arguments.split;
+  component.save_split = arguments.save_split;
+  component.predictions = arguments.predictions;
+  std::vector<std::string> specs = ModelSpecs(arguments);
+  for (const PredictionsFile& predictions : component.predictions) {
+    if (std::ranges::find(specs, predictions.name) != specs.end() ||
+        std::ranges::count(component.predictions,
+                           predictions.name,
+                           &PredictionsFile::name) > 1) {
+      throw UsageError("two models are named " + predictions.name +
+                       "; give the --predictions another name");
+    }
+  }
+  return {.seed = arguments.seed,
+          .goal = arguments.goal,
+          .indifference = arguments.indifference,
+          .holdouts = arguments.holdouts,
+          .models = std::move(specs),
+          .components = {std::move(component)}};
+}
+
+}  // namespace
+
+StudyFile ConfigOfFile(const CompareArguments& arguments) {
+  const auto given = [&](const char* flag) {
+    return arguments.given.contains(flag);
+  };
+  if (given("DATA")) {
+    throw UsageError(
+        "DATA and --config exclude each other; the study file names its data");
+  }
+  StudyFile file = ReadStudyFile(arguments.config, arguments.changes);
+  StudyConfig& config = file.config;
+  const StudyConfig flags = ConfigOf(arguments);
+  if (given("--seed")) config.seed = flags.seed;
+  if (given("--goal")) {
+    config.goal = flags.goal;
+    for (ComponentConfig& component : config.components) {
+      component.goal = flags.goal;
+    }
+  }
+  if (given("--indifference")) {
+    config.indifference = flags.indifference;
+    for (ComponentConfig& component : config.components) {
+      component.indifference = flags.indifference;
+    }
+  }
+  if (given("--holdout")) config.holdouts = flags.holdouts;
+  if (given("--models") || given("--model")) config.models = flags.models;
+  const ComponentConfig& from = flags.components.front();
+  for (const char* flag : {"--target",
+                           "--inputs",
+                           "--exclude",
+                           "--group",
+                           "--time",
+                           "--session",
+                           "--weight",
+                           "--split",
+                           "--save-split",
+                           "--predictions"}) {
+    if (!given(flag) || config.components.size() == 1) continue;
+    throw UsageError(
+        fmt::format("{} is for one component, and {} has {}; write --set "
+                    "component.0.KEY=VALUE",
+                    flag,
+                    data::PrintablePath(arguments.config),
+                    config.components.size()));
+  }
+  for (ComponentConfig& component : config.components) {
+    if (given("--target")) component.target = from.target;
+    if (given("--inputs")) component.inputs = from.inputs;
+    if (given("--exclude")) component.exclude = from.exclude;
+    if (given("--group")) component.group = from.group;
+    if (given("--time")) component.time = from.time;
+    if (given("--session")) component.session = from.session;
+    if (given("--align")) component.align = from.align;
+    if (given("--weight")) component.weight = from.weight;
+    if (given("--missing")) component.missing = from.missing;
+    if (given("--faults")) component.faults = from.faults;
+    if (given("--keep-dead")) component.keep_dead = from.keep_dead;
+    if (given("--split")) component.split = from.split;
+    if (given("--save-split")) component.save_split = from.save_split;
+    if (given("--predictions")) component.predictions = from.predictions;
+  }
+  return file;
+}
+
+std::optional<MachineStudy> MachineOf(const CompareArguments& arguments) {
+  if (arguments.machine.empty()) {
+    if (arguments.given.contains("--later")) {
+      throw UsageError("--later goes with --machine");
+    }
+    return std::nullopt;
+  }
+  for (const char* flag : {"--config",
+                           "--target",
+                           "--inputs",
+                           "--weight",
+                           "--split",
+                           "--save-split",
+                           "--predictions"}) {
+    if (arguments.given.contains(flag)) {
+      throw UsageError(fmt::format(
+          "{} is for one component, and --machine has several", flag));
+    }
+  }
+  if (!arguments.given.contains("DATA")) {
+    throw UsageError(
+        "--machine needs the folder of its components' data: errmap compare "
+        "--machine machine.toml DIR");
+  }
+  return ReadMachineStudy(arguments.machine,
+                          arguments.data.file,
+                          arguments.later,
+                          arguments.data.session);
+}
+
+StudyPlan PlanOf(const CompareArguments& arguments,
+                 const std::optional<MachineStudy>& machine) {
+  if (machine) {
+    StudyPlan plan = PlanStudy(ConfigOfMachine(*machine, ConfigOf(arguments)),
+                               arguments.data.quiet);
+    plan.inputs.push_back(HashInput(machine->path));
+    plan.inputs.push_back(HashInput(machine->points.file));
+    return plan;
+  }
+  if (arguments.config.empty()) {
+    if (!arguments.given.contains("DATA")) {
+      throw UsageError("DATA is required; see errmap --help");
+    }
+    if (!arguments.changes.empty()) {
+      throw UsageError("--set changes a study file; name it with --config");
+    }
+    return PlanStudy(ConfigOf(arguments), arguments.data.quiet);
+  }
+  const StudyFile file = ConfigOfFile(arguments);
+  StudyPlan plan = PlanStudy(file.config, arguments.data.quiet);
+  plan.inputs.insert(plan.inputs.begin(), file.file);
+  return plan;
+}
+
+}  // namespace errmap::cli
