@@ -9,6 +9,7 @@
 
 #include "cli/report/tables/report_tables.h"
 #include "cli/report/tables/result_table.h"
+#include "cli/report/words/remark_text.h"
 #include "cli/report/words/verdict_text.h"
 
 namespace errmap::cli {

@@ -34,9 +34,4 @@ std::string MeasureNext(const models::ComponentRecord& record);
 std::string VerdictParagraphs(const models::ComponentRecord& record,
                               std::size_t width);
 
-/// What a goal was held against: "RMSE 4.98 um, sd 0.2 um about an offset of
-/// 4.97 um"; "" without a goal.
-std::string GoalFigures(const models::ResultRecord& result,
-                        const ErrorText& error);
-
 }  // namespace errmap::cli
