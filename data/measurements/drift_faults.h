@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "data/measurements/column_faults.h"
+#include "data/measurements/thermometers.h"
+
+namespace errmap::data {
+
+/// Thermometers that leave the others more from session to session
+/// (kDrifting), the worst first. Those that `known` distrusts as a whole are
+/// left out.
+std::vector<ColumnFault> FindDrift(const MeasuredColumns& measured,
+                                   const std::vector<Thermometer>& thermometers,
+                                   const std::vector<ColumnFault>& known);
+
+}  // namespace errmap::data
