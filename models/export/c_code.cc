@@ -23,35 +23,6 @@ class CLanguage final : public Language {
   }
 
  private:
-  std::string Place(Operand operand) const override {
-    const auto element = [&](const char* array) {
-      return fmt::format("{}[{}]", array, operand.index);
-    };
-    switch (operand.space) {
-      case Space::kReading:
-        return element("x");
-      case Space::kTime:
-        return "dt_s";
-      case Space::kState:
-        return element("s");
-      case Space::kGain:
-        return element("g");
-      case Space::kDerived:
-        return element("v");
-      case Space::kForm:
-        return element("u");
-      case Space::kScaled:
-        return element("z");
-      case Space::kHidden:
-        return element("h");
-      case Space::kTerm:
-        return element("t");
-      case Space::kError:
-        return "e";
-    }
-    return "";
-  }
-
   std::string Assign(const std::string& to,
                      const std::string& value,
                      bool narrows) const override {
@@ -121,14 +92,6 @@ class CLanguage final : public Language {
                         to,
                         name_,
                         to)};
-  }
-
-  std::string ArrayAt(Operand first, const char* index) const {
-    const std::string place = Place(first);
-    const std::string array = place.substr(0, place.find('['));
-    return first.index == 0
-               ? fmt::format("{}[{}]", array, index)
-               : fmt::format("{}[{} + {}]", array, first.index, index);
   }
 
   std::string name_;

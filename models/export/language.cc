@@ -14,7 +14,51 @@ std::string UnitText(const data::Unit& unit) {
   return unit.symbol.empty() ? "no unit" : CommentText(unit.symbol);
 }
 
+// The array of a space; '\0' of those that are one number.
+char ArrayOf(Space space) {
+  switch (space) {
+    case Space::kReading:
+      return 'x';
+    case Space::kState:
+      return 's';
+    case Space::kGain:
+      return 'g';
+    case Space::kDerived:
+      return 'v';
+    case Space::kForm:
+      return 'u';
+    case Space::kScaled:
+      return 'z';
+    case Space::kHidden:
+      return 'h';
+    case Space::kTerm:
+      return 't';
+    case Space::kTime:
+    case Space::kError:
+      break;
+  }
+  return '\0';
+}
+
 }  // namespace
+
+std::string Language::Place(Operand operand) const {
+  if (operand.space == Space::kTime) return "dt_s";
+  if (operand.space == Space::kError) return "e";
+  return fmt::format("{}[{}]", ArrayOf(operand.space), operand.index);
+}
+
+std::string Language::Number(double value, bool /*single*/) const {
+  return RealText(value);
+}
+
+std::string Language::ArrayAt(Operand first, const char* index) const {
+  const std::string place = Place(first);
+  const std::string array = place.substr(0, place.find('['));
+  return first.index == 0
+             ? fmt::format("{}[{}]", array, index)
+             : fmt::format("{}[{} + {}]", array, first.index, index);
+}
 
 Lines Language::Write(const MapProgram& program,
                       const Instructions& instructions) const {

@@ -29,8 +29,10 @@ class Language {
  protected:
   enum class Function { kGain, kSine, kCosine, kSigmoid };
 
-  virtual std::string Place(Operand operand) const = 0;
-  virtual std::string Number(double value, bool single) const = 0;
+  /// Arrays named as in C: "x[2]", "dt_s", "s[0]", "e".
+  virtual std::string Place(Operand operand) const;
+  /// The double that reads back the same.
+  virtual std::string Number(double value, bool single) const;
   /// `narrows`: a double value for a single place.
   virtual std::string Assign(const std::string& to,
                              const std::string& value,
@@ -47,6 +49,9 @@ class Language {
                        const Eigen::MatrixXd& table) const = 0;
   /// kSigmoid of more than one number.
   virtual Lines Sigmoids(const Instruction& instruction) const = 0;
+
+  /// The place `index` after `first` in its array: "u[j]", "s[3 + j]".
+  std::string ArrayAt(Operand first, const char* index) const;
 
   bool IsSingle(Space space) const {
     return precision_ == Precision::kSingle && !IsAlwaysDouble(space);

@@ -17,39 +17,6 @@ class PythonLanguage final : public Language {
   PythonLanguage() : Language(Precision::kDouble) {}
 
  private:
-  std::string Place(Operand operand) const override {
-    const auto element = [&](char list) {
-      return fmt::format("{}[{}]", list, operand.index);
-    };
-    switch (operand.space) {
-      case Space::kReading:
-        return element('x');
-      case Space::kTime:
-        return "dt_s";
-      case Space::kState:
-        return element('s');
-      case Space::kGain:
-        return element('g');
-      case Space::kDerived:
-        return element('v');
-      case Space::kForm:
-        return element('u');
-      case Space::kScaled:
-        return element('z');
-      case Space::kHidden:
-        return element('h');
-      case Space::kTerm:
-        return element('t');
-      case Space::kError:
-        return "e";
-    }
-    return "";
-  }
-
-  std::string Number(double value, bool /*single*/) const override {
-    return RealText(value);
-  }
-
   std::string Assign(const std::string& to,
                      const std::string& value,
                      bool /*narrows*/) const override {
@@ -99,14 +66,6 @@ class PythonLanguage final : public Language {
     const std::string to = ArrayAt(it.to, "j");
     return {fmt::format("for j in range({}):", it.count),
             fmt::format("    {} = _sigmoid({})", to, to)};
-  }
-
-  std::string ArrayAt(Operand first, const char* index) const {
-    const std::string place = Place(first);
-    const std::string list = place.substr(0, place.find('['));
-    return first.index == 0
-               ? fmt::format("{}[{}]", list, index)
-               : fmt::format("{}[{} + {}]", list, first.index, index);
   }
 };
 

@@ -21,36 +21,14 @@ class StructuredTextLanguage final : public Language {
 
  private:
   std::string Place(Operand operand) const override {
-    const auto element = [&](char array) {
-      return fmt::format("{}[{}]", array, operand.index);
-    };
-    switch (operand.space) {
-      case Space::kReading:
-        return inputs_[static_cast<std::size_t>(operand.index)];
-      case Space::kTime:
-        return "DtSeconds";
-      case Space::kState:
-        return element('S');
-      case Space::kGain:
-        return element('G');
-      case Space::kDerived:
-        return element('V');
-      case Space::kForm:
-        return element('U');
-      case Space::kScaled:
-        return element('Z');
-      case Space::kHidden:
-        return element('H');
-      case Space::kTerm:
-        return element('T');
-      case Space::kError:
-        return "Found";
+    if (operand.space == Space::kReading) {
+      return inputs_[static_cast<std::size_t>(operand.index)];
     }
-    return "";
-  }
-
-  std::string Number(double value, bool /*single*/) const override {
-    return RealText(value);
+    if (operand.space == Space::kTime) return "DtSeconds";
+    if (operand.space == Space::kError) return "Found";
+    std::string place = Language::Place(operand);
+    place.front() = static_cast<char>(place.front() - 'a' + 'A');
+    return place;
   }
 
   std::string Assign(const std::string& to,
