@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/format_option.h"
 #include "cli/report/words/certify_json.h"
 #include "cli/report/words/certify_text.h"
 #include "cli/shell/number_text.h"
@@ -80,10 +81,7 @@ void AddCertifyCommand(CLI::App* app, Run* run) {
   command->add_flag("--details",
                     arguments->details,
                     "Every run of every solver, with its own words");
-  command->add_option("--format", arguments->format, "table or json")
-      ->check(CLI::IsMember({"table", "json"}))
-      ->type_name("table|json")
-      ->capture_default_str();
+  AddFormatOption(command, &arguments->format);
   command->footer(
       "Exit status: 0 every floor is reached, 4 one is missed.\n"
       "Example: errmap certify nist --format json");

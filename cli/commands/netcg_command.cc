@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/format_option.h"
 #include "cli/commands/netcg_json.h"
 #include "cli/report/claimed_folder.h"
 #include "cli/shell/number_text.h"
@@ -210,10 +211,7 @@ void AddNetcgCommand(CLI::App* app, Run* run) {
                    "Experiments of --study at a time; 0: one per processor")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  command->add_option("--format", arguments->format, "table or json")
-      ->check(CLI::IsMember({"table", "json"}))
-      ->type_name("table|json")
-      ->capture_default_str();
+  AddFormatOption(command, &arguments->format);
   AddForceFlag(command, &arguments->force);
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
   command->footer(

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/format_option.h"
 #include "cli/json_blocks.h"
 #include "cli/report/words/residual_json.h"
 #include "cli/report/words/residual_text.h"
@@ -355,10 +356,7 @@ void AddResidualsCommand(CLI::App* app, Run* run) {
   command->add_flag("--as-printed-1995",
                     arguments->as_printed_1995,
                     "Also what the program of NISTIR 5367 prints for them");
-  command->add_option("--format", arguments->format, "table or json")
-      ->check(CLI::IsMember({"table", "json"}))
-      ->type_name("table|json")
-      ->capture_default_str();
+  AddFormatOption(command, &arguments->format);
   command->callback([arguments, run] {
     run->status = RunResiduals(*arguments, run->command_line);
   });

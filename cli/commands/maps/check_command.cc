@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/format_option.h"
 #include "cli/commands/maps/map_rows.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/json_blocks.h"
@@ -231,10 +232,7 @@ void AddCheckCommand(CLI::App* app, Run* run) {
       ->required()
       ->type_name("PROBES.csv");
   AddRowOptions(command, &arguments->rows.missing, &arguments->rows.faults);
-  command->add_option("--format", arguments->format, "table or json")
-      ->check(CLI::IsMember({"table", "json"}))
-      ->type_name("table|json")
-      ->capture_default_str();
+  AddFormatOption(command, &arguments->format);
   AddMapLogArguments(command, &arguments->rows.log);
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
   command->footer(

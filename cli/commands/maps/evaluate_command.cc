@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/format_option.h"
 #include "cli/commands/maps/map_rows.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/json_blocks.h"
@@ -250,10 +251,7 @@ void AddEvaluateCommand(CLI::App* app, Run* run) {
       ->required()
       ->type_name("FILE.csv");
   AddRowOptions(command, &arguments->rows.missing, &arguments->rows.faults);
-  command->add_option("--format", arguments->format, "table or json")
-      ->check(CLI::IsMember({"table", "json"}))
-      ->type_name("table|json")
-      ->capture_default_str();
+  AddFormatOption(command, &arguments->format);
   AddMapLogArguments(command, &arguments->rows.log);
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
   command->callback([arguments, run] {

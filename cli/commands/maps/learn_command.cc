@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/format_option.h"
 #include "cli/commands/maps/learning_text.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/commands/progress.h"
@@ -320,10 +321,7 @@ void AddLearnCommand(CLI::App* app, Run* run) {
                     arguments->resume,
                     "Go on with the fits of an earlier run in --out");
   AddForceFlag(command, &arguments->force);
-  command->add_option("--format", arguments->format, "table or json")
-      ->check(CLI::IsMember({"table", "json"}))
-      ->type_name("table|json")
-      ->capture_default_str();
+  AddFormatOption(command, &arguments->format);
   command->footer(
       "Example: errmap learn days.csv --by sessions --goal 0.002\nWhole units "
       "are held out, others learnt from; a power law through the curve tells\n"

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/format_option.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/json_blocks.h"
 #include "cli/report/claimed_folder.h"
@@ -226,10 +227,7 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
       ->type_name("COL");
   AddRowOptions(command, &arguments->missing, &arguments->faults);
   AddSeedOption(command, &arguments->seed);
-  command->add_option("--format", arguments->format, "table or json")
-      ->check(CLI::IsMember({"table", "json"}))
-      ->type_name("table|json")
-      ->capture_default_str();
+  AddFormatOption(command, &arguments->format);
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
   command->footer(
       "The same type of model is fitted to old and new sessions, with the "

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/format_option.h"
 #include "cli/json_blocks.h"
 #include "cli/report/claimed_folder.h"
 #include "cli/report/documents/start_report.h"
@@ -287,10 +288,7 @@ void AddFitCommand(CLI::App* app, Run* run) {
                     arguments->details,
                     "Print the equation and tables whatever their size");
   AddKeepPathsFlag(command);
-  command->add_option("--format", arguments->format, "table or json")
-      ->check(CLI::IsMember({"table", "json"}))
-      ->type_name("table|json")
-      ->capture_default_str();
+  AddFormatOption(command, &arguments->format);
   command->footer(
       "Example: errmap fit xdown.csv --model poly:full:degree=3 -o map.json");
   command->callback([arguments, run] {
