@@ -2,13 +2,13 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <variant>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
 #include "cli/report/table.h"
+#include "cli/shell/model_defaults.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "cli/shell/wrap_text.h"
@@ -34,19 +34,6 @@ std::string ListText(std::size_t width) {
          "\n";
 }
 
-// Values that serve unless others are given.
-std::map<std::string, std::string> DefaultsOf(const std::string& type) {
-  std::map<std::string, std::string> defaults;
-  for (const auto& option : models::MakeRecipe(type)->options()) {
-    std::visit(
-        [&](const auto& value) {
-          defaults[option.key] = fmt::format("{}", value);
-        },
-        option.value);
-  }
-  return defaults;
-}
-
 // The values that an option takes, as it says to whoever gives another.
 std::string ValuesOf(const std::string& type, const std::string& option) {
   constexpr std::string_view kMust = " must be ";
@@ -64,7 +51,7 @@ std::string ValuesOf(const std::string& type, const std::string& option) {
 
 std::string ModelText(const std::string& type, std::size_t width) {
   const std::vector<std::string> names = models::OptionNames(type);
-  std::map<std::string, std::string> defaults = DefaultsOf(type);
+  std::map<std::string, std::string> defaults = ModelDefaults(type);
   std::string text = fmt::format("{}: {}\n", type, models::AboutModel(type));
   if (names.empty()) return text + "It takes no options.\n";
   constexpr std::size_t kIndent = 26;

@@ -3,11 +3,10 @@
 #include <map>
 #include <sstream>
 #include <string_view>
-#include <variant>
 
 #include <fmt/format.h>
 
-#include "models/error_model.h"
+#include "cli/shell/model_defaults.h"
 #include "models/recipe_catalog.h"
 #include "models/version.h"
 
@@ -116,14 +115,7 @@ std::string CommandSection(const CommandReference& command) {
 
 // The options of a model, with the values that serve unless others are given.
 std::string ModelOptions(const std::string& type) {
-  std::map<std::string, std::string> defaults;
-  for (const auto& option : models::MakeRecipe(type)->options()) {
-    std::visit(
-        [&](const auto& value) {
-          defaults[option.key] = fmt::format("{}", value);
-        },
-        option.value);
-  }
+  const std::map<std::string, std::string> defaults = ModelDefaults(type);
   std::string text;
   for (const std::string& name : models::OptionNames(type)) {
     text += (text.empty() ? "" : ", ") + name;
