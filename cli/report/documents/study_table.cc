@@ -69,9 +69,8 @@ class ComponentScreen {
         options_(options),
         screen_(screen) {}
 
-  void Verdict();
-  void Data();
-  void Leaderboard();
+  // What to use, of which data, and the table.
+  void Answer();
   void Next(const std::string& data);
   void Details();
 
@@ -83,6 +82,10 @@ class ComponentScreen {
   ReportView view_;
   const StudyTableOptions& options_;
   Screen* screen_;
+
+  void Verdict();
+  void Data();
+  void Leaderboard();
 
   std::size_t Width() const { return options_.terminal.text_columns(); }
   void Paragraph(const std::string& text) {
@@ -102,6 +105,15 @@ class ComponentScreen {
     }
   }
 };
+
+void ComponentScreen::Answer() {
+  Verdict();
+  screen_->Add("\n");
+  Data();
+  screen_->Add("\n");
+  Leaderboard();
+  screen_->Add("\n");
+}
 
 void ComponentScreen::Verdict() {
   bool first = true;
@@ -293,12 +305,7 @@ Screen StudyTable(const StudyRun& run,
   };
   if (!run.has_several() && !record.components.empty()) {
     ComponentScreen one = component(0);
-    one.Verdict();
-    screen.Add("\n");
-    one.Data();
-    screen.Add("\n");
-    one.Leaderboard();
-    screen.Add("\n");
+    one.Answer();
     one.Next(DataForFit(run));
     if (options.details) one.Details();
     screen.Add(std::string("\n") + kSign + "\n");
@@ -313,12 +320,7 @@ Screen StudyTable(const StudyRun& run,
     const std::string& name = record.components[i].name;
     screen.Add("== " + data::Printable(name, name.size()) + " ==\n", true);
     ComponentScreen one = component(i);
-    one.Verdict();
-    screen.Add("\n");
-    one.Data();
-    screen.Add("\n");
-    one.Leaderboard();
-    screen.Add("\n");
+    one.Answer();
     one.Next("");
     one.Details();
     screen.Add("\n");
