@@ -164,18 +164,22 @@ TEST_F(CliPromise, ProbesMoveLaterRowsAndNarrowTheInterval) {
 }
 
 TEST_F(CliPromise, LearnsFromDaysOneAfterAnother) {
-  const Json found = RunJson({"learn",
-                              "train.csv",
-                              "--by",
-                              "sessions",
-                              "--models",
-                              "mean,poly:full:degree=1",
-                              "--goal",
-                              "0.001",
-                              "--out",
-                              "study",
-                              "--format",
-                              "json"});
+  const std::vector<std::string> learn = {"learn",
+                                          "train.csv",
+                                          "--by",
+                                          "sessions",
+                                          "--models",
+                                          "mean,poly:full:degree=1",
+                                          "--goal",
+                                          "0.001",
+                                          "--out",
+                                          "study"};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = learn;
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  const Json found = RunJson(with({"--format", "json"}));
   const Json& curves = found["curves"];
   EXPECT_EQ(curves["unit"], "day");
   EXPECT_EQ(curves["units"], 10);
@@ -186,17 +190,7 @@ TEST_F(CliPromise, LearnsFromDaysOneAfterAnother) {
   EXPECT_TRUE(Exists("study/learn-sessions.json"));
   EXPECT_THAT(Read("study/learn-sessions.svg"), HasSubstr("<svg"));
   // The same again from the fits that were kept.
-  const Outcome again = Run({"learn",
-                             "train.csv",
-                             "--by",
-                             "sessions",
-                             "--models",
-                             "mean,poly:full:degree=1",
-                             "--goal",
-                             "0.001",
-                             "--out",
-                             "study",
-                             "--resume"});
+  const Outcome again = Run(with({"--resume"}));
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_THAT(again.out,
               AllOf(HasSubstr("on an unseen day"), HasSubstr("expected")));
