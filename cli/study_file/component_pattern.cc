@@ -212,8 +212,9 @@ std::vector<std::pair<std::string, PathFields>> PathPattern::FilesBelow(
         segment, [](const Piece& p) { return p.is_field; });
     std::vector<std::pair<std::string, PathFields>> next;
     for (const auto& [path, fields] : found) {
-      const auto add = [&](const std::string& name, PathFields more) {
-        const std::string longer = i == 0 ? name : path + "/" + name;
+      const auto add = [&, &before = path](const std::string& name,
+                                           PathFields more) {
+        const std::string longer = i == 0 ? name : before + "/" + name;
         std::error_code ignored;
         const fs::path whole = Joined(folder, longer);
         if (i + 1 == segments_.size() ? !fs::is_regular_file(whole, ignored)
