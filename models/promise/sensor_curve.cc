@@ -4,13 +4,17 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include <Eigen/Cholesky>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include "fitting/fold_codes.h"
+#include "fitting/interruption.h"
 #include "models/error_model.h"
 #include "models/history/view.h"
 #include "models/inner_folds.h"
@@ -25,76 +29,100 @@ using Eigen::VectorXd;
 // Shares of the mean diagonal of the normal equations.
 constexpr std::array<double, 5> kPenalties = {1e-7, 1e-5, 1e-3, 1e-2, 1e-1};
 
-// Rows of the design: 1, x, x^2 of the position, then each sensor and, with a
-// position, each sensor times it.
+// Rows of the design: 1, x, x^2 of the position, then what a view makes of each
+// sensor and, with a position, each of these times it.
 struct Design {
+  View view = View::kRaw;
   MatrixXd features;  // (m x f)
   VectorXd targets;   // (m)
-  MatrixXd sensors;   // (m x p)
+  MatrixXd sensors;   // (m x p) each as the view has it, unfiltered
   std::vector<std::string> names;
-  Index base = 1;        // columns that are always in
-  Index per_sensor = 1;  // columns of each sensor
+  Index base = 1;                           // columns that are always in
+  std::vector<std::vector<Index>> columns;  // of each sensor
 };
 
-MatrixXd SensorsOf(const data::Dataset& dataset,
-                   const std::vector<Index>& columns,
-                   bool zeroed) {
-  MatrixXd sensors = dataset.input_values()(Eigen::all, columns);
-  if (!zeroed) return sensors;
-  const data::SessionLog& log = *dataset.log();
-  const std::vector<Index> sessions = dataset.session_codes();
-  for (Index row = 0; row < sensors.rows(); ++row) {
-    const Index first = log.first_rows[static_cast<std::size_t>(
-        sessions[static_cast<std::size_t>(row)])];
-    for (Index i = 0; i < sensors.cols(); ++i) {
-      sensors(row, i) -=
-          log.input_values(first, columns[static_cast<std::size_t>(i)]);
-    }
-  }
-  return sensors;
+// The column of the data that a column of the form is made of.
+std::string SourceOf(const History* history, const std::string& column) {
+  if (history == nullptr) return column;
+  const auto derived = std::ranges::find(
+      history->derived, column, [](const auto& d) { return d.column.name; });
+  return derived == history->derived.end() ? column
+                                           : SourceOf(history, derived->of);
 }
 
-Design MakeDesign(const data::Dataset& dataset, bool zeroed) {
-  Design design;
-  std::vector<Index> columns;
-  for (Index i = 0; i < dataset.num_inputs(); ++i) {
-    const data::ColumnInfo& column =
-        dataset.inputs()[static_cast<std::size_t>(i)];
-    if (IsPosition(column)) continue;
-    columns.push_back(i);
-    design.names.push_back(column.name);
+// Columns less their mean, in units of the spread of all of their unit: what a
+// thermometer among thermometers hardly shows weighs little.
+MatrixXd Scaled(const data::Dataset& rows, const std::vector<Index>& columns) {
+  MatrixXd scaled = rows.input_values()(Eigen::all, columns);
+  scaled.rowwise() -= scaled.colwise().mean().eval();
+  std::map<std::string, std::pair<double, Index>> squares_of;  // and columns
+  const auto unit_of = [&](Index i) -> const std::string& {
+    const auto column =
+        static_cast<std::size_t>(columns[static_cast<std::size_t>(i)]);
+    return rows.inputs()[column].unit.symbol;
+  };
+  for (Index i = 0; i < scaled.cols(); ++i) {
+    auto& [squares, count] = squares_of[unit_of(i)];
+    squares += scaled.col(i).squaredNorm();
+    ++count;
   }
-  if (columns.size() < 2) {
+  for (Index i = 0; i < scaled.cols(); ++i) {
+    const auto& [squares, count] = squares_of[unit_of(i)];
+    const auto values = static_cast<double>(scaled.rows() * count);
+    scaled.col(i) /= std::max(std::sqrt(squares / values), 1e-12);
+  }
+  return scaled;
+}
+
+Design MakeDesign(const ViewedRows& viewed) {
+  const data::Dataset& rows = *viewed.rows;
+  Design design;
+  design.view = viewed.view;
+  std::vector<Index> made;  // columns of the form, positions apart
+  std::vector<Index> sensor_of;
+  std::vector<Index> unfiltered;
+  for (Index i = 0; i < rows.num_inputs(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (viewed.is_position[at]) continue;
+    const std::string source =
+        SourceOf(viewed.history.get(), rows.inputs()[at].name);
+    const auto known = std::ranges::find(design.names, source);
+    sensor_of.push_back(known - design.names.begin());
+    made.push_back(i);
+    if (known != design.names.end()) continue;
+    design.names.push_back(source);
+    unfiltered.push_back(i);
+  }
+  if (design.names.size() < 2) {
     throw std::invalid_argument("there are fewer than two sensors");
   }
-  design.sensors = SensorsOf(dataset, columns, zeroed);
-  design.targets = dataset.target_values();
-  MatrixXd scaled = design.sensors;
-  const Eigen::RowVectorXd mean = scaled.colwise().mean();
-  const double scale = std::sqrt((scaled.rowwise() - mean).squaredNorm() /
-                                 static_cast<double>(scaled.size()));
-  scaled = (scaled.rowwise() - mean) / std::max(scale, 1e-12);
-  const Index rows = scaled.rows();
-  const Index p = scaled.cols();
-  const Index position = FindPosition(dataset, "");
+  design.sensors = rows.input_values()(Eigen::all, unfiltered);
+  design.targets = rows.target_values();
+  const MatrixXd scaled = Scaled(rows, made);
+  const Index position = FindPosition(rows, "");
   design.base = position < 0 ? 1 : 3;
-  design.per_sensor = position < 0 ? 1 : 2;
-  design.features.resize(rows, design.base + design.per_sensor * p);
+  const Index per_column = position < 0 ? 1 : 2;
+  design.features.resize(rows.num_rows(),
+                         design.base + per_column * scaled.cols());
   design.features.col(0).setOnes();
-  VectorXd x = VectorXd::Zero(rows);
+  VectorXd x = VectorXd::Zero(rows.num_rows());
   if (position >= 0) {
-    x = dataset.input_values().col(position);
+    x = rows.input_values().col(position);
     x.array() -= x.mean();
     x /= std::max(x.cwiseAbs().maxCoeff(), 1e-12);
     design.features.col(1) = x;
     design.features.col(2) = x.cwiseAbs2();
   }
-  for (Index i = 0; i < p; ++i) {
-    const Index at = design.base + design.per_sensor * i;
+  design.columns.resize(design.names.size());
+  for (Index i = 0; i < scaled.cols(); ++i) {
+    const Index at = design.base + per_column * i;
+    auto& columns = design.columns[static_cast<std::size_t>(
+        sensor_of[static_cast<std::size_t>(i)])];
     design.features.col(at) = scaled.col(i);
-    if (position >= 0) {
-      design.features.col(at + 1) = scaled.col(i).cwiseProduct(x);
-    }
+    columns.push_back(at);
+    if (position < 0) continue;
+    design.features.col(at + 1) = scaled.col(i).cwiseProduct(x);
+    columns.push_back(at + 1);
   }
   return design;
 }
@@ -128,9 +156,8 @@ std::vector<Index> ColumnsOf(const Design& design,
   std::vector<Index> columns;
   for (Index i = 0; i < design.base; ++i) columns.push_back(i);
   for (const Index sensor : sensors) {
-    for (Index i = 0; i < design.per_sensor; ++i) {
-      columns.push_back(design.base + design.per_sensor * sensor + i);
-    }
+    const auto& of_sensor = design.columns[static_cast<std::size_t>(sensor)];
+    columns.insert(columns.end(), of_sensor.begin(), of_sensor.end());
   }
   return columns;
 }
@@ -171,6 +198,7 @@ struct Judged {
 Judged JudgeSensors(const Design& design,
                     const Training& training,
                     const std::vector<Index>& sensors) {
+  fitting::ThrowIfInterrupted();
   const std::vector<Index> columns = ColumnsOf(design, sensors);
   Judged best;
   for (const double penalty : kPenalties) {
@@ -312,68 +340,95 @@ std::vector<std::string> SubstitutesFor(const Design& design,
   return names;
 }
 
-// The view with the lower inner error of all sensors.
-Design BetterDesign(const data::Dataset& dataset,
-                    const fitting::FoldCodes& folds,
-                    bool* zeroed) {
-  Design raw = MakeDesign(dataset, false);
-  *zeroed = false;
-  if (!dataset.has_sessions()) return raw;
-  Design less_first = MakeDesign(dataset, true);
+// The view with the lowest error of all sensors on units held out.
+Design BestDesign(const data::Dataset& dataset,
+                  const fitting::FoldCodes& folds) {
+  ViewOptions options;
+  options.given = true;
+  options.sine_and_cosine = false;
+  std::vector<ViewedRows> views = MakeViews(dataset, options, 0.0);
+  options.with_history = false;  // the zero alone
+  for (ViewedRows& viewed : MakeViews(dataset, options, 0.0)) {
+    if (viewed.view == View::kZero) views.push_back(std::move(viewed));
+  }
   std::vector<Index> rows(static_cast<std::size_t>(dataset.num_rows()));
   std::iota(rows.begin(), rows.end(), Index{0});
-  const auto squares = [&](const Design& design) {
-    return JudgeSensors(
-               design, TrainingOf(design, rows, folds), AllSensors(design))
-        .squares;
-  };
-  *zeroed = squares(less_first) < squares(raw);
-  return *zeroed ? less_first : raw;
+  Design best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const ViewedRows& viewed : views) {
+    Design design = MakeDesign(viewed);
+    const double squares =
+        JudgeSensors(
+            design, TrainingOf(design, rows, folds), AllSensors(design))
+            .squares;
+    if (!(squares < least)) continue;
+    least = squares;
+    best = std::move(design);
+  }
+  return best;
 }
 
 }  // namespace
 
-SensorCurve LearnSensors(const data::Dataset& dataset, Index most_sensors) {
+SensorCurve LearnSensors(const data::Dataset& dataset,
+                         const SensorSearch& search) {
+  const fitting::InterruptionScope interruptible(search.stop);
   const InnerFolds outer = MakeInnerFolds(dataset, {});
+  const Design design = BestDesign(dataset, outer.folds);
   SensorCurve curve;
-  const Design design = BetterDesign(dataset, outer.folds, &curve.zeroed);
+  curve.view = design.view;
   curve.unit = outer.text;
   curve.all_sensors = static_cast<Index>(design.names.size());
-  const Index most = std::min(most_sensors, curve.all_sensors);
-  VectorXd squares = VectorXd::Zero(most + 1);
-  double all_squares = 0.0;
-  double rows = 0.0;
-  std::vector<std::vector<std::vector<Index>>> choices;
-  for (Index fold = 0; fold < outer.folds.count(); ++fold) {
-    const auto [train, test] = outer.folds.Split(fold);
-    const Training training = TrainingOf(
-        design, train, MakeInnerFolds(dataset.SelectRows(train), {}).folds);
-    const Moments held = MomentsOf(design, test);
-    choices.push_back(ChooseByNumber(design, training, most));
-    for (Index k = 0; k <= most; ++k) {
-      squares[k] += TestSquares(
-          design, training, held, choices.back()[static_cast<std::size_t>(k)]);
+  const Index most = std::min(search.most_sensors, curve.all_sensors);
+  std::vector<Index> all_rows(static_cast<std::size_t>(dataset.num_rows()));
+  std::iota(all_rows.begin(), all_rows.end(), Index{0});
+  const Training of_all = TrainingOf(design, all_rows, outer.folds);
+
+  // A search in each fold, and the last in all rows.
+  const Index folds = outer.folds.count();
+  std::vector<std::vector<std::vector<Index>>> choices(
+      static_cast<std::size_t>(folds + 1));
+  MatrixXd squares(most + 2, folds);  // of 0, 1, ... sensors, and of all
+  std::atomic<int> done = 0;
+  const auto choose_in = [&](Index fold) {
+    const fitting::InterruptionScope of_thread(search.stop);
+    auto& chosen = choices[static_cast<std::size_t>(fold)];
+    if (fold == folds) {
+      chosen = ChooseByNumber(design, of_all, most);
+    } else {
+      const auto [train, test] = outer.folds.Split(fold);
+      const Training training = TrainingOf(
+          design, train, MakeInnerFolds(dataset.SelectRows(train), {}).folds);
+      const Moments held = MomentsOf(design, test);
+      chosen = ChooseByNumber(design, training, most);
+      for (Index k = 0; k <= most; ++k) {
+        squares(k, fold) = TestSquares(
+            design, training, held, chosen[static_cast<std::size_t>(k)]);
+      }
+      squares(most + 1, fold) =
+          TestSquares(design, training, held, AllSensors(design));
     }
-    all_squares += TestSquares(design, training, held, AllSensors(design));
-    rows += held.rows;
-  }
+    if (search.progress) search.progress(++done, static_cast<int>(folds) + 1);
+  };
+  oneapi::tbb::task_arena arena(search.jobs);
+  arena.execute(
+      [&] { oneapi::tbb::parallel_for(Index{0}, folds + 1, choose_in); });
+
+  const VectorXd rmse =
+      (squares.rowwise().sum() / static_cast<double>(dataset.num_rows()))
+          .cwiseSqrt();
+  curve.all_rmse = rmse[most + 1];
   for (Index k = 0; k <= most; ++k) {
-    curve.points.push_back({k, std::sqrt(squares[k] / rows)});
-  }
-  curve.all_rmse = std::sqrt(all_squares / rows);
-  for (const SensorCurve::Point& point : curve.points) {
+    curve.points.push_back({k, rmse[k]});
     if (curve.enough < 0 &&
-        point.rmse <= SensorCurve::kTolerance * curve.all_rmse) {
-      curve.enough = point.sensors;
+        rmse[k] <= SensorCurve::kTolerance * curve.all_rmse) {
+      curve.enough = k;
     }
   }
   const auto number =
       static_cast<std::size_t>(curve.enough >= 0 ? curve.enough : most);
-  std::vector<Index> all_rows(static_cast<std::size_t>(dataset.num_rows()));
-  std::iota(all_rows.begin(), all_rows.end(), Index{0});
-  const Training training = TrainingOf(design, all_rows, outer.folds);
-  const std::vector<Index> chosen =
-      ChooseByNumber(design, training, static_cast<Index>(number)).back();
+  const std::vector<Index> chosen = choices.back()[number];
+  choices.pop_back();
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const auto among = std::ranges::count_if(choices, [&](const auto& fold) {
       return std::ranges::find(fold[number], chosen[i]) != fold[number].end();
@@ -382,7 +437,7 @@ SensorCurve LearnSensors(const data::Dataset& dataset, Index most_sensors) {
         {.sensor = design.names[static_cast<std::size_t>(chosen[i])],
          .stability =
              static_cast<double>(among) / static_cast<double>(choices.size()),
-         .substitutes = SubstitutesFor(design, training, chosen, i)});
+         .substitutes = SubstitutesFor(design, of_all, chosen, i)});
   }
   return curve;
 }

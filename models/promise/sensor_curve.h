@@ -1,20 +1,22 @@
 #pragma once
 
-#include <cstdint>
+#include <atomic>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "data/measurements/dataset.h"
+#include "models/history/view.h"
 
 namespace errmap::models {
 
 /// Error on unseen units against the number of sensors (inputs that are no
-/// positions), by a map that every shop could run: linear in each sensor, its
-/// slope linear in the position, quadratic in the position, ridge penalty by
-/// inner hold-outs; sensors as they are or less their session's first value,
-/// whichever does better there.
+/// positions), by a map that every shop could run: linear in what a view makes
+/// of each sensor, its slope linear in the position, quadratic in the position,
+/// ridge penalty by inner hold-outs. Sensors as they are, through filters, less
+/// their session's first value, or both: whichever does best with all of them.
 struct SensorCurve {
   struct Point {
     Eigen::Index sensors = 0;
@@ -30,7 +32,7 @@ struct SensorCurve {
   /// Errors within so many times another are as good.
   static constexpr double kTolerance = 1.05;
 
-  bool zeroed = false;
+  View view = View::kRaw;
   std::string unit;           // what was held out whole: "day"
   std::vector<Point> points;  // 0, 1, 2, ... chosen sensors
   double all_rmse = 0.0;      // with every sensor
@@ -42,10 +44,18 @@ struct SensorCurve {
   std::vector<Chosen> chosen;
 };
 
+struct SensorSearch {
+  Eigen::Index most_sensors = 8;
+  int jobs = 1;  // changes no figure
+  const std::atomic<bool>* stop = nullptr;
+  /// Called by any thread after each of `all` searches.
+  std::function<void(int done, int all)> progress = {};
+};
+
 /// Chooses sensors by sequential replacement, inside folds of whole units for
 /// `points`, and from all rows for `chosen`. Throws std::invalid_argument where
-/// there are fewer than two sensors or units.
+/// there are fewer than two sensors or units, fitting::Interrupted on a stop.
 SensorCurve LearnSensors(const data::Dataset& dataset,
-                         Eigen::Index most_sensors);
+                         const SensorSearch& search);
 
 }  // namespace errmap::models

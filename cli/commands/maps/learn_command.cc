@@ -21,6 +21,7 @@
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
+#include "fitting/interruption.h"
 #include "models/model_spec.h"
 #include "models/promise/learning_curve.h"
 #include "models/promise/next_states.h"
@@ -93,6 +94,11 @@ std::unique_ptr<models::JournalFile> OpenJournal(
                                            : JournalFile::Opening::kAnew);
 }
 
+int JobsOf(const LearnArguments& arguments) {
+  if (arguments.jobs > 0) return arguments.jobs;
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
 // Fits of the curve, resumed from those of an earlier run where there are any.
 models::StudyResult RunLearning(
     const LearnArguments& arguments,
@@ -102,10 +108,7 @@ models::StudyResult RunLearning(
   Progress progress(!arguments.data.quiet);
   models::StudyOptions options{
       .seed = arguments.seed,
-      .jobs = arguments.jobs > 0
-                  ? arguments.jobs
-                  : static_cast<int>(
-                        std::max(1U, std::thread::hardware_concurrency())),
+      .jobs = JobsOf(arguments),
       .stop = &InstallInterruptFlag(),
       .indifference = models::DefaultIndifference(dataset.target().unit),
       .fit_all_rows = false,
@@ -187,8 +190,17 @@ void LearnBySensors(const LearnArguments& arguments,
                     const data::Dataset& dataset,
                     Learned* learned) {
   models::SensorCurve curve;
+  Progress progress(!arguments.data.quiet);
   try {
-    curve = models::LearnSensors(dataset, arguments.sensors);
+    curve = models::LearnSensors(
+        dataset,
+        {.most_sensors = arguments.sensors,
+         .jobs = JobsOf(arguments),
+         .stop = &InstallInterruptFlag(),
+         .progress = [&](int done, int all) { progress.Show(done, all); }});
+  } catch (const fitting::Interrupted&) {
+    learned->interrupted = true;
+    return;
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("--by sensors: {}", error.what()));
   }
@@ -236,7 +248,10 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
   }
   if (!arguments.candidates.empty()) LearnNext(arguments, dataset, &learned);
   if (learned.interrupted) {
-    Say("interrupted; with --out the fits that are done are kept for --resume");
+    Say(arguments.by == "sensors"
+            ? "interrupted"
+            : "interrupted; with --out the fits that are done are kept for "
+              "--resume");
     return kInterrupted;
   }
   Json document = {{"schema", "errmap-learn-1"},

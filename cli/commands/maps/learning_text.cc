@@ -130,6 +130,20 @@ std::string CurveText(const models::LearningPlan& plan,
 constexpr std::array<const char*, 6> kColours = {
     "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
 
+std::string_view ViewWords(models::View view) {
+  switch (view) {
+    case models::View::kRaw:
+      return "as they are";
+    case models::View::kHistory:
+      return "as they are and through filters";
+    case models::View::kZero:
+      return "each less its session's first value";
+    case models::View::kHistoryAndZero:
+      return "through filters, each less its session's first value";
+  }
+  return "";
+}
+
 }  // namespace
 
 Json CurvesJson(const models::LearningPlan& plan,
@@ -217,7 +231,7 @@ Json SensorsJson(const models::SensorCurve& curve) {
                        {"substitutes", chosen.substitutes}});
   }
   return {{"held_out", curve.unit},
-          {"zeroed", curve.zeroed},
+          {"view", ToString(curve.view)},
           {"points", std::move(points)},
           {"all", {{"sensors", curve.all_sensors}, {"rmse", curve.all_rmse}}},
           {"enough", curve.enough < 0 ? Json() : Json(curve.enough)},
@@ -232,11 +246,11 @@ std::string SensorsText(const models::SensorCurve& curve,
     smallest = std::min(smallest, point.rmse);
   }
   const ErrorText error(unit, smallest);
-  std::string text = fmt::format(
-      "RMSE ({}) held out ({}) against the number of sensors, {}\n",
-      error.symbol(),
-      curve.unit,
-      curve.zeroed ? "each less its session's first value" : "as they are");
+  std::string text =
+      fmt::format("RMSE ({}) held out ({}) against the number of sensors, {}\n",
+                  error.symbol(),
+                  curve.unit,
+                  ViewWords(curve.view));
   for (const auto& point : curve.points) {
     text += fmt::format("  {:4}  {:>9}{}\n",
                         point.sensors,

@@ -2,6 +2,7 @@
 // next_states.
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <set>
@@ -11,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fitting/interruption.h"
 #include "models/promise/learning_curve.h"
 #include "models/promise/next_states.h"
 #include "models/promise/power_law.h"
@@ -154,8 +156,7 @@ data::Dataset WithTwoSensorTruth(const data::Dataset& days,
 TEST(LearnSensors, FindsTheTwoSensorsThatTheTruthUses) {
   const data::Dataset days =
       WithTwoSensorTruth(SimulatedDays(4, 6, 8), "t12_degC", "t27_degC");
-  const SensorCurve curve = LearnSensors(days, 4);
-  EXPECT_FALSE(curve.zeroed);
+  const SensorCurve curve = LearnSensors(days, {.most_sensors = 4});
   EXPECT_EQ(curve.enough, 2);
   ASSERT_EQ(curve.chosen.size(), 2U);
   const std::set<std::string> found = {curve.chosen[0].sensor,
@@ -164,8 +165,15 @@ TEST(LearnSensors, FindsTheTwoSensorsThatTheTruthUses) {
   EXPECT_EQ(curve.chosen[0].stability, 1.0);
 }
 
+TEST(LearnSensors, EndsWhereItIsAskedTo) {
+  const std::atomic<bool> stop = true;
+  EXPECT_THROW(LearnSensors(SimulatedDays(4, 4, 4), {.stop = &stop}),
+               fitting::Interrupted);
+}
+
 TEST(LearnSensors, DoesMostOfItWithAFew) {
-  const SensorCurve curve = LearnSensors(SimulatedDays(3, 8, 8), 4);
+  const SensorCurve curve =
+      LearnSensors(SimulatedDays(3, 8, 8), {.most_sensors = 4, .jobs = 2});
   EXPECT_EQ(curve.all_sensors, 36);
   ASSERT_EQ(curve.points.size(), 5U);
   EXPECT_LT(curve.points.back().rmse, 0.3 * curve.points.front().rmse);
