@@ -22,16 +22,9 @@ using Eigen::VectorXd;
 
 constexpr Index kFewestSessions = 3;
 
-// By how much the statistics of healthy sessions of new days exceed those of
-// the sessions held out, which training's other days lie around: rough figures
-// of simulated machines, with which 6 of 288 healthy ones were accused
-// (tests/benchmarks/fleet_watch.py).
-constexpr double kOffsetInflation = 1.5;
-constexpr double kRmsInflation = 1.5;
-constexpr double kSensorInflation = 2.0;
-
-// Of what the spread of one sensor is shrunk to that of all, in sessions.
-constexpr double kPriorSessions = 4.0;
+// What the spread common to all sensors counts in that of one, in sessions.
+// With it p of healthy simulated machines needs no widening.
+constexpr double kPriorSessions = 1.0;
 
 struct Regression {
   VectorXd mean;
@@ -103,7 +96,7 @@ MapJudgement JudgeNewest(const HeldOutErrors& held_out,
   found.found = std::sqrt(square);
   const double mean = squares / n;
   if (!(mean > 0.0) || !(offsets > 0.0)) return found;
-  const double t = offset / (kOffsetInflation * std::sqrt(offsets / n / k));
+  const double t = offset / std::sqrt(offsets / n / k);
   found.p_offset = stats::StudentTwoSided(t, n);
   // A session's mean square is spread as chi squared with so many degrees of
   // freedom (Satterthwaite 1946), at most those of its rows.
@@ -113,10 +106,7 @@ MapJudgement JudgeNewest(const HeldOutErrors& held_out,
       std::clamp(2.0 * mean * mean / std::max(variance, mean * mean * 1e-9),
                  1.0,
                  kMostFreedom);
-  found.p_rms =
-      stats::FUpperTail(square / (mean * kRmsInflation * kRmsInflation),
-                        k * freedom,
-                        n * freedom);
+  found.p_rms = stats::FUpperTail(square / mean, k * freedom, n * freedom);
   found.p = std::min(1.0, 2.0 * std::min(found.p_offset, found.p_rms));
   return found;
 }
@@ -234,7 +224,7 @@ void JudgeSensors(const SensorRelations& relations,
   for (Index i = 0; i < shifts.size(); ++i) {
     const double spread = std::sqrt((n * squares[i] + kPriorSessions * common) /
                                     (n + kPriorSessions));
-    const double t = std::abs(shifts[i]) / (kSensorInflation * spread);
+    const double t = std::abs(shifts[i]) / spread;
     if (t <= largest) continue;
     largest = t;
     worst = i;

@@ -49,13 +49,13 @@ TEST(JudgeSessions, FindsADayLikeTheOthersAsPromised) {
 
 TEST(JudgeSessions, HoldsAnOffsetAgainstThoseHeldOut) {
   const auto found = JudgeSessions(TenDays(), {Session(-9.0, 82.0)});
-  // Inflated 1.5 times: t = 9 / 1.5 with 10 degrees of freedom.
-  EXPECT_THAT(found->p_offset, DoubleEq(stats::StudentTwoSided(6.0, 10.0)));
+  // By ten offsets about 0.
+  EXPECT_THAT(found->p_offset, DoubleEq(stats::StudentTwoSided(9.0, 10.0)));
   EXPECT_LT(found->p, 1e-3);
 }
 
 TEST(JudgeSessions, TwoDaysTogetherSayMoreThanTheNewest) {
-  const WatchedSession day = Session(4.0, 17.0);
+  const WatchedSession day = Session(3.0, 2.0);
   const double one = JudgeSessions(TenDays(), {day})->p;
   EXPECT_LT(JudgeSessions(TenDays(), {day, day})->p, one);
 }
@@ -65,6 +65,69 @@ TEST(JudgeSessions, JudgesNothingByTwoDays) {
   few.units.resize(2);
   EXPECT_FALSE(JudgeSessions(few, {Session(0.0, 1.0)}));
   EXPECT_FALSE(JudgeSessions(TenDays(), {}));
+}
+
+// Of sd 1; a sum of twelve uniform numbers is normal enough.
+class Deviates {
+ public:
+  double operator()() {
+    double sum = -6.0;
+    for (int i = 0; i < 12; ++i) {
+      sum += std::ldexp(static_cast<double>(random_() >> 11), -53);
+    }
+    return sum;
+  }
+
+ private:
+  std::mt19937_64 random_{24};
+};
+
+// Four standard deviations of a count of 2000 at 5 %.
+constexpr int kTrials = 2000;
+const auto kOneInTwenty =
+    ::testing::AllOf(::testing::Gt(60), ::testing::Lt(140));
+
+TEST(JudgeSessions, AccusesHealthyOffsetsAsOftenAsPSays) {
+  Deviates deviate;
+  int below = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    HeldOutErrors errors = TenDays();
+    for (HeldOutErrors::Unit& unit : errors.units) {
+      unit.residuals.array() += deviate() - unit.residuals.mean();
+    }
+    const double offset = deviate();
+    const auto found =
+        JudgeSessions(errors, {Session(offset, 1.0 + offset * offset)});
+    below += found->p_offset < 0.05 ? 1 : 0;
+  }
+  EXPECT_THAT(below, kOneInTwenty);
+}
+
+TEST(SensorRelations, AccuseHealthySensorsAsOftenAsPSays) {
+  constexpr Eigen::Index kSensors = 8;
+  constexpr Eigen::Index kSessions = 10;
+  Deviates deviate;
+  int below = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    SensorRelations relations;
+    relations.columns.resize(kSensors);
+    relations.sessions = kSessions;
+    relations.spread = Eigen::VectorXd::NullaryExpr(kSensors, [&] {
+      double squares = 0.0;
+      for (Eigen::Index i = 0; i < kSessions; ++i) {
+        const double mean = deviate();
+        squares += mean * mean;
+      }
+      return std::sqrt(squares / static_cast<double>(kSessions));
+    });
+    WatchedSession session = Session(0.0, 1.0);
+    JudgeSensors(
+        relations,
+        Eigen::VectorXd::NullaryExpr(kSensors, [&] { return deviate(); }),
+        &session);
+    below += session.p_sensor < 0.05 ? 1 : 0;
+  }
+  EXPECT_THAT(below, kOneInTwenty);
 }
 
 // Of p.adjust(c(0.01, 0.04, 0.03, 0.5), "BH") in R.
