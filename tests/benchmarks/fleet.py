@@ -31,12 +31,13 @@ import sys
 import tempfile
 import time
 
-MODELS = ["mean", "poly:eq9", "poly:ridge"]
+MODELS = ["mean", "poly:eq9", "poly:ridge:view=raw:terms=linear"]
 TABLES = ("runs components fields holdouts models metrics verdicts recommendations "
           "sensors maps").split()
 SHARES = 8
 SUMMARY_LIMIT = 20000
 COMPONENT_LIMIT = 300000
+FEWEST_TIMED = 200  # of fewer the starts of 8 programs are no small part
 failures = []
 
 
@@ -181,7 +182,7 @@ def check_shares(fleet, arguments):
     say(f"8 shares in order {order} {shared:.1f} s, the merge {merge:.2f} s; the shares with nothing "
         f"left to fit {nothing_left:.2f} s: {100 * share:.2f} % of the fits' time are no fits; "
         f"{100 * (shared + merge - whole) / whole:+.1f} % against one run")
-    if share > 0.03:
+    if share > 0.03 and arguments.components >= FEWEST_TIMED:
         fail("sharing and merging take more than 3 % of the fits' time")
     store = fleet.folder / "whole"
     summaries = [p.stat().st_size for p in store.rglob("summary.json")]
