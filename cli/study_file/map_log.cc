@@ -120,7 +120,6 @@ void AddMapLogArguments(CLI::App* command, MapLogArguments* arguments) {
 
 MapLog MakeMapLog(const models::FittedModel& fitted,
                   const data::CsvTable& table,
-                  const std::vector<Index>& kept,
                   const MapLogArguments& arguments) {
   MapLog map;
   if (fitted.history == nullptr || !fitted.history->needs_sessions()) {
@@ -174,11 +173,7 @@ MapLog MakeMapLog(const models::FittedModel& fitted,
         data::RequireColumn(all, input.column.name, "an input of the map");
     log->input_values.col(column++) = data::ValuesOfRows(all.columns[at], rows);
   }
-  // Every earlier row counts, and of the file those that are predicted.
-  std::vector<Index> in_log(static_cast<std::size_t>(map.first_row));
-  std::iota(in_log.begin(), in_log.end(), Index{0});
-  for (const Index row : kept) in_log.push_back(map.first_row + row);
-  log->first_rows = data::FirstRows(found.sessions, in_log);
+  log->first_rows = data::FirstRows(found.sessions, log->input_values);
   log->sessions = std::move(found.sessions);
   log->time = std::move(found.time);
   log->time_unit = std::move(found.time_unit);

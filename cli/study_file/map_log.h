@@ -42,12 +42,11 @@ struct MapLog {
   std::vector<std::string> warnings;  // one line each
 };
 
-/// `kept`: the rows of the table that are predicted. Throws data::InputError
-/// where the tables lack the column of sessions or times that the map needs, or
-/// where those will not do (data/measurements/sessions.h).
+/// Of every row of the table, whether it has a target or not. Throws
+/// data::InputError where the tables lack the column of sessions or times that
+/// the map needs, or where those will not do (data/measurements/sessions.h).
 MapLog MakeMapLog(const models::FittedModel& fitted,
                   const data::CsvTable& table,
-                  const std::vector<Eigen::Index>& kept,
                   const MapLogArguments& arguments);
 
 }  // namespace errmap::cli

@@ -137,16 +137,14 @@ PointLog MakePointLog(const models::History& history,
   merged->input_values.resize(n, points.inputs.cols());
   PointLog result;
   result.rows.resize(points.table.num_rows);
-  std::vector<Index> all;
   for (Index i = 0; i < n; ++i) {
     const Row& row = rows[static_cast<std::size_t>(i)];
     merged->time[i] = row.time;
     merged->input_values.row(i) =
         (row.is_point ? points.inputs : log->inputs).row(row.index);
     if (row.is_point) result.rows[static_cast<std::size_t>(row.index)] = i;
-    all.push_back(i);
   }
-  merged->first_rows = data::FirstRows(merged->sessions, all);
+  merged->first_rows = data::FirstRows(merged->sessions, merged->input_values);
   const std::vector<bool> inside = models::BeginInside(*merged, history);
   for (const Index row : result.rows) {
     const Index session = merged->sessions.codes[static_cast<std::size_t>(row)];

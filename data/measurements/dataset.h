@@ -37,7 +37,7 @@ struct SessionLog {
   /// Of all rows. A session is an uninterrupted run; column "" where sessions
   /// were cut by time or the table is one.
   Grouping sessions;
-  std::vector<Eigen::Index> first_rows;  // (sessions) first row that was kept
+  std::vector<Eigen::Index> first_rows;  // (sessions) sessions.h: FirstRows
   Eigen::VectorXd time;   // (rows) finite, never falling within a session
   std::string time_unit;  // "s", or "rows": the number of the row
   Eigen::MatrixXd input_values;  // (rows x p) NaN: no number; (0 x 0): made

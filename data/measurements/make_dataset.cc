@@ -480,7 +480,6 @@ class DatasetBuilder {
       at = std::lower_bound(at, log_rows_.end(), row);
       parts_.log_rows.push_back(at - log_rows_.begin());
     }
-    log->first_rows = FirstRows(log->sessions, parts_.log_rows);
     if (log_rows_ == parts_.rows) {
       log->input_values = std::move(parts_.input_values);
       parts_.input_values.resize(0, 0);
@@ -488,6 +487,7 @@ class DatasetBuilder {
       log->input_values = LoggedInputs();
       if (selection_.faults == FaultPolicy::kDropRows) BlankFaults(log.get());
     }
+    log->first_rows = FirstRows(log->sessions, log->input_values);
     parts_.log = std::move(log);
   }
 

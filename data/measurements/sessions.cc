@@ -364,16 +364,20 @@ double MedianStep(std::vector<double> steps) {
 }
 
 std::vector<Index> FirstRows(const Grouping& sessions,
-                             const std::vector<Index>& kept) {
-  std::vector<Index> first(sessions.labels.size(), -1);
-  const auto take = [&](Index row) {
-    const Index code = sessions.codes[static_cast<std::size_t>(row)];
-    Index& of_session = first[static_cast<std::size_t>(code)];
-    if (of_session < 0) of_session = row;
-  };
-  for (const Index row : kept) take(row);
-  for (std::size_t row = 0; row < sessions.codes.size(); ++row) {
-    take(static_cast<Index>(row));
+                             const Eigen::MatrixXd& input_values) {
+  constexpr Index kNone = -1;
+  std::vector<Index> first(sessions.labels.size(), kNone);
+  std::vector<Index> complete(sessions.labels.size(), kNone);
+  for (std::size_t i = 0; i < sessions.codes.size(); ++i) {
+    const auto session = static_cast<std::size_t>(sessions.codes[i]);
+    const auto row = static_cast<Index>(i);
+    if (first[session] == kNone) first[session] = row;
+    if (complete[session] == kNone && input_values.row(row).allFinite()) {
+      complete[session] = row;
+    }
+  }
+  for (std::size_t session = 0; session < first.size(); ++session) {
+    if (complete[session] != kNone) first[session] = complete[session];
   }
   return first;
 }

@@ -16,10 +16,10 @@ inline constexpr double kLeapSteps = 20.0;
 /// none.
 double MedianStep(std::vector<double> steps);
 
-/// The first row of every session among those kept (indices into the log), else
-/// its first row.
+/// The row at which each session's zero is taken: its first whose inputs
+/// (n x p) are all numbers, measured there or not, else its first.
 std::vector<Eigen::Index> FirstRows(const Grouping& sessions,
-                                    const std::vector<Eigen::Index>& kept);
+                                    const Eigen::MatrixXd& input_values);
 
 /// `later` below `earlier`, the columns of `columns` alone. Throws InputError
 /// where a column is in one of them only.

@@ -1,7 +1,6 @@
 #include "cli/commands/control/export_tables.h"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -107,9 +106,7 @@ ErrorCurve AfterLog(const models::FittedModel& fitted,
                             data::MissingPolicy::kError,
                             nullptr);
   }
-  std::vector<Index> all_rows(table.num_rows);
-  std::iota(all_rows.begin(), all_rows.end(), Index{0});
-  const MapLog map = MakeMapLog(fitted, table, all_rows, {});
+  const MapLog map = MakeMapLog(fitted, table, {});
   models::ProgramRun run(program, models::Precision::kDouble);
   const auto session = [&](Index at) {
     return map.log->sessions.codes[static_cast<std::size_t>(at)];

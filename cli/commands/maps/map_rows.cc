@@ -111,8 +111,7 @@ MapRows ReadMapRows(const models::FittedModel& fitted,
       ReadForMap(fitted, arguments.file, MapColumns::kInputsAndTarget, quiet);
   const data::DatasetSelection selection = SelectionFor(fitted, arguments);
   data::PreparedDataset prepared = data::MakeDataset(table, selection);
-  const MapLog map =
-      MakeMapLog(fitted, table, prepared.dataset.rows(), arguments.log);
+  const MapLog map = MakeMapLog(fitted, table, arguments.log);
   if (!quiet) {
     for (const std::string& remark : prepared.remarks) Say(remark);
     for (const std::string& line :

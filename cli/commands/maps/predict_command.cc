@@ -100,7 +100,7 @@ int RunPredict(const PredictArguments& arguments) {
   const Eigen::MatrixXd inputs = InputsOf(fitted, table);
   std::vector<Eigen::Index> all_rows(table.num_rows);
   std::iota(all_rows.begin(), all_rows.end(), Eigen::Index{0});
-  const MapLog map = MakeMapLog(fitted, table, all_rows, arguments.log);
+  const MapLog map = MakeMapLog(fitted, table, arguments.log);
   const data::Dataset rows = RowsToPredict(fitted, table, inputs, map);
   const Eigen::MatrixXd form_inputs = fitted.FormInputs(rows);
   models::Prediction prediction = fitted.PredictForm(form_inputs);
