@@ -75,8 +75,8 @@ void WarnOfSessions(const models::History& history,
     if (!map->begin_inside[s]) continue;
     map->warnings.push_back(fmt::format(
         "warning: session {} begins inside: its first row is at {:.6g} s, "
-        "sessions of training began at {:.6g} s at the latest; give its "
-        "earlier rows with --after (inside = 0)",
+        "those of training had begun by {:.6g} s; give its earlier rows with "
+        "--after (inside = 0)",
         data::QuotedText(log.sessions.labels[s]),
         log.time[log.first_rows[s]],
         history.latest_start));

@@ -67,15 +67,14 @@ std::vector<double> StartsOf(const data::SessionLog& log) {
   return starts;
 }
 
-// A step that is more than this begins another session.
-double LeapOf(const data::SessionLog& log) {
+double StepOf(const data::SessionLog& log) {
   std::vector<double> steps;
   for (const std::vector<Index>& rows : RowsOfSessions(log)) {
     for (std::size_t i = 1; i < rows.size(); ++i) {
       steps.push_back(log.time[rows[i]] - log.time[rows[i - 1]]);
     }
   }
-  return data::kLeapSteps * data::MedianStep(std::move(steps));
+  return data::MedianStep(std::move(steps));
 }
 
 Derived DeriveLog(const data::SessionLog& log,
@@ -269,15 +268,19 @@ double LatestStart(const data::Dataset& training) {
     earliest = std::min(earliest, starts[static_cast<std::size_t>(code)]);
     latest = std::max(latest, starts[static_cast<std::size_t>(code)]);
   }
-  return latest - earliest <= LeapOf(log) ? latest : kUnknown;
+  const double step = StepOf(log);
+  // Of the training rows: those of a few probes lie far apart.
+  constexpr double kLateSteps = 5.0;
+  return latest - earliest <= data::kLeapSteps * step
+             ? latest + kLateSteps * step
+             : kUnknown;
 }
 
 std::vector<bool> BeginInside(const data::SessionLog& log,
                               const History& history) {
   std::vector<bool> inside;
-  const double leap = LeapOf(log);
   for (const double start : StartsOf(log)) {
-    inside.push_back(start > history.latest_start + leap);
+    inside.push_back(start > history.latest_start);
   }
   return inside;
 }

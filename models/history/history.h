@@ -38,8 +38,9 @@ struct History {
   std::string session;    // column; "" where sessions are cut by time
   std::vector<DerivedInput> derived;
   std::vector<std::string> form_inputs;  // columns or derived inputs, in order
-  /// Latest time at which a session of training began, where all began within
-  /// kLeapSteps median steps of another; NaN where clocks tell nothing.
+  /// Time by which the sessions of training had begun, and kLateSteps median
+  /// steps more, where all began within kLeapSteps of another; NaN where clocks
+  /// tell nothing.
   double latest_start = std::numeric_limits<double>::quiet_NaN();
 
   /// Whether any filter runs in time.

@@ -111,7 +111,9 @@ MapRows ReadMapRows(const models::FittedModel& fitted,
       ReadForMap(fitted, arguments.file, MapColumns::kInputsAndTarget, quiet);
   const data::DatasetSelection selection = SelectionFor(fitted, arguments);
   data::PreparedDataset prepared = data::MakeDataset(table, selection);
-  const MapLog map = MakeMapLog(fitted, table, arguments.log);
+  const MapLog map = arguments.with_memory
+                         ? MakeMapLog(fitted, table, arguments.log)
+                         : MapLog{};
   if (!quiet) {
     for (const std::string& remark : prepared.remarks) Say(remark);
     for (const std::string& line :
@@ -121,9 +123,15 @@ MapRows ReadMapRows(const models::FittedModel& fitted,
     for (const std::string& warning : map.warnings) Say(warning);
   }
   data::Dataset dataset = WithMapLog(prepared.dataset, map);
+  const bool begins_inside =
+      map.log != nullptr &&
+      std::ranges::any_of(dataset.session_codes(), [&](Index session) {
+        return map.begin_inside[static_cast<std::size_t>(session)];
+      });
   return {.table = std::move(table),
           .prepared = std::move(prepared),
-          .dataset = std::move(dataset)};
+          .dataset = std::move(dataset),
+          .begins_inside = begins_inside};
 }
 
 RowsJudged JudgeMapRows(const models::FittedModel& fitted,

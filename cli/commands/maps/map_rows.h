@@ -22,6 +22,8 @@ struct MapRowsArguments {
   std::string missing = "error";
   std::string faults = "keep";
   MapLogArguments log;
+  /// False where the caller knows the rows between: no filters are run.
+  bool with_memory = true;
 };
 
 /// Rows with the map's inputs and target, in its names and units.
@@ -30,6 +32,8 @@ struct MapRows {
   data::PreparedDataset prepared;
   /// The rows with what the map's filters run through.
   data::Dataset dataset;
+  /// Whether the first rows of a session with measured rows are missing.
+  bool begins_inside = false;
 };
 
 /// Reads them; remarks and warnings go to stderr unless quiet. Throws

@@ -108,8 +108,7 @@ int RunPredict(const PredictArguments& arguments) {
   if (!arguments.probes.empty()) {
     probes = CorrectByProbes(fitted,
                              arguments.probes,
-                             table,
-                             all_rows,
+                             {table, inputs},
                              arguments.log,
                              arguments.quiet);
     prediction.errors += probes->offset;

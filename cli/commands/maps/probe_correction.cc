@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/commands/maps/map_rows.h"
 #include "cli/shell/number_text.h"
 #include "data/input_error.h"
+#include "data/measurements/column_checks.h"
 #include "models/promise/session_offset.h"
 
 namespace errmap::cli {
@@ -33,12 +37,37 @@ std::string LineOf(const models::FittedModel& fitted,
       error.WithUnit(known));
 }
 
+// The measured rows, and a memory that runs through all that is known of their
+// sessions.
+data::Dataset WithRowsBetween(const models::FittedModel& fitted,
+                              const MapRows& measured,
+                              const RowsForMap& today,
+                              const MapLogArguments& log) {
+  const data::CsvTable& table = measured.table;
+  Eigen::MatrixXd inputs(static_cast<Index>(table.num_rows),
+                         static_cast<Index>(fitted.inputs.size()));
+  std::vector<Index> all(table.num_rows);
+  std::iota(all.begin(), all.end(), Index{0});
+  Index column = 0;
+  for (const models::TrainedInput& input : fitted.inputs) {
+    const std::size_t at =
+        data::RequireColumn(table, input.column.name, "an input of the map");
+    inputs.col(column++) = data::ValuesOfRows(table.columns[at], all);
+  }
+  const PointLog merged =
+      MakePointLog(*fitted.history, {table, inputs}, &today, log);
+  std::vector<Index> log_rows;
+  for (const Index row : measured.dataset.rows()) {
+    log_rows.push_back(merged.rows[static_cast<std::size_t>(row)]);
+  }
+  return measured.dataset.WithLog(merged.log, std::move(log_rows));
+}
+
 }  // namespace
 
 ProbeCorrection CorrectByProbes(const models::FittedModel& fitted,
                                 const std::string& probes,
-                                const data::CsvTable& table,
-                                const std::vector<Index>& rows,
+                                const RowsForMap& today,
                                 const MapLogArguments& log,
                                 bool quiet) {
   if (fitted.held_out == nullptr) {
@@ -46,15 +75,26 @@ ProbeCorrection CorrectByProbes(const models::FittedModel& fitted,
         "the map holds no errors of unseen days to weigh probes by; fit it "
         "with compare, or with fit and without --no-interval");
   }
-  const MapRows measured = ReadMapRows(
-      fitted, {.file = probes, .missing = kProbesOnly, .log = log}, quiet);
-  const Eigen::VectorXd predicted = fitted.Predict(measured.dataset);
+  // With --after the probes go on from there.
+  const bool between = fitted.history != nullptr &&
+                       fitted.history->needs_sessions() && log.after.empty();
+  const MapRows measured = ReadMapRows(fitted,
+                                       {.file = probes,
+                                        .missing = kProbesOnly,
+                                        .log = log,
+                                        .with_memory = !between},
+                                       quiet);
+  const Eigen::VectorXd predicted =
+      fitted.Predict(between ? WithRowsBetween(fitted, measured, today, log)
+                             : measured.dataset);
+  std::vector<Index> rows(today.table.num_rows);
+  std::iota(rows.begin(), rows.end(), Index{0});
   const models::OffsetModel model = models::FitOffset(*fitted.held_out);
   const models::OffsetTrack track = models::TrackOffset(
       model,
       MomentsOf(fitted, measured.table, measured.dataset.rows(), log),
       measured.dataset.target_values() - predicted,
-      MomentsOf(fitted, table, rows, log));
+      MomentsOf(fitted, today.table, rows, log));
   ProbeCorrection correction{
       .offset = track.offset,
       .narrowing = track.variance,

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include "cli/study_file/map_log.h"
-#include "data/csv.h"
+#include "cli/study_file/point_log.h"
 #include "models/error_model.h"
 
 namespace errmap::cli {
@@ -18,13 +17,13 @@ struct ProbeCorrection {
   std::string line;           // for people
 };
 
-/// Of the probes of a file, for `rows` of `table`; each row is corrected by the
-/// probes of its session up to its time. Throws data::InputError where the map
-/// holds no held-out errors, or as ReadMapRows does.
+/// Of the probes of a file, for the rows of `today`; each is corrected by the
+/// probes of its session up to its time. A memory runs through the rows of
+/// `today` between the probes. Throws data::InputError where the map holds no
+/// held-out errors, or as ReadMapRows does.
 ProbeCorrection CorrectByProbes(const models::FittedModel& fitted,
                                 const std::string& probes,
-                                const data::CsvTable& table,
-                                const std::vector<Eigen::Index>& rows,
+                                const RowsForMap& today,
                                 const MapLogArguments& log,
                                 bool quiet);
 

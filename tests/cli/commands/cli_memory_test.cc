@@ -123,7 +123,7 @@ TEST_F(CliMemory, WarnsOncePerSessionThatBeginsInside) {
   EXPECT_THAT(
       outcome.err,
       AllOf(HasSubstr("warning: session '1' begins inside: its first row is at "
-                      "1500 s, sessions of training began at 0 s"),
+                      "1500 s, those of training had begun by 300 s"),
             HasSubstr("warning: session '2' begins inside")));
   EXPECT_THAT(ColumnOf(outcome, "inside"), ::testing::Each(0.0));
   EXPECT_THAT(

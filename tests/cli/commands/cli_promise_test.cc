@@ -1,7 +1,9 @@
 // What a map promises, and how it is held to it: predict's flags, evaluate's
 // words, check, and predict --probes.
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -119,6 +121,63 @@ TEST_F(CliPromise, CheckTellsWhetherTheMapHolds) {
               AllOf(HasSubstr("does not hold"),
                     HasSubstr("re-zero by"),
                     HasSubstr("0 to 39 min after the session began")));
+}
+
+// The file with errors in these rows alone; the others go, or stay without.
+std::string ProbesOf(const std::string& text,
+                     const std::vector<std::size_t>& rows,
+                     bool with_others) {
+  std::istringstream lines(text);
+  std::string line;
+  std::getline(lines, line);
+  std::string probes = line + "\n";
+  for (std::size_t row = 0; std::getline(lines, line); ++row) {
+    const bool is_probe = std::ranges::find(rows, row) != rows.end();
+    if (is_probe) {
+      probes += line + "\n";
+    } else if (with_others) {
+      probes += line.substr(0, line.rfind(',')) + ",\n";
+    }
+  }
+  return probes;
+}
+
+// The zero of a session is taken at its first row, not at its first probe.
+TEST_F(CliPromise, CheckAndProbesKnowWhereTheSessionBegan) {
+  const std::string memory = "poly:ridge:degree=2:view=zero";
+  ASSERT_EQ(
+      Run({"fit", "train.csv", "--model", memory, "-o", "zero.json"}).status,
+      0);
+  const std::string day = Days(11, 11);
+  const std::vector<std::size_t> rows = {12, 20, 33};
+  Write("day.csv", day);
+  Write("all.csv", ProbesOf(day, rows, true));
+  Write("only.csv", ProbesOf(day, rows, false));
+  const auto predicted = Records(Run({"predict", "zero.json", "day.csv"}).out);
+  const auto measured = Records(day);
+  double mean = 0.0;
+  for (const std::size_t row : rows) {
+    mean += (std::stod(measured[row].at("error_um")) -
+             std::stod(predicted[row].at("predicted"))) /
+            static_cast<double>(rows.size());
+  }
+  const Json check =
+      RunJson({"check", "zero.json", "all.csv", "--format", "json"});
+  EXPECT_NEAR(check["probes"]["mean"].get<double>(), mean, 1e-9);
+  EXPECT_FALSE(check["begins_inside"].get<bool>());
+
+  const Outcome only = Run({"check", "zero.json", "only.csv"});
+  EXPECT_EQ(only.status, 0);
+  EXPECT_THAT(only.out, HasSubstr("Not known whether the map holds"));
+  EXPECT_THAT(only.err, HasSubstr("warning: session '11' begins inside"));
+
+  const Outcome by_all =
+      Run({"predict", "zero.json", "day.csv", "--probes", "all.csv"});
+  const Outcome by_only =
+      Run({"predict", "zero.json", "day.csv", "--probes", "only.csv"});
+  EXPECT_EQ(by_all.status, 0) << by_all.err;
+  EXPECT_EQ(by_only.out, by_all.out);
+  EXPECT_THAT(by_only.err, Not(HasSubstr("begins inside")));
 }
 
 TEST_F(CliPromise, CheckNeedsHeldOutErrors) {

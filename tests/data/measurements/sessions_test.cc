@@ -216,6 +216,16 @@ TEST(MakeDataset, KnowsTheSessionsOfEveryRowRead) {
   EXPECT_NE(&dataset.input_values(), &dataset.log()->input_values);
 }
 
+// What is not measured there is known there.
+TEST(MakeDataset, TakesTheZeroAtTheFirstCompleteRowMeasuredOrNot) {
+  const PreparedDataset prepared = MakeDataset(
+      ParseCsv("day,time_s,t1_degC,error_um\n1,0,,\n1,5,20,\n1,10,21,2\n"
+               "2,60,21,\n2,65,22,4\n2,70,23,6\n",
+               "log.csv"),
+      {.missing = MissingPolicy::kDropRows});
+  EXPECT_THAT(prepared.dataset.log()->first_rows, ElementsAre(1, 3));
+}
+
 TEST(MakeDataset, KeepsTheInputsOnceWhereNoRowWasDropped) {
   const PreparedDataset prepared = MakeDataset(
       ParseCsv("day,time_s,t1_degC,error_um\n1,0,20,1\n1,5,21,2\n2,60,22,3\n",

@@ -263,10 +263,10 @@ TEST(History, TellsASessionWhoseFirstRowsAreMissing) {
   };
   History history = Everything();
   history.latest_start = LatestStart(data(0.0, 5.0));
-  EXPECT_EQ(history.latest_start, 5.0);
-  EXPECT_THAT(BeginInside(*data(0.0, 205.0).log(), history),
+  EXPECT_EQ(history.latest_start, 55.0);  // five steps of 10 later
+  EXPECT_THAT(BeginInside(*data(0.0, 55.0).log(), history),
               ElementsAre(false, false));
-  EXPECT_THAT(BeginInside(*data(0.0, 206.0).log(), history),
+  EXPECT_THAT(BeginInside(*data(0.0, 56.0).log(), history),
               ElementsAre(false, true));
   // Sessions by the clock on the wall: the start of a session tells nothing.
   history.latest_start = LatestStart(data(0.0, 86400.0));
