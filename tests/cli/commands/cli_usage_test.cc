@@ -137,6 +137,15 @@ TEST_F(Cli, EveryFitFailedIsItsOwnStatus) {
   EXPECT_FALSE(Exists("m.json"));
 }
 
+// Until the program has worked for so many seconds of its own time, however
+// busy the machine is.
+void WaitForWork(const Process& process, double seconds) {
+  const double begin = process.CpuSeconds();
+  while (process.CpuSeconds() < begin + seconds) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
 TEST_F(Cli, InterruptedRunShowsAndWritesWhatItHas) {
   const std::string endless = "net:scg:iterations=100000000";
   Process process(scratch_.path(),
@@ -153,7 +162,7 @@ TEST_F(Cli, InterruptedRunShowsAndWritesWhatItHas) {
                    "--format",
                    "table"});
   ASSERT_TRUE(process.WaitUntilInterruptible());
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  WaitForWork(process, 0.5);
   process.Interrupt();
   const Outcome outcome = process.Wait();
   EXPECT_EQ(outcome.status, kInterrupted);
@@ -181,7 +190,7 @@ TEST_F(Cli, InterruptedFitWritesTheBestMapSoFar) {
                    "-o",
                    "m.json"});
   ASSERT_TRUE(process.WaitUntilInterruptible());
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  WaitForWork(process, 0.3);
   process.Interrupt();
   const Outcome outcome = process.Wait();
   EXPECT_EQ(outcome.status, kInterrupted);
