@@ -26,17 +26,12 @@ constexpr Index kFewestSessions = 3;
 // With it p of healthy simulated machines needs no widening.
 constexpr double kPriorSessions = 1.0;
 
-struct Regression {
-  VectorXd mean;
-  MatrixXd weights;
-};
-
-// By the inverse covariance P: value less what the others tell is
-// (x - mean)' P / diag(P).
-Regression RegressOnOthers(const MatrixXd& values) {
+// Makes mean, weights and variance, by the inverse covariance P: value less
+// what the others tell is (x - mean)' P / diag(P), its variance 1 / diag(P).
+SensorRelations RegressOnOthers(const MatrixXd& values) {
   // A channel that shows one value has no scatter; in units of the reading.
   constexpr double kLeastVariance = 1e-5;
-  Regression found;
+  SensorRelations found;
   found.mean = values.colwise().mean();
   const MatrixXd centred = values.rowwise() - found.mean.transpose();
   const Index size = values.cols();
@@ -45,13 +40,17 @@ Regression RegressOnOthers(const MatrixXd& values) {
       kLeastVariance * MatrixXd::Identity(size, size);
   const MatrixXd precision =
       covariance.llt().solve(MatrixXd::Identity(size, size));
-  found.weights = precision * precision.diagonal().cwiseInverse().asDiagonal();
+  found.variance = precision.diagonal().cwiseInverse();
+  found.weights = precision * found.variance.asDiagonal();
   return found;
 }
 
-VectorXd MeanResidual(const Regression& regression, const MatrixXd& values) {
-  const VectorXd mean = values.colwise().mean();
-  return regression.weights.transpose() * (mean - regression.mean);
+// Of the distances of one sensor's others to their usual one, what widens the
+// variance of its shift.
+Eigen::ArrayXXd Widening(const MatrixXd& distances, const VectorXd& usual) {
+  constexpr double kLeast = 1e-12;
+  return 1.0 +
+         distances.array().rowwise() / usual.array().max(kLeast).transpose();
 }
 
 std::vector<Index> SensorsOf(const data::Dataset& dataset) {
@@ -140,6 +139,8 @@ std::string SensorRelations::ToJsonText() const {
                            {"columns", std::move(names)},
                            {"mean", ToArray(mean)},
                            {"weights", std::move(rows)},
+                           {"variance", ToArray(variance)},
+                           {"distance", ToArray(distance)},
                            {"spread", ToArray(spread)},
                            {"sessions", sessions}};
   return json.dump(-1, ' ', false, RecordJson::error_handler_t::replace) + "\n";
@@ -161,6 +162,8 @@ SensorRelations SensorRelations::FromJsonText(std::string_view text) {
   }
   const auto size = static_cast<Index>(found.columns.size());
   found.mean = ToVector(json.value("mean", RecordJson()), size);
+  found.variance = ToVector(json.value("variance", RecordJson()), size);
+  found.distance = ToVector(json.value("distance", RecordJson()), size);
   found.spread = ToVector(json.value("spread", RecordJson()), size);
   found.weights.resize(size, size);
   const RecordJson rows = json.value("weights", RecordJson::array());
@@ -181,11 +184,8 @@ std::optional<SensorRelations> LearnRelations(const data::Dataset& training) {
       codes.empty() ? 0 : *std::ranges::max_element(codes) + 1;
   if (sensors.size() < 2 || sessions < kFewestSessions) return std::nullopt;
   const MatrixXd values = training.input_values()(Eigen::all, sensors);
-  SensorRelations found;
-  for (const Index sensor : sensors) {
-    found.columns.push_back(training.inputs()[std::size_t(sensor)]);
-  }
-  VectorXd squares = VectorXd::Zero(values.cols());
+  MatrixXd shifts(sessions, values.cols());
+  MatrixXd distances(sessions, values.cols());
   Index used = 0;
   for (Index session = 0; session < sessions; ++session) {
     std::vector<Index> of_it;
@@ -194,46 +194,67 @@ std::optional<SensorRelations> LearnRelations(const data::Dataset& training) {
       (codes[row] == session ? of_it : others).push_back(Index(row));
     }
     if (of_it.empty() || others.empty()) continue;
-    squares += MeanResidual(RegressOnOthers(values(others, Eigen::all)),
-                            values(of_it, Eigen::all))
-                   .cwiseAbs2();
+    const SensorShifts left_out = ShiftsOf(
+        RegressOnOthers(values(others, Eigen::all)), values(of_it, Eigen::all));
+    shifts.row(used) = left_out.shift.transpose();
+    distances.row(used) = left_out.distance.transpose();
     ++used;
   }
   if (used < kFewestSessions) return std::nullopt;
+  shifts.conservativeResize(used, Eigen::NoChange);
+  distances.conservativeResize(used, Eigen::NoChange);
+  SensorRelations found = RegressOnOthers(values);
+  for (const Index sensor : sensors) {
+    found.columns.push_back(training.inputs()[std::size_t(sensor)]);
+  }
   found.sessions = used;
-  found.spread = (squares / static_cast<double>(used)).cwiseSqrt();
-  const Regression all = RegressOnOthers(values);
-  found.mean = all.mean;
-  found.weights = all.weights;
+  found.distance = distances.colwise().mean();
+  found.spread = (shifts.array().square() / Widening(distances, found.distance))
+                     .colwise()
+                     .mean()
+                     .sqrt()
+                     .transpose();
   return found;
 }
 
-VectorXd MeanShifts(const SensorRelations& relations, const MatrixXd& values) {
-  return MeanResidual({relations.mean, relations.weights}, values);
+SensorShifts ShiftsOf(const SensorRelations& relations,
+                      const MatrixXd& values) {
+  const VectorXd mean = values.colwise().mean();
+  const VectorXd centred = mean - relations.mean;
+  SensorShifts found;
+  found.shift = relations.weights.transpose() * centred;
+  // x' P x of all sensors is that of the others and the shift's own.
+  const Eigen::ArrayXd scaled = found.shift.cwiseQuotient(relations.variance);
+  const double all = centred.dot(scaled.matrix());
+  found.distance = (all - found.shift.array() * scaled).max(0.0);
+  return found;
 }
 
 void JudgeSensors(const SensorRelations& relations,
-                  const VectorXd& shifts,
+                  const SensorShifts& shifts,
                   WatchedSession* session) {
   const VectorXd squares = relations.spread.cwiseAbs2();
   constexpr double kLeast = 1e-12;
   const double common = std::exp(squares.cwiseMax(kLeast).array().log().mean());
   const auto n = static_cast<double>(relations.sessions);
+  const Eigen::ArrayXd widening =
+      Widening(shifts.distance.transpose(), relations.distance).transpose();
   Index worst = 0;
   double largest = 0.0;
-  for (Index i = 0; i < shifts.size(); ++i) {
-    const double spread = std::sqrt((n * squares[i] + kPriorSessions * common) /
-                                    (n + kPriorSessions));
-    const double t = std::abs(shifts[i]) / spread;
+  for (Index i = 0; i < squares.size(); ++i) {
+    const double variance = widening[i] *
+                            (n * squares[i] + kPriorSessions * common) /
+                            (n + kPriorSessions);
+    const double t = std::abs(shifts.shift[i]) / std::sqrt(variance);
     if (t <= largest) continue;
     largest = t;
     worst = i;
   }
   session->sensor = relations.columns[std::size_t(worst)].name;
-  session->sensor_shift = shifts[worst];
+  session->sensor_shift = shifts.shift[worst];
   session->p_sensor =
       std::min(1.0,
-               static_cast<double>(shifts.size()) *
+               static_cast<double>(squares.size()) *
                    stats::StudentTwoSided(largest, n + kPriorSessions - 1.0));
 }
 

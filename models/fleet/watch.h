@@ -24,7 +24,12 @@ struct SensorRelations {
   Eigen::VectorXd mean;                   // (s)
   /// (s x s) value less what the others tell = (values - mean)' * weights.
   Eigen::MatrixXd weights;
-  /// (s) RMS over the sessions, each left out in turn, of its mean of that.
+  Eigen::VectorXd variance;  // (s) of that, row by row
+  /// (s) Mean over the sessions, each left out in turn, of how far the others
+  /// were from their own mean (SensorShifts::distance).
+  Eigen::VectorXd distance;
+  /// (s) RMS of those sessions' shifts, each over sqrt(1 + its distance /
+  /// `distance`): what is extrapolated far errs more.
   Eigen::VectorXd spread;
   Eigen::Index sessions = 0;
 
@@ -36,6 +41,16 @@ struct SensorRelations {
 /// Of the inputs that are no positions; nothing for fewer than two of them or
 /// than three sessions.
 std::optional<SensorRelations> LearnRelations(const data::Dataset& training);
+
+/// The sensors of a session, by the mean of its rows.
+struct SensorShifts {
+  Eigen::VectorXd shift;     // (s) value less what the others tell, its unit
+  Eigen::VectorXd distance;  // (s) of the others, squared, after Mahalanobis
+};
+
+/// Over `values` (m x s).
+SensorShifts ShiftsOf(const SensorRelations& relations,
+                      const Eigen::MatrixXd& values);
 
 /// A session as it was found: what is kept of it for later.
 struct WatchedSession {
@@ -51,14 +66,12 @@ struct WatchedSession {
   double p_sensor = 1.0;
 };
 
-/// Fills in the sensor of a session from its mean shifts (s): t statistics with
-/// the spread of the sessions, shrunk to their common one.
+/// Fills in the sensor of a session: t statistics with the spread of the
+/// sessions, shrunk to their common one, wider the farther its state is from
+/// those trained on.
 void JudgeSensors(const SensorRelations& relations,
-                  const Eigen::VectorXd& shifts,
+                  const SensorShifts& shifts,
                   WatchedSession* session);
-/// (s) Mean of value less what the others tell over `values` (m x s).
-Eigen::VectorXd MeanShifts(const SensorRelations& relations,
-                           const Eigen::MatrixXd& values);
 
 /// A map's sessions against its promise.
 struct MapJudgement {

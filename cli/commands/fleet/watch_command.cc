@@ -160,7 +160,7 @@ class Examiner {
     }
     if (kept == 0) return;
     models::JudgeSensors(*relations_,
-                         models::MeanShifts(*relations_, values.topRows(kept)),
+                         models::ShiftsOf(*relations_, values.topRows(kept)),
                          found);
   }
 

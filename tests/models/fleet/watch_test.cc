@@ -112,6 +112,7 @@ TEST(SensorRelations, AccuseHealthySensorsAsOftenAsPSays) {
     SensorRelations relations;
     relations.columns.resize(kSensors);
     relations.sessions = kSessions;
+    relations.distance = Eigen::VectorXd::Ones(kSensors);
     relations.spread = Eigen::VectorXd::NullaryExpr(kSensors, [&] {
       double squares = 0.0;
       for (Eigen::Index i = 0; i < kSessions; ++i) {
@@ -121,10 +122,12 @@ TEST(SensorRelations, AccuseHealthySensorsAsOftenAsPSays) {
       return std::sqrt(squares / static_cast<double>(kSessions));
     });
     WatchedSession session = Session(0.0, 1.0);
-    JudgeSensors(
-        relations,
-        Eigen::VectorXd::NullaryExpr(kSensors, [&] { return deviate(); }),
-        &session);
+    // As far from training as the sessions left out: twice the variance.
+    const SensorShifts shifts{
+        .shift = Eigen::VectorXd::NullaryExpr(
+            kSensors, [&] { return std::sqrt(2.0) * deviate(); }),
+        .distance = Eigen::VectorXd::Ones(kSensors)};
+    JudgeSensors(relations, shifts, &session);
     below += session.p_sensor < 0.05 ? 1 : 0;
   }
   EXPECT_THAT(below, kOneInTwenty);
@@ -164,7 +167,7 @@ WatchedSession Judged(const SensorRelations& relations,
                       const data::Dataset& day) {
   WatchedSession session = Session(0.0, 0.0);
   JudgeSensors(relations,
-               MeanShifts(relations, day.input_values().rightCols(3)),
+               ShiftsOf(relations, day.input_values().rightCols(3)),
                &session);
   return session;
 }
@@ -181,6 +184,40 @@ TEST(SensorRelations, NamesTheSensorThatDriftsAndLeavesHealthyOnesAlone) {
   EXPECT_LT(drifting.p_sensor, 1e-4);
 }
 
+TEST(SensorRelations, MeasuresHowFarTheOtherSensorsAreFromTraining) {
+  const data::Dataset trained = Machine(10, 1, 0.0);
+  const auto relations = LearnRelations(trained);
+  const Eigen::MatrixXd day = Machine(1, 11, 0.3).input_values().rightCols(3);
+  const SensorShifts found = ShiftsOf(*relations, day);
+  for (Eigen::Index sensor = 0; sensor < 3; ++sensor) {
+    const std::vector<Eigen::Index> others{(sensor + 1) % 3, (sensor + 2) % 3};
+    const Eigen::MatrixXd values =
+        trained.input_values().rightCols(3)(Eigen::all, others);
+    const Eigen::RowVector2d mean = values.colwise().mean();
+    const Eigen::MatrixXd centred = values.rowwise() - mean;
+    const Eigen::Matrix2d covariance =
+        centred.transpose() * centred / static_cast<double>(values.rows()) +
+        1e-5 * Eigen::Matrix2d::Identity();
+    const Eigen::Vector2d far =
+        (day(Eigen::all, others).colwise().mean() - mean).transpose();
+    EXPECT_NEAR(found.distance[sensor],
+                far.dot(covariance.inverse() * far),
+                1e-6 * (1.0 + found.distance[sensor]));
+  }
+}
+
+TEST(SensorRelations, AShiftFarFromTrainingSaysLess) {
+  const auto relations = LearnRelations(Machine(10, 1, 0.0));
+  SensorShifts shifts{.shift = 3.0 * relations->spread,
+                      .distance = relations->distance};
+  WatchedSession near = Session(0.0, 0.0);
+  JudgeSensors(*relations, shifts, &near);
+  shifts.distance *= 9.0;
+  WatchedSession far = Session(0.0, 0.0);
+  JudgeSensors(*relations, shifts, &far);
+  EXPECT_LT(near.p_sensor, far.p_sensor);
+}
+
 TEST(SensorRelations, NeedsThreeDaysAndTwoSensors) {
   EXPECT_FALSE(LearnRelations(Machine(2, 1, 0.0)));
 }
@@ -191,6 +228,8 @@ TEST(SensorRelations, ReadsBackWhatItWroteAndRefusesOtherText) {
       SensorRelations::FromJsonText(relations->ToJsonText());
   EXPECT_EQ(read.weights, relations->weights);
   EXPECT_EQ(read.spread, relations->spread);
+  EXPECT_EQ(read.variance, relations->variance);
+  EXPECT_EQ(read.distance, relations->distance);
   EXPECT_EQ(read.columns, relations->columns);
   for (const char* text :
        {"", "{}", R"({"schema": "errmap-relations-1", "columns": [{}]})"}) {
