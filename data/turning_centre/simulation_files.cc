@@ -1,5 +1,6 @@
 #include "data/turning_centre/simulation_files.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -112,26 +113,86 @@ std::string ComponentCsv(const Simulation& simulation,
   return text;
 }
 
-std::string ToolTipCsv(const Simulation& simulation) {
+std::string PoseHeader(const std::string& more) {
+  return "record,day,cycle,time_s" + more +
+         ",x_mm,x_direction,z_mm,z_direction" + SensorColumns() +
+         ",error_x_mm,error_y_mm,error_z_mm\n";
+}
+
+// `more`: cells of the columns that PoseHeader was given.
+std::string PoseLine(const Simulation& simulation,
+                     int record,
+                     const std::string& more,
+                     const ToolTipPoint& point) {
   const auto word = [](Direction direction) {
     return direction == Direction::kForward ? "forward" : "reverse";
   };
-  std::string text =
-      "record,day,cycle,time_s,x_mm,x_direction,z_mm,z_direction" +
-      SensorColumns() + ",error_x_mm,error_y_mm,error_z_mm\n";
+  const Stop& stop = simulation.stops[point.stop];
+  const ToolTipError error = ToolTipErrorAt(
+      point.x, point.x_direction, point.z, point.z_direction, stop.rise);
+  std::string text = std::to_string(record) + "," + std::to_string(stop.day) +
+                     "," + std::to_string(stop.cycle) + "," +
+                     std::to_string(stop.time_s()) + more + "," +
+                     SevenDigits(point.x) + "," + word(point.x_direction) +
+                     "," + SevenDigits(point.z) + "," + word(point.z_direction);
+  AppendReadings(stop.readings, &text);
+  return text + "," + SevenDigits(error.x + stop.shift) + "," +
+         SevenDigits(error.y) + "," + SevenDigits(error.z + stop.shift) + "\n";
+}
+
+std::string ToolTipCsv(const Simulation& simulation) {
+  std::string text = PoseHeader("");
   int record = 0;
   for (const ToolTipPoint& point : simulation.points) {
-    const Stop& stop = simulation.stops[point.stop];
-    const ToolTipError error = ToolTipErrorAt(
-        point.x, point.x_direction, point.z, point.z_direction, stop.rise);
-    text += std::to_string(++record) + "," + std::to_string(stop.day) + "," +
-            std::to_string(stop.cycle) + "," + std::to_string(stop.time_s()) +
-            "," + SevenDigits(point.x) + "," + word(point.x_direction) + "," +
-            SevenDigits(point.z) + "," + word(point.z_direction);
-    AppendReadings(stop.readings, &text);
-    text += "," + SevenDigits(error.x + stop.shift) + "," +
-            SevenDigits(error.y) + "," + SevenDigits(error.z + stop.shift) +
-            "\n";
+    text += PoseLine(simulation, ++record, "", point);
+  }
+  return text;
+}
+
+// The last stop of each cycle after which diagonals are run: five a day, or as
+// many as there are.
+std::vector<std::size_t> StopsOfDiagonals(const Simulation& simulation) {
+  constexpr int kRunsPerDay = 5;
+  const int cycles = simulation.options.cycles;
+  const int runs = std::min(kRunsPerDay, cycles);
+  std::vector<std::size_t> stops;
+  for (int day = 0; day < simulation.options.days; ++day) {
+    for (int run = 1; run <= runs; ++run) {
+      const int cycle = day * cycles + run * cycles / runs;
+      stops.push_back(
+          static_cast<std::size_t>(cycle * kNumSweeps * kStopsPerSweep) - 1);
+    }
+  }
+  return stops;
+}
+
+// Runs along both diagonals of the measured face, forth and back.
+std::string DiagonalsCsv(const Simulation& simulation) {
+  constexpr int kEvery = 2;  // stop of a sweep
+  std::string text = PoseHeader(",diagonal,diagonal_direction");
+  int record = 0;
+  for (const std::size_t stop : StopsOfDiagonals(simulation)) {
+    for (const bool z_rises : {true, false}) {
+      for (const bool forth : {true, false}) {
+        for (int i = 0; i < kStopsPerSweep; i += kEvery) {
+          // X rises along both: towards home, which is reverse.
+          const int x = forth ? kStopsPerSweep - i : i + 1;
+          const int z = z_rises ? x : kStopsPerSweep + 1 - x;
+          const auto direction = [](bool rises) {
+            return rises ? Direction::kReverse : Direction::kForward;
+          };
+          text += PoseLine(simulation,
+                           ++record,
+                           std::string(z_rises ? ",p0p," : ",p0n,") +
+                               (forth ? "forward" : "reverse"),
+                           {.stop = stop,
+                            .x = -kXStep * x,
+                            .z = -kZStep * z,
+                            .x_direction = direction(forth),
+                            .z_direction = direction(forth == z_rises)});
+        }
+      }
+    }
   }
   return text;
 }
@@ -351,6 +412,7 @@ midnight before the first, breaks and nights included; a day is a session.
   }
   text +=
       R"(| `tool_tip.csv` | | random poses, the true error of the tool tip against the work |
+| `diagonals.csv` | | the same along both diagonals of the face (ISO 230-6), `p0p` and `p0n` by the signs of X, Y and Z, forth and back five times a day |
 | `temperatures.csv` | | the logger's: all channels every 60 s from when the machine is switched on, by day |
 | `machine.toml` | | the kinematic chain |
 
@@ -382,8 +444,11 @@ std::vector<std::string> SimulationFileNames() {
   for (const ComponentFile& file : ComponentFiles()) {
     names.push_back(file.stem + ".csv");
   }
-  for (const char* name :
-       {"tool_tip.csv", "temperatures.csv", "machine.toml", "README.md"}) {
+  for (const char* name : {"tool_tip.csv",
+                           "diagonals.csv",
+                           "temperatures.csv",
+                           "machine.toml",
+                           "README.md"}) {
     names.emplace_back(name);
   }
   return names;
@@ -398,6 +463,7 @@ std::string SimulationFile(const Simulation& simulation,
     }
   }
   if (name == "tool_tip.csv") return ToolTipCsv(simulation);
+  if (name == "diagonals.csv") return DiagonalsCsv(simulation);
   if (name == "temperatures.csv") return TemperaturesCsv(simulation);
   if (name == "machine.toml") return MachineToml();
   if (name == "README.md") return Readme(simulation, options);

@@ -22,6 +22,10 @@ std::vector<std::string> SimulationFileNames();
 ///   has a row per stop (of the forward sweep, where direction does not
 ///   matter); one of temperature alone a row at the end of each sweep;
 /// - tool_tip.csv: random poses with the true error of the tool tip;
+/// - diagonals.csv: the same along both diagonals of the measured face, forth
+///   and back at the state of the machine after five cycles of each day, with
+///   the columns diagonal (p0p, p0n: the signs of X, Y and Z along it) and
+///   diagonal_direction;
 /// - temperatures.csv: record, day, time_s and all channels, every kLogSeconds;
 /// - machine.toml: the kinematic chain, naming a map STEM.json per CSV file;
 /// - README.md: what was simulated.

@@ -85,7 +85,7 @@ class Fleet:
                          self.arguments.days, "--cycles", self.arguments.cycles, "--points", 0,
                          "--quiet", "--force")
             for file in sorted((self.folder / machine).iterdir()):
-                usable = file.suffix == ".csv" and file.stem not in ("tool_tip", "temperatures")
+                usable = file.suffix == ".csv" and file.stem not in ("tool_tip", "diagonals", "temperatures")
                 if usable and made < self.arguments.components:
                     made += 1
                 else:

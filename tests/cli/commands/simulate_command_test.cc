@@ -37,9 +37,12 @@ TEST_F(SimulateCommand, WritesAFolderThatTheOtherCommandsRead) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "");
   EXPECT_THAT(outcome.err,
-              HasSubstr("2 days of 6 cycles, 19 files in new/folder"));
-  for (const char* name :
-       {"README.md", "machine.toml", "tool_tip.csv", "temperatures.csv"}) {
+              HasSubstr("2 days of 6 cycles, 20 files in new/folder"));
+  for (const char* name : {"README.md",
+                           "machine.toml",
+                           "tool_tip.csv",
+                           "diagonals.csv",
+                           "temperatures.csv"}) {
     EXPECT_TRUE(Exists(std::string("new/folder/") + name)) << name;
   }
   const Json study = RunJson({"compare",
@@ -79,7 +82,7 @@ TEST_F(SimulateCommand, SameSeedSameBytesAnotherSeedAnother) {
     }
     ++files;
   }
-  EXPECT_EQ(files, 20);  // and the list of them
+  EXPECT_EQ(files, 21);  // and the list of them
 }
 
 TEST_F(SimulateCommand, FaultsAndTheShiftBeginOnTheDayThatIsNamed) {

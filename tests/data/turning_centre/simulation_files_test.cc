@@ -59,6 +59,7 @@ TEST(SimulationFiles, AreOnePerComponentAndDirection) {
                           "spindle_tilt_xz.csv",
                           "spindle_tilt_yz.csv",
                           "tool_tip.csv",
+                          "diagonals.csv",
                           "temperatures.csv",
                           "machine.toml",
                           "README.md"));
@@ -159,6 +160,48 @@ TEST(SimulationFiles, TheToolTipTableRepeatsTheModel) {
   }
 }
 
+TEST(SimulationFiles, DiagonalsGoFromCornerToCornerForthAndBack) {
+  const CsvTable table = Table("diagonals.csv");
+  const std::vector<double> x = Column(table, "x_mm");
+  const std::vector<double> z = Column(table, "z_mm");
+  const std::vector<double> error_x = Column(table, "error_x_mm");
+  const auto text = [&](std::size_t row, const char* name) {
+    const auto index = static_cast<std::size_t>(table.Find(name));
+    return table.CellText(table.columns[index], row);
+  };
+  constexpr std::size_t kPoints = 9;
+  const auto runs = static_cast<std::size_t>(kDays) * std::min(5, kCycles);
+  ASSERT_EQ(table.num_rows, runs * 4 * kPoints);
+  struct Run {
+    std::size_t row;
+    const char* diagonal;
+    const char* direction;
+    double first_x, first_z;  // in steps
+    const char* x_direction;
+    const char* z_direction;
+  };
+  for (const Run& run :
+       {Run{0, "p0p", "forward", -17, -17, "reverse", "reverse"},
+        Run{9, "p0p", "reverse", -1, -1, "forward", "forward"},
+        Run{18, "p0n", "forward", -17, -1, "reverse", "forward"},
+        Run{27, "p0n", "reverse", -1, -17, "forward", "reverse"}}) {
+    const std::size_t last = run.row + kPoints - 1;
+    EXPECT_EQ(text(run.row, "diagonal"), run.diagonal);
+    EXPECT_EQ(text(run.row, "diagonal_direction"), run.direction);
+    EXPECT_EQ(text(run.row, "x_direction"), run.x_direction);
+    EXPECT_EQ(text(run.row, "z_direction"), run.z_direction);
+    EXPECT_NEAR(x[run.row], kXStep * run.first_x, 1e-9);
+    EXPECT_NEAR(z[run.row], kZStep * run.first_z, 1e-9);
+    // To the opposite corner.
+    EXPECT_NEAR(x[last], -kXStep * (18.0 + run.first_x), 1e-9);
+    EXPECT_NEAR(z[last], -kZStep * (18.0 + run.first_z), 1e-9);
+  }
+  const Stop& stop = Small().stops.back();
+  const ToolTipError error = ToolTipErrorAt(
+      x.back(), Direction::kForward, z.back(), Direction::kReverse, stop.rise);
+  EXPECT_NEAR(error_x.back(), error.x, 5e-7 * std::abs(error.x));
+}
+
 TEST(SimulationFiles, TheLogHasAllChannelsEveryMinuteFromSwitchOn) {
   const CsvTable table = Table("temperatures.csv");
   const std::vector<double> day = Column(table, "day");
@@ -200,7 +243,7 @@ TEST(SimulationFiles, MachineNamesAMapForEveryComponentFile) {
   const std::string toml = SimulationFile(Small(), {}, "machine.toml");
   for (const std::string& name : SimulationFileNames()) {
     if (!name.ends_with(".csv") || name == "tool_tip.csv" ||
-        name == "temperatures.csv") {
+        name == "diagonals.csv" || name == "temperatures.csv") {
       continue;
     }
     const std::string map = name.substr(0, name.size() - 4) + ".json";
