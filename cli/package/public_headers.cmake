@@ -36,6 +36,7 @@ set(ERRMAP_PUBLIC_HEADERS
   models/kinematics/iso230.h
   models/kinematics/kinematic_chain.h
   models/kinematics/machine.h
+  models/kinematics/plane_cells.h
   models/kinematics/volumetric.h
   models/map_experience.h
   models/model_file.h

@@ -6,6 +6,8 @@
 #include <limits>
 #include <map>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 namespace errmap::models {
 namespace {
@@ -138,6 +140,40 @@ std::vector<Diagonal> DiagonalsOf(const Vector3d& low,
     diagonals.push_back(std::move(diagonal));
   }
   return diagonals;
+}
+
+PositioningTest AlongDiagonal(const std::string& name,
+                              const MatrixX3d& points,
+                              const MatrixX3d& errors,
+                              std::vector<bool> upwards) {
+  constexpr std::string_view kSigns = "n0p";
+  Vector3d direction = Vector3d::Zero();
+  bool is_name = name.size() == 3;
+  for (std::size_t axis = 0; is_name && axis < 3; ++axis) {
+    const std::size_t sign = kSigns.find(name[axis]);
+    is_name = sign != kSigns.npos;
+    direction[static_cast<Index>(axis)] = static_cast<double>(sign) - 1.0;
+  }
+  if (!is_name || direction.cwiseAbs().sum() < 2.0) {
+    throw std::invalid_argument(
+        "AlongDiagonal: a diagonal's name has the signs p, n or 0 of X, Y and "
+        "Z, two of them or more p or n");
+  }
+  if (points.rows() == 0 || errors.rows() != points.rows()) {
+    throw std::invalid_argument(
+        "AlongDiagonal: " + std::to_string(points.rows()) + " points and " +
+        std::to_string(errors.rows()) + " errors");
+  }
+  const Vector3d size =
+      points.colwise().maxCoeff() - points.colwise().minCoeff();
+  direction = direction.cwiseProduct(size);
+  if (direction.norm() == 0.0) {
+    throw std::invalid_argument("AlongDiagonal: all points are one");
+  }
+  direction.normalize();
+  return {.positions = points * direction,
+          .deviations = errors * direction,
+          .upwards = std::move(upwards)};
 }
 
 double DiagonalDeviation(const Diagonal& diagonal, const MatrixX3d& errors) {

@@ -55,6 +55,17 @@ std::vector<Diagonal> DiagonalsOf(const Eigen::Vector3d& low,
                                   const Eigen::Vector3d& high,
                                   Eigen::Index num_points);
 
+/// The test of positions along a diagonal of that name, from runs both ways:
+/// `points` (n x 3) where the tool was told to be, `errors` (n x 3), and
+/// whether it came along the name's signs. Its figures are those of ISO
+/// 230-6:2002, clause 5. Throws std::invalid_argument on a name that is no
+/// diagonal's, and where the sizes do not agree or the points have no length
+/// along it.
+PositioningTest AlongDiagonal(const std::string& name,
+                              const Eigen::MatrixX3d& points,
+                              const Eigen::MatrixX3d& errors,
+                              std::vector<bool> upwards);
+
 /// Systematic deviation E of a diagonal displacement test: the range of the
 /// errors (n x 3, at its points) along it.
 double DiagonalDeviation(const Diagonal& diagonal,

@@ -136,6 +136,12 @@ Isometry3d KinematicChain::NominalTool(const VectorXd& coordinates) const {
   return EndsOf(coordinates, nullptr).tool;
 }
 
+Vector3d KinematicChain::NominalReach(const VectorXd& coordinates) const {
+  CheckSizes(coordinates, nullptr);
+  const Ends nominal = EndsOf(coordinates, nullptr);
+  return nominal.tool.translation() - nominal.work.translation();
+}
+
 Isometry3d KinematicChain::Tool(const VectorXd& coordinates,
                                 const VectorXd& errors) const {
   CheckSizes(coordinates, &errors);

@@ -80,6 +80,10 @@ class KinematicChain {
   /// below do; theirs of errors likewise.
   Eigen::Isometry3d NominalTool(const Eigen::VectorXd& coordinates) const;
 
+  /// The tip less the work's origin (3), without errors, along the axes of the
+  /// base: where on the work the tool is, turned as the machine has it.
+  Eigen::Vector3d NominalReach(const Eigen::VectorXd& coordinates) const;
+
   /// T_TOOL with errors.
   Eigen::Isometry3d Tool(const Eigen::VectorXd& coordinates,
                          const Eigen::VectorXd& errors) const;

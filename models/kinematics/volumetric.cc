@@ -45,17 +45,49 @@ void CheckShapes(const KinematicChain& chain,
   }
 }
 
-// Standard normal deviates (errors x draws).
-MatrixXd Deviates(Index num_errors, const VolumetricOptions& options) {
+// Of Student's t; normal where the degrees of freedom are infinite.
+double TQuantile(double p, double degrees_of_freedom) {
+  return std::isinf(degrees_of_freedom)
+             ? stats::NormalQuantile(p)
+             : stats::StudentQuantile(p, degrees_of_freedom);
+}
+
+// Deviates of each component's t (errors x draws), column by column.
+MatrixXd Deviates(const VectorXd& degrees_of_freedom,
+                  const VolumetricOptions& options) {
   stats::Random random(options.seed);
-  MatrixXd deviates(num_errors, options.draws);
-  for (double& deviate : deviates.reshaped()) {
-    // Never 0, as Uniform may be.
-    constexpr double kHalfStep = 0x1.0p-54;
-    deviate = stats::NormalQuantile(random.Uniform() + kHalfStep);
+  MatrixXd deviates(degrees_of_freedom.size(), options.draws);
+  for (Index draw = 0; draw < deviates.cols(); ++draw) {
+    for (Index k = 0; k < deviates.rows(); ++k) {
+      // Never 0, as Uniform may be.
+      constexpr double kHalfStep = 0x1.0p-54;
+      deviates(k, draw) =
+          TQuantile(random.Uniform() + kHalfStep, degrees_of_freedom[k]);
+    }
   }
   return deviates;
 }
+
+// What of the components is the same at all points.
+struct Spreads {
+  VectorXd degrees_of_freedom;
+  VectorXd deviations_per_half_width;
+  double upper = 0.0;   // the share below the interval's upper end
+  double normal = 0.0;  // its quantile, where deviations are known
+
+  Spreads(const std::vector<ComponentAtPoints>& components, double coverage)
+      : degrees_of_freedom(static_cast<Index>(components.size())),
+        deviations_per_half_width(degrees_of_freedom.size()),
+        upper(0.5 * (1.0 + coverage)),
+        normal(stats::NormalQuantile(upper)) {
+    for (Index k = 0; k < degrees_of_freedom.size(); ++k) {
+      degrees_of_freedom[k] =
+          components[static_cast<std::size_t>(k)].degrees_of_freedom;
+      deviations_per_half_width[k] =
+          1.0 / TQuantile(upper, degrees_of_freedom[k]);
+    }
+  }
+};
 
 // Of the errors of one point.
 struct Point {
@@ -78,30 +110,38 @@ Point PointOf(const MatrixXd& coordinates,
   return point;
 }
 
-// Root of the sum of squares along each direction; an error without effect
-// there need not be known.
+// Along each direction; an error without effect there need not be known.
 Vector3d FirstOrderHalfWidths(const Matrix3Xd& sensitivities,
-                              const VectorXd& half_widths) {
-  Vector3d sum = Vector3d::Zero();
-  for (Index k = 0; k < half_widths.size(); ++k) {
-    for (Index d = 0; d < 3; ++d) {
+                              const VectorXd& deviations,
+                              const Spreads& spreads) {
+  Vector3d half_widths;
+  for (Index d = 0; d < 3; ++d) {
+    double variance = 0.0;
+    double spread_of_it = 0.0;
+    for (Index k = 0; k < deviations.size(); ++k) {
       if (sensitivities(d, k) == 0.0) continue;
-      const double part = sensitivities(d, k) * half_widths[k];
-      sum[d] += part * part;
+      const double part = std::pow(sensitivities(d, k) * deviations[k], 2);
+      variance += part;
+      spread_of_it += part * part / spreads.degrees_of_freedom[k];
     }
+    // NaN stays.
+    half_widths[d] =
+        std::sqrt(variance) *
+        (spread_of_it > 0.0
+             ? TQuantile(spreads.upper, variance * variance / spread_of_it)
+             : spreads.normal);
   }
-  return sum.cwiseSqrt();
+  return half_widths;
 }
 
 // Draws of the exact error (3 x draws), each direction ascending. What is not
 // known does not vary.
 Matrix3Xd SortedDraws(const KinematicChain& chain,
                       const Point& point,
-                      const MatrixXd& deviates,
-                      double deviates_per_half_width) {
-  const VectorXd spread = point.half_widths.unaryExpr([](double h) {
-    return std::isnan(h) ? 0.0 : h;
-  }) / deviates_per_half_width;
+                      const VectorXd& deviations,
+                      const MatrixXd& deviates) {
+  const VectorXd spread =
+      deviations.unaryExpr([](double s) { return std::isnan(s) ? 0.0 : s; });
   MatrixXd by_direction(deviates.cols(), 3);
   for (Index draw = 0; draw < deviates.cols(); ++draw) {
     by_direction.row(draw) = chain.ExactError(
@@ -140,8 +180,8 @@ VolumetricErrors CombineErrors(const KinematicChain& chain,
   CheckShapes(chain, coordinates, components);
   const Index m = coordinates.rows();
   const double tail = 0.5 * (1.0 - options.coverage);
-  const double deviates_per_half_width = stats::NormalQuantile(1.0 - tail);
-  const MatrixXd deviates = Deviates(chain.num_errors(), options);
+  const Spreads spreads(components, options.coverage);
+  const MatrixXd deviates = Deviates(spreads.degrees_of_freedom, options);
 
   VolumetricErrors result;
   for (MatrixX3d* part :
@@ -160,12 +200,13 @@ VolumetricErrors CombineErrors(const KinematicChain& chain,
       result.contributions[static_cast<std::size_t>(k)].row(row) =
           sensitivities.col(k) * point.errors[k];
     }
+    const VectorXd deviations =
+        point.half_widths.cwiseProduct(spreads.deviations_per_half_width);
     const Vector3d half_widths =
-        FirstOrderHalfWidths(sensitivities, point.half_widths);
+        FirstOrderHalfWidths(sensitivities, deviations, spreads);
     result.half_widths.row(row) = half_widths;
     if (options.draws == 0) continue;
-    const Matrix3Xd sorted =
-        SortedDraws(chain, point, deviates, deviates_per_half_width);
+    const Matrix3Xd sorted = SortedDraws(chain, point, deviations, deviates);
     for (Index d = 0; d < 3; ++d) {
       if (std::isnan(half_widths[d])) continue;
       const VectorXd ascending = sorted.row(d);

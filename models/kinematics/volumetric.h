@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -15,6 +16,9 @@ struct ComponentAtPoints {
   /// (m) Within it of `values` a share `coverage` of errors lies; 0 of what is
   /// exact, NaN where it is not known.
   Eigen::VectorXd half_widths;
+  /// Of the standard deviation behind half_widths, which are so many times it
+  /// as Student's t has it; infinite where it is known.
+  double degrees_of_freedom = std::numeric_limits<double>::infinity();
 };
 
 struct VolumetricOptions {
@@ -33,12 +37,15 @@ struct VolumetricErrors {
   Eigen::MatrixX3d first_order;  // (m x 3)
   /// What each error of the chain adds to first_order (errors)(m x 3).
   std::vector<Eigen::MatrixX3d> contributions;
-  /// (m x 3) root of the sum of squares of sensitivities times half_widths:
-  /// the same share of errors, of normal and independent components, to first
-  /// order. NaN where a component that matters is not known.
+  /// (m x 3) the same share of errors of independent components, to first
+  /// order: standard deviations times sensitivities add up as squares, and
+  /// Student's t has the degrees of freedom of Welch and Satterthwaite (JCGM
+  /// 100:2008, 5.1.2 and G.4.1). NaN where a component that matters is not
+  /// known.
   Eigen::MatrixX3d half_widths;
-  /// (m x 3) quantiles of the exact form over `draws` of the same components;
-  /// NaN as half_widths, or without draws.
+  /// (m x 3) quantiles of the exact form over `draws` of the same components,
+  /// each from its Student's t (JCGM 101:2008, 6.4.9); NaN as half_widths, or
+  /// without draws.
   Eigen::MatrixX3d lower;
   Eigen::MatrixX3d upper;
 

@@ -119,6 +119,52 @@ TEST(Diagonals, TellSquarenessByTheirDifference) {
   EXPECT_NEAR(deviations[1], 1e-3 * (8.0 * 0.8 - 4.0 * 0.6), kRounding);
 }
 
+// Both ways along p0n of a face of 300 by 400 mm, 500 mm long: the slide loses
+// 2 um where it turns round, and the scale is long by 10 um per metre of X.
+TEST(Diagonals, HaveFiguresAsAnAxisHas) {
+  const Diagonal diagonal = DiagonalsOf({0, 0, 0}, {300, 0, 400}, 5)[1];
+  MatrixX3d points(10, 3);
+  points << diagonal.points, diagonal.points.colwise().reverse();
+  MatrixX3d errors = MatrixX3d::Zero(10, 3);
+  errors.col(0) = 1e-5 * points.col(0);
+  std::vector<bool> upwards(5, true);
+  upwards.resize(10, false);
+  for (Eigen::Index row = 5; row < 10; ++row) {
+    errors.row(row) -= 2e-3 * diagonal.direction.transpose();
+  }
+  const PositioningFigures figures = PositioningFiguresOf(
+      AlongDiagonal(diagonal.name, points, errors, upwards));
+  EXPECT_EQ(figures.num_positions, 5);
+  EXPECT_NEAR(figures.reversal, 2e-3, kRounding);
+  EXPECT_NEAR(figures.mean_bidirectional, 3e-3 * 0.6, kRounding);
+  EXPECT_NEAR(figures.systematic, 3e-3 * 0.6 + 2e-3, kRounding);
+  // One way it is the deviation of a diagonal displacement test.
+  EXPECT_NEAR(DiagonalDeviation(diagonal, MatrixX3d(errors.topRows(5))),
+              3e-3 * 0.6,
+              kRounding);
+}
+
+TEST(Diagonals, RefuseNamesAndPointsThatAreNone) {
+  const auto expect = [](const char* name,
+                         const MatrixX3d& points,
+                         const MatrixX3d& errors,
+                         const char* says) {
+    EXPECT_THAT(
+        [&] {
+          AlongDiagonal(name, points, errors, {true, true});
+        },
+        ThrowsMessage<std::invalid_argument>(HasSubstr(says)));
+  };
+  MatrixX3d points = MatrixX3d::Zero(2, 3);
+  points(1, 0) = 1.0;
+  const MatrixX3d errors = MatrixX3d::Zero(2, 3);
+  for (const char* name : {"", "pp", "00p", "p0x", "pppp"}) {
+    expect(name, points, errors, "two of them or more");
+  }
+  expect("pp0", points, MatrixX3d::Zero(1, 3), "2 points and 1 errors");
+  expect("pp0", MatrixX3d::Zero(2, 3), errors, "all points are one");
+}
+
 TEST(Diagonals, RefuseWhatIsNoBox) {
   EXPECT_THROW(DiagonalsOf({0, 0, 0}, {1, 0, 0}, 3), std::invalid_argument);
   EXPECT_THROW(DiagonalsOf({0, 0, 0}, {1, 1, -1}, 3), std::invalid_argument);

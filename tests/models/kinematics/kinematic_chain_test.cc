@@ -171,6 +171,20 @@ TEST(KinematicChain, ExactAndFirstOrderDifferInSecondOrder) {
   }
 }
 
+// A table that goes to -x puts the tool at +x on the work.
+TEST(KinematicChain, NominalReachIsThePlaceOnTheWork) {
+  KinematicLink column = Slide("Z", Branch::kTool, {0.0, 0.0, 1.0});
+  column.offset = {0.0, 0.0, 500.0};
+  const KinematicChain chain({column,
+                              Fixed("tool", Branch::kTool, {0.0, 0.0, -150.0}),
+                              Slide("X", Branch::kWork, {-1.0, 0.0, 0.0})});
+  EXPECT_LT(
+      (chain.NominalReach(Vector2d(20.0, 70.0)) - Vector3d(70.0, 0.0, 370.0))
+          .norm(),
+      kRounding);
+  EXPECT_THROW(chain.NominalReach(VectorXd::Zero(1)), std::invalid_argument);
+}
+
 // ---- Eq. 4 and 5.
 
 TEST(KinematicChain, ErrorMatrixHasTheOppositeSense) {

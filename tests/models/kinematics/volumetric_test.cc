@@ -107,6 +107,40 @@ TEST(CombineErrors, OneUncertainComponentKeepsItsHalfWidthTimesItsArm) {
       combined.half_widths(0, 2), 3e-6 * (386.0 + c.coordinates(0, 1)), 1e-15);
 }
 
+// Component 3 turns the tool, 7 too: along X both by the same arm, 120 mm.
+// Degrees of freedom of the sum by hand (JCGM 100:2008, G.4.1).
+TEST(CombineErrors, FewDegreesOfFreedomWidenASumLessThanItsParts) {
+  Case c(1);
+  for (ComponentAtPoints& component : c.components) {
+    component.half_widths.setZero();
+  }
+  constexpr double kT4 = 2.1318467863;  // t of 4 degrees of freedom, 0.95
+  constexpr double kT8 = 1.8595480375;  // of 8
+  for (const std::size_t k : {std::size_t{3}, std::size_t{7}}) {
+    c.components[k].half_widths[0] = kT4 * 1e-6;
+    c.components[k].degrees_of_freedom = 4.0;
+  }
+  const double half = c.Combine({.draws = 0}).half_widths(0, 0);
+  EXPECT_NEAR(half, kT8 * std::sqrt(2.0) * 1e-6 * 120.0, 1e-12);
+  c.components[7].half_widths[0] = 0.0;
+  EXPECT_NEAR(
+      c.Combine({.draws = 0}).half_widths(0, 0), kT4 * 1e-6 * 120.0, 1e-12);
+}
+
+// One component of few degrees of freedom: the draws are its Student's t.
+TEST(CombineErrors, DrawsHaveTheTailsOfFewDegreesOfFreedom) {
+  Case c(1);
+  for (ComponentAtPoints& component : c.components) {
+    component.half_widths.setZero();
+  }
+  c.components[3].half_widths[0] = 3e-6;
+  c.components[3].degrees_of_freedom = 3.0;
+  const VolumetricErrors combined = c.Combine({.draws = 20000});
+  const double half = combined.half_widths(0, 0);
+  EXPECT_NEAR(half, 3e-6 * 120.0, 1e-12);
+  EXPECT_NEAR(combined.upper(0, 0) - combined.exact(0, 0), half, 0.05 * half);
+}
+
 TEST(CombineErrors, WhatIsNotKnownMakesUnknownWhereItMatters) {
   Case c(1);
   c.components[1].half_widths[0] = kNaN;  // EZZ moves along Z alone

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace errmap::models {
+
+/// The plane that a machine works in, as it is drawn: 0 X, 1 Y, 2 Z.
+struct WorkingPlane {
+  Eigen::Index across = 0;
+  Eigen::Index up = 1;
+};
+
+/// That of the sensitive directions: of X and Z with Z across, as lathes are
+/// drawn; of all three X and Y. Nothing where fewer than two are sensitive.
+std::optional<WorkingPlane> WorkingPlaneOf(
+    const std::array<bool, 3>& sensitive);
+
+/// The errors at the points of a part of the plane.
+struct PlaneCell {
+  double across = 0.0;  // its middle
+  double up = 0.0;
+  Eigen::Index points = 0;
+  double mean_across = 0.0;  // of the errors along both
+  double mean_up = 0.0;
+  double rms = 0.0;  // of their lengths in the plane
+};
+
+/// Cells that have points, row by row from below; where none were is no cell.
+struct PlaneCells {
+  double width = 0.0;  // of a cell
+  double height = 0.0;
+  std::vector<PlaneCell> cells;
+};
+
+/// Cuts the rectangle around `points` (m x 3) into cells of 4 points in the
+/// mean, at least 3 and at most 12 in a row, and takes the `errors` (m x 3)
+/// together by cell. Points and errors have any units. Throws
+/// std::invalid_argument where the shapes do not agree.
+PlaneCells CellsOf(const WorkingPlane& plane,
+                   const Eigen::MatrixX3d& points,
+                   const Eigen::MatrixX3d& errors);
+
+}  // namespace errmap::models
