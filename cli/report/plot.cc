@@ -39,6 +39,10 @@ std::string Axis::Label() const {
   return names.empty() ? WithUnit(quantity, unit) : quantity;
 }
 
+double ColourLow(const Plot& plot) {
+  return plot.colour.low == 0.0 ? 0.0 : -plot.colour.high;
+}
+
 bool IsShown(const Plot& plot, const Series& series, std::size_t point) {
   // Differences of larger ones overflow.
   constexpr double kLargest = 1e300;

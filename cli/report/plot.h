@@ -57,7 +57,8 @@ struct Plot {
   int height = 290;  // without the legend
   Axis x;
   Axis y;
-  Axis colour;  // of the values of kCells, from -high to high
+  /// Of the values of kCells, from -high to high; from 0 where low is 0.
+  Axis colour;
   std::vector<Series> series;
 };
 
@@ -70,6 +71,9 @@ constexpr std::array<std::pair<double, std::string_view>, 5> kPalette = {
      {0.5, "#F7F7F7"},
      {0.8, "#E69F00"},
      {1.0, "#8C2D04"}}};
+
+/// Where the plot's colours begin: at minus their high end, or at 0.
+double ColourLow(const Plot& plot);
 
 /// Whether the plot can show that point of the series: finite, and positive
 /// along an axis with logarithms.

@@ -16,7 +16,9 @@
 #include "data/measurements/dataset.h"
 #include "data/text.h"
 #include "models/history/view.h"
+#include "models/map_experience.h"
 #include "models/trained_range.h"
+#include "stats/distributions.h"
 
 namespace errmap::cli {
 namespace {
@@ -32,13 +34,38 @@ using models::FittedModel;
 struct MapAtPoints {
   VectorXd values;
   double half_width = 0.0;
+  double degrees_of_freedom = std::numeric_limits<double>::infinity();
   std::vector<bool> outside;
 };
 
-// The values of a column in `unit`. A name without a unit has it.
+// The column of that name, or else the only one that has it in another unit of
+// the same quantity.
+std::string ColumnOf(const data::CsvTable& table, const std::string& wanted) {
+  if (table.Find(wanted) >= 0) return wanted;
+  const data::Header header = data::ReadHeader(wanted);
+  std::vector<std::string> found;
+  std::vector<std::string> names;
+  for (const data::CsvColumn& column : table.columns) {
+    names.push_back(column.name);
+    const data::Header other = data::ReadHeader(column.name);
+    if (data::EqualsIgnoringCase(other.base, header.base) &&
+        data::AreConvertible(other.unit, header.unit)) {
+      found.push_back(column.name);
+    }
+  }
+  if (found.size() == 1) return found.front();
+  throw data::InputError(fmt::format(
+      "{}: no column {}, which is a link's coordinate; the columns are {}",
+      data::PrintablePath(table.file),
+      QuotedName(wanted),
+      data::ListOfNames(names)));
+}
+
+// The values of a coordinate in `unit`. A name without a unit has it.
 VectorXd ColumnIn(const data::Unit& unit,
                   const data::CsvTable& table,
-                  const std::string& column) {
+                  const std::string& wanted) {
+  const std::string column = ColumnOf(table, wanted);
   VectorXd values =
       data::NumericColumn(table, column, data::MissingPolicy::kError, nullptr);
   const data::Unit found = data::UnitOfColumn(column);
@@ -152,6 +179,10 @@ class MachineEvaluator {
       component.half_widths[row] = source.half_width;
       outside[at] = source.outside[at];
     }
+    for (const MapAtPoints& source : by_source) {
+      component.degrees_of_freedom =
+          std::min(component.degrees_of_freedom, source.degrees_of_freedom);
+    }
     result->components.push_back(std::move(component));
     result->outside.push_back(std::move(outside));
   }
@@ -188,7 +219,6 @@ class MachineEvaluator {
     if (source.map == nullptr) {
       return {.values = VectorXd::Constant(static_cast<Index>(points_.num_rows),
                                            source.constant),
-              .half_width = 0.0,
               .outside = std::vector<bool>(points_.num_rows)};
     }
     const FittedModel& map = *source.map;
@@ -198,9 +228,8 @@ class MachineEvaluator {
     const models::Prediction prediction =
         map.PredictForm(map.FormInputs(Rows(map, inputs, &log)));
     const double factor = data::Converted(1.0, map.target.unit, unit);
-    MapAtPoints at{.values = factor * prediction.errors,
-                   .half_width = factor * HalfWidth(source),
-                   .outside = {}};
+    MapAtPoints at{.values = factor * prediction.errors, .outside = {}};
+    SetHalfWidth(source, factor, &at);
     for (Index row = 0; row < inputs.rows(); ++row) {
       const bool begins_inside =
           log.log != nullptr &&
@@ -221,13 +250,26 @@ class MachineEvaluator {
         unit.symbol));
   }
 
-  double HalfWidth(const ErrorSource& source) {
-    if (source.map->interval) return source.map->interval->levels[0].half_width;
-    remarks_.push_back(fmt::format(
-        "warning: {} has no prediction interval, so the uncertainty at the "
-        "tool is not known",
-        data::PrintablePath(source.file)));
-    return std::numeric_limits<double>::quiet_NaN();
+  // Of 90 %. The map's own interval is for it alone: among few units the
+  // largest one's, which a sum over many maps hardly ever reaches. What adds up
+  // is the standard deviation of its held-out errors, with as many degrees of
+  // freedom as units were held out.
+  void SetHalfWidth(const ErrorSource& source, double factor, MapAtPoints* at) {
+    const FittedModel& map = *source.map;
+    if (map.held_out != nullptr && !map.held_out->units.empty()) {
+      constexpr double kUpper = 0.95;
+      at->degrees_of_freedom = static_cast<double>(map.held_out->units.size());
+      at->half_width = factor * map.held_out->rmse *
+                       stats::StudentQuantile(kUpper, at->degrees_of_freedom);
+    } else if (map.interval) {
+      at->half_width = factor * map.interval->levels[0].half_width;
+    } else {
+      remarks_.push_back(fmt::format(
+          "warning: {} has no prediction interval, so the uncertainty at the "
+          "tool is not known",
+          data::PrintablePath(source.file)));
+      at->half_width = std::numeric_limits<double>::quiet_NaN();
+    }
   }
 
   // (points x inputs) in the map's units.

@@ -26,7 +26,9 @@ struct MachinePoints {
 /// its link, its other inputs are columns of the points by name, converted to
 /// its units; of a pair the column DirectionColumn says which. Filters run
 /// through the rows of `log` (may be null) and the points together, in order of
-/// time, session by session. Half-widths are those of 90 %. Throws
+/// time, session by session. Half-widths are those of 90 %, by Student's t from
+/// the errors on units held out, else the interval that stands in the model
+/// file. Throws
 /// data::InputError naming file, error and column where one is missing, holds
 /// no numbers, no "forward" or "reverse", or has a unit of another quantity.
 MachinePoints EvaluateAt(const models::Machine& machine,

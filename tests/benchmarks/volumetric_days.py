@@ -2,7 +2,8 @@
 """What is compensation by component maps worth on a day that they never saw?
 
     volumetric_days.py ERRMAP [--seeds 1-20] [--train 2,4,6] [--points 300]
-                       [--model SPEC | --compare [WORDS]] [--no-log]
+                       [--model SPEC | --compare [WORDS] | --machine [WORDS]]
+                       [--no-log]
 
 Each seed is a simulated turning centre of K + 1 days. K days train: for every
 component a map by --model (default poly:ridge), or what `errmap compare`
@@ -14,6 +15,9 @@ the share of errors within the stated 90 % intervals is counted for X, Y and Z.
 A line per seed and K, as a Markdown table, with the component that the rest
 owes most to: the one whose own error, known from the file of that day, times
 its arm is the largest.
+
+--machine: one `errmap compare --machine` with WORDS (such as "--models
+poly:ridge") per line, and its figures for the recommended maps.
 """
 
 import argparse
@@ -28,7 +32,7 @@ import subprocess
 import sys
 import tempfile
 
-NOT_MAPPED = ("tool_tip.csv", "temperatures.csv")
+NOT_MAPPED = ("tool_tip.csv", "diagonals.csv", "temperatures.csv")
 
 
 def run(*words):
@@ -75,10 +79,29 @@ def percentile(values, share):
     return ordered[min(len(ordered) - 1, math.floor(share * len(ordered)))]
 
 
+def judge_machine(given, folder):
+    results = json.loads(run(
+        given.errmap, "compare", "--machine",
+        os.path.join(folder, "machine.toml"), folder, "--format", "json",
+        "--quiet", "--jobs", "1", *given.machine.split()))
+    choices = {c["name"]: c for c in results["machine"]["choices"]}
+    after = choices["recommended"]
+    if after["why"]:
+        sys.exit(f"no figures: {after['why']}")
+    p95 = [1e3 * choices[name]["p95"]
+           for name in ("uncompensated", "recommended")]
+    worst = after["parts"][0]
+    return {"before": p95[0], "after": p95[1], "ratio": p95[0] / p95[1],
+            "worst": f"{worst['error']} {1e3 * worst['rms']:.2f}",
+            **dict(zip("xyz", after["within_90"]))}
+
+
 def judge(given, seed, days, folder):
     run(given.errmap, "simulate", "turning-centre", "--quiet", "-o", folder,
         "--seed", str(seed), "--days", str(days + 1), "--dead", "3,4,16,19",
         "--points", str(given.points))
+    if given.machine is not None:
+        return judge_machine(given, folder)
     for part in ("training", "later"):
         os.mkdir(os.path.join(folder, part))
     own = {}
@@ -144,11 +167,12 @@ def main():
     parser.add_argument("--points", type=int, default=300)
     parser.add_argument("--model")
     parser.add_argument("--compare", nargs="?", const="")
+    parser.add_argument("--machine", nargs="?", const="")
     parser.add_argument("--no-log", action="store_true")
     given = parser.parse_args()
     if given.errmap is None:
         parser.error("name the program errmap")
-    if given.model is None and given.compare is None:
+    if given.model is None and given.compare is None and given.machine is None:
         given.model = "poly:ridge"
     if not re.fullmatch(r"\d+-\d+", given.seeds):
         parser.error("--seeds FIRST-LAST")

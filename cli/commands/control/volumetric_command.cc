@@ -23,6 +23,7 @@
 #include "cli/study_file/machine_file.h"
 #include "cli/study_file/machine_points.h"
 #include "cli/study_file/map_log.h"
+#include "cli/study_file/true_poses.h"
 #include "data/atomic_file.h"
 #include "data/csv.h"
 #include "data/formula_text.h"
@@ -112,7 +113,8 @@ class OutputTable {
  private:
   // What tells a point apart: numbers of rows, coordinates, directions.
   void AddGiven() {
-    std::vector<std::string> names = {"record", "day", "cycle"};
+    std::vector<std::string> names = {
+        "record", "day", "cycle", "diagonal", "diagonal_direction"};
     for (const std::string& column : s_.machine.columns) {
       names.push_back(column);
       names.push_back(models::DirectionColumn(column));
@@ -227,6 +229,65 @@ void SayContributions(const Synthesis& s) {
       "RMS of what each adds, {}: {}", text.symbol(), fmt::join(parts, ", ")));
 }
 
+// Where the points have true errors, what compensation would leave of them.
+void SayRest(const Synthesis& s, const MatrixX3d& truth) {
+  const auto rms = [&](const MatrixX3d& errors) {
+    const VectorXd lengths = SensitiveLengths(s.machine, errors);
+    return std::sqrt(lengths.squaredNorm() /
+                     static_cast<double>(lengths.size()));
+  };
+  const double before = rms(truth);
+  const ErrorText text(s.machine.length, before);
+  Say(fmt::format("measured there {} RMS, {} less what the maps say",
+                  text.WithUnit(before),
+                  text.WithUnit(rms(truth - s.errors.exact))));
+}
+
+// "ppp 12.1, pnp 3.0 um"
+std::string DiagonalText(const Synthesis& s,
+                         const DiagonalRuns& runs,
+                         const MatrixX3d& errors) {
+  std::vector<Index> rows(s.points.num_rows);
+  std::iota(rows.begin(), rows.end(), Index{0});
+  const std::vector<DiagonalFigures> all =
+      DiagonalFiguresOf(s.points,
+                        runs,
+                        rows,
+                        PlacesOf(s.machine.chain, s.maps.coordinates),
+                        errors);
+  double most = 0.0;
+  for (const DiagonalFigures& diagonal : all) {
+    most = std::max(most, diagonal.figures.systematic);
+  }
+  const ErrorText text(s.machine.length, most);
+  std::vector<std::string> parts;
+  for (const DiagonalFigures& diagonal : all) {
+    parts.push_back(
+        fmt::format("{} {}", diagonal.name, text(diagonal.figures.systematic)));
+  }
+  return fmt::format("{} {}", fmt::join(parts, ", "), text.symbol());
+}
+
+// ISO 230-6:2002, both ways together, where the points lie on diagonals.
+std::vector<std::string> DiagonalLines(const Synthesis& s,
+                                       const std::optional<MatrixX3d>& truth) {
+  const std::optional<DiagonalRuns> runs = ReadDiagonalRuns(s.points);
+  if (!runs) return {};
+  constexpr const char* kWhat = "systematic deviation E along diagonals";
+  std::vector<std::string> lines = {
+      fmt::format("{}, of what the maps say: {}",
+                  kWhat,
+                  DiagonalText(s, *runs, s.errors.exact))};
+  if (truth) {
+    lines.push_back(
+        fmt::format("{}, measured: {}; less the maps: {}",
+                    kWhat,
+                    DiagonalText(s, *runs, *truth),
+                    DiagonalText(s, *runs, *truth - s.errors.exact)));
+  }
+  return lines;
+}
+
 void SayOutsidePoints(const Synthesis& s) {
   for (std::size_t k = 0; k < s.maps.outside.size(); ++k) {
     const auto count = std::ranges::count(s.maps.outside[k], true);
@@ -274,6 +335,9 @@ int RunVolumetric(const VolumetricArguments& arguments) {
                             maps,
                             errors,
                             SensitiveLengths(file.machine, errors.exact)};
+  std::optional<MatrixX3d> truth;
+  if (HasTrueErrors(points)) truth = TrueErrors(points, file.machine);
+  const std::vector<std::string> diagonals = DiagonalLines(synthesis, truth);
   const std::string text = OutputTable(synthesis).Text();
   if (arguments.out.empty()) {
     PrintResult(text);
@@ -290,6 +354,8 @@ int RunVolumetric(const VolumetricArguments& arguments) {
     if (finite) {
       SayErrors(synthesis);
       SayContributions(synthesis);
+      if (truth) SayRest(synthesis, *truth);
+      for (const std::string& line : diagonals) Say(line);
     }
     SayOutsidePoints(synthesis);
   }
@@ -338,8 +404,11 @@ void AddVolumetricCommand(CLI::App* app, Run* run) {
       "what each error adds. A map's position is the\ncoordinate of its link; "
       "a pair { forward, reverse } takes x_direction for x_mm. --after: the "
       "log of\ntemperatures through which filters run. Components are taken as "
-      "independent. Exit status 4 where an\nerror is not finite. Examples: "
-      "data/sets/machines/README.md.");
+      "independent. Where the points\nhave error_x_mm ... error_z_mm, it is "
+      "said what compensation leaves of them; where they have diagonal\n(ppn, "
+      "p0n: the signs of X, Y and Z along it) and diagonal_direction, the "
+      "deviations of ISO 230-6. Exit\nstatus 4 where an error is not finite. "
+      "Examples: data/sets/machines/README.md.");
   command->callback(
       [arguments, run] { run->status = RunVolumetric(*arguments); });
 }

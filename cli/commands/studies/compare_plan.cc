@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/study_file/provenance.h"
 #include "data/text.h"
 #include "models/model_spec.h"
 #include "stats/holdout.h"
@@ -218,11 +217,7 @@ std::optional<MachineStudy> MachineOf(const CompareArguments& arguments) {
 StudyPlan PlanOf(const CompareArguments& arguments,
                  const std::optional<MachineStudy>& machine) {
   if (machine) {
-    StudyPlan plan = PlanStudy(ConfigOfMachine(*machine, ConfigOf(arguments)),
-                               arguments.data.quiet);
-    plan.inputs.push_back(HashInput(machine->path));
-    plan.inputs.push_back(HashInput(machine->points.file));
-    return plan;
+    return PlanOfMachine(*machine, ConfigOf(arguments), arguments.data.quiet);
   }
   if (arguments.config.empty()) {
     if (!arguments.given.contains("DATA")) {

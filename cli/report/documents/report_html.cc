@@ -174,6 +174,7 @@ class Page {
   std::string Polynomials(const ReportView& view, bool brief) const;
   std::string Data(const ReportView& view,
                    const ComponentFigures& figures) const;
+  std::string Machine() const;
 };
 
 std::string Page::Title() const {
@@ -236,7 +237,11 @@ std::string Page::Index(const std::vector<ReportView>& views) const {
   return html +
          "</tbody></table></div><p class=\"soft small\">Left of the error: "
          "the dot between 0 and the error without a map, its bar the 95 % "
-         "interval.</p></nav>\n";
+         "interval.</p>" +
+         (record_.machine ? "<p><a href=\"#machine\">The machine: the error at "
+                            "the tool</a></p>"
+                          : "") +
+         "</nav>\n";
 }
 
 std::string Page::Next(std::size_t index) const {
@@ -477,6 +482,20 @@ std::string Page::Component(const ReportView& view, std::size_t index) const {
       html);
 }
 
+// What it comes to first, then where and why.
+std::string Page::Machine() const {
+  if (!record_.machine) return "";
+  std::string figures;
+  for (const Figure& figure : figures_.machine) figures += FigureHtml(figure);
+  std::string html = "<section id=\"machine\">\n<h2>The machine</h2>\n";
+  const std::vector<Table> tables = MachineTables(*record_.machine);
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    html += HtmlTable(tables[i]);
+    if (i == 0) html += Grid(figures, "figures halves");
+  }
+  return html + "</section>\n";
+}
+
 std::string Page::Html() const {
   std::vector<ReportView> views;
   for (std::size_t i = 0; i < NumComponents(); ++i) {
@@ -497,13 +516,7 @@ std::string Page::Html() const {
   for (std::size_t i = 0; i < views.size(); ++i) {
     html += Component(views[i], i);
   }
-  if (record_.machine) {
-    html += "<section id=\"machine\">\n<h2>The machine</h2>\n";
-    for (const Table& table : MachineTables(*record_.machine)) {
-      html += HtmlTable(table);
-    }
-    html += "</section>\n";
-  }
+  html += Machine();
   html += Collapsed("Provenance", HtmlTable(ProvenanceTable(record_)));
   html += "</main>\n<footer>";
   const std::string& version = record_.version;

@@ -285,8 +285,9 @@ void AddMachine(const models::MachineRecord& machine,
                 const Terminal& terminal,
                 Screen* screen) {
   const std::size_t width = terminal.text_columns();
-  for (const Table& table :
-       {ToolTipTable(machine), PositioningTable(machine)}) {
+  for (const Table& table : {ToolTipTable(machine),
+                             PositioningTable(machine),
+                             DiagonalTable(machine)}) {
     if (table.rows.empty()) continue;
     screen->Add("\n" + WrapText(table.title, width) + "\n\n" +
                 LeadingColumns(table, terminal.columns) +

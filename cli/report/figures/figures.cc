@@ -7,6 +7,7 @@
 
 #include "cli/report/figures/comparison_figures.h"
 #include "cli/report/figures/compensation_figures.h"
+#include "cli/report/figures/machine_figures.h"
 #include "cli/report/figures/residual_figures.h"
 #include "cli/report/figures/svg.h"
 
@@ -33,6 +34,14 @@ void ShareScales(std::vector<Figure>* figures) {
     if (!(most > 0.0)) break;
     figure.plot.y.low = -most;
     figure.plot.y.high = most;
+  }
+}
+
+void MarkEmpty(std::vector<Figure>* figures) {
+  for (Figure& figure : *figures) {
+    if (figure.missing.empty() && !HasPoints(figure.plot)) {
+      figure.missing = "There is no finite value to draw.";
+    }
   }
 }
 
@@ -88,22 +97,22 @@ std::vector<Figure> FiguresOf(const ReportView& view,
     Append(StartFigures(view, prefix), &figures);
     figures.push_back(CorrelationFigure(view, prefix));
   }
-  for (Figure& figure : figures) {
-    if (figure.missing.empty() && !HasPoints(figure.plot)) {
-      figure.missing = "There is no finite value to draw.";
-    }
-  }
+  MarkEmpty(&figures);
   return figures;
 }
 
 // Those that there are data for.
 std::vector<const Figure*> Drawn(const FigureSet& figures) {
   std::vector<const Figure*> drawn;
-  for (const ComponentFigures& component : figures.components) {
-    for (const Figure& figure : component.figures) {
+  const auto add = [&](const std::vector<Figure>& more) {
+    for (const Figure& figure : more) {
       if (figure.missing.empty()) drawn.push_back(&figure);
     }
+  };
+  for (const ComponentFigures& component : figures.components) {
+    add(component.figures);
   }
+  add(figures.machine);
   return drawn;
 }
 
@@ -122,6 +131,10 @@ FigureSet MakeFigures(const models::StudyRecord& record, bool everything) {
     ComponentFigures figures{.detail = detail, .figures = {}};
     figures.figures = FiguresOf(view, fmt::format("c{}-", i + 1), detail);
     set.components.push_back(std::move(figures));
+  }
+  if (record.machine) {
+    set.machine = MachineFigures(*record.machine);
+    MarkEmpty(&set.machine);
   }
   return set;
 }

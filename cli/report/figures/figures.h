@@ -45,6 +45,7 @@ struct ComponentFigures {
 /// All figures of a report, by component.
 struct FigureSet {
   std::vector<ComponentFigures> components;
+  std::vector<Figure> machine;  // of all of them together
 };
 
 /// Figures of a study: everything of each component, or

@@ -149,8 +149,11 @@ std::string Terminal(const Plot& plot, ImageFormat format) {
 std::string Palette(const Plot& plot) {
   if (!std::isfinite(plot.colour.high)) return "";
   constexpr double kScaleWidth = 105.0;  // pixels
+  const bool from_zero = ColourLow(plot) == 0.0;
   std::string stops;
   for (const auto& [at, colour] : kPalette) {
+    constexpr double kMiddle = 0.5;
+    if (from_zero && at < kMiddle) continue;
     stops += fmt::format(
         "{}{} \"{}\"", stops.empty() ? "" : ", ", 10.0 * at, colour);
   }
@@ -159,7 +162,7 @@ std::string Palette(const Plot& plot) {
       "set cbrange [{:.6g}:{:.6g}]\nset cblabel {} offset 1.5,0\n"
       "set rmargin at screen {:.3f}\n",
       stops,
-      -plot.colour.high,
+      ColourLow(plot),
       plot.colour.high,
       GnuplotString(plot.colour.Label()),
       1.0 - kScaleWidth / plot.width);

@@ -61,7 +61,7 @@ std::vector<Tic> TicsOf(const Axis& axis, const Scale& scale, TicRoom room) {
 
 // Returns how wide it is, with the room before it.
 double PlaceColours(const Plot& plot, double top, PlotLayout* layout) {
-  Scale scale(plot.colour, {-plot.colour.high, plot.colour.high});
+  Scale scale(plot.colour, {ColourLow(plot), plot.colour.high});
   scale.Span(layout->height - 2.0 * kLineHeight, top);
   layout->colour_tics = scale.Tics(RoomAlong);
   return 2.0 * kApart + kColourBar + kTicLength + Widest(layout->colour_tics) +

@@ -281,7 +281,8 @@ class Pen {
 
   double BarLeft() const { return x_.to() + 2.0 * kApart; }
   double BarPlace(double value) const {
-    const double share = kHalf * (value / plot_.colour.high + 1.0);
+    const double low = ColourLow(plot_);
+    const double share = (value - low) / (plot_.colour.high - low);
     return y_.from() + share * (y_.to() - y_.from());
   }
 
@@ -291,8 +292,10 @@ class Pen {
     const double limit = plot_.colour.high;
     for (int i = 0; i < kColours; ++i) {
       const auto end = [&](int k) {
-        return BarPlace(limit * (2.0 * k / kColours - 1.0));
+        return BarPlace(
+            std::max(limit * (2.0 * k / kColours - 1.0), ColourLow(plot_)));
       };
+      if (end(i + 1) == y_.from()) continue;  // below the low end
       shapes += Cell(
           RectanglePath(BarLeft(), end(i), BarLeft() + kColourBar, end(i + 1)),
           PaletteColour(static_cast<double>(i) / (kColours - 1)));

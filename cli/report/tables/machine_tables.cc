@@ -1,5 +1,6 @@
 #include "cli/report/tables/machine_tables.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -46,6 +47,35 @@ Cell Interval95(const std::array<double, 2>& ends, const Shown& shown) {
 // How many times smaller the 95th percentile is than without compensation.
 Cell Ratio(const MachineRecord& machine, double p95) {
   return Number{machine.choices.front().p95 / p95, 3};
+}
+
+Table PositioningColumns(const MachineRecord& machine, const char* title) {
+  return {.title = fmt::format("{}, {}", title, ShownUnit(machine).symbol),
+          .columns = {{"axis", false},
+                      {"maps", false},
+                      {"A accuracy"},
+                      {"E systematic"},
+                      {"M mean"},
+                      {"B reversal"},
+                      {"R repeatability"}}};
+}
+
+void AddPositioning(
+    const MachineRecord& machine,
+    std::vector<models::PositioningRecord> MachineChoiceRecord::*member,
+    Table* table) {
+  const Shown shown = ShownUnit(machine);
+  for (const MachineChoiceRecord& choice : machine.choices) {
+    for (const models::PositioningRecord& figures : choice.*member) {
+      table->rows.push_back({figures.component,
+                             choice.name,
+                             Length(figures.accuracy, shown),
+                             Length(figures.systematic, shown),
+                             Length(figures.mean_bidirectional, shown),
+                             Length(figures.reversal, shown),
+                             Length(figures.repeatability, shown)});
+    }
+  }
 }
 
 }  // namespace
@@ -113,29 +143,52 @@ Table ToolTipDayTable(const MachineRecord& machine) {
 }
 
 Table PositioningTable(const MachineRecord& machine) {
+  Table table = PositioningColumns(machine, "Positioning by ISO 230-2:2014");
+  table.note =
+      "Of the readings of those sessions, less the map: the runs are its "
+      "cycles, warm-up included.";
+  AddPositioning(machine, &MachineChoiceRecord::positioning, &table);
+  return table;
+}
+
+Table DiagonalTable(const MachineRecord& machine) {
+  Table table = PositioningColumns(
+      machine, "Diagonals of the work volume, ISO 230-6:2002");
+  table.columns.front().name = "diagonal";
+  table.note =
+      "Named by the signs of X, Y and Z along it (n: falling, 0: standing); "
+      "true errors along it, both ways, runs of those sessions, warm-up "
+      "included.";
+  AddPositioning(machine, &MachineChoiceRecord::diagonals, &table);
+  return table;
+}
+
+Table MachinePartTable(const MachineRecord& machine) {
   const Shown shown = ShownUnit(machine);
   Table table{
-      .title = fmt::format("Positioning by ISO 230-2:2014, {}", shown.symbol),
+      .title = fmt::format("What each component leaves at the tool, RMS, {}",
+                           shown.symbol),
       .note =
-          "Of the readings of those sessions, less the map: the runs are "
-          "its cycles, warm-up included.",
-      .columns = {{"axis", false},
-                  {"maps", false},
-                  {"A accuracy"},
-                  {"E systematic"},
-                  {"M mean"},
-                  {"B reversal"},
-                  {"R repeatability"}}};
+          "Readings of those sessions less the map, noise included, times the "
+          "RMS of what one unit of it moves the tool by.",
+      .columns = {{"component", false}}};
+  std::vector<const MachineChoiceRecord*> shown_choices;
   for (const MachineChoiceRecord& choice : machine.choices) {
-    for (const models::PositioningRecord& figures : choice.positioning) {
-      table.rows.push_back({figures.component,
-                            choice.name,
-                            Length(figures.accuracy, shown),
-                            Length(figures.systematic, shown),
-                            Length(figures.mean_bidirectional, shown),
-                            Length(figures.reversal, shown),
-                            Length(figures.repeatability, shown)});
+    if (choice.parts.empty()) continue;
+    table.columns.push_back({choice.name});
+    shown_choices.push_back(&choice);
+  }
+  if (shown_choices.empty()) return table;
+  // In the order of the last choice, which is the one that is advised.
+  for (const models::MachinePartRecord& part : shown_choices.back()->parts) {
+    std::vector<Cell> row = {part.error};
+    for (const MachineChoiceRecord* choice : shown_choices) {
+      const auto found = std::ranges::find(
+          choice->parts, part.error, &models::MachinePartRecord::error);
+      row.push_back(found == choice->parts.end() ? Cell()
+                                                 : Length(found->rms, shown));
     }
+    table.rows.push_back(std::move(row));
   }
   return table;
 }
@@ -157,6 +210,8 @@ std::vector<Table> MachineTables(const MachineRecord& machine) {
   for (Table& table : std::array{ToolTipTable(machine),
                                  ToolTipDayTable(machine),
                                  PositioningTable(machine),
+                                 DiagonalTable(machine),
+                                 MachinePartTable(machine),
                                  MachineMapTable(machine)}) {
     if (!table.rows.empty()) tables.push_back(std::move(table));
   }

@@ -17,6 +17,12 @@ Table ToolTipDayTable(const models::MachineRecord& machine);
 /// ISO 230-2 figures of each axis before and after compensation.
 Table PositioningTable(const models::MachineRecord& machine);
 
+/// The same along the diagonals (ISO 230-6).
+Table DiagonalTable(const models::MachineRecord& machine);
+
+/// What each component leaves at the tool.
+Table MachinePartTable(const models::MachineRecord& machine);
+
 /// Which map each component has in each choice.
 Table MachineMapTable(const models::MachineRecord& machine);
 

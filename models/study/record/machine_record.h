@@ -51,6 +51,26 @@ ERRMAP_RECORD(PositioningRecord,
               repeatability,
               accuracy)
 
+/// The errors in a cell of the working plane, in the machine's unit: middle,
+/// means of both directions, root mean square of the lengths.
+struct PlaneCellRecord {
+  double across = std::numeric_limits<double>::quiet_NaN();
+  double up = std::numeric_limits<double>::quiet_NaN();
+  std::int64_t points = 0;
+  double mean_across = std::numeric_limits<double>::quiet_NaN();
+  double mean_up = std::numeric_limits<double>::quiet_NaN();
+  double rms = std::numeric_limits<double>::quiet_NaN();
+};
+ERRMAP_RECORD(PlaneCellRecord, across, up, points, mean_across, mean_up, rms)
+
+/// What a component leaves at the tool: root mean square of its readings less
+/// its map on those days, times that of its sensitivities.
+struct MachinePartRecord {
+  std::string error;  // "EXX"
+  double rms = std::numeric_limits<double>::quiet_NaN();
+};
+ERRMAP_RECORD(MachinePartRecord, error, rms)
+
 struct MachineMapRecord {
   std::string component;  // of the study: the map's data
   std::string model;
@@ -72,6 +92,10 @@ struct MachineChoiceRecord {
   SharesRecord within_90 = kNoShares;
   std::vector<MachineDayRecord> days;
   std::vector<PositioningRecord> positioning;  // of pairs of displacement maps
+  /// ISO 230-6: the same figures along diagonals, named by their signs: "p0n".
+  std::vector<PositioningRecord> diagonals;
+  std::vector<MachinePartRecord> parts;  // the largest first
+  std::vector<PlaneCellRecord> cells;    // only those that have points
 };
 ERRMAP_RECORD(MachineChoiceRecord,
               name,
@@ -84,18 +108,32 @@ ERRMAP_RECORD(MachineChoiceRecord,
               p95_ci95,
               within_90,
               days,
-              positioning)
+              positioning,
+              diagonals,
+              parts,
+              cells)
+
+/// The working plane in which cells lie: where the tool is less where the
+/// work's origin is, in the machine's unit.
+struct PlaneRecord {
+  std::string across;  // "Z"
+  std::string up;      // "X"
+  double cell_width = std::numeric_limits<double>::quiet_NaN();
+  double cell_height = std::numeric_limits<double>::quiet_NaN();
+};
+ERRMAP_RECORD(PlaneRecord, across, up, cell_width, cell_height)
 
 struct MachineRecord {
   std::string name;
   std::string file;
   std::string unit;
-  std::string sensitive;           // "XZ"
-  std::string points;              // file of poses with their true errors
-  std::vector<std::string> later;  // sessions that no fit saw
+  std::string sensitive;             // "XZ"
+  std::string points;                // file of poses with their true errors
+  std::vector<std::string> later;    // sessions that no fit saw
+  std::optional<PlaneRecord> plane;  // nothing: one direction is sensitive
   std::vector<MachineChoiceRecord> choices;  // uncompensated first
 };
 ERRMAP_RECORD(
-    MachineRecord, name, file, unit, sensitive, points, later, choices)
+    MachineRecord, name, file, unit, sensitive, points, later, plane, choices)
 
 }  // namespace errmap::models

@@ -118,6 +118,37 @@ TEST_F(MachineStudy, SaysWhatCompensationIsWorthOnDaysThatNoFitSaw) {
   EXPECT_GT(before["positioning"][1]["reversal"], 0.002);
   EXPECT_LT(polynomial["positioning"][1]["reversal"], 0.001);
 
+  // Four body diagonals would be of three axes; the face has two.
+  ASSERT_EQ(before["diagonals"].size(), 2U);
+  EXPECT_EQ(before["diagonals"][0]["component"], "p0p");
+  EXPECT_EQ(before["diagonals"][1]["component"], "p0n");
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (const char* figure : {"systematic", "accuracy"}) {
+      EXPECT_GT(polynomial["diagonals"][i][figure].get<double>(), 0.0);
+      EXPECT_LT(polynomial["diagonals"][i][figure].get<double>(),
+                before["diagonals"][i][figure].get<double>() / 2.0)
+          << figure;
+    }
+  }
+
+  // Every component has its part, the largest first.
+  ASSERT_EQ(polynomial["parts"].size(), 13U);
+  EXPECT_GE(polynomial["parts"][0]["rms"], polynomial["parts"][12]["rms"]);
+  EXPECT_LT(polynomial["parts"][0]["rms"], before["parts"][0]["rms"]);
+
+  // Cells of the plane hold every pose once.
+  EXPECT_EQ(machine["plane"]["across"], "Z");
+  EXPECT_EQ(machine["plane"]["up"], "X");
+  int in_cells = 0;
+  double squares = 0.0;
+  for (const Json& cell : before["cells"]) {
+    in_cells += cell["points"].get<int>();
+    squares +=
+        cell["points"].get<double>() * std::pow(cell["rms"].get<double>(), 2);
+  }
+  EXPECT_EQ(in_cells, 80);
+  EXPECT_NEAR(std::sqrt(squares / 80.0), before["rms"], 1e-12);
+
   // The same from the other side: the poses and errmap volumetric.
   const auto points = Records(Read("s/tool_tip.csv"));
   EXPECT_NEAR(Rms(Lengths(points, {})), before["rms"], 1e-12);
@@ -150,9 +181,68 @@ TEST_F(MachineStudy, SaysWhatCompensationIsWorthOnDaysThatNoFitSaw) {
 
   EXPECT_THAT(Read("study/report.html"),
               AllOf(HasSubstr("Error at the tool of turning centre"),
-                    HasSubstr("Positioning by ISO 230-2:2014")));
+                    HasSubstr("Positioning by ISO 230-2:2014"),
+                    HasSubstr("Diagonals of the work volume, ISO 230-6:2002"),
+                    HasSubstr("What each component leaves at the tool"),
+                    HasSubstr("id=\"machine-arrows-before-t\""),
+                    HasSubstr("id=\"machine-grid-after-t\""),
+                    HasSubstr("href=\"#machine\"")));
   EXPECT_THAT(Read("study/report.md"),
               HasSubstr("Error at the tool of turning centre"));
+}
+
+// Two days decide nothing about maps, but tell how far days are apart.
+TEST_F(MachineStudy, StatesIntervalsFromWholeDays) {
+  ASSERT_EQ(Run({"simulate",
+                 "turning-centre",
+                 "-o",
+                 "s",
+                 "--days",
+                 "3",
+                 "--cycles",
+                 "12",
+                 "--points",
+                 "60",
+                 "--dead",
+                 "3,4,16,19",
+                 "--quiet"})
+                .status,
+            0);
+  const Json document = RunJson({"compare",
+                                 "--machine",
+                                 "s/machine.toml",
+                                 "s",
+                                 "--models",
+                                 "poly:ridge:view=raw",
+                                 "--format",
+                                 "json",
+                                 "--quiet"});
+  const Json& advised = document["machine"]["choices"][3];
+  ASSERT_TRUE(advised["why"].is_null());
+  for (const std::size_t d : {0U, 2U}) {
+    EXPECT_GT(advised["within_90"][d], 0.8) << d;
+  }
+}
+
+// The folder by an absolute path, which the record does not keep.
+TEST_F(MachineStudy, NeedsNoDiagonalsAndKeepsNoPath) {
+  Simulate();
+  std::filesystem::remove(scratch_ / "s/diagonals.csv");
+  const std::string folder = (scratch_ / "s").string();
+  const Json document = RunJson({"compare",
+                                 "--machine",
+                                 folder + "/machine.toml",
+                                 folder,
+                                 "--models",
+                                 "poly:ridge:view=raw",
+                                 "--format",
+                                 "json",
+                                 "--quiet"});
+  EXPECT_EQ(document["machine"]["file"], "machine.toml");
+  EXPECT_EQ(document["machine"]["points"], "tool_tip.csv");
+  for (const Json& choice : document["machine"]["choices"]) {
+    EXPECT_EQ(choice["diagonals"].size(), 0U);
+  }
 }
 
 TEST_F(MachineStudy, SaysWhyAChoiceHasNoFigures) {
@@ -171,6 +261,25 @@ TEST_F(MachineStudy, RefusesWhatCannotBeJudged) {
         "[[link]]\nname = \"T\"\nbranch = \"tool\"\njoint = \"fixed\"\n"
         "errors = { EXT = 0.001 }\n");
   std::filesystem::create_directory(scratch_ / "bare");
+  Write("bare.toml",
+        "[[link]]\nname = \"X\"\nbranch = \"tool\"\njoint = \"linear\"\n"
+        "axis = [1, 0, 0]\ncoordinate = \"x_mm\"\n"
+        "errors = { EXX = \"x.json\" }\n");
+  Write("turned.toml",
+        "[[link]]\nname = \"X\"\nbranch = \"tool\"\njoint = \"linear\"\n"
+        "axis = [1, 0, 0]\ncoordinate = \"x_mm\"\n"
+        "errors = { EBX = \"x_straightness.json\" }\n");
+  for (const char* folder : {"fewer", "askew"}) {
+    std::filesystem::create_directory(scratch_ / folder);
+    Write(std::string(folder) + "/tool_tip.csv",
+          folder == std::string("askew")
+              ? "day,x_mm,error_x_mm,error_y_mm,error_z_mm\n1,1,0,0,0\n"
+                "2,1,0,0,0\n"
+              : "day,x_mm,error_x_mm,error_y_mm\n1,1,0,0\n2,1,0,0\n");
+  }
+  Write("askew/diagonals.csv",
+        "day,diagonal,diagonal_direction,x_mm,error_x_mm,error_y_mm,"
+        "error_z_mm\n1,up,forward,1,0,0,0\n");
   struct Case {
     std::vector<std::string> words;
     int status;
@@ -194,7 +303,18 @@ TEST_F(MachineStudy, RefusesWhatCannotBeJudged) {
        "bare/tool_tip.csv"},
       {{"compare", "--machine", "empty.toml", "s"},
        kUnusable,
-       "empty.toml: names no map"}};
+       "empty.toml: names no map"},
+      {{"compare", "--machine", "turned.toml", "s", "--quiet"},
+       kUnusable,
+       "s/x_straightness.csv: 'error_mm' is in mm, and EBX of turned.toml is "
+       "an angle"},
+      {{"compare", "--machine", "bare.toml", "fewer"},
+       kUnusable,
+       "fewer/tool_tip.csv: no column 'error_z_mm'"},
+      {{"compare", "--machine", "bare.toml", "askew"},
+       kUnusable,
+       "askew/diagonals.csv: line 2 (data row 0), column 'diagonal': 'up' is "
+       "no diagonal"}};
   for (const Case& c : cases) {
     SCOPED_TRACE(::testing::PrintToString(c.words));
     EXPECT_THAT(RefusalOf(Run(c.words), c.status), HasSubstr(c.says));

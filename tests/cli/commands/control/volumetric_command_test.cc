@@ -190,6 +190,100 @@ TEST_F(VolumetricCommand, ConvertsUnitsOnEverySide) {
               kRounding);
 }
 
+// The file has the link's coordinate in mm, the points in um: 250 mm.
+TEST_F(VolumetricCommand, ReadsACoordinateInAnotherUnitOfLength) {
+  WriteMap("exx.json", "error_mm", "mm", 0.001, "position_mm", "mm", 1e-5);
+  Write("m.toml", OneSlide("EXX = \"exx.json\""));
+  Write("p.csv", "x [um]\n250000\n");
+  EXPECT_NEAR(Number(Points("m.toml", "p.csv")[0], "error_x_mm"),
+              0.001 + 1e-5 * 250.0,
+              kRounding);
+  for (const char* header : {"x_degC", "x_rad", "x", "y_mm"}) {
+    Write("p.csv", std::string(header) + "\n250\n");
+    EXPECT_THAT(RefusalOf(Volumetric("m.toml", "p.csv"), kUnusable),
+                HasSubstr("p.csv: no column 'x_mm', which is a link's "
+                          "coordinate; the columns are"));
+  }
+  Write("p.csv", "x_um,X_nm\n1,1\n");
+  EXPECT_THAT(RefusalOf(Volumetric("m.toml", "p.csv"), kUnusable),
+              HasSubstr("no column 'x_mm'"));
+}
+
+// The last of the map's held-out errors says more than its interval: a sum of
+// many hardly ever reaches the largest of each.
+TEST_F(VolumetricCommand, SpreadsByTheErrorsOfHeldOutSessions) {
+  std::string training = "day,time_s,position_mm,error_mm\n";
+  for (int day = 1; day <= 5; ++day) {
+    for (int i = 0; i < 20; ++i) {
+      training += fmt::format("{},{},{},{}\n",
+                              day,
+                              100000 * day + 60 * i,
+                              -10.0 * (1 + i % 10),
+                              0.001 * i + 0.002 * ((day * 7) % 5 - 2));
+    }
+  }
+  Write("training.csv", training);
+  ASSERT_EQ(Run({"fit",
+                 "training.csv",
+                 "--model",
+                 "poly:position",
+                 "-o",
+                 "exx.json",
+                 "--quiet"})
+                .status,
+            0);
+  const Json map = Json::parse(Read("exx.json"));
+  const double rmse = map["held_out"]["rmse"];
+  ASSERT_EQ(map["held_out"]["units"].size(), 5U);
+  Write("m.toml", OneSlide("EXX = \"exx.json\""));
+  Write("p.csv", "x_mm\n-50\n");
+  // t of 5 degrees of freedom at 0.95.
+  EXPECT_NEAR(Number(Points("m.toml", "p.csv")[0], "half_width_90_x_mm"),
+              2.0150483726 * rmse,
+              1e-9);
+}
+
+// Constants are what a machine has: of the diagonals a tenth is left where it
+// is a tenth worse than the file says.
+TEST_F(VolumetricCommand, SaysWhatIsLeftAlongTheDiagonals) {
+  const Outcome outcome =
+      Volumetric(SetPath("machines/three_axis.toml"),
+                 SetPath("machines/three_axis_diagonals.csv"),
+                 {"-o", "out.csv"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("systematic deviation E along diagonals, of what "
+                              "the maps say: ppp "),
+                    HasSubstr("measured: ppp "),
+                    HasSubstr("; less the maps: ppp "),
+                    HasSubstr("measured there 1"),
+                    HasSubstr(" less what the maps say")));
+  EXPECT_EQ(Records(Read("out.csv"))[9].at("diagonal"), "ppp");
+  EXPECT_EQ(Records(Read("out.csv"))[9].at("diagonal_direction"), "reverse");
+}
+
+TEST_F(VolumetricCommand, RefusesDiagonalsThatAreNone) {
+  Write("m.toml", OneSlide("EXX = 0.001"));
+  struct Case {
+    const char* text;
+    const char* says;
+  };
+  for (const Case& c :
+       {Case{"diagonal,x_mm\npp0,1\n",
+             "p.csv: no column 'diagonal_direction' of forward or reverse"},
+        Case{"diagonal,diagonal_direction,x_mm\npp0,up,1\n",
+             "p.csv: line 2 (data row 0), column 'diagonal_direction': 'up' is "
+             "neither forward nor reverse"},
+        Case{"diagonal,diagonal_direction,x_mm\np00,forward,1\n",
+             "'p00' is no diagonal: give the signs"},
+        Case{"diagonal,diagonal_direction,x_mm\npp0,forward,1\n",
+             "p.csv: diagonal 'pp0': AlongDiagonal: all points are one"}}) {
+    Write("p.csv", c.text);
+    EXPECT_THAT(RefusalOf(Volumetric("m.toml", "p.csv"), kUnusable),
+                HasSubstr(c.says));
+  }
+}
+
 // A machine in um and arcsec, points in mm and degrees. A quarter turn of C
 // puts the tip, 100 mm out on X, at (0, 100): EXC stays along X, ECC moves it
 // by -X, EXX turns with the axis.
