@@ -87,11 +87,14 @@ Table ToolTipTable(const MachineRecord& machine) {
           "Error at the tool of {}, {}", machine.name, shown.symbol),
       .note = fmt::format(
           "Tool less work, length in {}, at the poses of {} on sessions that "
-          "no fit saw ({}). Over days: 95 % interval of the geometric mean of "
-          "the days' 95th percentiles.",
+          "no fit saw ({}).{}",
           machine.sensitive,
           machine.points,
-          fmt::join(machine.later, ", ")),
+          fmt::join(machine.later, ", "),
+          machine.later.size() < 2
+              ? ""
+              : " Over days: 95 % interval of the geometric mean of the days' "
+                "95th percentiles."),
       .columns = {{"maps", false},
                   {"points"},
                   {"RMS"},
