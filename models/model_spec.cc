@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -114,10 +115,12 @@ std::int64_t SpecOptions::TakeInteger(const std::string& key,
   if (text == nullptr) return fallback;
   std::int64_t value = 0;
   if (!ParseWhole(*text, &value) || value < least || value > most) {
-    Refuse(fmt::format("{} must be a whole number from {} to {}, found '{}'",
+    const bool bounded = most != std::numeric_limits<std::int64_t>::max();
+    Refuse(fmt::format("{} must be {}a whole number from {}{}, found '{}'",
                        key,
+                       WordBefore(key),
                        least,
-                       most,
+                       bounded ? fmt::format(" to {}", most) : " on",
                        *text));
   }
   return value;
@@ -131,10 +134,12 @@ double SpecOptions::TakeNumber(const std::string& key,
   if (text == nullptr) return fallback;
   double value = 0.0;
   if (!ParseWhole(*text, &value) || !(value >= least && value <= most)) {
-    Refuse(fmt::format("{} must be a number from {} to {}, found '{}'",
+    const bool bounded = most != std::numeric_limits<double>::max();
+    Refuse(fmt::format("{} must be {}a number from {}{}, found '{}'",
                        key,
+                       WordBefore(key),
                        least,
-                       most,
+                       bounded ? fmt::format(" to {}", most) : " on",
                        *text));
   }
   return value;
@@ -148,8 +153,16 @@ std::string SpecOptions::TakeText(const std::string& key,
   return *text;
 }
 
+std::string SpecOptions::WordBefore(const std::string& key) const {
+  for (const auto& [name, word] : words_) {
+    if (name == key) return word + " or ";
+  }
+  return "";
+}
+
 bool SpecOptions::IsWord(const std::string& key, std::string_view word) {
   const std::string* text = Find(key);
+  words_.emplace_back(key, word);
   return text != nullptr && *text == word;
 }
 

@@ -56,7 +56,8 @@ class SpecOptions {
                     double most);
   std::string TakeText(const std::string& key, const std::string& fallback);
   bool Has(const std::string& key) { return Find(key) != nullptr; }
-  /// True where the value of `key` is `word`, such as the cv of hidden=cv.
+  /// True where the value of `key` is `word`, such as the cv of hidden=cv,
+  /// which it may be besides the numbers that are taken next.
   bool IsWord(const std::string& key, std::string_view word);
   /// One of `allowed`, as its index.
   std::size_t TakeChoice(const std::string& key,
@@ -69,10 +70,13 @@ class SpecOptions {
 
  private:
   const std::string* Find(const std::string& key);
+  // "cv or " of a key that may be that word.
+  std::string WordBefore(const std::string& key) const;
   [[noreturn]] void Refuse(const std::string& why) const;
 
   const ModelSpec& spec_;
   std::vector<std::string> known_;
+  std::vector<std::pair<std::string, std::string>> words_;  // of IsWord
 };
 
 }  // namespace errmap::models

@@ -1,7 +1,5 @@
 #include "cli/report/configuration_record.h"
 
-#include <cmath>
-
 #include "cli/shell/shown_path.h"
 
 namespace errmap::cli {
@@ -18,9 +16,11 @@ models::LeftOut<std::vector<std::string>> List(
   return list;
 }
 
-models::LeftOut<double> Number(double number) {
-  if (!std::isfinite(number)) return {};
-  return number;
+// In the target's unit; one that has a unit of its own is among those of the
+// components in theirs.
+models::LeftOut<double> Number(const GivenError& given) {
+  if (!given.is_given() || given.has_unit()) return {};
+  return given.value;
 }
 
 models::ComponentConfigurationRecord ComponentOf(

@@ -193,6 +193,17 @@ data::PreparedDataset MakeDataLike(const data::CsvTable& table,
   return data::MakeDataset(table, selection);
 }
 
+GivenError ErrorOfFlag(const char* flag,
+                       const std::string& text,
+                       bool may_be_zero) {
+  if (text.empty()) return {};
+  try {
+    return ParseGivenError(text, may_be_zero);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("{} {}", flag, error.what()));
+  }
+}
+
 std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
     const std::string& spec) {
   try {

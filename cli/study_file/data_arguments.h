@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/study_file/given_error.h"
 #include "cli/study_file/study_config.h"
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
@@ -64,6 +65,11 @@ data::PreparedDataset MakeDataLike(const data::CsvTable& table,
 /// Splits "A,B" at commas outside double quotes and takes the quotes off.
 /// Throws UsageError naming `flag`.
 std::vector<std::string> SplitNames(const std::string& list, const char* flag);
+
+/// "2um" or "0.002" of a flag, nothing of ""; throws UsageError naming `flag`.
+GivenError ErrorOfFlag(const char* flag,
+                       const std::string& text,
+                       bool may_be_zero);
 
 /// Recipe of a SPEC; throws UsageError where it is wrong.
 std::unique_ptr<models::ModelRecipe> RecipeFromArgument(

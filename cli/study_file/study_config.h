@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "cli/study_file/given_error.h"
 #include "data/measurements/dataset.h"
 
 namespace errmap::cli {
@@ -32,10 +32,9 @@ struct ComponentConfig {
   data::MissingPolicy missing = data::MissingPolicy::kError;
   data::FaultPolicy faults = data::FaultPolicy::kKeep;
   bool keep_dead = false;
-  /// sd wanted on held-out rows, target's unit; NaN: the study's.
-  double goal = std::numeric_limits<double>::quiet_NaN();
-  /// RMSE that makes no practical difference, target's unit; NaN: the study's.
-  double indifference = std::numeric_limits<double>::quiet_NaN();
+  GivenError goal;  // RMSE wanted on held-out rows; default: the study's
+  /// RMSE that makes no practical difference; default: the study's.
+  GivenError indifference;
   std::string split;       // split file to judge by
   std::string save_split;  // file that gets the folds
   std::vector<PredictionsFile> predictions;
@@ -46,10 +45,10 @@ struct ComponentConfig {
 /// everything that decides a figure, nothing that does not (jobs, folders).
 struct StudyConfig {
   std::uint64_t seed = 1;
-  /// For components without their own; NaN: 0.5 um for lengths, else none.
-  double goal = std::numeric_limits<double>::quiet_NaN();
-  /// For components without their own; NaN: 0.02 um for lengths, else 0.
-  double indifference = std::numeric_limits<double>::quiet_NaN();
+  /// For components without their own; default: 0.5 um for lengths, else none.
+  GivenError goal;
+  /// For components without their own; default: 0.02 um for lengths, else 0.
+  GivenError indifference;
   std::vector<std::string> holdouts;  // SPECs; empty: those that the data allow
   std::vector<std::string> models;    // SPECs; empty: all that suit
   std::vector<ComponentConfig> components;

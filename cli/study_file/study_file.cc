@@ -54,8 +54,8 @@ class StudyFileReader {
     StudyFile study;
     StudyConfig& config = study.config;
     keys.TakeSeed(&config.seed);
-    keys.TakeNumber("goal", false, &config.goal);
-    keys.TakeNumber("indifference", true, &config.indifference);
+    keys.TakeError("goal", false, &config.goal);
+    keys.TakeError("indifference", true, &config.indifference);
     keys.TakeList("holdouts", &config.holdouts, [](const std::string& spec) {
       stats::ParseHoldout(spec);
     });
@@ -132,8 +132,8 @@ class StudyFileReader {
                            ? data::FaultPolicy::kKeep
                            : data::FaultPolicy::kDropRows;
     keys.TakeFlag("keep_dead", &component.keep_dead);
-    keys.TakeNumber("goal", false, &component.goal);
-    keys.TakeNumber("indifference", true, &component.indifference);
+    keys.TakeError("goal", false, &component.goal);
+    keys.TakeError("indifference", true, &component.indifference);
     return component;
   }
 

@@ -206,7 +206,7 @@ std::string ComponentText(const ComponentPlan& component,
                     component.comparison.goal,
                     kExampleGoal,
                     unit,
-                    "sd wanted on held-out rows");
+                    "RMSE wanted on held-out rows");
   text += LengthKey("indifference",
                     component.comparison.indifference,
                     0.0,

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -22,6 +23,7 @@
 #include "models/recipe_catalog.h"
 #include "models/study/split_file.h"
 #include "models/study/study_defaults.h"
+#include "stats/error_metrics.h"
 
 namespace errmap::cli {
 namespace {
@@ -72,16 +74,19 @@ class ComponentPlanner {
     // What throws stands before the aggregate: GCC 12 destroys members of a
     // half-built one twice (GCC PR 66139).
     std::vector<models::GivenPredictions> given = ReadGiven();
+    const double goal = SizeOf("goal", component_.goal, study_.goal, dataset)
+                            .value_or(models::DefaultGoal(unit));
+    const double indifference =
+        SizeOf("indifference",
+               component_.indifference,
+               study_.indifference,
+               dataset)
+            .value_or(models::DefaultIndifference(unit));
     return {.comparison = {.name = component_.name,
                            .file = ShownPath(component_.data),
                            .sha256 = reader_->Sha256Of(component_.data),
-                           .goal = FirstGiven(component_.goal,
-                                              study_.goal,
-                                              models::DefaultGoal(unit)),
-                           .indifference =
-                               FirstGiven(component_.indifference,
-                                          study_.indifference,
-                                          models::DefaultIndifference(unit)),
+                           .goal = goal,
+                           .indifference = indifference,
                            .data = std::move(prepared),
                            .holdouts = std::move(holdouts),
                            .study = {},
@@ -256,10 +261,34 @@ class ComponentPlanner {
     return added;
   }
 
-  // The component's own, else the study's, else the default.
-  static double FirstGiven(double own, double of_study, double otherwise) {
-    if (std::isfinite(own)) return own;
-    return std::isfinite(of_study) ? of_study : otherwise;
+  // The component's own, else the study's, in the target's unit. A bare number
+  // that says nothing was meant in the unit that people read errors in.
+  std::optional<double> SizeOf(const char* what,
+                               const GivenError& own,
+                               const GivenError& of_study,
+                               const data::Dataset& dataset) const {
+    const GivenError& given = own.is_given() ? own : of_study;
+    if (!given.is_given()) return std::nullopt;
+    const data::ColumnInfo& target = dataset.target();
+    const data::Unit& unit = target.unit;
+    if (!given.has_unit() && unit.display_scale != 1.0 && !quiet_ &&
+        given.value > stats::RootMeanSquare(dataset.target_values())) {
+      Remark(fmt::format(
+          "{0} {1} is in {2}, the unit of {3}: {4:g} {5}, more than the error "
+          "itself; write {1}{5} if that was meant",
+          what,
+          given.value,
+          unit.symbol,
+          data::Printable(target.name, target.name.size()),
+          unit.display_scale * given.value,
+          unit.display_symbol));
+    }
+    try {
+      return InUnitOf(unit, given);
+    } catch (const std::invalid_argument& error) {
+      throw data::InputError(
+          fmt::format("{}: {} {}", component_.data, what, error.what()));
+    }
   }
 
   const StudyConfig& study_;
@@ -282,8 +311,8 @@ void FillInDefaults(StudyPlan* plan) {
     if (!session.empty()) component.session = session;
     const std::string& time = planned.data.time_column;
     if (!time.empty()) component.time = time;
-    component.goal = planned.goal;
-    component.indifference = planned.indifference;
+    component.goal = {.value = planned.goal};
+    component.indifference = {.value = planned.indifference};
     component.inputs.clear();
     for (const data::ColumnInfo& input : dataset.inputs()) {
       component.inputs.push_back(input.name);

@@ -1,7 +1,6 @@
 #include "cli/study_file/toml_keys.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/ranges.h>
@@ -128,22 +127,22 @@ void Keys::TakeFlag(std::string_view key, bool* flag) const {
   *flag = value->get();
 }
 
-void Keys::TakeNumber(std::string_view key,
-                      bool may_be_zero,
-                      double* number) const {
+void Keys::TakeError(std::string_view key,
+                     bool may_be_zero,
+                     GivenError* error) const {
   const toml::node* const node = Find(key);
   if (node == nullptr) return;
-  if (!node->is_number()) RefuseType(key, *node, "a number");
-  const double value = NumberOf(*node);
-  if (!std::isfinite(value) || value < 0.0 || (value == 0.0 && !may_be_zero)) {
-    Refuse(file_,
-           node->source(),
-           fmt::format("'{}' must be {} 0, found {}",
-                       key,
-                       may_be_zero ? "at least" : "above",
-                       value));
+  const auto* const text = node->as_string();
+  if (text == nullptr && !node->is_number()) {
+    RefuseType(key, *node, "a number or a text such as \"2um\"");
   }
-  *number = value;
+  try {
+    *error = ParseGivenError(
+        text == nullptr ? fmt::format("{}", NumberOf(*node)) : text->get(),
+        may_be_zero);
+  } catch (const std::invalid_argument& refusal) {
+    Refuse(file_, node->source(), fmt::format("'{}' {}", key, refusal.what()));
+  }
 }
 
 void Keys::TakeSeed(std::uint64_t* seed) const {

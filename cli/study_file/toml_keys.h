@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include "cli/study_file/given_error.h"
 #include "data/text.h"
 
 namespace errmap::cli {
@@ -43,8 +44,10 @@ class Keys {
   // Each leaves what it is given where the key is absent.
   void TakeText(std::string_view key, std::string* text) const;
   void TakeFlag(std::string_view key, bool* flag) const;
-  /// A finite number above 0, or at least 0.
-  void TakeNumber(std::string_view key, bool may_be_zero, double* number) const;
+  /// A number above 0, or at least 0, or a text of one with its unit.
+  void TakeError(std::string_view key,
+                 bool may_be_zero,
+                 GivenError* error) const;
   void TakeSeed(std::uint64_t* seed) const;
 
   /// Texts of a list; `check` may refuse one by throwing invalid_argument.

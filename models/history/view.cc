@@ -50,8 +50,8 @@ std::vector<double> ParseTimeConstants(const std::string& text) {
     if (item.empty() || used != item.size() || !(value > 0.0) ||
         !std::isfinite(value)) {
       throw std::invalid_argument(fmt::format(
-          "history={}: must be auto, none or time constants above 0 joined by "
-          "+",
+          "history must be auto, none or time constants above 0 joined by +, "
+          "found '{}'",
           text));
     }
     constants.push_back(value);

@@ -68,15 +68,15 @@ struct WfactorOption {
     WfactorOption taken;
     taken.delta =
         options->TakeNumber("discrepancy", kNone, kLeastDelta, kMostDelta);
-    const std::string text = options->TakeText("wfactor", "");
+    const bool by_cv = options->IsWord("wfactor", "cv");
     if (!std::isnan(taken.delta)) {
-      if (!text.empty()) {
+      if (options->Has("wfactor")) {
         throw std::invalid_argument(fmt::format(
             "model '{}': discrepancy= finds the wfactor, which wfactor= fixes",
             spec.text));
       }
       taken.rule = WfactorRule::kDiscrepancy;
-    } else if (text == "cv") {
+    } else if (by_cv) {
       taken.rule = WfactorRule::kCrossValidation;
     } else {
       taken.wfactor =

@@ -54,11 +54,11 @@ TEST(RecipeCatalog, NamesTheRangeOfAnOptionAndWhatThereIs) {
   EXPECT_THAT(MessageOf([] { MakeRecipe("poly:full:degree=0"); }),
               HasSubstr("degree must be a whole number from 1 to 12"));
   EXPECT_THAT(MessageOf([] { MakeRecipe("net:scg:hidden=2.5"); }),
-              HasSubstr("hidden must be a whole number"));
+              HasSubstr("hidden must be cv or a whole number"));
   EXPECT_THAT(MessageOf([] { MakeRecipe("net:scg:wfactor=-1"); }),
-              HasSubstr("wfactor must be a number from 0"));
+              HasSubstr("wfactor must be cv or a number from 0"));
   EXPECT_THAT(MessageOf([] { MakeRecipe("net:scg:wfactor=nan"); }),
-              HasSubstr("wfactor must be a number"));
+              HasSubstr("wfactor must be cv or a number"));
   EXPECT_THAT(MessageOf([] { MakeRecipe("net:scg:scale=raw"); }),
               HasSubstr("one of standard, range, none"));
   EXPECT_THAT(MessageOf([] { MakeRecipe("net:scg:hiden=3"); }),

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -47,7 +46,7 @@ struct LearnArguments {
   int repeats = 2;
   int sensors = 8;
   int next = 5;
-  double goal = std::numeric_limits<double>::quiet_NaN();
+  std::string goal;
   std::uint64_t seed = 1;
   int jobs = 0;
   std::string out;
@@ -237,9 +236,7 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
   }
   const data::PreparedDataset prepared = ReadData(arguments.data);
   const data::Dataset& dataset = prepared.dataset;
-  const double goal = std::isfinite(arguments.goal)
-                          ? arguments.goal
-                          : models::DefaultGoal(dataset.target().unit);
+  const double goal = GoalOf(arguments, dataset.target().unit);
   Learned learned;
   if (arguments.by == "sensors") {
     LearnBySensors(arguments, dataset, &learned);
@@ -338,7 +335,7 @@ void AddLearnCommand(CLI::App* app, Run* run) {
   AddForceFlag(command, &arguments->force);
   AddFormatOption(command, &arguments->format);
   command->footer(
-      "Example: errmap learn days.csv --by sessions --goal 0.002\nWhole units "
+      "Example: errmap learn days.csv --by sessions --goal 2um\nWhole units "
       "are held out, others learnt from; a power law through the curve tells\n"
       "how many more would reach the goal, or that none would. Sensors are "
       "chosen inside\nthe folds, by a map linear in each.");

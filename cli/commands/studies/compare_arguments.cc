@@ -23,12 +23,6 @@ PredictionsFile ParsePredictions(const std::string& pair) {
   return {pair.substr(0, equals), pair.substr(equals + 1)};
 }
 
-// CLI11 would take "nan", which says that none was given, and "inf".
-std::string RefusalOfNumber(const std::string& text) {
-  double ignored = 0.0;
-  return data::ParseNumber(text, &ignored) ? "" : "give a finite number";
-}
-
 std::string KnownModels() {
   return fmt::format("{}", fmt::join(models::ModelTypes(), ", "));
 }
@@ -37,9 +31,8 @@ void AddJudgingOptions(CLI::App* command, CompareArguments* arguments) {
   command
       ->add_option("--indifference",
                    arguments->indifference,
-                   "Difference in RMSE that never matters, in the target's "
-                   "unit (default for lengths: 0.02 um)")
-      ->check(RefusalOfNumber)
+                   "Difference in RMSE that never matters, as --goal (default "
+                   "for lengths: 0.02 um)")
       ->type_name("X");
   command
       ->add_option("--probes-per-session",
@@ -129,9 +122,9 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
   command
       ->add_option("--goal",
                    arguments->goal,
-                   "RMSE wanted on held-out rows, in the target's unit "
-                   "(default for lengths: 0.5 um)")
-      ->check(RefusalOfNumber)
+                   "RMSE wanted on held-out rows: with its unit, 2um, or a "
+                   "number in that of the target (default for lengths: 0.5 "
+                   "um)")
       ->type_name("X");
   AddSeedOption(command, &arguments->seed);
   command

@@ -22,8 +22,8 @@ struct CompareArguments {
   std::vector<std::string> holdouts;
   std::string model_list;
   std::vector<std::string> models;
-  double goal = std::numeric_limits<double>::quiet_NaN();
-  double indifference = std::numeric_limits<double>::quiet_NaN();
+  std::string goal;
+  std::string indifference;
   std::string split;
   std::string save_split;
   std::vector<PredictionsFile> predictions;

@@ -67,21 +67,11 @@ std::vector<std::string> ModelSpecs(const CompareArguments& arguments) {
   return specs;
 }
 
-void CheckLength(const char* flag, double value, bool may_be_zero) {
-  if (std::isnan(value)) return;  // not given
-  if (std::isfinite(value) && (value > 0.0 || (may_be_zero && value == 0.0))) {
-    return;
-  }
-  throw UsageError(fmt::format("{} must be {} 0, found {}",
-                               flag,
-                               may_be_zero ? "at least" : "above",
-                               value));
-}
-
 // Without a study file the command line asks for one component.
 StudyConfig ConfigOf(const CompareArguments& arguments) {
-  CheckLength("--goal", arguments.goal, false);
-  CheckLength("--indifference", arguments.indifference, true);
+  const GivenError goal = ErrorOfFlag("--goal", arguments.goal, false);
+  const GivenError indifference =
+      ErrorOfFlag("--indifference", arguments.indifference, true);
   CheckHoldouts(arguments.holdouts);
   const DataArguments& data = arguments.data;
   ComponentConfig component;
@@ -111,8 +101,8 @@ StudyConfig ConfigOf(const CompareArguments& arguments) {
     }
   }
   return {.seed = arguments.seed,
-          .goal = arguments.goal,
-          .indifference = arguments.indifference,
+          .goal = goal,
+          .indifference = indifference,
           .holdouts = arguments.holdouts,
           .models = std::move(specs),
           .components = {std::move(component)}};

@@ -41,7 +41,7 @@ void SayGoal(const ReportView& view, const ErrorText& error, Headline* line) {
   const ResultRecord* result = ResultOf(view, view.recommended, view.decisive);
   if (result == nullptr) return;
   line->goal_standing = result->goal_standing;
-  const std::string shown = fmt::format("{:.3g}{}{}",
+  const std::string shown = fmt::format("{:g}{}{}",
                                         goal * view.scale,
                                         view.shown_unit.empty() ? "" : " ",
                                         view.shown_unit);

@@ -96,7 +96,7 @@ void AddGoal(const ReportView& view, double rows, Plot* plot) {
   if (!std::isfinite(view.component->goal)) return;
   const double goal = view.component->goal * view.scale;
   plot->series.push_back(
-      {.label = fmt::format("goal {:.3g}{}{}",
+      {.label = fmt::format("goal {:g}{}{}",
                             goal,
                             view.shown_unit.empty() ? "" : " ",
                             view.shown_unit),

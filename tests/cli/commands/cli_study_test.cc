@@ -249,9 +249,14 @@ TEST_F(CliStudy, WrongTypesAndValuesAreNamedWithLineAndColumn) {
       {"seed = \"one\"", ":1:8: 'seed' in the study must be a whole number"},
       {"seed = -1", ":1:8: 'seed' in the study must be a whole number from 0"},
       {"seed = 1.5", "found a number (1.5)"},
-      {"goal = true", ":1:8: 'goal' in the study must be a number, found true"},
+      {"goal = true",
+       ":1:8: 'goal' in the study must be a number or a text such as "
+       "\"2um\", found true"},
       {"goal = 0", ":1:8: 'goal' must be above 0, found 0"},
-      {"goal = nan", ":1:8: 'goal' must be above 0, found nan"},
+      {"goal = nan",
+       ":1:8: 'goal' must be a finite number such as 0.002, or one with its "
+       "unit such as 2um, found 'nan'"},
+      {"goal = \"2 furlongs\"", ":1:8: 'goal' has no unit 'furlongs'"},
       {"indifference = -1", "'indifference' must be at least 0"},
       {"holdouts = \"every:3\"", "must be a list of texts such as"},
       {"holdouts = [\n  \"every:3\",\n  \"evry:3\"]", ":3:3: "},

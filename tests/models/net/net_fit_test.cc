@@ -173,7 +173,7 @@ TEST(Wfactor, RefusesOptionsThatContradict) {
            {"net:scg:starts=2:discrepancy=1", "follows one start"},
            {"net:scg:starts=0", "starts must be"},
            {"net:scg:discrepancy=0", "discrepancy must be"},
-           {"net:scg:wfactor=auto", "wfactor must be a number"}}) {
+           {"net:scg:wfactor=auto", "wfactor must be cv or a number"}}) {
     EXPECT_THAT([&] { MakeRecipe(spec); },
                 Throws<std::invalid_argument>(
                     Property(&std::exception::what, HasSubstr(why))))

@@ -130,13 +130,14 @@ TEST(NetRecipe, TellsTheOptionsThatTookEffect) {
 
 TEST(NetRecipe, RefusesEachOptionOutOfRange) {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"hidden=0", "hidden must be a whole number from 1 to 10000, found '0'"},
-      {"hidden=2.5", "hidden must be a whole number"},
-      {"hidden=", "hidden must be a whole number"},
-      {"wfactor=-1", "wfactor must be a number from 0 to"},
-      {"wfactor=nan", "wfactor must be a number"},
+      {"hidden=0",
+       "hidden must be cv or a whole number from 1 to 10000, found '0'"},
+      {"hidden=2.5", "hidden must be cv or a whole number"},
+      {"hidden=", "hidden must be cv or a whole number"},
+      {"wfactor=-1", "wfactor must be cv or a number from 0 to"},
+      {"wfactor=nan", "wfactor must be cv or a number"},
       {"iterations=0", "iterations must be a whole number from 1 to"},
-      {"evaluations=0", "evaluations must be a whole number from 1 to"},
+      {"evaluations=0", "evaluations must be a whole number from 1 on"},
       {"seconds=0", "seconds must be a number from 0.001 to"},
       {"seconds=inf", "seconds must be a number"},
       {"egoal=-0.1", "egoal must be a number from 0 to"},

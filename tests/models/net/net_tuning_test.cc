@@ -188,7 +188,7 @@ TEST(NetTuning, RefusesOptionsThatContradict) {
            {"net:scg:starts=1:choose=cost", "give starts=N"},
            {"net:scg:starts=3:choose=best", "choose must be one of cost, cv"},
            {"net:scg:hidden=cv:discrepancy=1", "number of hidden nodes"},
-           {"net:scg:hidden=auto", "hidden must be a whole number"}}) {
+           {"net:scg:hidden=auto", "hidden must be cv or a whole number"}}) {
     EXPECT_THAT([&] { MakeRecipe(spec); },
                 Throws<std::invalid_argument>(
                     Property(&std::exception::what, HasSubstr(why))))
