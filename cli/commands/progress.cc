@@ -1,25 +1,42 @@
 #include "cli/commands/progress.h"
 
+#include <cmath>
 #include <string>
 #include <unistd.h>
 
 #include <fmt/format.h>
 
 #include "cli/shell/standard_streams.h"
+#include "cli/shell/wrap_text.h"
 #include "cli/study_file/rough_time.h"
 
 namespace errmap::cli {
 
-std::string ProgressText(const ProgressState& state) {
+std::string ProgressText(const ProgressState& state, std::size_t width) {
   constexpr int kEnoughToTell = 20;  // a twentieth
-  std::string text =
-      fmt::format("{}/{} fits, {:.1f} s", state.done, state.all, state.seconds);
-  if (state.done > 0 && state.done < state.all &&
-      state.done >= state.all / kEnoughToTell) {
-    const double left = state.seconds * (state.all - state.done) / state.done;
-    text += ", about " + RoughTimeText(left) + " left";
+  const std::string fits = fmt::format("{}/{} fits", state.done, state.all);
+  const std::string elapsed = fmt::format(", {:.1f} s", state.seconds);
+  double seconds_left = state.left;
+  if (!std::isfinite(seconds_left) && state.done >= state.all / kEnoughToTell) {
+    seconds_left = state.seconds * (state.all - state.done) / state.done;
   }
-  return text;
+  std::string about;
+  std::string left;
+  if (std::isfinite(seconds_left) && state.done < state.all) {
+    about = ", about ";
+    left = RoughTimeText(seconds_left) + " left";
+  }
+  const std::string best = ", best so far " + state.best;
+  const std::string brief = left.empty() ? "" : ", " + left;
+  if (!state.best.empty()) {
+    for (const std::string& text :
+         {fits + elapsed + about + left + best + " (" + state.holdout + ")",
+          fits + elapsed + about + left + best,
+          fits + brief + best}) {
+      if (WidthOf(text) <= width) return text;
+    }
+  }
+  return fits + elapsed + about + left;
 }
 
 Progress::Progress(bool enabled)
@@ -32,31 +49,29 @@ Progress::~Progress() {
   if (enabled_ && on_terminal_ && shown_ > 0) DrawOnTerminal("\r\033[K");
 }
 
-void Progress::Show(int done, int all) {
-  constexpr int kWidth = 30;
+void Progress::Show(ProgressState state) {
+  constexpr std::size_t kBar = 10;
+  constexpr std::size_t kWidth = 79;
   constexpr std::chrono::seconds kBetweenLines(10);
-  if (!enabled_ || all < 1) return;
+  if (!enabled_ || state.all < 1) return;
   const std::lock_guard lock(mutex_);
-  if (done <= shown_) return;  // a slower thread's older count
-  shown_ = done;
+  if (state.done <= shown_) return;  // a slower thread's older count
+  shown_ = state.done;
   const auto now = std::chrono::steady_clock::now();
-  const std::string text = ProgressText(
-      {.done = done,
-       .all = all,
-       .seconds = std::chrono::duration<double>(now - start_).count()});
+  state.seconds = std::chrono::duration<double>(now - start_).count();
   if (!on_terminal_) {
     if (now - last_line_ < kBetweenLines) return;
     last_line_ = now;
-    WriteMessage(text);
+    state.best.clear();
+    WriteMessage(ProgressText(state, kWidth));
     return;
   }
-  const int filled =
-      static_cast<int>(static_cast<long long>(kWidth) * done / all);
-  DrawOnTerminal(
-      fmt::format("\r[{}{}] {}\033[K",
-                  std::string(static_cast<std::size_t>(filled), '#'),
-                  std::string(static_cast<std::size_t>(kWidth - filled), '.'),
-                  text));
+  const std::size_t filled = kBar * static_cast<std::size_t>(state.done) /
+                             static_cast<std::size_t>(state.all);
+  DrawOnTerminal(fmt::format("\r[{}{}] {}\033[K",
+                             std::string(filled, '#'),
+                             std::string(kBar - filled, '.'),
+                             ProgressText(state, kWidth - kBar - 3)));
 }
 
 }  // namespace errmap::cli

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <limits>
 #include <mutex>
 #include <string>
 
@@ -11,11 +13,16 @@ struct ProgressState {
   int done = 0;  // fits
   int all = 0;
   double seconds = 0.0;  // since the start
+  /// Seconds that it will still take; NaN: as the fits done did, once a
+  /// twentieth is done, since before that it is a guess.
+  double left = std::numeric_limits<double>::quiet_NaN();
+  std::string best = {};     // model so far and its error; "": none yet
+  std::string holdout = {};  // that it is the best under
 };
 
-/// "112/238 fits, 12.3 s, about 14 s left"; the time left is said once a
-/// twentieth is done, since before that it is a guess.
-std::string ProgressText(const ProgressState& state);
+/// "112/238 fits, 12.3 s, about 14 s left, best so far poly:eq8 1.9 um
+/// (groups:5)", at most `width` columns: what matters less is left out first.
+std::string ProgressText(const ProgressState& state, std::size_t width);
 
 /// Says on stderr how far fits are: on a terminal a bar, elsewhere a plain line
 /// every ten seconds, so that short runs say nothing. Safe to call from any
@@ -27,7 +34,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void Show(int done, int all);
+  /// `state.seconds` is filled in.
+  void Show(ProgressState state);
 
  private:
   bool enabled_;

@@ -83,9 +83,11 @@ double PolynomialSeconds(const models::ModelRecipe& recipe,
   return kPerProduct * rows * columns * columns;
 }
 
-double FitSeconds(const models::ModelRecipe& recipe,
-                  const data::Dataset& dataset,
-                  double rows) {
+}  // namespace
+
+double RoughFitSeconds(const models::ModelRecipe& recipe,
+                       const data::Dataset& dataset,
+                       double rows) {
   constexpr double kLeast = 1e-6;
   switch (recipe.kind()) {
     case models::ModelKind::kNet:
@@ -100,8 +102,6 @@ double FitSeconds(const models::ModelRecipe& recipe,
   }
 }
 
-}  // namespace
-
 double RoughSeconds(const ComponentPlan& component, int jobs) {
   const data::Dataset& dataset = component.comparison.data.dataset;
   std::vector<double> rows_of_fits = {static_cast<double>(dataset.num_rows())};
@@ -115,7 +115,7 @@ double RoughSeconds(const ComponentPlan& component, int jobs) {
   for (const auto& recipe : component.recipes) {
     if (recipe->WhatIsMissing(dataset)) continue;
     for (const double rows : rows_of_fits) {
-      const double seconds = FitSeconds(*recipe, dataset, rows);
+      const double seconds = RoughFitSeconds(*recipe, dataset, rows);
       all += seconds;
       longest = std::max(longest, seconds);
     }

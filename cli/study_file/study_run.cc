@@ -56,8 +56,12 @@ StudyRun RunPlan(StudyPlan plan,
         .jobs = options.jobs,
         .stop = options.stop,
         .indifference = comparison.indifference,
-        .progress = [&](int done, int /*of_component*/) {
-          if (options.progress) options.progress(before + done, all);
+        .progress = [&](const models::FitProgress& fit) {
+          if (!options.progress) return;
+          models::FitProgress of_plan = fit;
+          of_plan.done += before;
+          of_plan.all = all;
+          options.progress(run.components.size(), of_plan);
         }};
     comparison.study = RunJournalled(component, study_options, options);
     const data::Dataset& dataset = comparison.data.dataset;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 
@@ -128,6 +129,38 @@ InnerHoldout InnerHoldoutLike(stats::HoldoutKind kind) {
   }
   return InnerHoldout::kDecisive;
 }
+
+// Held-out errors of folds that end in any order.
+class HeldOutSoFar {
+ public:
+  HeldOutSoFar(std::size_t models, const std::vector<Holdout>& holdouts)
+      : sums_(models, std::vector<Sum>(holdouts.size())) {}
+
+  // The RMSE of the task's model where this was the last fold of `num_folds`,
+  // else NaN.
+  double Add(const StudyTask& task,
+             std::size_t num_folds,
+             const VectorXd& target,
+             const VectorXd& predicted) {
+    const std::lock_guard lock(mutex_);
+    Sum& sum = sums_[task.model][static_cast<std::size_t>(task.holdout)];
+    sum.squares += predicted.size() == target.size()
+                       ? (target - predicted).squaredNorm()
+                       : kNaN;
+    sum.rows += target.size();
+    if (++sum.folds < num_folds) return kNaN;
+    return std::sqrt(sum.squares / static_cast<double>(sum.rows));
+  }
+
+ private:
+  struct Sum {
+    std::size_t folds = 0;
+    double squares = 0.0;
+    Index rows = 0;
+  };
+  std::mutex mutex_;
+  std::vector<std::vector<Sum>> sums_;  // (models x hold-outs)
+};
 
 }  // namespace
 
@@ -261,19 +294,33 @@ StudyResult RunStudy(const Dataset& dataset,
     return outcome;
   };
   std::atomic<int> done{0};
+  HeldOutSoFar held_out(recipes.size(), holdouts);
   const auto run = [&](std::size_t index) {
     const StudyTask& task = tasks[index];
+    FitProgress progress{.all = static_cast<int>(tasks.size()), .task = task};
+    const auto start = Clock::now();
+    FitOutcome outcome = find_or_fit(task);
+    // What an earlier run has found took its time there.
+    progress.seconds = std::max(outcome.seconds, SecondsSince(start));
     if (task.holdout < 0) {
-      final_outcomes[task.model] = find_or_fit(task);
+      final_outcomes[task.model] = std::move(outcome);
     } else {
       const auto h = static_cast<std::size_t>(task.holdout);
+      const Holdout& holdout = holdouts[h];
+      if (options.progress) {
+        progress.holdout_rmse = held_out.Add(
+            task,
+            holdout.folds.size(),
+            holdout.test_data != nullptr ? holdout.test_data->target_values()
+                                         : VectorXd(dataset.target_values()(
+                                               holdout.folds[task.fold].test)),
+            outcome.test_predictions);
+      }
       outcomes[task.model][h][task.fold] =
-          JudgeFold(dataset, holdouts[h], task.fold, find_or_fit(task));
+          JudgeFold(dataset, holdout, task.fold, std::move(outcome));
     }
-    const int now_done = ++done;
-    if (options.progress) {
-      options.progress(now_done, static_cast<int>(tasks.size()));
-    }
+    progress.done = ++done;
+    if (options.progress) options.progress(progress);
   };
   // Each worker takes the next task, so that they start in the order above.
   std::atomic<std::size_t> next{0};

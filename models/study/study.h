@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -79,6 +80,16 @@ struct ModelResult {
   std::string why() const;  // the first reason of failure, "" if ok
 };
 
+/// A fit that has just ended.
+struct FitProgress {
+  int done = 0;  // fits
+  int all = 0;
+  StudyTask task;
+  double seconds = 0.0;  // that it took, in whichever run
+  /// Of its model under its hold-out, once the last fold is there; else NaN.
+  double holdout_rmse = std::numeric_limits<double>::quiet_NaN();
+};
+
 struct StudyOptions {
   std::uint64_t seed = 1;
   int jobs = 1;  // at least 1
@@ -86,8 +97,8 @@ struct StudyOptions {
   /// The difference in error that never matters (target's unit).
   double indifference = 0.0;
   bool fit_all_rows = true;  // else models have no final fit
-  /// Told (fits done, fits in all) from any thread; may be empty.
-  std::function<void(int, int)> progress = {};
+  /// Told of each fit, from any thread; may be empty.
+  std::function<void(const FitProgress&)> progress = {};
   /// Keeps finished fits and gives back those of an earlier run; may be null.
   FitJournal* journal = nullptr;
 };

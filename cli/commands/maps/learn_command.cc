@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -111,7 +110,9 @@ models::StudyResult RunLearning(
       .stop = &InstallInterruptFlag(),
       .indifference = models::DefaultIndifference(dataset.target().unit),
       .fit_all_rows = false,
-      .progress = [&](int done, int all) { progress.Show(done, all); }};
+      .progress = [&](const models::FitProgress& fit) {
+        progress.Show({.done = fit.done, .all = fit.all});
+      }};
   const std::unique_ptr<models::JournalFile> file = OpenJournal(arguments);
   if (file == nullptr) {
     return models::RunStudy(dataset, plan.holdouts, recipes, options);

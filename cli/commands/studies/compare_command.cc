@@ -22,6 +22,7 @@
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
+#include "cli/study_file/study_forecast.h"
 #include "cli/study_file/study_plan_text.h"
 #include "cli/study_file/study_run.h"
 #include "data/atomic_file.h"
@@ -169,14 +170,23 @@ int RunCompare(const CompareArguments& arguments) {
   StudyRun run;
   {
     Progress progress(!arguments.data.quiet);
-    run = RunPlan(
-        std::move(plan),
-        arguments.command_line,
-        {.jobs = jobs,
-         .stop = &InstallInterruptFlag(),
-         .journal = journal.get(),
-         .describe_resume = arguments.resume && !arguments.data.quiet,
-         .progress = [&](int done, int all) { progress.Show(done, all); }});
+    StudyForecast forecast(plan, jobs);
+    run = RunPlan(std::move(plan),
+                  arguments.command_line,
+                  {.jobs = jobs,
+                   .stop = &InstallInterruptFlag(),
+                   .journal = journal.get(),
+                   .describe_resume = arguments.resume && !arguments.data.quiet,
+                   .progress = [&](std::size_t component,
+                                   const models::FitProgress& fit) {
+                     forecast.Note(component, fit);
+                     const StudyForecast::Best best = forecast.BestSoFar();
+                     progress.Show({.done = fit.done,
+                                    .all = fit.all,
+                                    .left = forecast.SecondsLeft(),
+                                    .best = best.map,
+                                    .holdout = best.holdout});
+                   }});
   }
   if (journal != nullptr) SayUnlessQuiet(arguments, journal->WritingRemarks());
   models::StudyRecord record = RecordOf(run);

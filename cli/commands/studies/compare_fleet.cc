@@ -69,15 +69,16 @@ int RunCompareFleet(CompareFleetArguments arguments) {
   FleetRunResult result;
   {
     Progress progress(!arguments.quiet);
-    result = RunFleet(
-        study,
-        store,
-        {.jobs = arguments.jobs,
-         .stop = &InstallInterruptFlag(),
-         .share = share,
-         .command_line = arguments.command_line,
-         .quiet = arguments.quiet,
-         .progress = [&](int done, int all) { progress.Show(done, all); }});
+    result = RunFleet(study,
+                      store,
+                      {.jobs = arguments.jobs,
+                       .stop = &InstallInterruptFlag(),
+                       .share = share,
+                       .command_line = arguments.command_line,
+                       .quiet = arguments.quiet,
+                       .progress = [&](int done, int all) {
+                         progress.Show({.done = done, .all = all});
+                       }});
   }
   if (!arguments.quiet || result.interrupted) {
     Say(fmt::format(
