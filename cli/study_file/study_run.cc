@@ -87,14 +87,22 @@ StudyRun RunPlan(StudyPlan plan,
       }
       const std::size_t model = comparison.judgement.recommendation->model;
       if (model < component.recipes.size()) {
+        const models::ModelResult& recommended = comparison.study.models[model];
+        comparison.importance =
+            models::ImportanceOfSensors(dataset,
+                                        comparison.holdouts[h],
+                                        recommended.holdouts[h],
+                                        *recommended.final_fit,
+                                        options.stop);
         comparison.session_worth =
             models::WorthOfASession(dataset,
                                     comparison.holdouts[h],
                                     *component.recipes[model],
-                                    comparison.study.models[model].holdouts[h],
+                                    recommended.holdouts[h],
                                     study_options);
       }
     }
+    models::ForgetFoldMaps(&comparison.study);
     before += component.num_fits();
     run.components.push_back(std::move(comparison));
     if (run.interrupted) break;

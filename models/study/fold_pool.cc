@@ -140,6 +140,11 @@ HoldoutResult PoolFolds(const Dataset& dataset,
     folded.choices = std::move(outcome.fitted->choices);
     folded.starts = std::move(outcome.fitted->starts);
     folded.test_predictions = std::move(outcome.test_predictions);
+    // Predictions made elsewhere have none.
+    if (outcome.fitted->model != nullptr) {
+      folded.map =
+          std::make_shared<const FittedModel>(std::move(*outcome.fitted));
+    }
     result.folds.push_back(std::move(folded));
     begin += size;
   }

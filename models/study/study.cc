@@ -205,6 +205,14 @@ Holdout MakeHoldout(const stats::HoldoutSpec& spec,
   return holdout;
 }
 
+void ForgetFoldMaps(StudyResult* study) {
+  for (ModelResult& model : study->models) {
+    for (HoldoutResult& holdout : model.holdouts) {
+      for (FoldResult& fold : holdout.folds) fold.map.reset();
+    }
+  }
+}
+
 std::vector<StudyTask> StudyTasks(
     const std::vector<Holdout>& holdouts,
     const std::vector<std::unique_ptr<ModelRecipe>>& recipes) {

@@ -50,6 +50,9 @@ struct FoldResult {
   std::vector<EffectiveOption> choices;  // of the fit, such as wfactor=cv
   std::vector<StartResult> starts;       // empty where there was one only
   Eigen::VectorXd test_predictions;      // one per test row of the fold
+  /// What was fitted, less what stands above; null for predictions made
+  /// elsewhere.
+  std::shared_ptr<const FittedModel> map;
 };
 
 /// A model under one hold-out, in the target's unit.
@@ -107,6 +110,10 @@ struct StudyResult {
   std::vector<ModelResult> models;  // as the recipes
   bool interrupted = false;
 };
+
+/// Of many components they would take much memory: once their last use is
+/// behind.
+void ForgetFoldMaps(StudyResult* study);
 
 /// All fits of a study in the order in which they begin: nets last, so that
 /// whoever interrupts a long run has the quick fits.

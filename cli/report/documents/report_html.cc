@@ -438,6 +438,10 @@ std::string Page::Component(const ReportView& view, std::size_t index) const {
                        : Paragraph(leaderboard.missing, "absent"),
                    false});
   parts.push_back({"What the map does", effect, false});
+  parts.push_back(
+      {"Which sensors, and how many measurements",
+       FiguresHtml(figures, FigurePlace::kSensors, "figures halves"),
+       false});
   parts.push_back({"Why this map, and what bounds its worth", reasons, true});
   parts.push_back({"Is it more than chance?", Evidence(view), true});
   parts.push_back({"Residuals", Residuals(view, figures), true});

@@ -9,6 +9,7 @@
 #include "cli/report/figures/compensation_figures.h"
 #include "cli/report/figures/machine_figures.h"
 #include "cli/report/figures/residual_figures.h"
+#include "cli/report/figures/sensor_figures.h"
 #include "cli/report/figures/svg.h"
 
 namespace errmap::cli {
@@ -60,6 +61,7 @@ std::vector<Figure> FiguresOf(const ReportView& view,
   if (!brief) {
     Append(CostFigures(view, prefix), &figures);
     Append(SurfaceFigures(view, prefix), &figures);
+    Append(ImportanceFigures(view, prefix), &figures);
     Append(TrainingResidualFigures(view, prefix), &figures);
   }
   if (!brief && !view.recommended.empty() && !view.decisive.empty()) {

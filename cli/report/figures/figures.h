@@ -14,6 +14,7 @@ enum class FigurePlace {
   kAnswer,
   kCompensation,
   kSurface,  // in one row
+  kSensors,
   kResiduals,
   kEveryModel,
   kFits,

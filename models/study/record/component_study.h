@@ -7,6 +7,7 @@
 
 #include "data/measurements/dataset.h"
 #include "models/study/judgement/verdict.h"
+#include "models/study/record/sensor_importance.h"
 #include "models/study/record/session_worth.h"
 #include "models/study/study.h"
 
@@ -26,7 +27,9 @@ struct ComponentStudy {
   std::size_t first_added = 0;
   std::size_t num_added = 0;
   Judgement judgement;
-  std::optional<SessionWorth> session_worth = {};  // to the recommended map
+  // Of the recommended map:
+  std::optional<SessionWorth> session_worth = {};
+  std::optional<SensorImportance> importance = {};
 };
 
 }  // namespace errmap::models

@@ -160,6 +160,21 @@ MemorisationRecord MakeMemorisation(const Memorisation& found) {
           .sentence = {}};
 }
 
+ImportanceRecord MakeRecord(const SensorImportance& importance) {
+  const auto records_of = [](const auto& list) {
+    std::vector<WithoutSensorsRecord> records;
+    for (const SensorImportance::Without& without : list) {
+      records.push_back({without.sensors, without.rmse});
+    }
+    return records;
+  };
+  return {.rows = importance.rows,
+          .rmse = importance.rmse,
+          .alike = SensorImportance::kAlike,
+          .one_by_one = records_of(importance.one_by_one),
+          .together = records_of(importance.together)};
+}
+
 // Nothing for a map that no controller could run.
 LeftOut<StepCostRecord> StepCostOf(const FittedModel& map) {
   try {
@@ -491,6 +506,7 @@ std::optional<RecommendationRecord> JudgementRecord::Advice() const {
                            .ratio_of_one_fewer = worth->ratio_of_one_fewer,
                            .ratio_of_one_more = worth->ratio_of_one_more};
   }
+  if (study_.importance) record.importance = MakeRecord(*study_.importance);
   return record;
 }
 

@@ -847,6 +847,22 @@ struct SessionWorthRecord {
 ERRMAP_RECORD(
     SessionWorthRecord, sessions, folds, ratio_of_one_fewer, ratio_of_one_more)
 
+/// See SensorImportance.
+struct WithoutSensorsRecord {
+  std::vector<std::string> sensors;
+  double rmse = kNotKnown;
+};
+ERRMAP_RECORD(WithoutSensorsRecord, sensors, rmse)
+
+struct ImportanceRecord {
+  std::int64_t rows = 0;
+  double rmse = kNotKnown;
+  double alike = kNotKnown;
+  std::vector<WithoutSensorsRecord> one_by_one;
+  std::vector<WithoutSensorsRecord> together;
+};
+ERRMAP_RECORD(ImportanceRecord, rows, rmse, alike, one_by_one, together)
+
 struct RecommendationRecord {
   Choice choice = Choice::kBaseline;
   std::string model;
@@ -870,6 +886,7 @@ struct RecommendationRecord {
   /// Under `holdout`; empty without times in seconds.
   std::vector<SinceStartRecord> since_start;
   LeftOut<SessionWorthRecord> session_worth;
+  LeftOut<ImportanceRecord> importance;  // of its sensors
   std::vector<RemarkRecord> grounds;
   std::vector<RemarkRecord> doubts;
   std::string sentence;
@@ -898,6 +915,7 @@ ERRMAP_RECORD(RecommendationRecord,
               promise,
               since_start,
               session_worth,
+              importance,
               grounds,
               doubts,
               sentence,

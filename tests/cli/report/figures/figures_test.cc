@@ -69,6 +69,25 @@ TEST(MakeFigures, GivesEveryAxisAUnitAndEveryFigureAlternativeText) {
   }
 }
 
+TEST(MakeFigures, ShowsWhatAMapWouldBeWithoutASensor) {
+  models::StudyRecord record = Recorded(MakeReportDocument());
+  EXPECT_EQ(FigureNamed(MakeFigures(record), "c1-importance"), nullptr);
+  record.components[0].recommendation->importance = models::ImportanceRecord{
+      .rows = 60,
+      .rmse = 0.001,
+      .alike = 0.9,
+      .one_by_one = {{{"t3"}, 0.0013}, {{"t1"}, 0.0011}},
+      .together = {{{"t1", "t3"}, 0.004}}};
+  const FigureSet set = MakeFigures(record);
+  const Figure* figure = FigureNamed(set, "c1-importance");
+  ASSERT_NE(figure, nullptr);
+  EXPECT_THAT(figure->description,
+              HasSubstr("with every sensor; without t1, t3 "));
+  std::vector<std::string> names;
+  for (const auto& [name, place] : figure->plot.y.names) names.push_back(name);
+  EXPECT_EQ(names, (std::vector<std::string>{"all 2 sensors", "t3", "t1"}));
+}
+
 TEST(MakeFigures, ShowsLengthsInMicrometres) {
   const FigureSet set = MakeFigures(Recorded(MakeReportDocument()));
   const Figure* figure = FigureNamed(set, "c1-best-predicted");
