@@ -14,6 +14,8 @@
 #include "cli/commands/progress.h"
 #include "cli/json_blocks.h"
 #include "cli/report/claimed_folder.h"
+#include "cli/report/figures/learning_figures.h"
+#include "cli/report/figures/svg.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
@@ -22,10 +24,12 @@
 #include "fitting/interruption.h"
 #include "models/model_spec.h"
 #include "models/promise/learning_curve.h"
+#include "models/promise/learning_record.h"
 #include "models/promise/next_states.h"
 #include "models/promise/sensor_curve.h"
 #include "models/study/journal/fit_journal_file.h"
 #include "models/study/journal/fit_label.h"
+#include "models/study/record/record_json.h"
 #include "models/study/study_defaults.h"
 
 namespace errmap::cli {
@@ -149,9 +153,8 @@ Eigen::MatrixXd ReadCandidates(const std::string& file,
 
 // What a run finds; each part where it was asked for.
 struct Learned {
-  Json json = Json::object();
+  models::LearningRecord record;
   std::string text;
-  std::string svg;
   bool interrupted = false;
   bool failed = false;
 };
@@ -181,32 +184,30 @@ void LearnCurves(const LearnArguments& arguments,
   learned->failed = std::ranges::all_of(
       curves,
       [](const models::LearningCurve& curve) { return curve.points.empty(); });
-  learned->json["curves"] = CurvesJson(plan, curves, goal);
-  learned->text += CurvesText(plan, curves, goal, dataset.target().unit);
-  learned->svg = CurvesSvg(plan, curves, dataset.target().unit);
+  learned->record.curves = models::MakeRecord(plan, curves, goal);
+  learned->text += CurvesText(*learned->record.curves, dataset.target().unit);
 }
 
 void LearnBySensors(const LearnArguments& arguments,
                     const data::Dataset& dataset,
                     Learned* learned) {
-  models::SensorCurve curve;
   Progress progress(!arguments.data.quiet);
   try {
-    curve = models::LearnSensors(
-        dataset,
-        {.most_sensors = arguments.sensors,
-         .jobs = JobsOf(arguments),
-         .stop = &InstallInterruptFlag(),
-         .progress = [&](int done, int all) { progress.Show(done, all); }});
+    learned->record.sensors = models::MakeRecord(
+        models::LearnSensors(dataset,
+                             {.most_sensors = arguments.sensors,
+                              .jobs = JobsOf(arguments),
+                              .stop = &InstallInterruptFlag(),
+                              .progress = [&](int done, int all) {
+                                progress.Show({.done = done, .all = all});
+                              }}));
   } catch (const fitting::Interrupted&) {
     learned->interrupted = true;
     return;
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("--by sensors: {}", error.what()));
   }
-  learned->json["sensors"] = SensorsJson(curve);
-  learned->text += SensorsText(curve, dataset.target().unit);
-  learned->svg = SensorsSvg(curve, dataset.target().unit);
+  learned->text += SensorsText(*learned->record.sensors, dataset.target().unit);
 }
 
 void LearnNext(const LearnArguments& arguments,
@@ -218,8 +219,19 @@ void LearnNext(const LearnArguments& arguments,
       ReadCandidates(arguments.candidates, dataset, arguments.data.quiet);
   const std::vector<models::NextState> chosen = models::ChooseNext(
       dataset, candidates, arguments.next, kRowsPerCandidate);
-  learned->json["next"] = NextJson(chosen);
-  learned->text += NextText(chosen);
+  learned->record.next = models::MakeRecord(chosen);
+  learned->text += NextText(*learned->record.next);
+}
+
+// In the target's unit.
+double GoalOf(const LearnArguments& arguments, const data::Unit& target) {
+  const GivenError given = ErrorOfFlag("--goal", arguments.goal, false);
+  if (!given.is_given()) return models::DefaultGoal(target);
+  try {
+    return InUnitOf(target, given);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--goal {}", error.what()));
+  }
 }
 
 std::string Stem(const LearnArguments& arguments) {
@@ -252,15 +264,12 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
               "--resume");
     return kInterrupted;
   }
-  Json document = {{"schema", "errmap-learn-1"},
-                   {"file", arguments.data.file},
-                   {"target", dataset.target().name},
-                   {"unit", dataset.target().unit.symbol},
-                   {"by", arguments.by.empty() ? Json() : Json(arguments.by)},
-                   {"curves", nullptr},
-                   {"sensors", nullptr},
-                   {"next", nullptr}};
-  document.update(learned.json);
+  models::LearningRecord& record = learned.record;
+  record.file = arguments.data.file;
+  record.target = dataset.target().name;
+  record.unit = dataset.target().unit.symbol;
+  if (!arguments.by.empty()) record.by = arguments.by;
+  Json document = models::ToJson(record);
   document["provenance"] = ProvenanceJson(command_line,
                                           {{"models", arguments.model_list},
                                            {"repeats", arguments.repeats},
@@ -270,8 +279,8 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
   PrintResult(arguments.format == "json" ? DumpJson(document) : learned.text);
   if (folder) {
     folder->Write(Stem(arguments) + ".json", DumpJson(document));
-    if (!learned.svg.empty()) {
-      folder->Write(Stem(arguments) + ".svg", learned.svg);
+    for (const Figure& figure : LearningFigures(record, "")) {
+      folder->Write(Stem(arguments) + ".svg", SvgFile(FigureSvg(figure)));
     }
     folder->Finish();
   }
@@ -317,7 +326,8 @@ void AddLearnCommand(CLI::App* app, Run* run) {
   command->add_option(
       "--goal",
       arguments->goal,
-      "RMSE wanted, target's unit (default: 0.5 um for lengths)");
+      "RMSE wanted: 2um, or in the target's unit (default: 0.5 um for "
+      "lengths)");
   AddSeedOption(command, &arguments->seed);
   command
       ->add_option("--jobs",
@@ -328,7 +338,8 @@ void AddLearnCommand(CLI::App* app, Run* run) {
       ->add_option("--out",
                    arguments->out,
                    "Folder for learn-*.json, learn-*.svg and the journal of "
-                   "fits")
+                   "fits; errmap report puts\nthe curves of a study's folder "
+                   "on its page")
       ->type_name("DIR");
   command->add_flag("--resume",
                     arguments->resume,

@@ -105,7 +105,7 @@ int RunReport(const ReportArguments& arguments) {
     folder.Finish();
   }
   if (arguments.figures.empty()) return kDone;
-  const FigureSet figures = MakeFigures(results, true);
+  const FigureSet figures = FiguresInFolder(results, arguments.folder, true);
   ClaimedFolder folder(arguments.figures,
                        FigureFileNames(figures),
                        {ResultsPath(arguments.folder)},

@@ -1,13 +1,49 @@
 #include "cli/report/documents/report_files.h"
 
+#include <filesystem>
+
+#include <fmt/format.h>
+
 #include "cli/report/documents/report_html.h"
 #include "cli/report/documents/report_markdown.h"
-#include "cli/report/figures/figures.h"
+#include "cli/report/figures/learning_figures.h"
+#include "cli/shell/standard_streams.h"
+#include "data/atomic_file.h"
+#include "data/text.h"
 
 namespace errmap::cli {
 
+std::vector<models::LearningRecord> ReadLearning(const std::string& folder) {
+  std::vector<models::LearningRecord> found;
+  for (const char* by : {"sessions", "cycles", "sensors"}) {
+    const std::string path =
+        (std::filesystem::path(folder) / fmt::format("learn-{}.json", by))
+            .string();
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) continue;
+    try {
+      found.push_back(models::LearningFromJsonText(
+          data::ReadFile(path, data::kMostTextOfPrograms)));
+    } catch (const std::exception& error) {
+      WriteMessage(fmt::format(
+          "{} is not drawn: {}", data::PrintablePath(path), error.what()));
+    }
+  }
+  return found;
+}
+
+FigureSet FiguresInFolder(const models::StudyRecord& record,
+                          const std::string& folder,
+                          bool everything) {
+  FigureSet figures = MakeFigures(record, everything);
+  AddLearning(record, ReadLearning(folder), &figures);
+  return figures;
+}
+
 void WriteReport(const models::StudyRecord& record, ClaimedFolder* folder) {
-  folder->Write(kReportPage, ReportHtml(record, MakeFigures(record)));
+  folder->Write(
+      kReportPage,
+      ReportHtml(record, FiguresInFolder(record, folder->PathOf("."))));
   folder->Write(kReportText, ReportMarkdown(record));
 }
 

@@ -1,6 +1,11 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "cli/report/claimed_folder.h"
+#include "cli/report/figures/figures.h"
+#include "models/promise/learning_record.h"
 #include "models/study/record/study_record.h"
 
 namespace errmap::cli {
@@ -8,6 +13,15 @@ namespace errmap::cli {
 /// Names of the two files that WriteReport draws.
 inline constexpr const char* kReportPage = "report.html";
 inline constexpr const char* kReportText = "report.md";
+
+/// What errmap learn --out left in the folder of a study. A file that cannot be
+/// read is named on stderr and passed over.
+std::vector<models::LearningRecord> ReadLearning(const std::string& folder);
+
+/// All figures of a study in its folder, those of ReadLearning among them.
+FigureSet FiguresInFolder(const models::StudyRecord& record,
+                          const std::string& folder,
+                          bool everything = false);
 
 /// Draws report.html and report.md; `errmap report` draws the same bytes from
 /// results.json later. Each file appears whole or not at all. Throws

@@ -262,6 +262,50 @@ TEST_F(CliPromise, LearnsWhichSensorsDoIt) {
               AllOf(HasSubstr("of 3 sensors do it"), HasSubstr("t1_degC")));
 }
 
+TEST_F(CliPromise, PutsWhatWasLearntOnThePageOfTheStudy) {
+  const std::vector<std::string> compare{"compare",
+                                         "train.csv",
+                                         "--models",
+                                         "mean,poly:full:degree=1",
+                                         "--out",
+                                         "study",
+                                         "--quiet"};
+  ASSERT_EQ(Run(compare).status, 0);
+  const std::string before = Read("study/report.html");
+  EXPECT_THAT(before, HasSubstr("What the error would be without a sensor"));
+  EXPECT_THAT(before, Not(HasSubstr("What fewer sensors would do")));
+  for (const char* by : {"sensors", "sessions"}) {
+    ASSERT_EQ(Run({"learn",
+                   "train.csv",
+                   "--by",
+                   by,
+                   "--models",
+                   "mean,poly:full:degree=1",
+                   "--out",
+                   "study",
+                   "--quiet"})
+                  .status,
+              0);
+  }
+  EXPECT_EQ(Run({"report", "study"}).status, 0);
+  const std::string page = Read("study/report.html");
+  EXPECT_THAT(page,
+              AllOf(HasSubstr("What fewer sensors would do"),
+                    HasSubstr("of 3 sensors do it, within 5 % of all"),
+                    HasSubstr("What each further day would bring"),
+                    HasSubstr("with all 10:")));
+  EXPECT_EQ(Run({"report", "study", "--format", "html"}).out, page);
+  // Of other data it tells nothing.
+  Write("train.csv", Days(2, 11));
+  ASSERT_EQ(Run(compare).status, 0);
+  EXPECT_THAT(Read("study/report.html"),
+              Not(HasSubstr("What fewer sensors would do")));
+  Write("study/learn-sensors.json", "{ half");
+  const Outcome torn = Run({"report", "study"});
+  EXPECT_EQ(torn.status, 0);
+  EXPECT_THAT(torn.err, HasSubstr("learn-sensors.json is not drawn: is no"));
+}
+
 TEST_F(CliPromise, LearnsWhatToMeasureNext) {
   Write("next.csv",
         "position_mm,t1_degC,t2_degC,t3_degC\n"

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "models/promise/learning_curve.h"
+#include "models/promise/next_states.h"
+#include "models/promise/sensor_curve.h"
+#include "models/study/record/study_record.h"
+
+// What errmap learn found, as plain data: schema errmap-learn-1, member by key.
+// Lengths are in the target's unit; NaN stands for what there is not.
+
+namespace errmap::models {
+
+struct LearningPointRecord {
+  std::int64_t units = 0;  // learnt from
+  double rmse = kNotKnown;
+  double low = kNotKnown;  // 90 %
+  double high = kNotKnown;
+};
+ERRMAP_RECORD(LearningPointRecord, units, rmse, low, high)
+
+/// 5, 50 and 95 %; NaN: infinite.
+using QuantilesRecord = std::array<double, 3>;
+
+struct LearningLawRecord {
+  QuantilesRecord exponent = {kNotKnown, kNotKnown, kNotKnown};
+  QuantilesRecord floor = {kNotKnown, kNotKnown, kNotKnown};
+  QuantilesRecord at_all_units = {kNotKnown, kNotKnown, kNotKnown};
+  QuantilesRecord at_twice_the_units = {kNotKnown, kNotKnown, kNotKnown};
+  std::optional<QuantilesRecord> units_for_goal;  // where there is a goal
+  double never_reaches_goal = kNotKnown;
+};
+ERRMAP_RECORD(LearningLawRecord,
+              exponent,
+              floor,
+              at_all_units,
+              at_twice_the_units,
+              units_for_goal,
+              never_reaches_goal)
+
+struct LearningModelRecord {
+  std::string model;
+  std::optional<std::string> why_failed;
+  std::vector<LearningPointRecord> points;
+  std::optional<LearningLawRecord> law;
+};
+ERRMAP_RECORD(LearningModelRecord, model, why_failed, points, law)
+
+struct LearningCurvesRecord {
+  std::string unit;  // what is learnt from one after another
+  std::int64_t units = 0;
+  double goal = kNotKnown;
+  std::vector<LearningModelRecord> models;
+};
+ERRMAP_RECORD(LearningCurvesRecord, unit, units, goal, models)
+
+struct SensorPointRecord {
+  std::int64_t sensors = 0;
+  double rmse = kNotKnown;
+};
+ERRMAP_RECORD(SensorPointRecord, sensors, rmse)
+
+struct ChosenSensorRecord {
+  std::string sensor;
+  double stability = kNotKnown;
+  std::vector<std::string> substitutes;
+};
+ERRMAP_RECORD(ChosenSensorRecord, sensor, stability, substitutes)
+
+struct SensorCurveRecord {
+  std::string held_out;
+  std::string view;  // raw, history, zero, history+zero
+  std::vector<SensorPointRecord> points;
+  SensorPointRecord all;
+  std::optional<std::int64_t> enough;
+  std::vector<ChosenSensorRecord> chosen;
+};
+ERRMAP_RECORD(SensorCurveRecord, held_out, view, points, all, enough, chosen)
+
+struct NextStateRecord {
+  std::int64_t row = 0;  // of the candidates
+  double variance_left = kNotKnown;
+  double distance = kNotKnown;
+};
+ERRMAP_RECORD(NextStateRecord, row, variance_left, distance)
+
+struct LearningSourceRecord {
+  std::vector<InputFileRecord> inputs;
+};
+ERRMAP_RECORD(LearningSourceRecord, inputs)
+
+inline constexpr std::string_view kLearningSchema = "errmap-learn-1";
+
+struct LearningRecord {
+  std::string schema = std::string(kLearningSchema);
+  std::string file;
+  std::string target;
+  std::string unit;
+  std::optional<std::string> by;  // sessions, cycles, sensors
+  std::optional<LearningCurvesRecord> curves;
+  std::optional<SensorCurveRecord> sensors;
+  std::optional<std::vector<NextStateRecord>> next;
+  /// As read: what of it a reader needs.
+  LeftOut<LearningSourceRecord> provenance;
+};
+ERRMAP_RECORD(LearningRecord,
+              schema,
+              file,
+              target,
+              unit,
+              by,
+              curves,
+              sensors,
+              next,
+              provenance)
+
+/// `goal` in the target's unit; NaN: none.
+LearningCurvesRecord MakeRecord(const LearningPlan& plan,
+                                const std::vector<LearningCurve>& curves,
+                                double goal);
+SensorCurveRecord MakeRecord(const SensorCurve& curve);
+std::vector<NextStateRecord> MakeRecord(const std::vector<NextState>& chosen);
+
+/// What errmap learn wrote. Throws data::InputError where the text is no JSON
+/// or of another schema.
+LearningRecord LearningFromJsonText(std::string_view text);
+
+}  // namespace errmap::models
