@@ -86,16 +86,52 @@ int RunStoreReport(const ReportArguments& arguments) {
   return kDone;
 }
 
+// The study of that component alone.
+models::StudyRecord OfComponent(models::StudyRecord record,
+                                const std::string& name) {
+  const auto found = std::ranges::find(
+      record.components, name, &models::ComponentRecord::name);
+  if (found == record.components.end()) {
+    std::vector<std::string> names;
+    for (const auto& component : record.components) {
+      names.push_back(component.name);
+    }
+    const std::string nearest = data::NearestName(name, names);
+    throw UsageError(fmt::format(
+        "no component {} in the study{}",
+        data::QuotedName(name),
+        nearest.empty() ? ""
+                        : "; did you mean " + data::QuotedName(nearest) + "?"));
+  }
+  auto& configured = record.provenance.configuration.component;
+  const auto place =
+      static_cast<std::size_t>(std::distance(record.components.begin(), found));
+  if (place < configured.size()) configured = {configured[place]};
+  record.components = {std::move(*found)};
+  record.machine.reset();
+  return record;
+}
+
 int RunReport(const ReportArguments& arguments) {
   if (IsStore(arguments.folder)) return RunStoreReport(arguments);
-  if (!arguments.component.empty()) {
-    throw UsageError("--component is for stores of many components");
-  }
-  const models::StudyRecord results = ReadResults(arguments.folder);
+  models::StudyRecord results = ReadResults(arguments.folder);
+  const std::string& component = arguments.component;
+  if (!component.empty()) results = OfComponent(std::move(results), component);
   if (arguments.format == "md") {
     PrintResult(ReportMarkdown(results));
   } else if (arguments.format == "html") {
-    PrintResult(ReportHtml(results, MakeFigures(results)));
+    PrintResult(
+        ReportHtml(results, FiguresInFolder(results, arguments.folder)));
+  } else if (!component.empty()) {
+    const std::string page = StorePaths::FolderOf(component) + ".html";
+    ClaimedFolder folder(arguments.folder,
+                         {page},
+                         {ResultsPath(arguments.folder)},
+                         arguments.force);
+    folder.Write(
+        page, ReportHtml(results, FiguresInFolder(results, arguments.folder)));
+    folder.Finish();
+    PrintResult(folder.PathOf(page) + "\n");
   } else {
     ClaimedFolder folder(arguments.folder,
                          {kReportPage, kReportText},
@@ -155,8 +191,8 @@ void AddReportCommand(CLI::App* app, Run* run) {
   command
       ->add_option("--component",
                    arguments->component,
-                   "Of a store: draw this component's page; without it the "
-                   "page of all")
+                   "Draw this component's page, in full; without it the page "
+                   "of all")
       ->type_name("NAME");
   AddForceFlag(command, &arguments->force);
   command->footer(

@@ -237,7 +237,13 @@ std::string Page::Index(const std::vector<ReportView>& views) const {
   return html +
          "</tbody></table></div><p class=\"soft small\">Left of the error: "
          "the dot between 0 and the error without a map, its bar the 95 % "
-         "interval.</p>" +
+         "interval." +
+         (figures_.IsBrief()
+              ? " Of each there is what matters most; <code>errmap "
+                "report DIR --component NAME</code> draws the "
+                "whole page of one."
+              : "") +
+         "</p>" +
          (record_.machine ? "<p><a href=\"#machine\">The machine: the error at "
                             "the tool</a></p>"
                           : "") +

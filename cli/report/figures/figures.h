@@ -47,6 +47,12 @@ struct ComponentFigures {
 struct FigureSet {
   std::vector<ComponentFigures> components;
   std::vector<Figure> machine;  // of all of them together
+
+  /// Whether there are so many components that most is left out.
+  bool IsBrief() const {
+    return !components.empty() &&
+           components.front().detail == FigureDetail::kBrief;
+  }
 };
 
 /// Figures of a study: everything of each component, or

@@ -233,6 +233,45 @@ TEST_F(CliStudy, FlagsOverrideTheFileAndThoseThatCannotAreRefused) {
       HasSubstr("--target is for one component, and study.toml has 2"));
 }
 
+TEST_F(CliStudy, GoalsHaveUnitsOfTheirOwn) {
+  WriteStudy();
+  const Json document = RunStudy({"--set",
+                                  "goal=2um",
+                                  "--set",
+                                  "component.0.goal=1500 nm",
+                                  "--set",
+                                  "indifference = \"1e-4 mm\""});
+  EXPECT_EQ(document["components"][0]["goal"], 0.0015);
+  EXPECT_EQ(document["components"][1]["goal"], 0.002);
+  EXPECT_EQ(document["components"][1]["indifference"], 1e-4);
+  // What was carried out is in the targets' units.
+  const Json configuration = document["provenance"]["configuration"];
+  EXPECT_FALSE(configuration.contains("goal"));
+  EXPECT_EQ(configuration["component"][1]["goal"], 0.002);
+  EXPECT_THAT(
+      Run({"compare", "--config", "study.toml", "--set", "goal=1deg"}).err,
+      HasSubstr("both.csv: goal is 1 deg, and the target is in mm"));
+}
+
+TEST_F(CliStudy, TheWholePageOfOneComponentIsDrawnOnRequest) {
+  WriteStudy();
+  RunStudy({"--out", "o"});
+  const Outcome drawn = Run({"report", "o", "--component", "x, up"});
+  EXPECT_EQ(drawn.status, 0) << drawn.err;
+  const std::string path = drawn.out.substr(0, drawn.out.find('\n'));
+  EXPECT_THAT(path, HasSubstr("o/components/x"));
+  EXPECT_THAT(
+      Read(path),
+      AllOf(HasSubstr("Error map of x, up"), Not(HasSubstr("x, down"))));
+  EXPECT_EQ(
+      Run({"report", "o", "--component", "x, up", "--format", "html"}).out,
+      Read(path));
+  EXPECT_THAT(RefusalOf(Run({"report", "o", "--component", "x, pu"}),
+                        kWrongCommandLine),
+              HasSubstr("no component 'x, pu' in the study; did you mean "
+                        "'x, up'?"));
+}
+
 // ---- What is wrong with a file, and where.
 
 TEST_F(CliStudy, UnknownKeysAreNamedWithLineColumnAndWhatIsAllowed) {
