@@ -181,8 +181,12 @@ void ComponentScreen::Leaderboard() {
 
 void ComponentScreen::Next(const std::string& data) {
   constexpr std::size_t kIndent = 16;
-  for (const NextStep& step :
-       NextSteps(study_, index_, data, options_.folder)) {
+  std::vector<NextStep> steps =
+      NextSteps(study_, index_, data, options_.folder);
+  for (NextStep& step : PlacesToLook(study_, index_, data, options_.folder)) {
+    steps.push_back(std::move(step));
+  }
+  for (const NextStep& step : steps) {
     const std::string begin = fmt::format("{:{}}", step.purpose, kIndent);
     if (!step.words.empty()) {
       screen_->Add(
@@ -329,7 +333,9 @@ Screen StudyTable(const StudyRun& run,
   std::string words =
       options.folder.empty()
           ? "The maps are written with --out DIR, which also draws a page."
-          : fmt::format("The maps are in {}/models.", options.folder);
+          : fmt::format(
+                "The maps are in {0}/models, the page is {0}/report.html.",
+                options.folder);
   if (!options.details) {
     words += " Each component's verdict, table and next steps: --details.";
   }

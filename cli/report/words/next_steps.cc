@@ -6,8 +6,12 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "cli/report/words/verdict_text.h"
 #include "cli/shell/shell_word.h"
+#include "data/text.h"
 
 namespace errmap::cli {
 namespace {
@@ -89,6 +93,46 @@ std::vector<NextStep> NextSteps(const models::StudyRecord& record,
   }
   if (std::string measure = MeasureNext(of); !measure.empty()) {
     steps.push_back({"measure next", {}, std::move(measure)});
+  }
+  return steps;
+}
+
+std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
+                                   std::size_t component,
+                                   const std::string& data,
+                                   const std::string& folder) {
+  constexpr std::size_t kMostNamed = 6;
+  const auto& advice = record.components[component].recommendation;
+  std::vector<NextStep> steps;
+  if (advice && !advice->sensors.empty()) {
+    Words sensors = advice->sensors;
+    if (advice->importance) {
+      sensors.clear();
+      for (const auto& without : advice->importance->one_by_one) {
+        sensors.push_back(without.sensors.front());
+      }
+    }
+    const std::size_t all = sensors.size();
+    sensors.resize(std::min(all, kMostNamed));
+    std::string text = fmt::format("{}", fmt::join(sensors, ", "));
+    if (all > kMostNamed) {
+      text += fmt::format(" and {} more; --exclude leaves some out",
+                          all - kMostNamed);
+    }
+    steps.push_back({"its sensors", {}, data::Printable(text, text.size())});
+    if (all > 1 && !data.empty()) {
+      Words words{"errmap", "learn", data, "--by", "sensors"};
+      AddDataOptions(ShellWords(record.provenance.command_line), &words);
+      if (!folder.empty()) words.insert(words.end(), {"--out", folder});
+      steps.push_back({"fewer of them", std::move(words)});
+    }
+  }
+  if (!folder.empty()) {
+    steps.push_back({"the page",
+                     {},
+                     (std::filesystem::path(folder) / "report.html")
+                         .lexically_normal()
+                         .string()});
   }
   return steps;
 }

@@ -23,4 +23,12 @@ std::vector<NextStep> NextSteps(const models::StudyRecord& record,
                                 const std::string& data,
                                 const std::string& folder);
 
+/// What the recommended map reads, the most needed sensor first where the
+/// record knows, and the command that tells which of them would do; the page in
+/// `folder`.
+std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
+                                   std::size_t component,
+                                   const std::string& data,
+                                   const std::string& folder);
+
 }  // namespace errmap::cli

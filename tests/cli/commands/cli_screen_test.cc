@@ -198,9 +198,36 @@ TEST_F(Screens, TellTheNextCommandsWhichWorkAsTheyStand) {
                     ContainsRegex("It removes 9[0-9] % of the error")));
 }
 
+TEST_F(Screens, NameTheSensorsAndTheCommandThatTellsWhichWouldDo) {
+  WriteDays("days.csv", 3, 6);
+  const Outcome outcome = Run({"compare",
+                               "days.csv",
+                               "--models",
+                               "poly:full:degree=1",
+                               "--exclude",
+                               "temperature_of_place_2_degC",
+                               "--quiet"});
+  EXPECT_THAT(
+      outcome.out,
+      AllOf(
+          ContainsRegex("its sensors     temperature_of_place_3_degC, *\n? *"
+                        "temperature_of_place_1_degC\n"),
+          ContainsRegex("fewer of them   errmap learn days.csv --by sensors")));
+  EXPECT_EQ(Run({"learn",
+                 "days.csv",
+                 "--by",
+                 "sensors",
+                 "--exclude",
+                 "temperature_of_place_2_degC",
+                 "--quiet"})
+                .status,
+            0);
+}
+
 TEST_F(Screens, NameTheMapThatWasWritten) {
   const Outcome outcome =
       Run(With({"compare", kDown, "--out", "study"}, kQuick));
+  EXPECT_THAT(outcome.out, ContainsRegex("the page +study/report.html\n"));
   const std::size_t at = outcome.out.find("study/models/");
   ASSERT_NE(at, std::string::npos) << outcome.out;
   const std::string map =
