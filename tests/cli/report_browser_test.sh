@@ -9,7 +9,8 @@
 # no overflow, no labels on one another, no NaN, one unit of length, the headline's
 # error the table's, contrast at least 4.5 to 1, and no longer than is read: 6000 px
 # at 1280 before anything is unfolded, 8 pages for a component, 3 and 2 per
-# component for six. Exit status 77 where there is no Chromium.
+# component for six. By keyboard alone everything is reached and opened
+# (report_keyboard.py). Exit status 77 where there is no Chromium.
 set -eu
 
 errmap=$1
@@ -229,6 +230,8 @@ END
   if [ "${printed:-0}" -lt 1 ] || [ "$printed" -gt "$pages" ]; then
     complain "$page prints on $printed pages, at most $pages are carried about"
   fi
+  python3 "$root/tests/cli/report_keyboard.py" "$browser" "$page" >/dev/null ||
+    complain "$page cannot be read by keyboard"
   # The page itself, with its own policy.
   browse "$scratch/plain" --window-size=1280,900 "file://$page" ||
     complain "$browser failed on $page itself"
@@ -247,7 +250,13 @@ data="$root/data/sets/nistir5367_xdisp_down.csv"
   --models zero,mean,poly:position,poly:eq8,poly:full:degree=3,net:scg:iterations=60 \
   >"$scratch/table"
 "$errmap" report "$scratch/study"
-look "$scratch/study/report.html" 18 6000 8
+look "$scratch/study/report.html" 19 6000 8
+
+# With the curves of errmap learn on it.
+"$errmap" learn "$data" --by cycles --repeats 1 --models mean,poly:eq8 --quiet \
+  --out "$scratch/study" >"$scratch/learnt"
+"$errmap" report "$scratch/study"
+look "$scratch/study/report.html" 20 6000 8
 
 # Six components.
 mkdir "$scratch/six"

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <regex>
+#include <set>
 
 #include "cli/shell/wrap_text.h"
 #include "tests/cli/cli_fixture.h"
@@ -290,6 +291,72 @@ TEST_F(Screens, GuessWhatWasMeant) {
               HasSubstr("did you mean every?"));
   EXPECT_THAT(err({"compare", kDown, "--format", "tabel"}),
               HasSubstr("did you mean 'table'?"));
+}
+
+// A figure that stands in several places is written alike in all of them: no
+// length is another one rounded. The goal is no figure of the study.
+TEST_F(Screens, SayEachFigureInOneWay) {
+  const Outcome outcome = Run(
+      With({"compare", kDown, "--details", "--goal", "7um", "--out", "study"},
+           kQuick));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  std::string text = OneLine(outcome.out) + " " + Read("study/report.md") + " ";
+  bool in_tag = false;
+  for (const char c : Read("study/report.html")) {
+    if (c == '<' || c == '>') in_tag = c == '<';
+    text += in_tag || c == '>' ? ' ' : c;
+  }
+  const std::regex length("([0-9]+(\\.[0-9]+)?) (um|\u00b5m)");
+  std::set<std::string> figures;
+  for (std::sregex_iterator it(text.begin(), text.end(), length), end;
+       it != end;
+       ++it) {
+    figures.insert((*it)[1]);
+  }
+  EXPECT_GT(figures.size(), 15U);
+  figures.erase("7");
+  const auto decimals = [](const std::string& figure) {
+    const std::size_t point = figure.find('.');
+    return point == figure.npos ? 0 : figure.size() - point - 1;
+  };
+  for (const std::string& coarse : figures) {
+    for (const std::string& fine : figures) {
+      if (decimals(coarse) >= decimals(fine)) continue;
+      const double step =
+          std::pow(10.0, -static_cast<double>(decimals(coarse)));
+      EXPECT_GT(std::abs(std::stod(coarse) - std::stod(fine)), 0.5 * step)
+          << coarse << " and " << fine;
+    }
+  }
+}
+
+TEST_F(Screens, TakeAGoalWithItsUnit) {
+  const auto compare = [&](const std::string& goal) {
+    return Run({"compare", kDown, "--models", "poly:eq8", "--goal", goal});
+  };
+  EXPECT_THAT(OneLine(compare("2um").out),
+              HasSubstr("The goal (RMSE at most 2 um) is not met"));
+  for (const char* same : {"0.002", "0.002 mm", "2 \u00b5m", "2e-3mm"}) {
+    EXPECT_EQ(compare(same).out, compare("2um").out) << same;
+  }
+  EXPECT_EQ(compare("2um").err, compare("0.002").err);
+  EXPECT_THAT(OneLine(compare("20").err),
+              HasSubstr("goal 20 is in mm, the unit of error_mm: 20000 um, "
+                        "more than the error itself; write 20um if that was "
+                        "meant"));
+  EXPECT_THAT(RefusalOf(compare("2 arcsec"), kUnusable),
+              HasSubstr("goal is 2 arcsec, and the target is in mm"));
+  EXPECT_THAT(Run({"compare",
+                   kDown,
+                   "--models",
+                   "mean",
+                   "--indifference",
+                   "20um",
+                   "--format",
+                   "json",
+                   "--quiet"})
+                  .out,
+              HasSubstr("\"indifference\": 0.02"));
 }
 
 TEST_F(Screens, CarryTheAnswerInCsvAndMarkdown) {
