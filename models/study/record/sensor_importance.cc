@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -152,6 +153,7 @@ class FoldJudge {
         training.input_values()(Eigen::all, ColumnsOf(training, names_)));
   }
 
+  // NaN where readings are too large for their squares.
   double Squares(const Dataset& test,
                  const std::vector<std::string>& without) const {
     std::vector<Index> away;  // among names_
@@ -160,13 +162,16 @@ class FoldJudge {
         away.push_back(static_cast<Index>(i));
       }
     }
-    const VectorXd predicted =
-        map_.Predict(away.empty() ? test : MadeUp(test, away));
+    const std::optional<Dataset> made =
+        away.empty() ? std::nullopt : MadeUp(test, away);
+    if (!away.empty() && !made) return std::numeric_limits<double>::quiet_NaN();
+    const VectorXd predicted = map_.Predict(made ? *made : test);
     return (test.target_values() - predicted).squaredNorm();
   }
 
  private:
-  Dataset MadeUp(const Dataset& test, const std::vector<Index>& away) const {
+  std::optional<Dataset> MadeUp(const Dataset& test,
+                                const std::vector<Index>& away) const {
     const std::vector<Index> columns = ColumnsOf(test, names_);
     const auto replace = [&](MatrixXd* values) {
       const MatrixXd made =
@@ -177,6 +182,7 @@ class FoldJudge {
     };
     MatrixXd values = test.input_values();
     replace(&values);
+    if (!values.allFinite()) return std::nullopt;
     Dataset changed = test.WithInputs(test.inputs(), std::move(values));
     if (test.log() == nullptr) return changed;
     if (map_.history == nullptr) return changed;  // reads no log
@@ -211,6 +217,21 @@ std::size_t StepOf(const Holdout& holdout,
   return static_cast<std::size_t>(std::max(1.0, std::ceil(work / kMostWork)));
 }
 
+// A memory runs through every row of the log, however few are judged.
+bool IsTooLong(const Dataset& dataset,
+               const Holdout& holdout,
+               const FittedModel& fitted,
+               std::size_t drops) {
+  constexpr double kMostWork = 1e10;  // multiplications, some seconds
+  if (fitted.history == nullptr || dataset.log() == nullptr) return false;
+  const auto inputs = static_cast<double>(fitted.inputs.size());
+  const double each =
+      inputs * inputs + static_cast<double>(fitted.history->derived.size());
+  return static_cast<double>(dataset.log()->time.size()) * each *
+             static_cast<double>(drops * holdout.folds.size()) >
+         kMostWork;
+}
+
 Dataset EverySo(const Dataset& rows, std::size_t step) {
   std::vector<Index> kept;
   for (Index i = 0; i < rows.num_rows(); i += static_cast<Index>(step)) {
@@ -234,6 +255,7 @@ std::optional<SensorImportance> ImportanceOfSensors(
       });
   if (sensors.empty() || !has_maps) return std::nullopt;
   std::vector<SensorImportance::Without> plan = Plan(dataset, sensors);
+  if (IsTooLong(dataset, holdout, fitted, plan.size())) return std::nullopt;
   const std::size_t step = StepOf(holdout, fitted, plan.size());
   SensorImportance found;
   for (std::size_t f = 0; f < holdout.folds.size(); ++f) {

@@ -31,8 +31,9 @@ struct SensorImportance {
 /// they read say of it, by linear regression over the fold's training rows.
 /// Nothing is fitted anew, so one that is fitted without the sensor may do
 /// better. Every so-manieth held-out row serves where all would take more than
-/// some seconds. None for a map without sensors, for results without maps, and
-/// where `stop` is set.
+/// some seconds. None for a map without sensors, for results without maps, for
+/// readings whose squares overflow, where a memory would run through too long a
+/// log, and where `stop` is set.
 std::optional<SensorImportance> ImportanceOfSensors(
     const data::Dataset& dataset,
     const Holdout& holdout,
