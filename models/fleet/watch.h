@@ -12,8 +12,8 @@
 
 // Whether a map still does what it promised, and its sensors still go together
 // as they did: statistics of whole sessions, each held against the sessions
-// that were held out when the map was made. That their p need no widening is
-// seen on healthy simulated machines (tests/benchmarks/fleet_watch.py).
+// that were held out when the map was made, and tried on healthy simulated
+// machines (tests/benchmarks/fleet_watch.py).
 
 namespace errmap::models {
 
