@@ -29,11 +29,10 @@ std::size_t EndOfString(std::string_view text, std::size_t begin) {
   return text.size();
 }
 
-}  // namespace
-
-std::size_t LineOfLongKey(std::string_view text) {
-  // Dots outside of strings since the last sign that ends a key or a value.
-  std::size_t dots = 0;
+// The line of the first character outside of strings and comments at which
+// `stops` is true; 0: none.
+template <typename Stops>
+std::size_t LineWhere(std::string_view text, Stops stops) {
   std::size_t line = 1;
   std::size_t at = 0;
   while (at < text.size()) {
@@ -43,16 +42,38 @@ std::size_t LineOfLongKey(std::string_view text) {
       next = EndOfString(text, at);
     } else if (c == '#') {
       next = std::min(text.find('\n', at), text.size());
-    } else if (c == '.') {
-      if (++dots >= kMostKeyParts) return line;
-    } else if (std::string_view("\n=,{}[]").find(c) != std::string_view::npos) {
-      dots = 0;
+    } else if (stops(c)) {
+      return line;
     }
     const std::string_view passed = text.substr(at, next - at);
     line += static_cast<std::size_t>(std::ranges::count(passed, '\n'));
     at = next;
   }
   return 0;
+}
+
+}  // namespace
+
+std::size_t LineOfLongKey(std::string_view text) {
+  // Dots since the last sign that ends a key or a value.
+  std::size_t dots = 0;
+  return LineWhere(text, [&](char c) {
+    if (c == '.') return ++dots >= kMostKeyParts;
+    if (std::string_view("\n=,{}[]").find(c) != std::string_view::npos) {
+      dots = 0;
+    }
+    return false;
+  });
+}
+
+std::size_t LineOfBareLetter(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) {
+    text.remove_prefix(kByteOrderMark.size());
+  }
+  constexpr unsigned char kFirst = 0x80;
+  return LineWhere(
+      text, [](char c) { return static_cast<unsigned char>(c) >= kFirst; });
 }
 
 std::string TomlText(std::string_view text) {

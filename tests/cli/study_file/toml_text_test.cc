@@ -42,5 +42,14 @@ TEST(TomlText, FindsKeysOfTooManyPartsOutsideOfStringsAndComments) {
   EXPECT_EQ(LineOfLongKey("x = \"\n" + longer + " = 1"), 2U);
 }
 
+TEST(LineOfBareLetter, KnowsStringsCommentsAndTheByteOrderMark) {
+  EXPECT_EQ(LineOfBareLetter("x = 1\ny = \u07c7"), 2U);
+  EXPECT_EQ(LineOfBareLetter("gr\u00f6sse = 1"), 1U);
+  EXPECT_EQ(LineOfBareLetter("\"gr\u00f6sse\" = '\u00b5m' # \u00b5"), 0U);
+  EXPECT_EQ(LineOfBareLetter("\xEF\xBB\xBF"
+                             "x = 1"),
+            0U);
+}
+
 }  // namespace
 }  // namespace errmap::cli
