@@ -6,14 +6,7 @@
 #include <utility>
 #include <vector>
 
-// Elementwise loops are compiled for several instruction sets and picked at
-// run time; without contraction all give the same bits.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)
-#define ERRMAP_MULTIVERSION \
-  __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define ERRMAP_MULTIVERSION
-#endif
+#include "fitting/selection/multiversion.h"
 
 namespace errmap::fitting {
 namespace {

@@ -5,14 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-// See candidate_columns.cc: the same bits from every instruction set, since
-// sums run in lanes of a fixed number.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)
-#define ERRMAP_MULTIVERSION \
-  __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define ERRMAP_MULTIVERSION
-#endif
+#include "fitting/selection/multiversion.h"
 
 namespace errmap::fitting {
 namespace {

@@ -1,0 +1,13 @@
+#pragma once
+
+// Elementwise loops are compiled for several instruction sets and picked at
+// run time; without contraction, and with sums in lanes of a fixed number, all
+// give the same bits. Not under ThreadSanitizer: the loader picks before the
+// sanitizer is there, and what picks is instrumented, too.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && \
+    !defined(__SANITIZE_THREAD__)
+#define ERRMAP_MULTIVERSION \
+  __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define ERRMAP_MULTIVERSION
+#endif
