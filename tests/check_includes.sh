@@ -71,14 +71,23 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     rooms["cli"] = ""
     rooms["cli/shell"] = " cli "
     rooms["cli/study_file"] = " cli cli/shell "
-    rooms["cli/report"] = " cli cli/shell cli/study_file "
+    rooms["cli/study_file/memory"] = rooms["cli/study_file"] "cli/study_file "
+    rooms["cli/study_file/plan"] = rooms["cli/study_file/memory"]
+    rooms["cli/study_file/toml"] = rooms["cli/study_file/plan"] \
+                                   "cli/study_file/plan "
+    rooms["cli/study_file/machine"] = rooms["cli/study_file/toml"] \
+                                      "cli/study_file/memory " \
+                                      "cli/study_file/toml "
+    rooms["cli/report"] = " cli cli/shell cli/study_file cli/study_file/plan "
     rooms["cli/report/figures"] = rooms["cli/report"] "cli/report "
     rooms["cli/report/words"] = rooms["cli/report/figures"]
     rooms["cli/report/tables"] = rooms["cli/report/words"] "cli/report/words "
     rooms["cli/report/documents"] = rooms["cli/report/tables"] \
                                     "cli/report/tables cli/report/figures "
-    rooms["cli/fleet"] = rooms["cli/report/documents"] "cli/report/documents "
-    rooms["cli/commands"] = rooms["cli/fleet"] "cli/fleet "
+    rooms["cli/fleet"] = rooms["cli/report/documents"] \
+                         "cli/report/documents cli/study_file/toml "
+    rooms["cli/commands"] = rooms["cli/fleet"] "cli/fleet " \
+                            "cli/study_file/machine cli/study_file/memory "
     rooms["cli/commands/studies"] = rooms["cli/commands"] "cli/commands "
     rooms["cli/commands/maps"] = rooms["cli/commands/studies"]
     rooms["cli/commands/control"] = rooms["cli/commands/maps"] \

@@ -8,7 +8,7 @@
 
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/wrap_text.h"
-#include "cli/study_file/rough_time.h"
+#include "cli/study_file/plan/rough_time.h"
 
 namespace errmap::cli {
 

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "cli/shell/number_text.h"
-#include "cli/study_file/rough_time.h"
-#include "cli/study_file/study_plan.h"
+#include "cli/study_file/plan/rough_time.h"
+#include "cli/study_file/plan/study_plan.h"
 #include "data/text.h"
 
 namespace errmap::cli {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/fleet/store_folder.h"
-#include "cli/study_file/study_file.h"
+#include "cli/study_file/toml/study_file.h"
 #include "models/fleet/component_summary.h"
 #include "models/fleet/share.h"
 

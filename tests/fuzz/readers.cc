@@ -10,8 +10,8 @@
 
 #include "cli/command.h"
 #include "cli/report/claimed_folder.h"
-#include "cli/study_file/machine_file.h"
-#include "cli/study_file/study_file.h"
+#include "cli/study_file/machine/machine_file.h"
+#include "cli/study_file/toml/study_file.h"
 #include "data/csv.h"
 #include "data/formats/pattern_file.h"
 #include "data/input_error.h"

@@ -13,7 +13,7 @@
 #include "cli/report/claimed_folder.h"
 #include "cli/shell/number_text.h"
 #include "cli/study_file/data_arguments.h"
-#include "cli/study_file/map_log.h"
+#include "cli/study_file/memory/map_log.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"

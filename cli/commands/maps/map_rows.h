@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/study_file/map_log.h"
+#include "cli/study_file/memory/map_log.h"
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"

@@ -16,7 +16,7 @@
 #include "cli/shell/number_text.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
-#include "cli/study_file/map_log.h"
+#include "cli/study_file/memory/map_log.h"
 #include "data/atomic_file.h"
 #include "data/csv.h"
 #include "data/formula_text.h"

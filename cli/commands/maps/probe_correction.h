@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "cli/study_file/map_log.h"
-#include "cli/study_file/point_log.h"
+#include "cli/study_file/memory/map_log.h"
+#include "cli/study_file/memory/point_log.h"
 #include "models/error_model.h"
 
 namespace errmap::cli {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "cli/study_file/study_file.h"
+#include "cli/study_file/toml/study_file.h"
 
 namespace errmap::cli {
 

@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "cli/commands/studies/compare_arguments.h"
-#include "cli/study_file/machine_study.h"
-#include "cli/study_file/study_file.h"
-#include "cli/study_file/study_plan.h"
+#include "cli/study_file/machine/machine_study.h"
+#include "cli/study_file/plan/study_plan.h"
+#include "cli/study_file/toml/study_file.h"
 
 namespace errmap::cli {
 

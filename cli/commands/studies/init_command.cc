@@ -10,9 +10,9 @@
 #include "cli/shell/number_text.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
-#include "cli/study_file/fleet_proposal.h"
-#include "cli/study_file/study_file_text.h"
-#include "cli/study_file/study_plan.h"
+#include "cli/study_file/plan/study_plan.h"
+#include "cli/study_file/toml/fleet_proposal.h"
+#include "cli/study_file/toml/study_file_text.h"
 #include "data/atomic_file.h"
 #include "data/text.h"
 

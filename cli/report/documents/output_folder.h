@@ -5,7 +5,7 @@
 
 #include "cli/report/claimed_folder.h"
 #include "cli/study_file/comparison.h"
-#include "cli/study_file/study_plan.h"
+#include "cli/study_file/plan/study_plan.h"
 #include "models/study/record/study_record.h"
 
 namespace errmap::cli {

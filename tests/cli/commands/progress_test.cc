@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/study_file/rough_time.h"
+#include "cli/study_file/plan/rough_time.h"
 
 namespace errmap::cli {
 namespace {

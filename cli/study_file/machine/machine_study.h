@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/study_file/comparison.h"
+#include "cli/study_file/machine/machine_file.h"
+#include "cli/study_file/plan/study_plan.h"
+#include "cli/study_file/study_config.h"
+#include "data/csv.h"
+#include "models/study/record/machine_record.h"
+
+namespace errmap::cli {
+
+/// A machine whose maps are still to be fitted: STEM.json of machine.toml
+/// belongs to STEM.csv of a folder, whose tool_tip.csv has the true errors at
+/// the tool, and diagonals.csv, where there is one, along diagonals.
+struct MachineStudy {
+  std::string path;  // of machine.toml
+  std::string folder;
+  MachineFile file;                // sources with files, without maps
+  std::vector<std::string> stems;  // distinct, in the machine's order
+  data::CsvTable points;           // tool_tip.csv
+  std::optional<data::CsvTable> diagonals;
+  std::string session;             // column of its sessions
+  std::vector<std::string> later;  // its last ones: no fit sees them
+};
+
+/// Reads machine and points; `later` is the number of sessions to judge by.
+/// Throws data::InputError where a file is missing, the points have no column
+/// of sessions, or no session but the later ones.
+MachineStudy ReadMachineStudy(const std::string& machine,
+                              const std::string& folder,
+                              int later,
+                              const std::string& session);
+
+/// The plan of `config` with a component for each stem, the later sessions left
+/// out. Throws as PlanStudy, and data::InputError where the target of a
+/// component is no error of its link: a length for an angle.
+StudyPlan PlanOfMachine(const MachineStudy& study,
+                        StudyConfig config,
+                        bool quiet);
+
+/// Puts the maps of a finished run together and judges them at the points of
+/// the later sessions, filters run through the folder's temperatures.csv where
+/// it has one. Throws data::InputError as EvaluateAt does.
+models::MachineRecord JudgeMachine(const MachineStudy& study,
+                                   const StudyRun& run);
+
+}  // namespace errmap::cli

@@ -1,0 +1,391 @@
+#include "cli/study_file/plan/study_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "cli/shell/shown_path.h"
+#include "cli/study_file/data_arguments.h"
+#include "cli/study_file/fault_text.h"
+#include "cli/study_file/plan/component_names.h"
+#include "data/atomic_file.h"
+#include "data/input_error.h"
+#include "data/sha256.h"
+#include "data/text.h"
+#include "models/file_recipe.h"
+#include "models/recipe_catalog.h"
+#include "models/study/split_file.h"
+#include "models/study/study_defaults.h"
+#include "stats/error_metrics.h"
+
+namespace errmap::cli {
+namespace {
+
+// Several components may stand in one file: each is read and parsed once.
+class TableReader {
+ public:
+  explicit TableReader(std::vector<InputFile>* inputs) : inputs_(inputs) {}
+
+  const data::CsvTable& Read(const std::string& file) {
+    const auto found = tables_.find(file);
+    if (found != tables_.end()) return found->second;
+    const std::string text = data::ReadFile(file);
+    inputs_->push_back({.file = file, .sha256 = data::Sha256(text)});
+    return tables_.emplace(file, data::ParseCsv(text, file)).first->second;
+  }
+
+  const std::string& Sha256Of(const std::string& file) const {
+    return std::ranges::find(*inputs_, file, &InputFile::file)->sha256;
+  }
+
+ private:
+  std::vector<InputFile>* inputs_;
+  std::map<std::string, data::CsvTable> tables_;
+};
+
+// Makes one component ready; remarks tell which where there are several.
+class ComponentPlanner {
+ public:
+  ComponentPlanner(const StudyConfig& study,
+                   const ComponentConfig& component,
+                   bool quiet,
+                   TableReader* reader)
+      : study_(study), component_(component), quiet_(quiet), reader_(reader) {}
+
+  ComponentPlan Plan() const {
+    data::PreparedDataset prepared = PrepareData();
+    const data::Dataset& dataset = prepared.dataset;
+    const data::Unit& unit = dataset.target().unit;
+    std::vector<models::Holdout> holdouts = MakeHoldouts(prepared);
+    if (holdouts.empty()) {
+      throw data::InputError(
+          fmt::format("{}: names no hold-out", component_.split));
+    }
+    std::vector<std::unique_ptr<models::ModelRecipe>> recipes =
+        MakeRecipes(dataset, FewestTrainingRows(holdouts));
+    const std::size_t num_added = AddBaselines(dataset, &recipes);
+    // What throws stands before the aggregate: GCC 12 destroys members of a
+    // half-built one twice (GCC PR 66139).
+    std::vector<models::GivenPredictions> given = ReadGiven();
+    const double goal = SizeOf("goal", component_.goal, study_.goal, dataset)
+                            .value_or(models::DefaultGoal(unit));
+    const double indifference =
+        SizeOf("indifference",
+               component_.indifference,
+               study_.indifference,
+               dataset)
+            .value_or(models::DefaultIndifference(unit));
+    return {.comparison = {.name = component_.name,
+                           .file = ShownPath(component_.data),
+                           .sha256 = reader_->Sha256Of(component_.data),
+                           .goal = goal,
+                           .indifference = indifference,
+                           .data = std::move(prepared),
+                           .holdouts = std::move(holdouts),
+                           .study = {},
+                           .first_added = recipes.size() - num_added,
+                           .num_added = num_added,
+                           .judgement = {}},
+            .recipes = std::move(recipes),
+            .given = std::move(given)};
+  }
+
+ private:
+  void Remark(const std::string& line) const {
+    Say(study_.components.size() > 1
+            ? data::Printable(component_.name, line.max_size()) + ": " + line
+            : line);
+  }
+
+  data::PreparedDataset PrepareData() const {
+    data::PreparedDataset prepared =
+        data::MakeDataset(reader_->Read(component_.data),
+                          {.target = component_.target,
+                           .inputs = component_.inputs,
+                           .exclude = component_.exclude,
+                           .group = component_.group,
+                           .time = component_.time,
+                           .session = component_.session,
+                           .weight = component_.weight,
+                           .align = component_.align,
+                           .missing = component_.missing,
+                           .faults = component_.faults,
+                           .keep_dead = component_.keep_dead,
+                           .where = component_.where});
+    SayWhatWasFound(prepared, FaultUse::kFit);
+    if (!component_.later.empty()) {
+      prepared.dataset = WithoutLater(prepared.dataset);
+    }
+    return prepared;
+  }
+
+  // Less the sessions that are to judge maps put together.
+  data::Dataset WithoutLater(const data::Dataset& dataset) const {
+    const std::vector<Eigen::Index> codes = dataset.session_codes();
+    std::vector<Eigen::Index> rows;
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+      const std::string& session =
+          dataset.log()->sessions.labels[static_cast<std::size_t>(codes[i])];
+      if (std::ranges::find(component_.later, session) !=
+          component_.later.end()) {
+        rows.push_back(dataset.rows()[i]);
+      }
+    }
+    if (rows.size() == codes.size()) {
+      throw data::InputError(fmt::format(
+          "{}: no session but those that are to judge; more days are needed",
+          data::PrintablePath(component_.data)));
+    }
+    return data::WithoutRows(dataset, rows);
+  }
+
+  void SayWhatWasFound(const data::PreparedDataset& prepared,
+                       FaultUse use) const {
+    if (quiet_) return;
+    for (const std::string& line : prepared.remarks) Remark(line);
+    for (const std::string& line :
+         FaultLines(prepared, component_.faults, use)) {
+      Remark(line);
+    }
+  }
+
+  void SayLoneGroup(const data::Dataset& dataset) const {
+    if (!dataset.has_groups() || dataset.groups().labels.size() > 1) return;
+    Remark(
+        fmt::format("column '{}' has one group only; more cycles are needed "
+                    "to hold them out whole",
+                    dataset.groups().column));
+  }
+
+  // Those of the split file first; it takes the place of the default ones.
+  std::vector<models::Holdout> MakeHoldouts(
+      const data::PreparedDataset& prepared) const {
+    const data::Dataset& dataset = prepared.dataset;
+    std::vector<models::Holdout> holdouts;
+    std::vector<std::string> specs = study_.holdouts;
+    if (!component_.split.empty()) {
+      holdouts =
+          models::ReadSplitFile(reader_->Read(component_.split), dataset);
+    } else if (specs.empty()) {
+      specs = models::DefaultHoldouts(dataset);
+      SayLoneGroup(dataset);
+    }
+    for (const std::string& text : specs) {
+      if (std::ranges::find(holdouts, text, &models::Holdout::name) !=
+          holdouts.end()) {
+        throw data::InputError(
+            fmt::format("{}: has a hold-out {}, which --holdout names, too",
+                        component_.split,
+                        text));
+      }
+      const stats::HoldoutSpec spec = stats::ParseHoldout(text);
+      std::shared_ptr<const data::Dataset> test_data;
+      if (spec.kind == stats::HoldoutKind::kFile) {
+        const data::PreparedDataset test =
+            MakeDataLike(reader_->Read(spec.file), prepared, component_);
+        SayWhatWasFound(test, FaultUse::kJudge);
+        test_data = std::make_shared<const data::Dataset>(test.dataset);
+      }
+      try {
+        holdouts.push_back(models::MakeHoldout(
+            spec, dataset, study_.seed, std::move(test_data)));
+      } catch (const std::invalid_argument& error) {
+        throw data::InputError(
+            fmt::format("{}: {}", component_.data, error.what()));
+      }
+    }
+    return holdouts;
+  }
+
+  std::vector<models::GivenPredictions> ReadGiven() const {
+    std::vector<models::GivenPredictions> given;
+    for (const PredictionsFile& predictions : component_.predictions) {
+      given.push_back(models::ReadGivenPredictions(
+          predictions.name, reader_->Read(predictions.file)));
+    }
+    return given;
+  }
+
+  Eigen::Index FewestTrainingRows(
+      const std::vector<models::Holdout>& holdouts) const {
+    constexpr std::size_t kFewestUsable = 2;
+    std::size_t fewest = std::numeric_limits<std::size_t>::max();
+    for (const models::Holdout& holdout : holdouts) {
+      for (const stats::Fold& fold : holdout.folds) {
+        fewest = std::min(fewest, fold.train.size());
+      }
+    }
+    if (fewest < kFewestUsable) {
+      throw data::InputError(fmt::format(
+          "{}: too few rows for every model: a fold trains on {}; more "
+          "data or another --holdout are needed",
+          component_.data,
+          fewest));
+    }
+    return static_cast<Eigen::Index>(fewest);
+  }
+
+  std::vector<std::unique_ptr<models::ModelRecipe>> MakeRecipes(
+      const data::Dataset& dataset, Eigen::Index fewest_training_rows) const {
+    if (study_.models.empty()) {
+      models::DefaultRecipes defaults =
+          models::MakeDefaultRecipes(dataset, fewest_training_rows);
+      if (!quiet_) {
+        for (const std::string& line : defaults.left_out) Remark(line);
+      }
+      return std::move(defaults.recipes);
+    }
+    std::vector<std::unique_ptr<models::ModelRecipe>> recipes;
+    for (const std::string& spec : study_.models) {
+      recipes.push_back(models::MakeRecipe(spec));
+    }
+    return recipes;
+  }
+
+  // What any map must beat is always there to be beaten.
+  static std::size_t AddBaselines(
+      const data::Dataset& dataset,
+      std::vector<std::unique_ptr<models::ModelRecipe>>* recipes) {
+    auto baselines = models::MissingBaselines(dataset, *recipes);
+    const std::size_t added = baselines.size();
+    recipes->insert(recipes->end(),
+                    std::make_move_iterator(baselines.begin()),
+                    std::make_move_iterator(baselines.end()));
+    return added;
+  }
+
+  // The component's own, else the study's, in the target's unit. A bare number
+  // that says nothing was meant in the unit that people read errors in.
+  std::optional<double> SizeOf(const char* what,
+                               const GivenError& own,
+                               const GivenError& of_study,
+                               const data::Dataset& dataset) const {
+    const GivenError& given = own.is_given() ? own : of_study;
+    if (!given.is_given()) return std::nullopt;
+    const data::ColumnInfo& target = dataset.target();
+    const data::Unit& unit = target.unit;
+    if (!given.has_unit() && unit.display_scale != 1.0 && !quiet_ &&
+        given.value > stats::RootMeanSquare(dataset.target_values())) {
+      Remark(fmt::format(
+          "{0} {1} is in {2}, the unit of {3}: {4:g} {5}, more than the error "
+          "itself; write {1}{5} if that was meant",
+          what,
+          given.value,
+          unit.symbol,
+          data::Printable(target.name, target.name.size()),
+          unit.display_scale * given.value,
+          unit.display_symbol));
+    }
+    try {
+      return InUnitOf(unit, given);
+    } catch (const std::invalid_argument& error) {
+      throw data::InputError(
+          fmt::format("{}: {} {}", component_.data, what, error.what()));
+    }
+  }
+
+  const StudyConfig& study_;
+  const ComponentConfig& component_;
+  bool quiet_;
+  TableReader* reader_;
+};
+
+// What defaults became, so that a study with these words would do the same.
+// Hold-outs and models that differ between components stay unsaid.
+void FillInDefaults(StudyPlan* plan) {
+  for (std::size_t i = 0; i < plan->components.size(); ++i) {
+    const Comparison& planned = plan->components[i].comparison;
+    const data::Dataset& dataset = planned.data.dataset;
+    ComponentConfig& component = plan->config.components[i];
+    component.target = dataset.target().name;
+    component.group = dataset.groups().column;
+    // "none" stays where nothing was found.
+    const std::string& session = dataset.log()->sessions.column;
+    if (!session.empty()) component.session = session;
+    const std::string& time = planned.data.time_column;
+    if (!time.empty()) component.time = time;
+    component.goal = {.value = planned.goal};
+    component.indifference = {.value = planned.indifference};
+    component.inputs.clear();
+    for (const data::ColumnInfo& input : dataset.inputs()) {
+      component.inputs.push_back(input.name);
+    }
+  }
+  const auto alike = [&](const auto& list_of) {
+    std::vector<std::string> first = list_of(plan->components.front());
+    for (const ComponentPlan& component : plan->components) {
+      if (list_of(component) != first) return std::vector<std::string>{};
+    }
+    return first;
+  };
+  plan->config.holdouts =
+      alike([](const ComponentPlan& c) { return c.HoldoutNames(); });
+  plan->config.models =
+      alike([](const ComponentPlan& c) { return c.ModelNames(); });
+}
+
+}  // namespace
+
+std::vector<std::string> ComponentPlan::HoldoutNames() const {
+  std::vector<std::string> names;
+  for (const models::Holdout& holdout : comparison.holdouts) {
+    names.push_back(holdout.name);
+  }
+  return names;
+}
+
+std::vector<std::string> ComponentPlan::ModelNames() const {
+  std::vector<std::string> names;
+  for (const auto& recipe : recipes) names.push_back(recipe->name());
+  return names;
+}
+
+int ComponentPlan::num_fits() const {
+  std::size_t fits_per_model = 1;  // to all rows
+  for (const models::Holdout& holdout : comparison.holdouts) {
+    fits_per_model += holdout.folds.size();
+  }
+  return static_cast<int>(fits_per_model * recipes.size());
+}
+
+int StudyPlan::num_fits() const {
+  return std::transform_reduce(
+      components.begin(),
+      components.end(),
+      0,
+      std::plus<>(),
+      [](const ComponentPlan& component) { return component.num_fits(); });
+}
+
+std::vector<std::string> StudyPlan::InputPaths() const {
+  std::vector<std::string> paths;
+  for (const InputFile& input : inputs) paths.push_back(input.file);
+  for (const ComponentPlan& component : components) {
+    for (const std::string& spec : component.ModelNames()) {
+      const std::string file = models::FileOfSpec(spec);
+      if (!file.empty()) paths.push_back(file);
+    }
+  }
+  return paths;
+}
+
+StudyPlan PlanStudy(const StudyConfig& config, bool quiet) {
+  StudyPlan plan{.config = config, .inputs = {}, .components = {}};
+  NameComponents(&plan.config);
+  TableReader reader(&plan.inputs);
+  for (const ComponentConfig& component : plan.config.components) {
+    plan.components.push_back(
+        ComponentPlanner(plan.config, component, quiet, &reader).Plan());
+  }
+  FillInDefaults(&plan);
+  return plan;
+}
+
+}  // namespace errmap::cli
