@@ -1,7 +1,9 @@
 #include "models/scaling.h"
 
 #include <cmath>
+#include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "stats/summary.h"
 
@@ -59,6 +61,28 @@ ColumnScaling RootMeanSquareScaling(const Eigen::MatrixXd& values) {
                                  std::sqrt(static_cast<double>(values.rows())));
   }
   return scaling;
+}
+
+Eigen::VectorXd SpreadsOfUnits(const Eigen::MatrixXd& values,
+                               const std::vector<std::string>& units) {
+  const Eigen::VectorXd variance =
+      (values.rowwise() - values.colwise().mean().eval())
+          .colwise()
+          .squaredNorm()
+          .transpose() /
+      static_cast<double>(values.rows());
+  std::map<std::string, std::pair<double, double>> of_unit;  // sum, count
+  for (Eigen::Index i = 0; i < variance.size(); ++i) {
+    auto& [sum, count] = of_unit[units[static_cast<std::size_t>(i)]];
+    sum += variance[i];
+    count += 1.0;
+  }
+  Eigen::VectorXd spreads(variance.size());
+  for (Eigen::Index i = 0; i < spreads.size(); ++i) {
+    const auto& [sum, count] = of_unit[units[static_cast<std::size_t>(i)]];
+    spreads[i] = sum > 0.0 ? std::sqrt(sum / count) : 1.0;
+  }
+  return spreads;
 }
 
 TargetScaling SigmoidTargetScaling(

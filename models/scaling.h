@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <Eigen/Core>
 
 namespace errmap::models {
@@ -27,6 +30,12 @@ ColumnScaling StandardScaling(const Eigen::MatrixXd& values);
 
 /// Maps each column to mean square 1, its zero kept; a column of zeros to 0.
 ColumnScaling RootMeanSquareScaling(const Eigen::MatrixXd& values);
+
+/// Of columns (m x p) in these units (p): the root mean square of what all
+/// columns of the same unit have about their means, 1 where that is 0. A
+/// thermometer that hardly moves is not magnified beside those that do.
+Eigen::VectorXd SpreadsOfUnits(const Eigen::MatrixXd& values,
+                               const std::vector<std::string>& units);
 
 /// z = slope t + offset, from error in the target's unit to a net's output.
 struct TargetScaling {

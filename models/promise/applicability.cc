@@ -12,6 +12,7 @@
 #include "models/history/history.h"
 #include "models/history/view.h"
 #include "models/inner_folds.h"
+#include "models/scaling.h"
 
 namespace errmap::models {
 namespace {
@@ -37,36 +38,6 @@ constexpr double kMargin = 1.5;
 
 MatrixXd StatesOf(const MatrixXd& inputs, const std::vector<Index>& columns) {
   return inputs(Eigen::all, columns);
-}
-
-// One scale per unit of measure: a thermometer that hardly moved in training is
-// not to be magnified beside those that did.
-VectorXd ScalesOf(const MatrixXd& states,
-                  const VectorXd& mean,
-                  const std::vector<TrainedInput>& inputs,
-                  const std::vector<Index>& columns) {
-  const VectorXd variance = (states.rowwise() - mean.transpose())
-                                .colwise()
-                                .squaredNorm()
-                                .transpose() /
-                            static_cast<double>(states.rows());
-  std::map<std::string, std::pair<double, double>> of_unit;  // sum, count
-  const auto unit = [&](Index i) -> const std::string& {
-    return inputs[static_cast<std::size_t>(
-                      columns[static_cast<std::size_t>(i)])]
-        .column.unit.symbol;
-  };
-  for (Index i = 0; i < variance.size(); ++i) {
-    auto& [sum, count] = of_unit[unit(i)];
-    sum += variance[i];
-    count += 1.0;
-  }
-  VectorXd scale(variance.size());
-  for (Index i = 0; i < scale.size(); ++i) {
-    const auto& [sum, count] = of_unit[unit(i)];
-    scale[i] = sum > 0.0 ? std::sqrt(sum / count) : 1.0;
-  }
-  return scale;
 }
 
 // W and the variances that it leaves.
@@ -137,7 +108,12 @@ Applicability FitStates(const MatrixXd& states,
   trained.columns = columns;
   trained.rows = states.rows();
   trained.mean = states.colwise().mean();
-  trained.scale = ScalesOf(states, trained.mean, inputs, columns);
+  std::vector<std::string> units;
+  for (const Index column : columns) {
+    units.push_back(
+        inputs[static_cast<std::size_t>(column)].column.unit.symbol);
+  }
+  trained.scale = SpreadsOfUnits(states, units);
   const MatrixXd scaled = Scaled(trained, states);
   FitFactors(scaled, &trained);
   trained.states = SpreadEvenly(Scores(trained, scaled));

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "models/error_model.h"
 #include "models/history/view.h"
 #include "models/inner_folds.h"
+#include "models/scaling.h"
 
 namespace errmap::models {
 namespace {
@@ -50,28 +50,17 @@ std::string SourceOf(const History* history, const std::string& column) {
                                            : SourceOf(history, derived->of);
 }
 
-// Columns less their mean, in units of the spread of all of their unit: what a
-// thermometer among thermometers hardly shows weighs little.
+// Columns less their mean, in spreads of their unit.
 MatrixXd Scaled(const data::Dataset& rows, const std::vector<Index>& columns) {
   MatrixXd scaled = rows.input_values()(Eigen::all, columns);
+  std::vector<std::string> units;
+  for (const Index column : columns) {
+    units.push_back(
+        rows.inputs()[static_cast<std::size_t>(column)].unit.symbol);
+  }
+  const VectorXd spreads = SpreadsOfUnits(scaled, units);
   scaled.rowwise() -= scaled.colwise().mean().eval();
-  std::map<std::string, std::pair<double, Index>> squares_of;  // and columns
-  const auto unit_of = [&](Index i) -> const std::string& {
-    const auto column =
-        static_cast<std::size_t>(columns[static_cast<std::size_t>(i)]);
-    return rows.inputs()[column].unit.symbol;
-  };
-  for (Index i = 0; i < scaled.cols(); ++i) {
-    auto& [squares, count] = squares_of[unit_of(i)];
-    squares += scaled.col(i).squaredNorm();
-    ++count;
-  }
-  for (Index i = 0; i < scaled.cols(); ++i) {
-    const auto& [squares, count] = squares_of[unit_of(i)];
-    const auto values = static_cast<double>(scaled.rows() * count);
-    scaled.col(i) /= std::max(std::sqrt(squares / values), 1e-12);
-  }
-  return scaled;
+  return scaled.array().rowwise() / spreads.transpose().array();
 }
 
 Design MakeDesign(const ViewedRows& viewed) {

@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 
 #include "models/history/history.h"
+#include "models/scaling.h"
 #include "models/study/fold_pool.h"
 #include "models/study/judgement/verdict.h"
 
@@ -19,7 +20,6 @@ namespace {
 using data::Dataset;
 using Eigen::Index;
 using Eigen::MatrixXd;
-using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
 std::vector<Index> ColumnsOf(const Dataset& dataset,
@@ -31,28 +31,12 @@ std::vector<Index> ColumnsOf(const Dataset& dataset,
   return columns;
 }
 
-// Columns about their mean, of variance one; what does not move stays at 0.
-struct Scales {
-  RowVectorXd mean;
-  RowVectorXd sd;
-
-  explicit Scales(const MatrixXd& values) : mean(values.colwise().mean()) {
-    sd = ((values.rowwise() - mean).colwise().squaredNorm() /
-          static_cast<double>(values.rows()))
-             .cwiseSqrt();
-    sd = (sd.array() > 0.0).select(sd, 1.0);
-  }
-  MatrixXd Scaled(const MatrixXd& values) const {
-    return (values.rowwise() - mean).array().rowwise() / sd.array();
-  }
-};
-
 // What some columns say of others, learnt from training rows.
 class StandIn {
  public:
   explicit StandIn(const MatrixXd& training)  // (m x k)
-      : scales_(training) {
-    const MatrixXd scaled = scales_.Scaled(training);
+      : scaling_(StandardScaling(training)) {
+    const MatrixXd scaled = scaling_.Apply(training);
     gram_ = scaled.transpose() * scaled / static_cast<double>(scaled.rows());
   }
 
@@ -72,27 +56,29 @@ class StandIn {
       MatrixXd of_others = gram_(others, others);
       of_others.diagonal().array() += kRidge;
       const MatrixXd weights = of_others.ldlt().solve(gram_(others, columns));
-      scaled = scales_.Scaled(values)(Eigen::all, others) * weights;
+      scaled = scaling_.Apply(values)(Eigen::all, others) * weights;
     }
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const Index column = columns[i];
-      made.col(column) = scaled.col(static_cast<Index>(i)) * scales_.sd[column];
-      made.col(column).array() += scales_.mean[column];
+      made.col(column) =
+          scaled.col(static_cast<Index>(i)) / scaling_.scale[column];
+      made.col(column).array() += scaling_.offset[column];
     }
     return made;
   }
 
  private:
-  Scales scales_;
+  ColumnScaling scaling_;
   MatrixXd gram_;  // (k x k) of the scaled training rows
 };
 
 // Clusters of sensors any two of which are alike (complete linkage), those of
 // two or more.
 std::vector<std::vector<Index>> AlikeOf(const MatrixXd& readings) {
-  const MatrixXd scaled = Scales(readings).Scaled(readings);
-  const MatrixXd correlation = (scaled.transpose() * scaled).cwiseAbs() /
-                               static_cast<double>(scaled.rows());
+  const MatrixXd scaled = StandardScaling(readings).Apply(readings);
+  const MatrixXd correlation =
+      (scaled.transpose() * scaled).cwiseAbs() /
+      static_cast<double>(std::max<Index>(1, scaled.rows() - 1));
   std::vector<std::vector<Index>> clusters;
   for (Index i = 0; i < readings.cols(); ++i) clusters.push_back({i});
   for (;;) {
