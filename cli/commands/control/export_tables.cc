@@ -98,14 +98,7 @@ ErrorCurve AfterLog(const models::FittedModel& fitted,
                                  data::PrintablePath(arguments.log),
                                  Count(num_rows, "row")));
   }
-  Eigen::MatrixXd readings(num_rows, static_cast<Index>(fitted.inputs.size()));
-  for (std::size_t i = 0; i < fitted.inputs.size(); ++i) {
-    readings.col(static_cast<Index>(i)) =
-        data::NumericColumn(table,
-                            fitted.inputs[i].column.name,
-                            data::MissingPolicy::kError,
-                            nullptr);
-  }
+  const Eigen::MatrixXd readings = InputsOf(fitted, table);
   const MapLog map = MakeMapLog(fitted, table, {});
   models::ProgramRun run(program, models::Precision::kDouble);
   const auto session = [&](Index at) {

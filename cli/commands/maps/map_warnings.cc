@@ -30,6 +30,18 @@ data::CsvTable ReadForMap(const models::FittedModel& fitted,
   return std::move(read.table);
 }
 
+Eigen::MatrixXd InputsOf(const models::FittedModel& fitted,
+                         const data::CsvTable& table) {
+  Eigen::MatrixXd inputs(static_cast<Eigen::Index>(table.num_rows),
+                         static_cast<Eigen::Index>(fitted.inputs.size()));
+  Eigen::Index column = 0;
+  for (const models::TrainedInput& input : fitted.inputs) {
+    inputs.col(column++) = data::NumericColumn(
+        table, input.column.name, data::MissingPolicy::kError, nullptr);
+  }
+  return inputs;
+}
+
 void SayOutside(const std::vector<models::TrainedInput>& inputs,
                 const Eigen::MatrixXd& values) {
   constexpr std::size_t kMostInputs = 5;

@@ -18,6 +18,11 @@ data::CsvTable ReadForMap(const models::FittedModel& fitted,
                           MapColumns columns,
                           bool quiet);
 
+/// The map's inputs in every row of such a table (rows x inputs). Throws
+/// data::InputError where a column is missing or a cell is no number.
+Eigen::MatrixXd InputsOf(const models::FittedModel& fitted,
+                         const data::CsvTable& table);
+
 /// Says on stderr which inputs leave their trained range, in how many rows and
 /// how far; `values` (m x p) in the map's units. Says nothing where none does.
 void SayOutside(const std::vector<models::TrainedInput>& inputs,

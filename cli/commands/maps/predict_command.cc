@@ -37,18 +37,6 @@ struct PredictArguments {
 };
 
 // The model's inputs out of a table, every row; the target need not be there.
-Eigen::MatrixXd InputsOf(const models::FittedModel& fitted,
-                         const data::CsvTable& table) {
-  Eigen::MatrixXd inputs(static_cast<Eigen::Index>(table.num_rows),
-                         static_cast<Eigen::Index>(fitted.inputs.size()));
-  Eigen::Index column = 0;
-  for (const models::TrainedInput& input : fitted.inputs) {
-    inputs.col(column++) = data::NumericColumn(
-        table, input.column.name, data::MissingPolicy::kError, nullptr);
-  }
-  return inputs;
-}
-
 // The rows as a data set whose target is not known, and so 0.
 data::Dataset RowsToPredict(const models::FittedModel& fitted,
                             const data::CsvTable& table,

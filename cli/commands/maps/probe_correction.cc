@@ -11,7 +11,6 @@
 #include "cli/commands/maps/map_rows.h"
 #include "cli/shell/number_text.h"
 #include "data/input_error.h"
-#include "data/measurements/column_checks.h"
 #include "models/promise/session_offset.h"
 
 namespace errmap::cli {
@@ -43,19 +42,9 @@ data::Dataset WithRowsBetween(const models::FittedModel& fitted,
                               const MapRows& measured,
                               const RowsForMap& today,
                               const MapLogArguments& log) {
-  const data::CsvTable& table = measured.table;
-  Eigen::MatrixXd inputs(static_cast<Index>(table.num_rows),
-                         static_cast<Index>(fitted.inputs.size()));
-  std::vector<Index> all(table.num_rows);
-  std::iota(all.begin(), all.end(), Index{0});
-  Index column = 0;
-  for (const models::TrainedInput& input : fitted.inputs) {
-    const std::size_t at =
-        data::RequireColumn(table, input.column.name, "an input of the map");
-    inputs.col(column++) = data::ValuesOfRows(table.columns[at], all);
-  }
+  const Eigen::MatrixXd inputs = ReadingsOf(fitted, measured.table);
   const PointLog merged =
-      MakePointLog(*fitted.history, {table, inputs}, &today, log);
+      MakePointLog(*fitted.history, {measured.table, inputs}, &today, log);
   std::vector<Index> log_rows;
   for (const Index row : measured.dataset.rows()) {
     log_rows.push_back(merged.rows[static_cast<std::size_t>(row)]);

@@ -118,6 +118,21 @@ void AddMapLogArguments(CLI::App* command, MapLogArguments* arguments) {
       ->type_name("COL");
 }
 
+Eigen::MatrixXd ReadingsOf(const models::FittedModel& fitted,
+                           const data::CsvTable& table) {
+  std::vector<Index> rows(table.num_rows);
+  std::iota(rows.begin(), rows.end(), Index{0});
+  Eigen::MatrixXd readings(static_cast<Index>(rows.size()),
+                           static_cast<Index>(fitted.inputs.size()));
+  Index column = 0;
+  for (const models::TrainedInput& input : fitted.inputs) {
+    const std::size_t at =
+        data::RequireColumn(table, input.column.name, "an input of the map");
+    readings.col(column++) = data::ValuesOfRows(table.columns[at], rows);
+  }
+  return readings;
+}
+
 MapLog MakeMapLog(const models::FittedModel& fitted,
                   const data::CsvTable& table,
                   const MapLogArguments& arguments) {
@@ -163,16 +178,7 @@ MapLog MakeMapLog(const models::FittedModel& fitted,
   }
   const data::CsvTable& all = arguments.after.empty() ? table : joined;
   auto log = std::make_shared<data::SessionLog>();
-  std::vector<Index> rows(all.num_rows);
-  std::iota(rows.begin(), rows.end(), Index{0});
-  log->input_values.resize(static_cast<Index>(rows.size()),
-                           static_cast<Index>(fitted.inputs.size()));
-  Index column = 0;
-  for (const models::TrainedInput& input : fitted.inputs) {
-    const std::size_t at =
-        data::RequireColumn(all, input.column.name, "an input of the map");
-    log->input_values.col(column++) = data::ValuesOfRows(all.columns[at], rows);
-  }
+  log->input_values = ReadingsOf(fitted, all);
   log->first_rows = data::FirstRows(found.sessions, log->input_values);
   log->sessions = std::move(found.sessions);
   log->time = std::move(found.time);

@@ -42,6 +42,11 @@ struct MapLog {
   std::vector<std::string> warnings;  // one line each
 };
 
+/// The map's inputs in every row of a table (rows x inputs); NaN where a cell
+/// is no number. Throws data::InputError where a column is missing.
+Eigen::MatrixXd ReadingsOf(const models::FittedModel& fitted,
+                           const data::CsvTable& table);
+
 /// Of every row of the table, whether it has a target or not. Throws
 /// data::InputError where the tables lack the column of sessions or times that
 /// the map needs, or where those will not do (data/measurements/sessions.h).
