@@ -30,6 +30,9 @@ std::string_view ToString(Remedy remedy);
 inline constexpr double kOffRatio = 1.5;
 
 struct SessionCheck {
+  /// The map has a memory, and the first rows of the session are missing: what
+  /// it says here is not what it says in use, so nothing is known.
+  bool begins_inside = false;
   SessionStatus status = SessionStatus::kUnknown;
   Remedy remedy = Remedy::kNone;
   Eigen::Index probes = 0;
@@ -56,11 +59,13 @@ struct SessionCheck {
 /// of each one's errors near those times, drawn again and again, give the
 /// distribution of q = RMS of probes / RMSE of the unit. Each q then says what
 /// the session's RMSE may be, RMS of the probes / q; the share of them above
-/// kOffRatio * promised is the probability that it is off. Throws
+/// kOffRatio * promised is the probability that it is off. `begins_inside`:
+/// see SessionCheck. Throws
 /// std::invalid_argument on no probes, other sizes, or what is not finite.
 SessionCheck CheckSession(const HeldOutErrors& errors,
                           const Eigen::VectorXd& elapsed,
-                          const Eigen::VectorXd& residuals);
+                          const Eigen::VectorXd& residuals,
+                          bool begins_inside = false);
 
 /// How well one probe at some time and place tells a unit's RMSE.
 struct ProbeSite {

@@ -50,6 +50,7 @@ Json SitesJson(const std::vector<models::ProbeSite>& sites) {
 
 Json CheckJson(const models::SessionCheck& check) {
   return {
+      {"begins_inside", check.begins_inside},
       {"status", ToString(check.status)},
       {"off_probability", NumberOrNull(check.off_probability)},
       {"remedy", ToString(check.remedy)},
@@ -74,19 +75,9 @@ std::string TimesText(const models::HeldOutErrors& errors,
                      elapsed.maxCoeff() / kSecondsPerMinute);
 }
 
-// What the map says of rows whose session's beginning is missing is not what it
-// says in use, so probes there tell nothing.
-models::SessionCheck NotKnown(models::SessionCheck check) {
-  check.status = models::SessionStatus::kUnknown;
-  check.remedy = models::Remedy::kNone;
-  check.more_probes = std::nullopt;
-  return check;
-}
-
 std::string StatusText(const models::SessionCheck& check,
-                       bool begins_inside,
                        const ErrorText& error) {
-  if (begins_inside) {
+  if (check.begins_inside) {
     return "Not known whether the map holds: it has a memory, and the first "
            "rows of the session are missing. Give all rows since its start, "
            "those without a probe with an empty error, or the earlier ones "
@@ -193,9 +184,11 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
   }
   const Eigen::VectorXd elapsed =
       ElapsedSinceStart(fitted, rows, arguments.rows.log);
-  models::SessionCheck check = models::CheckSession(
-      errors, elapsed, rows.dataset.target_values() - predicted);
-  if (rows.begins_inside) check = NotKnown(check);
+  const models::SessionCheck check =
+      models::CheckSession(errors,
+                           elapsed,
+                           rows.dataset.target_values() - predicted,
+                           rows.begins_inside);
   const std::vector<models::ProbeSite> sites = models::RankProbeSites(errors);
   if (arguments.format == "json") {
     Json document = {{"schema", "errmap-check-1"},
@@ -204,7 +197,6 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
                      {"target", fitted.target.name},
                      {"unit", fitted.target.unit.symbol}};
     document.update(CheckJson(check));
-    document["begins_inside"] = rows.begins_inside;
     document["sites"] = SitesJson(sites);
     document["provenance"] = ProvenanceJson(
         command_line,
@@ -225,7 +217,7 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
         error.WithUnit(check.probe_mean),
         error.WithUnit(check.promised)));
     PrintResult(fmt::format("{}{}{}",
-                            StatusText(check, rows.begins_inside, error),
+                            StatusText(check, error),
                             RemedyText(check, error),
                             SitesText(errors, sites)));
   }

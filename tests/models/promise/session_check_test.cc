@@ -105,6 +105,17 @@ TEST(CheckSession, IsLessSureOfOneProbeThanOfMany) {
             few.session_high - few.session_low);
 }
 
+TEST(CheckSession, KnowsNothingWhereTheSessionBeginsInside) {
+  const HeldOutErrors errors = Days(10, 3);
+  const VectorXd times{{600.0, 4000.0, 8000.0}};
+  const VectorXd large = VectorXd::Constant(3, 9.0);
+  EXPECT_EQ(CheckSession(errors, times, large).status, SessionStatus::kOff);
+  const SessionCheck check = CheckSession(errors, times, large, true);
+  EXPECT_EQ(check.status, SessionStatus::kUnknown);
+  EXPECT_EQ(check.remedy, Remedy::kNone);
+  EXPECT_FALSE(check.more_probes.has_value());
+}
+
 TEST(CheckSession, TellsHowManyMoreProbesWouldSettleIt) {
   const HeldOutErrors errors = Days(10, 3);
   const VectorXd times{{600.0, 8000.0}};
