@@ -12,17 +12,7 @@
 namespace errmap::cli {
 namespace {
 
-// Okabe and Ito's colours for lines on white, the palest left out.
-constexpr std::array kColours = {
-    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#000000"};
-
 constexpr std::size_t kNameLength = 24;
-
-// Error bars and lines may need a logarithmic axis.
-bool SpansDecades(double low, double high) {
-  constexpr double kManyTimes = 15.0;
-  return low > 0.0 && high > kManyTimes * low;
-}
 
 // "every:3 (neighbours known)", "groups:5 (unseen groups)".
 std::string HoldoutLabel(const ReportView& view, const std::string& holdout) {
@@ -137,8 +127,7 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
   const std::vector<std::string> holdouts = ShownHoldouts(view);
   constexpr std::array kShapes = {
       Shape::kDot, Shape::kCircle, Shape::kSquare, Shape::kDiamond};
-  constexpr std::array kHoldoutColours = {
-      kVermillion, kBlue, "#009E73", "#CC79A7"};
+  constexpr std::array kHoldoutColours = {kVermillion, kBlue, kGreen, kPurple};
   Plot& plot = figure.plot;
   double low = std::numeric_limits<double>::infinity();
   double high = 0.0;
@@ -218,7 +207,7 @@ std::vector<Figure> TrainingFigures(const ReportView& view,
     }
   }
   for (std::size_t first = 0; first < iterated.size();
-       first += kColours.size()) {
+       first += kLineColours.size()) {
     Figure figure;
     figure.place = FigurePlace::kFits;
     figure.title = "Error against iteration";
@@ -231,12 +220,12 @@ std::vector<Figure> TrainingFigures(const ReportView& view,
     figure.plot.y.logarithmic = true;
     std::vector<std::string> words;
     for (std::size_t i = first;
-         i < std::min(iterated.size(), first + kColours.size());
+         i < std::min(iterated.size(), first + kLineColours.size());
          ++i) {
       Series series{.label = Shortened(iterated[i]->name, 34),
                     .mark = Mark::kLine,
                     .columns = {{}, {}},
-                    .colour = kColours[i - first],
+                    .colour = kLineColours[i - first],
                     .size = 1.8};
       for (const auto& [iteration, rms, gradient] :
            *iterated[i]->final->summary.value.trace) {

@@ -16,7 +16,6 @@
 namespace errmap::cli {
 namespace {
 
-constexpr const char* kGreen = "#009E73";
 constexpr int kWide = 1180;
 constexpr int kHalf = 560;
 constexpr std::size_t kLongName = 34;  // characters under a figure
@@ -191,7 +190,7 @@ std::vector<Figure> OverTimeFigures(const ReportView& view,
   Series outside{.label = "outside the trained range",
                  .mark = Mark::kPoints,
                  .columns = {{}, {}},
-                 .colour = "#E69F00",
+                 .colour = kOrange,
                  .size = 3.0,
                  .shape = Shape::kCircle};
   for (std::size_t i = 0; i < rows.outside.size(); ++i) {

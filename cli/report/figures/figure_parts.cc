@@ -9,6 +9,11 @@
 
 namespace errmap::cli {
 
+bool SpansDecades(double low, double high) {
+  constexpr double kManyTimes = 15.0;
+  return low > 0.0 && high > kManyTimes * low;
+}
+
 Figure BeginFigure(const ResidualContext& context,
                    const std::string& kind,
                    const std::string& title) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -9,10 +10,20 @@
 
 namespace errmap::cli {
 
-// Of Okabe and Ito's colours.
+// Okabe and Ito's colours (2008), told apart in every kind of colour vision.
 inline constexpr const char* kBlue = "#0072B2";
 inline constexpr const char* kVermillion = "#D55E00";
+inline constexpr const char* kGreen = "#009E73";
+inline constexpr const char* kPurple = "#CC79A7";
+inline constexpr const char* kOrange = "#E69F00";
+inline constexpr const char* kBlack = "#000000";
 inline constexpr const char* kGrey = "#666666";
+/// For lines on white, one after another.
+inline constexpr std::array kLineColours = {
+    kBlue, kVermillion, kGreen, kPurple, kOrange, kBlack};
+
+/// Error bars and lines from low to high need a logarithmic axis.
+bool SpansDecades(double low, double high);
 
 /// Everything the figures of one model's residuals share.
 struct ResidualContext {

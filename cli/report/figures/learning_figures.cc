@@ -7,14 +7,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/report/figures/figure_parts.h"
 #include "cli/report/learning_words.h"
 
 namespace errmap::cli {
 namespace {
-
-// Told apart in every kind of colour vision (Okabe & Ito 2008).
-constexpr std::array<const char*, 6> kColours = {
-    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
 
 void AddCurve(const std::string& label,
               const char* colour,
@@ -38,7 +35,7 @@ void AddLevel(const std::string& label, double level, double last, Plot* plot) {
   plot->series.push_back({.label = label,
                           .mark = Mark::kLine,
                           .columns = {{0.0, last}, {level, level}},
-                          .colour = "#000000",
+                          .colour = kBlack,
                           .size = 1.5,
                           .dashed = true});
 }
@@ -76,7 +73,7 @@ Figure CurvesFigure(const models::LearningCurvesRecord& curves,
     const std::string law = LawWords(curves, model, error);
     if (!law.empty()) words.push_back(model.model + ": " + law + ".");
     AddCurve(Shortened(model.model, 34),
-             kColours[i % kColours.size()],
+             kLineColours[i % kLineColours.size()],
              std::move(columns),
              &plot);
   }
@@ -117,7 +114,7 @@ Figure SensorsFigure(const models::SensorCurveRecord& curve,
         fmt::format("{} with {}", error.WithUnit(point.rmse), point.sensors));
   }
   const double last = columns[0].empty() ? 1.0 : columns[0].back();
-  AddCurve("chosen", kColours[0], std::move(columns), &plot);
+  AddCurve("chosen", kBlue, std::move(columns), &plot);
   AddLevel(fmt::format("all {}", curve.all.sensors),
            unit.display_scale * curve.all.rmse,
            last,

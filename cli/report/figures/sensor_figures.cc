@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/report/figures/figure_parts.h"
+
 namespace errmap::cli {
 namespace {
 
-constexpr const char* kBlue = "#0072B2";
-constexpr const char* kVermillion = "#D55E00";
 constexpr std::size_t kMostAlone = 12;
 constexpr std::size_t kMostTogether = 5;
 
@@ -73,7 +73,6 @@ std::string Words(const ErrorText& error, const Without& without) {
 // What all sensors bring may be many times what one of them does.
 Axis ErrorAxis(const ReportView& view,
                const models::ImportanceRecord& importance) {
-  constexpr double kManyTimes = 15.0;
   constexpr double kMargin = 1.25;
   Axis axis{.quantity = "RMSE on held-out rows", .unit = view.shown_unit};
   double low = importance.rmse;
@@ -84,7 +83,7 @@ Axis ErrorAxis(const ReportView& view,
       high = std::max(high, without.rmse);
     }
   }
-  axis.logarithmic = low > 0.0 && high > kManyTimes * low;
+  axis.logarithmic = SpansDecades(low, high);
   axis.low = axis.logarithmic ? low * view.scale / kMargin : 0.0;
   if (axis.logarithmic) axis.high = high * view.scale * kMargin;
   return axis;
@@ -147,7 +146,7 @@ std::vector<Figure> ImportanceFigures(const ReportView& view,
       {.label = "every sensor: " + error.WithUnit(importance.rmse),
        .mark = Mark::kLine,
        .columns = {{with, with}, {-0.5, rows - 0.5}},
-       .colour = "#000000",
+       .colour = kBlack,
        .size = 1.5,
        .dashed = true});
   plot.x = ErrorAxis(view, importance);
