@@ -24,8 +24,8 @@
 #include "data/measurements/dataset.h"
 #include "data/text.h"
 #include "models/study/record/fit_blocks.h"
+#include "models/study/record/make_residual_record.h"
 #include "models/study/record/record_json.h"
-#include "models/study/record/residual_record.h"
 #include "stats/error_metrics.h"
 #include "stats/report_1995.h"
 

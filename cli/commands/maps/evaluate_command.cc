@@ -20,9 +20,9 @@
 #include "models/promise/kept_promise.h"
 #include "models/study/fold_pool.h"
 #include "models/study/record/fit_blocks.h"
+#include "models/study/record/make_residual_record.h"
 #include "models/study/record/make_study_record.h"
 #include "models/study/record/record_json.h"
-#include "models/study/record/residual_record.h"
 #include "models/trained_range.h"
 #include "stats/kolmogorov_smirnov.h"
 

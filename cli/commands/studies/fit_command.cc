@@ -30,8 +30,8 @@
 #include "models/promise/promise.h"
 #include "models/promise/sensitivity.h"
 #include "models/study/fold_pool.h"
-#include "models/study/record/figure_record.h"
 #include "models/study/record/fit_blocks.h"
+#include "models/study/record/make_figure_record.h"
 #include "models/study/record/record_json.h"
 #include "models/study/study_defaults.h"
 

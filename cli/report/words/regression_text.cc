@@ -11,7 +11,7 @@
 #include "cli/report/table.h"
 #include "cli/shell/number_text.h"
 #include "cli/shell/wrap_text.h"
-#include "models/study/record/figure_record.h"
+#include "models/study/record/make_figure_record.h"
 
 namespace errmap::cli {
 namespace {

@@ -9,11 +9,11 @@
 #include "models/history/history.h"
 #include "models/inner_folds.h"
 #include "models/study/judgement/units_of_analysis.h"
-#include "models/study/record/figure_record.h"
 #include "models/study/record/fit_blocks.h"
 #include "models/study/record/held_out_residuals.h"
+#include "models/study/record/make_figure_record.h"
+#include "models/study/record/make_residual_record.h"
 #include "models/study/record/remarks.h"
-#include "models/study/record/residual_record.h"
 
 namespace errmap::models {
 namespace {

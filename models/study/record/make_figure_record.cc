@@ -1,4 +1,4 @@
-#include "models/study/record/figure_record.h"
+#include "models/study/record/make_figure_record.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "models/study/record/residual_record.h"
+#include "models/study/record/make_residual_record.h"
 
 namespace errmap::models {
 namespace {
