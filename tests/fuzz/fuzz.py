@@ -29,6 +29,10 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 
+RECORD = "models/study/record/"
+PARTS = "data figure judgement machine model probe provenance recommendation regression remark residual study"
+RECORDS = " ".join([RECORD + "record", *(f"{RECORD}{part}_record" for part in PARTS.split())])
+
 # Dictionary, longest input in bytes, sources whose edges count.
 READERS = {
     "csv": ("csv", 4096, "data/csv data/measurements/make_dataset data/column_ data/measurements/sessions data/text"),
@@ -36,7 +40,7 @@ READERS = {
     "holdout": ("spec", 128, "stats/holdout"),
     "spec": ("spec", 512, "models/model_spec models/recipe_catalog models/polynomial/formula"),
     "model": ("json", 8192, "models/model_file models/blend/form_to_model data/formats/nesting"),
-    "results": ("json", 8192, "models/study/record/study_record models/study/record/record"),
+    "results": ("json", 8192, RECORDS),
     "journal": ("json", 8192, "models/study/journal/fit_record"),
     "study": ("toml", 4096, "cli/study_file/toml"),
     "netcg": ("numbers", 4096, "models/netcg/run_file data/formats/record_reader"),

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/measurements/column_faults.h"
+#include "data/measurements/dataset.h"
+#include "models/study/record/record.h"
+#include "models/study/record/record_values.h"
+
+// The data of a component, the unit in which people see it, and how its rows
+// are held out.
+
+namespace errmap::models {
+
+struct DroppedRecord {
+  std::string column;
+  std::string why;
+};
+ERRMAP_RECORD(DroppedRecord, column, why)
+
+/// Readings that no machine made; data::ColumnFault.
+struct FaultRecord {
+  data::FaultKind kind = data::FaultKind::kOutlying;
+  std::string column;
+  std::vector<std::int64_t> rows;  // 0-based data rows
+  bool of_cells = false;
+  double value = kNotKnown;
+  double low = kNotKnown;
+  double high = kNotKnown;
+};
+ERRMAP_RECORD(FaultRecord, kind, column, rows, of_cells, value, low, high)
+
+struct DataRecord {
+  std::string file;
+  std::string sha256;
+  std::int64_t rows = 0;
+  std::string target;
+  std::string unit;  // "": none
+  std::vector<std::string> inputs;
+  std::optional<std::string> group;
+  std::optional<std::string> session;
+  std::optional<std::string> time;
+  std::string time_unit;
+  std::int64_t sessions = 0;
+  data::Alignment align = data::Alignment::kNone;
+  std::vector<DroppedRecord> dropped;
+  std::vector<FaultRecord> faults;
+};
+ERRMAP_RECORD(DataRecord,
+              file,
+              sha256,
+              rows,
+              target,
+              unit,
+              inputs,
+              group,
+              session,
+              time,
+              time_unit,
+              sessions,
+              align,
+              dropped,
+              faults)
+
+/// What people see is value * scale, in this unit.
+struct DisplayRecord {
+  std::string unit;
+  double scale = 1.0;
+};
+ERRMAP_RECORD(DisplayRecord, unit, scale)
+
+using RowsOfFolds = std::vector<std::vector<std::int64_t>>;
+
+struct HoldoutRecord {
+  std::string name;
+  std::int64_t folds = 0;
+  bool whole_groups = false;
+  bool whole_sessions = false;
+  bool among_neighbours = false;
+  bool another_file = false;
+  std::int64_t repeats = 1;
+  /// Of each fold: how its training rows are held out for choices in a fit.
+  std::vector<std::string> inner;
+  RowsOfFolds train_rows;
+  RowsOfFolds test_rows;
+  std::string unit_of_analysis;
+  std::int64_t units = 0;
+  std::vector<std::string> unit_labels;
+};
+ERRMAP_RECORD(HoldoutRecord,
+              name,
+              folds,
+              whole_groups,
+              whole_sessions,
+              among_neighbours,
+              another_file,
+              repeats,
+              inner,
+              train_rows,
+              test_rows,
+              unit_of_analysis,
+              units,
+              unit_labels)
+
+}  // namespace errmap::models

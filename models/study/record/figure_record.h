@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "models/study/record/record.h"
+
+// The rows behind the figures.
+
+namespace errmap::models {
+
+struct FigureInputRecord {
+  std::string name;
+  std::string unit;
+};
+ERRMAP_RECORD(FigureInputRecord, name, unit)
+
+/// Rows of one file, thinned evenly where they are many.
+struct FigureTableRecord {
+  std::string file;
+  std::int64_t rows_total = 0;
+  std::vector<std::int64_t> rows;  // 0-based data rows
+  std::vector<std::string> labels;
+  std::vector<std::int64_t> groups;  // index into labels
+  std::vector<double> target;
+  std::vector<std::vector<double>> inputs;  // one list per input
+  LeftOut<std::vector<std::string>> session_labels;
+  LeftOut<std::vector<std::int64_t>> sessions;  // index into them
+  LeftOut<std::vector<double>> time;  // in data.time_unit, where that is s
+};
+ERRMAP_RECORD(FigureTableRecord,
+              file,
+              rows_total,
+              rows,
+              labels,
+              groups,
+              target,
+              inputs,
+              session_labels,
+              sessions,
+              time)
+
+struct FigureHoldoutRecord {
+  std::string name;
+  std::int64_t table = 0;
+  ByName<std::vector<double>> predictions;  // NaN: not held out
+  /// Entries of the table where an input of the recommended map lay outside
+  /// what its fold was trained on.
+  LeftOut<std::vector<std::int64_t>> outside;
+};
+ERRMAP_RECORD(FigureHoldoutRecord, name, table, predictions, outside)
+
+struct CorrelationRecord {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> matrix;
+};
+ERRMAP_RECORD(CorrelationRecord, columns, matrix)
+
+struct FiguresRecord {
+  std::vector<FigureInputRecord> inputs;
+  std::int64_t inputs_left_out = 0;
+  std::optional<std::string> position;
+  std::optional<std::string> group;
+  std::vector<FigureTableRecord> tables;
+  std::vector<FigureHoldoutRecord> holdouts;
+  /// Of the recommended map, fitted to all rows, of the first table.
+  LeftOut<std::vector<double>> fitted;
+  CorrelationRecord correlation;
+};
+ERRMAP_RECORD(FiguresRecord,
+              inputs,
+              inputs_left_out,
+              position,
+              group,
+              tables,
+              holdouts,
+              fitted,
+              correlation)
+
+}  // namespace errmap::models

@@ -1,0 +1,159 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "models/study/judgement/confidence.h"
+#include "models/study/judgement/verdict.h"
+#include "models/study/record/record.h"
+#include "models/study/record/record_values.h"
+
+// The judgement: what hold-outs say of models beside each other.
+
+namespace errmap::models {
+
+struct GapModelRecord {
+  std::string model;
+  double neighbours_rmse = kNotKnown;
+  double unseen_rmse = kNotKnown;
+  double ratio = kNotKnown;
+  bool flatters = false;
+};
+ERRMAP_RECORD(
+    GapModelRecord, model, neighbours_rmse, unseen_rmse, ratio, flatters)
+
+struct GapRecord {
+  std::string neighbours;
+  std::string unseen;
+  std::string warning;
+  std::vector<GapModelRecord> models;
+};
+ERRMAP_RECORD(GapRecord, neighbours, unseen, warning, models)
+
+struct WilcoxonRecord {
+  double statistic = kNotKnown;
+  double p = kNotKnown;
+  bool exact = false;
+};
+ERRMAP_RECORD(WilcoxonRecord, statistic, p, exact)
+
+struct MeanTestRecord {
+  double statistic = kNotKnown;
+  double df = kNotKnown;
+  double p = kNotKnown;
+};
+ERRMAP_RECORD(MeanTestRecord, statistic, df, p)
+
+/// Allows for the memory from unit to unit (memory_bounds.h).
+struct MemoryTestRecord {
+  double statistic = kNotKnown;
+  double df = kNotKnown;
+  double p = kNotKnown;
+  double p_holm = kNotKnown;
+  double memory = kNotKnown;
+};
+ERRMAP_RECORD(MemoryTestRecord, statistic, df, p, p_holm, memory)
+
+struct PairTestsRecord {
+  WilcoxonRecord wilcoxon;
+  MemoryTestRecord memory_t;
+  MeanTestRecord block_t;
+  std::optional<MeanTestRecord> corrected_t;
+  std::optional<MeanTestRecord> diebold_mariano;
+};
+ERRMAP_RECORD(
+    PairTestsRecord, wilcoxon, memory_t, block_t, corrected_t, diebold_mariano)
+
+/// Two models under one hold-out.
+struct PairRecord {
+  std::string a;
+  std::string b;
+  std::string holdout;
+  double rmse_a = kNotKnown;
+  double rmse_b = kNotKnown;
+  double difference = kNotKnown;
+  IntervalRecord ci95 = {kNotKnown, kNotKnown};  // of the difference
+  double p = kNotKnown;
+  double p_holm = kNotKnown;
+  std::string test;
+  bool exact = false;
+  double smallest_p = kNotKnown;
+  std::string unit_of_analysis;
+  std::int64_t units = 0;
+  double lag1 = kNotKnown;
+  bool correlated = false;
+  bool established = false;
+  Confidence confidence = Confidence::kNotShown;
+  PairTestsRecord tests;
+};
+ERRMAP_RECORD(PairRecord,
+              a,
+              b,
+              holdout,
+              rmse_a,
+              rmse_b,
+              difference,
+              ci95,
+              p,
+              p_holm,
+              test,
+              exact,
+              smallest_p,
+              unit_of_analysis,
+              units,
+              lag1,
+              correlated,
+              established,
+              confidence,
+              tests)
+
+struct WinRecord {
+  std::string model;
+  double share = kNotKnown;
+};
+ERRMAP_RECORD(WinRecord, model, share)
+
+/// Who wins when the groups are cut anew.
+struct StabilityRecord {
+  std::string holdout;
+  std::int64_t repeats = 0;
+  std::vector<WinRecord> wins;
+};
+ERRMAP_RECORD(StabilityRecord, holdout, repeats, wins)
+
+/// Why no difference could be established at all.
+struct ObstacleRecord {
+  Obstacle::Kind kind = Obstacle::Kind::kNone;
+  std::int64_t units = 0;
+  std::int64_t needed = 0;  // 0: no number of units would do
+  std::int64_t pairs = 0;
+};
+ERRMAP_RECORD(ObstacleRecord, kind, units, needed, pairs)
+
+struct VerdictRecord {
+  std::string holdout;
+  Choice choice = Choice::kBaseline;
+  std::string model;
+  std::optional<std::string> rival;
+  std::optional<Confidence> against_rival;  // that the model is better
+  std::optional<std::string> best_baseline;
+  std::optional<ObstacleRecord> obstacle;
+  bool established = false;
+  Confidence confidence = Confidence::kNotShown;
+  std::string why;
+};
+ERRMAP_RECORD(VerdictRecord,
+              holdout,
+              choice,
+              model,
+              rival,
+              against_rival,
+              best_baseline,
+              obstacle,
+              established,
+              confidence,
+              why)
+
+}  // namespace errmap::models

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "data/measurements/dataset.h"
+#include "models/study/record/record.h"
+
+// Where a study came from: the program, its command line, the study as it was
+// carried out, and the files that it read.
+
+namespace errmap::models {
+
+struct ComponentConfigurationRecord {
+  LeftOut<std::string> name;
+  LeftOut<std::string> data;
+  LeftOut<ByName<std::variant<std::int64_t, double, std::string>>> where;
+  LeftOut<std::string> target;
+  LeftOut<std::vector<std::string>> inputs;
+  LeftOut<std::vector<std::string>> exclude;
+  LeftOut<std::string> group;
+  LeftOut<std::string> time;
+  LeftOut<std::string> session;
+  LeftOut<data::Alignment> align;  // where there is one
+  LeftOut<std::string> weight;
+  data::MissingPolicy missing = data::MissingPolicy::kError;
+  data::FaultPolicy faults = data::FaultPolicy::kKeep;
+  bool keep_dead = false;
+  LeftOut<double> goal;
+  LeftOut<double> indifference;
+};
+ERRMAP_RECORD(ComponentConfigurationRecord,
+              name,
+              data,
+              where,
+              target,
+              inputs,
+              exclude,
+              group,
+              time,
+              session,
+              align,
+              weight,
+              missing,
+              faults,
+              keep_dead,
+              goal,
+              indifference)
+
+/// The study as it was carried out, with the words of a study file.
+struct ConfigurationRecord {
+  std::uint64_t seed = 0;
+  LeftOut<double> goal;
+  LeftOut<double> indifference;
+  LeftOut<std::vector<std::string>> holdouts;
+  LeftOut<std::vector<std::string>> models;
+  std::vector<ComponentConfigurationRecord> component;
+};
+ERRMAP_RECORD(
+    ConfigurationRecord, seed, goal, indifference, holdouts, models, component)
+
+struct InputFileRecord {
+  std::string file;
+  std::string sha256;
+};
+ERRMAP_RECORD(InputFileRecord, file, sha256)
+
+struct ProvenanceRecord {
+  std::string version;
+  std::string command_line;
+  ConfigurationRecord configuration;
+  std::vector<InputFileRecord> inputs;
+  std::string compiler;
+  ByName<std::string> libraries;
+  std::string platform;
+};
+ERRMAP_RECORD(ProvenanceRecord,
+              version,
+              command_line,
+              configuration,
+              inputs,
+              compiler,
+              libraries,
+              platform)
+
+}  // namespace errmap::models

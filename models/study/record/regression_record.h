@@ -1,0 +1,184 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "models/study/record/record.h"
+#include "models/study/record/record_values.h"
+
+// A regression: the steps to its terms, its coefficients and what they are
+// worth.
+
+namespace errmap::models {
+
+struct StepRecord {
+  std::optional<std::string> term;  // nothing at the start
+  bool entered = false;
+  std::int64_t terms = 0;
+  double f = kNotKnown;
+  double p = kNotKnown;
+  double rss = kNotKnown;
+  double aic = kNotKnown;
+  double aicc = kNotKnown;
+  double bic = kNotKnown;
+  double adjusted_r2 = kNotKnown;
+  double press = kNotKnown;
+  double cp = kNotKnown;
+  double cv = kNotKnown;
+};
+ERRMAP_RECORD(StepRecord,
+              term,
+              entered,
+              terms,
+              f,
+              p,
+              rss,
+              aic,
+              aicc,
+              bic,
+              adjusted_r2,
+              press,
+              cp,
+              cv)
+
+/// What the intercept has not.
+struct TermRecord {
+  double standardised = kNotKnown;
+  double vif = kNotKnown;
+  double bootstrap_inclusion = kNotKnown;  // 0 to 1
+};
+ERRMAP_RECORD(TermRecord, standardised, vif, bootstrap_inclusion)
+
+struct CoefficientRecord {
+  std::string term;
+  double estimate = kNotKnown;
+  double standard_error = kNotKnown;
+  double t = kNotKnown;
+  double p = kNotKnown;
+  IntervalRecord ci95 = {kNotKnown, kNotKnown};
+  Inline<std::optional<TermRecord>> of_term;
+};
+ERRMAP_RECORD(
+    CoefficientRecord, term, estimate, standard_error, t, p, ci95, of_term)
+
+struct ExcludedRecord {
+  std::string term;
+  double f = kNotKnown;
+  double p = kNotKnown;
+  double bootstrap_inclusion = kNotKnown;
+};
+ERRMAP_RECORD(ExcludedRecord, term, f, p, bootstrap_inclusion)
+
+struct AliasedRecord {
+  std::string term;
+  std::string why;
+};
+ERRMAP_RECORD(AliasedRecord, term, why)
+
+struct PenaltyChoiceRecord {
+  std::string holdout;
+  std::vector<double> penalty;
+  std::vector<double> mse;
+  std::vector<double> standard_error;
+};
+ERRMAP_RECORD(PenaltyChoiceRecord, holdout, penalty, mse, standard_error)
+
+/// Of a penalised fit.
+struct PenaltyRecord {
+  double penalty = kNotKnown;
+  double effective_parameters = kNotKnown;
+  PenaltyChoiceRecord cross_validation;
+};
+ERRMAP_RECORD(PenaltyRecord, penalty, effective_parameters, cross_validation)
+
+struct AnovaRecord {
+  std::int64_t regression_df = 0;
+  double regression_ss = kNotKnown;
+  double residual_df = kNotKnown;
+  double residual_ss = kNotKnown;
+  double total_ss = kNotKnown;
+  double f = kNotKnown;
+  double p = kNotKnown;
+};
+ERRMAP_RECORD(AnovaRecord,
+              regression_df,
+              regression_ss,
+              residual_df,
+              residual_ss,
+              total_ss,
+              f,
+              p)
+
+struct BootstrapRecord {
+  std::int64_t repetitions = 0;
+  std::string unit;
+};
+ERRMAP_RECORD(BootstrapRecord, repetitions, unit)
+
+/// Of a fit by least squares.
+struct LeastSquaresRecord {
+  AnovaRecord anova;
+  double s = kNotKnown;
+  double r2 = kNotKnown;
+  double adjusted_r2 = kNotKnown;
+  double press = kNotKnown;
+  double predicted_r2 = kNotKnown;
+  std::int64_t rows_of_leverage_1 = 0;
+  double largest_residual = kNotKnown;
+  std::int64_t largest_residual_row = 0;
+  double largest_leverage = kNotKnown;
+  double condition = kNotKnown;
+  std::int64_t effective_rank = 0;
+  std::int64_t bits = 0;  // of the arithmetic of the estimates
+  std::vector<ExcludedRecord> excluded;
+  std::vector<AliasedRecord> aliased;
+  bool after_selection = false;
+  BootstrapRecord bootstrap;
+  std::vector<std::string> notes;
+};
+ERRMAP_RECORD(LeastSquaresRecord,
+              anova,
+              s,
+              r2,
+              adjusted_r2,
+              press,
+              predicted_r2,
+              rows_of_leverage_1,
+              largest_residual,
+              largest_residual_row,
+              largest_leverage,
+              condition,
+              effective_rank,
+              bits,
+              excluded,
+              aliased,
+              after_selection,
+              bootstrap,
+              notes)
+
+struct RegressionRecord {
+  std::string method;
+  std::int64_t candidates = 0;
+  std::vector<StepRecord> steps;
+  std::int64_t chosen_step = 0;
+  std::string ended;
+  /// The intercept first where there is one.
+  std::vector<CoefficientRecord> coefficients;
+  ByName<double> centres;
+  Inline<std::optional<PenaltyRecord>> penalised;
+  Inline<std::optional<LeastSquaresRecord>> least_squares;
+};
+ERRMAP_RECORD(RegressionRecord,
+              method,
+              candidates,
+              steps,
+              chosen_step,
+              ended,
+              coefficients,
+              centres,
+              penalised,
+              least_squares)
+
+}  // namespace errmap::models

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "models/study/judgement/confidence.h"
+#include "models/study/record/record.h"
+
+// What is to be said of a recommendation, as kinds and numbers; words are put
+// to them elsewhere.
+
+namespace errmap::models {
+
+/// What speaks for a recommendation, then what bounds its worth. The figures
+/// that a remark does not hold stand elsewhere in the record.
+enum class RemarkKind {
+  kAveragesMaps,        // model: the single map beside it, of its tier if any
+  kLowestAndSimplest,   // of the first tier
+  kSimplestNearLowest,  // of one unit only; model: of the lowest error
+  kSimplestOfTier,      // model: of the lowest error; excess, confidence
+  kRemoves,             // removed_share of what is there without a map
+  kBeatsBaseline,       // model: the best one
+  kGap,
+  kPromise,
+  kOneMoreSession,
+  kGoal,
+  kCost,
+  kNotNoise,  // columns, shares
+  kInterrupted,
+  kOneRunOnly,
+  kGroupFitsFailed,
+  kNoGroupsHeldOut,
+  kNoGroups,
+  kBlocksForUnits,
+  kTooFewUnits,
+  kTooManyMaps,       // for so few units
+  kIgnoreNeighbours,  // model: what they flatter most temptingly
+  kHoldoutsDisagree,  // holdouts: in whose first tier the map is not
+  kUnitsCorrelated,   // lag1, pairs, established
+  kExtrapolates,
+  kNotConverged,
+  kNoiseLearning,
+  kOtherCuts,
+  kBetterWithoutMap,  // model: the predictions
+};
+/// "averages maps", ...: the enumerator's words.
+std::string_view ToString(RemarkKind kind);
+
+struct RemarkRecord {
+  RemarkKind kind = RemarkKind::kCost;
+  /// Its place among what is told first, from 1; nothing: told on request.
+  LeftOut<std::int64_t> rank = {};
+  LeftOut<std::string> model = {};
+  LeftOut<std::vector<std::string>> holdouts = {};
+  LeftOut<double> excess = {};  // of its RMSE over the model's, at most; 95 %
+  LeftOut<Confidence> confidence = {};
+  LeftOut<std::vector<std::string>> columns = {};
+  /// Of the squared residuals, what the means by each column explain (0 to 1).
+  LeftOut<std::vector<double>> shares = {};
+  LeftOut<double> lag1 = {};
+  LeftOut<std::int64_t> pairs = {};
+  LeftOut<std::int64_t> established = {};
+  /// Of each of `columns`: below and above what more is to be measured.
+  LeftOut<std::vector<double>> below = {};
+  LeftOut<std::vector<double>> above = {};
+};
+ERRMAP_RECORD(RemarkRecord,
+              kind,
+              rank,
+              model,
+              holdouts,
+              excess,
+              confidence,
+              columns,
+              shares,
+              lag1,
+              pairs,
+              established,
+              below,
+              above)
+
+}  // namespace errmap::models

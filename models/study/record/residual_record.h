@@ -1,0 +1,182 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "models/study/record/record.h"
+#include "models/study/record/record_values.h"
+
+// What the tests say of held-out residuals: their distribution, their order,
+// and what is left in them at the levels of a column.
+
+namespace errmap::models {
+
+/// A test, and why it does not apply where it does not. The statistics have
+/// the names of their keys.
+#define ERRMAP_TEST_RECORD(Struct, statistic) \
+  struct Struct {                             \
+    double statistic = kNotKnown;             \
+    double p = kNotKnown;                     \
+    LeftOut<std::string> why;                 \
+  };                                          \
+  ERRMAP_RECORD(Struct, statistic, p, why)
+
+ERRMAP_TEST_RECORD(DTestRecord, d)
+ERRMAP_TEST_RECORD(WTestRecord, w)
+ERRMAP_TEST_RECORD(A2TestRecord, a2)
+ERRMAP_TEST_RECORD(JbTestRecord, jb)
+ERRMAP_TEST_RECORD(K2TestRecord, k2)
+ERRMAP_TEST_RECORD(DipTestRecord, dip)
+ERRMAP_TEST_RECORD(ZTestRecord, z)
+ERRMAP_TEST_RECORD(RTestRecord, r)
+ERRMAP_TEST_RECORD(QTestRecord, q)
+ERRMAP_TEST_RECORD(FTestRecord, f)
+ERRMAP_TEST_RECORD(LmTestRecord, lm)
+
+struct KsRecord {
+  double d = kNotKnown;
+  double p_given = kNotKnown;  // Eq. 140: mean and sd taken as given
+  LeftOut<std::string> why;
+  double p_given_exact = kNotKnown;
+};
+ERRMAP_RECORD(KsRecord, d, p_given, why, p_given_exact)
+
+struct PpccRecord {
+  double lambda = kNotKnown;
+  double r_max = kNotKnown;
+  LeftOut<double> p_max;
+  LeftOut<double> r_014;
+  double r_normal = kNotKnown;
+  LeftOut<double> p_normal;
+  LeftOut<std::string> why;
+};
+ERRMAP_RECORD(PpccRecord, lambda, r_max, p_max, r_014, r_normal, p_normal, why)
+
+/// p of simulated normal samples.
+struct MonteCarloRecord {
+  std::int64_t draws = 0;
+  double lilliefors = kNotKnown;
+  double shapiro_wilk = kNotKnown;
+  double anderson_darling = kNotKnown;
+  double jarque_bera = kNotKnown;
+  double dagostino_pearson = kNotKnown;
+  double normal_ppcc = kNotKnown;
+};
+ERRMAP_RECORD(MonteCarloRecord,
+              draws,
+              lilliefors,
+              shapiro_wilk,
+              anderson_darling,
+              jarque_bera,
+              dagostino_pearson,
+              normal_ppcc)
+
+/// p are cut off at 0.001 and 0.999 where they come from simulated tables.
+struct NormalityRecord {
+  KsRecord ks;
+  DTestRecord lilliefors;
+  WTestRecord shapiro_wilk;
+  A2TestRecord anderson_darling;
+  JbTestRecord jarque_bera;
+  K2TestRecord dagostino_pearson;
+  PpccRecord ppcc;
+  DipTestRecord dip;
+  double skewness = kNotKnown;
+  double kurtosis = kNotKnown;
+  LeftOut<MonteCarloRecord> monte_carlo;
+};
+ERRMAP_RECORD(NormalityRecord,
+              ks,
+              lilliefors,
+              shapiro_wilk,
+              anderson_darling,
+              jarque_bera,
+              dagostino_pearson,
+              ppcc,
+              dip,
+              skewness,
+              kurtosis,
+              monte_carlo)
+
+struct RunsRecord {
+  Inline<ZTestRecord> test;
+  LeftOut<std::int64_t> runs;
+  LeftOut<double> expected;
+};
+ERRMAP_RECORD(RunsRecord, test, runs, expected)
+
+struct Lag1Record {
+  Inline<RTestRecord> test;
+  LeftOut<double> expected;
+};
+ERRMAP_RECORD(Lag1Record, test, expected)
+
+struct LjungBoxRecord {
+  Inline<QTestRecord> test;
+  LeftOut<std::int64_t> lags;
+};
+ERRMAP_RECORD(LjungBoxRecord, test, lags)
+
+/// p of shuffled orders.
+struct ShuffledRecord {
+  std::int64_t draws = 0;
+  double runs = kNotKnown;
+  double lag1 = kNotKnown;
+  double durbin_watson = kNotKnown;
+  double ljung_box = kNotKnown;
+};
+ERRMAP_RECORD(ShuffledRecord, draws, runs, lag1, durbin_watson, ljung_box)
+
+struct SerialRecord {
+  RunsRecord runs;
+  Lag1Record lag1;
+  DTestRecord durbin_watson;
+  LjungBoxRecord ljung_box;
+  LeftOut<ShuffledRecord> shuffled;
+};
+ERRMAP_RECORD(SerialRecord, runs, lag1, durbin_watson, ljung_box, shuffled)
+
+struct LevelRecord {
+  std::string level;
+  std::int64_t n = 0;
+  double mean = kNotKnown;
+  double standard_error = kNotKnown;
+};
+ERRMAP_RECORD(LevelRecord, level, n, mean, standard_error)
+
+/// Biases at the levels of one column.
+struct BiasRecord {
+  Inline<FTestRecord> test;
+  std::string column;
+  double explained = kNotKnown;  // share of the sum of squares
+  std::vector<LevelRecord> levels;
+};
+ERRMAP_RECORD(BiasRecord, test, column, explained, levels)
+
+struct SpreadRecord {
+  Inline<LmTestRecord> test;
+  std::string column;
+};
+ERRMAP_RECORD(SpreadRecord, test, column)
+
+struct RandomnessRecord {
+  std::string order;
+  SerialRecord in_order;
+  std::optional<SerialRecord> within_groups;
+  DTestRecord halves;
+  std::optional<BiasRecord> by_group;
+  std::optional<BiasRecord> by_position;
+  std::optional<SpreadRecord> breusch_pagan;
+};
+ERRMAP_RECORD(RandomnessRecord,
+              order,
+              in_order,
+              within_groups,
+              halves,
+              by_group,
+              by_position,
+              breusch_pagan)
+
+}  // namespace errmap::models
