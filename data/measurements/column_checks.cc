@@ -140,6 +140,14 @@ bool IsMissingText(std::string_view text) {
          EqualsIgnoringCase(text, "nan");
 }
 
+void ThrowUnusable(const CsvTable& table, const std::string& what) {
+  throw InputError(PrintablePath(table.file) + ": " + what);
+}
+
+std::string NameInRemark(const std::string& name) {
+  return Printable(name, name.max_size());
+}
+
 std::string ListOfNames(const std::vector<std::string>& names) {
   std::string list;
   for (std::size_t i = 0; i < std::min(names.size(), kMostNames); ++i) {

@@ -79,6 +79,12 @@ void RefuseMissingCell(const CsvTable& table,
 Eigen::VectorXd ValuesOfRows(const CsvColumn& column,
                              const std::vector<Eigen::Index>& rows);
 
+/// Throws InputError that names the table's file.
+[[noreturn]] void ThrowUnusable(const CsvTable& table, const std::string& what);
+
+/// A column's name for a remark: printable, and never cut short.
+std::string NameInRemark(const std::string& name);
+
 /// Names for a message, separated by commas; many are cut short.
 std::string ListOfNames(const std::vector<std::string>& names);
 

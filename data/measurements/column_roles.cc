@@ -1,0 +1,321 @@
+#include "data/measurements/column_roles.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <unordered_set>
+#include <utility>
+
+#include "data/measurements/column_checks.h"
+#include "data/text.h"
+
+namespace errmap::data {
+namespace {
+
+// Columns that number or date the rows; what no controller has at hand.
+bool KeepsRecord(std::string_view name) {
+  constexpr auto kNames = std::to_array<std::string_view>({"cycle",
+                                                           "session",
+                                                           "day",
+                                                           "run",
+                                                           "segment",
+                                                           "record",
+                                                           "index",
+                                                           "row",
+                                                           "id",
+                                                           "sample"});
+  return std::any_of(kNames.begin(),
+                     kNames.end(),
+                     [&](std::string_view known) {
+                       return EqualsIgnoringCase(name, known);
+                     }) ||
+         StartsWithIgnoringCase(name, "time") ||
+         StartsWithIgnoringCase(name, "truth");
+}
+
+// A column that nobody named: the index that spreadsheets and data frames
+// write beside their rows, under an empty name or (once read and written again)
+// as "Unnamed: 0".
+bool IsUnnamed(const CsvColumn& column) {
+  return !column.has_name || StartsWithIgnoringCase(column.name, "Unnamed:");
+}
+
+// True where every cell is empty, NA or NaN: a channel that was never logged.
+bool IsAllMissing(const CsvColumn& column) {
+  return column.is_text() &&
+         std::all_of(column.texts.begin(), column.texts.end(), IsMissingText);
+}
+
+bool Is(std::ptrdiff_t role, std::size_t index) {
+  return role == static_cast<std::ptrdiff_t>(index);
+}
+
+class RoleChooser {
+ public:
+  RoleChooser(const CsvTable& table, const DatasetSelection& selection)
+      : table_(table), selection_(selection) {}
+
+  ColumnRoles Choose() {
+    ChooseWeightAndTarget();
+    ChooseGroup();
+    return roles_;
+  }
+
+ private:
+  template <typename Index>
+  const CsvColumn& Column(Index index) const {
+    return table_.columns[static_cast<std::size_t>(index)];
+  }
+  template <typename Index>
+  const std::string& Name(Index index) const {
+    return Column(index).name;
+  }
+
+  void ChooseWeightAndTarget() {
+    if (!selection_.weight.empty()) {
+      roles_.weight = static_cast<std::ptrdiff_t>(
+          RequireColumn(table_, selection_.weight, "--weight"));
+    }
+    roles_.target = selection_.target.empty()
+                        ? DefaultTarget()
+                        : RequireColumn(table_, selection_.target, "--target");
+    RequireNumbers(table_, {roles_.target, ColumnUse::kTarget});
+    if (Is(roles_.weight, roles_.target)) {
+      ThrowUnusable(table_,
+                    "column " + QuotedName(Name(roles_.target)) +
+                        " cannot be both the target and the weight; name "
+                        "another with --weight");
+    }
+    if (roles_.weight != kNoColumn) {
+      RequireNumbers(
+          table_,
+          {static_cast<std::size_t>(roles_.weight), ColumnUse::kWeight});
+    }
+  }
+
+  std::size_t DefaultTarget() const {
+    std::vector<std::size_t> candidates;
+    std::vector<std::string> names;
+    std::vector<std::string> numeric_names;
+    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+      if (!Column(i).is_text()) numeric_names.push_back(Name(i));
+      if (Is(roles_.weight, i) || Name(i) == selection_.group ||
+          !StartsWithIgnoringCase(Name(i), "error")) {
+        continue;
+      }
+      candidates.push_back(i);
+      names.push_back(Name(i));
+    }
+    if (candidates.empty()) {
+      ThrowUnusable(
+          table_,
+          "no column's name starts with 'error'; name the measured error with "
+          "--target (" +
+              (numeric_names.empty()
+                   ? "but no column holds numbers"
+                   : "columns of numbers: " + ListOfNames(numeric_names)) +
+              ")");
+    }
+    if (candidates.size() > 1) {
+      ThrowUnusable(table_,
+                    "several columns could be the target; name one with "
+                    "--target: " +
+                        ListOfNames(names));
+    }
+    return candidates.front();
+  }
+
+  void ChooseGroup() {
+    if (!selection_.group.empty()) {
+      roles_.group = static_cast<std::ptrdiff_t>(
+          RequireColumn(table_, selection_.group, "--group"));
+      if (Is(roles_.group, roles_.target)) {
+        ThrowUnusable(table_,
+                      "column " + QuotedName(selection_.group) +
+                          " cannot be both the target and the group; name "
+                          "another with --group");
+      }
+      return;
+    }
+    std::ptrdiff_t cycle = table_.Find("cycle");
+    for (std::size_t i = 0; cycle == kNoColumn && i < table_.columns.size();
+         ++i) {
+      if (EqualsIgnoringCase(Name(i), "cycle")) {
+        cycle = static_cast<std::ptrdiff_t>(i);
+      }
+    }
+    if (cycle != kNoColumn && !Is(cycle, roles_.target)) roles_.group = cycle;
+  }
+
+  const CsvTable& table_;
+  const DatasetSelection& selection_;
+  ColumnRoles roles_;
+};
+
+class InputChooser {
+ public:
+  InputChooser(const CsvTable& table,
+               const DatasetSelection& selection,
+               const ColumnRoles& roles,
+               const FoundSessions& found)
+      : table_(table), selection_(selection), roles_(roles), found_(found) {}
+
+  ChosenInputs Choose() {
+    if (selection_.inputs.empty() && !selection_.only_to_judge) {
+      ChooseDefaultInputs();
+    } else {
+      ChooseNamedInputs();
+    }
+    return std::move(chosen_);
+  }
+
+ private:
+  const CsvColumn& Column(std::size_t index) const {
+    return table_.columns[index];
+  }
+  const std::string& Name(std::size_t index) const {
+    return Column(index).name;
+  }
+
+  bool IsFiltered(std::size_t index) const {
+    return std::ranges::any_of(selection_.where, [&](const auto& filter) {
+      return filter.column == Name(index);
+    });
+  }
+
+  void Drop(std::size_t index, const std::string& why) {
+    chosen_.dropped.push_back({.column = Name(index), .why = why});
+  }
+
+  void ChooseNamedInputs() {
+    const std::unordered_set<std::string> excluded = ExcludedNames();
+    std::unordered_set<std::string> seen;
+    for (const std::string& name : selection_.inputs) {
+      const std::size_t index = RequireColumn(
+          table_,
+          name,
+          selection_.only_to_judge ? "an input of the map" : "--inputs");
+      if (!seen.insert(name).second) {
+        ThrowUnusable(
+            table_,
+            "--inputs names " + QuotedName(name) + " twice; name it once");
+      }
+      if (index == roles_.target) {
+        ThrowUnusable(table_,
+                      QuotedName(name) +
+                          " is the target and cannot be an input; leave it "
+                          "out of --inputs");
+      }
+      if (excluded.contains(name)) {
+        ThrowUnusable(table_,
+                      QuotedName(name) +
+                          " is named in --inputs and in --exclude; take it "
+                          "out of one of them");
+      }
+      RequireNumbers(table_, {index, ColumnUse::kInput});
+      chosen_.inputs.push_back(index);
+    }
+  }
+
+  std::unordered_set<std::string> ExcludedNames() const {
+    for (const std::string& name : selection_.exclude) {
+      RequireColumn(table_, name, "--exclude");
+    }
+    return {selection_.exclude.begin(), selection_.exclude.end()};
+  }
+
+  void ChooseDefaultInputs() {
+    const std::unordered_set<std::string> excluded = ExcludedNames();
+    const std::string target_stem = StemOfColumn(Name(roles_.target));
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+      if (i == roles_.target || Is(roles_.group, i) || Is(roles_.weight, i) ||
+          Is(found_.time_column, i) || Name(i) == found_.sessions.column ||
+          KeepsRecord(Name(i)) || IsFiltered(i)) {
+        continue;
+      }
+      const std::string name = NameInRemark(Name(i));
+      if (excluded.contains(Name(i))) {
+        had_candidates_ = had_candidates_ || !Column(i).is_text();
+      } else if (IsUnnamed(Column(i))) {
+        had_candidates_ = true;
+        Drop(i, "has no name in the header");
+        chosen_.remarks.push_back(
+            "column " + name +
+            " has no name in the header and is left out of the "
+            "inputs");
+      } else if (NamesPosition(Name(i)) && Column(i).is_text()) {
+        RefuseNumbersAsText(table_, Column(i));
+      } else if (IsAllMissing(Column(i))) {
+        Drop(i, "no number in any row");
+        chosen_.remarks.push_back("input " + name +
+                                  " has no number in any row and is left out");
+      } else if (Column(i).is_text()) {
+        RefuseNumbersAsText(table_, Column(i));
+        texts.push_back(Name(i));
+      } else if (StemOfColumn(Name(i)) == target_stem) {
+        had_candidates_ = true;
+        Drop(i, "measures the target's quantity");
+        chosen_.remarks.push_back(
+            "column " + name +
+            " measures the target's quantity and is left out; "
+            "name it in --inputs to use it");
+      } else {
+        chosen_.inputs.push_back(i);
+      }
+    }
+    if (!texts.empty()) {
+      chosen_.remarks.push_back(
+          (texts.size() == 1 ? "column " : "columns ") + ListOfNames(texts) +
+          (texts.size() == 1 ? " holds text and is" : " hold text and are") +
+          " left out of the inputs");
+    }
+    if (chosen_.inputs.empty() && found_.time_column >= 0) {
+      had_candidates_ = true;
+      Drop(static_cast<std::size_t>(found_.time_column), "is the time");
+    }
+    if (chosen_.inputs.empty() && had_candidates_)
+      ThrowNoInputs(table_, chosen_.dropped);
+  }
+
+  const CsvTable& table_;
+  const DatasetSelection& selection_;
+  const ColumnRoles& roles_;
+  const FoundSessions& found_;
+  bool had_candidates_ = false;  // numeric columns that might have been inputs
+  ChosenInputs chosen_;
+};
+
+}  // namespace
+
+ColumnRoles ChooseRoles(const CsvTable& table,
+                        const DatasetSelection& selection) {
+  return RoleChooser(table, selection).Choose();
+}
+
+ChosenInputs ChooseInputs(const CsvTable& table,
+                          const DatasetSelection& selection,
+                          const ColumnRoles& roles,
+                          const FoundSessions& found) {
+  return InputChooser(table, selection, roles, found).Choose();
+}
+
+void ThrowNoInputs(const CsvTable& table,
+                   const std::vector<DroppedColumn>& dropped) {
+  std::string what = "no input is left";
+  for (std::size_t i = 0; i < dropped.size(); ++i) {
+    constexpr std::size_t kMostReasons = 3;
+    if (i == kMostReasons) {
+      what += "; and " + std::to_string(dropped.size() - i) + " more";
+      break;
+    }
+    what += (i == 0 ? ": " : "; ") + QuotedName(dropped[i].column) + " " +
+            dropped[i].why;
+  }
+  ThrowUnusable(table,
+                what +
+                    "; name inputs with --inputs, or keep dead ones with "
+                    "--keep-dead");
+}
+
+}  // namespace errmap::data

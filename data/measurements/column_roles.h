@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "data/csv.h"
+#include "data/measurements/dataset.h"
+#include "data/measurements/sessions.h"
+
+namespace errmap::data {
+
+inline constexpr std::ptrdiff_t kNoColumn = -1;
+
+/// Which column serves as what besides the inputs: indices into
+/// CsvTable::columns.
+struct ColumnRoles {
+  std::size_t target = 0;
+  std::ptrdiff_t group = kNoColumn;
+  std::ptrdiff_t weight = kNoColumn;
+};
+
+/// Those that `selection` names, else the defaults of MakeDataset, before any
+/// cell is looked at. Throws InputError: unknown column, one without numbers,
+/// no or several candidates for the target, one column as two of them.
+ColumnRoles ChooseRoles(const CsvTable& table,
+                        const DatasetSelection& selection);
+
+struct ChosenInputs {
+  std::vector<std::size_t> inputs;     // (p) as named, else ascending
+  std::vector<DroppedColumn> dropped;  // would-be inputs left out, and why
+  std::vector<std::string> remarks;    // one line each, for people
+};
+
+/// The inputs that `selection` names, else the defaults of MakeDataset, which
+/// are not what `roles` and `found` have taken. Throws InputError: unknown
+/// column, one without numbers, named twice, named and excluded, the target; or
+/// no input left where there were candidates.
+ChosenInputs ChooseInputs(const CsvTable& table,
+                          const DatasetSelection& selection,
+                          const ColumnRoles& roles,
+                          const FoundSessions& found);
+
+/// Throws InputError with the first reasons why no input is left.
+[[noreturn]] void ThrowNoInputs(const CsvTable& table,
+                                const std::vector<DroppedColumn>& dropped);
+
+}  // namespace errmap::data

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/measurements/dataset.h"
+
+namespace errmap::data {
+
+/// Says how an input (m, not empty) is dead: one value in at least 90 % of the
+/// rows, "0 in all 40 rows"; "" where it lives.
+std::string DeadBecause(const Eigen::Ref<const Eigen::VectorXd>& values);
+
+/// Tells which inputs repeat another value for value. Columns are met by their
+/// hash, so that many stay cheap.
+class RepeatedInputs {
+ public:
+  /// Remarks where the last of `parts.inputs` repeats the target or an earlier
+  /// input that was looked at; one column of `parts.input_values` each.
+  std::vector<std::string> Look(const Dataset::Parts& parts);
+
+ private:
+  std::unordered_map<std::uint64_t, std::vector<Eigen::Index>> inputs_by_hash_;
+};
+
+}  // namespace errmap::data

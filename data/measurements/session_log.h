@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/csv.h"
+#include "data/measurements/column_faults.h"
+#include "data/measurements/dataset.h"
+#include "data/measurements/sessions.h"
+
+namespace errmap::data {
+
+/// Gives `parts` a log of `log_rows` (n, ascending rows of the table), of which
+/// its own rows are some, with the sessions (n) that were `found`. Where its
+/// rows are all of them, its input values become the log's. Else cells of
+/// `blanked` are NaN in the log.
+void TakeLog(const CsvTable& table,
+             const std::vector<Eigen::Index>& log_rows,
+             std::span<const ColumnFault> blanked,
+             FoundSessions found,
+             Dataset::Parts* parts);
+
+/// Takes the first value kept of each session off the target (kFirst); `parts`
+/// has a log. Returns the remark on it.
+std::string AlignTarget(Dataset::Parts* parts);
+
+}  // namespace errmap::data
