@@ -15,6 +15,7 @@
 #include "models/net/feedforward_net.h"
 #include "models/net/net_effective_parameters.h"
 #include "models/net/net_fit.h"
+#include "models/net/net_options.h"
 #include "models/net/net_trainer.h"
 #include "models/net/net_tuning.h"
 #include "models/net/net_wfactor.h"
@@ -26,100 +27,6 @@ namespace {
 
 using data::Dataset;
 using Eigen::Index;
-
-// Budgets and stops under the report's names.
-fitting::StoppingRules TakeStoppingRules(fitting::StoppingRules rules,
-                                         SpecOptions* options) {
-  constexpr std::int64_t kMostSteps = 1'000'000'000;
-  constexpr double kMost = 1e12;
-  constexpr double kLeastSeconds = 1e-3;
-  rules.iterations =
-      options->TakeInteger("iterations", rules.iterations, 1, kMostSteps);
-  rules.evaluations =
-      options->TakeInteger("evaluations",
-                           rules.evaluations,
-                           1,
-                           std::numeric_limits<std::int64_t>::max());
-  rules.seconds =
-      options->TakeNumber("seconds", rules.seconds, kLeastSeconds, kMost);
-  rules.cost_goal = options->TakeNumber("egoal", rules.cost_goal, 0.0, kMost);
-  rules.gradient_goal =
-      options->TakeNumber("gwgoal", rules.gradient_goal, 0.0, kMost);
-  rules.slow_ratio =
-      options->TakeNumber("errdel", rules.slow_ratio, 1e-6, kMost);
-  rules.progress_interval =
-      options->TakeInteger("nfreq", rules.progress_interval, 1, kMostSteps);
-  return rules;
-}
-
-// How wfactor comes about.
-enum class WfactorRule { kGiven, kCrossValidation, kDiscrepancy };
-
-struct WfactorOption {
-  WfactorRule rule = WfactorRule::kGiven;
-  double wfactor = 1e-5;
-  double delta = 0.0;  // kDiscrepancy: wanted RMS, the target's unit
-
-  static WfactorOption Take(const ModelSpec& spec, SpecOptions* options) {
-    constexpr double kMostWfactor = 1e6;
-    constexpr double kLeastDelta = 1e-300;
-    constexpr double kMostDelta = 1e300;
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    WfactorOption taken;
-    taken.delta =
-        options->TakeNumber("discrepancy", kNone, kLeastDelta, kMostDelta);
-    const bool by_cv = options->IsWord("wfactor", "cv");
-    if (!std::isnan(taken.delta)) {
-      if (options->Has("wfactor")) {
-        throw std::invalid_argument(fmt::format(
-            "model '{}': discrepancy= finds the wfactor, which wfactor= fixes",
-            spec.text));
-      }
-      taken.rule = WfactorRule::kDiscrepancy;
-    } else if (by_cv) {
-      taken.rule = WfactorRule::kCrossValidation;
-    } else {
-      taken.wfactor =
-          options->TakeNumber("wfactor", taken.wfactor, 0.0, kMostWfactor);
-    }
-    return taken;
-  }
-
-  void Describe(std::vector<EffectiveOption>* all) const {
-    switch (rule) {
-      case WfactorRule::kGiven:
-        all->push_back({"wfactor", wfactor});
-        break;
-      case WfactorRule::kCrossValidation:
-        all->push_back({"wfactor", std::string("cv")});
-        break;
-      case WfactorRule::kDiscrepancy:
-        all->push_back({"discrepancy", delta});
-        break;
-    }
-  }
-};
-
-// What `choose=` says of several starts: lowest cost, or least error on inner
-// hold-outs.
-const std::vector<std::string>& StartRules() {
-  static const std::vector<std::string> words = {"cost", "cv"};
-  return words;
-}
-
-// What `path=` says of the way to a wfactor: down WfactorPath where it is
-// tuned, always, never.
-const std::vector<std::string>& PathWords() {
-  static const std::vector<std::string> words = {"auto", "yes", "no"};
-  return words;
-}
-
-// The iterations of a fit along the path are shared by its steps.
-fitting::StoppingRules RulesOfAStep(fitting::StoppingRules rules) {
-  const auto steps = static_cast<std::int64_t>(WfactorPath().size());
-  rules.iterations = (rules.iterations + steps - 1) / steps;
-  return rules;
-}
 
 // The first of the lowest; one that is not a number loses.
 std::size_t IndexOfLowest(const std::vector<double>& values) {
@@ -139,135 +46,14 @@ std::string WithUnit(double value, const data::Dataset& dataset) {
 // A one-hidden-layer net; how it is trained is its trainer's business.
 class SpecNetRecipe final : public NetRecipe {
  public:
-  explicit SpecNetRecipe(const ModelSpec& spec) : name_(spec.text) {
-    constexpr double kLeastSlope = 1e-3;
-    constexpr double kMostSlope = 1e3;
-    constexpr std::int64_t kMostStarts = 10'000;
-    constexpr std::int64_t kMostMembers = 100;
-    SpecOptions options(spec);
-    tunes_hidden_ = options.IsWord("hidden", "cv");
-    view_ = ViewOptions::Take(&options);
-    clips_ = options.TakeChoice("clip", 0, {"auto", "none"}) == 0;
-    // A net with a view is to hold where it was not trained.
-    constexpr std::int64_t kFewNodes = 10;
-    constexpr std::int64_t kFewSteps = 750;
-    constexpr std::int64_t kSomeMembers = 3;
-    if (view_.given) design_.hidden = kFewNodes;
-    const bool one_start =
-        options.Has("starts") || options.Has("discrepancy") || !view_.given;
-    members_ = options.TakeInteger(
-        "members", one_start ? 1 : kSomeMembers, 1, kMostMembers);
-    if (!tunes_hidden_) {
-      design_.hidden = options.TakeInteger("hidden", design_.hidden, 1, 10'000);
-    }
-    wfactor_ = WfactorOption::Take(spec, &options);
-    if (view_.given && !options.Has("wfactor") && !options.Has("discrepancy")) {
-      wfactor_.rule = WfactorRule::kCrossValidation;
-    }
-    const std::size_t path = options.TakeChoice("path", 0, PathWords());
-    walks_path_ =
-        path == 0 ? wfactor_.rule == WfactorRule::kCrossValidation : path == 1;
-    fitting::StoppingRules defaults = DefaultStoppingRules(spec.type);
-    if (view_.given) {
-      defaults.iterations = std::min(defaults.iterations, kFewSteps);
-    }
-    stopping_ = TakeStoppingRules(defaults, &options);
-    design_.scaling = static_cast<InputScaling>(
-        options.TakeChoice("scale", 0, InputScalingNames()));
-    design_.output = static_cast<OutputFunction>(
-        options.TakeChoice("output", 0, {"sigmoid", "linear"}));
-    design_.slope =
-        options.TakeNumber("slope", design_.slope, kLeastSlope, kMostSlope);
-    starts_ = options.TakeInteger("starts", 1, 1, kMostStarts);
-    const std::string choose = options.TakeText("choose", "");
-    chooses_start_by_cv_ = options.TakeChoice("choose", 0, StartRules()) == 1;
-    if (!choose.empty() && starts_ < 2) {
-      throw std::invalid_argument(fmt::format(
-          "model '{}': choose= chooses among several starts; give starts=N",
-          spec.text));
-    }
-    if (tunes_hidden_ && wfactor_.rule == WfactorRule::kDiscrepancy) {
-      throw std::invalid_argument(fmt::format(
-          "model '{}': discrepancy= needs a number of hidden nodes; choose it "
-          "with wfactor=cv first",
-          spec.text));
-    }
-    if (starts_ > 1 && wfactor_.rule == WfactorRule::kDiscrepancy) {
-      throw std::invalid_argument(fmt::format(
-          "model '{}': discrepancy= follows one start; take its wfactor to "
-          "starts=",
-          spec.text));
-    }
-    if (members_ > 1 &&
-        (starts_ > 1 || wfactor_.rule == WfactorRule::kDiscrepancy)) {
-      throw std::invalid_argument(fmt::format(
-          "model '{}': members= averages several starts; starts= and "
-          "discrepancy= choose one",
-          spec.text));
-    }
-    if (walks_path_ && wfactor_.rule == WfactorRule::kDiscrepancy) {
-      throw std::invalid_argument(fmt::format(
-          "model '{}': discrepancy= walks a path of its own", spec.text));
-    }
-    if (options.IsWord("rows", "all")) {
-      most_rows_ = std::numeric_limits<Index>::max();
-      options.TakeText("rows", "");
-    } else {
-      most_rows_ = options.TakeInteger(
-          "rows", kMostRows, kFewestRows, std::numeric_limits<Index>::max());
-    }
-    trainer_ = MakeNetTrainer(
-        spec.type, walks_path_ ? RulesOfAStep(stopping_) : stopping_, &options);
-    options.RefuseOthers();
-  }
+  explicit SpecNetRecipe(const ModelSpec& spec)
+      : name_(spec.text), options_(TakeNetOptions(spec)) {}
 
   std::string name() const override { return name_; }
   ModelKind kind() const override { return ModelKind::kNet; }
 
   std::vector<EffectiveOption> options() const override {
-    std::vector<EffectiveOption> all;
-    if (tunes_hidden_) {
-      all.push_back({"hidden", std::string("cv")});
-    } else {
-      all.push_back({"hidden", design_.hidden});
-    }
-    wfactor_.Describe(&all);
-    if (walks_path_) all.push_back({"path", std::string("yes")});
-    all.push_back({"iterations", stopping_.iterations});
-    all.push_back({"egoal", stopping_.cost_goal});
-    all.push_back({"gwgoal", stopping_.gradient_goal});
-    all.push_back(
-        {"scale",
-         InputScalingNames()[static_cast<std::size_t>(design_.scaling)]});
-    all.push_back({"output", std::string(ToString(design_.output))});
-    all.push_back({"slope", design_.slope});
-    const fitting::StoppingRules unlimited;
-    if (stopping_.evaluations != unlimited.evaluations) {
-      all.push_back({"evaluations", stopping_.evaluations});
-    }
-    if (stopping_.slow_ratio != unlimited.slow_ratio) {
-      all.push_back({"errdel", stopping_.slow_ratio});
-      all.push_back({"nfreq", stopping_.progress_interval});
-    }
-    if (stopping_.seconds != unlimited.seconds) {
-      all.push_back({"seconds", stopping_.seconds});
-    }
-    if (starts_ > 1) {
-      all.push_back({"starts", starts_});
-      all.push_back({"choose", StartRules()[chooses_start_by_cv_ ? 1 : 0]});
-    }
-    if (members_ > 1) all.push_back({"members", members_});
-    if (most_rows_ == std::numeric_limits<Index>::max()) {
-      all.push_back({"rows", std::string("all")});
-    } else if (most_rows_ != kMostRows) {
-      all.push_back({"rows", most_rows_});
-    }
-    view_.Describe(&all);
-    if (view_.given && !clips_) {
-      all.push_back({"clip", std::string("none")});
-    }
-    std::ranges::move(trainer_->options(), std::back_inserter(all));
-    return all;
+    return options_.Describe();
   }
 
   std::optional<std::string> WhatIsMissing(
@@ -277,8 +63,8 @@ class SpecNetRecipe final : public NetRecipe {
   }
 
   std::optional<Index> NumCoefficients(const Dataset& dataset) const override {
-    if (tunes_hidden_) return std::nullopt;
-    return design_.ShapeFor(dataset).num_weights();
+    if (options_.tunes_hidden) return std::nullopt;
+    return options_.design.ShapeFor(dataset).num_weights();
   }
 
   FittedModel Fit(const Dataset& training,
@@ -287,7 +73,8 @@ class SpecNetRecipe final : public NetRecipe {
       throw std::invalid_argument("the data lack " + *missing);
     }
     // A net with a memory is a blend's as well as its own.
-    if (context.shared == nullptr || !view_.given || context.keep_trace) {
+    if (context.shared == nullptr || !options_.view.given ||
+        context.keep_trace) {
       return FitAlone(training, context);
     }
     return *context.shared->Get<FittedModel>(name_, [&] {
@@ -303,11 +90,11 @@ class SpecNetRecipe final : public NetRecipe {
   double EffectiveParametersOf(const FittedModel& fitted,
                                const Dataset& training) const override {
     const SpecNetRecipe fixed = FixedTo(fitted);
-    const Dataset sample = Sample(training, most_rows_);
+    const Dataset sample = Sample(training, options_.most_rows);
     const Dataset viewed = fitted.history != nullptr
                                ? DeriveDataset(sample, *fitted.history)
                                : sample;
-    const NetRows rows = ScaleRows(fixed.design_, viewed);
+    const NetRows rows = ScaleRows(fixed.options_.design, viewed);
     const ModelDescription description = fitted.model->Describe();
     // Of averaged starts the first speaks for the others.
     const auto* blend = std::get_if<BlendForm>(&description);
@@ -315,19 +102,20 @@ class SpecNetRecipe final : public NetRecipe {
                               ? std::get<NetForm>(blend->members.front().form)
                               : std::get<NetForm>(description);
     NetTraining at_minimum = rows.training;
-    at_minimum.wfactor = fixed.wfactor_.wfactor;
+    at_minimum.wfactor = fixed.options_.wfactor.wfactor;
     return EffectiveParameters(at_minimum, rows.WeightsOf(form));
   }
 
  private:
   FittedModel FitAlone(const Dataset& training,
                        const FitContext& context) const {
-    const bool takes_all = training.num_rows() <= most_rows_;
+    const bool takes_all = training.num_rows() <= options_.most_rows;
     const auto shared =
-        takes_all
-            ? SharedViews(training, view_, context)
-            : std::make_shared<const std::vector<ViewedRows>>(MakeViews(
-                  Sample(training, most_rows_), view_, context.indifference));
+        takes_all ? SharedViews(training, options_.view, context)
+                  : std::make_shared<const std::vector<ViewedRows>>(
+                        MakeViews(Sample(training, options_.most_rows),
+                                  options_.view,
+                                  context.indifference));
     const std::vector<ViewedRows>& views = *shared;
     std::vector<TunedNet> tuned;
     std::vector<double> scores;
@@ -339,12 +127,12 @@ class SpecNetRecipe final : public NetRecipe {
     const std::size_t best = IndexOfLowest(scores);
     const ViewedRows& viewed = views[best];
     FittedModel fitted = FitView(*viewed.rows, tuned[best], context);
-    if (view_.given) {
+    if (options_.view.given) {
       fitted.choices.push_back({"view", std::string(ToString(viewed.view))});
       if (viewed.sine_and_cosine) {
         fitted.choices.push_back({"angles", std::string("sincos")});
       }
-      if (clips_) {
+      if (options_.clips) {
         fitted.guards = MakeGuards(fitted.inputs, training.target_values());
       }
     }
@@ -390,20 +178,20 @@ class SpecNetRecipe final : public NetRecipe {
 
   SpecNetRecipe FixedTo(const FittedModel& fitted) const {
     SpecNetRecipe fixed = *this;
-    fixed.starts_ = 1;
-    fixed.members_ = 1;
-    fixed.chooses_start_by_cv_ = false;
-    fixed.tunes_hidden_ = false;
-    fixed.wfactor_.rule = WfactorRule::kGiven;
+    fixed.options_.starts = 1;
+    fixed.options_.members = 1;
+    fixed.options_.chooses_start_by_cv = false;
+    fixed.options_.tunes_hidden = false;
+    fixed.options_.wfactor.rule = WfactorRule::kGiven;
     for (const EffectiveOption& choice : fitted.choices) {
       if (choice.key == "hidden") {
-        fixed.design_.hidden = std::get<std::int64_t>(choice.value);
+        fixed.options_.design.hidden = std::get<std::int64_t>(choice.value);
       } else if (choice.key == "wfactor") {
-        fixed.wfactor_.wfactor = std::get<double>(choice.value);
+        fixed.options_.wfactor.wfactor = std::get<double>(choice.value);
       } else if (choice.key == "view") {
-        fixed.view_.view = ViewOf(std::get<std::string>(choice.value));
+        fixed.options_.view.view = ViewOf(std::get<std::string>(choice.value));
       } else if (choice.key == "angles") {
-        fixed.view_.sine_and_cosine = true;
+        fixed.options_.view.sine_and_cosine = true;
       }
     }
     return fixed;
@@ -419,16 +207,16 @@ class SpecNetRecipe final : public NetRecipe {
     fitted.target = training.target();
     fitted.align = training.align();
     fitted.inputs = DescribeAllInputs(training);
-    NetDesign design = design_;
+    NetDesign design = options_.design;
     design.hidden = tuned.hidden;
     DescribeTuning(tuned, training, &fitted);
     const NetRows rows = ScaleRows(design, training);
-    if (members_ > 1) {
+    if (options_.members > 1) {
       AverageStarts(rows, tuned.wfactor, context, &fitted);
       return fitted;
     }
     fitting::Minimum minimum =
-        wfactor_.rule == WfactorRule::kDiscrepancy
+        options_.wfactor.rule == WfactorRule::kDiscrepancy
             ? FitToDiscrepancy(training, rows, context, &fitted)
             : FitStarts(
                   training, design, rows, tuned.wfactor, context, &fitted);
@@ -443,11 +231,11 @@ class SpecNetRecipe final : public NetRecipe {
                      FittedModel* fitted) const {
     const std::vector<Index> columns = AllColumns(rows.training.shape.inputs);
     std::vector<std::uint64_t> seeds;
-    for (std::int64_t k = 0; k < members_; ++k) {
+    for (std::int64_t k = 0; k < options_.members; ++k) {
       seeds.push_back(SeedOfStart(context.seed, k));
     }
-    std::vector<fitting::Minimum> minima =
-        TrainFromStarts(rows, *trainer_, Wfactors(wfactor), &seeds, context);
+    std::vector<fitting::Minimum> minima = TrainFromStarts(
+        rows, *options_.trainer, Wfactors(wfactor), &seeds, context);
     fitted->starts = DescribeStarts(seeds, minima);
     std::vector<AveragedMember> members;
     for (std::size_t i = 0; i < minima.size(); ++i) {
@@ -472,29 +260,34 @@ class SpecNetRecipe final : public NetRecipe {
                 bool judged,
                 const FitContext& context) const {
     const NetTuning tuning = {
-        .hidden = tunes_hidden_,
-        .wfactor = wfactor_.rule == WfactorRule::kCrossValidation,
-        .fixed_wfactor = wfactor_.wfactor,
-        .along_path = walks_path_};
+        .hidden = options_.tunes_hidden,
+        .wfactor = options_.wfactor.rule == WfactorRule::kCrossValidation,
+        .fixed_wfactor = options_.wfactor.wfactor,
+        .along_path = options_.walks_path};
     if (tuning.hidden || tuning.wfactor) {
-      return TuneNet(design_, tuning, *trainer_, training, context);
+      return TuneNet(
+          options_.design, tuning, *options_.trainer, training, context);
     }
     TunedNet fixed;
-    fixed.hidden = design_.hidden;
-    fixed.wfactor = wfactor_.wfactor;
+    fixed.hidden = options_.design.hidden;
+    fixed.wfactor = options_.wfactor.wfactor;
     if (judged) {
       const InnerFolds inner = MakeInnerFolds(training, context);
       const NetTrial trial = {
           fixed.hidden, Wfactors(fixed.wfactor), context.seed};
-      fixed.rmse = InnerHoldoutRmse(
-                       design_, *trainer_, training, inner, {trial}, context)
+      fixed.rmse = InnerHoldoutRmse(options_.design,
+                                    *options_.trainer,
+                                    training,
+                                    inner,
+                                    {trial},
+                                    context)
                        .front();
     }
     return fixed;
   }
 
   std::vector<double> Wfactors(double last) const {
-    return WfactorsOf(last, walks_path_);
+    return WfactorsOf(last, options_.walks_path);
   }
 
   static void DescribeTuning(const TunedNet& tuned,
@@ -518,8 +311,8 @@ class SpecNetRecipe final : public NetRecipe {
                                     const NetRows& rows,
                                     const FitContext& context,
                                     FittedModel* fitted) const {
-    fitting::DiscrepancyChoice choice =
-        ChooseWfactorByDiscrepancy(rows, *trainer_, wfactor_.delta, context);
+    fitting::DiscrepancyChoice choice = ChooseWfactorByDiscrepancy(
+        rows, *options_.trainer, options_.wfactor.delta, context);
     fitted->choices.push_back({"wfactor", choice.alpha});
     fitted->choices.push_back(
         {"discrepancy_reached", std::string(choice.reached ? "yes" : "no")});
@@ -529,7 +322,7 @@ class SpecNetRecipe final : public NetRecipe {
         choice.alpha,
         choice.steps.size(),
         WithUnit(choice.misfit, training),
-        WithUnit(wfactor_.delta, training),
+        WithUnit(options_.wfactor.delta, training),
         choice.reached ? "" : " (not reached)"));
     return std::move(choice.minimum);
   }
@@ -541,26 +334,27 @@ class SpecNetRecipe final : public NetRecipe {
                              const FitContext& context,
                              FittedModel* fitted) const {
     std::vector<std::uint64_t> seeds;
-    for (std::int64_t k = 0; k < starts_; ++k) {
+    for (std::int64_t k = 0; k < options_.starts; ++k) {
       seeds.push_back(SeedOfStart(context.seed, k));
     }
-    std::vector<fitting::Minimum> minima =
-        TrainFromStarts(rows, *trainer_, Wfactors(wfactor), &seeds, context);
-    if (starts_ == 1) return std::move(minima.front());
+    std::vector<fitting::Minimum> minima = TrainFromStarts(
+        rows, *options_.trainer, Wfactors(wfactor), &seeds, context);
+    if (options_.starts == 1) return std::move(minima.front());
     std::vector<double> costs;
     for (const fitting::Minimum& minimum : minima) {
       costs.push_back(minimum.summary.final_cost);
     }
     std::size_t best = IndexOfLowest(costs);
     fitted->starts = DescribeStarts(seeds, minima);
-    if (chooses_start_by_cv_ || (context.explain && training.num_rows() > 1)) {
+    if (options_.chooses_start_by_cv ||
+        (context.explain && training.num_rows() > 1)) {
       const InnerFolds inner = MakeInnerFolds(training, context);
       const std::vector<double> rmse =
           JudgeStarts(training, design, wfactor, seeds, inner, context);
       for (std::size_t i = 0; i < rmse.size(); ++i) {
         fitted->starts[i].holdout_rmse = rmse[i];
       }
-      if (chooses_start_by_cv_) {
+      if (options_.chooses_start_by_cv) {
         best = ChooseByRmse(training, seeds, rmse, inner.text, best, fitted);
       }
     }
@@ -605,7 +399,7 @@ class SpecNetRecipe final : public NetRecipe {
       trials.push_back({design.hidden, Wfactors(wfactor), seed});
     }
     return InnerHoldoutRmse(
-        design, *trainer_, training, inner, trials, context);
+        design, *options_.trainer, training, inner, trials, context);
   }
 
   static std::vector<StartResult> DescribeStarts(
@@ -623,23 +417,10 @@ class SpecNetRecipe final : public NetRecipe {
   }
 
   // Time grows with the rows, accuracy beyond these hardly.
-  static constexpr std::int64_t kMostRows = 20'000;
   static constexpr Index kMostTuningRows = 5'000;
-  static constexpr std::int64_t kFewestRows = 100;
 
   std::string name_;
-  ViewOptions view_;
-  Index most_rows_ = kMostRows;
-  bool clips_ = true;
-  std::int64_t members_ = 1;
-  NetDesign design_;
-  WfactorOption wfactor_;
-  bool walks_path_ = false;
-  bool tunes_hidden_;
-  std::int64_t starts_;
-  bool chooses_start_by_cv_;
-  fitting::StoppingRules stopping_;
-  std::shared_ptr<const NetTrainer> trainer_;
+  NetOptions options_;
 };
 
 }  // namespace
