@@ -1,0 +1,97 @@
+#include "models/model_json.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "data/input_error.h"
+
+namespace errmap::models {
+
+using Eigen::Index;
+using Node = ModelJsonNode;
+
+ModelJsonNode::ModelJsonNode(const ModelJson& value,
+                             std::string path,
+                             const std::string& source)
+    : value_(value), path_(std::move(path)), source_(source) {}
+
+void Node::Refuse(const std::string& why) const {
+  throw data::InputError(
+      fmt::format("{}: {}{}; fit the model again or restore the file",
+                  source_,
+                  path_.empty() ? "" : "key '" + path_ + "': ",
+                  why));
+}
+
+Node Node::At(const std::string& key) const {
+  if (!value_.is_object()) Refuse("must be an object");
+  const auto found = value_.find(key);
+  if (found == value_.end()) Refuse("has no key '" + key + "'");
+  return {*found, path_.empty() ? key : path_ + "." + key, source_};
+}
+
+std::optional<Node> Node::Find(const std::string& key) const {
+  if (!value_.is_object()) Refuse("must be an object");
+  const auto found = value_.find(key);
+  if (found == value_.end() || found->is_null()) return std::nullopt;
+  return At(key);
+}
+
+std::vector<Node> Node::Elements() const {
+  if (!value_.is_array()) Refuse("must be an array");
+  std::vector<Node> elements;
+  for (std::size_t i = 0; i < value_.size(); ++i) {
+    elements.emplace_back(value_[i], fmt::format("{}[{}]", path_, i), source_);
+  }
+  return elements;
+}
+
+std::string Node::Text() const {
+  if (!value_.is_string()) Refuse("must be text");
+  return value_.get<std::string>();
+}
+
+double Node::Number() const {
+  if (!value_.is_number()) Refuse("must be a finite number");
+  const double number = value_.get<double>();
+  if (!std::isfinite(number)) Refuse("must be a finite number");
+  return number;
+}
+
+Index Node::Count() const {
+  if (!value_.is_number_integer() || value_.get<std::int64_t>() < 0) {
+    Refuse("must be a whole number of at least 0");
+  }
+  return value_.get<Index>();
+}
+
+Eigen::VectorXd Node::Vector() const {
+  const std::vector<Node> elements = Elements();
+  Eigen::VectorXd vector(static_cast<Index>(elements.size()));
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    vector[static_cast<Index>(i)] = elements[i].Number();
+  }
+  return vector;
+}
+
+Eigen::MatrixXd Node::Matrix() const {
+  const std::vector<Node> rows = Elements();
+  if (rows.empty()) return {};
+  Eigen::MatrixXd matrix;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Eigen::VectorXd row = rows[i].Vector();
+    if (i == 0) matrix.resize(static_cast<Index>(rows.size()), row.size());
+    if (row.size() != matrix.cols()) {
+      rows[i].Refuse(fmt::format(
+          "has {} numbers, the first row has {}", row.size(), matrix.cols()));
+    }
+    matrix.row(static_cast<Index>(i)) = row.transpose();
+  }
+  return matrix;
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+// What the writer and the reader of model files share; no public header
+// includes it, nor is it installed.
+
+namespace errmap::models {
+
+using ModelJson = nlohmann::ordered_json;
+
+inline constexpr const char* kModelSchema = "errmap-model-1";
+
+/// The key of an interval's half-width: "90", "95".
+inline std::string CoverageKey(double coverage) {
+  constexpr double kPercent = 100.0;
+  return std::to_string(std::lround(coverage * kPercent));
+}
+
+/// A value of a model file together with its place, for messages. Refers to
+/// the document and the file's name, which must outlive it. Every reader
+/// throws data::InputError naming file and key where the value is another.
+class ModelJsonNode {
+ public:
+  ModelJsonNode(const ModelJson& value,
+                std::string path,
+                const std::string& source);
+
+  [[noreturn]] void Refuse(const std::string& why) const;
+
+  ModelJsonNode At(const std::string& key) const;
+  /// Nothing where the key is not there, as in older files, or null.
+  std::optional<ModelJsonNode> Find(const std::string& key) const;
+  std::vector<ModelJsonNode> Elements() const;
+
+  std::string Text() const;
+  /// Finite.
+  double Number() const;
+  /// At least 0.
+  Eigen::Index Count() const;
+  Eigen::VectorXd Vector() const;
+  /// Rows of one length.
+  Eigen::MatrixXd Matrix() const;
+
+ private:
+  const ModelJson& value_;
+  std::string path_;
+  const std::string& source_;
+};
+
+}  // namespace errmap::models

@@ -1,0 +1,417 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "data/formats/nesting.h"
+#include "data/input_error.h"
+#include "data/text.h"
+#include "models/blend/form_to_model.h"
+#include "models/history/history.h"
+#include "models/history/history_state.h"
+#include "models/map_experience.h"
+#include "models/model_file.h"
+#include "models/model_json.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using Json = ModelJson;
+using Node = ModelJsonNode;
+
+PolynomialForm ReadPolynomial(const Node& node) {
+  PolynomialForm form;
+  form.input_offset = node.At("input_offset").Vector();
+  form.input_scale = node.At("input_scale").Vector();
+  form.intercept = node.At("intercept").Number();
+  for (const Node& element : node.At("terms").Elements()) {
+    PolynomialTerm term;
+    for (const Node& power : element.At("powers").Elements()) {
+      constexpr Index kMostPower = 64;
+      const Index value = power.Count();
+      if (value > kMostPower) power.Refuse("is too high a power");
+      term.powers.push_back(static_cast<int>(value));
+    }
+    term.coefficient = element.At("coefficient").Number();
+    form.terms.push_back(std::move(term));
+  }
+  return form;
+}
+
+NetForm ReadNet(const Node& node) {
+  NetForm form;
+  form.input_offset = node.At("input_offset").Vector();
+  form.input_scale = node.At("input_scale").Vector();
+  form.target_slope = node.At("target_slope").Vector();
+  form.target_offset = node.At("target_offset").Vector();
+  form.w1 = node.At("w1").Matrix();
+  form.w2 = node.At("w2").Matrix();
+  const std::string output = node.At("output").Text();
+  if (output == ToString(OutputFunction::kSigmoid)) {
+    form.output = OutputFunction::kSigmoid;
+  } else if (output == ToString(OutputFunction::kLinear)) {
+    form.output = OutputFunction::kLinear;
+  } else {
+    node.At("output").Refuse("must be 'sigmoid' or 'linear', found '" + output +
+                             "'");
+  }
+  std::vector<Index> nodes;
+  for (const Node& count : node.At("nodes").Elements()) {
+    nodes.push_back(count.Count());
+  }
+  if (nodes !=
+      std::vector<Index>{form.w1.cols() - 1, form.w1.rows(), form.w2.rows()}) {
+    node.At("nodes").Refuse("does not agree with the shapes of w1 and w2");
+  }
+  return form;
+}
+
+BlendForm ReadBlend(const Node& node, Index num_inputs) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  BlendForm form;
+  form.num_inputs = num_inputs;
+  form.rule = node.At("rule").Text();
+  for (const Node& element : node.At("members").Elements()) {
+    BlendForm::Member member;
+    member.name = element.At("name").Text();
+    member.weight = element.At("weight").Number();
+    for (const Node& input : element.At("inputs").Elements()) {
+      member.inputs.push_back(input.Count());
+    }
+    const auto lowest = element.Find("lowest");
+    member.lowest = lowest ? lowest->Number() : -kInfinity;
+    const auto highest = element.Find("highest");
+    member.highest = highest ? highest->Number() : kInfinity;
+    member.parameters = element.At("parameters").Count();
+    if (const auto net = element.Find("net")) {
+      member.form = ReadNet(*net);
+    } else {
+      member.form = ReadPolynomial(element.At("polynomial"));
+    }
+    form.members.push_back(std::move(member));
+  }
+  return form;
+}
+
+data::ColumnInfo ReadColumn(const Node& node) {
+  return {node.At("name").Text(), data::UnitOfSymbol(node.At("unit").Text())};
+}
+
+TrainedInput ReadInput(const Node& node) {
+  const TrainedInput input{ReadColumn(node),
+                           node.At("min").Number(),
+                           node.At("max").Number(),
+                           node.At("mean").Number(),
+                           node.At("sd").Number()};
+  if (input.min > input.max) node.At("min").Refuse("is above max");
+  if (input.sd < 0.0) node.At("sd").Refuse("must be at least 0");
+  return input;
+}
+
+ModelKind ReadKind(const Node& node) {
+  const std::string kind = node.Text();
+  for (const ModelKind known : {ModelKind::kBaseline,
+                                ModelKind::kPolynomial,
+                                ModelKind::kNet,
+                                ModelKind::kBlend}) {
+    if (kind == ToString(known)) return known;
+  }
+  node.Refuse("unknown kind of model '" + kind + "'");
+}
+
+Filter ReadFilter(const Node& node) {
+  const std::string filter = node.Text();
+  for (const Filter known :
+       {Filter::kEma, Filter::kZero, Filter::kSine, Filter::kCosine}) {
+    if (filter == ToString(known)) return known;
+  }
+  node.Refuse("must be 'ema', 'zero', 'sine' or 'cosine', found '" + filter +
+              "'");
+}
+
+History ReadHistory(const Node& node, const std::vector<TrainedInput>& inputs) {
+  History history;
+  history.time_unit = node.At("time_unit").Text();
+  if (history.time_unit != "s" && history.time_unit != "rows") {
+    node.At("time_unit").Refuse("must be 's' or 'rows'");
+  }
+  history.session = node.At("session").Text();
+  if (const auto start = node.Find("latest_start")) {
+    history.latest_start = start->Number();
+  }
+  for (const Node& element : node.At("derived").Elements()) {
+    DerivedInput input;
+    input.column = ReadColumn(element);
+    input.of = element.At("of").Text();
+    input.filter = ReadFilter(element.At("filter"));
+    if (input.filter == Filter::kEma) input.tau = element.At("tau").Number();
+    history.derived.push_back(std::move(input));
+  }
+  for (const Node& name : node.At("form_inputs").Elements()) {
+    history.form_inputs.push_back(name.Text());
+  }
+  std::vector<data::ColumnInfo> columns;
+  for (const TrainedInput& input : inputs) columns.push_back(input.column);
+  try {
+    const HistoryState check(history, columns);
+  } catch (const std::invalid_argument& error) {
+    node.Refuse(error.what());
+  }
+  return history;
+}
+
+Guards ReadGuards(const Node& node, Index num_inputs) {
+  Guards guards;
+  guards.input_margin = node.At("input_margin").Number();
+  guards.error_margin = node.At("error_margin").Number();
+  guards.input_min = node.At("input_min").Vector();
+  guards.input_max = node.At("input_max").Vector();
+  guards.error_min = node.At("error_min").Number();
+  guards.error_max = node.At("error_max").Number();
+  if (guards.input_min.size() != num_inputs ||
+      guards.input_max.size() != num_inputs) {
+    node.Refuse(
+        fmt::format("needs {} numbers in input_min and input_max", num_inputs));
+  }
+  return guards;
+}
+
+Eigen::VectorXd ReadVector(const Node& node, Index size) {
+  Eigen::VectorXd values = node.Vector();
+  if (values.size() != size) {
+    node.Refuse(fmt::format("needs {} numbers, has {}", size, values.size()));
+  }
+  return values;
+}
+
+double ReadPositive(const Node& node) {
+  const double value = node.Number();
+  if (!(value > 0.0)) node.Refuse("must be above 0");
+  return value;
+}
+
+Eigen::VectorXd ReadPositive(const Node& node, Index size) {
+  Eigen::VectorXd values = ReadVector(node, size);
+  if (!(values.array() > 0.0).all()) node.Refuse("must be above 0");
+  return values;
+}
+
+std::vector<Index> ReadColumnsOf(const Node& node,
+                                 const std::vector<TrainedInput>& inputs) {
+  std::vector<Index> columns;
+  for (const Node& name : node.Elements()) {
+    const auto found = std::ranges::find(
+        inputs, name.Text(), [](const TrainedInput& input) -> const auto& {
+          return input.column.name;
+        });
+    if (found == inputs.end()) name.Refuse("is no input of the map");
+    columns.push_back(found - inputs.begin());
+  }
+  return columns;
+}
+
+Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
+  Applicability trained;
+  for (const Node& element : node.At("derived").Elements()) {
+    trained.derived.push_back({.column = ReadColumn(element),
+                               .min = element.At("min").Number(),
+                               .max = element.At("max").Number()});
+    if (fitted.history == nullptr ||
+        std::ranges::find(fitted.history->form_inputs,
+                          trained.derived.back().column.name) ==
+            fitted.history->form_inputs.end()) {
+      element.Refuse("is no input of the form");
+    }
+  }
+  trained.columns = ReadColumnsOf(node.At("columns"), fitted.inputs);
+  const auto size = static_cast<Index>(trained.columns.size());
+  trained.rows = node.At("rows").Count();
+  if (trained.rows < 2) node.At("rows").Refuse("must be at least 2");
+  trained.mean = ReadVector(node.At("mean"), size);
+  trained.scale = ReadPositive(node.At("scale"), size);
+  trained.directions = node.At("directions").Matrix();
+  trained.rest = ReadPositive(node.At("rest"), size);
+  trained.states = node.At("states").Matrix();
+  if (trained.directions.rows() != size || trained.directions.cols() < 1) {
+    node.At("directions").Refuse(fmt::format("needs {} rows", size));
+  }
+  if (trained.states.rows() < 1 ||
+      trained.states.cols() != trained.directions.cols()) {
+    node.At("states").Refuse(
+        fmt::format("needs rows of {} numbers", trained.directions.cols()));
+  }
+  trained.distance_limit = ReadPositive(node.At("distance_limit"));
+  trained.leverage_limit = ReadPositive(node.At("leverage_limit"));
+  trained.relation_limit = ReadPositive(node.At("relation_limit"), size);
+  return trained;
+}
+
+HeldOutErrors ReadHeldOut(const Node& node) {
+  HeldOutErrors errors;
+  errors.time_unit = node.At("time_unit").Text();
+  errors.position = node.At("position").Text();
+  errors.rmse = node.At("rmse").Number();
+  for (const Node& element : node.At("units").Elements()) {
+    HeldOutErrors::Unit unit;
+    unit.label = element.At("label").Text();
+    unit.rmse = element.At("rmse").Number();
+    unit.residuals = element.At("residuals").Vector();
+    if (unit.residuals.size() == 0) element.Refuse("has no residuals");
+    unit.elapsed = ReadVector(element.At("elapsed"), unit.residuals.size());
+    unit.position =
+        ReadVector(element.At("position"),
+                   errors.position.empty() ? 0 : unit.residuals.size());
+    errors.units.push_back(std::move(unit));
+  }
+  if (errors.units.size() < 2) node.At("units").Refuse("needs two units");
+  return errors;
+}
+
+PredictionInterval ReadInterval(const Node& node) {
+  PredictionInterval interval{.holdout = node.At("holdout").Text(),
+                              .unit = "",
+                              .units = node.At("groups").Count(),
+                              .levels = {}};
+  if (const auto unit = node.Find("unit")) interval.unit = unit->Text();
+  std::vector<std::string> at_least;
+  if (const auto keys = node.Find("at_least")) {
+    for (const Node& key : keys->Elements()) at_least.push_back(key.Text());
+  }
+  for (const double coverage : PredictionInterval::kCoverages) {
+    PredictionInterval::Level& level = interval.levels.emplace_back();
+    level.coverage = coverage;
+    const std::string key = CoverageKey(level.coverage);
+    if (const auto half_width = node.Find(key)) {
+      level.half_width = half_width->Number();
+      if (!(level.half_width >= 0.0)) half_width->Refuse("must be at least 0");
+    }
+    level.at_least = std::ranges::find(at_least, key) != at_least.end();
+  }
+  return interval;
+}
+
+// Of two values of one key a reader would take either.
+Json ParseUniqueKeys(const std::string& text) {
+  std::vector<std::set<std::string>> keys;  // of the objects around
+  std::string repeated;
+  const auto look = [&](int, Json::parse_event_t event, const Json& parsed) {
+    if (event == Json::parse_event_t::object_start) {
+      keys.emplace_back();
+    } else if (event == Json::parse_event_t::object_end) {
+      keys.pop_back();
+    } else if (event == Json::parse_event_t::key &&
+               !keys.back().insert(parsed.get<std::string>()).second) {
+      repeated = parsed.get<std::string>();
+    }
+    return true;
+  };
+  Json document = Json::parse(text, look);
+  if (repeated.empty()) return document;
+  throw data::InputError("has the key " + data::QuotedName(repeated) +
+                         " twice in one object");
+}
+
+FittedModel ReadModel(const Node& root) {
+  const std::string schema = root.At("schema").Text();
+  if (schema != kModelSchema) {
+    root.At("schema").Refuse(
+        fmt::format("this version reads {}, found '{}'", kModelSchema, schema));
+  }
+  FittedModel fitted;
+  fitted.name = root.At("name").Text();
+  fitted.kind = ReadKind(root.At("kind"));
+  const Node target = root.At("target");
+  fitted.target = ReadColumn(target);
+  if (const auto align = target.Find("align")) {
+    if (align->Text() != ToString(data::Alignment::kFirst)) {
+      align->Refuse("must be 'first' or null");
+    }
+    fitted.align = data::Alignment::kFirst;
+  }
+  for (const Node& element : root.At("inputs").Elements()) {
+    fitted.inputs.push_back(ReadInput(element));
+    const std::string& name = fitted.inputs.back().column.name;
+    if (std::ranges::count(fitted.inputs, name, [](const TrainedInput& input) {
+          return input.column.name;
+        }) > 1) {
+      element.At("name").Refuse("'" + name + "' stands there twice");
+    }
+  }
+  std::size_t form_inputs = fitted.inputs.size();
+  if (const auto history = root.Find("history")) {
+    fitted.history =
+        std::make_shared<History>(ReadHistory(*history, fitted.inputs));
+    form_inputs = fitted.history->form_inputs.size();
+  }
+  const Node parameters = root.At("parameters");
+  const bool is_blend =
+      fitted.kind == ModelKind::kBlend || root.Find("blend").has_value();
+  const bool is_net = fitted.kind == ModelKind::kNet;
+  const Node form = root.At(is_blend ? "blend" : is_net ? "net" : "polynomial");
+  try {
+    ModelDescription description;
+    if (is_blend) {
+      description = ReadBlend(form, static_cast<Index>(form_inputs));
+    } else if (is_net) {
+      description = ReadNet(form);
+    } else {
+      fitted.equation = form.At("equation").Text();
+      description = ReadPolynomial(form);
+    }
+    fitted.model = ModelOfForm(std::move(description), parameters.Count());
+  } catch (const std::invalid_argument& error) {
+    form.Refuse(error.what());
+  }
+  if (fitted.model->num_inputs() != static_cast<Index>(form_inputs)) {
+    root.At(fitted.history != nullptr ? "history" : "inputs")
+        .Refuse(fmt::format("names {} inputs, the model reads {}",
+                            form_inputs,
+                            fitted.model->num_inputs()));
+  }
+  if (const auto guards = root.Find("guards")) {
+    fitted.guards = ReadGuards(*guards, fitted.model->num_inputs());
+  }
+  if (const auto interval = root.Find("interval")) {
+    fitted.interval = ReadInterval(*interval);
+  }
+  if (const auto trained = root.Find("applicability")) {
+    fitted.applicability =
+        std::make_shared<Applicability>(ReadApplicability(*trained, fitted));
+  }
+  if (const auto held_out = root.Find("held_out")) {
+    fitted.held_out = std::make_shared<HeldOutErrors>(ReadHeldOut(*held_out));
+  }
+  if (fitted.model->num_parameters() != parameters.Count()) {
+    parameters.Refuse(fmt::format("is {}, the model has {}",
+                                  parameters.Count(),
+                                  fitted.model->num_parameters()));
+  }
+  fitted.summary.message = "read from a file";
+  return fitted;
+}
+
+}  // namespace
+
+FittedModel ModelFromJson(const std::string& text, const std::string& source) {
+  Json document;
+  try {
+    data::RequireShallowJson(text);
+    document = ParseUniqueKeys(text);
+  } catch (const data::InputError& error) {
+    throw data::InputError(fmt::format("{}: {}", source, error.what()));
+  } catch (const Json::exception& error) {
+    throw data::InputError(
+        fmt::format("{}: is no JSON model file: {}", source, error.what()));
+  }
+  return ReadModel(Node(document, "", source));
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,233 @@
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "models/history/history.h"
+#include "models/map_experience.h"
+#include "models/model_file.h"
+#include "models/model_json.h"
+#include "models/version.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using Json = ModelJson;
+
+Json ToJson(const Eigen::VectorXd& vector) {
+  return std::vector<double>(vector.begin(), vector.end());
+}
+
+Json ToJson(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (Index i = 0; i < matrix.rows(); ++i) {
+    rows.push_back(ToJson(Eigen::VectorXd(matrix.row(i).transpose())));
+  }
+  return rows;
+}
+
+Json ToJson(const PolynomialForm& form, const std::string& equation) {
+  Json terms = Json::array();
+  for (const PolynomialTerm& term : form.terms) {
+    terms.push_back(
+        {{"powers", term.powers}, {"coefficient", term.coefficient}});
+  }
+  return {{"input_offset", ToJson(form.input_offset)},
+          {"input_scale", ToJson(form.input_scale)},
+          {"intercept", form.intercept},
+          {"terms", std::move(terms)},
+          {"equation", equation}};
+}
+
+Json ToJson(const NetForm& form) {
+  return {{"nodes", {form.w1.cols() - 1, form.w1.rows(), form.w2.rows()}},
+          {"output", ToString(form.output)},
+          {"input_offset", ToJson(form.input_offset)},
+          {"input_scale", ToJson(form.input_scale)},
+          {"target_slope", ToJson(form.target_slope)},
+          {"target_offset", ToJson(form.target_offset)},
+          {"w1", ToJson(form.w1)},
+          {"w2", ToJson(form.w2)}};
+}
+
+Json ToJson(const History& history) {
+  Json derived = Json::array();
+  for (const DerivedInput& input : history.derived) {
+    Json entry = {{"name", input.column.name},
+                  {"unit", input.column.unit.symbol},
+                  {"of", input.of},
+                  {"filter", ToString(input.filter)}};
+    if (input.filter == Filter::kEma) entry["tau"] = input.tau;
+    derived.push_back(std::move(entry));
+  }
+  return {{"time_unit", history.time_unit},
+          {"session", history.session},
+          {"latest_start",
+           std::isfinite(history.latest_start) ? Json(history.latest_start)
+                                               : Json()},
+          {"derived", std::move(derived)},
+          {"form_inputs", history.form_inputs}};
+}
+
+Json ToJson(const Guards& guards) {
+  return {{"input_margin", guards.input_margin},
+          {"error_margin", guards.error_margin},
+          {"input_min", ToJson(guards.input_min)},
+          {"input_max", ToJson(guards.input_max)},
+          {"error_min", guards.error_min},
+          {"error_max", guards.error_max}};
+}
+
+Json ToJson(const PredictionInterval& interval) {
+  Json json = {{"holdout", interval.holdout},
+               {"unit", interval.unit},
+               {"groups", interval.units}};
+  Json at_least = Json::array();
+  for (const PredictionInterval::Level& level : interval.levels) {
+    const std::string key = CoverageKey(level.coverage);
+    json[key] = std::isfinite(level.half_width) ? Json(level.half_width)
+                                                : Json(nullptr);
+    if (level.at_least) at_least.push_back(key);
+  }
+  json["at_least"] = std::move(at_least);
+  return json;
+}
+
+// What no prediction depends on is written with so many digits.
+constexpr int kDigits = 6;
+
+double Rounded(double value) {
+  return std::strtod(fmt::format("{:.{}g}", value, kDigits).c_str(), nullptr);
+}
+
+Eigen::VectorXd Rounded(const Eigen::VectorXd& values) {
+  return values.unaryExpr([](double value) { return Rounded(value); });
+}
+
+Eigen::MatrixXd Rounded(const Eigen::MatrixXd& values) {
+  return values.unaryExpr([](double value) { return Rounded(value); });
+}
+
+Json ToJson(const Applicability& trained,
+            const std::vector<TrainedInput>& inputs) {
+  Json derived = Json::array();
+  for (const Applicability::Derived& input : trained.derived) {
+    derived.push_back({{"name", input.column.name},
+                       {"unit", input.column.unit.symbol},
+                       {"min", input.min},
+                       {"max", input.max}});
+  }
+  Json columns = Json::array();
+  for (const Index column : trained.columns) {
+    columns.push_back(inputs[static_cast<std::size_t>(column)].column.name);
+  }
+  return {{"derived", std::move(derived)},
+          {"columns", std::move(columns)},
+          {"rows", trained.rows},
+          {"mean", ToJson(Rounded(trained.mean))},
+          {"scale", ToJson(Rounded(trained.scale))},
+          {"directions", ToJson(Rounded(trained.directions))},
+          {"rest", ToJson(Rounded(trained.rest))},
+          {"states", ToJson(Rounded(trained.states))},
+          {"distance_limit", Rounded(trained.distance_limit)},
+          {"leverage_limit", Rounded(trained.leverage_limit)},
+          {"relation_limit", ToJson(Rounded(trained.relation_limit))}};
+}
+
+Json ToJson(const HeldOutErrors& errors) {
+  Json units = Json::array();
+  for (const HeldOutErrors::Unit& unit : errors.units) {
+    units.push_back({{"label", unit.label},
+                     {"rmse", Rounded(unit.rmse)},
+                     {"elapsed", ToJson(Rounded(unit.elapsed))},
+                     {"position", ToJson(Rounded(unit.position))},
+                     {"residuals", ToJson(Rounded(unit.residuals))}});
+  }
+  return {{"time_unit", errors.time_unit},
+          {"position", errors.position},
+          {"rmse", Rounded(errors.rmse)},
+          {"units", std::move(units)}};
+}
+
+// Bounds may be infinite, which JSON has no word for: null.
+Json BoundToJson(double bound) {
+  return std::isfinite(bound) ? Json(bound) : Json(nullptr);
+}
+
+Json ToJson(const BlendForm& form) {
+  Json members = Json::array();
+  for (const BlendForm::Member& member : form.members) {
+    Json json = {{"name", member.name},
+                 {"weight", member.weight},
+                 {"inputs", member.inputs},
+                 {"lowest", BoundToJson(member.lowest)},
+                 {"highest", BoundToJson(member.highest)},
+                 {"parameters", member.parameters}};
+    if (const auto* polynomial = std::get_if<PolynomialForm>(&member.form)) {
+      json["polynomial"] = ToJson(*polynomial, "");
+    } else {
+      json["net"] = ToJson(std::get<NetForm>(member.form));
+    }
+    members.push_back(std::move(json));
+  }
+  return {{"rule", form.rule}, {"members", std::move(members)}};
+}
+
+}  // namespace
+
+std::string ModelToJson(const FittedModel& fitted,
+                        const Provenance& provenance) {
+  Json inputs = Json::array();
+  for (const TrainedInput& input : fitted.inputs) {
+    inputs.push_back({{"name", input.column.name},
+                      {"unit", input.column.unit.symbol},
+                      {"min", input.min},
+                      {"max", input.max},
+                      {"mean", input.mean},
+                      {"sd", input.sd}});
+  }
+  Json document = {
+      {"schema", kModelSchema},
+      {"version", Version()},
+      {"name", fitted.name},
+      {"kind", ToString(fitted.kind)},
+      {"target",
+       {{"name", fitted.target.name}, {"unit", fitted.target.unit.symbol}}},
+      {"inputs", std::move(inputs)},
+      {"parameters", fitted.model->num_parameters()}};
+  const ModelDescription description = fitted.model->Describe();
+  RequireFormula(description, "a model file");
+  if (const auto* polynomial = std::get_if<PolynomialForm>(&description)) {
+    document["polynomial"] = ToJson(*polynomial, fitted.equation);
+  } else if (const auto* net = std::get_if<NetForm>(&description)) {
+    document["net"] = ToJson(*net);
+  } else {
+    document["blend"] = ToJson(std::get<BlendForm>(description));
+  }
+  if (fitted.align != data::Alignment::kNone) {
+    document["target"]["align"] = data::ToString(fitted.align);
+  }
+  document["history"] =
+      fitted.history != nullptr ? ToJson(*fitted.history) : Json();
+  document["guards"] = fitted.guards ? ToJson(*fitted.guards) : Json();
+  document["interval"] = fitted.interval ? ToJson(*fitted.interval) : Json();
+  document["applicability"] = fitted.applicability != nullptr
+                                  ? ToJson(*fitted.applicability, fitted.inputs)
+                                  : Json();
+  document["held_out"] =
+      fitted.held_out != nullptr ? ToJson(*fitted.held_out) : Json();
+  document["provenance"] = Json::object();
+  for (const auto& [key, value] : provenance) {
+    document["provenance"][key] = value;
+  }
+  constexpr int kIndent = 1;
+  return document.dump(kIndent) + "\n";
+}
+
+}  // namespace errmap::models
