@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstddef>
+#include <cstdint>
 #include <fcntl.h>
 #include <filesystem>
 #include <optional>
@@ -95,18 +96,34 @@ void WriteDirectly(const std::string& path, std::string_view content) {
 
 constexpr std::string_view kTemporaryBegin = ".errmap-";
 constexpr std::string_view kTemporaryEnd = ".tmp";
-constexpr std::string_view kLetters = "0123456789abcdefghijklmnopqrstuv";
+constexpr std::string_view kLetters = "0123456789abcdef";
 constexpr int kNumLetters = 16;
 
-std::string TemporaryName(const std::filesystem::path& folder) {
-  std::random_device random;
+std::string TemporaryName(std::uint64_t number) {
   // Without the target's own name, which may already be as long as allowed.
   std::string name{kTemporaryBegin};
   for (int i = 0; i < kNumLetters; ++i) {
-    name += kLetters[random() % kLetters.size()];
+    constexpr int kBitsOfALetter = 4;
+    name += kLetters[number >> (i * kBitsOfALetter) & 15U];
   }
   name += kTemporaryEnd;
-  return folder / name;
+  return name;
+}
+
+// The first choice for a target is always the same, so that writing it again
+// finds what a killed process left (FNV-1a, 64 bits).
+std::string TemporaryNameFor(std::string_view target) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char letter : target) {
+    hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
+  }
+  return TemporaryName(hash);
+}
+
+std::string RandomTemporaryName() {
+  std::random_device random;
+  constexpr int kHalf = 32;
+  return TemporaryName(std::uint64_t{random()} << kHalf | random());
 }
 
 bool IsTemporaryName(std::string_view name) {
@@ -117,6 +134,49 @@ bool IsTemporaryName(std::string_view name) {
   name.remove_suffix(kTemporaryEnd.size());
   return name.size() == kNumLetters &&
          name.find_first_not_of(kLetters) == std::string_view::npos;
+}
+
+// What a killed process left; a file that is being written is locked. Who
+// holds the lock of what has the name is the only one to take the name away.
+void RemoveIfAbandoned(const std::string& path) {
+  const FileDescriptor file(
+      open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  struct stat opened {};
+  struct stat named {};
+  if (file.is_open() && flock(file.get(), LOCK_EX | LOCK_NB) == 0 &&
+      fstat(file.get(), &opened) == 0 && lstat(path.c_str(), &named) == 0 &&
+      opened.st_ino == named.st_ino && opened.st_dev == named.st_dev) {
+    unlink(path.c_str());
+  }
+}
+
+struct OpenTemporary {
+  std::string path;
+  FileDescriptor file;
+};
+
+// A new file beside the target, locked, which says that it is not abandoned;
+// not open, and errno says why, where there can be none.
+OpenTemporary MakeTemporary(const std::filesystem::path& target, mode_t mode) {
+  const std::filesystem::path folder =
+      target.has_parent_path() ? target.parent_path() : ".";
+  std::string path = folder / TemporaryNameFor(target.filename().string());
+  RemoveIfAbandoned(path);
+  for (;;) {
+    FileDescriptor file(
+        open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
+    // Between opening and locking another process may take it for abandoned.
+    // A file system without locks does no harm.
+    struct stat status {};
+    const bool is_ours = file.is_open()
+                             ? (flock(file.get(), LOCK_EX | LOCK_NB) == 0 ||
+                                errno != EWOULDBLOCK) &&
+                                   fstat(file.get(), &status) == 0 &&
+                                   status.st_nlink > 0
+                             : errno != EEXIST;
+    if (is_ours) return {std::move(path), std::move(file)};
+    path = folder / RandomTemporaryName();
+  }
 }
 
 // Makes the rename survive a power cut. The new file is in place by now, so a
@@ -137,17 +197,13 @@ void ReplaceFile(const std::string& path,
     target = std::filesystem::canonical(path, error);
     if (error) ThrowUnwritable(path, error.value());
   }
-  const std::filesystem::path folder =
-      target.has_parent_path() ? target.parent_path() : ".";
-  const std::string temporary_name = TemporaryName(folder);
   // Never open to more people than the old file was, not even for a moment.
-  FileDescriptor file(open(temporary_name.c_str(),
-                           O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
-                           old_permissions ? kPrivateMode : kNewFileMode));
+  auto [temporary_name, file] =
+      MakeTemporary(target, old_permissions ? kPrivateMode : kNewFileMode);
   if (!file.is_open()) ThrowUnwritable(path, errno);
   TemporaryFile temporary(temporary_name);
-  // Says that it is not abandoned. A file system without locks does no harm.
-  flock(file.get(), LOCK_EX | LOCK_NB);
+  // Holds the lock until the file has its own name.
+  const FileDescriptor lock(fcntl(file.get(), F_DUPFD_CLOEXEC, 0));
   WriteAll(file, content, path);
   if (old_permissions && fchmod(file.get(), *old_permissions) != 0) {
     ThrowUnwritable(path, errno);
@@ -158,7 +214,7 @@ void ReplaceFile(const std::string& path,
     ThrowUnwritable(path, errno);
   }
   temporary.Release();
-  FlushFolder(folder);
+  FlushFolder(target.has_parent_path() ? target.parent_path() : ".");
 }
 
 }  // namespace
@@ -187,12 +243,7 @@ void RemoveAbandonedFiles(const std::string& folder) {
        !error && entry != end;
        entry.increment(error)) {
     const std::filesystem::path& path = entry->path();
-    if (!IsTemporaryName(path.filename().string())) continue;
-    const FileDescriptor file(
-        open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
-    if (file.is_open() && flock(file.get(), LOCK_EX | LOCK_NB) == 0) {
-      unlink(path.c_str());
-    }
+    if (IsTemporaryName(path.filename().string())) RemoveIfAbandoned(path);
   }
 }
 

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -118,6 +119,41 @@ TEST_F(AtomicFile, WritesRelativeToTheWorkingFolder) {
   WriteFileAtomically("relative", "x");
   fs::current_path(before);
   EXPECT_EQ(ReadFile(Path("relative")), "x");
+}
+
+TEST_F(AtomicFile, LeavesNothingOfAKilledProcessWhenTheFileIsWrittenAgain) {
+  const std::string content(1'000'000, 'x');
+  // The limit on the size of files kills a process half-way.
+  EXPECT_EXIT(
+      {
+        struct rlimit limit {};
+        limit.rlim_cur = limit.rlim_max = 4096;
+        setrlimit(RLIMIT_FSIZE, &limit);
+        WriteFileAtomically(Path("file"), content);
+      },
+      ::testing::KilledBySignal(SIGXFSZ),
+      "");
+  EXPECT_FALSE(fs::exists(Path("file")));
+  EXPECT_EQ(NumEntries(), 1);
+  WriteFileAtomically(Path("file"), content);
+  EXPECT_EQ(ReadFile(Path("file")), content);
+  EXPECT_EQ(NumEntries(), 1);
+}
+
+TEST_F(AtomicFile, IsWrittenByManyAtATime) {
+  const std::string content(10'000, 'x');
+  std::vector<std::thread> writers;
+  for (int i = 0; i < 8; ++i) {
+    writers.emplace_back([&] {
+      for (int j = 0; j < 25; ++j) {
+        WriteFileAtomically(Path("file"), content);
+        RemoveAbandonedFiles(folder_);
+      }
+    });
+  }
+  for (std::thread& writer : writers) writer.join();
+  EXPECT_EQ(ReadFile(Path("file")), content);
+  EXPECT_EQ(NumEntries(), 1);
 }
 
 TEST_F(AtomicFile, RemovesWhatAKilledProcessHadBegunAndNothingElse) {
