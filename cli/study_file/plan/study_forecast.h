@@ -13,9 +13,9 @@ namespace errmap::cli {
 
 /// How long a study will still take, learnt from its fits, and the best map so
 /// far. A fit's share of the work is RoughFitSeconds of its kind and rows; what
-/// that really takes is learnt of each model, of models of its kind where there
-/// is none of it yet. Fits of an earlier run teach as those of this one do.
-/// Safe to use from any thread.
+/// that really takes is learnt of each model; where there is none of it yet, of
+/// models of its kind, as far as these were as much work. Fits of an earlier
+/// run teach as those of this one do. Safe to use from any thread.
 class StudyForecast {
  public:
   StudyForecast(const StudyPlan& plan, int jobs);
@@ -49,6 +49,9 @@ class StudyForecast {
     std::string holdout_name;
     data::Unit unit;
   };
+
+  // Seconds per rough second of a model's fits.
+  double Rate(const OfModel& model) const;
 
   int jobs_;
   mutable std::mutex mutex_;  // of all that follows

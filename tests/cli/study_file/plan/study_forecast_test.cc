@@ -66,6 +66,15 @@ TEST(StudyForecast, LearnsOfAModelFromOthersOfItsKind) {
   EXPECT_GT(forecast.SecondsLeft(), 300.0 * before);
 }
 
+TEST(StudyForecast, LearnsLittleOfAMuchLargerModel) {
+  const StudyPlan plan = PlanOf({"poly:position", "poly:full:degree=6"});
+  StudyForecast forecast(plan, 1);
+  const double before = forecast.SecondsLeft();
+  StudyForecast alone(PlanOf({"poly:position"}), 1);
+  forecast.Note(kFirst, Fit(0, -1, 0, 100.0 * alone.SecondsLeft() / 3.1));
+  EXPECT_LT(forecast.SecondsLeft(), 20.0 * before);
+}
+
 TEST(StudyForecast, TellsTheBestOnWhatIsUnseen) {
   StudyForecast forecast(PlanOf({"mean", "poly:eq8"}), 1);
   EXPECT_EQ(forecast.BestSoFar().map, "");
