@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "models/net/net_options.h"
+
 namespace errmap::cli {
 namespace {
 
@@ -46,6 +48,10 @@ double NetSeconds(const models::ModelRecipe& recipe,
   constexpr double kPerNodeAndRow = 6e-9;
   constexpr double kIterations = 1500.0;
   constexpr double kFitsOfCrossValidation = 30.0;
+  if (!HasText(recipe, "rows", "all")) {
+    constexpr auto kRows = static_cast<double>(models::NetOptions::kMostRows);
+    rows = std::min(rows, Option(recipe, "rows", kRows));
+  }
   const double hidden = Option(recipe, "hidden", 1.0);
   double per_iteration =
       rows * (kPerWeightAndRow * weights + kPerNodeAndRow * hidden);

@@ -75,6 +75,13 @@ TEST(StudyForecast, LearnsLittleOfAMuchLargerModel) {
   EXPECT_LT(forecast.SecondsLeft(), 20.0 * before);
 }
 
+TEST(StudyForecast, KnowsThatNetsTrainOnABoundedNumberOfRows) {
+  const StudyForecast all(PlanOf({"net:scg:rows=all"}), 1);
+  const StudyForecast few(PlanOf({"net:scg:rows=100"}), 1);
+  // 264 rows and more of 397 in each fold.
+  EXPECT_LT(few.SecondsLeft(), 0.5 * all.SecondsLeft());
+}
+
 TEST(StudyForecast, TellsTheBestOnWhatIsUnseen) {
   StudyForecast forecast(PlanOf({"mean", "poly:eq8"}), 1);
   EXPECT_EQ(forecast.BestSoFar().map, "");
