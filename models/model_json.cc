@@ -14,6 +14,18 @@ namespace errmap::models {
 using Eigen::Index;
 using Node = ModelJsonNode;
 
+ModelJson NumbersToJson(const Eigen::VectorXd& vector) {
+  return std::vector<double>(vector.begin(), vector.end());
+}
+
+ModelJson NumbersToJson(const Eigen::MatrixXd& matrix) {
+  ModelJson rows = ModelJson::array();
+  for (Index i = 0; i < matrix.rows(); ++i) {
+    rows.push_back(NumbersToJson(Eigen::VectorXd(matrix.row(i).transpose())));
+  }
+  return rows;
+}
+
 ModelJsonNode::ModelJsonNode(const ModelJson& value,
                              std::string path,
                              const std::string& source)

@@ -8,6 +8,8 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "models/error_model.h"
+
 // What the writer and the reader of model files share; no public header
 // includes it, nor is it installed.
 
@@ -22,6 +24,10 @@ inline std::string CoverageKey(double coverage) {
   constexpr double kPercent = 100.0;
   return std::to_string(std::lround(coverage * kPercent));
 }
+
+ModelJson NumbersToJson(const Eigen::VectorXd& vector);
+/// By rows.
+ModelJson NumbersToJson(const Eigen::MatrixXd& matrix);
 
 /// A value of a model file together with its place, for messages. Refers to
 /// the document and the file's name, which must outlive it. Every reader
@@ -53,5 +59,18 @@ class ModelJsonNode {
   std::string path_;
   const std::string& source_;
 };
+
+/// Adds the model's form to its file: one key, named by the kind of form, of
+/// those that ReadForm knows. Throws data::InputError on a model without a
+/// formula.
+void WriteForm(const ErrorModel& model,
+               const std::string& equation,
+               ModelJson* document);
+
+/// The model itself and its equation, from the whole document and the kind that
+/// was read already; `num_inputs` of the form, memory's derived ones included.
+void ReadForm(const ModelJsonNode& document,
+              Eigen::Index num_inputs,
+              FittedModel* fitted);
 
 }  // namespace errmap::models

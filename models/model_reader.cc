@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -13,7 +12,6 @@
 #include "data/formats/nesting.h"
 #include "data/input_error.h"
 #include "data/text.h"
-#include "models/blend/form_to_model.h"
 #include "models/history/history.h"
 #include "models/history/history_state.h"
 #include "models/map_experience.h"
@@ -26,80 +24,6 @@ namespace {
 using Eigen::Index;
 using Json = ModelJson;
 using Node = ModelJsonNode;
-
-PolynomialForm ReadPolynomial(const Node& node) {
-  PolynomialForm form;
-  form.input_offset = node.At("input_offset").Vector();
-  form.input_scale = node.At("input_scale").Vector();
-  form.intercept = node.At("intercept").Number();
-  for (const Node& element : node.At("terms").Elements()) {
-    PolynomialTerm term;
-    for (const Node& power : element.At("powers").Elements()) {
-      constexpr Index kMostPower = 64;
-      const Index value = power.Count();
-      if (value > kMostPower) power.Refuse("is too high a power");
-      term.powers.push_back(static_cast<int>(value));
-    }
-    term.coefficient = element.At("coefficient").Number();
-    form.terms.push_back(std::move(term));
-  }
-  return form;
-}
-
-NetForm ReadNet(const Node& node) {
-  NetForm form;
-  form.input_offset = node.At("input_offset").Vector();
-  form.input_scale = node.At("input_scale").Vector();
-  form.target_slope = node.At("target_slope").Vector();
-  form.target_offset = node.At("target_offset").Vector();
-  form.w1 = node.At("w1").Matrix();
-  form.w2 = node.At("w2").Matrix();
-  const std::string output = node.At("output").Text();
-  if (output == ToString(OutputFunction::kSigmoid)) {
-    form.output = OutputFunction::kSigmoid;
-  } else if (output == ToString(OutputFunction::kLinear)) {
-    form.output = OutputFunction::kLinear;
-  } else {
-    node.At("output").Refuse("must be 'sigmoid' or 'linear', found '" + output +
-                             "'");
-  }
-  std::vector<Index> nodes;
-  for (const Node& count : node.At("nodes").Elements()) {
-    nodes.push_back(count.Count());
-  }
-  if (nodes !=
-      std::vector<Index>{form.w1.cols() - 1, form.w1.rows(), form.w2.rows()}) {
-    node.At("nodes").Refuse("does not agree with the shapes of w1 and w2");
-  }
-  return form;
-}
-
-BlendForm ReadBlend(const Node& node, Index num_inputs) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  BlendForm form;
-  form.num_inputs = num_inputs;
-  form.rule = node.At("rule").Text();
-  for (const Node& element : node.At("members").Elements()) {
-    BlendForm::Member member;
-    member.name = element.At("name").Text();
-    member.weight = element.At("weight").Number();
-    for (const Node& input : element.At("inputs").Elements()) {
-      member.inputs.push_back(input.Count());
-    }
-    const auto lowest = element.Find("lowest");
-    member.lowest = lowest ? lowest->Number() : -kInfinity;
-    const auto highest = element.Find("highest");
-    member.highest = highest ? highest->Number() : kInfinity;
-    member.parameters = element.At("parameters").Count();
-    if (const auto net = element.Find("net")) {
-      member.form = ReadNet(*net);
-    } else {
-      member.form = ReadPolynomial(element.At("polynomial"));
-    }
-    form.members.push_back(std::move(member));
-  }
-  return form;
-}
 
 data::ColumnInfo ReadColumn(const Node& node) {
   return {node.At("name").Text(), data::UnitOfSymbol(node.At("unit").Text())};
@@ -352,24 +276,7 @@ FittedModel ReadModel(const Node& root) {
     form_inputs = fitted.history->form_inputs.size();
   }
   const Node parameters = root.At("parameters");
-  const bool is_blend =
-      fitted.kind == ModelKind::kBlend || root.Find("blend").has_value();
-  const bool is_net = fitted.kind == ModelKind::kNet;
-  const Node form = root.At(is_blend ? "blend" : is_net ? "net" : "polynomial");
-  try {
-    ModelDescription description;
-    if (is_blend) {
-      description = ReadBlend(form, static_cast<Index>(form_inputs));
-    } else if (is_net) {
-      description = ReadNet(form);
-    } else {
-      fitted.equation = form.At("equation").Text();
-      description = ReadPolynomial(form);
-    }
-    fitted.model = ModelOfForm(std::move(description), parameters.Count());
-  } catch (const std::invalid_argument& error) {
-    form.Refuse(error.what());
-  }
+  ReadForm(root, static_cast<Index>(form_inputs), &fitted);
   if (fitted.model->num_inputs() != static_cast<Index>(form_inputs)) {
     root.At(fitted.history != nullptr ? "history" : "inputs")
         .Refuse(fmt::format("names {} inputs, the model reads {}",

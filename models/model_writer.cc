@@ -3,7 +3,6 @@
 #include <memory>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -19,42 +18,6 @@ namespace {
 
 using Eigen::Index;
 using Json = ModelJson;
-
-Json ToJson(const Eigen::VectorXd& vector) {
-  return std::vector<double>(vector.begin(), vector.end());
-}
-
-Json ToJson(const Eigen::MatrixXd& matrix) {
-  Json rows = Json::array();
-  for (Index i = 0; i < matrix.rows(); ++i) {
-    rows.push_back(ToJson(Eigen::VectorXd(matrix.row(i).transpose())));
-  }
-  return rows;
-}
-
-Json ToJson(const PolynomialForm& form, const std::string& equation) {
-  Json terms = Json::array();
-  for (const PolynomialTerm& term : form.terms) {
-    terms.push_back(
-        {{"powers", term.powers}, {"coefficient", term.coefficient}});
-  }
-  return {{"input_offset", ToJson(form.input_offset)},
-          {"input_scale", ToJson(form.input_scale)},
-          {"intercept", form.intercept},
-          {"terms", std::move(terms)},
-          {"equation", equation}};
-}
-
-Json ToJson(const NetForm& form) {
-  return {{"nodes", {form.w1.cols() - 1, form.w1.rows(), form.w2.rows()}},
-          {"output", ToString(form.output)},
-          {"input_offset", ToJson(form.input_offset)},
-          {"input_scale", ToJson(form.input_scale)},
-          {"target_slope", ToJson(form.target_slope)},
-          {"target_offset", ToJson(form.target_offset)},
-          {"w1", ToJson(form.w1)},
-          {"w2", ToJson(form.w2)}};
-}
 
 Json ToJson(const History& history) {
   Json derived = Json::array();
@@ -78,8 +41,8 @@ Json ToJson(const History& history) {
 Json ToJson(const Guards& guards) {
   return {{"input_margin", guards.input_margin},
           {"error_margin", guards.error_margin},
-          {"input_min", ToJson(guards.input_min)},
-          {"input_max", ToJson(guards.input_max)},
+          {"input_min", NumbersToJson(guards.input_min)},
+          {"input_max", NumbersToJson(guards.input_max)},
           {"error_min", guards.error_min},
           {"error_max", guards.error_max}};
 }
@@ -130,14 +93,14 @@ Json ToJson(const Applicability& trained,
   return {{"derived", std::move(derived)},
           {"columns", std::move(columns)},
           {"rows", trained.rows},
-          {"mean", ToJson(Rounded(trained.mean))},
-          {"scale", ToJson(Rounded(trained.scale))},
-          {"directions", ToJson(Rounded(trained.directions))},
-          {"rest", ToJson(Rounded(trained.rest))},
-          {"states", ToJson(Rounded(trained.states))},
+          {"mean", NumbersToJson(Rounded(trained.mean))},
+          {"scale", NumbersToJson(Rounded(trained.scale))},
+          {"directions", NumbersToJson(Rounded(trained.directions))},
+          {"rest", NumbersToJson(Rounded(trained.rest))},
+          {"states", NumbersToJson(Rounded(trained.states))},
           {"distance_limit", Rounded(trained.distance_limit)},
           {"leverage_limit", Rounded(trained.leverage_limit)},
-          {"relation_limit", ToJson(Rounded(trained.relation_limit))}};
+          {"relation_limit", NumbersToJson(Rounded(trained.relation_limit))}};
 }
 
 Json ToJson(const HeldOutErrors& errors) {
@@ -145,38 +108,14 @@ Json ToJson(const HeldOutErrors& errors) {
   for (const HeldOutErrors::Unit& unit : errors.units) {
     units.push_back({{"label", unit.label},
                      {"rmse", Rounded(unit.rmse)},
-                     {"elapsed", ToJson(Rounded(unit.elapsed))},
-                     {"position", ToJson(Rounded(unit.position))},
-                     {"residuals", ToJson(Rounded(unit.residuals))}});
+                     {"elapsed", NumbersToJson(Rounded(unit.elapsed))},
+                     {"position", NumbersToJson(Rounded(unit.position))},
+                     {"residuals", NumbersToJson(Rounded(unit.residuals))}});
   }
   return {{"time_unit", errors.time_unit},
           {"position", errors.position},
           {"rmse", Rounded(errors.rmse)},
           {"units", std::move(units)}};
-}
-
-// Bounds may be infinite, which JSON has no word for: null.
-Json BoundToJson(double bound) {
-  return std::isfinite(bound) ? Json(bound) : Json(nullptr);
-}
-
-Json ToJson(const BlendForm& form) {
-  Json members = Json::array();
-  for (const BlendForm::Member& member : form.members) {
-    Json json = {{"name", member.name},
-                 {"weight", member.weight},
-                 {"inputs", member.inputs},
-                 {"lowest", BoundToJson(member.lowest)},
-                 {"highest", BoundToJson(member.highest)},
-                 {"parameters", member.parameters}};
-    if (const auto* polynomial = std::get_if<PolynomialForm>(&member.form)) {
-      json["polynomial"] = ToJson(*polynomial, "");
-    } else {
-      json["net"] = ToJson(std::get<NetForm>(member.form));
-    }
-    members.push_back(std::move(json));
-  }
-  return {{"rule", form.rule}, {"members", std::move(members)}};
 }
 
 }  // namespace
@@ -201,15 +140,7 @@ std::string ModelToJson(const FittedModel& fitted,
        {{"name", fitted.target.name}, {"unit", fitted.target.unit.symbol}}},
       {"inputs", std::move(inputs)},
       {"parameters", fitted.model->num_parameters()}};
-  const ModelDescription description = fitted.model->Describe();
-  RequireFormula(description, "a model file");
-  if (const auto* polynomial = std::get_if<PolynomialForm>(&description)) {
-    document["polynomial"] = ToJson(*polynomial, fitted.equation);
-  } else if (const auto* net = std::get_if<NetForm>(&description)) {
-    document["net"] = ToJson(*net);
-  } else {
-    document["blend"] = ToJson(std::get<BlendForm>(description));
-  }
+  WriteForm(*fitted.model, fitted.equation, &document);
   if (fitted.align != data::Alignment::kNone) {
     document["target"]["align"] = data::ToString(fitted.align);
   }
