@@ -51,6 +51,17 @@ class Study:
         self.machines = list(self.seeds)
         self.sensor = {machine: random.Random(seed).randrange(SENSORS)
                        for machine, seed in self.seeds.items()}
+        self.draws = [] if arguments.calibrate else [
+            self.draw(seed) for seed in range(1, arguments.seeds + 1)]
+
+    def draw(self, seed):
+        """{machine: what becomes of it} of one fleet."""
+        drawn = random.Random(seed).sample(self.machines, self.arguments.machines)
+        faulty = self.arguments.faulty
+        kind_of = {machine: "healthy" for machine in drawn}
+        kind_of.update({m: "drift" for m in drawn[:faulty]})
+        kind_of.update({m: "shift" for m in drawn[faulty:2 * faulty]})
+        return kind_of
 
     def run(self, *words, statuses=(0,)):
         done = subprocess.run([self.errmap, *map(str, words)], cwd=self.folder,
@@ -73,30 +84,26 @@ class Study:
 
     def write(self, path, header, days, chosen):
         path.parent.mkdir(parents=True, exist_ok=True)
-        with open(path, "w", newline="") as file:
+        part = path.with_suffix(".part")  # a file that stands is whole
+        with open(part, "w", newline="") as file:
             csv.writer(file, lineterminator="\n").writerows(
                 [header, *(row for day in chosen for row in days[day])])
+        part.rename(path)
 
-    def kinds_of(self, machine):
-        kinds = {"healthy": ()}
-        if not self.arguments.calibrate:
-            kinds["drift"] = ("--from-day", TRAINED + 1, "--drifting", self.sensor[machine])
-            kinds["shift"] = ("--from-day", TRAINED + 1, "--shift-um", 2)
-        return kinds
+    def machines_of(self, kind):
+        """Those of which it is asked how they do so: all healthy ones, and the
+        faulty ones that some draw has."""
+        return [machine for machine in self.machines if kind == "healthy" or
+                any(draw.get(machine) == kind for draw in self.draws)]
 
     def make_data(self):
-        for machine, seed in self.seeds.items():
-            trained = self.folder / "data" / machine / FILE
-            if trained.exists():
-                continue
-            for kind, more in self.kinds_of(machine).items():
-                header, days = self.simulate(seed, *more)
-                for count in range(1, NEW + 1):
-                    self.write(self.folder / "new" / f"{kind}{count}" / machine / FILE, header,
-                               days, range(TRAINED + 1, TRAINED + 1 + count))
-                if kind == "healthy":
-                    healthy = header, days
-            self.write(trained, *healthy, range(1, TRAINED + 1))
+        for machine in self.machines_of("healthy"):
+            self.make_days(machine, "healthy")
+        for machine in self.machines_of("drift"):
+            self.make_days(machine, "drift", "--from-day", TRAINED + 1, "--drifting",
+                           self.sensor[machine])
+        for machine in self.machines_of("shift"):
+            self.make_days(machine, "shift", "--from-day", TRAINED + 1, "--shift-um", 2)
         (self.folder / "fleet.toml").write_text(
             f'models = {json.dumps(MODELS)}\nholdouts = ["sessions:{TRAINED}"]\n[[component]]\n'
             f'name = "{{machine}}"\ndata = "data/{{machine}}/{FILE}"\n')
@@ -106,6 +113,18 @@ class Study:
         for machine in self.machines:
             if [machine] not in rows:
                 self.run("deploy", "made", machine)
+
+    def make_days(self, machine, kind, *more):
+        trained = self.folder / "data" / machine / FILE
+        new = [self.folder / "new" / f"{kind}{count}" / machine / FILE
+               for count in range(1, NEW + 1)]
+        if all(path.exists() for path in [trained, *new]):
+            return
+        header, days = self.simulate(self.seeds[machine], *more)
+        for count, path in enumerate(new, 1):
+            self.write(path, header, days, range(TRAINED + 1, TRAINED + 1 + count))
+        if kind == "healthy":
+            self.write(trained, header, days, range(1, TRAINED + 1))
 
     def watch(self, store, count, kind_of):
         """Status and p of each machine from the days so far."""
@@ -156,10 +175,13 @@ def accused(components):
 def calibrate(study):
     """Prints of each kind how many p are low; all that watch found, by kind and day."""
     findings = {}
-    for kind in study.kinds_of(study.machines[0]):
+    for kind in ("healthy", "drift", "shift"):
+        machines = study.machines_of(kind)
+        if not machines:
+            continue
         store = study.fresh_store()
         for count in range(1, NEW + 1):
-            found = study.watch(store, count, {machine: kind for machine in study.machines})
+            found = study.watch(store, count, {machine: kind for machine in machines})
             findings[kind, count] = found
             for key in ("p_map", "p_sensor"):
                 p = [c[key] for c in found.values() if c[key] is not None]
@@ -180,18 +202,14 @@ def check_once(study, kind_of, expected):
             raise SystemExit(f"day {count}: watch accuses {told}, not {expected[count]}")
 
 
-def judge(study, arguments, findings):
+def judge(study, findings):
     """Of each kind [found, of], seed by seed: what p of a machine is does not depend on
     the others, so that draws need their false discovery rates only. The first draw is
     given to watch as a whole."""
     totals = {"drift": [0, 0], "shift": [0, 0], "healthy": [0, 0]}
     missed = Counter()
     statuses = Counter()
-    for seed in range(1, arguments.seeds + 1):
-        drawn = random.Random(seed).sample(study.machines, arguments.machines)
-        kind_of = {machine: "healthy" for machine in drawn}
-        kind_of.update({m: "drift" for m in drawn[:arguments.faulty]})
-        kind_of.update({m: "shift" for m in drawn[arguments.faulty:2 * arguments.faulty]})
+    for seed, kind_of in enumerate(study.draws, 1):
         told = {count: accused({m: findings[k, count][m] for m, k in kind_of.items()})
                 for count in range(1, NEW + 1)}
         if seed == 1:
@@ -234,7 +252,7 @@ def main():
         findings = calibrate(study)
         if arguments.calibrate:
             return 0
-        totals = judge(study, arguments, findings)
+        totals = judge(study, findings)
         for kind, (count, of) in totals.items():
             print(f"{kind}: {count} of {of} named, {100 * count / max(of, 1):.1f} %")
     finally:
