@@ -10,6 +10,7 @@
 #include "cli/report/figures/svg.h"
 #include "cli/report/html.h"
 #include "cli/report/plot.h"
+#include "cli/shell/shell_word.h"
 
 namespace errmap::cli {
 namespace {
@@ -60,18 +61,24 @@ std::string Figure(const WatchedComponent& component, std::size_t number) {
 }  // namespace
 
 std::string WatchedComponent::Proposal(const std::string& store) const {
+  const auto measure = [&](const char* what) {
+    return fmt::format(
+        "measure {}, then errmap update {} {} -o new.json; where that is "
+        "better, errmap deploy {} {} --model new.json",
+        what,
+        ShellWord(StorePaths{store}.Map(deployment.map)),
+        ShellWord(file),
+        ShellWord(store),
+        ShellWord(deployment.component));
+  };
   switch (status) {
     case WatchStatus::kWorse:
-      return fmt::format("measure more of this state, then errmap update {} {}",
-                         StorePaths{store}.Map(deployment.map),
-                         file);
+      return measure("more of this state");
     case WatchStatus::kSensorChanged:
       return fmt::format("look at the sensor {}: moved, loose or drifting?",
                          checks.back().session.sensor);
     case WatchStatus::kOutside:
-      return fmt::format("measure these states, then errmap update {} {}",
-                         StorePaths{store}.Map(deployment.map),
-                         file);
+      return measure("these states");
     case WatchStatus::kAsPromised:
     case WatchStatus::kNotJudged:
       break;
@@ -95,7 +102,7 @@ Table WatchTable(const std::vector<WatchedComponent>& components) {
     std::vector<Cell> row{
         Cell(std::string_view(component.deployment.component)),
         Cell(ToString(component.status))};
-    if (!component.checks.empty()) {
+    if (component.examined) {
       const double scale = component.deployment.shown_scale;
       const models::WatchedSession& newest = component.checks.back().session;
       row.insert(row.end(),

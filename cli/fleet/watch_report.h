@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,12 @@ struct WatchedComponent {
   Deployment deployment;
   std::string file;           // the newest measurements
   std::vector<Check> checks;  // all sessions so far, oldest first
-  std::string why_not;        // nothing could be judged
+  bool examined = false;      // new measurements could be read
+  std::string why_not;        // a file could not, or nothing could be judged
   // Of the newest session, and what false discoveries allow for.
   models::WatchStatus status = models::WatchStatus::kNotJudged;
-  double found = 0.0;  // RMSE, target's unit
-  double p_map = 0.0;  // NaN: not judged
+  double found = std::numeric_limits<double>::quiet_NaN();  // RMSE, its unit
+  double p_map = std::numeric_limits<double>::quiet_NaN();  // NaN: not judged
   double rate_map = 0.0;
   double rate_sensor = 0.0;
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cli/fleet/deployments.h"
+#include "cli/fleet/store_folder.h"
 
 namespace errmap::cli {
 
@@ -20,10 +21,13 @@ struct WatchedFiles {
 };
 
 /// Finds whose measurements these are: `paths` are CSV files, folders with such
-/// below them, or COMPONENT=FILE. A file is of the component whose data have
-/// the same name and the most of the same folders above it; where two do alike
-/// it is of none. Throws data::InputError where a path is not there.
-WatchedFiles FindWatchedFiles(const std::vector<Deployment>& deployments,
+/// below them, or COMPONENT=FILE. A file is of the component of the study, be a
+/// map deployed on it or not, whose data have the same name and the most of the
+/// same folders above it; where two do alike it is of none, nor where it lies
+/// in a folder of the study's that has no such component. Throws
+/// data::InputError where a path is not there.
+WatchedFiles FindWatchedFiles(const FleetRecord& study,
+                              const std::vector<Deployment>& deployments,
                               const std::vector<std::string>& paths);
 
 }  // namespace errmap::cli

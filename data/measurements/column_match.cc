@@ -49,7 +49,7 @@ const CsvColumn& SameNameInAnyUnit(const CsvTable& table,
       table,
       wanted,
       "; " +
-          (nearest.empty() ? std::string("add it or fit a map without it")
+          (nearest.empty() ? std::string("add it or fit a map without it.")
                            : "did you mean " + QuotedName(nearest) + "?") +
           " The columns are " + ListOfNames(names));
 }

@@ -63,8 +63,10 @@ std::vector<SessionRows> SessionsOf(const models::FittedModel& fitted,
 
 std::string HashOf(const data::Dataset& dataset, const SessionRows& session) {
   data::Sha256Stream hash;
+  // The same rows in another unit differ in their last bits.
   const auto add = [&](double value) {
-    hash.Add({reinterpret_cast<const char*>(&value), sizeof value});
+    const auto rounded = static_cast<float>(value);
+    hash.Add({reinterpret_cast<const char*>(&rounded), sizeof rounded});
   };
   hash.Add(session.label);
   for (const Index row : session.rows) {
@@ -188,7 +190,9 @@ void Append(std::vector<Check> found, std::vector<Check>* checks) {
 
 class Watcher {
  public:
-  Watcher(const WatchArguments& arguments, Database* store)
+  Watcher(const WatchArguments& arguments,
+          const FleetRecord& study,
+          Database* store)
       : paths_{arguments.store},
         store_(*store),
         deployments_(DeploymentsInUse(store)) {
@@ -197,11 +201,17 @@ class Watcher {
           "no map is deployed in this store; errmap deploy STORE COMPONENT "
           "does that");
     }
-    const WatchedFiles files = FindWatchedFiles(deployments_, arguments.data);
+    const WatchedFiles files =
+        FindWatchedFiles(study, deployments_, arguments.data);
     for (const std::string& remark : files.remarks) Say(remark);
     if (!files.unknown.empty() && !arguments.quiet) {
       Say(fmt::format("{} of no component with a map deployed",
                       Count(std::ssize(files.unknown), "file")));
+    }
+    if (files.files.empty()) {
+      throw data::InputError(
+          "no file is of a component with a map deployed: keep the names and "
+          "folders of the study, or write COMPONENT=FILE");
     }
     for (const WatchedFile& file : files.files) Examine(file);
     Judge();
@@ -218,11 +228,11 @@ class Watcher {
       component.checks = ChecksOf(&store_, file.deployment->id);
     }
     WatchedComponent& component = components_.back();
-    component.file = file.file;
-    component.p_map = kNaN;
     try {
       const Examiner examiner(paths_, component.deployment);
       Append(examiner.Examine(file.file), &component.checks);
+      component.file = file.file;
+      component.examined = !component.checks.empty();
       JudgeMap(examiner.fitted(), &component);
     } catch (const std::bad_alloc&) {
       throw;
@@ -268,20 +278,19 @@ class Watcher {
       component.rate_sensor =
           std::isfinite(SensorP(component)) ? rates[next++] : kNaN;
       component.status = StatusOf(component);
-      if (component.checks.empty()) continue;
+      if (!component.examined) continue;
       component.checks.back().p_map = component.p_map;
       component.checks.back().status = component.status;
     }
   }
 
   static double SensorP(const WatchedComponent& component) {
-    return component.checks.empty() ? kNaN
-                                    : component.checks.back().session.p_sensor;
+    return component.examined ? component.checks.back().session.p_sensor : kNaN;
   }
 
   static WatchStatus StatusOf(const WatchedComponent& component) {
     constexpr double kMostly = 0.5;
-    if (component.checks.empty()) return WatchStatus::kNotJudged;
+    if (!component.examined) return WatchStatus::kNotJudged;
     if (component.rate_map < models::kFalseDiscoveries &&
         component.found > component.deployment.promised) {
       return WatchStatus::kWorse;
@@ -320,7 +329,7 @@ Json WatchJson(const std::string& store,
                  {"p_map", NumberOrNull(component.p_map)},
                  {"false_discovery_rate_map", NumberOrNull(component.rate_map)},
                  {"proposal", component.Proposal(store)}};
-    if (!component.checks.empty()) {
+    if (component.examined) {
       const models::WatchedSession& newest = component.checks.back().session;
       json["session"] = newest.label;
       json["offset"] = newest.offset;
@@ -353,7 +362,8 @@ std::string WatchText(const std::string& store,
     text += fmt::format(", {} {}", count, status);
   }
   text += fmt::format(
-      "; at most {:g} % of those named are so by chance (Benjamini-Hochberg)\n",
+      "; at most {:g} % of those named worse or changed are so by chance "
+      "(Benjamini-Hochberg)\n",
       100.0 * models::kFalseDiscoveries);
   if (!told.empty()) text += TerminalTable(WatchTable(told));
   return text + proposals;
@@ -361,14 +371,15 @@ std::string WatchText(const std::string& store,
 
 int RunWatch(const WatchArguments& arguments) {
   const StorePaths paths{arguments.store};
-  ReadFleet(paths);  // no lock is left where there is no store
+  const FleetRecord study = ReadFleet(paths);  // before a lock is left there
   const StoreLock lock(paths);
   Database store = OpenStore(paths);
-  Watcher watcher(arguments, &store);
+  Watcher watcher(arguments, study, &store);
   const std::vector<WatchedComponent>& components = watcher.components();
   const std::string now = NowText();
   ChangeStore(paths, lock, [&](Database* copy) {
     for (const WatchedComponent& component : components) {
+      if (!component.examined) continue;
       WriteChecks(copy, component.deployment.id, component.checks, now);
     }
   });

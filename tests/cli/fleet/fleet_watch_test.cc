@@ -85,7 +85,9 @@ TEST_F(Watch, TellsHealthyWorseAndDriftingApart) {
   EXPECT_EQ(shifted["sessions"], 2);
   EXPECT_GT(shifted["found"], shifted["promised"]);
   EXPECT_THAT(shifted["proposal"].get<std::string>(),
-              HasSubstr("errmap update store/maps/"));
+              AllOf(HasSubstr("errmap update store/maps/"),
+                    HasSubstr("errmap deploy store 'm1/x_displacement, down' "
+                              "--model new.json")));
   EXPECT_TRUE(Exists("store/watch.html"));
 
   ASSERT_EQ(Run({"deploy", "store", kName}).status, 0);
@@ -118,6 +120,79 @@ TEST_F(Watch, WhatCannotBeDeployedOrFoundGetsOneLine) {
               HasSubstr("missing.csv"));
   EXPECT_THAT(Run({"watch", "store", "data"}).err,
               HasSubstr("of no component with a map deployed"));
+}
+
+// Whose measurements a file has, and what becomes of those already kept.
+class WatchedFiles : public FleetTest {
+ protected:
+  void SetUp() override {
+    WriteFleet();
+    WriteComponent("data/m01/w_up.csv", 20);  // m02 has none
+    ASSERT_EQ(Study("store").status, 0);
+    for (const char* name : {"m01/x, down", "m01/w"}) {
+      ASSERT_EQ(Run({"deploy", "store", name}).status, 0) << name;
+    }
+  }
+
+  // How many components have sessions, and how many sessions there are.
+  Json Checked() const {
+    return Rows("store",
+                "SELECT count(DISTINCT deployment), count(*) FROM checks");
+  }
+};
+
+TEST_F(WatchedFiles, AreOfTheirOwnMachineOnly) {
+  for (const char* file : {"m02/x_down.csv", "m02/w_up.csv"}) {
+    WriteComponent(std::string("new/") + file, 30);
+    EXPECT_THAT(Run({"watch", "store", "new"}).err,
+                HasSubstr("no file is of a component with a map deployed"))
+        << file;
+  }
+  EXPECT_EQ(Run({"watch", "store", "new"}).status, kUnusable);
+  WriteComponent("new/m01/x_down.csv", 31);
+  EXPECT_EQ(Run({"watch", "store", "new"}).err,
+            "errmap: 2 files of no component with a map deployed\n");
+  EXPECT_EQ(Checked(), Json::parse("[[1, 4]]"));
+  // A machine that is not in the study may be any; a folder that is none of
+  // the study's tells nothing.
+  WriteComponent("other/m03/x_down.csv", 32);
+  WriteComponent("other/september/w_up.csv", 33);
+  EXPECT_THAT(Run({"watch", "store", "other"}).err,
+              HasSubstr("m03/x_down.csv may be of 'm01/x, down' or of "));
+  EXPECT_EQ(Checked(), Json::parse("[[2, 8]]"));
+}
+
+TEST_F(WatchedFiles, ThatCannotBeReadChangeNothing) {
+  WriteComponent("new/m01/x_down.csv", 31);
+  WriteComponent("new/m01/w_up.csv", 32);
+  ASSERT_NE(Run({"watch", "store", "new"}).status, kUnusable);
+  const auto before = Content("store", {"checks"});
+  Write("new/m01/x_down.csv", "day,position_mm,error_mm\n1,2,\n");
+  const Json found =
+      RunJson({"watch", "store", "new/m01/x_down.csv", "--format", "json"});
+  EXPECT_EQ(found["components"][0]["status"], "not judged");
+  EXPECT_EQ(found["components"][0]["found"], nullptr);
+  EXPECT_EQ(Content("store", {"checks"}), before);
+  EXPECT_THAT(
+      RefusalOf(Run({"watch", "store", "m01/w=missing.csv"}), kUnusable),
+      HasSubstr("missing.csv"));
+}
+
+TEST_F(WatchedFiles, OfTheSameRowsInAnotherUnitAreKnown) {
+  WriteComponent("new/m01/x_down.csv", 31);
+  ASSERT_NE(Run({"watch", "store", "new"}).status, kUnusable);
+  std::string text;
+  for (const std::string& line : SplitLines(Read("new/m01/x_down.csv"))) {
+    const std::size_t last = line.rfind(',') + 1;
+    text += line.substr(0, last) +
+            (text.empty()
+                 ? "error_um"
+                 : std::to_string(kUmPerMm * std::stod(line.substr(last)))) +
+            "\n";
+  }
+  Write("new/m01/x_down.csv", text);
+  ASSERT_NE(Run({"watch", "store", "new"}).status, kUnusable);
+  EXPECT_EQ(Checked(), Json::parse("[[1, 4]]"));
 }
 
 TEST_F(Watch, FullDisksAndNewerSchemasChangeNothing) {
