@@ -14,7 +14,8 @@ namespace errmap::cli {
 
 std::string ProgressText(const ProgressState& state, std::size_t width) {
   constexpr int kEnoughToTell = 20;  // a twentieth
-  const std::string fits = fmt::format("{}/{} fits", state.done, state.all);
+  const std::string fits =
+      fmt::format("{}/{} {}", state.done, state.all, state.what);
   const std::string elapsed = fmt::format(", {:.1f} s", state.seconds);
   double seconds_left = state.left;
   if (!std::isfinite(seconds_left) && state.done >= state.all / kEnoughToTell) {

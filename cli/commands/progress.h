@@ -10,7 +10,7 @@ namespace errmap::cli {
 
 /// What is done so far, for people who wait.
 struct ProgressState {
-  int done = 0;  // fits
+  int done = 0;
   int all = 0;
   double seconds = 0.0;  // since the start
   /// Seconds that it will still take; NaN: as the fits done did, once a
@@ -18,6 +18,7 @@ struct ProgressState {
   double left = std::numeric_limits<double>::quiet_NaN();
   std::string best = {};     // model so far and its error; "": none yet
   std::string holdout = {};  // that it is the best under
+  const char* what = "fits";
 };
 
 /// "112/238 fits, 12.3 s, about 14 s left, best so far poly:eq8 1.9 um

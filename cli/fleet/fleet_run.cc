@@ -105,19 +105,6 @@ std::string KeyOf(const std::string& asked,
   return HashOf(text);
 }
 
-std::optional<models::ComponentSummary> FindSummary(const StorePaths& store,
-                                                    const std::string& name) {
-  const std::string path = store.InFolder(name, kSummaryFile);
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
-  try {
-    return models::SummaryFromJsonText(
-        data::ReadFile(path, data::kMostTextOfPeople));
-  } catch (const data::InputError&) {
-    return std::nullopt;  // torn by somebody else: made again
-  }
-}
-
 // What is written of one component, and its summary last.
 class ComponentFiles {
  public:

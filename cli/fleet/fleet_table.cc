@@ -28,6 +28,7 @@ std::string Headline(const std::vector<ComponentSummary>& summaries) {
   std::size_t failed = 0;
   std::size_t met = 0;
   std::size_t missed = 0;
+  std::size_t without = 0;
   for (const ComponentSummary& summary : summaries) {
     if (!summary.recommendation) {
       ++failed;
@@ -39,12 +40,15 @@ std::string Headline(const std::vector<ComponentSummary>& summaries) {
                       goal == models::GoalStanding::kMetAfterRezeroing
                   ? 1
                   : 0;
+    without += goal == models::GoalStanding::kNone ? 1 : 0;
   }
-  return fmt::format("{}: goal met by {}, not met by {}, failed {}\n",
-                     Count(std::ssize(summaries), "component"),
-                     met,
-                     missed,
-                     failed);
+  return fmt::format(
+      "{}: goal met by {}, not met by {}{}, failed {}\n",
+      Count(std::ssize(summaries), "component"),
+      met,
+      missed,
+      without == 0 ? std::string() : fmt::format(", no goal for {}", without),
+      failed);
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ models::Share ShareOf(const std::string& text, const Environment& environment) {
   }
   throw UsageError(
       fmt::format("--shard {}: give I/N, I from 0 to N - 1, or env",
-                  data::PrintablePath(text)));
+                  data::QuotedText(text)));
 }
 
 }  // namespace errmap::cli

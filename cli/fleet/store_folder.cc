@@ -177,8 +177,31 @@ std::string PackResults(models::StudyRecord record) {
       -1, ' ', false, models::RecordJson::error_handler_t::replace));
 }
 
+std::string WhyNoMap(const std::string& component, const std::string& why) {
+  return fmt::format("{} has no results and no map, since it failed: {}",
+                     data::QuotedName(component),
+                     why);
+}
+
+std::optional<models::ComponentSummary> FindSummary(
+    const StorePaths& paths, const std::string& component) {
+  const std::string path = paths.InFolder(component, kSummaryFile);
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return std::nullopt;
+  try {
+    return models::SummaryFromJsonText(
+        data::ReadFile(path, data::kMostTextOfPeople));
+  } catch (const data::InputError&) {
+    return std::nullopt;  // torn by somebody else
+  }
+}
+
 models::StudyRecord ReadResultsOf(const StorePaths& paths,
                                   const std::string& component) {
+  const auto summary = FindSummary(paths, component);
+  if (summary && summary->why) {
+    throw data::InputError(WhyNoMap(component, *summary->why));
+  }
   const std::string path = paths.InFolder(component, kResultsFile);
   const std::string compressed = data::ReadFile(path);
   try {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,10 +72,19 @@ FleetRecord ReadFleet(const StorePaths& paths);
 /// Writes fleet.json unless it says the same already.
 void WriteFleet(const StorePaths& paths, const FleetRecord& fleet);
 
+/// What was written of a component last; nothing where it was not studied yet,
+/// or what is there cannot be read.
+std::optional<models::ComponentSummary> FindSummary(
+    const StorePaths& paths, const std::string& component);
+
+/// Of a component that failed in the study.
+std::string WhyNoMap(const std::string& component, const std::string& why);
+
 /// A component's results with the lists of training rows taken out where they
 /// are just those that are not held out: each list of rows stands once.
 std::string PackResults(models::StudyRecord record);
-/// Its inverse. Throws data::InputError naming the path.
+/// Its inverse. Throws data::InputError naming the path, or why the component
+/// failed.
 models::StudyRecord ReadResultsOf(const StorePaths& paths,
                                   const std::string& component);
 

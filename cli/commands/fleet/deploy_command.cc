@@ -51,10 +51,16 @@ struct Recommended {
 };
 Recommended FindComponent(Database* store, const DeployArguments& arguments) {
   Statement row = store->Prepare(
-      "SELECT target, sha256 FROM (SELECT name, target FROM components) LEFT "
-      "JOIN maps ON component = name WHERE name = ?");
+      "SELECT target, maps.sha256, why FROM components LEFT JOIN maps ON "
+      "component = name WHERE name = ?");
   row.With(arguments.component);
-  if (row.Next()) return {.target = row.Text(0), .sha256 = row.Text(1)};
+  if (row.Next()) {
+    const std::string why = row.Text(2);
+    if (!why.empty()) {
+      throw data::InputError(WhyNoMap(arguments.component, why));
+    }
+    return {.target = row.Text(0), .sha256 = row.Text(1)};
+  }
   throw UsageError(fmt::format(
       "no component {} in {}; errmap query STORE \"SELECT name FROM "
       "components\" lists them",

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -39,7 +40,7 @@ struct CompareArguments {
   std::uint64_t seed = 1;
   int jobs = 0;
   std::string out;
-  std::string shard;
+  std::optional<std::string> shard;
   std::string format = "table";
   std::string command_line;
   std::string machine;

@@ -98,7 +98,7 @@ std::unique_ptr<models::JournalFile> OpenJournal(
 // share of a study, or what goes on with one. Nothing for any other.
 std::optional<int> RunIfFleet(const CompareArguments& arguments) {
   if (arguments.config.empty()) {
-    if (!arguments.shard.empty()) {
+    if (arguments.shard) {
       throw UsageError(
           "--shard deals the components of a study file; name it "
           "with --config");
@@ -106,7 +106,7 @@ std::optional<int> RunIfFleet(const CompareArguments& arguments) {
     return std::nullopt;
   }
   StudyFile study = ConfigOfFile(arguments);
-  if (!study.has_patterns() && arguments.shard.empty() &&
+  if (!study.has_patterns() && !arguments.shard &&
       (arguments.out.empty() || !IsStore(arguments.out))) {
     return std::nullopt;
   }

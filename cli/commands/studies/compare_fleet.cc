@@ -53,8 +53,8 @@ int StatusOf(const FleetSummaries& found) {
 int RunCompareFleet(CompareFleetArguments arguments) {
   CheckWords(arguments);
   models::Share share;
-  if (!arguments.shard.empty()) {
-    share = ShareOf(arguments.shard,
+  if (arguments.shard) {
+    share = ShareOf(*arguments.shard,
                     [](const char* name) { return std::getenv(name); });
   }
   const StudyFile study = ExpandFleet(std::move(arguments.study));
@@ -69,24 +69,24 @@ int RunCompareFleet(CompareFleetArguments arguments) {
   FleetRunResult result;
   {
     Progress progress(!arguments.quiet);
-    result = RunFleet(study,
-                      store,
-                      {.jobs = arguments.jobs,
-                       .stop = &InstallInterruptFlag(),
-                       .share = share,
-                       .command_line = arguments.command_line,
-                       .quiet = arguments.quiet,
-                       .progress = [&](int done, int all) {
-                         progress.Show({.done = done, .all = all});
-                       }});
+    result = RunFleet(
+        study,
+        store,
+        {.jobs = arguments.jobs,
+         .stop = &InstallInterruptFlag(),
+         .share = share,
+         .command_line = arguments.command_line,
+         .quiet = arguments.quiet,
+         .progress = [&](int done, int all) {
+           progress.Show({.done = done, .all = all, .what = "components"});
+         }});
   }
   if (!arguments.quiet || result.interrupted) {
     Say(fmt::format(
         "{}{}: {} fitted, {} unchanged, {} failed{}",
-        arguments.shard.empty()
-            ? std::string()
-            : fmt::format(
-                  "share {} of 0 to {}, ", share.index, share.count - 1),
+        arguments.shard
+            ? fmt::format("share {} of 0 to {}, ", share.index, share.count - 1)
+            : std::string(),
         Count(result.components, "component"),
         result.fitted,
         result.kept,
@@ -94,7 +94,7 @@ int RunCompareFleet(CompareFleetArguments arguments) {
         result.interrupted ? "; interrupted, the same command goes on" : ""));
   }
   if (result.interrupted) return kInterrupted;
-  if (!arguments.shard.empty()) return kDone;
+  if (arguments.shard) return kDone;
   const FleetSummaries found = MergeStore(store);
   PrintResult(FormattedFleet(found.summaries, arguments.format));
   return StatusOf(found);

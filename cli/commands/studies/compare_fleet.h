@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "cli/study_file/toml/study_file.h"
@@ -9,7 +10,8 @@ namespace errmap::cli {
 struct CompareFleetArguments {
   StudyFile study;
   std::string out;
-  std::string shard;  // "": all, and put together at the end
+  /// None: all, and put together at the end.
+  std::optional<std::string> shard;
   std::string command_line;
   std::string format = "table";
   int jobs = 1;

@@ -36,6 +36,13 @@ TEST(Progress, TakesTheFitsToBeAlikeWhereNothingWasLearnt) {
             "9/200 fits, 1.0 s");
 }
 
+TEST(Progress, SaysWhatItCounts) {
+  EXPECT_EQ(
+      ProgressText(
+          {.done = 10, .all = 10, .seconds = 1.0, .what = "components"}, kWide),
+      "10/10 components, 1.0 s");
+}
+
 TEST(Progress, HasNothingLeftAtTheEnd) {
   EXPECT_EQ(
       ProgressText({.done = 2, .all = 2, .seconds = 0.25, .left = 0.0}, kWide),

@@ -23,6 +23,14 @@ TEST_F(Fleet, OneBrokenComponentStopsNoOtherAndIsNamed) {
   ASSERT_THAT(failed, SizeIs(1));
   EXPECT_EQ(failed[0][0], "m02/yaw");
   EXPECT_THAT(failed[0][1].get<std::string>(), HasSubstr("yaw_up.csv"));
+  for (const Outcome& asked :
+       {Run({"report", "store", "--component", "m02/yaw"}),
+        Run({"deploy", "store", "m02/yaw"})}) {
+    EXPECT_THAT(RefusalOf(asked, kUnusable),
+                AllOf(HasSubstr("'m02/yaw' has no results and no map, since it "
+                                "failed: "),
+                      HasSubstr("yaw_up.csv")));
+  }
   EXPECT_EQ(Rows("store",
                  "SELECT field, value FROM fields WHERE component = "
                  "'m01/x, down' ORDER BY field"),
@@ -42,6 +50,17 @@ TEST_F(Fleet, APatternThatMatchesNothingAndAMissingFileAreFailedComponents) {
   EXPECT_EQ(Rows("store", "SELECT name, status FROM components"),
             Json::parse(R"([["a", "ok"], ["missing", "failed"],
                             ["{machine}/x.csv", "failed"]])"));
+}
+
+TEST_F(Fleet, TheFirstLineCountsEveryComponent) {
+  WriteFleet();
+  WriteComponent("data/m01/turn_up.csv", 5);
+  std::string text = Read("data/m01/turn_up.csv");
+  Write("data/m01/turn_up.csv",
+        text.replace(text.find("error_mm"), 8, "error_urad"));
+  EXPECT_THAT(SplitLines(Study("store").out).front(),
+              ::testing::MatchesRegex("10 components: goal met by .*, not met "
+                                      "by .*, no goal for 1, failed 1"));
 }
 
 TEST_F(Fleet, SharesInAnyOrderGiveWhatOneRunGives) {
@@ -129,8 +148,10 @@ TEST_F(Fleet, WrongCommandLinesGetOneLine) {
   EXPECT_THAT(
       RefusalOf(Run({"compare", "--config", "fleet.toml"}), kWrongCommandLine),
       HasSubstr("needs --out STORE"));
-  EXPECT_THAT(RefusalOf(Study("s", {"--shard", "3/3"}), kWrongCommandLine),
-              HasSubstr("give I/N"));
+  for (const char* share : {"3/3", ""}) {
+    EXPECT_THAT(RefusalOf(Study("s", {"--shard", share}), kWrongCommandLine),
+                HasSubstr("give I/N"));
+  }
   EXPECT_THAT(RefusalOf(Study("data"), kWrongCommandLine),
               HasSubstr("is no store and not empty"));
   EXPECT_THAT(
