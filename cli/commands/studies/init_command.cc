@@ -14,6 +14,7 @@
 #include "cli/study_file/toml/fleet_proposal.h"
 #include "cli/study_file/toml/study_file_text.h"
 #include "data/atomic_file.h"
+#include "data/measurements/column_checks.h"
 #include "data/text.h"
 
 namespace errmap::cli {
@@ -48,10 +49,11 @@ int RunInitFleet(const InitArguments& arguments) {
       "{}: {}{}; look it over, then errmap compare --config {} --out STORE\n",
       path,
       Count(proposal.files, "file"),
-      proposal.left_out == 0
+      proposal.left_out.empty()
           ? std::string()
-          : fmt::format(", {} left out that cannot be mapped",
-                        proposal.left_out),
+          : fmt::format("; left out, since they cannot be mapped: {}",
+                        data::ListOfNames({proposal.left_out.begin(),
+                                           proposal.left_out.end()})),
       path));
   return kDone;
 }

@@ -70,6 +70,7 @@ std::map<std::size_t, Level> LevelsOf(const std::string& folder) {
     throw data::InputError(data::PrintablePath(folder) +
                            ": cannot be read: " + error.message());
   }
+  std::set<fs::path> files;  // in an order of their own
   for (const fs::recursive_directory_iterator end; !error && entry != end;
        entry.increment(error)) {
     const fs::path path = entry->path().lexically_relative(folder);
@@ -83,6 +84,9 @@ std::map<std::size_t, Level> LevelsOf(const std::string& folder) {
         path.string().find_first_of("{}|") != std::string::npos) {
       continue;
     }
+    files.insert(path);
+  }
+  for (const fs::path& path : files) {
     std::vector<std::string> folders;
     for (const fs::path& name : path.parent_path()) {
       folders.push_back(name.string());
@@ -118,22 +122,27 @@ class LevelPatterns {
                 const Level& level,
                 const std::string& target)
       : level_(level) {
-    std::map<std::string, bool> usable;
+    struct Looks {
+      int taken = 0;
+      bool good = false;
+    };
+    std::map<std::string, Looks> looks;
     for (std::size_t i = 0; i < level.stems.size(); ++i) {
+      // Names that are all different are no kinds of files.
+      constexpr std::size_t kMostKinds = 60;
+      constexpr int kMostOfAKind = 3;
       const std::string& stem = level.stems[i];
-      auto found = usable.find(stem);
-      if (found == usable.end()) {
-        fs::path file = folder;
-        for (const std::string& name : level.folders[i]) file /= name;
-        // Names that are all different are no kinds of files.
-        constexpr std::size_t kMostLookedAt = 60;
-        const bool good =
-            usable.size() >= kMostLookedAt ||
-            CanBeMapped((file / (stem + ".csv")).string(), target);
-        found = usable.emplace(stem, good).first;
-      }
-      if (!found->second) {
-        ++left_out_;
+      Looks& of = looks[stem];
+      if (of.good || of.taken == kMostOfAKind) continue;
+      ++of.taken;
+      fs::path file = folder;
+      for (const std::string& name : level.folders[i]) file /= name;
+      of.good = looks.size() > kMostKinds ||
+                CanBeMapped((file / (stem + ".csv")).string(), target);
+    }
+    for (const std::string& stem : level.stems) {
+      if (!looks[stem].good) {
+        left_out_.insert(stem);
         continue;
       }
       ++files_;
@@ -145,7 +154,7 @@ class LevelPatterns {
   }
 
   long long files() const { return files_; }
-  long long left_out() const { return left_out_; }
+  const std::set<std::string>& left_out() const { return left_out_; }
 
   std::string Text(const std::string& beside, const std::string& target) const {
     const auto [path, name] = Folders();
@@ -199,7 +208,7 @@ class LevelPatterns {
   // Any, unless files that cannot be mapped lie among them.
   std::string Field(const std::string& field,
                     const std::set<std::string>& words) const {
-    return left_out_ == 0 ? "{" + field + "}" : Words(field, words);
+    return left_out_.empty() ? "{" + field + "}" : Words(field, words);
   }
   static std::string Words(const std::string& field,
                            const std::set<std::string>& words) {
@@ -225,7 +234,7 @@ class LevelPatterns {
   Kind directed_;
   Kind plain_;
   long long files_ = 0;
-  long long left_out_ = 0;
+  std::set<std::string> left_out_;
 };
 
 }  // namespace
@@ -244,7 +253,8 @@ FleetProposal ProposeFleet(const std::string& folder,
   for (const auto& [depth, level] : LevelsOf(folder)) {
     const LevelPatterns patterns(folder, level, target);
     proposal.files += patterns.files();
-    proposal.left_out += patterns.left_out();
+    proposal.left_out.insert(patterns.left_out().begin(),
+                             patterns.left_out().end());
     if (patterns.files() > 0) proposal.text += patterns.Text(beside, target);
   }
   if (proposal.files > 0) return proposal;

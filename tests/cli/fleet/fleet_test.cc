@@ -52,6 +52,22 @@ TEST_F(Fleet, APatternThatMatchesNothingAndAMissingFileAreFailedComponents) {
                             ["{machine}/x.csv", "failed"]])"));
 }
 
+TEST_F(Fleet, InitProposesAStudyOfAFolder) {
+  WriteFleet();
+  Write("data/m01/x_up.csv", "torn\n");  // no reason to leave out the others
+  Write("data/m01/notes.csv", "no,numbers\na,b\n");
+  const Outcome outcome = Run({"init", "data"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              HasSubstr("8 files; left out, since they cannot be mapped: "
+                        "'notes', 'yaw_up'; look it over"));
+  EXPECT_THAT(
+      Read("study.toml"),
+      AllOf(HasSubstr("name = \"{machine}/{component}, {direction}\""),
+            HasSubstr("\"data/{machine}/{component:x|z}_{direction:down|up}"
+                      ".csv\"")));
+}
+
 TEST_F(Fleet, TheFirstLineCountsEveryComponent) {
   WriteFleet();
   WriteComponent("data/m01/turn_up.csv", 5);
