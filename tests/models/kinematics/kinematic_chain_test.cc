@@ -243,6 +243,32 @@ TEST(KinematicChain, FirstOrderWithTrueErrorsIsTheSimulatorsToolTip) {
   EXPECT_GT(worst_difference, 1e-8);
 }
 
+// What the sign is for: told to go where the error is not, the simulated tool
+// is where it should be; told the other way, it is twice as far off.
+TEST(KinematicChain, MinusTheErrorTakesTheSimulatedToolWhereItShouldBe) {
+  namespace tc = data::turning_centre;
+  const KinematicChain chain = tests::LatheChain();
+  const tc::Simulation simulation =
+      tc::Simulate({.seed = 4, .days = 2, .points_per_day = 100});
+  for (const tc::ToolTipPoint& point : simulation.points) {
+    const tc::TemperatureRise& rise = simulation.stops[point.stop].rise;
+    const Vector3d error = chain.ExactError(
+        tests::LatheCoordinates(point), tests::TrueLatheErrors(point, rise));
+    // Where the tool is in X and Z, less where it should be.
+    const auto rest = [&](double sign) {
+      const double x = point.x + sign * error.x();
+      const double z = point.z + sign * error.z();
+      const tc::ToolTipError there =
+          tc::ToolTipErrorAt(x, point.x_direction, z, point.z_direction, rise);
+      return Vector2d(x + there.x - point.x, z + there.z - point.z);
+    };
+    const Vector2d before(error.x(), error.z());
+    // Errors change by less than 1e-3 of the way.
+    EXPECT_LT(rest(-1.0).norm(), 2e-3 * before.norm() + 1e-5);
+    EXPECT_NEAR(rest(1.0).norm(), 2.0 * before.norm(), 2e-3 * before.norm());
+  }
+}
+
 // By hand, from a drawing: the tip at (386 + x, 600 + z - 120) in X and Z; a
 // turn b about Y moves what is dz further right by b dz in X and what is dx
 // higher by -b dx in Z.
