@@ -289,16 +289,18 @@ std::vector<std::string> DiagonalLines(const Synthesis& s,
 }
 
 void SayOutsidePoints(const Synthesis& s) {
+  std::vector<std::string> parts;
   for (std::size_t k = 0; k < s.maps.outside.size(); ++k) {
     const auto count = std::ranges::count(s.maps.outside[k], true);
     if (count == 0) continue;
-    Say(
-        fmt::format("warning: {} extrapolates at {}: outside the trained range "
-                    "of a map, or in a session whose first rows are missing "
-                    "(inside = 0)",
-                    s.machine.errors[k].name,
-                    Count(count, "point")));
+    parts.push_back(fmt::format(
+        "{} at {}", s.machine.errors[k].name, Count(count, "point")));
   }
+  if (parts.empty()) return;
+  Say(fmt::format(
+      "warning: maps extrapolate (inside = 0): {}: outside a trained "
+      "range, or in a session whose first rows are missing",
+      fmt::join(parts, ", ")));
 }
 
 // ---- The command.

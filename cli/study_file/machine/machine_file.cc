@@ -123,6 +123,7 @@ class MachineFileReader {
                                {"rotary", Joint::kRotary},
                                {"fixed", Joint::kFixed}});
     link.offset = ReadVector(of_link, "offset");
+    WarnOfOffset(of_link, link);
     ReadMotion(of_link, &read);
     ReadErrors(of_link, &read);
     return read;
@@ -276,6 +277,24 @@ class MachineFileReader {
     }
     source.map = LoadMap(key, source.file, node, direction);
     return source;
+  }
+
+  // Between the links of a machine tool are millimetres to metres.
+  void WarnOfOffset(const Keys& keys, const KinematicLink& link) {
+    constexpr double kLeastMm = 1.0;
+    constexpr double kMostMm = 5e4;
+    const double size = link.offset.norm();
+    const double size_mm =
+        data::Converted(size, length_, data::UnitOfSymbol("mm"));
+    if (size == 0.0 || (size_mm >= kLeastMm && size_mm <= kMostMm)) return;
+    warnings_.push_back(fmt::format(
+        "{}warning: link {} is {} {} away from the one before; the file's "
+        "lengths are in {}",
+        Place(file_, keys.Find("offset")->source()),
+        QuotedName(link.name),
+        size,
+        length_.symbol,
+        length_.symbol));
   }
 
   // Errors of a machine tool are small; those in a wrong unit are not.

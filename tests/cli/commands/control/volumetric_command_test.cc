@@ -334,7 +334,9 @@ TEST_F(VolumetricCommand, FlagsPointsWhereAMapExtrapolates) {
   EXPECT_EQ(points[0].at("outside"), "");
   EXPECT_EQ(points[1].at("inside"), "0");
   EXPECT_EQ(points[1].at("outside"), "EXX");
-  EXPECT_THAT(outcome.err, HasSubstr("warning: EXX extrapolates at 1 point"));
+  EXPECT_THAT(outcome.err,
+              HasSubstr("warning: maps extrapolate (inside = 0): EXX at 1 "
+                        "point: outside a trained range"));
 }
 
 // What volumetric says of a machine of one error is what predict says.
@@ -515,6 +517,22 @@ TEST_F(VolumetricCommand, SuspectsConstantsInAnotherUnit) {
         "length = \"um\"\nangle = \"arcsec\"\n" +
             OneSlide("EXX = 3.5, EBX = 12"));
   EXPECT_THAT(Volumetric("m.toml", "p.csv").err, Not(HasSubstr("no error")));
+}
+
+// A machine drawn in mm whose file says um, or the other way round.
+TEST_F(VolumetricCommand, SuspectsOffsetsInAnotherUnit) {
+  Write("p.csv", "x_mm\n1\n");
+  const std::string slide = OneSlide("EBX = 1e-5");  // the tool 100 below
+  Write("m.toml", slide);
+  EXPECT_THAT(Volumetric("m.toml", "p.csv").err, Not(HasSubstr("away from")));
+  Write("m.toml", "length = \"um\"\n" + slide);
+  EXPECT_THAT(
+      Volumetric("m.toml", "p.csv").err,
+      HasSubstr("m.toml:13:10: warning: link 'tool' is 100 um away from "
+                "the one before; the file's lengths are in um"));
+  Write("m.toml", "length = \"m\"\n" + slide);
+  EXPECT_THAT(Volumetric("m.toml", "p.csv").err,
+              HasSubstr("'tool' is 100 m away from the one before"));
 }
 
 }  // namespace
