@@ -57,6 +57,10 @@ double ChiSquaredUpperTail(double x, double degrees_of_freedom) {
   return boost::math::gamma_q(0.5 * degrees_of_freedom, 0.5 * x, Policy());
 }
 
+double ChiSquaredQuantile(double p, double degrees_of_freedom) {
+  return 2.0 * boost::math::gamma_p_inv(0.5 * degrees_of_freedom, p, Policy());
+}
+
 double FUpperTail(double x, double numerator, double denominator) {
   if (std::isnan(x)) return x;
   if (x <= 0.0) return 1.0;

@@ -21,6 +21,10 @@ double NormalTwoSided(double z);
 /// P(X >= x) for chi-squared with `degrees_of_freedom` > 0; 1 for x <= 0.
 double ChiSquaredUpperTail(double x, double degrees_of_freedom);
 
+/// x with P(X <= x) = p, 0 < p < 1, for chi-squared with `degrees_of_freedom`
+/// > 0.
+double ChiSquaredQuantile(double p, double degrees_of_freedom);
+
 /// P(X >= x) for Fisher's F with these degrees of freedom > 0; 1 for x <= 0.
 double FUpperTail(double x, double numerator, double denominator);
 

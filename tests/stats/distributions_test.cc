@@ -75,6 +75,18 @@ TEST(StudentQuantile, AgreesWithR) {
   EXPECT_NEAR(StudentQuantile(0.5, 7.0), 0.0, 1e-15);
 }
 
+// R 4.2.2: qchisq(p, df).
+TEST(ChiSquaredQuantile, AgreesWithR) {
+  constexpr double kRelative = 1e-12;
+  const double reference[][3] = {{0.2, 1.0, 0.064184754667301613},
+                                 {0.2, 3.0, 1.005174013052349213},
+                                 {0.95, 2.0, 5.991464547107979932},
+                                 {0.001, 2.5, 0.008815875243366963}};
+  for (const auto& [p, degrees_of_freedom, x] : reference) {
+    EXPECT_NEAR(ChiSquaredQuantile(p, degrees_of_freedom), x, kRelative * x);
+  }
+}
+
 TEST(Distributions, HaveTheirLimits) {
   EXPECT_EQ(ChiSquaredUpperTail(0.0, 3.0), 1.0);
   EXPECT_EQ(ChiSquaredUpperTail(kInfinity, 3.0), 0.0);

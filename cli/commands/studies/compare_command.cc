@@ -177,6 +177,7 @@ int RunCompare(const CompareArguments& arguments) {
                    .stop = &InstallInterruptFlag(),
                    .journal = journal.get(),
                    .describe_resume = arguments.resume && !arguments.data.quiet,
+                   .keep_fold_maps = machine.has_value(),
                    .progress = [&](std::size_t component,
                                    const models::FitProgress& fit) {
                      forecast.Note(component, fit);

@@ -24,6 +24,7 @@
 #include "data/text.h"
 #include "models/kinematics/iso230.h"
 #include "models/kinematics/plane_cells.h"
+#include "models/kinematics/tool_tip_spread.h"
 #include "models/kinematics/volumetric.h"
 #include "models/promise/held_out_errors.h"
 #include "stats/distributions.h"
@@ -37,6 +38,7 @@ using Eigen::MatrixX3d;
 using Eigen::VectorXd;
 using models::ComponentStudy;
 using models::FittedModel;
+using models::Holdout;
 using models::MachineChoiceRecord;
 using models::MachineDayRecord;
 
@@ -218,7 +220,9 @@ class MachineJudge {
       }
     }
     AddMaps(choose, &choice);
-    FillErrors(Compensate(fitted, poses_), &choice);
+    Rest rest = Compensate(fitted, poses_);
+    Calibrate(choose, &rest);
+    FillErrors(rest, &choice);
     if (along_) FillDiagonals(Compensate(fitted, *along_), &choice);
     FillReadings(&choose, &choice);
     return choice;
@@ -247,6 +251,79 @@ class MachineJudge {
     const models::VolumetricErrors errors = models::CombineErrors(
         fitted.chain, maps.coordinates, maps.components, {.draws = 0});
     return {poses.errors - errors.exact, errors.half_widths};
+  }
+
+  // ---- What the intervals at the tool are.
+
+  // The fold of that component that held the session out; -1 without.
+  static std::ptrdiff_t FoldWithout(const std::string& session,
+                                    const ComponentStudy& component,
+                                    const Holdout& holdout) {
+    const data::Dataset& dataset = component.data.dataset;
+    const std::vector<std::string>& labels = dataset.log()->sessions.labels;
+    const std::vector<Index> codes = dataset.session_codes();
+    for (std::size_t fold = 0; fold < holdout.folds.size(); ++fold) {
+      for (const Index row : holdout.folds[fold].test) {
+        const auto code = codes[static_cast<std::size_t>(row)];
+        if (labels[static_cast<std::size_t>(code)] == session) {
+          return static_cast<std::ptrdiff_t>(fold);
+        }
+      }
+    }
+    return -1;
+  }
+
+  // The chosen map as it was fitted without that session, or null.
+  static std::shared_ptr<const FittedModel> MapWithout(
+      const std::string& session,
+      const ComponentStudy& component,
+      const models::ModelResult& model) {
+    for (std::size_t h = 0; h < component.holdouts.size(); ++h) {
+      const Holdout& holdout = component.holdouts[h];
+      if (!holdout.whole_sessions || holdout.forward) continue;
+      const std::ptrdiff_t fold = FoldWithout(session, component, holdout);
+      if (fold < 0 || !model.holdouts[h].ok()) continue;
+      return model.holdouts[h].folds[static_cast<std::size_t>(fold)].map;
+    }
+    return nullptr;
+  }
+
+  // The machine by the maps that did not see that session; nothing where a
+  // component has none.
+  std::optional<models::Machine> MachineWithout(const std::string& session,
+                                                const Choose& choose) const {
+    models::Machine without = machine();
+    for (models::MachineError& error : without.errors) {
+      for (models::ErrorSource& source : error.sources) {
+        if (source.file.empty()) continue;
+        const ComponentStudy& component = Component(StemOf(source.file));
+        source.map = MapWithout(session, component, *choose(component));
+        if (source.map == nullptr) return std::nullopt;
+      }
+    }
+    return without;
+  }
+
+  // Half-widths by the sessions of the fits at their own poses, each held out
+  // in its turn; those of the components where fewer than two can be.
+  void Calibrate(const Choose& choose, Rest* rest) const {
+    std::vector<models::HeldOutToolTip> sessions;
+    for (const std::string& session : poses_.sessions.labels) {
+      if (std::ranges::find(study_.later, session) != study_.later.end()) {
+        continue;
+      }
+      const std::optional<models::Machine> without =
+          MachineWithout(session, choose);
+      if (!without) continue;
+      const std::vector<Index> rows = poses_.RowsOf({session});
+      const MatrixX3d errors = Compensate(*without, poses_).errors;
+      sessions.push_back({.errors = errors(rows, Eigen::all),
+                          .half_widths = rest->half_widths(rows, Eigen::all)});
+    }
+    if (sessions.size() < 2) return;
+    constexpr double kCoverage = 0.9;
+    rest->half_widths =
+        models::ToolTipHalfWidths(sessions, rest->half_widths, kCoverage);
   }
 
   void AddMaps(const Choose& choose, MachineChoiceRecord* choice) const {

@@ -102,7 +102,7 @@ StudyRun RunPlan(StudyPlan plan,
                                     study_options);
       }
     }
-    models::ForgetFoldMaps(&comparison.study);
+    if (!options.keep_fold_maps) models::ForgetFoldMaps(&comparison.study);
     before += component.num_fits();
     run.components.push_back(std::move(comparison));
     if (run.interrupted) break;

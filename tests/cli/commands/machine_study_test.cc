@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -223,6 +224,49 @@ TEST_F(MachineStudy, StatesIntervalsFromWholeDays) {
   for (const std::size_t d : {0U, 2U}) {
     EXPECT_GT(advised["within_90"][d], 0.8) << d;
   }
+}
+
+// The slide is read where it errs by its place alone, but at the tool another
+// 3 um come and go with the days, which no reading of it shows.
+TEST_F(MachineStudy, StatesIntervalsByTheToolOnSessionsHeldOut) {
+  std::filesystem::create_directory(scratch_ / "one");
+  std::string readings = "day,time_s,position_mm,error_mm\n";
+  std::string points = "day,time_s,x_mm,error_x_mm,error_y_mm,error_z_mm\n";
+  for (int day = 1; day <= 5; ++day) {
+    for (int i = 0; i < 20; ++i) {
+      const double x = -10.0 * (1 + i % 10);
+      const double wobble = 1e-4 * ((day + 3 * i) % 5 - 2);
+      const double time = 86400.0 * day + 60.0 * i;
+      readings += fmt::format("{},{},{},{}\n", day, time, x, 1e-4 * x + wobble);
+      points += fmt::format("{},{},{},{},0,0\n",
+                            day,
+                            time + 30.0,
+                            x,
+                            1e-4 * x + (day % 2 == 0 ? 0.003 : -0.003));
+    }
+  }
+  Write("one/x.csv", readings);
+  Write("one/tool_tip.csv", points);
+  Write("one.toml",
+        "[[link]]\nname = \"X\"\nbranch = \"tool\"\njoint = \"linear\"\n"
+        "axis = [1, 0, 0]\ncoordinate = \"x_mm\"\n"
+        "errors = { EXX = \"x.json\" }\n");
+  const Json document = RunJson({"compare",
+                                 "--machine",
+                                 "one.toml",
+                                 "one",
+                                 "--models",
+                                 "poly:position",
+                                 "--format",
+                                 "json",
+                                 "--quiet"});
+  const Json& advised = document["machine"]["choices"][3];
+  ASSERT_TRUE(advised["why"].is_null()) << advised["why"];
+  EXPECT_NEAR(advised["rms"], 0.003, 1e-4);
+  // By the readings alone it would be 0.25 um, and no pose within.
+  EXPECT_EQ(advised["within_90"][0], 1.0);
+  // Nothing errs along Y, and nothing is said to.
+  EXPECT_EQ(advised["within_90"][1], 1.0);
 }
 
 // The folder by an absolute path, which the record does not keep.

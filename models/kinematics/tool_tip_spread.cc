@@ -1,0 +1,85 @@
+#include "models/kinematics/tool_tip_spread.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "stats/distributions.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixX3d;
+using Eigen::VectorXd;
+
+void Check(const std::vector<HeldOutToolTip>& sessions, double coverage) {
+  if (sessions.size() < 2 || !(coverage > 0.0 && coverage < 1.0)) {
+    throw std::invalid_argument(
+        "ToolTipHalfWidths: needs two sessions and a coverage between 0 and 1");
+  }
+  for (const HeldOutToolTip& session : sessions) {
+    if (session.errors.rows() == 0 ||
+        session.errors.rows() != session.half_widths.rows()) {
+      throw std::invalid_argument(
+          "ToolTipHalfWidths: errors and half-widths of a session differ in "
+          "number, or there are none");
+    }
+  }
+}
+
+bool IsKnown(const MatrixX3d& half_widths, Index direction) {
+  return (half_widths.col(direction).array() > 0.0).all() &&
+         half_widths.col(direction).allFinite();
+}
+
+// A mean square of f degrees of freedom has the variance 2 mean^2 / f. What
+// `mean_squares` show of that variance is uncertain itself: f is what they
+// leave with this confidence, and one for each at least.
+double DegreesOfFreedom(const VectorXd& mean_squares) {
+  constexpr double kConfidence = 0.8;
+  const auto n = static_cast<double>(mean_squares.size());
+  const double mean = mean_squares.mean();
+  const double squares = (mean_squares.array() - mean).square().sum();
+  const double most =
+      squares / stats::ChiSquaredQuantile(1.0 - kConfidence, n - 1.0);
+  return most > 0.0 ? n * std::max(1.0, 2.0 * mean * mean / most)
+                    : std::numeric_limits<double>::infinity();
+}
+
+// Student's t times the root of the mean of the sessions' `mean_squares`.
+double Spread(const VectorXd& mean_squares, double coverage) {
+  return std::sqrt(mean_squares.mean()) *
+         stats::StudentQuantile(0.5 * (1.0 + coverage),
+                                DegreesOfFreedom(mean_squares));
+}
+
+}  // namespace
+
+MatrixX3d ToolTipHalfWidths(const std::vector<HeldOutToolTip>& sessions,
+                            const MatrixX3d& first_order,
+                            double coverage) {
+  Check(sessions, coverage);
+  MatrixX3d half_widths = MatrixX3d::Ones(first_order.rows(), 3);
+  for (Index d = 0; d < 3; ++d) {
+    const bool has_shape =
+        IsKnown(first_order, d) &&
+        std::ranges::all_of(sessions, [&](const HeldOutToolTip& session) {
+          return IsKnown(session.half_widths, d);
+        });
+    VectorXd mean_squares(static_cast<Index>(sessions.size()));
+    Index s = 0;
+    for (const HeldOutToolTip& session : sessions) {
+      VectorXd errors = session.errors.col(d);
+      if (has_shape) errors = errors.cwiseQuotient(session.half_widths.col(d));
+      mean_squares[s++] =
+          errors.squaredNorm() / static_cast<double>(errors.size());
+    }
+    if (has_shape) half_widths.col(d) = first_order.col(d);
+    half_widths.col(d) *= Spread(mean_squares, coverage);
+  }
+  return half_widths;
+}
+
+}  // namespace errmap::models
