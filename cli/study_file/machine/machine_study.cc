@@ -20,6 +20,7 @@
 #include "cli/study_file/machine/true_poses.h"
 #include "cli/study_file/provenance.h"
 #include "data/input_error.h"
+#include "data/measurements/column_checks.h"
 #include "data/measurements/dataset.h"
 #include "data/text.h"
 #include "models/kinematics/iso230.h"
@@ -587,6 +588,25 @@ void RequireQuantities(const MachineStudy& study, const StudyPlan& plan) {
   }
 }
 
+// Days that are named otherwise in one file would be learnt from and judge.
+void RequireSharedSessions(const MachineStudy& study, const StudyPlan& plan) {
+  const std::vector<std::string> of_points =
+      data::GroupByColumn(study.points, study.session, AllRows(study.points))
+          .labels;
+  for (const ComponentPlan& component : plan.components) {
+    const std::vector<std::string>& labels =
+        component.comparison.data.dataset.log()->sessions.labels;
+    if (std::ranges::find_first_of(labels, of_points) != labels.end()) continue;
+    throw data::InputError(fmt::format(
+        "{}: none of its sessions ({}) is one of {} ({}), so those that judge "
+        "cannot be kept from the fits; name them alike",
+        data::PrintablePath(component.comparison.file),
+        data::ListOfNames(labels),
+        data::PrintablePath(study.points.file),
+        data::ListOfNames(of_points)));
+  }
+}
+
 }  // namespace
 
 MachineStudy ReadMachineStudy(const std::string& machine,
@@ -660,6 +680,7 @@ StudyPlan PlanOfMachine(const MachineStudy& study,
   }
   StudyPlan plan = PlanStudy(config, quiet);
   RequireQuantities(study, plan);
+  RequireSharedSessions(study, plan);
   plan.inputs.push_back(HashInput(study.path));
   plan.inputs.push_back(HashInput(study.points.file));
   if (study.diagonals) {

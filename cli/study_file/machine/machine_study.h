@@ -37,7 +37,8 @@ MachineStudy ReadMachineStudy(const std::string& machine,
 
 /// The plan of `config` with a component for each stem, the later sessions left
 /// out. Throws as PlanStudy, and data::InputError where the target of a
-/// component is no error of its link: a length for an angle.
+/// component is no error of its link, a length for an angle, or none of its
+/// sessions is one of the points'.
 StudyPlan PlanOfMachine(const MachineStudy& study,
                         StudyConfig config,
                         bool quiet);

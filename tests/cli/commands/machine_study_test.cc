@@ -327,6 +327,17 @@ TEST_F(MachineStudy, RefusesWhatCannotBeJudged) {
   Write("askew/diagonals.csv",
         "day,diagonal,diagonal_direction,x_mm,error_x_mm,error_y_mm,"
         "error_z_mm\n1,up,forward,1,0,0,0\n");
+  std::filesystem::create_directory(scratch_ / "named");
+  Write("named/tool_tip.csv", Read("askew/tool_tip.csv"));
+  std::string readings = "day,time_s,position_mm,error_mm\n";
+  for (int i = 0; i < 20; ++i) {
+    readings += fmt::format("{},{},{},{}\n",
+                            i < 10 ? "Monday" : "Tuesday",
+                            60 * i,
+                            -10 * i,
+                            0.001 * (i % 3));
+  }
+  Write("named/x.csv", readings);
   struct Case {
     std::vector<std::string> words;
     int status;
@@ -355,6 +366,11 @@ TEST_F(MachineStudy, RefusesWhatCannotBeJudged) {
        kUnusable,
        "s/x_straightness.csv: 'error_mm' is in mm, and EBX of turned.toml is "
        "an angle"},
+      {{"compare", "--machine", "bare.toml", "named", "--quiet"},
+       kUnusable,
+       "named/x.csv: none of its sessions ('Monday', 'Tuesday') is one of "
+       "named/tool_tip.csv ('1', '2'), so those that judge cannot be kept from "
+       "the fits; name them alike"},
       {{"compare", "--machine", "bare.toml", "fewer"},
        kUnusable,
        "fewer/tool_tip.csv: no column 'error_z_mm'"},
