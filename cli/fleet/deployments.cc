@@ -28,7 +28,8 @@ std::vector<Deployment> DeploymentsInUse(Database* store,
                                          const std::string& component) {
   Statement rows = store->Prepare(
       "SELECT id, component, data, since, map, model, relations, promised, "
-      "within_95, shown_unit, shown_scale FROM deployments JOIN components "
+      "within_95, shown_unit, shown_scale, sha256 FROM deployments JOIN "
+      "components "
       "ON name = component WHERE until IS NULL AND (?1 = '' OR ?1 = component) "
       "ORDER BY component");
   rows.With(component);
@@ -37,6 +38,7 @@ std::vector<Deployment> DeploymentsInUse(Database* store,
     found.push_back({.id = rows.Whole(0),
                      .component = rows.Text(1),
                      .data = rows.Text(2),
+                     .data_sha256 = rows.Text(11),
                      .since = rows.Text(3),
                      .map = rows.Text(4),
                      .model = rows.Text(5),

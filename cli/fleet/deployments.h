@@ -15,6 +15,7 @@ struct Deployment {
   std::int64_t id = 0;
   std::string component = {};
   std::string data = {};  // of the component, below the study file's folder
+  std::string data_sha256 = {};  // as they were studied last
   std::string since = {};
   std::string map = {};        // SHA-256
   std::string model = {};      // SPEC

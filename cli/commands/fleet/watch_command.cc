@@ -20,6 +20,7 @@
 #include "cli/json_blocks.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
+#include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
 #include "data/measurements/column_match.h"
 #include "data/sha256.h"
@@ -214,6 +215,12 @@ class Watcher {
           "folders of the study, or write COMPONENT=FILE");
     }
     for (const WatchedFile& file : files.files) Examine(file);
+    if (known_ > 0 && !arguments.quiet) {
+      Say(fmt::format(
+          "{} as they were studied, not measured since: what is found of them "
+          "tells nothing of another day",
+          Count(known_, "file")));
+    }
     Judge();
   }
 
@@ -231,6 +238,7 @@ class Watcher {
     try {
       const Examiner examiner(paths_, component.deployment);
       Append(examiner.Examine(file.file), &component.checks);
+      known_ += HashInput(file.file).sha256 == file.deployment->data_sha256;
       component.file = file.file;
       component.examined = !component.checks.empty();
       JudgeMap(examiner.fitted(), &component);
@@ -309,6 +317,7 @@ class Watcher {
   Database& store_;
   std::vector<Deployment> deployments_;
   std::vector<WatchedComponent> components_;
+  std::ptrdiff_t known_ = 0;  // files that are those of the study
 };
 
 Json NumberOrNull(double value) {

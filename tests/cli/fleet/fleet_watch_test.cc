@@ -178,6 +178,11 @@ TEST_F(WatchedFiles, ThatCannotBeReadChangeNothing) {
       HasSubstr("missing.csv"));
 }
 
+TEST_F(WatchedFiles, ThatWereStudiedAreNoNewMeasurements) {
+  EXPECT_THAT(Run({"watch", "store", "data/m01"}).err,
+              HasSubstr("2 files as they were studied, not measured since"));
+}
+
 TEST_F(WatchedFiles, OfTheSameRowsInAnotherUnitAreKnown) {
   WriteComponent("new/m01/x_down.csv", 31);
   ASSERT_NE(Run({"watch", "store", "new"}).status, kUnusable);
@@ -201,7 +206,8 @@ TEST_F(Watch, FullDisksAndNewerSchemasChangeNothing) {
       {"deploy", "store", kName},
       {"watch",
        "store",
-       std::string(kName) + "=data/m1/x_displacement_down.csv"}};
+       std::string(kName) + "=data/m1/x_displacement_down.csv",
+       "--quiet"}};
   const std::string before = Read("store/errmap.sqlite");
   for (const std::vector<std::string>& words : commands) {
     SCOPED_TRACE(words.front());
