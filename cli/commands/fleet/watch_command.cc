@@ -436,10 +436,12 @@ void AddWatchCommand(CLI::App* app, Run* run) {
       "Each session's offset and RMS are held against the sessions held out "
       "when the map was made\n(t and F statistics), each sensor against what "
       "the others tell of it; over all components at most\n5 % of those named "
-      "are so by chance. Sessions are kept in the store, watch.html draws "
-      "them.\nExit status: 0 none is worse, 3 nothing deployed, no store, or "
-      "one of a newer errmap, 4 some map is\nworse than promised.\nExample: "
-      "errmap watch fleet september/");
+      "worse or changed are so by chance. Sessions are kept in the store, "
+      "watch.html\ndraws them. A file is of the component whose data have its "
+      "name and the most of its folders.\nExit status: 0 none is worse, 3 no "
+      "store, one of a newer errmap, nothing deployed or no data of\nwhat is, "
+      "4 some map is worse than promised.\nExample: errmap watch fleet "
+      "september/");
   command->callback([arguments, run] { run->status = RunWatch(*arguments); });
 }
 
