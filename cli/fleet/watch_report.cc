@@ -71,9 +71,13 @@ std::string WatchedComponent::Proposal(const std::string& store) const {
         ShellWord(store),
         ShellWord(deployment.component));
   };
+  const auto outside = [&] {
+    return checks.back().session.outside_share > models::kMostlyOutside;
+  };
   switch (status) {
     case WatchStatus::kWorse:
-      return measure("more of this state");
+      return measure(outside() ? "more of this state, unlike those trained on"
+                               : "more of this state");
     case WatchStatus::kSensorChanged:
       return fmt::format("look at the sensor {}: moved, loose or drifting?",
                          checks.back().session.sensor);

@@ -94,6 +94,9 @@ std::vector<double> FalseDiscoveryRates(const std::vector<double>& p);
 /// A discovery is one below this share of false ones among them.
 inline constexpr double kFalseDiscoveries = 0.05;
 
+/// A session of which a larger share is outside of the trained states is so.
+inline constexpr double kMostlyOutside = 0.5;
+
 enum class WatchStatus {
   kAsPromised,
   kWorse,

@@ -204,7 +204,14 @@ class Watcher {
     }
     const WatchedFiles files =
         FindWatchedFiles(study, deployments_, arguments.data);
-    for (const std::string& remark : files.remarks) Say(remark);
+    constexpr std::size_t kMostTold = 5;
+    for (std::size_t i = 0; i < files.remarks.size(); ++i) {
+      if (i == kMostTold) {
+        Say(fmt::format("likewise {} more", files.remarks.size() - i));
+        break;
+      }
+      Say(files.remarks[i]);
+    }
     if (!files.unknown.empty() && !arguments.quiet) {
       Say(fmt::format("{} of no component with a map deployed",
                       Count(std::ssize(files.unknown), "file")));
@@ -297,7 +304,6 @@ class Watcher {
   }
 
   static WatchStatus StatusOf(const WatchedComponent& component) {
-    constexpr double kMostly = 0.5;
     if (!component.examined) return WatchStatus::kNotJudged;
     if (component.rate_map < models::kFalseDiscoveries &&
         component.found > component.deployment.promised) {
@@ -306,7 +312,8 @@ class Watcher {
     if (component.rate_sensor < models::kFalseDiscoveries) {
       return WatchStatus::kSensorChanged;
     }
-    if (component.checks.back().session.outside_share > kMostly) {
+    if (component.checks.back().session.outside_share >
+        models::kMostlyOutside) {
       return WatchStatus::kOutside;
     }
     return std::isfinite(component.p_map) ? WatchStatus::kAsPromised

@@ -162,6 +162,17 @@ TEST_F(WatchedFiles, AreOfTheirOwnMachineOnly) {
   EXPECT_EQ(Checked(), Json::parse("[[2, 8]]"));
 }
 
+TEST_F(WatchedFiles, ThatMayBeOfSeveralAreNamedButNotAll) {
+  for (int i = 0; i < 9; ++i) {
+    WriteComponent("other/m1" + std::to_string(i) + "/x_down.csv", 32);
+  }
+  const std::vector<std::string> lines =
+      SplitLines(Run({"watch", "store", "other"}).err);
+  EXPECT_THAT(lines, ::testing::SizeIs(8));
+  EXPECT_THAT(lines[4], HasSubstr("may be of "));
+  EXPECT_EQ(lines[5], "errmap: likewise 4 more");
+}
+
 TEST_F(WatchedFiles, ThatCannotBeReadChangeNothing) {
   WriteComponent("new/m01/x_down.csv", 31);
   WriteComponent("new/m01/w_up.csv", 32);
