@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include "models/export/map_program.h"
 #include "models/export/program_cost.h"
@@ -549,9 +553,14 @@ ComponentRecord MakeComponentRecord(const ComponentStudy& study) {
   for (std::size_t h = 0; h < study.holdouts.size(); ++h) {
     record.holdouts.push_back(MakeHoldout(study, h));
   }
-  for (std::size_t i = 0; i < study.study.models.size(); ++i) {
-    record.models.push_back(MakeModel(study, i));
-  }
+  record.models.resize(study.study.models.size());
+  // The tests of a million residuals take seconds.
+  oneapi::tbb::task_arena(study.jobs).execute([&] {
+    oneapi::tbb::parallel_for(
+        std::size_t{0}, record.models.size(), [&](std::size_t i) {
+          record.models[i] = MakeModel(study, i);
+        });
+  });
   const JudgementRecord judgement(study);
   record.gap = judgement.Gap();
   record.comparisons = judgement.Pairs();
