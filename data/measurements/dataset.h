@@ -40,6 +40,7 @@ struct SessionLog {
   std::vector<Eigen::Index> first_rows;  // (sessions) sessions.h: FirstRows
   Eigen::VectorXd time;   // (rows) finite, never falling within a session
   std::string time_unit;  // "s", or "rows": the number of the row
+  bool dated = false;     // the time counts from 1970, by dates
   Eigen::MatrixXd input_values;  // (rows x p) NaN: no number; (0 x 0): made
 };
 

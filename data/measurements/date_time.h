@@ -5,11 +5,26 @@
 
 namespace errmap::data {
 
-/// Seconds from 1970-01-01T00:00:00 of a date and time as ISO 8601 has it:
-/// "2024-03-01T12:00:05.25", the same with a blank for the T, without seconds,
-/// without time (midnight), with "Z" or an offset ("+01:00") at the end; or of
-/// a time alone ("12:00:05") from midnight. Nothing where the text is none, or
-/// names a day or time that there is not.
-std::optional<double> ParseDateTime(std::string_view text);
+/// What comes first in "03/04/2024"; a year in front, and points, leave no
+/// doubt.
+enum class DateOrder { kDayFirst, kMonthFirst };
+
+struct DateTime {
+  /// From 1970-01-01T00:00:00, or from midnight where there is no date.
+  double seconds = 0.0;
+  bool has_date = false;
+  bool has_time = false;  // else midnight
+};
+
+/// A date, a time of day or both:
+///
+///   2024-03-01T12:00:05.25   ISO 8601, "Z" or an offset ("+01:00") at its end
+///   2024-03-01 12:00         also 2024/03/01 and 2024.3.1
+///   01.03.2024 12:00:05      the day first; also 1.3.24 (1970 to 2069)
+///   3/1/2024 1:05 PM         in the order given
+///
+/// Nothing where the text is none, or names a day or time that there is not.
+std::optional<DateTime> ParseDateTime(std::string_view text,
+                                      DateOrder order = DateOrder::kDayFirst);
 
 }  // namespace errmap::data

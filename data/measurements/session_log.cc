@@ -51,6 +51,7 @@ void TakeLog(const CsvTable& table,
   log->sessions = std::move(found.sessions);
   log->time = std::move(found.time);
   log->time_unit = std::move(found.time_unit);
+  log->dated = found.dated;
   // Both lists ascend, and the rows kept are among those of the log.
   auto at = log_rows.begin();
   for (const Eigen::Index row : parts->rows) {

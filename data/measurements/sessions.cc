@@ -31,6 +31,39 @@ std::string Counted(Index count, const std::string& what) {
   return count == 1 ? "one " + what : std::to_string(count) + " " + what + "s";
 }
 
+// What a column's texts say of time.
+struct TextTimes {
+  std::vector<std::optional<double>> seconds;  // of each text
+  bool all = true;         // each that is not missing is a date or a time
+  bool all_dates = true;   // of each that is
+  bool any_hours = false;  // a time of day in some
+};
+
+TextTimes TimesOf(const CsvColumn& column, DateOrder order) {
+  TextTimes times;
+  for (const std::string& text : column.texts) {
+    const auto parsed = ParseDateTime(text, order);
+    times.seconds.push_back(parsed ? std::optional(parsed->seconds)
+                                   : std::nullopt);
+    if (parsed) {
+      times.all_dates = times.all_dates && parsed->has_date;
+      times.any_hours = times.any_hours || parsed->has_time;
+    } else {
+      times.all = times.all && IsMissingText(text);
+    }
+  }
+  return times;
+}
+
+// Whether a column of texts holds nothing but dates and times.
+bool HoldsTimes(const CsvColumn& column) {
+  return column.is_text() &&
+         std::ranges::all_of(column.texts, [](const std::string& text) {
+           return IsMissingText(text) || ParseDateTime(text).has_value() ||
+                  ParseDateTime(text, DateOrder::kMonthFirst).has_value();
+         });
+}
+
 class SessionFinder {
  public:
   SessionFinder(const CsvTable& table,
@@ -80,6 +113,16 @@ class SessionFinder {
     return index;
   }
 
+  // Those that `wanted` wants of what is not measured.
+  template <typename Wanted>
+  std::vector<std::size_t> ColumnsOf(const Wanted& wanted) const {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+      if (!IsMeasured(i) && wanted(table_.columns[i])) found.push_back(i);
+    }
+    return found;
+  }
+
   bool IsNone(const std::string& name) const {
     return name == "none" && table_.Find(name) < 0;
   }
@@ -100,11 +143,14 @@ class SessionFinder {
     if (named) {
       candidates.push_back(NamedColumn(selection_.time, "--time"));
     } else {
-      for (std::size_t i = 0; i < table_.columns.size(); ++i) {
-        if (StartsWithIgnoringCase(table_.columns[i].name, "time") &&
-            !IsMeasured(i)) {
-          candidates.push_back(i);
-        }
+      candidates = ColumnsOf([](const CsvColumn& column) {
+        return StartsWithIgnoringCase(column.name, "time");
+      });
+      if (candidates.empty()) {
+        candidates = ColumnsOf([](const CsvColumn& column) {
+          return HoldsTimes(column) &&
+                 TimesOf(column, DateOrder::kDayFirst).any_hours;
+        });
       }
     }
     if (candidates.size() == 1) {
@@ -117,6 +163,7 @@ class SessionFinder {
 
   void UseRowNumbers() {
     found_.time_column = -1;
+    found_.dated = false;
     found_.time_unit = "rows";
     found_.time.resize(static_cast<Index>(rows_.size()));
     for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -128,10 +175,7 @@ class SessionFinder {
     const CsvColumn& column = table_.columns[index];
     const double factor = SecondsPerUnit(column.name).value_or(1.0);
     // Of each text once: a column of dates has few or many.
-    std::vector<std::optional<double>> seconds_of;
-    for (const std::string& text : column.texts) {
-      seconds_of.push_back(ParseDateTime(text));
-    }
+    const TextTimes times = TimesOf(column, OrderOfDates(column));
     const bool as_numbers = !column.is_text();
     Eigen::VectorXd time(static_cast<Index>(rows_.size()));
     std::vector<bool> known = found_.known;
@@ -146,7 +190,7 @@ class SessionFinder {
       if (IsMissingText(text)) {
         if (!MayBeMissing(index, row, named)) return;
         known[i] = false;
-      } else if (as_numbers || !seconds_of[exception->second]) {
+      } else if (as_numbers || !times.seconds[exception->second]) {
         PassOver(named,
                  table_.Where(row, column.name) + ": " + QuotedText(text) +
                      " is no time",
@@ -154,14 +198,46 @@ class SessionFinder {
                  "2024-03-01T12:00:05, or name another column with --time");
         return;
       } else {
-        at = *seconds_of[exception->second];
+        at = *times.seconds[exception->second];
       }
     }
     if (!HoldLast(known, &time)) return;
+    found_.dated = column.is_text() && times.all_dates;
+    hours_alone_ = column.is_text() && !times.all_dates;
     found_.time_column = static_cast<std::ptrdiff_t>(index);
     found_.time_unit = "s";
     found_.time = std::move(time);
     found_.known = std::move(known);
+  }
+
+  // "03/04/2024" may be in March or in April: what makes all of a column dates,
+  // else what goes back in time less often.
+  DateOrder OrderOfDates(const CsvColumn& column) {
+    const TextTimes day_first = TimesOf(column, DateOrder::kDayFirst);
+    const TextTimes month_first = TimesOf(column, DateOrder::kMonthFirst);
+    if (day_first.seconds == month_first.seconds) return DateOrder::kDayFirst;
+    const auto order =
+        day_first.all == month_first.all
+            ? (TimesBack(column, month_first) < TimesBack(column, day_first)
+                   ? DateOrder::kMonthFirst
+                   : DateOrder::kDayFirst)
+        : day_first.all ? DateOrder::kDayFirst
+                        : DateOrder::kMonthFirst;
+    order_of_dates_ = order == DateOrder::kDayFirst
+                          ? ", its dates read as day/month/year"
+                          : ", its dates read as month/day/year";
+    return order;
+  }
+
+  static Index TimesBack(const CsvColumn& column, const TextTimes& times) {
+    Index count = 0;
+    double last = -INFINITY;
+    for (const auto& [row, text] : column.exceptions) {
+      const double now = times.seconds[text].value_or(last);
+      count += now < last ? 1 : 0;
+      last = now;
+    }
+    return count;
   }
 
   // Whether a cell of a column may be missing in this row. One of a column that
@@ -212,6 +288,13 @@ class SessionFinder {
         if (TakeSessions(i, false)) return;
       }
     }
+    // A column of dates tells the days where the time does not.
+    if (found_.time_column >= 0 && !hours_alone_) return;
+    const auto dates = ColumnsOf([&](const CsvColumn& column) {
+      return HoldsTimes(column) &&
+             !TimesOf(column, DateOrder::kDayFirst).any_hours;
+    });
+    if (dates.size() == 1) TakeSessions(dates.front(), false);
   }
 
   bool TakeSessions(std::size_t index, bool named) {
@@ -342,14 +425,16 @@ class SessionFinder {
     const std::string& name = TimeColumn().name;
     const bool assumed = !TimeColumn().is_text() && !SecondsPerUnit(name);
     return "time by " + QuotedName(name) +
-           (assumed ? ", taken for seconds" : "");
+           (assumed ? ", taken for seconds" : order_of_dates_);
   }
 
   const CsvTable& table_;
   const DatasetSelection& selection_;
   const std::vector<Index>& rows_;
   FoundSessions found_;
-  Index first_cut_ = -1;  // data row
+  Index first_cut_ = -1;        // data row
+  bool hours_alone_ = false;    // the time has no date
+  std::string order_of_dates_;  // words on it where it is in doubt
 };
 
 }  // namespace

@@ -33,6 +33,7 @@ struct FoundSessions {
   Eigen::VectorXd time;
   std::string time_unit;            // "s" or "rows"
   std::ptrdiff_t time_column = -1;  // index into the table; -1: row numbers
+  bool dated = false;               // the time counts from 1970, by dates
   std::vector<bool> known;          // (n) false: the time or session is missing
   /// What was found, one line each; nothing of one run without a time.
   std::vector<std::string> remarks;
@@ -41,11 +42,13 @@ struct FoundSessions {
 /// Finds sessions, uninterrupted runs with rows in order of time, by the
 /// columns `time`, `session` and the policy `missing` of the selection.
 ///
-/// Time is the column named, else the only one whose name starts with "time":
-/// numbers in seconds by its unit (s, ms, min, h), or dates and times as ISO
-/// 8601 has them; else the number of the row. Sessions are the column named,
-/// else `session`, else `day`, else `run`; without one they are cut where time
-/// goes back or leaps by more than 20 median steps. A column that nobody named
+/// Time is the column named, else the only one whose name starts with "time",
+/// else the only one that holds nothing but times of day: numbers in seconds by
+/// its unit (s, ms, min, h), or what ParseDateTime reads; else the number of
+/// the row. Sessions are the column named, else `session`, else `day`, else
+/// `run`, else, where time has no dates, the only column that holds nothing but
+/// dates; without one they are cut where time goes back or leaps by more than
+/// 20 median steps. A column that nobody named
 /// and that will not do is passed over with a remark; "none" names none, save
 /// where a column is called so. The target and the weight are neither.
 ///

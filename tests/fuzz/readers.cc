@@ -136,8 +136,8 @@ void ReadHeaders(std::string_view bytes) {
   Require(header.base.size() <= bytes.size());
   data::StemOfColumn(bytes);
   data::NamesPosition(bytes);
-  const std::optional<double> seconds = data::ParseDateTime(bytes);
-  Require(!seconds || std::isfinite(*seconds));
+  const auto time = data::ParseDateTime(bytes);
+  Require(!time || std::isfinite(time->seconds));
 }
 
 void ReadHoldout(std::string_view bytes) {

@@ -1,5 +1,7 @@
 #include "models/study/judgement/units_of_analysis.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -91,13 +93,25 @@ std::vector<Index> UnitCodes(const Holdout& holdout,
   return codes;
 }
 
+// Whether each session begins on a day of its own.
+bool BeginOnDaysOfTheirOwn(const data::SessionLog& log) {
+  constexpr double kDay = 86400.0;
+  std::set<double> days;
+  return log.dated && std::ranges::all_of(log.first_rows, [&](Index row) {
+           return days.insert(std::floor(log.time[row] / kDay)).second;
+         });
+}
+
 // Whether no two units of the held-out rows share a session, and none spans
-// two. Sessions that were cut by time alone are a guess: a clock may start anew
-// with each cycle.
+// two. Sessions that were cut by time alone are a guess, unless their dates
+// differ: a clock may start anew with each cycle.
 bool AreSeparateSessions(const HeldOutRows& held,
                          const std::vector<Index>& units) {
   const data::SessionLog* log = held.source->log().get();
-  if (log == nullptr || log->sessions.column.empty()) return false;
+  if (log == nullptr ||
+      (log->sessions.column.empty() && !BeginOnDaysOfTheirOwn(*log))) {
+    return false;
+  }
   const std::vector<Index> sessions = held.source->session_codes();
   std::map<Index, Index> session_of;
   std::map<Index, Index> unit_of;

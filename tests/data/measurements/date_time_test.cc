@@ -5,15 +5,21 @@
 namespace errmap::data {
 namespace {
 
+std::optional<double> Seconds(std::string_view text,
+                              DateOrder order = DateOrder::kDayFirst) {
+  const auto parsed = ParseDateTime(text, order);
+  return parsed ? std::optional(parsed->seconds) : std::nullopt;
+}
+
 TEST(DateTime, ReadsIso8601) {
-  EXPECT_EQ(ParseDateTime("1970-01-01T00:00:00Z"), 0.0);
-  EXPECT_EQ(ParseDateTime("2000-03-01"), 951868800.0);  // after a leap day
-  EXPECT_EQ(ParseDateTime("1970-01-02 01:02:03.5"), 86400.0 + 3723.5);
-  EXPECT_EQ(ParseDateTime(" 1970-01-01T00:01 "), 60.0);
-  EXPECT_EQ(ParseDateTime("1970-01-01T02:00:00+01:30"), 1800.0);
-  EXPECT_EQ(ParseDateTime("1970-01-01T02:00-0100"), 10800.0);
-  EXPECT_EQ(ParseDateTime("12:00:05"), 43205.0);
-  EXPECT_EQ(ParseDateTime("07:30"), 27000.0);
+  EXPECT_EQ(Seconds("1970-01-01T00:00:00Z"), 0.0);
+  EXPECT_EQ(Seconds("2000-03-01"), 951868800.0);  // after a leap day
+  EXPECT_EQ(Seconds("1970-01-02 01:02:03.5"), 86400.0 + 3723.5);
+  EXPECT_EQ(Seconds(" 1970-01-01T00:01 "), 60.0);
+  EXPECT_EQ(Seconds("1970-01-01T02:00:00+01:30"), 1800.0);
+  EXPECT_EQ(Seconds("1970-01-01T02:00-0100"), 10800.0);
+  EXPECT_EQ(Seconds("12:00:05"), 43205.0);
+  EXPECT_EQ(Seconds("07:30"), 27000.0);
 }
 
 TEST(DateTime, RefusesWhatIsNone) {
@@ -26,12 +32,47 @@ TEST(DateTime, RefusesWhatIsNone) {
                            "24:00",
                            "12:60",
                            "12",
-                           "01.03.2024",
+                           "01.13.2024",
+                           "1.3.024",
+                           "2024/3",
+                           "3.4",
+                           "13:05 PM",
+                           "0:05 AM",
                            "2024-03-01T",
                            "2024-03-01T12:00:05 h",
                            "2024-03-01T12:00:05+1"}) {
     EXPECT_FALSE(ParseDateTime(text).has_value()) << text;
   }
+}
+
+TEST(DateTime, ReadsWhatLoggersAndSpreadsheetsWrite) {
+  const double day = *Seconds("2024-03-04");
+  for (const char* text : {"04.03.2024",
+                           "4.3.2024",
+                           "04.03.24",
+                           "2024/03/04",
+                           "2024.3.4",
+                           "04/03/2024",
+                           "4-3-2024"}) {
+    EXPECT_EQ(Seconds(text), day) << text;
+  }
+  EXPECT_EQ(Seconds("4.3.70"), *Seconds("1970-03-04"));
+  const double minute = day + 7 * 3600.0 + 5 * 60.0;
+  EXPECT_EQ(Seconds("04.03.2024 07:05"), minute);
+  EXPECT_EQ(Seconds("04.03.2024 7:05:00,5"), minute + 0.5);
+  EXPECT_EQ(Seconds("3/4/2024 7:05:00 AM", DateOrder::kMonthFirst), minute);
+  EXPECT_EQ(Seconds("3/4/2024 7:05 pm", DateOrder::kMonthFirst),
+            minute + 12 * 3600.0);
+  EXPECT_EQ(Seconds("12:05 AM"), 300.0);
+  EXPECT_EQ(Seconds("12:05PM"), 12 * 3600.0 + 300.0);
+  EXPECT_FALSE(Seconds("13/4/2024", DateOrder::kMonthFirst).has_value());
+}
+
+TEST(DateTime, TellsDatesFromTimesOfDay) {
+  EXPECT_TRUE(ParseDateTime("04.03.2024")->has_date);
+  EXPECT_FALSE(ParseDateTime("04.03.2024")->has_time);
+  EXPECT_FALSE(ParseDateTime("7:05")->has_date);
+  EXPECT_TRUE(ParseDateTime("7:05")->has_time);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -83,6 +84,54 @@ TEST(Sessions, TimeMayBeDates) {
   EXPECT_EQ(found.time[1] - found.time[0], 3.0);
   EXPECT_EQ(found.time[2] - found.time[1], 2.0);
   EXPECT_EQ(found.time_unit, "s");
+}
+
+TEST(Sessions, TimeIsFoundByItsDatesWhateverItsName) {
+  const FoundSessions found = Find(
+      "Zeitpunkt,Bediener,x\n04.03.2024 07:30,A,1\n04.03.2024 07:31,A,2\n"
+      "05.03.2024 07:30,B,3\n05.03.2024 07:31,B,4\n");
+  EXPECT_EQ(found.time_column, 0);
+  EXPECT_TRUE(found.dated);
+  EXPECT_THAT(found.sessions.codes, ElementsAre(0, 0, 1, 1));
+  EXPECT_THAT(
+      found.remarks,
+      ElementsAre("2 sessions, cut where 'Zeitpunkt' goes back or leaps "
+                  "(first at data row 2); time by 'Zeitpunkt'"));
+  // One whose name says so comes first.
+  EXPECT_EQ(Find("When,time_s\n07:30,1\n07:31,2\n").time_column, 1);
+  EXPECT_FALSE(Find("When,time_s\n07:30,1\n07:31,2\n").dated);
+}
+
+TEST(Sessions, DatesHaveTheOrderThatGoesForward) {
+  const auto times = [](const std::string& dates) {
+    const FoundSessions found = Find("time\n" + dates);
+    return std::pair(found.time[1] - found.time[0], found.remarks.at(0));
+  };
+  constexpr double kDay = 86400.0;
+  const auto day_first = times("30/04/2024 7:00\n01/05/2024 7:00\n");
+  EXPECT_EQ(day_first.first, kDay);
+  EXPECT_THAT(day_first.second, HasSubstr("dates read as day/month/year"));
+  const auto month_first = times("4/30/2024 7:00\n5/1/2024 7:00\n");
+  EXPECT_EQ(month_first.first, kDay);
+  EXPECT_THAT(month_first.second, HasSubstr("dates read as month/day/year"));
+  // 3 April and 2 May, or 4 March and 5 February.
+  EXPECT_EQ(times("03/04/2024 7:00\n02/05/2024 7:00\n").first, 29 * kDay);
+  EXPECT_EQ(times("04/03/2024 7:00\n05/02/2024 7:00\n").first, 29 * kDay);
+}
+
+TEST(Sessions, AreTheDatesWhereTimeHasNone) {
+  const std::string rows =
+      "01.03.2024,7:00,1\n01.03.2024,7:10,2\n02.03.2024,7:20,3\n"
+      "02.03.2024,7:30,4\n";
+  EXPECT_EQ(Find("Datum,Uhrzeit,x\n" + rows).sessions.column, "Datum");
+  EXPECT_EQ(Find("Datum,Uhrzeit,x\n" + rows).time_column, 1);
+  EXPECT_EQ(Find("Datum,other,x\n01.03.2024,a,1\n02.03.2024,b,2\n"
+                 "02.03.2024,b,2\n")
+                .sessions.column,
+            "Datum");
+  EXPECT_EQ(Find("Datum,time_s\n01.03.2024,1\n02.03.2024,2\n02.03.2024,3\n")
+                .sessions.column,
+            "");
 }
 
 TEST(Sessions, AreCutWhereTimeGoesBackOrLeaps) {

@@ -1,10 +1,13 @@
 #include "models/study/judgement/verdict.h"
 
 #include <cmath>
+#include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "data/csv.h"
 #include "models/study/given_predictions.h"
 #include "tests/models/model_test_data.h"
 #include "tests/models/study/study_test_tools.h"
@@ -250,6 +253,37 @@ TEST(Verdict, EstablishesNothingWithFewGroupsOfPerhapsOneSession) {
     EXPECT_TRUE(judgement.comparisons[0].obstacle.exists());
     ASSERT_TRUE(judgement.recommendation);
   }
+}
+
+// Six runs of an hour: by the clock, which starts anew, or with the date.
+TEST(Verdict, TakesRunsOnDaysOfTheirOwnForSeparateSessions) {
+  using Kind = Obstacle::Kind;
+  const auto obstacle = [](bool dated, bool one_day) {
+    std::string text = "time,t1_degC,error_mm\n";
+    for (int run = 0; run < 6; ++run) {
+      for (int minute = 0; minute < 10; ++minute) {
+        const int day = one_day ? 4 : 4 + run;
+        const int hour = one_day ? 7 + 2 * run : 7;
+        text += fmt::format("{}{:02}:{:02},{},{}\n",
+                            dated ? fmt::format("{:02}.03.2024 ", day) : "",
+                            hour,
+                            minute,
+                            20 + minute * (run % 3),
+                            0.001 * minute + 1e-4 * ((7 * run + minute) % 5));
+      }
+    }
+    StudyResult study;
+    return JudgeSpecs(
+               data::MakeDataset(data::ParseCsv(text, "log.csv"), {}).dataset,
+               {"sessions:3"},
+               {"mean", "poly:full:degree=1"},
+               &study)
+        .comparisons[0]
+        .obstacle.kind;
+  };
+  EXPECT_NE(obstacle(true, false), Kind::kPerhapsOneSession);
+  EXPECT_EQ(obstacle(true, true), Kind::kPerhapsOneSession);
+  EXPECT_EQ(obstacle(false, false), Kind::kPerhapsOneSession);
 }
 
 TEST(Verdict, CountsBlocksOfRowsWhereThereAreNoGroups) {
