@@ -49,6 +49,15 @@ class Resume : public Cli {
     return std::count(journal.begin(), journal.end(), '\n');
   }
 
+  // Until so many are kept, but for ten seconds at most.
+  void WaitForFits(const std::string& folder, std::ptrdiff_t wanted) const {
+    constexpr int kMostTries = 10'000;
+    for (int i = 0; i < kMostTries; ++i) {
+      if (CountKept(folder) >= std::min(wanted, kFits)) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
   static constexpr std::ptrdiff_t kFits =
       10 * 7;  // of Command(), three baselines added
 
@@ -109,10 +118,12 @@ TEST_F(Resume, EndsInTheSameResultsAfterFiftyKillsAtRandomMoments) {
   ASSERT_EQ(Run(Command("whole")).status, 0);
   const double seconds =
       std::chrono::duration<double>(Clock::now() - begin).count();
-  // Up to the length of an unbroken run: several kills per study, some of them
-  // in the start, some in the fits and some in the writing of the results.
+  // Up to the length of an unbroken run, or after some more fits, since a busy
+  // machine starts at leisure: several kills per study, some of them in the
+  // start, some in the fits and some in the writing of the results.
   std::mt19937_64 random(1995);
   std::uniform_real_distribution<double> moment(0.0, seconds);
+  std::uniform_int_distribution<std::ptrdiff_t> more_fits(1, kFits / 4);
   int kills = 0;
   int kills_in_fits = 0;
   int kills_in_writing = 0;
@@ -123,8 +134,12 @@ TEST_F(Resume, EndsInTheSameResultsAfterFiftyKillsAtRandomMoments) {
     for (int status = kKilled; status == kKilled;) {
       ASSERT_LT(++run, kMostRuns);
       Process process(scratch_.path(), words);
-      std::this_thread::sleep_for(
-          std::chrono::duration<double>(moment(random)));
+      if (run % 2 == 0 || CountKept(folder) == kFits) {
+        std::this_thread::sleep_for(
+            std::chrono::duration<double>(moment(random)));
+      } else {
+        WaitForFits(folder, CountKept(folder) + more_fits(random));
+      }
       process.Kill();
       const Outcome outcome = process.Wait();
       status = outcome.status;
