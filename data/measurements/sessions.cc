@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "data/measurements/column_checks.h"
-#include "data/measurements/date_time.h"
+#include "data/measurements/text_times.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -29,39 +29,6 @@ std::optional<double> SecondsPerUnit(std::string_view column) {
 
 std::string Counted(Index count, const std::string& what) {
   return count == 1 ? "one " + what : std::to_string(count) + " " + what + "s";
-}
-
-// What a column's texts say of time.
-struct TextTimes {
-  std::vector<std::optional<double>> seconds;  // of each text
-  bool all = true;         // each that is not missing is a date or a time
-  bool all_dates = true;   // of each that is
-  bool any_hours = false;  // a time of day in some
-};
-
-TextTimes TimesOf(const CsvColumn& column, DateOrder order) {
-  TextTimes times;
-  for (const std::string& text : column.texts) {
-    const auto parsed = ParseDateTime(text, order);
-    times.seconds.push_back(parsed ? std::optional(parsed->seconds)
-                                   : std::nullopt);
-    if (parsed) {
-      times.all_dates = times.all_dates && parsed->has_date;
-      times.any_hours = times.any_hours || parsed->has_time;
-    } else {
-      times.all = times.all && IsMissingText(text);
-    }
-  }
-  return times;
-}
-
-// Whether a column of texts holds nothing but dates and times.
-bool HoldsTimes(const CsvColumn& column) {
-  return column.is_text() &&
-         std::ranges::all_of(column.texts, [](const std::string& text) {
-           return IsMissingText(text) || ParseDateTime(text).has_value() ||
-                  ParseDateTime(text, DateOrder::kMonthFirst).has_value();
-         });
 }
 
 class SessionFinder {
@@ -148,8 +115,8 @@ class SessionFinder {
       });
       if (candidates.empty()) {
         candidates = ColumnsOf([](const CsvColumn& column) {
-          return HoldsTimes(column) &&
-                 TimesOf(column, DateOrder::kDayFirst).any_hours;
+          const TextTimes times = ReadTimes(column);
+          return column.is_text() && times.all && times.any_hours;
         });
       }
     }
@@ -175,7 +142,7 @@ class SessionFinder {
     const CsvColumn& column = table_.columns[index];
     const double factor = SecondsPerUnit(column.name).value_or(1.0);
     // Of each text once: a column of dates has few or many.
-    const TextTimes times = TimesOf(column, OrderOfDates(column));
+    const TextTimes times = ReadTimes(column);
     const bool as_numbers = !column.is_text();
     Eigen::VectorXd time(static_cast<Index>(rows_.size()));
     std::vector<bool> known = found_.known;
@@ -202,42 +169,13 @@ class SessionFinder {
       }
     }
     if (!HoldLast(known, &time)) return;
+    order_of_dates_ = times.doubt;
     found_.dated = column.is_text() && times.all_dates;
     hours_alone_ = column.is_text() && !times.all_dates;
     found_.time_column = static_cast<std::ptrdiff_t>(index);
     found_.time_unit = "s";
     found_.time = std::move(time);
     found_.known = std::move(known);
-  }
-
-  // "03/04/2024" may be in March or in April: what makes all of a column dates,
-  // else what goes back in time less often.
-  DateOrder OrderOfDates(const CsvColumn& column) {
-    const TextTimes day_first = TimesOf(column, DateOrder::kDayFirst);
-    const TextTimes month_first = TimesOf(column, DateOrder::kMonthFirst);
-    if (day_first.seconds == month_first.seconds) return DateOrder::kDayFirst;
-    const auto order =
-        day_first.all == month_first.all
-            ? (TimesBack(column, month_first) < TimesBack(column, day_first)
-                   ? DateOrder::kMonthFirst
-                   : DateOrder::kDayFirst)
-        : day_first.all ? DateOrder::kDayFirst
-                        : DateOrder::kMonthFirst;
-    order_of_dates_ = order == DateOrder::kDayFirst
-                          ? ", its dates read as day/month/year"
-                          : ", its dates read as month/day/year";
-    return order;
-  }
-
-  static Index TimesBack(const CsvColumn& column, const TextTimes& times) {
-    Index count = 0;
-    double last = -INFINITY;
-    for (const auto& [row, text] : column.exceptions) {
-      const double now = times.seconds[text].value_or(last);
-      count += now < last ? 1 : 0;
-      last = now;
-    }
-    return count;
   }
 
   // Whether a cell of a column may be missing in this row. One of a column that
@@ -291,8 +229,8 @@ class SessionFinder {
     // A column of dates tells the days where the time does not.
     if (found_.time_column >= 0 && !hours_alone_) return;
     const auto dates = ColumnsOf([&](const CsvColumn& column) {
-      return HoldsTimes(column) &&
-             !TimesOf(column, DateOrder::kDayFirst).any_hours;
+      const TextTimes times = ReadTimes(column);
+      return column.is_text() && times.all && times.any && !times.any_hours;
     });
     if (dates.size() == 1) TakeSessions(dates.front(), false);
   }

@@ -129,6 +129,7 @@ TEST(Sessions, AreTheDatesWhereTimeHasNone) {
                  "02.03.2024,b,2\n")
                 .sessions.column,
             "Datum");
+  EXPECT_EQ(Find("empty,x\n,1\n,2\n").sessions.column, "");
   EXPECT_EQ(Find("Datum,time_s\n01.03.2024,1\n02.03.2024,2\n02.03.2024,3\n")
                 .sessions.column,
             "");

@@ -1,0 +1,55 @@
+#include "data/measurements/text_times.h"
+
+#include <cmath>
+#include <cstddef>
+
+#include "data/measurements/column_checks.h"
+#include "data/measurements/date_time.h"
+
+namespace errmap::data {
+namespace {
+
+TextTimes ReadTimes(const CsvColumn& column, DateOrder order) {
+  TextTimes times;
+  for (const std::string& text : column.texts) {
+    const auto parsed = ParseDateTime(text, order);
+    times.seconds.push_back(parsed ? std::optional(parsed->seconds)
+                                   : std::nullopt);
+    if (parsed) {
+      times.any = true;
+      times.all_dates = times.all_dates && parsed->has_date;
+      times.any_hours = times.any_hours || parsed->has_time;
+    } else {
+      times.all = times.all && IsMissingText(text);
+    }
+  }
+  return times;
+}
+
+std::size_t TimesBack(const CsvColumn& column, const TextTimes& times) {
+  std::size_t count = 0;
+  double last = -INFINITY;
+  for (const auto& [row, text] : column.exceptions) {
+    const double now = times.seconds[text].value_or(last);
+    count += now < last ? 1 : 0;
+    last = now;
+  }
+  return count;
+}
+
+}  // namespace
+
+TextTimes ReadTimes(const CsvColumn& column) {
+  TextTimes day_first = ReadTimes(column, DateOrder::kDayFirst);
+  TextTimes month_first = ReadTimes(column, DateOrder::kMonthFirst);
+  if (day_first.seconds == month_first.seconds) return day_first;
+  const bool by_month =
+      day_first.all == month_first.all
+          ? TimesBack(column, month_first) < TimesBack(column, day_first)
+          : month_first.all;
+  day_first.doubt = ", its dates read as day/month/year";
+  month_first.doubt = ", its dates read as month/day/year";
+  return by_month ? month_first : day_first;
+}
+
+}  // namespace errmap::data

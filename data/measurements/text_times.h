@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/csv.h"
+
+namespace errmap::data {
+
+/// What the texts of a column say of time.
+struct TextTimes {
+  /// Of each of the column's texts, from 1970 or from midnight; nothing where
+  /// it is no time.
+  std::vector<std::optional<double>> seconds;
+  bool all = true;         // each that is not missing is a date or a time
+  bool any = false;        // one of them is
+  bool all_dates = true;   // of each that is
+  bool any_hours = false;  // a time of day in some
+  /// ", its dates read as day/month/year" where another order reads others.
+  std::string doubt;
+};
+
+/// Reads them by ParseDateTime. "03/04/2024" may be in March or in April: the
+/// order is the one that makes all of them dates, else the one that goes back
+/// in time less often down the rows, else the day first.
+TextTimes ReadTimes(const CsvColumn& column);
+
+}  // namespace errmap::data
