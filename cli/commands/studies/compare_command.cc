@@ -22,6 +22,7 @@
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
+#include "cli/study_file/machine/machine_judge.h"
 #include "cli/study_file/plan/study_forecast.h"
 #include "cli/study_file/plan/study_plan_text.h"
 #include "cli/study_file/plan/study_run.h"

@@ -9,7 +9,6 @@
 #include "cli/study_file/plan/study_plan.h"
 #include "cli/study_file/study_config.h"
 #include "data/csv.h"
-#include "models/study/record/machine_record.h"
 
 namespace errmap::cli {
 
@@ -25,6 +24,9 @@ struct MachineStudy {
   std::optional<data::CsvTable> diagonals;
   std::string session;             // column of its sessions
   std::vector<std::string> later;  // its last ones: no fit sees them
+
+  /// The path of a file in the folder.
+  std::string FileNamed(const std::string& name) const;
 };
 
 /// Reads machine and points; `later` is the number of sessions to judge by.
@@ -42,11 +44,5 @@ MachineStudy ReadMachineStudy(const std::string& machine,
 StudyPlan PlanOfMachine(const MachineStudy& study,
                         StudyConfig config,
                         bool quiet);
-
-/// Puts the maps of a finished run together and judges them at the points of
-/// the later sessions, filters run through the folder's temperatures.csv where
-/// it has one. Throws data::InputError as EvaluateAt does.
-models::MachineRecord JudgeMachine(const MachineStudy& study,
-                                   const StudyRun& run);
 
 }  // namespace errmap::cli
