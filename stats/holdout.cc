@@ -343,7 +343,8 @@ std::vector<Fold> MakeFolds(const HoldoutSpec& spec,
   std::vector<Fold> folds;
   switch (spec.kind) {
     case HoldoutKind::kEvery: {
-      RequireUnits(spec, num_rows, spec.k, "rows", "use a smaller K");
+      RequireUnits(
+          spec, num_rows, spec.k, "rows", "measure more, or use a smaller K");
       std::vector<bool> is_test(static_cast<std::size_t>(num_rows));
       for (Index row = 0; row < num_rows; ++row) {
         is_test[static_cast<std::size_t>(row)] = row % spec.k == spec.k - 1;
@@ -372,7 +373,8 @@ std::vector<Fold> MakeFolds(const HoldoutSpec& spec,
       folds = GroupFolds(spec, groups, seed);
       break;
     case HoldoutKind::kBlocks:
-      RequireUnits(spec, num_rows, spec.k, "rows", "use a smaller K");
+      RequireUnits(
+          spec, num_rows, spec.k, "rows", "measure more, or use a smaller K");
       folds = HoldOutRuns(Units(num_rows, {}), Range(num_rows), spec.k);
       break;
     case HoldoutKind::kLeaveOneGroupOut:
@@ -380,7 +382,8 @@ std::vector<Fold> MakeFolds(const HoldoutSpec& spec,
       folds = HoldOutRuns(groups, Range(groups.count()), groups.count());
       break;
     case HoldoutKind::kKFold: {
-      RequireUnits(spec, num_rows, spec.k, "rows", "use a smaller K");
+      RequireUnits(
+          spec, num_rows, spec.k, "rows", "measure more, or use a smaller K");
       std::vector<Index> order = Range(num_rows);
       Random random(seed);
       random.Shuffle(order);
@@ -392,7 +395,7 @@ std::vector<Fold> MakeFolds(const HoldoutSpec& spec,
                    groups.count(),
                    spec.k + 1,
                    group_codes.empty() ? "rows" : "groups",
-                   "use a smaller K");
+                   "measure more, or use a smaller K");
       folds = ForwardFolds(spec, groups);
       break;
     case HoldoutKind::kRandom:

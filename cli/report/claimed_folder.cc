@@ -43,6 +43,28 @@ void RefuseInputAsOutput(const std::string& flag,
   }
 }
 
+void RequirePlaceFor(const std::string& output) {
+  if (output.empty()) return;
+  const auto refuse = [&](std::error_code why) {
+    throw std::system_error(why, "cannot write " + data::PrintablePath(output));
+  };
+  std::error_code unknown;
+  const fs::file_status there = fs::status(output, unknown);
+  if (fs::is_directory(there)) {
+    refuse(std::make_error_code(std::errc::is_a_directory));
+  }
+  // Devices and pipes are written to as they are, without their folder.
+  if (fs::exists(there) && !fs::is_regular_file(there)) return;
+  const fs::path parent = fs::path(output).parent_path();
+  const std::string folder = parent.empty() ? "." : parent.string();
+  if (fs::exists(folder, unknown) && !fs::is_directory(folder, unknown)) {
+    refuse(std::make_error_code(std::errc::not_a_directory));
+  }
+  if (access(folder.c_str(), W_OK | X_OK) != 0) {
+    refuse({errno, std::generic_category()});
+  }
+}
+
 void PrepareFolder(const std::string& path) {
   std::error_code error;
   fs::create_directories(path, error);

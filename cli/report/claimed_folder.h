@@ -14,6 +14,11 @@ void RefuseInputAsOutput(const std::string& flag,
                          const std::string& output,
                          const std::vector<std::string>& inputs);
 
+/// Refuses what would be found out only after the work: `output`, a file named
+/// by the user, is a folder, or lies in one that is not there or cannot be
+/// written to. Throws std::system_error as the writing would.
+void RequirePlaceFor(const std::string& output);
+
 /// Creates the folder `path` (and its parents) where it is missing and makes
 /// sure that files can be written there. Throws std::system_error.
 void PrepareFolder(const std::string& path);

@@ -194,11 +194,11 @@ data::PreparedDataset MakeDataLike(const data::CsvTable& table,
 }
 
 GivenError ErrorOfFlag(const char* flag,
-                       const std::string& text,
+                       const std::optional<std::string>& text,
                        bool may_be_zero) {
-  if (text.empty()) return {};
+  if (!text) return {};
   try {
-    return ParseGivenError(text, may_be_zero);
+    return ParseGivenError(*text, may_be_zero);
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("{} {}", flag, error.what()));
   }

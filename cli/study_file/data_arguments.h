@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,9 +67,9 @@ data::PreparedDataset MakeDataLike(const data::CsvTable& table,
 /// Throws UsageError naming `flag`.
 std::vector<std::string> SplitNames(const std::string& list, const char* flag);
 
-/// "2um" or "0.002" of a flag, nothing of ""; throws UsageError naming `flag`.
+/// "2um" or "0.002" of a flag that was given; throws UsageError naming `flag`.
 GivenError ErrorOfFlag(const char* flag,
-                       const std::string& text,
+                       const std::optional<std::string>& text,
                        bool may_be_zero);
 
 /// Recipe of a SPEC; throws UsageError where it is wrong.

@@ -517,7 +517,10 @@ TEST(MakeFolds, HoldsOutContiguousBlocksLongerFirst) {
   EXPECT_EQ(TestRows(Folds("blocks:3", 8, {0, 1, 0, 1, 0, 1, 0, 1})),
             TestRows(Folds("blocks:3", 8)));
   ExpectRefused(
-      "blocks:4", 3, {}, "needs at least 4 rows, found 3; use a smaller K");
+      "blocks:4",
+      3,
+      {},
+      "needs at least 4 rows, found 3; measure more, or use a smaller K");
 }
 
 TEST(KeepsWhole, SeesACodeOnBothSides) {
@@ -530,15 +533,25 @@ TEST(KeepsWhole, SeesACodeOnBothSides) {
 
 TEST(MakeFolds, RefusesMoreFoldsThanRows) {
   ExpectRefused(
-      "every:4", 3, {}, "needs at least 4 rows, found 3; use a smaller K");
+      "every:4",
+      3,
+      {},
+      "needs at least 4 rows, found 3; measure more, or use a smaller K");
   ExpectRefused(
-      "kfold:4", 3, {}, "needs at least 4 rows, found 3; use a smaller K");
+      "kfold:4",
+      3,
+      {},
+      "needs at least 4 rows, found 3; measure more, or use a smaller K");
   ExpectRefused(
-      "forward:3", 3, {}, "needs at least 4 rows, found 3; use a smaller K");
-  ExpectRefused("forward:3",
-                6,
-                EqualGroups(3, 2),
-                "needs at least 4 groups, found 3; use a smaller K");
+      "forward:3",
+      3,
+      {},
+      "needs at least 4 rows, found 3; measure more, or use a smaller K");
+  ExpectRefused(
+      "forward:3",
+      6,
+      EqualGroups(3, 2),
+      "needs at least 4 groups, found 3; measure more, or use a smaller K");
 }
 
 TEST(MakeFolds, RefusesAGapThatLeavesNothingToTrainOn) {

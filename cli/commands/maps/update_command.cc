@@ -116,6 +116,7 @@ std::string TrialText(const models::UpdateTrial& trial,
 int RunUpdate(const UpdateArguments& arguments,
               const std::string& command_line) {
   RefuseInputAsOutput("-o", arguments.out, {arguments.file, arguments.known});
+  RequirePlaceFor(arguments.out);
   const models::FittedModel old_map = models::LoadModel(arguments.model);
   const auto recipe = RecipeFromArgument(old_map.name);
   const data::Dataset fresh = ReadRows(old_map, arguments.file, arguments);

@@ -22,8 +22,8 @@ struct CompareArguments {
   std::vector<std::string> holdouts;
   std::string model_list;
   std::vector<std::string> models;
-  std::string goal;
-  std::string indifference;
+  std::optional<std::string> goal = {};
+  std::optional<std::string> indifference = {};
   std::string split;
   std::string save_split;
   std::vector<PredictionsFile> predictions;

@@ -157,8 +157,10 @@ int RunCompare(const CompareArguments& arguments) {
   const std::vector<std::string> inputs = plan.InputPaths();
   for (const ComponentConfig& component : plan.config.components) {
     RefuseInputAsOutput("--save-split", component.save_split, inputs);
+    RequirePlaceFor(component.save_split);
   }
   RefuseInputAsOutput("-o", arguments.page, inputs);
+  RequirePlaceFor(arguments.page);
   std::optional<ClaimedFolder> folder;
   if (!arguments.out.empty()) {
     folder.emplace(arguments.out, OutputNames(plan), inputs, arguments.force);

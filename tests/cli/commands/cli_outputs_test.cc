@@ -68,6 +68,27 @@ TEST_F(CliOutputs, OutputsThatAreInputsAreRefusedBeforeAnyWork) {
             0);
 }
 
+// Found out after hours of fits it would cost the page.
+TEST_F(CliOutputs, PlacesThatCannotBeWrittenToAreRefusedBeforeAnyWork) {
+  std::filesystem::create_directory(scratch_ / "folder");
+  Fit("mean", "m.json");
+  Write("file", "mine");
+  for (const std::string place : {"none/out", "folder", "file/out"}) {
+    const std::vector<std::vector<std::string>> commands = {
+        {"compare", kDown, "--models", "mean", "-o", place},
+        {"compare", kDown, "--models", "mean", "--save-split", place},
+        {"fit", kDown, "--model", "mean", "-o", place},
+        {"update", "m.json", kDown, "-o", place}};
+    for (const std::vector<std::string>& words : commands) {
+      SCOPED_TRACE(::testing::PrintToString(words));
+      EXPECT_THAT(RefusalOf(Run(words), kFailure),
+                  HasSubstr("cannot write " + place + ": "));
+    }
+  }
+  EXPECT_EQ(Read("file"), "mine");
+  EXPECT_FALSE(Exists("none"));
+}
+
 TEST_F(CliOutputs, AnInputInTheOutputFolderIsNeverReplaced) {
   const std::string data = Process::TextOf(kDown);
   Write("residuals.csv", data);
