@@ -27,6 +27,7 @@
 #include "cli/shell/shell_word.h"
 #include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
 #include "data/input_error.h"
 #include "data/text.h"
 #include "models/version.h"
@@ -182,7 +183,7 @@ void AddHelpCommand(CLI::App* app) {
   help->callback([app, name] {
     if (name->empty()) return;
     RequireKnownCommand(*app, *name);
-    PrintResult(app->get_subcommand(*name)->help(app->get_name()));
+    PrintFitted(app->get_subcommand(*name)->help(app->get_name()));
   });
 }
 
@@ -221,12 +222,12 @@ int RunParsed(int argc, char** argv) {
   AddModelsCommand(&app, &run);
   AddHelpCommand(&app);
   if (argc < 2) {
-    PrintResult(app.help());
+    PrintFitted(app.help());
     return kWrongCommandLine;
   }
   constexpr std::string_view kHelp = "help";
   if (argc == 2 && argv[1] == kHelp) {
-    PrintResult(app.help());
+    PrintFitted(app.help());
     return kDone;
   }
   if (RunHiddenCommand(app, argc, argv)) return kDone;
@@ -236,7 +237,7 @@ int RunParsed(int argc, char** argv) {
   } catch (const CLI::Success& asked) {
     std::ostringstream text;  // help or version
     const int status = app.exit(asked, text, text);
-    PrintResult(text.str());
+    PrintFitted(text.str());
     return status;
   } catch (const CLI::ParseError& error) {
     throw UsageError(WithSuggestion(app, error, argc, argv));

@@ -15,6 +15,7 @@
 #include "cli/report/words/residual_words.h"
 #include "cli/shell/number_text.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
 #include "cli/shell/wrap_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/provenance.h"
@@ -268,7 +269,7 @@ int RunResiduals(const ResidualsArguments& arguments,
     return kDone;
   }
   constexpr std::size_t kWidth = 80;
-  PrintResult(fmt::format(
+  PrintFitted(fmt::format(
       "{}, column {}: {} in {}{}\n",
       arguments.file,
       arguments.column,

@@ -7,9 +7,12 @@
 #include <sys/ioctl.h>
 
 #include "cli/shell/standard_streams.h"
+#include "cli/shell/wrap_text.h"
 
 namespace errmap::cli {
 namespace {
+
+constexpr long kFewestColumns = 40;
 
 // A whole number of a sensible size in the environment, or 0.
 std::size_t Wanted(const char* name, long least) {
@@ -35,7 +38,6 @@ std::size_t Terminal::text_columns() const {
 }
 
 Terminal OutputTerminal() {
-  constexpr long kFewestColumns = 40;
   constexpr long kFewestRows = 5;
   Terminal terminal;
   winsize size{};
@@ -55,6 +57,43 @@ Terminal OutputTerminal() {
     terminal.rows = rows;
   }
   return terminal;
+}
+
+std::string FitLines(std::string_view text, std::size_t width) {
+  constexpr std::size_t kSecondColumn = 30;  // of CLI11's help
+  constexpr std::size_t kNarrowest = 20;
+  std::string fitted;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    const std::size_t first = line.find_first_not_of(' ');
+    const bool is_option = first > 0 && line.size() > kSecondColumn &&
+                           line[kSecondColumn - 1] == ' ' &&
+                           line[kSecondColumn] != ' ';
+    const std::size_t indent = is_option ? kSecondColumn : first;
+    if (WidthOf(line) <= width || first == std::string_view::npos ||
+        indent + kNarrowest > width) {
+      fitted.append(line).append("\n");
+      continue;
+    }
+    fitted.append(line.substr(0, indent));
+    std::string begin;
+    for (const std::string& part :
+         WrapLines(line.substr(indent), width - indent)) {
+      fitted.append(begin).append(part).append("\n");
+      begin.assign(indent, ' ');
+    }
+  }
+  return fitted;
+}
+
+void PrintFitted(std::string_view text) {
+  const Terminal terminal = OutputTerminal();
+  PrintResult(isatty(STDOUT_FILENO) == 1 ||
+                      Wanted("COLUMNS", kFewestColumns) > 0
+                  ? FitLines(text, terminal.columns)
+                  : std::string(text));
 }
 
 void Screen::Add(std::string_view more, bool is_strong) {

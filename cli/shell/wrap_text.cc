@@ -22,6 +22,20 @@ std::size_t BytesOf(std::string_view text, std::size_t most) {
   return bytes;
 }
 
+// Whether the word is a number, which a unit may follow: "(11.481", "92".
+bool EndsInDigit(std::string_view word) {
+  return !word.empty() && word.back() >= '0' && word.back() <= '9';
+}
+
+// "%", "um)." and the like: what no line begins with.
+bool IsUnit(std::string_view word) {
+  while (!word.empty() && std::string_view(".,;:)").find(word.back()) !=
+                              std::string_view::npos) {
+    word.remove_suffix(1);
+  }
+  return word == "%" || word == "um" || word == "urad" || word == "arcsec";
+}
+
 }  // namespace
 
 std::size_t WidthOf(std::string_view text) {
@@ -34,6 +48,13 @@ std::vector<std::string> WrapLines(std::string_view text, std::size_t width) {
   std::string line;
   while (!text.empty()) {
     std::string_view word = text.substr(0, text.find(' '));
+    if (EndsInDigit(word) && word.size() < text.size()) {
+      const std::string_view rest = text.substr(word.size() + 1);
+      const std::string_view next = rest.substr(0, rest.find(' '));
+      if (IsUnit(next) && WidthOf(word) + 1 + WidthOf(next) <= width) {
+        word = text.substr(0, word.size() + 1 + next.size());
+      }
+    }
     text.remove_prefix(std::min(word.size() + 1, text.size()));
     if (word.empty()) continue;
     if (!line.empty() && WidthOf(line) + 1 + WidthOf(word) > width) {

@@ -11,6 +11,7 @@
 #include "cli/json_blocks.h"
 #include "cli/shell/number_text.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/provenance.h"
 #include "data/input_error.h"
@@ -206,7 +207,7 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
     PrintResult(DumpJson(document));
   } else {
     const ErrorText error(fitted.target.unit, check.promised);
-    PrintResult(fmt::format(
+    PrintFitted(fmt::format(
         "{} ({}) on {} of {}{}: RMS {}, mean {}; promised {} RMSE\n",
         arguments.model,
         fitted.name,
@@ -216,7 +217,7 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
         error.WithUnit(check.probe_rms),
         error.WithUnit(check.probe_mean),
         error.WithUnit(check.promised)));
-    PrintResult(fmt::format("{}{}{}",
+    PrintFitted(fmt::format("{}{}{}",
                             StatusText(check, error),
                             RemedyText(check, error),
                             SitesText(errors, sites)));

@@ -13,6 +13,7 @@
 #include "cli/report/documents/summary_text.h"
 #include "cli/shell/number_text.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/provenance.h"
 #include "data/text.h"
@@ -224,7 +225,7 @@ int RunEvaluate(const EvaluateArguments& arguments,
               {HashInput(arguments.model), HashInput(arguments.rows.file)})}}));
     return kDone;
   }
-  PrintResult(
+  PrintFitted(
       fmt::format("{} ({}) on {}: target - predicted of {}\n{}{}{}",
                   arguments.model,
                   fitted.name,

@@ -141,13 +141,14 @@ std::string FitText(const models::FittedModel& fitted,
                     const FitArguments& arguments) {
   const ErrorText error(fitted.target.unit, train.rmse);
   Terminal room = OutputTerminal();
+  const std::size_t width = room.text_columns();
   if (arguments.details) {
     room.columns = std::string::npos;
     room.rows = 0;
   }
   std::string text;
   const auto say = [&](const std::string& words) {
-    if (!words.empty()) text += WrapText(words, room.text_columns()) + "\n";
+    if (!words.empty()) text += WrapText(words, width) + "\n";
   };
   say(fmt::format("{}: {} fitted to {}, RMSE {} on these rows (not held out)",
                   fitted.name,
@@ -186,6 +187,7 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
       "-o",
       arguments.out,
       {arguments.data.file, models::FileOfSpec(arguments.model)});
+  RequirePlaceFor(arguments.out);
   auto recipe = RecipeFromArgument(arguments.model);
   const data::PreparedDataset prepared = ReadData(arguments.data);
   const double indifference =

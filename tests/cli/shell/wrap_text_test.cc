@@ -17,6 +17,13 @@ TEST(WrapLines, BreaksAtBlanksAndLongWordsAnywhere) {
   EXPECT_THAT(WrapLines("", 7), ElementsAre());
 }
 
+TEST(WrapLines, KeepsANumberAndItsUnitTogether) {
+  EXPECT_THAT(WrapLines("it removes 92 % of 11.4 um.", 13),
+              ElementsAre("it removes", "92 % of", "11.4 um."));
+  EXPECT_THAT(WrapLines("10 cycles", 5), ElementsAre("10", "cycle", "s"));
+  EXPECT_THAT(WrapLines("11.481 um", 5), ElementsAre("11.48", "1 um"));
+}
+
 TEST(WrapLines, CountsCharactersNotBytes) {
   EXPECT_THAT(WrapLines("µµ µµ", 5), ElementsAre("µµ µµ"));
   EXPECT_THAT(WrapLines("µµµµ", 2), ElementsAre("µµ", "µµ"));
