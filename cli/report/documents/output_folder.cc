@@ -13,6 +13,7 @@
 #include "data/csv.h"
 #include "data/formula_text.h"
 #include "models/model_file.h"
+#include "models/study/judgement/extrapolated_rows.h"
 
 namespace errmap::cli {
 namespace {
@@ -108,13 +109,19 @@ std::string ResidualsCsv(const Comparison& comparison) {
   if (dataset.has_groups()) {
     text += "," + data::CsvField(dataset.groups().column);
   }
-  text += "," + data::CsvField(dataset.target().name);
+  text += "," + data::CsvField(dataset.target().name) + ",inside";
   for (const models::ModelResult& model : comparison.study.models) {
     text += "," + data::CsvField(model.name);
   }
   text += "\n";
+  const auto& advice = comparison.judgement.recommendation;
   for (std::size_t h = 0; h < comparison.holdouts.size(); ++h) {
     const models::Holdout& holdout = comparison.holdouts[h];
+    std::vector<Eigen::Array<bool, Eigen::Dynamic, 1>> outside;
+    if (advice) {
+      outside = models::ExtrapolatedRows(
+          dataset, holdout, *comparison.study.models[advice->model].final_fit);
+    }
     const data::Dataset& source =
         holdout.test_data != nullptr ? *holdout.test_data : dataset;
     for (std::size_t fold = 0; fold < holdout.folds.size(); ++fold) {
@@ -137,7 +144,8 @@ std::string ResidualsCsv(const Comparison& comparison) {
               data::CsvField(
                   groups.labels[static_cast<std::size_t>(groups.codes[row])]);
         }
-        text += "," + data::CsvNumber(source.target_values()[index]);
+        text += "," + data::CsvNumber(source.target_values()[index]) + ",";
+        if (!outside.empty()) text += outside[fold][i] ? "0" : "1";
         for (const models::ModelResult& model : comparison.study.models) {
           const models::HoldoutResult& result = model.holdouts[h];
           text += ",";

@@ -9,6 +9,7 @@
 
 #include "cli/report/tables/machine_tables.h"
 #include "cli/report/tables/result_table.h"
+#include "cli/report/words/component_numbers.h"
 #include "cli/report/words/next_steps.h"
 #include "cli/report/words/verdict_text.h"
 #include "cli/shell/number_text.h"
@@ -207,12 +208,10 @@ void ComponentScreen::Details() {
     const models::HoldoutRecord& held = *HoldoutOf(view_, holdout);
     screen_->Add("\n");
     Paragraph(fmt::format(
-        "{}: RMSE{}; p against the recommended one, by {} {}, "
-        "after Holm",
+        "{}: RMSE{}; p against the recommended one, by {}, after Holm",
         holdout,
         record_.display.unit.empty() ? "" : " in " + record_.display.unit,
-        held.units,
-        held.unit_of_analysis));
+        CountOfUnits(held.units, held)));
     Add(TerminalDetails(view_, holdout));
   }
   Paragraph(kIntervalCoverage);
@@ -242,15 +241,20 @@ std::string OverallWords(const models::StudyRecord& record) {
   using models::GoalStanding;
   std::vector<std::string> goals;
   for (const auto& [standing, words] :
-       {std::pair(GoalStanding::kMet, "{} meet the goal"),
-        std::pair(GoalStanding::kMetAfterRezeroing, "{} only if re-zeroed"),
-        std::pair(GoalStanding::kMissed, "{} miss the goal")}) {
+       {std::pair(GoalStanding::kMet, "met by {}"),
+        std::pair(GoalStanding::kMetAfterRezeroing, "by {} if re-zeroed"),
+        std::pair(GoalStanding::kMissed, "missed by {}"),
+        std::pair(GoalStanding::kNone, "not set for {}")}) {
     if (const auto n = standings[standing]; n > 0) {
       goals.push_back(fmt::format(fmt::runtime(words), n));
     }
   }
   std::string text = Count(std::ssize(record.components), "component");
-  if (!goals.empty()) text += fmt::format(": {}", fmt::join(goals, ", "));
+  // Where none has a goal there is nothing to say of it.
+  if (!goals.empty() &&
+      (goals.size() > 1 || standings[GoalStanding::kNone] == 0)) {
+    text += fmt::format(": goal {}", fmt::join(goals, ", "));
+  }
   text += ".";
   if (maps > 0) {
     text += fmt::format(

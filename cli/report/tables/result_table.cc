@@ -445,7 +445,7 @@ Table SummaryRows(const models::StudyRecord& record) {
                           {.name = "error"},
                           {.name = "95 %", .gap = 1},
                           {.name = "proven", .is_number = false},
-                          {.name = "meets goal", .is_number = false}}};
+                          {.name = "goal", .is_number = false}}};
   for (const ComponentRecord& component : record.components) {
     const std::string name =
         data::Printable(component.name, component.name.size());

@@ -30,6 +30,12 @@ std::string PluralOfUnit(const models::HoldoutRecord& holdout) {
              : holdout.unit_of_analysis + "s";
 }
 
+std::string CountOfUnits(std::int64_t count,
+                         const models::HoldoutRecord& holdout) {
+  return count == 1 ? "1 " + holdout.unit_of_analysis
+                    : fmt::format("{} {}", count, PluralOfUnit(holdout));
+}
+
 std::string ListBesides(const std::vector<std::string>& names,
                         const std::string& besides) {
   std::vector<std::string> others = names;

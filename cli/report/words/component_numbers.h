@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,10 @@ std::string RatioText(double ratio);
 
 /// "cycles", "blocks of rows": what the tests count.
 std::string PluralOfUnit(const models::HoldoutRecord& holdout);
+
+/// "1 cycle", "20 blocks of rows".
+std::string CountOfUnits(std::int64_t count,
+                         const models::HoldoutRecord& holdout);
 
 /// The names, with commas, less one.
 std::string ListBesides(const std::vector<std::string>& names,

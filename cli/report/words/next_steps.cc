@@ -18,8 +18,47 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-// The options by which the study's command read its measurements; fit has them
-// too.
+// The rows held out, beside the map "models/x.json" or "models/NAME/x.json".
+std::string HeldOutRows(const std::string& folder, const std::string& map) {
+  namespace fs = std::filesystem;
+  const fs::path of_component = fs::path(map).parent_path();
+  const fs::path file =
+      of_component.has_parent_path()
+          ? fs::path("residuals") / (of_component.filename().string() + ".csv")
+          : fs::path("residuals.csv");
+  return (fs::path(folder) / file).lexically_normal().string();
+}
+
+// What is asked next of a recommendation that has these doubts and grounds.
+void AddAnswers(const models::RecommendationRecord& advice,
+                const models::ModelRecord& model,
+                const std::string& folder,
+                std::vector<NextStep>* steps) {
+  constexpr double kPercent = 100.0;
+  if (std::ranges::find(advice.doubts,
+                        models::RemarkKind::kExtrapolates,
+                        &models::RemarkRecord::kind) != advice.doubts.end()) {
+    steps->push_back(
+        {"extrapolated",
+         {},
+         fmt::format("{:.0f} % of the held-out rows: inside = 0 in {}; predict "
+                     "marks new rows alike",
+                     kPercent * advice.extrapolated_share,
+                     model.file && !folder.empty()
+                         ? HeldOutRows(folder, *model.file)
+                         : "residuals.csv, which --out STUDY writes")});
+  }
+  const auto net = std::ranges::find(advice.grounds,
+                                     models::RemarkKind::kBestNet,
+                                     &models::RemarkRecord::kind);
+  const auto place = static_cast<std::size_t>(net - advice.grounds.begin());
+  if (net != advice.grounds.end() && place < advice.reasons.size()) {
+    steps->push_back({"why no net", {}, advice.reasons[place]});
+  }
+}
+
+}  // namespace
+
 void AddDataOptions(const Words& command, Words* words) {
   constexpr std::array<std::string_view, 11> kOfData = {"--target",
                                                         "--inputs",
@@ -44,8 +83,6 @@ void AddDataOptions(const Words& command, Words* words) {
     }
   }
 }
-
-}  // namespace
 
 std::vector<NextStep> NextSteps(const models::StudyRecord& record,
                                 std::size_t component,
@@ -94,6 +131,9 @@ std::vector<NextStep> NextSteps(const models::StudyRecord& record,
   if (std::string measure = MeasureNext(of); !measure.empty()) {
     steps.push_back({"measure next", {}, std::move(measure)});
   }
+  if (found != nullptr) {
+    AddAnswers(*of.recommendation, *found, folder, &steps);
+  }
   return steps;
 }
 
@@ -127,13 +167,13 @@ std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
       steps.push_back({"fewer of them", std::move(words)});
     }
   }
-  if (!folder.empty()) {
-    steps.push_back({"the page",
-                     {},
-                     (std::filesystem::path(folder) / "report.html")
-                         .lexically_normal()
-                         .string()});
-  }
+  steps.push_back({"the page",
+                   {},
+                   folder.empty()
+                       ? "the same command with -o page.html"
+                       : (std::filesystem::path(folder) / "report.html")
+                             .lexically_normal()
+                             .string()});
   return steps;
 }
 

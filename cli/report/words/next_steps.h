@@ -7,6 +7,11 @@
 
 namespace errmap::cli {
 
+/// Adds the options by which a command read its measurements, which compare,
+/// fit and learn have alike.
+void AddDataOptions(const std::vector<std::string>& command,
+                    std::vector<std::string>* words);
+
 /// What to do with a recommendation.
 struct NextStep {
   std::string purpose;             // "write the map", at most 14 characters
@@ -15,7 +20,8 @@ struct NextStep {
 };
 
 /// The file of the map, or the command that makes it; that checks it, runs it,
-/// exports it; what to measure next. `data`: the measurements as fit can open
+/// exports it; what to measure next; which rows it extrapolated; why not a net.
+/// `data`: the measurements as fit can open
 /// them, "" where it cannot have the same rows; `folder`: where compare --out
 /// has written the maps, "" nowhere.
 std::vector<NextStep> NextSteps(const models::StudyRecord& record,

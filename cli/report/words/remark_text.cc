@@ -97,7 +97,7 @@ std::string SimplestSentence(const ComponentNumbers& component,
   }
   const std::string& model = *remark.model;
   const std::string rmse =
-      component.error(component.Rmse(model, advice.holdout));
+      component.error.WithUnit(component.Rmse(model, advice.holdout));
   switch (remark.kind) {
     case RemarkKind::kAveragesMaps:
       return fmt::format(
@@ -130,6 +130,69 @@ std::string SimplestSentence(const ComponentNumbers& component,
   }
 }
 
+// "The best net, net:scg, has 1.645 um, 0.837 um more (95 % 0.490 to 1.184)."
+std::string BestNetSentence(const ComponentNumbers& component,
+                            const std::string& net) {
+  const RecommendationRecord& advice = component.Advice();
+  const double rmse = component.Rmse(net, advice.holdout);
+  const auto in_first_tier = [&](const std::string& model) {
+    return std::ranges::find(advice.first_tier, model) !=
+           advice.first_tier.end();
+  };
+  if (in_first_tier(net) && in_first_tier(advice.model)) {
+    const auto parameters = FindNamed(component.record.models, net)->parameters;
+    return fmt::format("The best net, {} ({}), is interchangeable with it{}.",
+                       net,
+                       component.error.WithUnit(rmse),
+                       parameters && *parameters > advice.parameters
+                           ? fmt::format(" and dearer: {} parameters for {}",
+                                         *parameters,
+                                         advice.parameters)
+                           : "");
+  }
+  const double more = rmse - component.Rmse(advice.model, advice.holdout);
+  std::string text = fmt::format("The best net, {}, has {}, {} {}",
+                                 net,
+                                 component.error.WithUnit(rmse),
+                                 component.error.WithUnit(std::abs(more)),
+                                 more < 0.0 ? "less" : "more");
+  const models::PairRecord* const pair =
+      FindPair(component.record, advice.holdout, advice.model, net);
+  if (pair == nullptr) return text + ".";
+  // Of the difference a - b.
+  const double sign = (pair->a == net) == (more < 0.0) ? -1.0 : 1.0;
+  double low = sign * pair->ci95[0];
+  double high = sign * pair->ci95[1];
+  if (sign < 0.0) std::swap(low, high);
+  if (std::isfinite(low) && std::isfinite(high)) {
+    text += fmt::format(
+        " (95 % {} to {})", component.error(low), component.error(high));
+  }
+  return text + (pair->established ? "." : ", which is not proven.");
+}
+
+// Few sessions were held out whole, and something else decided.
+std::string FewSessionsSentence(const ComponentNumbers& component,
+                                const std::string& name) {
+  const HoldoutRecord& held = component.Holdout(name);
+  const std::string& model = component.Advice().model;
+  const auto verdict = std::ranges::find(
+      component.record.verdict, name, &VerdictRecord::holdout);
+  return fmt::format(
+      "Held out whole ({}) it has {}{}; {} are too few to decide by: measure "
+      "{} or more.",
+      name,
+      component.error.WithUnit(component.Rmse(model, name)),
+      verdict != component.record.verdict.end() && verdict->model != model
+          ? fmt::format(
+                ", {} {}",
+                verdict->model,
+                component.error.WithUnit(component.Rmse(verdict->model, name)))
+          : "",
+      CountOfUnits(component.record.data.sessions, held),
+      models::kFewestSessionsToDecide);
+}
+
 std::string GoalSentence(const ComponentNumbers& component) {
   const RecommendationRecord& advice = component.Advice();
   return fmt::format("The goal (RMSE at most {:g}{}{}) is {}: {}.",
@@ -155,7 +218,7 @@ std::string DisagreementSentence(const ComponentNumbers& component,
                     component.error.WithUnit(
                         component.Rmse(component.Advice().model, holdout)),
                     best,
-                    component.error(component.Rmse(best, holdout))));
+                    component.error.WithUnit(component.Rmse(best, holdout))));
   }
   return fmt::format("The hold-outs of unseen rows disagree: {}.",
                      fmt::join(parts, "; "));
@@ -303,6 +366,8 @@ std::string RemarkText(const ComponentNumbers& component,
                          *remark.model,
                          component.error.WithUnit(
                              component.Rmse(*remark.model, advice.holdout)));
+    case RemarkKind::kBestNet:
+      return BestNetSentence(component, *remark.model);
     case RemarkKind::kGap: {
       const models::GapModelRecord& row =
           *std::ranges::find(component.record.gap->models,
@@ -336,6 +401,8 @@ std::string RemarkText(const ComponentNumbers& component,
     case RemarkKind::kNoGroups:
       return unknown_day(
           "no whole cycles were held out (name their column with --group)");
+    case RemarkKind::kFewSessions:
+      return FewSessionsSentence(component, remark.holdouts->front());
     case RemarkKind::kBlocksForUnits:
       return fmt::format(
           "There are no groups: the tests count {} of held-out rows in order, "

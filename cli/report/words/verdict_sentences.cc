@@ -95,8 +95,7 @@ std::string TestSentence(const ComponentNumbers& component,
   }
   text += fmt::format("; sign-flip p {} over {}, {} after Holm for {}",
                       PWords(pair.p),
-                      pair.units == 1 ? "1 " + held.unit_of_analysis
-                                      : fmt::format("{} {}", pair.units, units),
+                      CountOfUnits(pair.units, held),
                       PWords(pair.p_holm),
                       Count(std::ranges::count(component.record.comparisons,
                                                verdict.holdout,

@@ -5,6 +5,8 @@
 #include <functional>
 #include <tuple>
 
+#include "models/study/judgement/extrapolated_rows.h"
+
 namespace errmap::models {
 namespace {
 
@@ -184,26 +186,11 @@ std::optional<InterpolationGap> MeasureGap(
 double ExtrapolatedShare(const data::Dataset& dataset,
                          const Holdout& holdout,
                          const FittedModel& fitted) {
-  std::vector<Index> columns;
-  for (const TrainedInput& input : fitted.inputs) {
-    columns.push_back(dataset.FindInput(input.column.name));
-  }
   Index outside = 0;
   Index all = 0;
-  for (const stats::Fold& fold : holdout.folds) {
-    const data::Dataset test = holdout.test_data != nullptr
-                                   ? *holdout.test_data
-                                   : dataset.SelectRows(fold.test);
-    Eigen::Array<bool, Eigen::Dynamic, 1> beyond =
-        Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(test.num_rows(), false);
-    for (const Index column : columns) {
-      const auto trained = dataset.input_values().col(column)(fold.train);
-      const auto tested = test.input_values().col(column).array();
-      beyond =
-          beyond || tested < trained.minCoeff() || tested > trained.maxCoeff();
-    }
-    outside += beyond.count();
-    all += test.num_rows();
+  for (const auto& rows : ExtrapolatedRows(dataset, holdout, fitted)) {
+    outside += rows.count();
+    all += rows.size();
   }
   return all > 0 ? static_cast<double>(outside) / static_cast<double>(all)
                  : 0.0;

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <set>
 
+#include "models/study/judgement/extrapolated_rows.h"
+
 namespace errmap::models {
 namespace {
 
@@ -91,6 +93,13 @@ FigureTableRecord MakeTable(const data::Dataset& source,
   return table;
 }
 
+// The row of the source that a fold holds out as its i-th.
+Eigen::Index RowOf(const Holdout& holdout, std::size_t fold, Eigen::Index i) {
+  return holdout.test_data != nullptr
+             ? i
+             : holdout.folds[fold].test[static_cast<std::size_t>(i)];
+}
+
 // Held-out prediction of every row of the source, NaN where it is in no test.
 Eigen::VectorXd HeldOutPredictions(const Holdout& holdout,
                                    const HoldoutResult& result,
@@ -99,10 +108,7 @@ Eigen::VectorXd HeldOutPredictions(const Holdout& holdout,
   for (std::size_t fold = 0; fold < result.folds.size(); ++fold) {
     const Eigen::VectorXd& values = result.folds[fold].test_predictions;
     for (Eigen::Index i = 0; i < values.size(); ++i) {
-      const Eigen::Index row =
-          holdout.test_data != nullptr
-              ? i
-              : holdout.folds[fold].test[static_cast<std::size_t>(i)];
+      const Eigen::Index row = RowOf(holdout, fold, i);
       if (std::isnan(predicted[row])) predicted[row] = values[i];
     }
   }
@@ -139,27 +145,11 @@ std::vector<std::int64_t> RowsOutside(const data::Dataset& dataset,
   std::vector<bool> outside(static_cast<std::size_t>(
       holdout.test_data != nullptr ? holdout.test_data->num_rows()
                                    : dataset.num_rows()));
-  for (const stats::Fold& fold : holdout.folds) {
-    for (const TrainedInput& input : map.inputs) {
-      const Eigen::Index column = dataset.FindInput(input.column.name);
-      const Eigen::VectorXd trained =
-          dataset.input_values().col(column)(fold.train);
-      const double low = trained.minCoeff();
-      const double high = trained.maxCoeff();
-      const auto mark = [&](Eigen::Index row, double value) {
-        if (value < low || value > high) {
-          outside[static_cast<std::size_t>(row)] = true;
-        }
-      };
-      if (holdout.test_data == nullptr) {
-        for (const Eigen::Index row : fold.test) {
-          mark(row, dataset.input_values()(row, column));
-        }
-        continue;
-      }
-      const Eigen::MatrixXd& tested = holdout.test_data->input_values();
-      for (Eigen::Index row = 0; row < tested.rows(); ++row) {
-        mark(row, tested(row, column));
+  const auto of_folds = ExtrapolatedRows(dataset, holdout, map);
+  for (std::size_t fold = 0; fold < of_folds.size(); ++fold) {
+    for (Eigen::Index i = 0; i < of_folds[fold].size(); ++i) {
+      if (of_folds[fold][i]) {
+        outside[static_cast<std::size_t>(RowOf(holdout, fold, i))] = true;
       }
     }
   }

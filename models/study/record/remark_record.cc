@@ -16,6 +16,8 @@ std::string_view ToString(RemarkKind kind) {
       return "removes";
     case RemarkKind::kBeatsBaseline:
       return "beats baseline";
+    case RemarkKind::kBestNet:
+      return "best net";
     case RemarkKind::kPromise:
       return "promise";
     case RemarkKind::kOneMoreSession:
@@ -38,6 +40,8 @@ std::string_view ToString(RemarkKind kind) {
       return "no groups held out";
     case RemarkKind::kNoGroups:
       return "no groups";
+    case RemarkKind::kFewSessions:
+      return "few sessions";
     case RemarkKind::kBlocksForUnits:
       return "blocks for units";
     case RemarkKind::kTooFewUnits:

@@ -45,6 +45,8 @@ enum class RemarkKind {
   kNoiseLearning,
   kOtherCuts,
   kBetterWithoutMap,  // model: the predictions
+  kBestNet,           // model: beside a map that is none
+  kFewSessions,       // holdouts: the one that holds them out whole
 };
 /// "averages maps", ...: the enumerator's words.
 std::string_view ToString(RemarkKind kind);

@@ -20,12 +20,14 @@ constexpr double kExtrapolationWorthSaying = 0.05;
 // What a screen has room for is told in this order; all else on request.
 constexpr std::array kToldFirst = {RemarkKind::kInterrupted,
                                    RemarkKind::kRemoves,
+                                   RemarkKind::kAveragesMaps,
                                    RemarkKind::kGoal,
                                    RemarkKind::kBetterWithoutMap,
                                    RemarkKind::kOneRunOnly,
                                    RemarkKind::kGroupFitsFailed,
                                    RemarkKind::kNoGroupsHeldOut,
                                    RemarkKind::kNoGroups,
+                                   RemarkKind::kFewSessions,
                                    RemarkKind::kTooFewUnits,
                                    RemarkKind::kTooManyMaps,
                                    RemarkKind::kNotNoise,
@@ -103,7 +105,12 @@ class Remarks {
     return remark;
   }
 
+  double RmseOf(std::size_t model) const {
+    return tests_.tests.rmse[*tests_.PlaceOf(model)];
+  }
+
   void AddSimplest();
+  void AddBestNet();
   void AddNotNoise();
   void AddUnseen();
   void AddUnits();
@@ -116,7 +123,9 @@ class Remarks {
 void Remarks::AddSimplest() {
   const std::size_t lowest = advice_.first_tier.front();
   if (advice_.single) {
-    Add(RemarkKind::kAveragesMaps, *advice_.single);
+    RemarkRecord& remark = Add(RemarkKind::kAveragesMaps, *advice_.single);
+    // Who sees a lower error in the table asks why it is not used.
+    if (RmseOf(advice_.model) <= RmseOf(*advice_.single)) remark.rank.reset();
   } else if (advice_.first_tier.size() < 2) {
     return;
   } else if (advice_.model == lowest) {
@@ -131,6 +140,20 @@ void Remarks::AddSimplest() {
                                            *tests_.PlaceOf(lowest)));
     remark.confidence = advice_.within_tier;
   }
+}
+
+// Who does not get a net asks why.
+void Remarks::AddBestNet() {
+  const auto& models = study_.study.models;
+  const auto is_net = [&](std::size_t model) {
+    return ChoiceOf(models[model]) == Choice::kNeural;
+  };
+  if (is_net(advice_.model)) return;
+  std::optional<std::size_t> best;
+  for (const std::size_t model : tests_.models) {
+    if (is_net(model) && (!best || RmseOf(model) < RmseOf(*best))) best = model;
+  }
+  if (best) Add(RemarkKind::kBestNet, *best);
 }
 
 void Remarks::AddNotNoise() {
@@ -161,6 +184,7 @@ std::vector<RemarkRecord> Remarks::Grounds() {
       advice_.against_baseline == Confidence::kEstablished) {
     Add(RemarkKind::kBeatsBaseline, advice_.best_baseline);
   }
+  AddBestNet();
   const auto& gap = study_.judgement.gap;
   if (gap && std::ranges::any_of(gap->rows, [&](const auto& row) {
         return row.model == advice_.model;
@@ -182,9 +206,20 @@ void Remarks::AddUnseen() {
   if (holdout.test_data != nullptr) return;
   if (record_.data.sessions == 1) {
     Add(RemarkKind::kOneRunOnly);
-  } else if (holdout.whole_groups || holdout.whole_sessions) {
     return;
-  } else if (std::ranges::any_of(study_.holdouts, &Holdout::whole_groups)) {
+  }
+  if (holdout.whole_sessions) return;
+  for (std::size_t h = 0; h < study_.holdouts.size(); ++h) {
+    if (!study_.holdouts[h].whole_sessions ||
+        !study_.judgement.comparisons[h].PlaceOf(advice_.model)) {
+      continue;
+    }
+    Add(RemarkKind::kFewSessions).holdouts =
+        std::vector<std::string>{study_.holdouts[h].name};
+    return;
+  }
+  if (holdout.whole_groups) return;
+  if (std::ranges::any_of(study_.holdouts, &Holdout::whole_groups)) {
     Add(RemarkKind::kGroupFitsFailed);
   } else {
     Add(record_.data.group ? RemarkKind::kNoGroupsHeldOut
@@ -224,7 +259,11 @@ void Remarks::AddDisagreement() {
   for (std::size_t h = 0; h < study_.holdouts.size(); ++h) {
     if (h == advice_.holdout || study_.holdouts[h].among_neighbours ||
         !study_.judgement.verdicts[h] ||
-        study_.judgement.comparisons[h].TierOf(advice_.model) < 2) {
+        study_.judgement.comparisons[h].TierOf(advice_.model) < 2 ||
+        std::ranges::any_of(remarks_, [&](const RemarkRecord& remark) {
+          return remark.kind == RemarkKind::kFewSessions &&
+                 remark.holdouts->front() == study_.holdouts[h].name;
+        })) {
       continue;
     }
     others.push_back(study_.holdouts[h].name);

@@ -143,6 +143,29 @@ TEST_F(Screens, FitALongFit) {
               HasSubstr("error_mm = "));
 }
 
+TEST_F(Screens, FitHelpAndWhatIsSaidOfAMap) {
+  ExpectToFit({"--help"});
+  for (const char* command :
+       {"compare", "fit", "check", "simulate", "export", "watch"}) {
+    ExpectToFit({"help", command});
+    ExpectToFit({command, "--help"});
+  }
+  setenv("COLUMNS", "80", 1);
+  EXPECT_THAT(Run({"help", "compare"}).out,
+              HasSubstr("  --target COL                Column to be mapped "
+                        "(default: the only one named\n"
+                        "                              error*)\n"));
+  const std::string map = "a_map_of_a_long_name_that_fills_half_of_a_line.json";
+  ASSERT_EQ(Run({"fit", kDown, "--model", "poly:eq8", "-o", map}).status, 0);
+  ExpectToFit({"check", map, kDown, "--quiet"});
+  ExpectToFit({"evaluate", map, kDown, "--quiet"});
+  ExpectToFit({"residuals", kAppendixB, "--column", "residual_mm"});
+  // In pipes nothing is broken that a script may look for.
+  unsetenv("COLUMNS");
+  EXPECT_THAT(Run({"help", "compare"}).out,
+              HasSubstr("(default: the only one named error*)\n"));
+}
+
 TEST_F(Screens, BeginWithAVerdictOfEightLines) {
   const std::vector<std::string> lines =
       SplitLines(Run(With({"compare", kDown}, kQuick)).out);
@@ -223,6 +246,84 @@ TEST_F(Screens, NameTheSensorsAndTheCommandThatTellsWhichWouldDo) {
                  "--quiet"})
                 .status,
             0);
+}
+
+// As one line, without the indentation of what goes on.
+std::string Squeezed(const std::string& text) {
+  return std::regex_replace(OneLine(text), std::regex(" +"), " ");
+}
+
+TEST_F(Screens, SayWhyNotTheNet) {
+  const Outcome outcome = Run({"compare",
+                               kDown,
+                               "--models",
+                               "poly:full:degree=3,net:scg:iterations=20",
+                               "--out",
+                               "study",
+                               "--quiet"});
+  const Json component =
+      Json::parse(Read("study/results.json"))["components"][0];
+  const auto rmse = [&](const std::string& model) {
+    return Model(component, model)["results"]["groups:5"]["test"]["rmse"]
+        .get<double>();
+  };
+  const double net = kUmPerMm * rmse("net:scg:iterations=20");
+  const double more = net - kUmPerMm * rmse("poly:full:degree=3");
+  ASSERT_GT(more, 0.0);
+  std::smatch found;
+  const std::string text = Squeezed(outcome.out);
+  ASSERT_TRUE(std::regex_search(
+      text,
+      found,
+      std::regex("why no net +The best net, net:scg:iterations=20, has "
+                 "([0-9.]+) um, ([0-9.]+) um more \\(95 % ")))
+      << outcome.out;
+  constexpr double kLastDigit = 6e-4;
+  EXPECT_NEAR(std::stod(found[1]), net, kLastDigit);
+  EXPECT_NEAR(std::stod(found[2]), more, kLastDigit);
+  EXPECT_THAT(Read("study/report.html"), HasSubstr("<dt>why no net</dt>"));
+  EXPECT_THAT(Run({"compare", kDown, "--models", "poly:eq8", "--quiet"}).out,
+              Not(HasSubstr("why no net")));
+}
+
+TEST_F(Screens, NameTheFileThatTellsWhichRowsWereExtrapolated) {
+  const std::vector<std::string> words{
+      "compare", kDown, "--models", "poly:full:degree=3", "--quiet"};
+  EXPECT_THAT(Squeezed(Run(words).out),
+              ContainsRegex("extrapolated +[0-9]+ % of the held-out rows: "
+                            "inside = 0 in residuals.csv, which --out STUDY "
+                            "writes; predict marks new rows alike"));
+  EXPECT_THAT(Squeezed(Run(With(words, {"--out", "study"})).out),
+              ContainsRegex("inside = 0 in study/residuals.csv; predict"));
+  const Json component =
+      Json::parse(Read("study/results.json"))["components"][0];
+  double rows = 0.0;
+  double outside = 0.0;
+  for (const auto& row : Records(Read("study/residuals.csv"))) {
+    if (row.at("holdout") != "groups:5") continue;
+    rows += 1.0;
+    if (row.at("inside") == "0") outside += 1.0;
+  }
+  EXPECT_DOUBLE_EQ(
+      outside / rows,
+      component["recommendation"]["extrapolated_share"].get<double>());
+  // The first and the last cycles, whose like no other fold saw.
+  EXPECT_GT(outside, 0.0);
+}
+
+TEST_F(Screens, SayWhatTwoDaysHeldOutWholeTell) {
+  WriteDays("days.csv", 1, 2);
+  const Outcome outcome =
+      Run({"compare", "days.csv", "--models", "poly:full:degree=1", "--quiet"});
+  const std::string text = Squeezed(outcome.out);
+  EXPECT_THAT(
+      text,
+      ContainsRegex("Held out whole \\(sessions:2\\) it has [0-9.]+ um, "
+                    "poly:position [0-9.]+ um; 2 days are too few to decide "
+                    "by: measure 4 or "
+                    "more\\."));
+  EXPECT_THAT(text, Not(HasSubstr("another day is not known")));
+  EXPECT_THAT(text, ContainsRegex("measure next +4 days or more"));
 }
 
 TEST_F(Screens, NameTheMapThatWasWritten) {
@@ -340,6 +441,8 @@ TEST_F(Screens, TakeAGoalWithItsUnit) {
     EXPECT_EQ(compare(same).out, compare("2um").out) << same;
   }
   EXPECT_EQ(compare("2um").err, compare("0.002").err);
+  EXPECT_THAT(RefusalOf(compare(""), kWrongCommandLine),
+              HasSubstr("--goal must be a finite number such as 0.002"));
   EXPECT_THAT(OneLine(compare("20").err),
               HasSubstr("goal 20 is in mm, the unit of error_mm: 20000 um, "
                         "more than the error itself; write 20um if that was "

@@ -169,6 +169,89 @@ TEST(Sentences, TellWhichColumnToIgnoreForAFlatteredModel) {
             "rows, 1.650 um on a cycle it never saw.");
 }
 
+// --- Why not the net -------------------------------------------------------
+
+std::string OfBestNet(ComponentRecord record) {
+  RemarkRecord remark{.kind = RemarkKind::kBestNet};
+  remark.model = "net:scg";
+  return GroundOf(std::move(record), remark);
+}
+
+TEST(BestNet, IsSaidToErrByHowMuchMore) {
+  ComponentRecord record = Base();
+  models::PairRecord& pair = record.comparisons.front();
+  ASSERT_EQ(pair.a, "poly:eq8");
+  ASSERT_EQ(pair.b, "net:scg");
+  pair.ci95 = {-1.75e-3, -4.5e-4};
+  EXPECT_EQ(OfBestNet(record),
+            "The best net, net:scg, has 3.000 um, 1.100 um more (95 % 0.450 to "
+            "1.750).");
+  // The pair may stand the other way round.
+  std::swap(pair.a, pair.b);
+  pair.ci95 = {4.5e-4, 1.75e-3};
+  pair.established = false;
+  EXPECT_EQ(OfBestNet(record),
+            "The best net, net:scg, has 3.000 um, 1.100 um more (95 % 0.450 to "
+            "1.750), which is not proven.");
+  record.comparisons.clear();
+  EXPECT_EQ(OfBestNet(record),
+            "The best net, net:scg, has 3.000 um, 1.100 um more.");
+}
+
+TEST(BestNet, IsSaidToErrLessWhereABaselineOrBlendIsUsedAllTheSame) {
+  ComponentRecord record = Base();
+  for (auto& [holdout, result] : record.models[2].results) {
+    result.test.rmse = 1.5e-3;
+  }
+  models::PairRecord& pair = record.comparisons.front();
+  pair.ci95 = {-1e-4, 9e-4};  // of poly:eq8 less net:scg
+  pair.established = false;
+  EXPECT_EQ(OfBestNet(record),
+            "The best net, net:scg, has 1.500 um, 0.400 um less (95 % -0.100 "
+            "to 0.900), which is not proven.");
+}
+
+TEST(BestNet, IsSaidToBeInterchangeableAndDearer) {
+  ComponentRecord record = Base();
+  record.recommendation->first_tier = {"poly:eq8", "net:scg"};
+  EXPECT_EQ(OfBestNet(record),
+            "The best net, net:scg (3.000 um), is interchangeable with it and "
+            "dearer: 21 parameters for 11.");
+  record.recommendation->parameters = 40;
+  EXPECT_EQ(OfBestNet(record),
+            "The best net, net:scg (3.000 um), is interchangeable with it.");
+}
+
+TEST(Sentences, TellWhatFewSessionsHeldOutWholeSay) {
+  ComponentRecord record = Base();
+  record.data.sessions = 2;
+  record.holdouts.front().unit_of_analysis = "day";
+  RemarkRecord remark{.kind = RemarkKind::kFewSessions};
+  remark.holdouts = std::vector<std::string>{record.holdouts.front().name};
+  EXPECT_EQ(DoubtOf(record, remark),
+            "Held out whole (every:3) it has 1.200 um; 2 days are too few to "
+            "decide by: measure 4 or more.");
+  models::VerdictRecord verdict;
+  verdict.holdout = record.holdouts.front().name;
+  verdict.model = "zero";
+  record.verdict = {verdict};
+  record.tiers.emplace_back(
+      verdict.holdout,
+      std::vector<std::vector<std::string>>{{"zero"}, {"poly:eq8"}});
+  EXPECT_THAT(DoubtOf(record, remark),
+              StartsWith("Held out whole (every:3) it has 1.200 um, zero 0.800 "
+                         "um; 2 days "));
+  record.recommendation->doubts = {remark};
+  EXPECT_EQ(MeasureNext(record), "4 days or more");
+}
+
+TEST(Sentences, SayWhichMapHasLessErrorThanABlend) {
+  RemarkRecord remark{.kind = RemarkKind::kAveragesMaps};
+  remark.model = "zero";
+  EXPECT_THAT(GroundOf(Base(), remark),
+              EndsWith("the best single map is zero (0.800 um)."));
+}
+
 models::VerdictRecord Hindered(models::Obstacle::Kind kind,
                                std::int64_t units,
                                std::int64_t needed) {
