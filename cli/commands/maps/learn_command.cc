@@ -16,8 +16,11 @@
 #include "cli/report/claimed_folder.h"
 #include "cli/report/figures/learning_figures.h"
 #include "cli/report/figures/svg.h"
+#include "cli/report/words/next_steps.h"
 #include "cli/shell/interrupt.h"
+#include "cli/shell/shell_word.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
@@ -49,7 +52,7 @@ struct LearnArguments {
   int repeats = 2;
   int sensors = 8;
   int next = 5;
-  std::string goal;
+  std::optional<std::string> goal = {};
   std::uint64_t seed = 1;
   int jobs = 0;
   std::string out;
@@ -188,8 +191,50 @@ void LearnCurves(const LearnArguments& arguments,
   learned->text += CurvesText(*learned->record.curves, dataset.target().unit);
 }
 
+// Names as --inputs takes them.
+std::string NameList(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) {
+    const bool odd = name.find(',') != std::string::npos;
+    list += (list.empty() ? "" : ",") + (odd ? '"' + name + '"' : name);
+  }
+  return list;
+}
+
+// The comparison with the sensors that do it, and the positions.
+std::string ComparisonOfChosen(const models::SensorCurveRecord& curve,
+                               const LearnArguments& arguments,
+                               const data::Dataset& dataset,
+                               const std::string& command_line) {
+  if (!curve.enough || *curve.enough >= curve.all.sensors) return "";
+  std::vector<std::string> inputs;
+  for (const data::ColumnInfo& input : dataset.inputs()) {
+    if (data::NamesPosition(input.name) ||
+        std::ranges::find(
+            curve.chosen, input.name, &models::ChosenSensorRecord::sensor) !=
+            curve.chosen.end()) {
+      inputs.push_back(input.name);
+    }
+  }
+  std::vector<std::string> options;
+  AddDataOptions(ShellWords(command_line), &options);
+  std::vector<std::string> words{"errmap", "compare", arguments.data.file};
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    const std::string flag = options[i].substr(0, options[i].find('='));
+    if (flag != "--inputs" && flag != "--exclude") {
+      words.push_back(options[i]);
+    } else if (flag == options[i]) {
+      ++i;  // its list, too
+    }
+  }
+  words.insert(words.end(), {"--inputs", NameList(inputs)});
+  return "With these alone:\n  " +
+         ShellCommand(words, OutputTerminal().columns, 2) + "\n";
+}
+
 void LearnBySensors(const LearnArguments& arguments,
                     const data::Dataset& dataset,
+                    const std::string& command_line,
                     Learned* learned) {
   Progress progress(!arguments.data.quiet);
   try {
@@ -208,6 +253,8 @@ void LearnBySensors(const LearnArguments& arguments,
     throw UsageError(fmt::format("--by sensors: {}", error.what()));
   }
   learned->text += SensorsText(*learned->record.sensors, dataset.target().unit);
+  learned->text += ComparisonOfChosen(
+      *learned->record.sensors, arguments, dataset, command_line);
 }
 
 void LearnNext(const LearnArguments& arguments,
@@ -252,7 +299,7 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
   const double goal = GoalOf(arguments, dataset.target().unit);
   Learned learned;
   if (arguments.by == "sensors") {
-    LearnBySensors(arguments, dataset, &learned);
+    LearnBySensors(arguments, dataset, command_line, &learned);
   } else if (!arguments.by.empty()) {
     LearnCurves(arguments, dataset, goal, &learned);
   }
@@ -276,7 +323,11 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
                                            {"sensors", arguments.sensors},
                                            {"seed", arguments.seed}},
                                           {HashInput(arguments.data.file)});
-  PrintResult(arguments.format == "json" ? DumpJson(document) : learned.text);
+  if (arguments.format == "json") {
+    PrintResult(DumpJson(document));
+  } else {
+    PrintFitted(learned.text);
+  }
   if (folder) {
     folder->Write(Stem(arguments) + ".json", DumpJson(document));
     for (const Figure& figure : LearningFigures(record, "")) {

@@ -260,6 +260,17 @@ TEST_F(CliPromise, LearnsWhichSensorsDoIt) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out,
               AllOf(HasSubstr("of 3 sensors do it"), HasSubstr("t1_degC")));
+  const std::string begin = "With these alone:\n  errmap ";
+  const std::size_t at = outcome.out.find(begin);
+  ASSERT_NE(at, std::string::npos) << outcome.out;
+  std::istringstream line(outcome.out.substr(at + begin.size()));
+  std::vector<std::string> words;
+  for (std::string word; line >> word;) words.push_back(word);
+  EXPECT_THAT(words.at(0) + " " + words.at(1), "compare train.csv");
+  EXPECT_THAT(words.back(),
+              AllOf(HasSubstr("position_mm"), HasSubstr("t1_degC")));
+  words.insert(words.end(), {"--models", "poly:full:degree=1", "--quiet"});
+  EXPECT_EQ(Run(words).status, 0);
 }
 
 TEST_F(CliPromise, PutsWhatWasLearntOnThePageOfTheStudy) {
