@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "cli/report/documents/report_style.h"
+#include "cli/report/figures/row_pictures.h"
 #include "cli/report/figures/svg.h"
 #include "cli/report/html.h"
 #include "cli/report/plot.h"
@@ -378,19 +379,46 @@ class FleetPage {
                      "<ul>" + list + "</ul>");
   }
 
+  // Of so many that a page holds no picture of each.
+  static constexpr std::size_t kMostPictures = 1000;
+
   std::string All() const {
-    std::string list;
+    const bool pictures = found_.summaries.size() <= kMostPictures;
+    std::string rows;
     for (const ComponentSummary& summary : found_.summaries) {
       if (!HasMap(summary)) continue;
       const auto& found = *summary.recommendation;
-      list += fmt::format("<li>{} {:.3g} {}, {}</li>\n",
-                          Linked(summary),
-                          summary.display.scale * found.rmse,
-                          HtmlText(PrettyUnit(summary.display.unit)),
-                          ToString(found.goal));
+      const double scale = summary.display.scale;
+      std::string interval;
+      if (std::isfinite(found.ci95[0]) && std::isfinite(found.ci95[1])) {
+        interval = fmt::format(
+            "{:.3g}-{:.3g}", scale * found.ci95[0], scale * found.ci95[1]);
+      }
+      rows += fmt::format(
+          "<tr><td class=\"t\">{}</td><td class=\"t\">{}</td><td>{:.3g} {}</td>"
+          "<td>{}</td>{}<td class=\"t\">{}</td></tr>\n",
+          Linked(summary),
+          HtmlName(found.model),
+          scale * found.rmse,
+          HtmlText(PrettyUnit(summary.display.unit)),
+          interval,
+          pictures ? "<td class=\"t\">" +
+                         IntervalPicture(
+                             found.rmse, found.ci95, found.uncompensated) +
+                         "</td>"
+                   : "",
+          ToString(found.goal));
     }
-    if (list.empty()) return "";
-    return Collapsed("All components", "<ul>" + list + "</ul>");
+    if (rows.empty()) return "";
+    return Collapsed(
+        "All components",
+        fmt::format(
+            "<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+            "aria-label=\"All components\"><table><tr><th "
+            "class=\"t\">component</th><th class=\"t\">use</th><th>error</th>"
+            "<th>95 %</th>{}<th class=\"t\">goal</th></tr>\n{}</table></div>",
+            pictures ? "<th class=\"t\">left of the error</th>" : "",
+            rows));
   }
 
   // Its page where that has been drawn.

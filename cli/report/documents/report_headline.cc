@@ -78,6 +78,17 @@ std::string CostWords(const models::RecommendationRecord& advice) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+// The first of so many that nobody reads them.
+std::string SensorWords(std::vector<std::string> sensors) {
+  constexpr std::size_t kMostNamed = 12;
+  const std::size_t more =
+      sensors.size() - std::min(sensors.size(), kMostNamed);
+  sensors.resize(sensors.size() - more);
+  return fmt::format("{}{}",
+                     fmt::join(sensors, ", "),
+                     more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
 std::string FallbackSentence(const ReportView& view, const Headline& line) {
   if (view.recommended.empty()) {
     return "No map can be recommended: no model was fitted and judged.";
@@ -110,13 +121,19 @@ Headline HeadlineOf(const ReportView& view) {
     }
     SayGoal(view, error, &line);
     line.cost = CostWords(advice);
-    line.sensors = fmt::format("{}", fmt::join(advice.sensors, ", "));
+    line.sensors = SensorWords(advice.sensors);
     line.sentence = advice.sentence;
     // The goal has a line of its own.
     constexpr std::size_t kMostTold = 5;
     for (const std::string& words : FirstWords(*view.component)) {
       if (words == advice.sentence || IsOfGoal(advice, words)) continue;
       if (line.told.size() < kMostTold) line.told.push_back(words);
+    }
+    // What it costs may name them already.
+    if (std::ranges::any_of(line.told, [&](const std::string& words) {
+          return words.find(line.sensors) != std::string::npos;
+        })) {
+      line.sensors.clear();
     }
     line.reasons = advice.reasons;
     line.caveats = advice.caveats;

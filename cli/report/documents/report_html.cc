@@ -7,6 +7,7 @@
 
 #include "cli/report/documents/report_headline.h"
 #include "cli/report/documents/report_style.h"
+#include "cli/report/figures/row_pictures.h"
 #include "cli/report/html.h"
 #include "cli/report/tables/fit_tables.h"
 #include "cli/report/tables/machine_tables.h"
@@ -53,11 +54,22 @@ std::string Collapsed(const std::string& title,
 // What does not apply is left out.
 std::string FigureHtml(const Figure& figure) {
   if (!figure.missing.empty()) return "";
+  constexpr int kWide = 560;
+  const bool wide = !figure.small && figure.plot.width > kWide;
+  std::string drawn = FigureSvg(figure);
+  if (wide) {
+    // On a phone it keeps a size that can be read.
+    drawn = fmt::format(
+        "<div class=\"scroll bare\" tabindex=\"0\" role=\"region\" "
+        "aria-label=\"{}\">{}</div>",
+        HtmlText(figure.title),
+        drawn);
+  }
   return fmt::format(
       "<figure{}><figcaption><b>{}</b></figcaption>{}{}</figure>\n",
-      !figure.small && figure.plot.width > 560 ? " class=\"wide\"" : "",
+      wide ? " class=\"wide\"" : "",
       HtmlName(figure.title),
-      FigureSvg(figure),
+      drawn,
       Paragraph(figure.note, "soft small"));
 }
 
@@ -90,37 +102,21 @@ std::string FiguresHtml(const ComponentFigures& figures,
   return html;
 }
 
-// Share of the error that is left, from nothing to all of it, with its
-// interval.
-std::string Sparkline(const ComponentRecord& component) {
-  const auto& advice = component.recommendation;
-  if (!advice || !(advice->removed_share <= 1.0) ||
-      advice->removed_share < 0.0) {
+// How the recommended map does on one unit held out after another.
+std::string ErrorByUnit(const ReportView& view) {
+  const ResultRecord* result = ResultOf(view, view.recommended, view.decisive);
+  const models::HoldoutRecord* holdout = HoldoutOf(view, view.decisive);
+  if (result == nullptr || holdout == nullptr || result->unit_rmse.empty()) {
     return "";
   }
-  constexpr double kWidth = 120.0;
-  const double left = 1.0 - advice->removed_share;
-  // 1 is the error without a map.
-  const double unit = left > 0.0 ? left / advice->rmse : 0.0;
-  const auto x = [&](double rmse) {
-    return 4.0 + (kWidth - 8.0) * std::clamp(rmse * unit, 0.0, 1.0);
-  };
-  std::string interval;
-  if (std::isfinite(advice->ci95[0])) {
-    interval = fmt::format(
-        "<path d=\"M{:.1f} 9H{:.1f}\" stroke=\"#0072B2\" "
-        "stroke-width=\"2\"/>",
-        x(advice->ci95[0]),
-        x(advice->ci95[1]));
-  }
-  return fmt::format(
-      "<svg class=\"spark\" viewBox=\"0 0 120 18\" width=\"120\" "
-      "height=\"18\" role=\"img\" aria-label=\"{:.0f} % of the error is "
-      "left\"><path d=\"M4 9H116\" stroke=\"#d5dae0\"/>{}<circle "
-      "cx=\"{:.1f}\" cy=\"9\" r=\"4\" fill=\"#0072B2\"/></svg>",
-      100.0 * left,
-      interval,
-      x(advice->rmse));
+  const auto [least, most] = std::ranges::minmax(result->unit_rmse);
+  const ErrorText error = ErrorTextOf(view);
+  const std::string to = error.WithUnit(most);
+  const std::string line = Sparkline(
+      result->unit_rmse,
+      fmt::format(
+          "RMSE by {}: {} to {}", holdout->unit_of_analysis, error(least), to));
+  return line.empty() ? "" : line + " to " + HtmlText(to);
 }
 
 // The first rows of a table; the others unfold.
@@ -210,8 +206,10 @@ std::string Page::Index(const std::vector<ReportView>& views) const {
   for (const char* name : {"component",
                            "use",
                            "error",
+                           "95 %",
                            "left of the error",
-                           "better than a baseline",
+                           "unit by unit",
+                           "proven",
                            "goal"}) {
     html += fmt::format("<th scope=\"col\" class=\"t\">{}</th>", name);
   }
@@ -219,25 +217,36 @@ std::string Page::Index(const std::vector<ReportView>& views) const {
   const Table rows = SummaryRows(record_);
   for (std::size_t i = 0; i < views.size(); ++i) {
     const Headline line = HeadlineOf(views[i]);
-    html += fmt::format(
-        "<tr><td class=\"t\"><a href=\"#c{}\">{}</a></td><td "
-        "class=\"t\">{}</td><td class=\"t\">{}</td><td class=\"t\">{}</td>"
-        "<td class=\"t\">{}</td><td class=\"t\">{}</td></tr>\n",
-        i + 1,
-        HtmlName(views[i].name),
-        views[i].recommended.empty() ? "nothing"
-                                     : HtmlName(views[i].recommended),
-        line.error.empty() ? "not known" : HtmlText(line.error),
-        Sparkline(*views[i].component),
-        HtmlText(rows.Shown(rows.rows[i][kProvenColumn])),
-        line.goal_standing == models::GoalStanding::kNone
-            ? "none"
-            : models::ToString(line.goal_standing));
+    const auto& advice = views[i].component->recommendation;
+    const auto cell = [&](const std::string& content) {
+      html += "<td class=\"t\">" + content + "</td>";
+    };
+    html += "<tr>";
+    cell(
+        fmt::format("<a href=\"#c{}\">{}</a>", i + 1, HtmlName(views[i].name)));
+    cell(views[i].recommended.empty() ? "nothing"
+                                      : HtmlName(views[i].recommended));
+    cell(line.error.empty() ? "not known" : HtmlText(line.error));
+    cell(HtmlText(rows.Shown(rows.rows[i][kIntervalColumn])));
+    // What is left is 1 - removed.
+    cell(advice ? IntervalPicture(advice->rmse,
+                                  advice->ci95,
+                                  advice->rmse / (1.0 - advice->removed_share))
+                : "");
+    cell(ErrorByUnit(views[i]));
+    cell(HtmlText(rows.Shown(rows.rows[i][kProvenColumn])));
+    cell(line.goal_standing == models::GoalStanding::kNone
+             ? "none"
+             : std::string(models::ToString(line.goal_standing)));
+    html += "</tr>\n";
   }
   return html +
          "</tbody></table></div><p class=\"soft small\">Left of the error: "
          "the dot between 0 and the error without a map, its bar the 95 % "
-         "interval." +
+         "interval. Unit by unit: the error on each cycle, day or block held "
+         "out "
+         "whole, from 0 to the largest. Proven: better than the best "
+         "baseline." +
          (figures_.IsBrief()
               ? " Of each there is what matters most; <code>errmap "
                 "report DIR --component NAME</code> draws the "
@@ -260,7 +269,8 @@ std::string Page::Next(std::size_t index) const {
   const bool written = std::ranges::any_of(
       models, [](const ModelRecord& model) { return model.file.has_value(); });
   std::string html;
-  constexpr std::size_t kLine = 72;
+  // The browser breaks lines, and what is copied is one.
+  constexpr std::size_t kLine = std::string::npos;
   for (const NextStep& step :
        NextSteps(record_, index, data, written ? "." : "")) {
     html += fmt::format("<dt>{}</dt><dd>{}</dd>",
@@ -482,8 +492,8 @@ std::string Page::Component(const ReportView& view, std::size_t index) const {
   // The anchor lies inside, so that a link opens what is closed.
   return fmt::format(
       "<details class=\"component\"><summary>{} <span>{}</span></summary>\n"
-      "<section id=\"c{}\">\n{}<p><a href=\"#top\">Back to the "
-      "index</a></p></section></details>\n",
+      "<section id=\"c{}\">\n{}<p class=\"back\"><a href=\"#top\">Back to "
+      "the index</a></p></section></details>\n",
       HtmlName(view.name),
       line.error.empty()
           ? "no result"

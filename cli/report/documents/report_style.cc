@@ -58,6 +58,7 @@ details.component>summary span{font-weight:400;color:var(--soft)}
 .equation{font:0.875rem/1.5 ui-monospace,SFMono-Regular,Menlo,Consolas,"Liberation Mono",monospace;background:var(--tint);border:1px solid var(--line);border-radius:4px;padding:8px 12px;overflow-wrap:anywhere;white-space:pre-wrap;margin:.4rem 0;max-height:16rem;overflow-y:auto}
 .contents{max-width:none;font-size:.875rem;margin:1rem 0 .4rem}
 .plain{display:block}
+.bare{border:0;margin:0;width:auto}
 .figures.halves{grid-template-columns:repeat(2,minmax(0,1fr))}
 .figures.halves figure.wide svg{max-width:none}
 .figures.thirds{grid-template-columns:repeat(3,minmax(0,1fr));margin-top:18px}
@@ -65,12 +66,35 @@ details.component>summary span{font-weight:400;color:var(--soft)}
 .next dt{font-weight:600}
 .next dd{margin:0;overflow-wrap:anywhere}
 code{font:.8125rem/1.45 ui-monospace,SFMono-Regular,Menlo,Consolas,"Liberation Mono",monospace;white-space:pre-wrap;background:var(--tint);padding:0 3px}
-.spark{display:block;width:120px;height:18px}
+.spark{display:inline-block;vertical-align:middle;width:120px;height:18px}
 .notice{border:1px solid #a33a00;background:#fff4ec;border-radius:6px;padding:8px 14px;margin:.8rem 0}
 footer{border-top:1px solid var(--line);margin-top:2rem;padding-top:10px;padding-bottom:30px;font-size:.875rem;color:var(--soft)}
 @media (max-width:1000px){.answer,.figures.halves,.figures.thirds{grid-template-columns:minmax(0,1fr)}}
-@media (max-width:600px){main,header,footer{padding-left:14px;padding-right:14px}.card{padding:12px 14px}h1{font-size:1.3rem}.number{font-size:2rem}td:first-child{white-space:normal;overflow-wrap:anywhere;min-width:8.2rem}td.long:first-child{min-width:9rem}td.long{min-width:11rem}th,td{padding:4px 8px}}
-@media print{body{font-size:10pt}main,header,footer{max-width:none;padding:0}.scroll{overflow:visible;border:0;width:auto}table{font-size:7pt;width:100%}th,td{padding:1px 3px}td:first-child,th:first-child{position:static;min-width:0}td,td.long{white-space:normal;min-width:0}.answer{grid-template-columns:minmax(0,1fr) minmax(0,1.1fr)}.figures.many{grid-template-columns:repeat(3,minmax(0,1fr))}h2,h3,h4{break-after:avoid}tr,.card{break-inside:avoid}.equation{max-height:none}details.component:not([open])::details-content{content-visibility:visible;display:block}details:not(.component):not([open]){display:none}.contents{display:none}.figures.halves{grid-template-columns:repeat(2,minmax(0,1fr))}.figures.thirds{grid-template-columns:repeat(3,minmax(0,1fr))}details.component{border:0;padding:0;break-before:page}a{color:inherit;text-decoration:none}.card,th,tr.mark td,.goal{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
+@media (max-width:600px){main,header,footer{padding-left:14px;padding-right:14px}.card{padding:12px 14px}h1{font-size:1.3rem}.number{font-size:2rem}td:first-child{white-space:normal;overflow-wrap:anywhere;min-width:9.7rem}td.long:first-child{min-width:9.7rem}.bare svg{min-width:620px}td.long{min-width:11rem}th,td{padding:4px 8px}}
+@media print{@page{margin:10mm}
+body{font-size:8.5pt;line-height:1.35}
+main,header,footer{max-width:none;padding:0}
+header{padding-top:0}h1{font-size:14pt}h2{font-size:12pt;margin:8pt 0 4pt}h3{font-size:10.5pt;margin:8pt 0 3pt}h4{margin:6pt 0 2pt}
+p{margin:2pt 0}.small,figcaption,.next{font-size:7.5pt}code{font-size:7pt}
+.sentence{font-size:10pt;margin:0 0 3pt}.number{font-size:18pt}.card{padding:6pt 9pt}.next{margin:3pt 0;gap:1pt 8pt}
+.scroll{overflow:visible;border:0;width:auto;margin:2pt 0}
+table{font-size:7pt;width:100%}th .soft{font-size:6pt}th,td{padding:1px 3px}
+td:first-child,th:first-child{position:static;min-width:0}td{white-space:nowrap}td:first-child,td.long{white-space:normal;min-width:0}
+.bare svg{min-width:0}.figures.halves figure.wide svg{max-width:82%}
+.answer{grid-template-columns:minmax(0,1fr) minmax(0,1.1fr);gap:4pt 12pt;margin-top:3pt}
+.figures{gap:6pt 10pt}
+.figures.many,.figures.halves,.figures.thirds{grid-template-columns:repeat(3,minmax(0,1fr))}
+.figures.halves figure.wide{grid-column:1/-1}
+.figures.thirds{margin-top:6pt}
+h2,h3,h4,summary{break-after:avoid}tr{break-inside:avoid}
+.equation{max-height:none}
+details.component:not([open])::details-content{content-visibility:visible;display:block}
+details:not(.component):not([open]){display:none}
+.contents,.back{display:none}
+details.component{border:0;padding:0;margin:0;break-before:page}
+a{color:inherit;text-decoration:none}
+.card,th,tr.mark td,.goal{-webkit-print-color-adjust:exact;print-color-adjust:exact}
+}
 )css";
 
 }  // namespace errmap::cli

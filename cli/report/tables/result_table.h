@@ -24,6 +24,7 @@ Table TerminalTimes(const ReportView& view);
 
 /// A row per component: what to use, and how good and how sure that is.
 Table SummaryRows(const models::StudyRecord& record);
+inline constexpr std::size_t kIntervalColumn = 3;
 inline constexpr std::size_t kProvenColumn = 4;
 
 /// "unseen cycle", "another file", "held-out rows": what decides.

@@ -250,6 +250,10 @@ TEST(ReportHtml, OfManyComponentsBeginsWithAnIndexAndFoldsTheRest) {
   EXPECT_THAT(html, HasSubstr("<a href=\"#c100\">"));
   EXPECT_THAT(html, HasSubstr("id=\"c100\""));
   EXPECT_LT(html.find("<nav"), html.find("<details"));
+  // Of each its error with interval, and how it does on one unit after another.
+  EXPECT_EQ(CountOf(html, ">1.900 µm</td><td class=\"t\">1.520-2.470</td>"),
+            100U);
+  EXPECT_EQ(CountOf(html, "aria-label=\"RMSE by cycle: "), 100U);
   constexpr std::size_t kMostBytes = 5'000'000;
   EXPECT_LT(html.size(), kMostBytes);
 }
