@@ -189,7 +189,9 @@ class FleetPage {
     after.columns = Shares(std::move(errors_after));
     Plot plot;
     plot.name = "distribution";
-    plot.x = {.quantity = "RMSE held out", .unit = unit_, .logarithmic = true};
+    plot.x = {.quantity = "RMSE held out",
+              .unit = PrettyUnit(unit_),
+              .logarithmic = true};
     plot.y = {.quantity = "components up to it",
               .unit = "%",
               .low = 0.0,
@@ -271,7 +273,7 @@ class FleetPage {
     plot.y = {.quantity = FieldName(0),
               .low = static_cast<double>(rows.size()) - kHalf,
               .high = -kHalf};
-    plot.colour = {.quantity = "error over goal, powers of 2", .high = kLimit};
+    plot.colour = {.quantity = "log2 of error over goal", .high = kLimit};
     plot.series = {std::move(series)};
     plot.x.names.assign(columns.begin(), columns.end());
     plot.y.names.assign(rows.begin(), rows.end());

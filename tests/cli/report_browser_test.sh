@@ -153,7 +153,7 @@ cat >"$scratch/check.js" <<'END'
     if (/(^|[^A-Za-z])(nan|NaN|null|undefined|inf|Infinity)($|[^A-Za-z])/.test(text)) {
       say('not a figure: "' + text.slice(0, 60) + '"');
     }
-    if (/[0-9] um($|[^A-Za-z_])/.test(text)) say('um beside µm: "' + text.slice(0, 60) + '"');
+    if (/[0-9,] um($|[^A-Za-z_])/.test(text)) say('um beside µm: "' + text.slice(0, 60) + '"');
     var style = getComputedStyle(holder);
     var ink = channels(holder.closest('svg') ? style.fill : style.color);
     var a = luminance(ink), b = luminance(background(holder));
