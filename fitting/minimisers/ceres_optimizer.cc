@@ -1,7 +1,6 @@
 #include "fitting/minimisers/ceres_optimizer.h"
 
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -93,8 +92,8 @@ class GuardedResiduals final : public ceres::CostFunction {
     const bool wants_jacobian = jacobians != nullptr && jacobians[0] != nullptr;
     try {
       f_.Evaluate(run_->x(), &r_, wants_jacobian ? &jacobian_ : nullptr);
-    } catch (const std::exception& error) {
-      run_->Fail(error.what());
+    } catch (...) {
+      run_->Fail();
       return false;
     }
     const Index rows = r_.size();
@@ -258,8 +257,8 @@ Minimum CeresOptimizer::DoMinimize(const Objective& f,
     text = NeedsResiduals(method)
                ? MinimizeByResiduals(*residuals, method, &guarded, &x)
                : MinimizeByGradients(options_, method, &guarded, &x);
-  } catch (const std::exception& error) {
-    guarded.Fail(error.what());
+  } catch (...) {
+    guarded.Fail();
   }
   return guarded.Finish("Ceres: " + text);
 }

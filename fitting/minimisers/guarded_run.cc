@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
+#include <new>
+
+#include "fitting/interruption.h"
 
 namespace errmap::fitting {
 
@@ -17,8 +19,12 @@ GuardedRun::GuardedRun(const Objective& f,
 
 bool GuardedRun::Start(const VectorXd& x0) {
   best_ = x_ = x0;
-  is_finite_ = EvaluateHere();
-  if (has_thrown_) return false;
+  try {
+    EvaluateHere();
+  } catch (...) {
+    Fail();
+    return false;
+  }
   best_cost_ = cost_;
   best_gradient_norm_ = gradient_norm_;
   return monitor_.Begin(cost_, gradient_norm_) &&
@@ -28,6 +34,15 @@ bool GuardedRun::Start(const VectorXd& x0) {
 
 bool GuardedRun::Evaluate(const double* x) {
   if (stopped()) return false;
+  try {
+    return EvaluateAt(x);
+  } catch (...) {
+    Fail();
+    return false;
+  }
+}
+
+bool GuardedRun::EvaluateAt(const double* x) {
   if (++idle_ > patience_) {
     monitor_.Stop(
         Termination::kNoDescent,
@@ -43,14 +58,14 @@ bool GuardedRun::Evaluate(const double* x) {
   if (!std::isfinite(x_norm)) return false;
   x_ = at;
   x_norm_ = x_norm;
-  is_finite_ = EvaluateHere();
+  EvaluateHere();
   // Where rounding hides the cost's last fall, the gradient still shows it.
   if (is_finite_ &&
       (cost_ < best_cost_ ||
        (cost_ == best_cost_ && gradient_norm_ < best_gradient_norm_))) {
     Keep();
   }
-  return is_finite_ && !has_thrown_;
+  return is_finite_;
 }
 
 bool GuardedRun::Spend() {
@@ -59,19 +74,11 @@ bool GuardedRun::Spend() {
   return true;
 }
 
-bool GuardedRun::EvaluateHere() {
+void GuardedRun::EvaluateHere() {
   ++evaluations_;
-  try {
-    cost_ = f_.Evaluate(x_, &gradient_);
-  } catch (const std::exception& error) {
-    Fail(error.what());
-    return false;
-  } catch (...) {
-    Fail("an exception of unknown type");
-    return false;
-  }
+  cost_ = f_.Evaluate(x_, &gradient_);
   gradient_norm_ = gradient_.norm();  // finite only where all of it is
-  return std::isfinite(cost_) && std::isfinite(gradient_norm_);
+  is_finite_ = std::isfinite(cost_) && std::isfinite(gradient_norm_);
 }
 
 void GuardedRun::Keep() {
@@ -86,24 +93,45 @@ void GuardedRun::Keep() {
 void GuardedRun::EndIteration() {
   if (!is_iteration_open_) return;
   is_iteration_open_ = false;
-  monitor_.EndIteration(best_cost_, best_gradient_norm_, best_);
+  try {
+    monitor_.EndIteration(best_cost_, best_gradient_norm_, best_);
+  } catch (...) {
+    Fail();
+  }
   ++steps_since_check_;
   if (!stopped()) {
     monitor_.StopAtSlowProgress(best_cost_, &steps_since_check_);
   }
 }
 
-void GuardedRun::Fail(const std::string& what) {
-  if (stopped()) return;
-  has_thrown_ = true;
+void GuardedRun::Fail() noexcept {
+  if (!stopped()) thrown_ = std::current_exception();
+}
+
+void GuardedRun::StopByWhatWasThrown() {
   const bool at_start = evaluations_ <= 1;
-  monitor_.Stop(at_start ? Termination::kFailed : Termination::kNoDescent,
-                "stopped by an exception: " + what);
+  const auto stop = [&](const std::string& what) {
+    monitor_.Stop(at_start ? Termination::kFailed : Termination::kNoDescent,
+                  "stopped by an exception: " + what);
+  };
+  try {
+    std::rethrow_exception(thrown_);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const Interrupted&) {
+    monitor_.Stop(Termination::kInterrupted, "interrupted in an evaluation");
+  } catch (const std::exception& error) {
+    stop(error.what());
+  } catch (...) {
+    stop("an exception of unknown type");
+  }
 }
 
 Minimum GuardedRun::Finish(const std::string& solver_text) {
   EndIteration();
-  if (!stopped()) {
+  if (thrown_ != nullptr) {
+    StopByWhatWasThrown();
+  } else if (!stopped()) {
     monitor_.Stop(
         Termination::kNoDescent,
         "the solver gave up before the gradient was small: " + solver_text);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <string>
 
 #include "fitting/minimisers/run_monitor.h"
@@ -15,7 +16,8 @@ namespace errmap::fitting {
 /// before each evaluation, goals after it. The best point seen is kept: the
 /// lowest cost, of equal ones that with the smaller gradient. Nothing
 /// is thrown through the solver: what the objective throws ends the run with
-/// its text. An iteration is one of the solver's that found a better point.
+/// its text; want of memory, after which there is no result, is thrown again by
+/// Finish. An iteration is one of the solver's that found a better point.
 class GuardedRun {
  public:
   /// After more than `patience` requests in a row that bring no lower cost, the
@@ -43,21 +45,25 @@ class GuardedRun {
   const Eigen::VectorXd& gradient() const { return gradient_; }
 
   /// The run is over, for the reason that Finish reports.
-  bool stopped() const { return monitor_.stopped(); }
+  bool stopped() const { return thrown_ != nullptr || monitor_.stopped(); }
 
   /// The solver has ended an iteration, counted if the cost has fallen in it.
   void EndIteration();
 
-  /// Ends the run with this text, unless it is over; "what the solver threw".
-  void Fail(const std::string& what);
+  /// Ends the run, unless it is over, by the exception that is being handled:
+  /// "what the solver threw".
+  void Fail() noexcept;
 
   /// The best point. Where the run was not ended here, the solver gave up by
-  /// itself: kNoDescent with its own words in `solver_text`.
+  /// itself: kNoDescent with its own words in `solver_text`. Throws
+  /// std::bad_alloc where the run found not enough memory.
   Minimum Finish(const std::string& solver_text);
 
  private:
-  bool EvaluateHere();
+  bool EvaluateAt(const double* x);
+  void EvaluateHere();
   void Keep();
+  void StopByWhatWasThrown();
 
   const Objective& f_;
   const std::int64_t patience_;
@@ -72,7 +78,7 @@ class GuardedRun {
   double best_cost_ = 0.0;
   double best_gradient_norm_ = 0.0;
   bool is_iteration_open_ = false;  // the cost fell since the last EndIteration
-  bool has_thrown_ = false;
+  std::exception_ptr thrown_;       // what ended the run
   std::int64_t evaluations_ = 0;
   std::int64_t idle_ = 0;  // requests since the cost last fell
   std::int64_t steps_since_check_ = 0;

@@ -84,6 +84,7 @@ double EvaluateForNlopt(unsigned size,
 }
 
 void Require(nlopt_result result, const char* what) {
+  if (result == NLOPT_OUT_OF_MEMORY) throw std::bad_alloc();
   if (result < 0) {
     throw std::invalid_argument(std::string("NloptOptimizer: NLopt refuses ") +
                                 what);
@@ -180,6 +181,9 @@ Minimum NloptOptimizer::DoMinimize(const Objective& f,
   VectorXd x = x0;
   double cost = std::numeric_limits<double>::quiet_NaN();
   const nlopt_result result = nlopt_optimize(problem.get(), x.data(), &cost);
+  if (result == NLOPT_OUT_OF_MEMORY && !guarded.stopped()) {
+    throw std::bad_alloc();
+  }
   std::string text = nlopt_result_to_string(result);
   if (const char* details = nlopt_get_errmsg(problem.get())) {
     text += std::string(", ") + details;

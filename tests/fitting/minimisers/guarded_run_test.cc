@@ -1,11 +1,13 @@
 #include "fitting/minimisers/guarded_run.h"
 
 #include <cmath>
+#include <new>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fitting/interruption.h"
 #include "tests/fitting/optimizer_cases.h"
 #include "tests/fitting/test_problems.h"
 #include "tests/fitting/watched_objective.h"
@@ -138,6 +140,48 @@ TEST_P(ForeignSolver, FailsWhereTheObjectiveThrowsAtTheStart) {
   EXPECT_EQ(minimum.summary.termination, Termination::kFailed);
   EXPECT_THAT(minimum.summary.message, HasSubstr("out of paper"));
   EXPECT_EQ(minimum.x, start);
+}
+
+// After 0 evaluations: at the start.
+TEST_P(ForeignSolver, HasNoResultWhereThereIsNotEnoughMemory) {
+  const auto problem = errmap::testing::Rosenbrock();
+  for (const int last : {0, 1, 2, 5, 20}) {
+    int evaluations = 0;
+    const FunctionObjective throwing(
+        2, [&](const VectorXd& x, VectorXd* gradient) {
+          if (++evaluations > last) throw std::bad_alloc();
+          return problem.objective->Evaluate(x, gradient);
+        });
+    EXPECT_THROW(GetParam().make({})->Minimize(throwing, problem.start),
+                 std::bad_alloc);
+  }
+}
+
+TEST_P(ForeignSolver, IsInterruptedWhereTheObjectiveIs) {
+  const auto problem = errmap::testing::Rosenbrock();
+  int evaluations = 0;
+  const FunctionObjective throwing(
+      2, [&](const VectorXd& x, VectorXd* gradient) {
+        if (++evaluations > 5) throw Interrupted();
+        return problem.objective->Evaluate(x, gradient);
+      });
+  const Minimum minimum =
+      GetParam().make({})->Minimize(throwing, problem.start);
+  EXPECT_EQ(minimum.summary.termination, Termination::kInterrupted);
+}
+
+TEST(GuardedRun, HasNoResultWhereTheCallerFindsNotEnoughMemory) {
+  const FunctionObjective bowl = Bowl();
+  const StoppingRules rules;
+  const RunControl control{
+      .after_iteration = [](const auto&) -> bool { throw std::bad_alloc(); }};
+  GuardedRun run(bowl, rules, control, kPatience);
+  const VectorXd lower{{1.0, 1.0}};
+  ASSERT_TRUE(run.Start(VectorXd{{3.0, 4.0}}));
+  EXPECT_TRUE(run.Evaluate(lower.data()));
+  run.EndIteration();
+  EXPECT_TRUE(run.stopped());
+  EXPECT_THROW(run.Finish("enough"), std::bad_alloc);
 }
 
 std::vector<errmap::testing::OptimizerCase> ForeignSolvers() {
