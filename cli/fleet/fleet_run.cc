@@ -197,12 +197,14 @@ class FleetRunner {
       return;
     }
     models::ComponentSummary summary;
+    bool is_final = true;
     const ComponentFiles files(store_, component.name);
     try {
       StudyRun run = RunPlan(PlanStudy(StudyOf(config_, component), true),
                              options_.command_line,
                              {.jobs = jobs_each_, .stop = options_.stop});
       if (run.interrupted) return;  // begun anew by the next run
+      is_final = run.components.front().study.short_of_memory == 0;
       NameDataAsAsked(component.data, source, &run);
       models::StudyRecord record = RecordOf(run);
       for (auto& table : record.components.front().figures.tables) {
@@ -226,7 +228,8 @@ class FleetRunner {
     }
     summary.version = models::Version();
     summary.asked = asked;
-    summary.key = key;
+    // Without its key, the next run studies the component again.
+    if (is_final) summary.key = key;
     summary.fields = source.fields;
     const bool failed = summary.status != models::ModelStatus::kOk;
     if (failed) {

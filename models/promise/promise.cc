@@ -1,5 +1,6 @@
 #include "models/promise/promise.h"
 
+#include <new>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -41,6 +42,7 @@ void AddPromise(const data::Dataset& dataset,
   recipes.push_back(std::move(recipe));
   const StudyResult study = RunStudy(dataset, {holdout}, recipes, options);
   if (study.interrupted) return;
+  if (study.short_of_memory > 0) throw std::bad_alloc();
   AddPromise(dataset, holdout, study.models.front().holdouts.front(), fitted);
 }
 

@@ -302,12 +302,14 @@ StudyResult RunStudy(const Dataset& dataset,
     return outcome;
   };
   std::atomic<int> done{0};
+  std::atomic<int> short_of_memory{0};
   HeldOutSoFar held_out(recipes.size(), holdouts);
   const auto run = [&](std::size_t index) {
     const StudyTask& task = tasks[index];
     FitProgress progress{.all = static_cast<int>(tasks.size()), .task = task};
     const auto start = Clock::now();
     FitOutcome outcome = find_or_fit(task);
+    if (outcome.try_again) ++short_of_memory;
     // What an earlier run has found took its time there.
     progress.seconds = std::max(outcome.seconds, SecondsSince(start));
     if (task.holdout < 0) {
@@ -362,6 +364,7 @@ StudyResult RunStudy(const Dataset& dataset,
     result.models.push_back(std::move(judged));
   }
   result.interrupted = options.stop != nullptr && options.stop->load();
+  result.short_of_memory = short_of_memory;
   return result;
 }
 

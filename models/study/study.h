@@ -109,6 +109,7 @@ struct StudyOptions {
 struct StudyResult {
   std::vector<ModelResult> models;  // as the recipes
   bool interrupted = false;
+  int short_of_memory = 0;  // fits that may succeed another time
 };
 
 /// Of many components they would take much memory: once their last use is

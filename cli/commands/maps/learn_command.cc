@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <optional>
 #include <thread>
 
@@ -182,6 +183,7 @@ void LearnCurves(const LearnArguments& arguments,
       RunLearning(arguments, dataset, plan, recipes);
   learned->interrupted = study.interrupted;
   if (study.interrupted) return;
+  if (study.short_of_memory > 0) throw std::bad_alloc();
   const std::vector<models::LearningCurve> curves =
       models::CurvesOf(dataset, plan, study);
   learned->failed = std::ranges::all_of(

@@ -67,6 +67,18 @@ int StatusOf(const StudyRun& run) {
   return kEveryFitFailed;
 }
 
+void SayShortOfMemory(const StudyRun& run) {
+  int fits = 0;
+  for (const Comparison& component : run.components) {
+    fits += component.study.short_of_memory;
+  }
+  if (fits == 0) return;
+  Say(fmt::format(
+      "{} of the fits found not enough memory; fewer --jobs need less, and "
+      "with --out the same command with --resume makes just these again",
+      fits));
+}
+
 void SaveSplit(const Comparison& comparison, const ComponentConfig& config) {
   if (config.save_split.empty()) return;
   data::WriteFileAtomically(
@@ -193,6 +205,7 @@ int RunCompare(const CompareArguments& arguments) {
                    }});
   }
   if (journal != nullptr) SayUnlessQuiet(arguments, journal->WritingRemarks());
+  SayShortOfMemory(run);
   models::StudyRecord record = RecordOf(run);
   if (machine && !run.interrupted) record.machine = JudgeMachine(*machine, run);
   AddProbes(run, arguments.probes, &record);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "stats/distributions.h"
 #include "stats/random.h"
 #include "tests/models/model_test_data.h"
+#include "tests/models/study/study_test_tools.h"
 
 namespace errmap::models {
 namespace {
@@ -191,6 +193,22 @@ TEST(PromiseOf, MakesNoneFromNeighbouringRowsOrAFitThatFails) {
   AddPromise(dataset, MakeRecipe("poly:full:degree=12"), {}, &fitted);
   EXPECT_FALSE(fitted.interval.has_value());
   EXPECT_EQ(fitted.held_out, nullptr);
+}
+
+// Else a map would be written without the interval that it can have.
+TEST(PromiseOf, IsNotGivenUpWhereAFoldFindsNotEnoughMemory) {
+  const data::Dataset dataset = GroupedQuadratic(12);
+  FittedModel fitted = MakeRecipe("mean")->Fit(dataset, {});
+  int fits = 0;
+  EXPECT_THROW(AddPromise(dataset,
+                          std::make_unique<errmap::testing::CountingRecipe>(
+                              "mean",
+                              [&fits] {
+                                if (++fits == 2) throw std::bad_alloc();
+                              }),
+                          {},
+                          &fitted),
+               std::bad_alloc);
 }
 
 }  // namespace

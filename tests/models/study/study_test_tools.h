@@ -1,8 +1,11 @@
 #pragma once
 
 #include <fstream>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -32,6 +35,36 @@ inline std::vector<models::Holdout> MakeHoldouts(
   }
   return holdouts;
 }
+
+/// A recipe that calls `after_fit` after each of its fits.
+class CountingRecipe final : public models::ModelRecipe {
+ public:
+  CountingRecipe(const std::string& spec, std::function<void()> after_fit)
+      : recipe_(models::MakeRecipe(spec)), after_fit_(std::move(after_fit)) {}
+  std::string name() const override { return recipe_->name(); }
+  models::ModelKind kind() const override { return recipe_->kind(); }
+  std::vector<models::EffectiveOption> options() const override {
+    return recipe_->options();
+  }
+  std::optional<std::string> WhatIsMissing(
+      const data::Dataset& dataset) const override {
+    return recipe_->WhatIsMissing(dataset);
+  }
+  std::optional<Eigen::Index> NumCoefficients(
+      const data::Dataset& dataset) const override {
+    return recipe_->NumCoefficients(dataset);
+  }
+  models::FittedModel Fit(const data::Dataset& training,
+                          const models::FitContext& context) const override {
+    models::FittedModel fitted = recipe_->Fit(training, context);
+    after_fit_();
+    return fitted;
+  }
+
+ private:
+  std::unique_ptr<models::ModelRecipe> recipe_;
+  std::function<void()> after_fit_;
+};
 
 /// A file of this content in the test's own folder; its path.
 inline std::string WriteTestFile(const std::string& name,

@@ -30,6 +30,7 @@ namespace errmap::models {
 namespace {
 
 namespace fs = std::filesystem;
+using errmap::testing::CountingRecipe;
 using errmap::testing::MakeHoldouts;
 using errmap::testing::MakeRecipes;
 using errmap::testing::Recipes;
@@ -275,36 +276,6 @@ TEST_F(FitJournalFile, LeavesOutRecordsThatAreTooLong) {
   EXPECT_EQ(file.num_found(), 1U);
 }
 
-// Counts its fits, and calls `after_fit` after each.
-class CountingRecipe final : public ModelRecipe {
- public:
-  CountingRecipe(const std::string& spec, std::function<void()> after_fit)
-      : recipe_(MakeRecipe(spec)), after_fit_(std::move(after_fit)) {}
-  std::string name() const override { return recipe_->name(); }
-  ModelKind kind() const override { return recipe_->kind(); }
-  std::vector<EffectiveOption> options() const override {
-    return recipe_->options();
-  }
-  std::optional<std::string> WhatIsMissing(
-      const data::Dataset& dataset) const override {
-    return recipe_->WhatIsMissing(dataset);
-  }
-  std::optional<Eigen::Index> NumCoefficients(
-      const data::Dataset& dataset) const override {
-    return recipe_->NumCoefficients(dataset);
-  }
-  FittedModel Fit(const data::Dataset& training,
-                  const FitContext& context) const override {
-    FittedModel fitted = recipe_->Fit(training, context);
-    after_fit_();
-    return fitted;
-  }
-
- private:
-  std::unique_ptr<ModelRecipe> recipe_;
-  std::function<void()> after_fit_;
-};
-
 std::string WithoutTimes(FittedModel fitted) {
   fitted.summary.seconds = 0.0;
   fitted.summary.mean_iteration_seconds = 0.0;
@@ -529,6 +500,7 @@ TEST_F(JournalledStudy, DoesNotKeepAFitThatLackedMemory) {
   const StudyResult study =
       RunStudy(dataset_, holdouts_, recipes, {.journal = &journal});
   EXPECT_THAT(study.models[0].why(), HasSubstr("not enough memory"));
+  EXPECT_EQ(study.short_of_memory, 7);
   EXPECT_EQ(journal.recorded, 0);
   // A net that is there, and whose fit to shuffled targets is not.
   int fits = 0;
@@ -537,7 +509,9 @@ TEST_F(JournalledStudy, DoesNotKeepAFitThatLackedMemory) {
       "net:scg:hidden=2:iterations=5", [&fits] {
         if (++fits == 2) throw std::bad_alloc();
       }));
-  RunStudy(dataset_, holdouts_, nets, {.journal = &journal});
+  EXPECT_EQ(RunStudy(dataset_, holdouts_, nets, {.journal = &journal})
+                .short_of_memory,
+            1);
   EXPECT_EQ(journal.recorded, 6);  // of seven
 }
 
