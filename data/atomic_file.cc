@@ -37,6 +37,7 @@ class TemporaryFile {
     if (!path_.empty()) unlink(path_.c_str());
   }
 
+  const std::string& path() const { return path_; }
   void Release() { path_.clear(); }
 
  private:
@@ -201,7 +202,7 @@ void ReplaceFile(const std::string& path,
   auto [temporary_name, file] =
       MakeTemporary(target, old_permissions ? kPrivateMode : kNewFileMode);
   if (!file.is_open()) ThrowUnwritable(path, errno);
-  TemporaryFile temporary(temporary_name);
+  TemporaryFile temporary(std::move(temporary_name));
   // Holds the lock until the file has its own name.
   const FileDescriptor lock(fcntl(file.get(), F_DUPFD_CLOEXEC, 0));
   WriteAll(file, content, path);
@@ -210,7 +211,7 @@ void ReplaceFile(const std::string& path,
   }
   if (fsync(file.get()) != 0) ThrowUnwritable(path, errno);
   if (file.Close() != 0) ThrowUnwritable(path, errno);
-  if (rename(temporary_name.c_str(), target.c_str()) != 0) {
+  if (rename(temporary.path().c_str(), target.c_str()) != 0) {
     ThrowUnwritable(path, errno);
   }
   temporary.Release();
