@@ -83,6 +83,12 @@ std::vector<std::unique_ptr<models::ModelRecipe>> RecipesOf(
   return recipes;
 }
 
+void SayUnlessQuiet(const LearnArguments& arguments,
+                    const std::vector<std::string>& lines) {
+  if (arguments.data.quiet) return;
+  for (const std::string& line : lines) Say(line);
+}
+
 std::unique_ptr<models::JournalFile> OpenJournal(
     const LearnArguments& arguments) {
   using models::JournalFile;
@@ -94,10 +100,12 @@ std::unique_ptr<models::JournalFile> OpenJournal(
   // What a killed run was writing.
   data::RemoveAbandonedFiles(arguments.out);
   JournalFile::RequireNoOther(folder, arguments.force);
-  return std::make_unique<JournalFile>(folder,
-                                       arguments.resume
-                                           ? JournalFile::Opening::kResume
-                                           : JournalFile::Opening::kAnew);
+  auto journal = std::make_unique<JournalFile>(
+      folder,
+      arguments.resume ? JournalFile::Opening::kResume
+                       : JournalFile::Opening::kAnew);
+  SayUnlessQuiet(arguments, journal->OpeningRemarks());
+  return journal;
 }
 
 int JobsOf(const LearnArguments& arguments) {
@@ -130,7 +138,10 @@ models::StudyResult RunLearning(
   models::ComponentJournal journal(
       file.get(), &labels, &dataset, &plan.holdouts);
   options.journal = &journal;
-  return models::RunStudy(dataset, plan.holdouts, recipes, options);
+  models::StudyResult study =
+      models::RunStudy(dataset, plan.holdouts, recipes, options);
+  SayUnlessQuiet(arguments, file->WritingRemarks());
+  return study;
 }
 
 // Rows of the candidates with the inputs of `dataset`, in its units.
