@@ -5,12 +5,18 @@
 #include <stdexcept>
 #include <string>
 
+#include "stats/power_of_two.h"
+
 namespace errmap::stats {
 
 double RootMeanSquare(const Eigen::Ref<const Eigen::VectorXd>& residuals) {
-  const Eigen::VectorXd squares = residuals.cwiseAbs2();
-  return std::sqrt(CompensatedSum(squares) /
-                   static_cast<double>(residuals.size()));
+  const auto n = static_cast<double>(residuals.size());
+  const double sum = CompensatedSum(residuals.cwiseAbs2());
+  if (std::isnormal(sum)) return std::sqrt(sum / n);
+  const double scale = PowerOfTwoOf(residuals);
+  if (!std::isfinite(scale)) return std::sqrt(sum / n);
+  const Eigen::VectorXd scaled = residuals / scale;
+  return scale * std::sqrt(CompensatedSum(scaled.cwiseAbs2()) / n);
 }
 
 ErrorMetrics ComputeErrorMetrics(
@@ -28,11 +34,10 @@ ErrorMetrics ComputeErrorMetrics(
   ErrorMetrics metrics;
   metrics.residuals = Summarize(residuals);
   const Eigen::VectorXd magnitudes = residuals.cwiseAbs();
-  const Eigen::VectorXd squares = residuals.cwiseAbs2();
   const Eigen::VectorXd spread = (targets - baseline).cwiseAbs2();
   const double n = static_cast<double>(residuals.size());
-  const double squared_error = CompensatedSum(squares);
-  metrics.rmse = std::sqrt(squared_error / n);
+  const double squared_error = CompensatedSum(residuals.cwiseAbs2());
+  metrics.rmse = RootMeanSquare(residuals);
   metrics.mae = CompensatedSum(magnitudes) / n;
   const double total = CompensatedSum(spread);
   metrics.r2 = total > 0.0 ? 1.0 - squared_error / total

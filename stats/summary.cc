@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "stats/power_of_two.h"
+
 namespace errmap::stats {
 namespace {
 
@@ -56,6 +58,16 @@ SampleSummary Summarize(const Eigen::Ref<const Eigen::VectorXd>& sample) {
     squares.Add(deviation * deviation);
     deviations.Add(deviation);
   }
+  if (summary.range > 0.0 && !std::isnormal(squares.value())) {
+    // Of values whose squares are no numbers: found of those brought to size 1.
+    const double scale = PowerOfTwoOf(sample);
+    if (std::isfinite(scale) && scale != 1.0) {
+      const SampleSummary scaled = Summarize(sample / scale);
+      summary.mean = scale * scaled.mean;
+      summary.sd = scale * scaled.sd;
+      return summary;
+    }
+  }
   const double mean_error = deviations.value() / n;
   summary.mean += mean_error;
   // The second term mends what the rounded mean has added to the squares.
@@ -73,11 +85,7 @@ double StandardError(const SampleSummary& summary) {
 
 Eigen::VectorXd Standardise(const Eigen::Ref<const Eigen::VectorXd>& sample) {
   // Brought to size 1: squares of very large or small values would be lost.
-  const double size = sample.size() > 0 ? sample.cwiseAbs().maxCoeff() : 0.0;
-  const double scale = size > 0.0 && std::isfinite(size)
-                           ? std::scalbn(1.0, std::ilogb(size))
-                           : kNaN;
-  const Eigen::VectorXd scaled = sample / scale;
+  const Eigen::VectorXd scaled = sample / PowerOfTwoOf(sample);
   const SampleSummary summary = Summarize(scaled);
   if (!(summary.sd > 0.0)) {
     throw std::invalid_argument(

@@ -150,10 +150,7 @@ HoldoutResult PoolFolds(const Dataset& dataset,
   }
   result.train = AverageMetrics(train);
   result.test = stats::ComputeErrorMetrics(targets, residuals, baseline);
-  // Comparisons work with mean squares: those of larger errors, summed over any
-  // number of rows, are no number any more.
-  constexpr double kLargestError = 1e150;
-  if (!(result.test.rmse <= kLargestError)) {
+  if (!(result.test.rmse <= kLargestRmse)) {
     result.folds.clear();
     result.why_failed = fmt::format(
         "its RMSE of {:.3g} is too large to be squared", result.test.rmse);

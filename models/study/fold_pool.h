@@ -30,6 +30,10 @@ FoldOutcome JudgeFold(const data::Dataset& dataset,
                       std::size_t fold,
                       FitOutcome outcome);
 
+/// Comparisons work with mean squares: those of larger errors, summed over any
+/// number of rows, are no number any more.
+inline constexpr double kLargestRmse = 1e150;
+
 /// Pools the folds of one model under one hold-out; failed where one of its
 /// fits did.
 HoldoutResult PoolFolds(const data::Dataset& dataset,

@@ -150,6 +150,18 @@ TEST(ErrorMetrics, RefuseSizesThatDoNotAgree) {
               ThrowsMessage<std::invalid_argument>(HasSubstr("3, 3, 2")));
 }
 
+TEST(RootMeanSquare, IsKnownWhereSquaresAreNoNumbers) {
+  const VectorXd residuals{{3.0, -4.0, 0.0}};
+  for (const int power : {1000, -1000}) {
+    const double scale = std::scalbn(1.0, power);
+    const VectorXd scaled = residuals * scale;
+    EXPECT_EQ(RootMeanSquare(scaled), RootMeanSquare(residuals) * scale);
+    EXPECT_EQ(ComputeErrorMetrics(scaled, scaled, scaled).rmse,
+              RootMeanSquare(residuals) * scale);
+  }
+  EXPECT_EQ(RootMeanSquare(VectorXd::Zero(3)), 0.0);
+}
+
 TEST(RootMeanSquare, IsTheRootOfTheMeanSquare) {
   EXPECT_DOUBLE_EQ(RootMeanSquare(VectorXd{{3.0, 4.0}}), std::sqrt(12.5));
   EXPECT_EQ(RootMeanSquare(VectorXd{{-2.0}}), 2.0);

@@ -157,6 +157,20 @@ TEST(Summarize, ScaleByAPowerOfTwoScalesEveryFigureExactly) {
   EXPECT_EQ(after.range, kScale * before.range);
 }
 
+// Whose squares are no numbers.
+TEST(Summarize, KnowsTheSpreadOfVeryLargeAndVerySmallValues) {
+  const VectorXd sample{{3.0, -1.0, 4.0, 1.5}};
+  const SampleSummary plain = Summarize(sample);
+  for (const int power : {1000, 600, -600, -1000}) {
+    const double scale = std::scalbn(1.0, power);
+    const SampleSummary scaled = Summarize(sample * scale);
+    EXPECT_EQ(scaled.mean, plain.mean * scale);
+    EXPECT_EQ(scaled.sd, plain.sd * scale);
+  }
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(std::isfinite(Summarize(VectorXd{{0.0, kInfinity}}).mean));
+}
+
 TEST(Summarize, OrderOfTheRowsDoesNotMatter) {
   constexpr double kRounding = 1e-16;  // of one sum of 397 values below 1
   const VectorXd sample = Random397(3);

@@ -196,6 +196,14 @@ int RunEvaluate(const EvaluateArguments& arguments,
       models::HoldToPromise(fitted, dataset.target_values(), predicted);
   const Eigen::VectorXd residuals = dataset.target_values() - predicted;
   const stats::ErrorMetrics metrics = models::Judge(dataset, predicted);
+  if (!(metrics.rmse <= models::kLargestRmse)) {
+    Say(
+        fmt::format("{}: the predictions err by {:.3g} RMSE, too much to be "
+                    "squared; the map does not serve there",
+                    data::PrintablePath(arguments.rows.file),
+                    metrics.rmse));
+    return kEveryFitFailed;
+  }
   const double ks_d = stats::KsDistanceFromNormal(
       residuals, metrics.residuals.mean, metrics.residuals.sd);
   const double ks_p = stats::KsProbabilityMeanSdGiven(ks_d, residuals.size());

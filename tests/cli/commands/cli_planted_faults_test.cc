@@ -424,6 +424,13 @@ TEST_F(CliPlantedFaults, PredictionsThatAreNotFiniteAreCountedAndFail) {
   const Outcome judged = Run({"evaluate", "m.json", "other.csv", "--quiet"});
   EXPECT_EQ(judged.out, "");
   EXPECT_THAT(RefusalOf(judged, kEveryFitFailed), HasSubstr("not finite"));
+  // Finite, but nothing that is said of it would be.
+  map["polynomial"]["input_scale"][0] = 1e-2;
+  Write("m.json", map.dump());
+  const Outcome large = Run({"evaluate", "m.json", "other.csv", "--quiet"});
+  EXPECT_EQ(large.out, "");
+  EXPECT_THAT(RefusalOf(large, kEveryFitFailed),
+              HasSubstr("too much to be squared"));
 }
 
 }  // namespace
