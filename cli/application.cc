@@ -300,9 +300,12 @@ int RunApplication(int argc, char** argv) {
   HoldStandardStreams();
   std::set_terminate(EndAtOnce);
   if (!HasRoomForProducts()) {
-    return Fail(kOtherFailure,
-                "not enough memory: the address space is limited (ulimit -v) "
-                "and less than 256 MiB of it are left");
+    Fail(kOtherFailure,
+         "not enough memory: the address space is limited (ulimit -v) and less "
+         "than 256 MiB of it are left");
+    // An ordinary end waits for OpenBLAS's threads, which may be asking
+    // already.
+    std::_Exit(kOtherFailure);
   }
   // A file that grows too long is then a failed write with a message.
   std::signal(SIGXFSZ, SIG_IGN);
