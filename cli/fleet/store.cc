@@ -287,6 +287,13 @@ Database OpenStore(const StorePaths& paths) {
         fmt::format("{} is not there; errmap merge STORE makes it",
                     data::PrintablePath(path)));
   }
+  // A named pipe would be waited for.
+  if (!fs::is_regular_file(path, ignored)) {
+    throw data::InputError(
+        fmt::format("{}: is no plain file; move it away, and errmap merge "
+                    "STORE makes another",
+                    data::PrintablePath(path)));
+  }
   try {
     Database store(path, Database::Access::kRead);
     VersionOf(&store, path);

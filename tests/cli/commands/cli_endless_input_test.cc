@@ -57,6 +57,14 @@ TEST_F(CliEndlessInput, APipeThatNeverEndsIsReadToABound) {
               HasSubstr("/dev/stdin: is longer than 4 MiB"));
 }
 
+TEST_F(CliEndlessInput, AStoreThatIsAPipeIsRefused) {
+  std::filesystem::create_directory(scratch_ / "store");
+  ASSERT_EQ(mkfifo((scratch_ / "store/errmap.sqlite").c_str(), 0600), 0);
+  EXPECT_THAT(
+      RefusalOf(Shell("query store 'SELECT 1' > out"), kUnusable),
+      AllOf(HasSubstr("store/errmap.sqlite"), HasSubstr("no plain file")));
+}
+
 TEST_F(CliEndlessInput, AFolderWithAPipeForAJournalIsRefused) {
   std::filesystem::create_directory(scratch_ / "study");
   ASSERT_EQ(mkfifo((scratch_ / "study/journal.jsonl").c_str(), 0600), 0);
