@@ -9,6 +9,7 @@
 #include "cli/shell/wrap_text.h"
 #include "data/csv.h"
 #include "data/formula_text.h"
+#include "data/text.h"
 
 namespace errmap::cli {
 namespace {
@@ -167,15 +168,20 @@ std::string Table::Shown(const Cell& cell) const {
 }
 
 std::vector<std::string> TerminalLines(const Table& table, std::size_t width) {
+  // A cell is one line, whatever a column of the data is called.
+  const auto one_line = [](const std::string& text) {
+    return data::Printable(text, text.size());
+  };
   std::vector<std::vector<std::string>> lines(1);
   for (const Table::Column& column : table.columns) {
-    lines.front().push_back(column.name);
+    lines.front().push_back(one_line(column.name));
   }
   for (const std::vector<Cell>& row : table.rows) {
     std::vector<std::string>& line = lines.emplace_back();
     for (const Cell& cell : row) {
       const Word* word = WordIn(cell);
-      line.push_back(word != nullptr ? word->on_terminal : table.Shown(cell));
+      line.push_back(
+          one_line(word != nullptr ? word->on_terminal : table.Shown(cell)));
     }
   }
   std::vector<std::size_t> widths;

@@ -157,7 +157,7 @@ std::string FitText(const models::FittedModel& fitted,
                   error.WithUnit(train.rmse)));
   constexpr Eigen::Index kMostTerms = 12;
   if (arguments.details || fitted.model->num_parameters() <= kMostTerms + 1) {
-    say(fitted.equation);
+    say(data::Printable(fitted.equation, fitted.equation.size()));
   } else if (!fitted.equation.empty()) {
     say("The equation is long: it is in the file, and here with --details.");
   }

@@ -11,6 +11,7 @@
 #include "cli/report/table.h"
 #include "cli/shell/number_text.h"
 #include "cli/shell/wrap_text.h"
+#include "data/text.h"
 #include "models/study/record/make_figure_record.h"
 
 namespace errmap::cli {
@@ -56,7 +57,8 @@ std::string InRoom(Table table, const Terminal& room) {
     return width;
   };
   while (widest() > room.columns && table.columns.size() > 2) {
-    dropped.insert(dropped.begin(), table.columns.back().name);
+    const std::string& name = table.columns.back().name;
+    dropped.insert(dropped.begin(), data::Printable(name, name.size()));
     table.columns.pop_back();
     for (std::vector<Cell>& row : table.rows) {
       if (row.size() > table.columns.size()) row.pop_back();
@@ -175,8 +177,10 @@ std::string CoefficientTable(const RegressionReport& report,
   if (!report.centres.empty()) {
     std::vector<std::string> moved;
     for (const auto& [name, centre] : report.centres) {
-      moved.push_back(fmt::format(
-          "{} {} {:.9g}", name, centre < 0.0 ? "+" : "-", std::abs(centre)));
+      moved.push_back(fmt::format("{} {} {:.9g}",
+                                  data::Printable(name, name.size()),
+                                  centre < 0.0 ? "+" : "-",
+                                  std::abs(centre)));
     }
     text += WrapText(fmt::format("In this table an input stands for its value "
                                  "less its centre: {}.",
@@ -282,10 +286,10 @@ std::string Excluded(const RegressionReport& report, const Terminal& room) {
         report.aliased.size());
     for (std::size_t i = 0; i < std::min(kMostShown, report.aliased.size());
          ++i) {
+      const std::string line =
+          fmt::format("{} {}", report.aliased[i].name, report.aliased[i].why);
       text +=
-          WrapText(fmt::format(
-                       "{} {}", report.aliased[i].name, report.aliased[i].why),
-                   room.text_columns()) +
+          WrapText(data::Printable(line, line.size()), room.text_columns()) +
           "\n";
     }
     if (report.aliased.size() > kMostShown) {

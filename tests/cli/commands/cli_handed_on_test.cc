@@ -65,7 +65,13 @@ TEST_F(CliHandedOn, NothingThatIsReadCommandsTheTerminal) {
       {"compare", "d.csv", "--models", "file:" + escape},
       {"compare", "d.csv", "--models", escape},
       {"compare", "d" + escape + "\nerrmap: done"},
-      {"fit", "d.csv", "--model", "poly:full:degree=1", "-o", "m.json"},
+      {"fit",
+       "d.csv",
+       "--model",
+       "poly:full:degree=1",
+       "-o",
+       "m.json",
+       "--correlations"},
       {"predict", "m.json", "d.csv"},
       {"residuals", "d.csv", "--column", escape},
       {"--" + escape}};
@@ -78,7 +84,7 @@ TEST_F(CliHandedOn, NothingThatIsReadCommandsTheTerminal) {
       }
       EXPECT_THAT(text, Not(HasSubstr("[2J\x9b")));
     }
-    for (const std::string& line : SplitLines(outcome.err)) {
+    for (const std::string& line : SplitLines(outcome.out + outcome.err)) {
       EXPECT_FALSE(line.starts_with("errmap: all is well"));
       EXPECT_FALSE(line.starts_with("errmap: done"));
     }
