@@ -14,6 +14,7 @@
 #include "cli/report/words/residual_text.h"
 #include "cli/report/words/residual_words.h"
 #include "cli/shell/number_text.h"
+#include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "cli/shell/wrap_text.h"
@@ -247,7 +248,7 @@ int RunResiduals(const ResidualsArguments& arguments,
   if (arguments.format == "json") {
     Json document = {
         {"schema", "errmap-residuals-1"},
-        {"file", arguments.file},
+        {"file", ShownPath(arguments.file)},
         {"column", arguments.column},
         {"unit", unit.symbol},
         {"summary", SummaryJson(metrics, values, report.normality.shape)},

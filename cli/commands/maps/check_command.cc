@@ -10,6 +10,7 @@
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/json_blocks.h"
 #include "cli/shell/number_text.h"
+#include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "cli/study_file/data_arguments.h"
@@ -194,7 +195,7 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
   if (arguments.format == "json") {
     Json document = {{"schema", "errmap-check-1"},
                      {"model", fitted.name},
-                     {"file", arguments.rows.file},
+                     {"file", ShownPath(arguments.rows.file)},
                      {"target", fitted.target.name},
                      {"unit", fitted.target.unit.symbol}};
     document.update(CheckJson(check));

@@ -12,6 +12,7 @@
 #include "cli/json_blocks.h"
 #include "cli/report/documents/summary_text.h"
 #include "cli/shell/number_text.h"
+#include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "cli/study_file/data_arguments.h"
@@ -211,7 +212,7 @@ int RunEvaluate(const EvaluateArguments& arguments,
     PrintResult(DumpJson(
         {{"schema", "errmap-evaluate-1"},
          {"model", fitted.name},
-         {"file", arguments.rows.file},
+         {"file", ShownPath(arguments.rows.file)},
          {"target", fitted.target.name},
          {"unit", fitted.target.unit.symbol},
          {"align", data::ToString(fitted.align)},

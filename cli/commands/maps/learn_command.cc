@@ -20,6 +20,7 @@
 #include "cli/report/words/next_steps.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/shell_word.h"
+#include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "cli/study_file/data_arguments.h"
@@ -325,7 +326,7 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
     return kInterrupted;
   }
   models::LearningRecord& record = learned.record;
-  record.file = arguments.data.file;
+  record.file = ShownPath(arguments.data.file);
   record.target = dataset.target().name;
   record.unit = dataset.target().unit.symbol;
   if (!arguments.by.empty()) record.by = arguments.by;

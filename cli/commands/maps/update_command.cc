@@ -14,6 +14,7 @@
 #include "cli/report/claimed_folder.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/number_text.h"
+#include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/provenance.h"
@@ -174,7 +175,7 @@ int RunUpdate(const UpdateArguments& arguments,
     if (known) inputs.push_back(HashInput(known_file));
     PrintResult(DumpJson({{"schema", "errmap-update-1"},
                           {"model", old_map.name},
-                          {"file", arguments.out},
+                          {"file", ShownPath(arguments.out)},
                           {"target", old_map.target.name},
                           {"unit", old_map.target.unit.symbol},
                           {"updated", better},

@@ -17,6 +17,7 @@
 #include "cli/report/words/regression_text.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/number_text.h"
+#include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "cli/shell/wrap_text.h"
@@ -87,7 +88,7 @@ Json FitJson(const models::FittedModel& fitted,
   Json json = {
       {"schema", "errmap-fit-1"},
       {"model", fitted.name},
-      {"file", arguments.out},
+      {"file", ShownPath(arguments.out)},
       {"target", fitted.target.name},
       {"unit", fitted.target.unit.symbol},
       {"inputs", std::move(inputs)},

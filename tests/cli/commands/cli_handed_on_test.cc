@@ -52,6 +52,25 @@ TEST_F(CliHandedOn, AbsolutePathsStayOutOfWhatIsHandedOn) {
   EXPECT_THAT(Read("map.json"), HasSubstr(data));
 }
 
+TEST_F(CliHandedOn, AbsolutePathsStayOutOfDocuments) {
+  const std::string folder = scratch_.path().string();
+  const std::string data = folder + "/d.csv";
+  const std::string map = folder + "/m.json";
+  Write("d.csv", Process::TextOf(kDown));
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{
+           {"fit", data, "--model", "poly:eq8", "-o", map},
+           {"evaluate", map, data},
+           {"check", map, data},
+           {"learn", data, "--by", "cycles", "--models", "mean"},
+           {"residuals", data, "--column", "error_mm"}}) {
+    SCOPED_TRACE(words.front());
+    std::vector<std::string> run = words;
+    run.insert(run.end(), {"--format", "json"});
+    EXPECT_THAT(RunJson(run).dump(), Not(HasSubstr(folder)));
+  }
+}
+
 TEST_F(CliHandedOn, NothingThatIsReadCommandsTheTerminal) {
   const std::string escape = "\x1b[2J\x9b\xc2\x9b\x7f";
   Write("d.csv",
