@@ -4,11 +4,11 @@
     mutate.py BUILD [--survivors N] [--check] [NUMBER...]
 
 Each mutant (all, or those of these numbers from 1) is put into its source file,
-its test program is built in BUILD and the units named are run: one of them has
-to fail. The file is put back whatever happens. --check only looks whether every
-text that is to be changed stands once in its file, which CI does. Status 1
-where more than --survivors (2) live. A mutant that does not build, or that runs
-for longer than two minutes, is dead.
+its test program is built in BUILD and the units named, which pass without it,
+are run: one of them has to fail. The file is put back whatever happens. --check
+only looks whether every text that is to be changed stands once in its file,
+which CI does. Status 1 where more than --survivors (2) live. A mutant that does
+not build, or whose unit takes two minutes longer than without it, is dead.
 """
 
 import argparse
@@ -23,19 +23,40 @@ SOURCE = HERE.parent
 MOST_SECONDS = 120
 
 
-def kill(build, mutant):
+def builds(build, program):
+    command = ["cmake", "--build", build, "--parallel", "1", "--target", program]
+    return subprocess.run(command, capture_output=True, check=False).returncode == 0
+
+
+def run(build, program, unit, most=None):
+    words = [f"{build}/tests/{program}", f"--unit={unit}"]
+    return subprocess.run(
+        words, capture_output=True, text=True, errors="replace", timeout=most, check=False
+    )
+
+
+def seconds_of_units(build, mutants):
+    """What each unit of these takes as it is; they have to pass."""
+    for program in sorted({mutant["program"] for mutant in mutants}):
+        if not builds(build, program):
+            sys.exit(f"{program} does not build")
+    found = {}
+    for program, unit in sorted({(m["program"], unit) for m in mutants for unit in m["units"]}):
+        begin = time.monotonic()
+        if run(build, program, unit).returncode != 0:
+            sys.exit(f"{program} --unit={unit} fails without a mutant")
+        found[unit] = time.monotonic() - begin
+    return found
+
+
+def kill(build, mutant, seconds):
     """How it died, or None."""
     program = mutant["program"]
-    command = ["cmake", "--build", build, "--target", program]
-    if subprocess.run(command, capture_output=True, check=False).returncode != 0:
+    if not builds(build, program):
         return "does not build"
     for unit in mutant["units"]:
-        words = [f"{build}/tests/{program}", f"--unit={unit}"]
         try:
-            outcome = subprocess.run(
-                words, capture_output=True, text=True, errors="replace", timeout=MOST_SECONDS,
-                check=False,
-            )  # fmt: skip
+            outcome = run(build, program, unit, MOST_SECONDS + seconds[unit])
         except subprocess.TimeoutExpired:
             return f"{unit} does not end"
         if outcome.returncode != 0:
@@ -63,6 +84,7 @@ def main():
         return 1 if lost else 0
     survivors = 0
     chosen = arguments.numbers or range(1, len(mutants) + 1)
+    seconds = seconds_of_units(arguments.build, [mutants[n - 1] for n in chosen])
     for number in chosen:
         mutant = mutants[number - 1]
         path = SOURCE / mutant["file"]
@@ -70,7 +92,7 @@ def main():
         begin = time.monotonic()
         try:
             path.write_text(text.replace(mutant["old"], mutant["new"]), encoding="utf-8")
-            death = kill(arguments.build, mutant)
+            death = kill(arguments.build, mutant, seconds)
         finally:
             path.write_text(text, encoding="utf-8")
         survivors += death is None
