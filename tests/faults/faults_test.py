@@ -40,6 +40,8 @@ from outputs import LEFT_BEHIND, contents, fail, failures
 
 MOST_SECONDS = 10  # of its own: a busy machine does not change that
 MOST_WAITING = 600  # for what waits for ever
+# That never look at what malloc gives.
+LIBRARIES = ("libopenblas", "libtbb", "libceres", "libcrypto")
 FILE_CALLS = ("write", "fsync", "rename", "open", "ftruncate")
 findings = {"runs": 0, "killed in a library": 0, "statuses": {}}
 
@@ -151,8 +153,8 @@ def judge_status(what, case, outcome, log):
     if status in (-signal.SIGXCPU, -signal.SIGKILL):
         fail(what, "does not end")
     elif status < 0:
-        # Libraries that never look at what malloc gives end the program.
-        inside = any(name in log for name in ("libopenblas", "libtbb", "libceres"))
+        # They end the program.
+        inside = any(name in log for name in LIBRARIES)
         findings["killed in a library"] += inside
         if not inside:
             fail(what, f"ended by signal {-status}:\n{log}{outcome.stderr}")
