@@ -3,12 +3,21 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <sqlite3.h>
 
 namespace errmap::cli {
 namespace {
 
+bool LacksMemory(sqlite3* database) {
+  if (database == nullptr) return true;
+  const int code = sqlite3_extended_errcode(database);
+  return code == SQLITE_NOMEM || code == SQLITE_IOERR_NOMEM;
+}
+
+// Want of memory is no fault of the file.
 [[noreturn]] void Throw(sqlite3* database) {
+  if (LacksMemory(database)) throw std::bad_alloc();
   throw SqliteError(sqlite3_errmsg(database));
 }
 
@@ -128,7 +137,10 @@ SqlValue Statement::Value(int column) const {
 std::string Statement::Text(int column) const {
   const void* const text = sqlite3_column_text(statement_.get(), column);
   const int size = sqlite3_column_bytes(statement_.get(), column);
-  if (text == nullptr) return "";
+  if (text == nullptr) {
+    if (LacksMemory(database_)) throw std::bad_alloc();
+    return "";
+  }
   return {static_cast<const char*>(text), static_cast<std::size_t>(size)};
 }
 
@@ -160,10 +172,7 @@ Database::Database(const std::string& path, Access access) {
                               : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
   const int code = sqlite3_open_v2(name.c_str(), &handle, flags, nullptr);
   handle_.reset(handle);
-  if (code != SQLITE_OK) {
-    throw SqliteError(handle == nullptr ? "not enough memory"
-                                        : sqlite3_errmsg(handle));
-  }
+  if (code != SQLITE_OK) Throw(handle);
   sqlite3_extended_result_codes(handle, 1);
   if (only_read) {
     WholeOf("SELECT count(*) FROM sqlite_schema");  // is it a database?
