@@ -158,7 +158,7 @@ std::string WatchHtml(const std::string& store,
       "content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
       "data:\">\n<title>{0}</title>\n<style>{1}</style></head>\n<body>\n"
       "<header><h1>{0}</h1></header>\n<main>\n{2}<div "
-      "class=\"figures\">{3}</div>\n{4}<p class=\"soft small\">p by t and F "
+      "class=\"figures\">{3}</div>\n{4}<p class=\"soft small\">p by t "
       "statistics of whole sessions against those held out when the map was "
       "made; at most {5:g} % of the components that are named worse or changed "
       "are so by chance (Benjamini and Hochberg 1995).</p>\n</main>\n"

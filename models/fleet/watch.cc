@@ -77,14 +77,12 @@ MapJudgement JudgeNewest(const HeldOutErrors& held_out,
   const auto n = static_cast<double>(held_out.units.size());
   const auto k = static_cast<double>(count);
   double offsets = 0.0;  // sum of squares
-  double squares = 0.0;
-  double squares_of_squares = 0.0;
+  VectorXd logs(static_cast<Index>(held_out.units.size()));
+  Index filled = 0;
   for (const HeldOutErrors::Unit& unit : held_out.units) {
     const double offset = unit.residuals.mean();
-    const double square = MeanSquareOf(unit.residuals);
     offsets += offset * offset;
-    squares += square;
-    squares_of_squares += square * square;
+    logs[filled++] = std::log(MeanSquareOf(unit.residuals));
   }
   double offset = 0.0;
   double square = 0.0;
@@ -95,19 +93,21 @@ MapJudgement JudgeNewest(const HeldOutErrors& held_out,
   MapJudgement found;
   found.promised = held_out.rmse;
   found.found = std::sqrt(square);
-  const double mean = squares / n;
-  if (!(mean > 0.0) || !(offsets > 0.0)) return found;
+  if (!logs.allFinite() || !(offsets > 0.0)) return found;
   const double t = offset / std::sqrt(offsets / n / k);
   found.p_offset = stats::StudentTwoSided(t, n);
-  // A session's mean square is spread as chi squared with so many degrees of
-  // freedom (Satterthwaite 1946), at most those of its rows.
+  // Mean squares differ by factors from day to day. How widely is known from n
+  // days only: F with degrees of freedom estimated from them takes it as given,
+  // and accused healthy days that were odd by a factor of 6 at p = 1e-6.
   constexpr double kMostFreedom = 1000.0;
-  const double variance = (squares_of_squares - n * mean * mean) / (n - 1.0);
-  const double freedom =
-      std::clamp(2.0 * mean * mean / std::max(variance, mean * mean * 1e-9),
-                 1.0,
-                 kMostFreedom);
-  found.p_rms = stats::FUpperTail(square / mean, k * freedom, n * freedom);
+  const double mean = logs.mean();
+  const double sd =
+      std::max(std::sqrt((logs.array() - mean).square().sum() / (n - 1.0)),
+               std::sqrt(2.0 / kMostFreedom));
+  const double t_rms =
+      (std::log(square) - mean) / (sd * std::sqrt(1.0 / k + 1.0 / n));
+  const double both = stats::StudentTwoSided(t_rms, n - 1.0);
+  found.p_rms = t_rms > 0.0 ? 0.5 * both : 1.0 - 0.5 * both;
   found.p = std::min(1.0, 2.0 * std::min(found.p_offset, found.p_rms));
   return found;
 }

@@ -76,7 +76,7 @@ void JudgeSensors(const SensorRelations& relations,
 /// A map's sessions against its promise.
 struct MapJudgement {
   double p_offset = 1.0;  // t of the mean offset
-  double p_rms = 1.0;     // F of the mean squares
+  double p_rms = 1.0;     // t of the mean squares' logarithms
   double p = 1.0;         // of both, and of one and two sessions
   double found = 0.0;     // RMSE of the sessions behind p
   double promised = 0.0;

@@ -441,7 +441,7 @@ void AddWatchCommand(CLI::App* app, Run* run) {
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
   command->footer(
       "Each session's offset and RMS are held against the sessions held out "
-      "when the map was made\n(t and F statistics), each sensor against what "
+      "when the map was made\n(t statistics), each sensor against what "
       "the others tell of it; over all components at most\n5 % of those named "
       "worse or changed are so by chance. Sessions are kept in the store, "
       "watch.html\ndraws them. A file is of the component whose data have its "

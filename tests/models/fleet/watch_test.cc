@@ -103,6 +103,27 @@ TEST(JudgeSessions, AccusesHealthyOffsetsAsOftenAsPSays) {
   EXPECT_THAT(below, kOneInTwenty);
 }
 
+TEST(JudgeSessions, AccusesDaysThatDifferByFactorsAsOftenAsPSays) {
+  constexpr double kOfLogarithms = 0.8;  // sd of days of simulated machines
+  Deviates deviate;
+  int below = 0;
+  int far_below = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    HeldOutErrors errors = TenDays();
+    for (HeldOutErrors::Unit& unit : errors.units) {
+      const double rms = std::exp(0.5 * kOfLogarithms * deviate());
+      unit.residuals << 1.001, -1.0, 1.0, -1.0;
+      unit.residuals *= rms;
+    }
+    const auto found = JudgeSessions(
+        errors, {Session(0.0, std::exp(kOfLogarithms * deviate()))});
+    below += found->p_rms < 0.05 ? 1 : 0;
+    far_below += found->p_rms < 0.001 ? 1 : 0;
+  }
+  EXPECT_THAT(below, kOneInTwenty);
+  EXPECT_LT(far_below, 9);  // two of 2000, and five standard deviations
+}
+
 TEST(SensorRelations, AccuseHealthySensorsAsOftenAsPSays) {
   constexpr Eigen::Index kSensors = 8;
   constexpr Eigen::Index kSessions = 10;
