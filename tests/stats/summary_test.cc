@@ -130,6 +130,18 @@ TEST(Summarize, LosesNoDigitsOfTheDoublesItIsGiven) {
   }
 }
 
+// Against sums in 64 binary digits, whose rounding no double sees.
+TEST(Summarize, MeanIsTheDoubleNearestToTheTrueOne) {
+  Random random(5);
+  for (int draw = 0; draw < 2000; ++draw) {
+    VectorXd sample(7);
+    for (double& value : sample) value = 1.0 + random.Uniform();
+    long double sum = 0.0L;
+    for (const double value : sample) sum += value;
+    EXPECT_EQ(Summarize(sample).mean, static_cast<double>(sum / 7.0L)) << draw;
+  }
+}
+
 TEST(Summarize, ShiftMovesTheMeanAndKeepsTheSpread) {
   // Multiples of 2^-30 within 1, moved by a power of two: every sum is exact.
   constexpr double kQuantum = 0x1.0p-30;

@@ -291,5 +291,14 @@ TEST(InformationCriteria, AiccAddsThePenaltyOfASmallSample) {
   EXPECT_EQ(Aicc(kRss, 5.0, 3.0), std::numeric_limits<double>::infinity());
 }
 
+// As R's summary.lm has it, and Mallows (1973).
+TEST(InformationCriteria, AdjustedR2AndCpCountColumnsOnce) {
+  // 1 - (2 / 8) / (10 / 10); 6 / 2 - 11 + 2 * 3.
+  EXPECT_DOUBLE_EQ(AdjustedR2(2.0, 10.0, 11.0, 3.0), 0.75);
+  EXPECT_DOUBLE_EQ(MallowsCp(6.0, 2.0, 11.0, 3.0), -2.0);
+  EXPECT_EQ(AdjustedR2(2.0, 10.0, 3.0, 3.0),
+            -std::numeric_limits<double>::infinity());
+}
+
 }  // namespace
 }  // namespace errmap::fitting
