@@ -9,14 +9,23 @@
 
 namespace errmap::stats {
 
-double RootMeanSquare(const Eigen::Ref<const Eigen::VectorXd>& residuals) {
+namespace {
+
+// `sum` of the squares.
+double RootMeanSquare(const Eigen::Ref<const Eigen::VectorXd>& residuals,
+                      double sum) {
   const auto n = static_cast<double>(residuals.size());
-  const double sum = CompensatedSum(residuals.cwiseAbs2());
   if (std::isnormal(sum)) return std::sqrt(sum / n);
   const double scale = PowerOfTwoOf(residuals);
   if (!std::isfinite(scale)) return std::sqrt(sum / n);
   const Eigen::VectorXd scaled = residuals / scale;
   return scale * std::sqrt(CompensatedSum(scaled.cwiseAbs2()) / n);
+}
+
+}  // namespace
+
+double RootMeanSquare(const Eigen::Ref<const Eigen::VectorXd>& residuals) {
+  return RootMeanSquare(residuals, CompensatedSum(residuals.cwiseAbs2()));
 }
 
 ErrorMetrics ComputeErrorMetrics(
@@ -37,7 +46,7 @@ ErrorMetrics ComputeErrorMetrics(
   const Eigen::VectorXd spread = (targets - baseline).cwiseAbs2();
   const double n = static_cast<double>(residuals.size());
   const double squared_error = CompensatedSum(residuals.cwiseAbs2());
-  metrics.rmse = RootMeanSquare(residuals);
+  metrics.rmse = RootMeanSquare(residuals, squared_error);
   metrics.mae = CompensatedSum(magnitudes) / n;
   const double total = CompensatedSum(spread);
   metrics.r2 = total > 0.0 ? 1.0 - squared_error / total

@@ -6,6 +6,7 @@
 
 #include "models/error_model.h"
 #include "models/study/judgement/units_of_analysis.h"
+#include "stats/error_metrics.h"
 
 namespace errmap::models {
 namespace {
@@ -25,10 +26,6 @@ std::vector<Index> EvenPlaces(Index count, Index most) {
     places.push_back(kept > 1 ? i * (count - 1) / (kept - 1) : 0);
   }
   return places;
-}
-
-double RootMeanSquare(const VectorXd& values) {
-  return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
 }
 
 // The held-out rows of each unit, in order of time.
@@ -85,7 +82,7 @@ std::optional<HeldOutErrors> HeldOutErrorsOf(const data::Dataset& dataset,
   const VectorXd elapsed = ElapsedOf(source)(held.rows);
   const Index position = FindPosition(source, "");
   HeldOutErrors errors;
-  errors.rmse = RootMeanSquare(residuals);
+  errors.rmse = stats::RootMeanSquare(residuals);
   if (source.log() != nullptr) errors.time_unit = source.log()->time_unit;
   if (position >= 0) {
     errors.position = source.inputs()[static_cast<std::size_t>(position)].name;
@@ -100,7 +97,7 @@ std::optional<HeldOutErrors> HeldOutErrorsOf(const data::Dataset& dataset,
       kept.push_back(all[static_cast<std::size_t>(i)]);
     }
     HeldOutErrors::Unit unit{.label = units.labels[static_cast<std::size_t>(u)],
-                             .rmse = RootMeanSquare(residuals(all)),
+                             .rmse = stats::RootMeanSquare(residuals(all)),
                              .elapsed = elapsed(kept),
                              .position = {},
                              .residuals = residuals(kept)};

@@ -6,6 +6,7 @@
 
 #include "models/map_experience.h"
 #include "models/promise/session_check.h"
+#include "stats/error_metrics.h"
 
 namespace errmap::models {
 namespace {
@@ -14,10 +15,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-double RootMeanSquare(const VectorXd& values) {
-  return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
-}
 
 double ShareWithin(const FittedModel& fitted,
                    std::size_t level,
@@ -60,16 +57,17 @@ KeptPromise HoldToPromise(const FittedModel& fitted,
   const VectorXd residuals = targets - predicted;
   KeptPromise kept;
   kept.promised = fitted.held_out != nullptr ? fitted.held_out->rmse : kNaN;
-  kept.found = RootMeanSquare(residuals);
+  kept.found = stats::RootMeanSquare(residuals);
   kept.within_90 = ShareWithin(fitted, 0, residuals);
   kept.within_95 = ShareWithin(fitted, 1, residuals);
-  kept.uncompensated = RootMeanSquare(targets);
-  kept.constant = RootMeanSquare(targets.array() - targets.mean());
+  kept.uncompensated = stats::RootMeanSquare(targets);
+  kept.constant = stats::RootMeanSquare(targets.array() - targets.mean());
   kept.mean = residuals.mean();
   kept.offset_share =
       kept.found > 0.0 ? std::pow(kept.mean / kept.found, 2) : 0.0;
   if (fitted.held_out != nullptr) {
-    kept.shape = ShapeOf(kept, RootMeanSquare(residuals.array() - kept.mean));
+    kept.shape =
+        ShapeOf(kept, stats::RootMeanSquare(residuals.array() - kept.mean));
   }
   return kept;
 }

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "stats/error_metrics.h"
+
 namespace errmap::models {
 namespace {
 
@@ -48,10 +50,6 @@ std::shared_ptr<const data::SessionLog> JoinedLog(
   log->time = Stacked(first.time, second.time);
   log->input_values = Stacked(first.input_values, second.input_values);
   return log;
-}
-
-double RootMeanSquare(const VectorXd& values) {
-  return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
 }
 
 // Rows of the session, and the others.
@@ -137,11 +135,11 @@ UpdateTrial TryUpdate(const FittedModel& old_map,
     trial.sessions.push_back(
         {.label =
              fresh.log()->sessions.labels[static_cast<std::size_t>(session)],
-         .old_rmse = RootMeanSquare(old_residuals(test)),
-         .new_rmse = RootMeanSquare(new_residuals(test))});
+         .old_rmse = stats::RootMeanSquare(old_residuals(test)),
+         .new_rmse = stats::RootMeanSquare(new_residuals(test))});
   }
-  trial.old_rmse = RootMeanSquare(old_residuals);
-  trial.new_rmse = RootMeanSquare(new_residuals);
+  trial.old_rmse = stats::RootMeanSquare(old_residuals);
+  trial.new_rmse = stats::RootMeanSquare(new_residuals);
   return trial;
 }
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "stats/error_metrics.h"
 #include "stats/random.h"
 
 namespace errmap::models {
@@ -30,10 +31,6 @@ constexpr Index kMostMoreProbes = 12;
 // or less of scatter to promise.
 constexpr double kScatterOfOffset = 1.25;
 constexpr std::uint64_t kSeed = 17;
-
-double RootMeanSquare(const VectorXd& values) {
-  return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
-}
 
 // Rows of the unit with the elapsed time nearest to `time`, all of them where
 // times tell nothing.
@@ -177,7 +174,7 @@ SessionCheck CheckSession(const HeldOutErrors& errors,
   check.begins_inside = begins_inside;
   check.probes = residuals.size();
   check.promised = errors.rmse;
-  check.probe_rms = RootMeanSquare(residuals);
+  check.probe_rms = stats::RootMeanSquare(residuals);
   check.probe_mean = residuals.mean();
   check.probe_scatter =
       residuals.size() < 2

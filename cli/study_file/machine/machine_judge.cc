@@ -26,6 +26,7 @@
 #include "models/kinematics/volumetric.h"
 #include "models/promise/held_out_errors.h"
 #include "stats/distributions.h"
+#include "stats/error_metrics.h"
 #include "stats/summary.h"
 
 namespace errmap::cli {
@@ -76,10 +77,6 @@ VectorXd Lengths(const models::Machine& machine, const MatrixX3d& errors) {
     }
   }
   return squares.cwiseSqrt();
-}
-
-double RootMeanSquare(const VectorXd& values) {
-  return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
 }
 
 // The true error less what maps say of it, and the stated half-widths; NaN
@@ -362,7 +359,7 @@ class MachineJudge {
     constexpr double kShare = 0.95;
     MachineDayRecord day{.session = session,
                          .points = static_cast<std::int64_t>(rows.size()),
-                         .rms = RootMeanSquare(lengths),
+                         .rms = stats::RootMeanSquare(lengths),
                          .p95 = stats::Quantile(lengths, kShare),
                          .max = lengths[lengths.size() - 1]};
     for (Index d = 0; d < 3; ++d) {
