@@ -215,6 +215,11 @@ std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
 
 void Say(const std::string& line) { WriteMessage(line); }
 
+void SayUnless(bool quiet, const std::vector<std::string>& lines) {
+  if (quiet) return;
+  for (const std::string& line : lines) Say(line);
+}
+
 void AddKeepPathsFlag(CLI::App* command) {
   command->add_flag_callback(
       "--keep-paths",

@@ -78,6 +78,8 @@ std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
 
 /// Says something about the run on stderr: "errmap: ...".
 void Say(const std::string& line);
+/// Each of `lines`, unless `quiet`.
+void SayUnless(bool quiet, const std::vector<std::string>& lines);
 
 /// --keep-paths, which the program looks for before any command does.
 void AddKeepPathsFlag(CLI::App* command);

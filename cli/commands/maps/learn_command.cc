@@ -84,12 +84,6 @@ std::vector<std::unique_ptr<models::ModelRecipe>> RecipesOf(
   return recipes;
 }
 
-void SayUnlessQuiet(const LearnArguments& arguments,
-                    const std::vector<std::string>& lines) {
-  if (arguments.data.quiet) return;
-  for (const std::string& line : lines) Say(line);
-}
-
 std::unique_ptr<models::JournalFile> OpenJournal(
     const LearnArguments& arguments) {
   using models::JournalFile;
@@ -105,7 +99,7 @@ std::unique_ptr<models::JournalFile> OpenJournal(
       folder,
       arguments.resume ? JournalFile::Opening::kResume
                        : JournalFile::Opening::kAnew);
-  SayUnlessQuiet(arguments, journal->OpeningRemarks());
+  SayUnless(arguments.data.quiet, journal->OpeningRemarks());
   return journal;
 }
 
@@ -141,7 +135,7 @@ models::StudyResult RunLearning(
   options.journal = &journal;
   models::StudyResult study =
       models::RunStudy(dataset, plan.holdouts, recipes, options);
-  SayUnlessQuiet(arguments, file->WritingRemarks());
+  SayUnless(arguments.data.quiet, file->WritingRemarks());
   return study;
 }
 

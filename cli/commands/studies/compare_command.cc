@@ -86,12 +86,6 @@ void SaveSplit(const Comparison& comparison, const ComponentConfig& config) {
       models::SplitFileText(comparison.holdouts, comparison.data.dataset));
 }
 
-void SayUnlessQuiet(const CompareArguments& arguments,
-                    const std::vector<std::string>& lines) {
-  if (arguments.data.quiet) return;
-  for (const std::string& line : lines) Say(line);
-}
-
 // Fits are kept in the output folder of a run that has one.
 std::unique_ptr<models::JournalFile> OpenJournal(
     const CompareArguments& arguments) {
@@ -103,7 +97,7 @@ std::unique_ptr<models::JournalFile> OpenJournal(
                        : JournalFile::Opening::kAnew);
   // The folder is ours alone now, and so is what a killed run had begun.
   RemoveAbandoned(arguments.out);
-  SayUnlessQuiet(arguments, journal->OpeningRemarks());
+  SayUnless(arguments.data.quiet, journal->OpeningRemarks());
   return journal;
 }
 
@@ -204,7 +198,8 @@ int RunCompare(const CompareArguments& arguments) {
                                     .holdout = best.holdout});
                    }});
   }
-  if (journal != nullptr) SayUnlessQuiet(arguments, journal->WritingRemarks());
+  if (journal != nullptr)
+    SayUnless(arguments.data.quiet, journal->WritingRemarks());
   SayShortOfMemory(run);
   models::StudyRecord record = RecordOf(run);
   if (machine && !run.interrupted) record.machine = JudgeMachine(*machine, run);
