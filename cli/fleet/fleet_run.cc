@@ -206,7 +206,7 @@ class FleetRunner {
       if (run.interrupted) return;  // begun anew by the next run
       is_final = run.components.front().study.short_of_memory == 0;
       NameDataAsAsked(component.data, source, &run);
-      models::StudyRecord record = RecordOf(run);
+      models::StudyRecord record = RecordOf(run, jobs_each_);
       for (auto& table : record.components.front().figures.tables) {
         if (table.file == ShownPath(component.data)) {
           table.file = ShownPath(source.path);

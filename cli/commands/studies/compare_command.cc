@@ -201,7 +201,7 @@ int RunCompare(const CompareArguments& arguments) {
   if (journal != nullptr)
     SayUnless(arguments.data.quiet, journal->WritingRemarks());
   SayShortOfMemory(run);
-  models::StudyRecord record = RecordOf(run);
+  models::StudyRecord record = RecordOf(run, jobs);
   if (machine && !run.interrupted) record.machine = JudgeMachine(*machine, run);
   AddProbes(run, arguments.probes, &record);
   if (folder) NameMaps(run, &record);

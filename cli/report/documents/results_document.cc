@@ -8,7 +8,7 @@
 #include "models/version.h"
 
 namespace errmap::cli {
-models::StudyRecord RecordOf(const StudyRun& run) {
+models::StudyRecord RecordOf(const StudyRun& run, int jobs) {
   models::StudyRecord record;
   record.schema = models::kResultsSchema;
   record.version = models::Version();
@@ -17,7 +17,7 @@ models::StudyRecord RecordOf(const StudyRun& run) {
   record.provenance = MakeProvenance(run.command_line, run.inputs);
   record.provenance.configuration = EffectiveConfiguration(run.config);
   for (const Comparison& component : run.components) {
-    record.components.push_back(models::MakeComponentRecord(component));
+    record.components.push_back(models::MakeComponentRecord(component, jobs));
     for (auto& table : record.components.back().figures.tables) {
       table.file = ShownPath(table.file);
     }

@@ -51,7 +51,6 @@ StudyRun RunPlan(StudyPlan plan,
   int before = 0;  // fits of the components that are finished
   for (ComponentPlan& component : plan.components) {
     Comparison& comparison = component.comparison;
-    comparison.jobs = options.jobs;
     models::StudyOptions study_options{
         .seed = run.seed,
         .jobs = options.jobs,

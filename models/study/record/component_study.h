@@ -30,7 +30,6 @@ struct ComponentStudy {
   // Of the recommended map:
   std::optional<SessionWorth> session_worth = {};
   std::optional<SensorImportance> importance = {};
-  int jobs = 1;  // threads that may assess what was found
 };
 
 }  // namespace errmap::models

@@ -541,7 +541,7 @@ std::vector<FaultRecord> MakeFaultRecords(const data::PreparedDataset& data) {
   return records;
 }
 
-ComponentRecord MakeComponentRecord(const ComponentStudy& study) {
+ComponentRecord MakeComponentRecord(const ComponentStudy& study, int jobs) {
   ComponentRecord record;
   record.name = study.name;
   record.interrupted = study.study.interrupted;
@@ -555,7 +555,7 @@ ComponentRecord MakeComponentRecord(const ComponentStudy& study) {
   }
   record.models.resize(study.study.models.size());
   // The tests of a million residuals take seconds.
-  oneapi::tbb::task_arena(study.jobs).execute([&] {
+  oneapi::tbb::task_arena(jobs).execute([&] {
     oneapi::tbb::parallel_for(
         std::size_t{0}, record.models.size(), [&](std::size_t i) {
           record.models[i] = MakeModel(study, i);

@@ -7,7 +7,9 @@ namespace errmap::models {
 
 /// What a component's study found, its held-out residuals assessed and its
 /// judgement carried over; only the sentences are left to whoever writes them.
-ComponentRecord MakeComponentRecord(const ComponentStudy& study);
+/// So many models are assessed at a time; the record is the same for any
+/// `jobs`.
+ComponentRecord MakeComponentRecord(const ComponentStudy& study, int jobs = 1);
 
 std::vector<FaultRecord> MakeFaultRecords(const data::PreparedDataset& data);
 
