@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/report/figures/figure_parts.h"
 #include "cli/report/html.h"
 
 namespace errmap::cli {
@@ -15,7 +16,6 @@ constexpr double kWidth = 120.0;
 constexpr double kHeight = 18.0;
 constexpr double kEdge = 4.0;
 constexpr double kDot = 2.5;  // radius
-constexpr const char* kInk = "#0072B2";
 
 std::string Picture(const std::string& words, const std::string& drawn) {
   return fmt::format(
@@ -33,7 +33,7 @@ std::string Dot(double x, double y, double radius) {
       x,
       y,
       radius,
-      kInk);
+      kBlue);
 }
 
 // The largest of neighbours, where there are more than `most`.
@@ -75,7 +75,7 @@ std::string IntervalPicture(double rmse,
         x(ci95[0]),
         kMiddle,
         x(ci95[1]),
-        kInk);
+        kBlue);
   }
   return Picture(
       fmt::format("{:.0f} % of the error is left",
@@ -107,7 +107,7 @@ std::string Sparkline(const std::vector<double>& errors,
   }
   return Picture(
       words,
-      fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\"/>", line, kInk) +
+      fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\"/>", line, kBlue) +
           Dot(kEdge + step * static_cast<double>(worst - shown.begin()),
               y(*worst),
               kDot));
