@@ -181,6 +181,7 @@ std::optional<DateTime> ParseDateTime(std::string_view text, DateOrder order) {
     if (!date) return std::nullopt;
     parsed.seconds = *date;
     parsed.has_date = true;
+    parsed.by_order = digits <= 2 && trimmed[digits] != '.';
     if (scanner.done()) return parsed;
     if (!scanner.TakeOneOf("T ")) return std::nullopt;
   }

@@ -14,6 +14,7 @@ struct DateTime {
   double seconds = 0.0;
   bool has_date = false;
   bool has_time = false;  // else midnight
+  bool by_order = false;  // another DateOrder reads another date, or none
 };
 
 /// A date, a time of day or both:

@@ -19,6 +19,7 @@ TextTimes ReadTimes(const CsvColumn& column, DateOrder order) {
       times.any = true;
       times.all_dates = times.all_dates && parsed->has_date;
       times.any_hours = times.any_hours || parsed->has_time;
+      times.by_order = times.by_order || parsed->by_order;
     } else {
       times.all = times.all && IsMissingText(text);
     }
@@ -41,6 +42,7 @@ std::size_t TimesBack(const CsvColumn& column, const TextTimes& times) {
 
 TextTimes ReadTimes(const CsvColumn& column) {
   TextTimes day_first = ReadTimes(column, DateOrder::kDayFirst);
+  if (day_first.all && !day_first.by_order) return day_first;
   TextTimes month_first = ReadTimes(column, DateOrder::kMonthFirst);
   if (day_first.seconds == month_first.seconds) return day_first;
   const bool by_month =

@@ -17,6 +17,7 @@ struct TextTimes {
   bool any = false;        // one of them is
   bool all_dates = true;   // of each that is
   bool any_hours = false;  // a time of day in some
+  bool by_order = false;   // another order reads some of them otherwise
   /// ", its dates read as day/month/year" where another order reads others.
   std::string doubt;
 };

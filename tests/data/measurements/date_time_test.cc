@@ -68,6 +68,15 @@ TEST(DateTime, ReadsWhatLoggersAndSpreadsheetsWrite) {
   EXPECT_FALSE(Seconds("13/4/2024", DateOrder::kMonthFirst).has_value());
 }
 
+TEST(DateTime, TellsWhereTheOrderMatters) {
+  for (const char* text : {"3/4/2024", "03-04-2024 7:05"}) {
+    EXPECT_TRUE(ParseDateTime(text)->by_order) << text;
+  }
+  for (const char* text : {"3.4.2024", "2024-04-03", "2024/4/3", "7:05"}) {
+    EXPECT_FALSE(ParseDateTime(text)->by_order) << text;
+  }
+}
+
 TEST(DateTime, TellsDatesFromTimesOfDay) {
   EXPECT_TRUE(ParseDateTime("04.03.2024")->has_date);
   EXPECT_FALSE(ParseDateTime("04.03.2024")->has_time);
