@@ -2,6 +2,17 @@
 
 namespace errmap::models {
 
+FoldValues ValuesOfFold(const data::Dataset& dataset,
+                        const Holdout& holdout,
+                        const stats::Fold& fold,
+                        Eigen::Index input) {
+  const auto values = dataset.input_values().col(input);
+  return {values(fold.train),
+          holdout.test_data != nullptr
+              ? Eigen::VectorXd(holdout.test_data->input_values().col(input))
+              : Eigen::VectorXd(values(fold.test))};
+}
+
 std::vector<Eigen::Array<bool, Eigen::Dynamic, 1>> ExtrapolatedRows(
     const data::Dataset& dataset,
     const Holdout& holdout,
@@ -14,14 +25,10 @@ std::vector<Eigen::Array<bool, Eigen::Dynamic, 1>> ExtrapolatedRows(
                          : static_cast<Eigen::Index>(fold.test.size()),
                      false);
     for (const TrainedInput& input : map.inputs) {
-      const Eigen::Index column = dataset.FindInput(input.column.name);
-      const auto values = dataset.input_values().col(column);
-      const Eigen::VectorXd trained = values(fold.train);
-      const Eigen::ArrayXd tested =
-          holdout.test_data != nullptr
-              ? Eigen::ArrayXd(holdout.test_data->input_values().col(column))
-              : Eigen::ArrayXd(values(fold.test));
-      rows = rows || tested < trained.minCoeff() || tested > trained.maxCoeff();
+      const auto [trained, tested] = ValuesOfFold(
+          dataset, holdout, fold, dataset.FindInput(input.column.name));
+      rows = rows || tested.array() < trained.minCoeff() ||
+             tested.array() > trained.maxCoeff();
     }
   }
   return outside;

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "models/study/judgement/extrapolated_rows.h"
+
 namespace errmap::models {
 namespace {
 
@@ -51,14 +53,9 @@ struct Beyond {
 Beyond BeyondTraining(const data::Dataset& dataset,
                       const Holdout& holdout,
                       Eigen::Index column) {
-  const auto& values = dataset.input_values();
   Beyond beyond;
   for (const stats::Fold& fold : holdout.folds) {
-    const Eigen::VectorXd trained = values.col(column)(fold.train);
-    const Eigen::VectorXd tested =
-        holdout.test_data != nullptr
-            ? Eigen::VectorXd(holdout.test_data->input_values().col(column))
-            : Eigen::VectorXd(values.col(column)(fold.test));
+    const auto [trained, tested] = ValuesOfFold(dataset, holdout, fold, column);
     const double low = trained.minCoeff();
     const double high = trained.maxCoeff();
     const Eigen::Index under = (tested.array() < low).count();
