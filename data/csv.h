@@ -37,6 +37,11 @@ struct CsvTable {
 
   /// Index of the column of that name, or -1.
   std::ptrdiff_t Find(std::string_view name) const;
+  /// The column of an index, such as Find's, that is at least 0.
+  template <typename Index>
+  const CsvColumn& At(Index index) const {
+    return columns[static_cast<std::size_t>(index)];
+  }
   /// 1-based line of the file on which data row `row` (0-based) starts.
   std::size_t LineOfRow(std::size_t row) const;
   /// "xdown.csv: line 18 (data row 16), column 't3_degC'", to begin a message.

@@ -81,9 +81,8 @@ std::string MatchedColumn::Remark() const {
 
 MatchedColumn MatchColumn(const CsvTable& table, const ColumnInfo& of_map) {
   const std::ptrdiff_t exact = table.Find(of_map.name);
-  const CsvColumn& column = exact >= 0
-                                ? table.columns[static_cast<std::size_t>(exact)]
-                                : SameNameInAnyUnit(table, of_map.name);
+  const CsvColumn& column =
+      exact >= 0 ? table.At(exact) : SameNameInAnyUnit(table, of_map.name);
   MatchedColumn match{.of_map = of_map,
                       .of_file = {column.name, UnitOfColumn(column.name)}};
   // The very name, and nothing in it that says otherwise.

@@ -63,12 +63,8 @@ class RoleChooser {
 
  private:
   template <typename Index>
-  const CsvColumn& Column(Index index) const {
-    return table_.columns[static_cast<std::size_t>(index)];
-  }
-  template <typename Index>
   const std::string& Name(Index index) const {
-    return Column(index).name;
+    return table_.At(index).name;
   }
 
   void ChooseWeightAndTarget() {
@@ -98,7 +94,7 @@ class RoleChooser {
     std::vector<std::string> names;
     std::vector<std::string> numeric_names;
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
-      if (!Column(i).is_text()) numeric_names.push_back(Name(i));
+      if (!table_.At(i).is_text()) numeric_names.push_back(Name(i));
       if (Is(roles_.weight, i) || Name(i) == selection_.group ||
           !StartsWithIgnoringCase(Name(i), "error")) {
         continue;
@@ -170,11 +166,8 @@ class InputChooser {
   }
 
  private:
-  const CsvColumn& Column(std::size_t index) const {
-    return table_.columns[index];
-  }
   const std::string& Name(std::size_t index) const {
-    return Column(index).name;
+    return table_.At(index).name;
   }
 
   bool IsFiltered(std::size_t index) const {
@@ -236,22 +229,22 @@ class InputChooser {
       }
       const std::string name = NameInRemark(Name(i));
       if (excluded.contains(Name(i))) {
-        had_candidates_ = had_candidates_ || !Column(i).is_text();
-      } else if (IsUnnamed(Column(i))) {
+        had_candidates_ = had_candidates_ || !table_.At(i).is_text();
+      } else if (IsUnnamed(table_.At(i))) {
         had_candidates_ = true;
         Drop(i, "has no name in the header");
         chosen_.remarks.push_back(
             "column " + name +
             " has no name in the header and is left out of the "
             "inputs");
-      } else if (NamesPosition(Name(i)) && Column(i).is_text()) {
-        RefuseNumbersAsText(table_, Column(i));
-      } else if (IsAllMissing(Column(i))) {
+      } else if (NamesPosition(Name(i)) && table_.At(i).is_text()) {
+        RefuseNumbersAsText(table_, table_.At(i));
+      } else if (IsAllMissing(table_.At(i))) {
         Drop(i, "no number in any row");
         chosen_.remarks.push_back("input " + name +
                                   " has no number in any row and is left out");
-      } else if (Column(i).is_text()) {
-        RefuseNumbersAsText(table_, Column(i));
+      } else if (table_.At(i).is_text()) {
+        RefuseNumbersAsText(table_, table_.At(i));
         texts.push_back(Name(i));
       } else if (StemOfColumn(Name(i)) == target_stem) {
         had_candidates_ = true;

@@ -54,12 +54,8 @@ class DatasetBuilder {
 
  private:
   template <typename Index>
-  const CsvColumn& Column(Index index) const {
-    return table_.columns[static_cast<std::size_t>(index)];
-  }
-  template <typename Index>
   const std::string& Name(Index index) const {
-    return Column(index).name;
+    return table_.At(index).name;
   }
   ColumnInfo Info(std::size_t index) const {
     return {.name = Name(index), .unit = UnitOfColumn(Name(index))};
@@ -147,7 +143,7 @@ class DatasetBuilder {
 
   void TakeTarget() {
     parts_.target = Info(roles_.target);
-    parts_.target_values = ValuesOfRows(Column(roles_.target), parts_.rows);
+    parts_.target_values = ValuesOfRows(table_.At(roles_.target), parts_.rows);
     RequireSquares();
     if (selection_.only_to_judge) return;
     const double first = parts_.target_values(0);
@@ -182,7 +178,7 @@ class DatasetBuilder {
   // weights which are all equal are none.
   void TakeWeights() {
     if (roles_.weight == kNoColumn) return;
-    const CsvColumn& column = Column(roles_.weight);
+    const CsvColumn& column = table_.At(roles_.weight);
     parts_.weights = ValuesOfRows(column, parts_.rows);
     for (std::size_t i = 0; i < parts_.rows.size(); ++i) {
       const double weight = parts_.weights(static_cast<Eigen::Index>(i));
@@ -212,7 +208,8 @@ class DatasetBuilder {
     Eigen::Index used = 0;
     for (const std::size_t input : inputs_) {
       // A dead column is overwritten by the next.
-      parts_.input_values.col(used) = ValuesOfRows(Column(input), parts_.rows);
+      parts_.input_values.col(used) =
+          ValuesOfRows(table_.At(input), parts_.rows);
       const std::string dead = selection_.only_to_judge
                                    ? ""
                                    : DeadBecause(parts_.input_values.col(used));

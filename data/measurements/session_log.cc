@@ -20,8 +20,7 @@ Eigen::MatrixXd LoggedInputs(const CsvTable& table,
                          parts.input_values.cols());
   for (Eigen::Index i = 0; i < values.cols(); ++i) {
     const std::string& name = parts.inputs[static_cast<std::size_t>(i)].name;
-    values.col(i) = ValuesOfRows(
-        table.columns[static_cast<std::size_t>(table.Find(name))], log_rows);
+    values.col(i) = ValuesOfRows(table.At(table.Find(name)), log_rows);
   }
   return values;
 }

@@ -56,9 +56,7 @@ class SessionFinder {
   }
 
  private:
-  const CsvColumn& TimeColumn() const {
-    return table_.columns[static_cast<std::size_t>(found_.time_column)];
-  }
+  const CsvColumn& TimeColumn() const { return table_.At(found_.time_column); }
   std::size_t DataRow(std::size_t i) const {
     return static_cast<std::size_t>(rows_[i]);
   }

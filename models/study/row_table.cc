@@ -34,7 +34,7 @@ void RowTable::Require(const std::vector<std::string>& columns) const {
 }
 
 const data::CsvColumn& RowTable::Column(const std::string& name) const {
-  return table_.columns[static_cast<std::size_t>(table_.Find(name))];
+  return table_.At(table_.Find(name));
 }
 
 std::string RowTable::Text(std::size_t line, const std::string& column) const {

@@ -122,8 +122,7 @@ class OutputTable {
     for (const std::string& name : names) {
       const std::ptrdiff_t index = s_.points.Find(name);
       if (index < 0) continue;
-      const data::CsvColumn& column =
-          s_.points.columns[static_cast<std::size_t>(index)];
+      const data::CsvColumn& column = s_.points.At(index);
       columns_.push_back({name, [this, &column](Index row) {
                             return data::CsvField(s_.points.CellText(
                                 column, static_cast<std::size_t>(row)));

@@ -141,7 +141,7 @@ class Examiner {
     for (const data::ColumnInfo& column : relations_->columns) {
       const std::ptrdiff_t found = table.Find(column.name);
       if (found < 0) return {};
-      sensors.push_back(&table.columns[static_cast<std::size_t>(found)]);
+      sensors.push_back(&table.At(found));
     }
     return sensors;
   }

@@ -112,7 +112,7 @@ int RunPredict(const PredictArguments& arguments) {
   for (const char* name : {"record", "cycle"}) {
     const std::ptrdiff_t index = table.Find(name);
     if (index < 0) continue;
-    ids.push_back(&table.columns[static_cast<std::size_t>(index)]);
+    ids.push_back(&table.At(index));
     text += data::CsvField(name) + ",";
   }
   text += "predicted,lower_90,upper_90,lower_95,upper_95,inside,why,offender\n";

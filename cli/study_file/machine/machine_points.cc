@@ -196,8 +196,7 @@ class MachineEvaluator {
           data::PrintablePath(points_.file),
           QuotedName(name)));
     }
-    const data::CsvColumn& column =
-        points_.columns[static_cast<std::size_t>(points_.Find(name))];
+    const data::CsvColumn& column = points_.At(points_.Find(name));
     std::vector<std::size_t> directions;
     for (std::size_t row = 0; row < points_.num_rows; ++row) {
       const std::string text = points_.CellText(column, row);

@@ -109,8 +109,7 @@ std::optional<DiagonalRuns> ReadDiagonalRuns(const data::CsvTable& table) {
                     data::QuotedName(kName)));
   }
   const auto text = [&](const char* column, std::size_t row) {
-    return table.CellText(
-        table.columns[static_cast<std::size_t>(table.Find(column))], row);
+    return table.CellText(table.At(table.Find(column)), row);
   };
   DiagonalRuns runs{
       .diagonals = data::GroupByColumn(table, kName, AllRows(table)),

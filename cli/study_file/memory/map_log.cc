@@ -168,8 +168,7 @@ MapLog MakeMapLog(const models::FittedModel& fitted,
     };
     if (!found.sessions.column.empty()) add(found.sessions.column);
     if (found.time_column >= 0) {
-      selection.time =
-          table.columns[static_cast<std::size_t>(found.time_column)].name;
+      selection.time = table.At(found.time_column).name;
       add(selection.time);
     }
     joined = data::AppendedTable(earlier, table, columns);
