@@ -294,6 +294,7 @@ void AddMachine(const models::MachineRecord& machine,
                 Screen* screen) {
   const std::size_t width = terminal.text_columns();
   for (const Table& table : {ToolTipTable(machine),
+                             ToolTipIntervalTable(machine),
                              PositioningTable(machine),
                              DiagonalTable(machine)}) {
     if (table.rows.empty()) continue;
@@ -301,6 +302,19 @@ void AddMachine(const models::MachineRecord& machine,
                 LeadingColumns(table, terminal.columns) +
                 WrapText(table.note, width) + "\n");
   }
+}
+
+std::string WhereMapsAre(const StudyTableOptions& options) {
+  std::string words =
+      options.folder.empty()
+          ? "The maps are written with --out DIR, which also draws a page."
+          : fmt::format(
+                "The maps are in {0}/models, the page is {0}/report.html.",
+                options.folder);
+  if (!options.details) {
+    words += " Each component's verdict, table and next steps: --details.";
+  }
+  return words;
 }
 
 }  // namespace
@@ -317,33 +331,23 @@ Screen StudyTable(const StudyRun& run,
     one.Answer();
     one.Next(DataForFit(run));
     if (options.details) one.Details();
-    screen.Add(std::string("\n") + kSign + "\n");
-    return screen;
-  }
-  const std::size_t width = options.terminal.text_columns();
-  screen.Add(WrapText(OverallWords(record), width) + "\n\n", true);
-  screen.Add(TerminalTable(SummaryRows(record), options.terminal.columns));
-  screen.Add("\n");
-  for (std::size_t i = 0; i < record.components.size(); ++i) {
-    if (!options.details) break;
-    const std::string& name = record.components[i].name;
-    screen.Add("== " + data::Printable(name, name.size()) + " ==\n", true);
-    ComponentScreen one = component(i);
-    one.Answer();
-    one.Next("");
-    one.Details();
+  } else {
+    const std::size_t width = options.terminal.text_columns();
+    screen.Add(WrapText(OverallWords(record), width) + "\n\n", true);
+    screen.Add(TerminalTable(SummaryRows(record), options.terminal.columns));
     screen.Add("\n");
+    for (std::size_t i = 0; i < record.components.size(); ++i) {
+      if (!options.details) break;
+      const std::string& name = record.components[i].name;
+      screen.Add("== " + data::Printable(name, name.size()) + " ==\n", true);
+      ComponentScreen one = component(i);
+      one.Answer();
+      one.Next("");
+      one.Details();
+      screen.Add("\n");
+    }
+    screen.Add(WrapText(WhereMapsAre(options), width) + "\n");
   }
-  std::string words =
-      options.folder.empty()
-          ? "The maps are written with --out DIR, which also draws a page."
-          : fmt::format(
-                "The maps are in {0}/models, the page is {0}/report.html.",
-                options.folder);
-  if (!options.details) {
-    words += " Each component's verdict, table and next steps: --details.";
-  }
-  screen.Add(WrapText(words, width) + "\n");
   if (record.machine) AddMachine(*record.machine, options.terminal, &screen);
   screen.Add(std::string("\n") + kSign + "\n");
   return screen;

@@ -33,7 +33,7 @@ Cell Length(double value, const Shown& shown) {
 }
 
 // "0.92 0.95 0.90"
-Cell Shares(const models::SharesRecord& shares) {
+Cell Shares(const models::ByDirectionRecord& shares) {
   if (std::isnan(shares[0] + shares[1] + shares[2])) return Cell();
   return fmt::format("{:.2f} {:.2f} {:.2f}", shares[0], shares[1], shares[2]);
 }
@@ -101,8 +101,7 @@ Table ToolTipTable(const MachineRecord& machine) {
                   {"95th percentile"},
                   {"over days"},
                   {"largest"},
-                  {"times smaller"},
-                  {"within 90 %: X Y Z"}}};
+                  {"times smaller"}}};
   for (const MachineChoiceRecord& choice : machine.choices) {
     if (choice.why) {
       table.note += fmt::format(" {}: {}.", choice.name, *choice.why);
@@ -114,8 +113,7 @@ Table ToolTipTable(const MachineRecord& machine) {
                           Length(choice.p95, shown),
                           Interval95(choice.p95_ci95, shown),
                           Length(choice.max, shown),
-                          Ratio(machine, choice.p95),
-                          Shares(choice.within_90)});
+                          Ratio(machine, choice.p95)});
   }
   return table;
 }
@@ -142,6 +140,38 @@ Table ToolTipDayTable(const MachineRecord& machine) {
                             Shares(day.within_90)});
     }
   }
+  return table;
+}
+
+Table ToolTipIntervalTable(const MachineRecord& machine) {
+  const Shown shown = ShownUnit(machine);
+  Table table{.title = fmt::format("Stated 90 % intervals of the error at the "
+                                   "tool, {}",
+                                   shown.symbol),
+              .note = "Half-widths, mean over the points",
+              .columns = {{"maps", false},
+                          {"direction", false},
+                          {"half-width"},
+                          {"share within"}}};
+  const std::vector<std::string>* held_out = nullptr;
+  for (const MachineChoiceRecord& choice : machine.choices) {
+    for (std::size_t d = 0; d < choice.half_width_90.size(); ++d) {
+      if (std::isnan(choice.half_width_90[d])) continue;
+      held_out = &choice.held_out;
+      table.rows.push_back({choice.name,
+                            std::string(1, static_cast<char>('X' + d)),
+                            Length(choice.half_width_90[d], shown),
+                            Number{choice.within_90[d], 3}});
+    }
+  }
+  if (held_out == nullptr) return table;
+  table.note +=
+      held_out->empty()
+          ? ": of the components' intervals, taken as independent."
+          : fmt::format(
+                ": by the errors at the tool on {}, each session held "
+                "out of the fits in its turn.",
+                fmt::join(*held_out, ", "));
   return table;
 }
 
@@ -212,6 +242,7 @@ std::vector<Table> MachineTables(const MachineRecord& machine) {
   std::vector<Table> tables;
   for (Table& table : std::array{ToolTipTable(machine),
                                  ToolTipDayTable(machine),
+                                 ToolTipIntervalTable(machine),
                                  PositioningTable(machine),
                                  DiagonalTable(machine),
                                  MachinePartTable(machine),

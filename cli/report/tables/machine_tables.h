@@ -14,6 +14,9 @@ Table ToolTipTable(const models::MachineRecord& machine);
 /// The same by day.
 Table ToolTipDayTable(const models::MachineRecord& machine);
 
+/// How far from the maps the error may be, and how often it was within.
+Table ToolTipIntervalTable(const models::MachineRecord& machine);
+
 /// ISO 230-2 figures of each axis before and after compensation.
 Table PositioningTable(const models::MachineRecord& machine);
 

@@ -190,7 +190,7 @@ class MachineJudge {
     }
     AddMaps(choose, &choice);
     Rest rest = Compensate(fitted, poses_);
-    Calibrate(choose, &rest);
+    Calibrate(choose, &rest, &choice);
     FillErrors(rest, &choice);
     if (along_) FillDiagonals(Compensate(fitted, *along_), &choice);
     FillReadings(&choose, &choice);
@@ -275,7 +275,9 @@ class MachineJudge {
 
   // Half-widths by the sessions of the fits at their own poses, each held out
   // in its turn; those of the components where fewer than two can be.
-  void Calibrate(const Choose& choose, Rest* rest) const {
+  void Calibrate(const Choose& choose,
+                 Rest* rest,
+                 MachineChoiceRecord* choice) const {
     std::vector<models::HeldOutToolTip> sessions;
     for (const std::string& session : poses_.sessions.labels) {
       if (std::ranges::find(study_.later, session) != study_.later.end()) {
@@ -288,8 +290,12 @@ class MachineJudge {
       const MatrixX3d errors = Compensate(*without, poses_).errors;
       sessions.push_back({.errors = errors(rows, Eigen::all),
                           .half_widths = rest->half_widths(rows, Eigen::all)});
+      choice->held_out.push_back(session);
     }
-    if (sessions.size() < 2) return;
+    if (sessions.size() < 2) {
+      choice->held_out.clear();
+      return;
+    }
     constexpr double kCoverage = 0.9;
     rest->half_widths =
         models::ToolTipHalfWidths(sessions, rest->half_widths, kCoverage);
@@ -321,6 +327,10 @@ class MachineJudge {
     choice->p95 = together.p95;
     choice->max = together.max;
     choice->within_90 = together.within_90;
+    for (Index d = 0; d < 3; ++d) {
+      choice->half_width_90[static_cast<std::size_t>(d)] =
+          VectorXd(rest.half_widths.col(d)(later_)).mean();
+    }
     choice->p95_ci95 = IntervalOverDays(choice->days);
     if (const auto plane = models::WorkingPlaneOf(machine().sensitive)) {
       for (const models::PlaneCell& cell :

@@ -15,10 +15,10 @@
 
 namespace errmap::models {
 
-/// Shares of errors within the stated 90 % intervals, along X, Y and Z; NaN
-/// where a map has none.
-using SharesRecord = std::array<double, 3>;
-inline constexpr SharesRecord kNoShares = {
+/// One figure of the stated 90 % intervals along each of X, Y and Z; NaN where
+/// there are none.
+using ByDirectionRecord = std::array<double, 3>;
+inline constexpr ByDirectionRecord kNoFigures = {
     std::numeric_limits<double>::quiet_NaN(),
     std::numeric_limits<double>::quiet_NaN(),
     std::numeric_limits<double>::quiet_NaN()};
@@ -30,7 +30,7 @@ struct MachineDayRecord {
   double rms = std::numeric_limits<double>::quiet_NaN();
   double p95 = std::numeric_limits<double>::quiet_NaN();
   double max = std::numeric_limits<double>::quiet_NaN();
-  SharesRecord within_90 = kNoShares;
+  ByDirectionRecord within_90 = kNoFigures;  // shares of errors
 };
 ERRMAP_RECORD(MachineDayRecord, session, points, rms, p95, max, within_90)
 
@@ -89,7 +89,11 @@ struct MachineChoiceRecord {
   /// Of the geometric mean of the days' p95: t of logarithms; NaN for one.
   std::array<double, 2> p95_ci95 = {std::numeric_limits<double>::quiet_NaN(),
                                     std::numeric_limits<double>::quiet_NaN()};
-  SharesRecord within_90 = kNoShares;
+  ByDirectionRecord within_90 = kNoFigures;      // shares of errors
+  ByDirectionRecord half_width_90 = kNoFigures;  // mean over the points
+  /// Sessions that the half-widths are from, each held out in its turn; none:
+  /// they are from the components alone, taken as independent.
+  std::vector<std::string> held_out;
   std::vector<MachineDayRecord> days;
   std::vector<PositioningRecord> positioning;  // of pairs of displacement maps
   /// ISO 230-6: the same figures along diagonals, named by their signs: "p0n".
@@ -107,6 +111,8 @@ ERRMAP_RECORD(MachineChoiceRecord,
               max,
               p95_ci95,
               within_90,
+              half_width_90,
+              held_out,
               days,
               positioning,
               diagonals,

@@ -265,8 +265,22 @@ TEST_F(MachineStudy, StatesIntervalsByTheToolOnSessionsHeldOut) {
   EXPECT_NEAR(advised["rms"], 0.003, 1e-4);
   // By the readings alone it would be 0.25 um, and no pose within.
   EXPECT_EQ(advised["within_90"][0], 1.0);
+  EXPECT_NEAR(advised["half_width_90"][0], 1.645 * 0.003, 2e-4);
+  EXPECT_THAT(advised["held_out"], ElementsAre("1", "2", "3", "4"));
   // Nothing errs along Y, and nothing is said to.
   EXPECT_EQ(advised["within_90"][1], 1.0);
+  EXPECT_EQ(advised["half_width_90"][1], 0.0);
+  const Outcome screen = Run({"compare",
+                              "--machine",
+                              "one.toml",
+                              "one",
+                              "--models",
+                              "poly:position",
+                              "--quiet"});
+  EXPECT_THAT(OneLine(screen.out),
+              AllOf(HasSubstr("Stated 90 % intervals of the error at the tool"),
+                    HasSubstr("by the errors at the tool on 1, 2, 3, 4, each "
+                              "session held out of the fits in its turn")));
 }
 
 // The folder by an absolute path, which the record does not keep.
