@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "fitting/least_squares/cross_products.h"
+#include "fitting/matrix_product.h"
 #include "models/history/with_history.h"
 #include "models/polynomial/polynomial_fit.h"
 
@@ -206,23 +207,25 @@ class SummedBasis {
     }
     const double widened =
         margins.error_margin * (trained.error_max - trained.error_min);
-    ForBlocks(members_[static_cast<std::size_t>(fold)],
-              [&](const std::vector<Index>& block) {
-                MatrixXd inputs = Inputs(block);
-                if (guarded_) {
-                  ClipColumns(trained.input_min,
-                              trained.input_max,
-                              margins.input_margin,
-                              &inputs);
-                }
-                MatrixXd predicted = Terms(inputs) * solutions.coefficients;
-                predicted.rowwise() += solutions.intercepts.transpose();
-                if (guarded_) {
-                  predicted = predicted.cwiseMax(trained.error_min - widened)
-                                  .cwiseMin(trained.error_max + widened);
-                }
-                take(block, predicted);
-              });
+    ForBlocks(
+        members_[static_cast<std::size_t>(fold)],
+        [&](const std::vector<Index>& block) {
+          MatrixXd inputs = Inputs(block);
+          if (guarded_) {
+            ClipColumns(trained.input_min,
+                        trained.input_max,
+                        margins.input_margin,
+                        &inputs);
+          }
+          MatrixXd predicted(inputs.rows(), solutions.coefficients.cols());
+          fitting::Multiply(Terms(inputs), solutions.coefficients, predicted);
+          predicted.rowwise() += solutions.intercepts.transpose();
+          if (guarded_) {
+            predicted = predicted.cwiseMax(trained.error_min - widened)
+                            .cwiseMin(trained.error_max + widened);
+          }
+          take(block, predicted);
+        });
   }
 
   VectorXd Targets(const std::vector<Index>& rows) const {
