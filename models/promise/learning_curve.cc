@@ -176,7 +176,9 @@ LearningCurve CurveOf(const data::Dataset& dataset,
                       .rmse = point.rmse,
                       .relative_error = point.relative_error});
   }
-  if (points.size() >= 2) curve.law.emplace(points);
+  if (points.size() >= 2) {
+    curve.law.emplace(points, static_cast<double>(plan.num_units));
+  }
   return curve;
 }
 

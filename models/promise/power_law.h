@@ -15,14 +15,21 @@ struct LearningPoint {
   double relative_error = 0.0;  // standard deviation of log rmse
 };
 
-/// error(n) = floor + gain * n^-exponent, as far as a learning curve tells it:
-/// not one fit but every law on a grid, weighted by its likelihood with normal
-/// errors of the logarithm (a flat prior; Cortes et al. 1994 for the form).
+/// error(n)^2 = floor^2 + (gain * n^-exponent)^2, as far as a learning curve
+/// tells it: not one fit but every law on a grid, weighted by its likelihood.
+/// Squares add, since what a map lacks is its bias and the scatter of what it
+/// learnt; of smooth maps the scatter falls as n^-1/2 at least (Cortes et al.
+/// 1994 for the form).
+///
+/// The sizes were tested on the same units, so that their errors are wrong
+/// together, and small sizes, at which maps interpolate or fail outright, keep
+/// to no law: what a size tells counts less the further it is from the last.
 class PowerLaw {
  public:
-  /// Throws std::invalid_argument on fewer than two sizes, or on what is not
-  /// above 0.
-  explicit PowerLaw(const std::vector<LearningPoint>& points);
+  /// `units`: of so many (2 at least) is the scatter of the points' errors.
+  /// Throws std::invalid_argument on fewer, on fewer than two sizes, or on what
+  /// is not above 0.
+  PowerLaw(const std::vector<LearningPoint>& points, double units);
 
   struct Quantiles {
     double low = 0.0;  // 5 %
