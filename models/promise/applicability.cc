@@ -13,6 +13,7 @@
 #include "models/history/view.h"
 #include "models/inner_folds.h"
 #include "models/scaling.h"
+#include "stats/spread_sample.h"
 
 namespace errmap::models {
 namespace {
@@ -160,14 +161,6 @@ void SetLimits(const MatrixXd& states,
   }
 }
 
-// Rows at even steps, where there are too many.
-std::vector<Index> Thinned(Index rows) {
-  const Index kept = std::min(rows, kMostRows);
-  std::vector<Index> chosen;
-  for (Index i = 0; i < kept; ++i) chosen.push_back(i * rows / kept);
-  return chosen;
-}
-
 std::vector<Applicability::Derived> DerivedRanges(
     const FittedModel& fitted, const data::Dataset& training) {
   std::vector<Applicability::Derived> ranges;
@@ -308,9 +301,11 @@ std::optional<Applicability> MakeApplicability(const FittedModel& fitted,
     if (!IsPosition(column)) columns.push_back(static_cast<Index>(i));
   }
   if (columns.empty() || training.num_rows() < kFewestRows) return std::nullopt;
-  const data::Dataset rows = training.SelectRows(Thinned(training.num_rows()));
-  const MatrixXd states =
-      StatesOf(inputs(Thinned(training.num_rows()), Eigen::all), columns);
+  const data::Dataset rows =
+      training.SelectRows(stats::SpreadSample(training.num_rows(), kMostRows));
+  const MatrixXd states = StatesOf(
+      inputs(stats::SpreadSample(training.num_rows(), kMostRows), Eigen::all),
+      columns);
   Applicability trained = FitStates(states, fitted.inputs, columns);
   trained.derived = DerivedRanges(fitted, training);
   SetLimits(states, MakeInnerFolds(rows, {}).folds, fitted.inputs, &trained);

@@ -7,6 +7,7 @@
 #include "models/error_model.h"
 #include "models/study/judgement/units_of_analysis.h"
 #include "stats/error_metrics.h"
+#include "stats/spread_sample.h"
 
 namespace errmap::models {
 namespace {
@@ -17,16 +18,6 @@ using Eigen::VectorXd;
 // A day at every tenth minute; twice as many units as the 95 % interval needs.
 constexpr Index kMostRows = 48;
 constexpr Index kMostUnits = 40;
-
-// `kept` of `count` places at even steps, the first and the last among them.
-std::vector<Index> EvenPlaces(Index count, Index most) {
-  const Index kept = std::min(count, most);
-  std::vector<Index> places;
-  for (Index i = 0; i < kept; ++i) {
-    places.push_back(kept > 1 ? i * (count - 1) / (kept - 1) : 0);
-  }
-  return places;
-}
 
 // The held-out rows of each unit, in order of time.
 std::vector<std::vector<Index>> PlacesOfUnits(const std::vector<Index>& codes,
@@ -89,11 +80,11 @@ std::optional<HeldOutErrors> HeldOutErrorsOf(const data::Dataset& dataset,
   }
   const auto places = PlacesOfUnits(codes, units.labels.size(), elapsed);
   for (const Index u :
-       EvenPlaces(static_cast<Index>(places.size()), kMostUnits)) {
+       stats::SpreadSample(static_cast<Index>(places.size()), kMostUnits)) {
     const std::vector<Index>& all = places[static_cast<std::size_t>(u)];
     std::vector<Index> kept;
     for (const Index i :
-         EvenPlaces(static_cast<Index>(all.size()), kMostRows)) {
+         stats::SpreadSample(static_cast<Index>(all.size()), kMostRows)) {
       kept.push_back(all[static_cast<std::size_t>(i)]);
     }
     HeldOutErrors::Unit unit{.label = units.labels[static_cast<std::size_t>(u)],

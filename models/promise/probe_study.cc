@@ -9,6 +9,7 @@
 #include "models/promise/held_out_errors.h"
 #include "models/promise/session_offset.h"
 #include "models/study/judgement/units_of_analysis.h"
+#include "stats/spread_sample.h"
 
 namespace errmap::models {
 namespace {
@@ -69,11 +70,10 @@ HeldOutErrors ErrorsOfOthers(const std::vector<Session>& sessions,
   for (std::size_t s = 0; s < sessions.size(); ++s) {
     if (s == but) continue;
     const std::vector<Index>& all = sessions[s].places;
-    const auto count = static_cast<Index>(all.size());
-    const Index kept = std::min(count, kMostRows);
     std::vector<Index> places;
-    for (Index i = 0; i < kept; ++i) {
-      places.push_back(all[static_cast<std::size_t>(i * count / kept)]);
+    for (const Index i :
+         stats::SpreadSample(static_cast<Index>(all.size()), kMostRows)) {
+      places.push_back(all[static_cast<std::size_t>(i)]);
     }
     errors.units.push_back({.label = "",
                             .rmse = 0.0,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "models/history/history.h"
+#include "stats/spread_sample.h"
 
 namespace errmap::models {
 namespace {
@@ -116,11 +117,8 @@ MatrixXd FormWithFailure(const FittedModel& fitted,
 // Enough to meet every state of training.
 data::Dataset Thinned(const data::Dataset& training) {
   constexpr Index kMostRows = 5000;
-  const Index rows = training.num_rows();
-  const Index kept = std::min(rows, kMostRows);
-  std::vector<Index> chosen;
-  for (Index i = 0; i < kept; ++i) chosen.push_back(i * rows / kept);
-  return training.SelectRows(chosen);
+  return training.SelectRows(
+      stats::SpreadSample(training.num_rows(), kMostRows));
 }
 
 }  // namespace

@@ -222,6 +222,7 @@ std::vector<std::size_t> UsedInputs(const ResidualContext& context,
 std::vector<Figure> InputFigures(const ResidualContext& context,
                                  std::size_t position,
                                  std::size_t most) {
+  if (!context.rows.missing.empty()) return {};
   std::vector<std::size_t> used = UsedInputs(context, position);
   const std::size_t all = used.size();
   std::stable_sort(used.begin(), used.end(), [&](auto a, auto b) {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "models/study/judgement/extrapolated_rows.h"
+#include "stats/spread_sample.h"
 
 namespace errmap::models {
 namespace {
@@ -21,14 +22,6 @@ double Rounded(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.*g", kDigits, value);
   return std::strtod(text, nullptr);
-}
-
-// Rows spread evenly over 0 .. num_rows-1.
-std::vector<Eigen::Index> ThinnedRows(Eigen::Index num_rows) {
-  const Eigen::Index size = std::min(num_rows, kMostRows);
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index i = 0; i < size; ++i) rows.push_back(i * num_rows / size);
-  return rows;
 }
 
 // Inputs that a fitted map reads, in the data's order, the position first.
@@ -212,7 +205,8 @@ FiguresRecord MakeFiguresRecord(const ComponentStudy& study) {
     record.inputs.push_back({.name = name, .unit = column.unit.symbol});
   }
   if (dataset.has_groups()) record.group = dataset.groups().column;
-  const std::vector<Eigen::Index> rows = ThinnedRows(dataset.num_rows());
+  const std::vector<Eigen::Index> rows =
+      stats::SpreadSample(dataset.num_rows(), kMostRows);
   record.tables.push_back(MakeTable(dataset, rows, record.inputs));
   for (std::size_t h = 0; h < study.holdouts.size(); ++h) {
     const auto& elsewhere = study.holdouts[h].test_data;
@@ -221,7 +215,8 @@ FiguresRecord MakeFiguresRecord(const ComponentStudy& study) {
           MakeHoldout(study, h, 0, rows, dataset.num_rows()));
       continue;
     }
-    const std::vector<Eigen::Index> its = ThinnedRows(elsewhere->num_rows());
+    const std::vector<Eigen::Index> its =
+        stats::SpreadSample(elsewhere->num_rows(), kMostRows);
     record.holdouts.push_back(MakeHoldout(
         study, h, record.tables.size(), its, elsewhere->num_rows()));
     record.tables.push_back(MakeTable(*elsewhere, its, record.inputs));
@@ -233,7 +228,9 @@ FiguresRecord MakeFiguresRecord(const ComponentStudy& study) {
         dataset,
         study.holdouts[advice->holdout],
         map,
-        elsewhere == nullptr ? rows : ThinnedRows(elsewhere->num_rows()));
+        elsewhere == nullptr
+            ? rows
+            : stats::SpreadSample(elsewhere->num_rows(), kMostRows));
     const Eigen::VectorXd fitted = map.Predict(dataset);
     record.fitted.emplace();
     for (const Eigen::Index row : rows) {

@@ -88,6 +88,35 @@ TEST_F(CliStudy, MapsEachDirectionOfOneFileAsAComponent) {
   EXPECT_FALSE(Exists("o/residuals.csv"));
 }
 
+// Of 10,000 rows figures show 5,000; every second row is held out.
+TEST_F(CliStudy, DrawsRowsThatAHoldOutTests) {
+  std::string text = "position_mm,error_um\n";
+  for (int i = 0; i < 10'000; ++i) {
+    text +=
+        std::to_string(i % 20) + ',' + std::to_string(i % 20 + i % 7) + '\n';
+  }
+  Write("long.csv", text);
+  RunJson({"compare",
+           "long.csv",
+           "--models",
+           "mean,poly:position",
+           "--holdout",
+           "every:2",
+           "--out",
+           "long",
+           "--format",
+           "json"});
+  EXPECT_TRUE(Exists("long/report.html"));
+  const Json document = Json::parse(Read("long/results.json"));
+  const Json& figures = document["components"][0]["figures"];
+  int drawn = 0;
+  for (const Json& value :
+       figures["holdouts"][0]["predictions"]["poly:position"]) {
+    drawn += value.is_null() ? 0 : 1;
+  }
+  EXPECT_GT(drawn, 2000);
+}
+
 TEST_F(CliStudy, ProvenanceHoldsConfigurationAndHashesOfEveryFile) {
   WriteStudy();
   const Json provenance = RunStudy({})["provenance"];

@@ -108,7 +108,7 @@ TEST_F(ReportCommand, ThinsMoreThanFiveThousandRowsEvenly) {
   EXPECT_EQ(table["rows_total"], kRows);
   ASSERT_EQ(table["rows"].size(), 5000U);
   EXPECT_EQ(table["rows"][0], 0);
-  EXPECT_EQ(table["rows"][4999], 5998);
+  EXPECT_EQ(table["rows"][4999], 5999);
 }
 
 TEST_F(ReportCommand, WritesFiguresWithTheirScriptsForAPaper) {
