@@ -173,6 +173,29 @@ TEST(LevenbergMarquardt, SolvesLinearLeastSquaresInOneStep) {
   }
 }
 
+// Where the ridge is most of the cost, a step is judged by it.
+TEST(LevenbergMarquardt, SolvesRidgeRegressionInOneStep) {
+  constexpr double kTolerance = 1e-8;
+  constexpr double kRidge = 1e8;
+  const MatrixXd a = RandomMatrix(30, 4, 1);
+  const VectorXd b = RandomMatrix(30, 1, 2);
+  const VectorXd expected =
+      (a.transpose() * a + kRidge * MatrixXd::Identity(4, 4))
+          .ldlt()
+          .solve(a.transpose() * b);
+  ResidualObjective f = Linear(a, b);
+  f.SetRidge(kRidge);
+  for (const Way& way : AllWays()) {
+    SCOPED_TRACE(way.name);
+    const LevenbergMarquardt lm({.stopping = {.iterations = 1},
+                                 .initial_damping = 1e-14,
+                                 .scaling = way.scaling,
+                                 .space = way.space});
+    const Minimum minimum = lm.Minimize(f, VectorXd::Zero(4));
+    EXPECT_LT((minimum.x - expected).norm(), kTolerance * expected.norm());
+  }
+}
+
 TEST(LevenbergMarquardt, BothSpacesGiveTheSameStep) {
   constexpr double kTolerance = 1e-9;
   for (const double ridge : {0.0, 1e-3, 2.0}) {

@@ -106,16 +106,19 @@ TEST(Study, TellsR2AboutTheTrainingMeanAndAveragesAllFolds) {
   // The mean of the training rows is what R2 on held-out rows begins with.
   EXPECT_NEAR(study.models[0].holdouts[0].test.r2, 0.0, kRounding);
   const Eigen::VectorXd& targets = dataset.target_values();
+  double mean = 0.0;
   double mae = 0.0;
   double rmse = 0.0;
   for (const stats::Fold& fold : holdouts[0].folds) {
     const Eigen::VectorXd training = targets(fold.train);
+    mean += training.mean() / 5.0;
     mae += training.cwiseAbs().mean() / 5.0;
     rmse += std::sqrt(training.squaredNorm() /
                       static_cast<double>(training.size())) /
             5.0;
   }
   const stats::ErrorMetrics& train = study.models[1].holdouts[0].train;
+  EXPECT_NEAR(train.residuals.mean, mean, kRounding);
   EXPECT_NEAR(train.mae, mae, kRounding);
   EXPECT_NEAR(train.rmse, rmse, kRounding);
 }

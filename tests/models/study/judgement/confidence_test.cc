@@ -55,6 +55,16 @@ TEST(Confidence, EstablishesAClearDifference) {
             Confidence::kNotShown);
 }
 
+TEST(Confidence, CountsHowManyPairsWereTested) {
+  const stats::Comparison found = stats::CompareModels(
+      MakeLosses(12, VectorXd{{1.0, 1.02, 2.0}}), nullptr, {});
+  stats::PairComparison pair = found.Pair(0, 2);
+  ASSERT_EQ(ThatTheyDiffer(found, pair, false), Confidence::kEstablished);
+  // The same p among so many that one as small is to be expected.
+  pair.p_holm = 0.2;
+  EXPECT_EQ(ThatTheyDiffer(found, pair, false), Confidence::kNotShown);
+}
+
 TEST(Confidence, EstablishesNothingBelowSixUnits) {
   for (const Index units : {1, 2, 3, 5}) {
     const stats::Comparison found = stats::CompareModels(
