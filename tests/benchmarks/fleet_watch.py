@@ -28,7 +28,9 @@ F then; by t of its logarithm, on machines from seed 4001 (24, 3 of each kind in
 draws), 4101 and 4201 on (30 each, 2 of each kind in 10 draws): drifts 22 of 24, 18 of
 20, 16 of 20, which is too few, those missed on three sensors of a weak relation to the
 others; shifts 24 of 24, 20 of 20, 20 of 20; healthy accused 0, 1.5 and 3.8 % per check
-(28 of 1328, of few machines). The whole, on 200 machines, has not been run.
+(28 of 1328, of few machines). The whole, --first-seed 5001 --pool 200, 200 machines
+in 20 draws: drifts 191 of 200 (95.5 %; missed t02, t19, t24, t38), shifts 200 of
+200, healthy accused 102 of 7200 per check (1.4 %).
 """
 
 import argparse
