@@ -182,6 +182,16 @@ TEST(Confidence, BoundsALossByTheMargin) {
             Confidence::kNotShown);
 }
 
+TEST(Confidence, BoundsTheLossOfTheWorseOneOnly) {
+  // The second errs by a tenth more.
+  const stats::Comparison found = CompareTwo(
+      VectorXd{{2.1, 1.9, 2.2, 1.8, 2.1, 2.0, 1.9, 2.1, 1.8, 2.2, 2.0, 1.9}});
+  EXPECT_EQ(ThatItLosesAtMost(0.001, found, 0, 1, false),
+            Confidence::kEstablished);
+  EXPECT_EQ(ThatItLosesAtMost(0.001, found, 1, 0, false),
+            Confidence::kNotShown);
+}
+
 // One unit of 1000 rows outweighs eleven of 5: the pooled RMSE and the mean
 // over units point in opposite directions, so nothing is established.
 TEST(Confidence, EstablishesNothingWhereRowsAndUnitsDisagree) {
