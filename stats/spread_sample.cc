@@ -11,20 +11,24 @@ using Eigen::Index;
 std::vector<Index> SpreadSample(Index count, Index most) {
   const Index kept = std::min(count, most);
   std::vector<Index> places;
-  places.reserve(static_cast<std::size_t>(std::max(kept, Index{0})));
   Random random(1);
   for (Index i = 0; i < kept; ++i) {
     const Index begin = i * count / kept;
-    const Index size = (i + 1) * count / kept - begin;
-    const auto drawn =
-        static_cast<Index>(random.Below(static_cast<std::uint64_t>(size)));
-    if (i == 0) {
-      places.push_back(0);
-    } else {
-      places.push_back(i == kept - 1 ? count - 1 : begin + drawn);
-    }
+    const auto size =
+        static_cast<std::uint64_t>((i + 1) * count / kept - begin);
+    places.push_back(begin + static_cast<Index>(random.Below(size)));
   }
+  if (kept > 1) places.back() = count - 1;
+  if (kept > 0) places.front() = 0;
   return places;
+}
+
+std::vector<Index> SpreadSample(const std::vector<Index>& all, Index most) {
+  std::vector<Index> chosen;
+  for (const Index i : SpreadSample(static_cast<Index>(all.size()), most)) {
+    chosen.push_back(all[static_cast<std::size_t>(i)]);
+  }
+  return chosen;
 }
 
 }  // namespace errmap::stats

@@ -14,4 +14,8 @@ namespace errmap::stats {
 /// hold-out tests.
 std::vector<Eigen::Index> SpreadSample(Eigen::Index count, Eigen::Index most);
 
+/// What stands at these places of `all`.
+std::vector<Eigen::Index> SpreadSample(const std::vector<Eigen::Index>& all,
+                                       Eigen::Index most);
+
 }  // namespace errmap::stats

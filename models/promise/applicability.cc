@@ -301,11 +301,10 @@ std::optional<Applicability> MakeApplicability(const FittedModel& fitted,
     if (!IsPosition(column)) columns.push_back(static_cast<Index>(i));
   }
   if (columns.empty() || training.num_rows() < kFewestRows) return std::nullopt;
-  const data::Dataset rows =
-      training.SelectRows(stats::SpreadSample(training.num_rows(), kMostRows));
-  const MatrixXd states = StatesOf(
-      inputs(stats::SpreadSample(training.num_rows(), kMostRows), Eigen::all),
-      columns);
+  const std::vector<Index> chosen =
+      stats::SpreadSample(training.num_rows(), kMostRows);
+  const data::Dataset rows = training.SelectRows(chosen);
+  const MatrixXd states = StatesOf(inputs(chosen, Eigen::all), columns);
   Applicability trained = FitStates(states, fitted.inputs, columns);
   trained.derived = DerivedRanges(fitted, training);
   SetLimits(states, MakeInnerFolds(rows, {}).folds, fitted.inputs, &trained);

@@ -82,11 +82,7 @@ std::optional<HeldOutErrors> HeldOutErrorsOf(const data::Dataset& dataset,
   for (const Index u :
        stats::SpreadSample(static_cast<Index>(places.size()), kMostUnits)) {
     const std::vector<Index>& all = places[static_cast<std::size_t>(u)];
-    std::vector<Index> kept;
-    for (const Index i :
-         stats::SpreadSample(static_cast<Index>(all.size()), kMostRows)) {
-      kept.push_back(all[static_cast<std::size_t>(i)]);
-    }
+    const std::vector<Index> kept = stats::SpreadSample(all, kMostRows);
     HeldOutErrors::Unit unit{.label = units.labels[static_cast<std::size_t>(u)],
                              .rmse = stats::RootMeanSquare(residuals(all)),
                              .elapsed = elapsed(kept),

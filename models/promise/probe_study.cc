@@ -69,12 +69,8 @@ HeldOutErrors ErrorsOfOthers(const std::vector<Session>& sessions,
   errors.time_unit = "s";
   for (std::size_t s = 0; s < sessions.size(); ++s) {
     if (s == but) continue;
-    const std::vector<Index>& all = sessions[s].places;
-    std::vector<Index> places;
-    for (const Index i :
-         stats::SpreadSample(static_cast<Index>(all.size()), kMostRows)) {
-      places.push_back(all[static_cast<std::size_t>(i)]);
-    }
+    const std::vector<Index> places =
+        stats::SpreadSample(sessions[s].places, kMostRows);
     errors.units.push_back({.label = "",
                             .rmse = 0.0,
                             .elapsed = elapsed(places),

@@ -39,6 +39,8 @@ TEST(SpreadSample, TakesAllOfFew) {
   EXPECT_EQ(SpreadSample(5, 5), (std::vector<Index>{0, 1, 2, 3, 4}));
   EXPECT_EQ(SpreadSample(5, 1), (std::vector<Index>{0}));
   EXPECT_EQ(SpreadSample(7, 2), (std::vector<Index>{0, 6}));
+  EXPECT_EQ(SpreadSample(std::vector<Index>{4, 9, 2}, 2),
+            (std::vector<Index>{4, 2}));
 }
 
 }  // namespace
