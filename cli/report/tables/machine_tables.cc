@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -78,6 +80,17 @@ void AddPositioning(
   }
 }
 
+// How the half-widths of a choice were found.
+std::string CalibrationOf(const MachineChoiceRecord& choice) {
+  if (choice.held_out.empty()) {
+    return "of the components' intervals, taken as independent";
+  }
+  return fmt::format(
+      "by the errors at the tool on {}, each session held out of the fits in "
+      "its turn",
+      fmt::join(choice.held_out, ", "));
+}
+
 }  // namespace
 
 Table ToolTipTable(const MachineRecord& machine) {
@@ -148,30 +161,31 @@ Table ToolTipIntervalTable(const MachineRecord& machine) {
   Table table{.title = fmt::format("Stated 90 % intervals of the error at the "
                                    "tool, {}",
                                    shown.symbol),
-              .note = "Half-widths, mean over the points",
+              .note = "Half-widths, mean over the points.",
               .columns = {{"maps", false},
                           {"direction", false},
                           {"half-width"},
                           {"share within"}}};
-  const std::vector<std::string>* held_out = nullptr;
+  // Of choices that were calibrated alike.
+  std::map<std::string, std::vector<std::string>> calibrated;
   for (const MachineChoiceRecord& choice : machine.choices) {
     for (std::size_t d = 0; d < choice.half_width_90.size(); ++d) {
       if (std::isnan(choice.half_width_90[d])) continue;
-      held_out = &choice.held_out;
+      std::vector<std::string>& names = calibrated[CalibrationOf(choice)];
+      if (names.empty() || names.back() != choice.name) {
+        names.push_back(choice.name);
+      }
       table.rows.push_back({choice.name,
                             std::string(1, static_cast<char>('X' + d)),
                             Length(choice.half_width_90[d], shown),
                             Number{choice.within_90[d], 3}});
     }
   }
-  if (held_out == nullptr) return table;
-  table.note +=
-      held_out->empty()
-          ? ": of the components' intervals, taken as independent."
-          : fmt::format(
-                ": by the errors at the tool on {}, each session held "
-                "out of the fits in its turn.",
-                fmt::join(*held_out, ", "));
+  for (const auto& [how, names] : calibrated) {
+    table.note += calibrated.size() == 1
+                      ? fmt::format(" They are {}.", how)
+                      : fmt::format(" {}: {}.", fmt::join(names, ", "), how);
+  }
   return table;
 }
 

@@ -279,6 +279,7 @@ class MachineJudge {
                  Rest* rest,
                  MachineChoiceRecord* choice) const {
     std::vector<models::HeldOutToolTip> sessions;
+    std::vector<std::string> held_out;
     for (const std::string& session : poses_.sessions.labels) {
       if (std::ranges::find(study_.later, session) != study_.later.end()) {
         continue;
@@ -290,12 +291,10 @@ class MachineJudge {
       const MatrixX3d errors = Compensate(*without, poses_).errors;
       sessions.push_back({.errors = errors(rows, Eigen::all),
                           .half_widths = rest->half_widths(rows, Eigen::all)});
-      choice->held_out.push_back(session);
+      held_out.push_back(session);
     }
-    if (sessions.size() < 2) {
-      choice->held_out.clear();
-      return;
-    }
+    if (sessions.size() < 2) return;
+    choice->held_out = std::move(held_out);
     constexpr double kCoverage = 0.9;
     rest->half_widths =
         models::ToolTipHalfWidths(sessions, rest->half_widths, kCoverage);
