@@ -75,6 +75,14 @@ PowerLaw::PowerLaw(const std::vector<LearningPoint>& points, double units) {
   const double freedom = units - 1.0;
   const double power = 0.5 * (freedom + static_cast<double>(points.size()));
   VectorXd miss(precision.rows());
+  // Student's t: the scatter is known from so many units only.
+  const auto log_likelihood = [&](const Law& law) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      miss[static_cast<Index>(i)] =
+          std::log(points[i].rmse / law.At(points[i].size));
+    }
+    return -power * std::log1p(miss.dot(precision * miss) / freedom);
+  };
   for (int e = 0; e < kExponents; ++e) {
     const double exponent =
         kLeastExponent *
@@ -91,12 +99,7 @@ PowerLaw::PowerLaw(const std::vector<LearningPoint>& points, double units) {
                         std::pow(last->size, exponent),
                 .exponent = exponent,
                 .weight = 0.0};
-        for (std::size_t i = 0; i < points.size(); ++i) {
-          miss[static_cast<Index>(i)] =
-              std::log(points[i].rmse / law.At(points[i].size));
-        }
-        // Student's t: the scatter is known from so many units only.
-        law.weight = -power * std::log1p(miss.dot(precision * miss) / freedom);
+        law.weight = log_likelihood(law);
         laws_.push_back(law);
       }
     }
