@@ -154,6 +154,13 @@ ResidualObjective Linear(const MatrixXd& a, const VectorXd& b) {
       }};
 }
 
+LevenbergMarquardt OneUndampedStep(const Way& way) {
+  return LevenbergMarquardt({.stopping = {.iterations = 1},
+                             .initial_damping = 1e-14,
+                             .scaling = way.scaling,
+                             .space = way.space});
+}
+
 TEST(LevenbergMarquardt, SolvesLinearLeastSquaresInOneStep) {
   constexpr double kTolerance = 1e-10;
   const MatrixXd a = RandomMatrix(30, 4, 1);
@@ -161,14 +168,11 @@ TEST(LevenbergMarquardt, SolvesLinearLeastSquaresInOneStep) {
   const VectorXd expected = a.colPivHouseholderQr().solve(b);
   for (const Way& way : AllWays()) {
     SCOPED_TRACE(way.name);
-    const LevenbergMarquardt lm({.stopping = {.iterations = 1},
-                                 .initial_damping = 1e-14,
-                                 .scaling = way.scaling,
-                                 .space = way.space});
     // Of J J' + mu I, singular but for mu, little is left.
     const double tolerance =
         way.space == LmSpace::kPatterns ? 1e-1 : kTolerance;
-    const Minimum minimum = lm.Minimize(Linear(a, b), VectorXd::Ones(4));
+    const Minimum minimum =
+        OneUndampedStep(way).Minimize(Linear(a, b), VectorXd::Ones(4));
     EXPECT_LT((minimum.x - expected).norm(), tolerance);
   }
 }
@@ -187,11 +191,7 @@ TEST(LevenbergMarquardt, SolvesRidgeRegressionInOneStep) {
   f.SetRidge(kRidge);
   for (const Way& way : AllWays()) {
     SCOPED_TRACE(way.name);
-    const LevenbergMarquardt lm({.stopping = {.iterations = 1},
-                                 .initial_damping = 1e-14,
-                                 .scaling = way.scaling,
-                                 .space = way.space});
-    const Minimum minimum = lm.Minimize(f, VectorXd::Zero(4));
+    const Minimum minimum = OneUndampedStep(way).Minimize(f, VectorXd::Zero(4));
     EXPECT_LT((minimum.x - expected).norm(), kTolerance * expected.norm());
   }
 }
