@@ -198,8 +198,9 @@ int RunCompare(const CompareArguments& arguments) {
                                     .holdout = best.holdout});
                    }});
   }
-  if (journal != nullptr)
+  if (journal != nullptr) {
     SayUnless(arguments.data.quiet, journal->WritingRemarks());
+  }
   SayShortOfMemory(run);
   models::StudyRecord record = RecordOf(run, jobs);
   if (machine && !run.interrupted) record.machine = JudgeMachine(*machine, run);
