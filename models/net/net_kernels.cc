@@ -20,7 +20,8 @@ std::vector<NetKernels<Scalar>> Versions(
       __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   if (has_avx2) versions.push_back(*avx2);
   if (has_avx2 && __builtin_cpu_supports("avx512f") &&
-      __builtin_cpu_supports("avx512dq")) {
+      __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl")) {
     versions.push_back(*avx512);
   }
 #endif

@@ -6,15 +6,17 @@
 
 namespace errmap::models {
 
-/// Hidden nodes are padded to whole vectors of this many bytes, whatever the
-/// machine's own vectors are, so that the sums of every version below have one
-/// order.
+/// The widest vectors of any machine; memory begins at one.
 inline constexpr std::ptrdiff_t kVectorBytes = 64;
+
+/// Hidden nodes are padded to a multiple of this many bytes: a vector of most
+/// machines, half a one of the widest.
+inline constexpr std::ptrdiff_t kPaddingBytes = 32;
 
 template <typename Scalar>
 constexpr std::ptrdiff_t PaddedHeight(std::ptrdiff_t nodes) {
   constexpr std::ptrdiff_t kLanes =
-      kVectorBytes / static_cast<std::ptrdiff_t>(sizeof(Scalar));
+      kPaddingBytes / static_cast<std::ptrdiff_t>(sizeof(Scalar));
   return (nodes + kLanes - 1) / kLanes * kLanes;
 }
 

@@ -9,9 +9,14 @@
 #include <cstddef>
 #include <cstdint>
 
+#if defined(__FMA__)
+#include <immintrin.h>
+#endif
+
 #include "models/net/net_kernels.h"
 
 #define ERRMAP_INLINE __attribute__((always_inline)) inline
+#define ERRMAP_INLINED __attribute__((always_inline))  // of a lambda
 
 namespace errmap::models {
 namespace {
@@ -44,6 +49,9 @@ template <typename Scalar>
 constexpr std::ptrdiff_t kLanes = kBytes /
                                   static_cast<std::ptrdiff_t>(sizeof(Scalar));
 static_assert(kVectorBytes % kBytes == 0);
+// Whether a height may end in half a vector.
+constexpr bool kHasHalves = kPaddingBytes < kBytes;
+static_assert(kPaddingBytes % kBytes == 0 || kBytes == 2 * kPaddingBytes);
 
 template <typename Scalar>
 ERRMAP_INLINE Vec<Scalar> Load(const Scalar* from) {
@@ -57,47 +65,82 @@ ERRMAP_INLINE void Store(const Vec<Scalar>& v, Scalar* to) {
   __builtin_memcpy(to, &v, sizeof v);
 }
 
-template <typename Scalar>
-ERRMAP_INLINE Vec<Scalar> Repeated(Scalar value) {
-  Vec<Scalar> v;
-#pragma GCC unroll 16
-  for (std::ptrdiff_t i = 0; i < kLanes<Scalar>; ++i) v[i] = value;
-  return v;
+// x - 0 is x, whatever its sign: one instruction.
+template <typename Values, typename Scalar>
+ERRMAP_INLINE Values Repeated(Scalar value) {
+  return value - Values{};
 }
+
+template <typename Scalar, std::ptrdiff_t kCount>
+using Pack __attribute__((vector_size(kCount * sizeof(Scalar)))) = Scalar;
 
 // a b + c, rounded once where the machine can: asked for here, since the
 // compiler may not contract products and sums by itself (-ffp-contract=off).
-ERRMAP_INLINE Vec<double> MultiplyAdd(const Vec<double>& a,
-                                      const Vec<double>& b,
-                                      const Vec<double>& c) {
 #if defined(__FMA__)
-  Vec<double> v = {};
-  for (std::ptrdiff_t i = 0; i < kLanes<double>; ++i) {
-    v[i] = __builtin_fma(a[i], b[i], c[i]);
-  }
-  return v;
-#else
-  return a * b + c;
+ERRMAP_INLINE Pack<double, 4> MultiplyAdd(Pack<double, 4> a,
+                                          Pack<double, 4> b,
+                                          Pack<double, 4> c) {
+  return _mm256_fmadd_pd(a, b, c);
+}
+ERRMAP_INLINE Pack<float, 8> MultiplyAdd(Pack<float, 8> a,
+                                         Pack<float, 8> b,
+                                         Pack<float, 8> c) {
+  return _mm256_fmadd_ps(a, b, c);
+}
+#if defined(__AVX512F__)
+ERRMAP_INLINE Pack<double, 8> MultiplyAdd(Pack<double, 8> a,
+                                          Pack<double, 8> b,
+                                          Pack<double, 8> c) {
+  return _mm512_fmadd_pd(a, b, c);
+}
+ERRMAP_INLINE Pack<float, 16> MultiplyAdd(Pack<float, 16> a,
+                                          Pack<float, 16> b,
+                                          Pack<float, 16> c) {
+  return _mm512_fmadd_ps(a, b, c);
+}
 #endif
+#else
+template <typename Values>
+ERRMAP_INLINE Values MultiplyAdd(const Values& a,
+                                 const Values& b,
+                                 const Values& c) {
+  return a * b + c;
+}
+#endif
+
+// Half a vector; a vector's first one; a vector of one and zeros.
+template <typename Scalar>
+using Half = Pack<Scalar, kLanes<Scalar> / 2>;
+
+template <typename Scalar>
+ERRMAP_INLINE Half<Scalar> LoadHalf(const Scalar* from) {
+  Half<Scalar> v;
+  __builtin_memcpy(&v, from, sizeof v);
+  return v;
 }
 
-ERRMAP_INLINE Vec<float> MultiplyAdd(const Vec<float>& a,
-                                     const Vec<float>& b,
-                                     const Vec<float>& c) {
-#if defined(__FMA__)
-  Vec<float> v = {};
-  for (std::ptrdiff_t i = 0; i < kLanes<float>; ++i) {
-    v[i] = __builtin_fmaf(a[i], b[i], c[i]);
-  }
-  return v;
-#else
-  return a * b + c;
-#endif
+template <typename Scalar>
+ERRMAP_INLINE void StoreHalf(const Half<Scalar>& v, Scalar* to) {
+  __builtin_memcpy(to, &v, sizeof v);
 }
+
+#if defined(__AVX512F__)
+ERRMAP_INLINE Half<double> FirstHalf(const Vec<double>& v) {
+  return __builtin_shufflevector(v, v, 0, 1, 2, 3);
+}
+ERRMAP_INLINE Half<float> FirstHalf(const Vec<float>& v) {
+  return __builtin_shufflevector(v, v, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+ERRMAP_INLINE Vec<double> Widened(const Half<double>& v) {
+  return __builtin_shufflevector(v, Half<double>{}, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+ERRMAP_INLINE Vec<float> Widened(const Half<float>& v) {
+  return __builtin_shufflevector(
+      v, Half<float>{}, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+#endif
 
 // Sum of the lanes: halves onto each other.
-template <typename Scalar, std::ptrdiff_t kCount>
-using Pack __attribute__((vector_size(kCount * sizeof(Scalar)))) = Scalar;
 
 ERRMAP_INLINE double Sum(const Pack<double, 2>& v) { return v[0] + v[1]; }
 
@@ -169,6 +212,32 @@ struct PowerOfTwo<float> {
   static constexpr int kMantissa = 23;
 };
 
+// A whole vector of a column of hidden quantities, or the half one at its end.
+struct WholeVector {
+  template <typename Scalar>
+  static ERRMAP_INLINE Vec<Scalar> Read(const Scalar* from) {
+    return Load(from);
+  }
+  template <typename Scalar>
+  static ERRMAP_INLINE void Write(const Vec<Scalar>& v, Scalar* to) {
+    Store<Scalar>(v, to);
+  }
+};
+#if defined(__AVX512F__)
+struct HalfVector {
+  template <typename Scalar>
+  static ERRMAP_INLINE Vec<Scalar> Read(const Scalar* from) {
+    return Widened(LoadHalf(from));
+  }
+  template <typename Scalar>
+  static ERRMAP_INLINE void Write(const Vec<Scalar>& v, Scalar* to) {
+    StoreHalf<Scalar>(FirstHalf(v), to);
+  }
+};
+#else
+using HalfVector = WholeVector;  // never used
+#endif
+
 // Vectors worked on side by side: one alone waits for its own chain of
 // products.
 template <typename Scalar, int kCount>
@@ -216,27 +285,31 @@ ERRMAP_INLINE void ApplyLogistic(Group<Scalar, kCount>* s) {
   }
 }
 
-template <typename Scalar, bool kAlong, int kCount>
+template <typename Scalar,
+          bool kAlong,
+          int kCount,
+          typename Vector = WholeVector>
 ERRMAP_INLINE void LogisticGroup(
     const Scalar* s, const Scalar* t, Scalar a, Scalar* s_new, Scalar* y) {
   Group<Scalar, kCount> group;
 #pragma GCC unroll 4
   for (int i = 0; i < kCount; ++i) {
-    group.v[i] = Load(s + i * kLanes<Scalar>);
+    group.v[i] = Vector::Read(s + i * kLanes<Scalar>);
     if constexpr (kAlong) {
       group.v[i] = MultiplyAdd(
-          Vec<Scalar>{} + a, Load(t + i * kLanes<Scalar>), group.v[i]);
-      Store<Scalar>(group.v[i], s_new + i * kLanes<Scalar>);
+          Vec<Scalar>{} + a, Vector::Read(t + i * kLanes<Scalar>), group.v[i]);
+      Vector::Write(group.v[i], s_new + i * kLanes<Scalar>);
     }
   }
   ApplyLogistic(&group);
 #pragma GCC unroll 4
   for (int i = 0; i < kCount; ++i) {
-    Store<Scalar>(group.v[i], y + i * kLanes<Scalar>);
+    Vector::Write(group.v[i], y + i * kLanes<Scalar>);
   }
 }
 
-// n a multiple of the lanes. Where kAlong, s_new = s + a t comes first.
+// n a multiple of the lanes, or of half of them where heights may be. Where
+// kAlong, s_new = s + a t comes first.
 template <typename Scalar, bool kAlong>
 ERRMAP_INLINE void LogisticOfVectors(std::ptrdiff_t n,
                                      const Scalar* s,
@@ -254,12 +327,32 @@ ERRMAP_INLINE void LogisticOfVectors(std::ptrdiff_t n,
                                              kAlong ? s_new + i : nullptr,
                                              y + i);
   }
-  for (; i < n; i += kLanes<Scalar>) {
+  for (; i + kLanes<Scalar> <= n; i += kLanes<Scalar>) {
     LogisticGroup<Scalar, kAlong, 1>(s + i,
                                      kAlong ? t + i : nullptr,
                                      a,
                                      kAlong ? s_new + i : nullptr,
                                      y + i);
+  }
+  if constexpr (kHasHalves) {
+    if (i == n) return;
+    LogisticGroup<Scalar, kAlong, 1, HalfVector>(s + i,
+                                                 kAlong ? t + i : nullptr,
+                                                 a,
+                                                 kAlong ? s_new + i : nullptr,
+                                                 y + i);
+  }
+}
+
+// work(vector, h) over a column: WholeVector or HalfVector from row h on.
+template <typename Scalar, typename Work>
+ERRMAP_INLINE void ForColumn(std::ptrdiff_t height, Work work) {
+  std::ptrdiff_t h = 0;
+  for (; h + kLanes<Scalar> <= height; h += kLanes<Scalar>) {
+    work(WholeVector(), h);
+  }
+  if constexpr (kHasHalves) {
+    if (h < height) work(HalfVector(), h);
   }
 }
 
@@ -301,10 +394,12 @@ ERRMAP_INLINE void ForwardTiles(BlockSize size,
     for (std::ptrdiff_t column = begin; column < end; ++column) {
       for (std::ptrdiff_t j = 0; j < size.outputs; ++j) {
         Vec<Scalar> sum = {};
-        for (std::ptrdiff_t h = 0; h < height; h += kLanes<Scalar>) {
-          sum = MultiplyAdd(
-              Load(w2 + j * height + h), Load(y + column * height + h), sum);
-        }
+        ForColumn<Scalar>(
+            height, [&](auto vector, std::ptrdiff_t h) ERRMAP_INLINED {
+              sum = MultiplyAdd(vector.Read(w2 + j * height + h),
+                                vector.Read(y + column * height + h),
+                                sum);
+            });
         o[column * size.outputs + j] = Sum(sum);
       }
     }
@@ -345,21 +440,78 @@ void BendAlong(BlockSize size,
     for (std::ptrdiff_t j = 0; j < size.outputs; ++j) {
       Vec<Scalar> sum1 = {};
       Vec<Scalar> sum2 = {};
-      for (std::ptrdiff_t h = 0; h < height; h += kLanes<Scalar>) {
-        const Vec<Scalar> value = Load(values + h);
-        const Vec<Scalar> step = Load(along + h);
-        const Vec<Scalar> w = Load(w2 + j * height + h);
-        const Vec<Scalar> p = Load(p2 + j * height + h);
-        // y' = y (1 - y) t and y'' = y' (1 - 2 y) t.
-        const Vec<Scalar> slope = MultiplyAdd(-value, value, value) * step;
-        const Vec<Scalar> bend = (one - (value + value)) * step;
-        sum1 = MultiplyAdd(p, value, sum1);
-        sum1 = MultiplyAdd(w, slope, sum1);
-        sum2 = MultiplyAdd(slope, MultiplyAdd(w, bend, p + p), sum2);
-      }
+      ForColumn<Scalar>(
+          height, [&](auto vector, std::ptrdiff_t h) ERRMAP_INLINED {
+            const Vec<Scalar> value = vector.Read(values + h);
+            const Vec<Scalar> step = vector.Read(along + h);
+            const Vec<Scalar> w = vector.Read(w2 + j * height + h);
+            const Vec<Scalar> p = vector.Read(p2 + j * height + h);
+            // y' = y (1 - y) t and y'' = y' (1 - 2 y) t.
+            const Vec<Scalar> slope = MultiplyAdd(-value, value, value) * step;
+            const Vec<Scalar> bend = (one - (value + value)) * step;
+            sum1 = MultiplyAdd(p, value, sum1);
+            sum1 = MultiplyAdd(w, slope, sum1);
+            sum2 = MultiplyAdd(slope, MultiplyAdd(w, bend, p + p), sum2);
+          });
       first[column * size.outputs + j] = Sum(sum1);
       second[column * size.outputs + j] = Sum(sum2);
     }
+  }
+}
+
+// kCount vectors from row h on of all columns, of one output: their sums stay
+// in registers.
+template <typename Scalar, int kCount, typename Vector = WholeVector>
+ERRMAP_INLINE void BackwardRows(BlockSize size,
+                                std::ptrdiff_t h,
+                                const Scalar* y,
+                                const Scalar* w2,
+                                const Scalar* d_output,
+                                Scalar* delta,
+                                Scalar* d_w2) {
+  Group<Scalar, kCount> w;
+  Group<Scalar, kCount> sum;
+#pragma GCC unroll 4
+  for (int i = 0; i < kCount; ++i) {
+    w.v[i] = Vector::Read(w2 + h + i * kLanes<Scalar>);
+    sum.v[i] = Vector::Read(d_w2 + h + i * kLanes<Scalar>);
+  }
+  for (std::ptrdiff_t column = 0; column < size.columns; ++column) {
+    const std::ptrdiff_t begin = column * size.height + h;
+    const Vec<Scalar> by_output = Repeated<Vec<Scalar>>(d_output[column]);
+#pragma GCC unroll 4
+    for (int i = 0; i < kCount; ++i) {
+      const Vec<Scalar> value = Vector::Read(y + begin + i * kLanes<Scalar>);
+      sum.v[i] = MultiplyAdd(value, by_output, sum.v[i]);
+      Vector::Write(w.v[i] * by_output * MultiplyAdd(-value, value, value),
+                    delta + begin + i * kLanes<Scalar>);
+    }
+  }
+#pragma GCC unroll 4
+  for (int i = 0; i < kCount; ++i) {
+    Vector::Write(sum.v[i], d_w2 + h + i * kLanes<Scalar>);
+  }
+}
+
+template <typename Scalar>
+void BackwardOfOne(BlockSize size,
+                   const Scalar* y,
+                   const Scalar* w2,
+                   const Scalar* d_output,
+                   Scalar* delta,
+                   Scalar* d_w2) {
+  constexpr int kTogether = 4;
+  constexpr std::ptrdiff_t kStep = kTogether * kLanes<Scalar>;
+  std::ptrdiff_t h = 0;
+  for (; h + kStep <= size.height; h += kStep) {
+    BackwardRows<Scalar, kTogether>(size, h, y, w2, d_output, delta, d_w2);
+  }
+  for (; h + kLanes<Scalar> <= size.height; h += kLanes<Scalar>) {
+    BackwardRows<Scalar, 1>(size, h, y, w2, d_output, delta, d_w2);
+  }
+  if constexpr (kHasHalves) {
+    if (h == size.height) return;
+    BackwardRows<Scalar, 1, HalfVector>(size, h, y, w2, d_output, delta, d_w2);
   }
 }
 
@@ -370,22 +522,28 @@ void Backward(BlockSize size,
               const Scalar* d_output,
               Scalar* delta,
               Scalar* d_w2) {
+  if (size.outputs == 1) {
+    BackwardOfOne(size, y, w2, d_output, delta, d_w2);
+    return;
+  }
   const std::ptrdiff_t height = size.height;
   for (std::ptrdiff_t column = 0; column < size.columns; ++column) {
     const std::ptrdiff_t begin = column * height;
     const Scalar* d = d_output + column * size.outputs;
-    for (std::ptrdiff_t h = 0; h < height; h += kLanes<Scalar>) {
-      const Vec<Scalar> value = Load(y + begin + h);
-      Vec<Scalar> back = {};
-      for (std::ptrdiff_t j = 0; j < size.outputs; ++j) {
-        const Vec<Scalar> by_output = Vec<Scalar>{} + d[j];
-        Scalar* sum = d_w2 + j * height + h;
-        back = MultiplyAdd(Load(w2 + j * height + h), by_output, back);
-        Store<Scalar>(MultiplyAdd(value, by_output, Load(sum)), sum);
-      }
-      Store<Scalar>(back * MultiplyAdd(-value, value, value),
-                    delta + begin + h);
-    }
+    ForColumn<Scalar>(
+        height, [&](auto vector, std::ptrdiff_t h) ERRMAP_INLINED {
+          const Vec<Scalar> value = vector.Read(y + begin + h);
+          Vec<Scalar> back = {};
+          for (std::ptrdiff_t j = 0; j < size.outputs; ++j) {
+            const Vec<Scalar> by_output = Vec<Scalar>{} + d[j];
+            Scalar* sum = d_w2 + j * height + h;
+            back =
+                MultiplyAdd(vector.Read(w2 + j * height + h), by_output, back);
+            vector.Write(MultiplyAdd(value, by_output, vector.Read(sum)), sum);
+          }
+          vector.Write(back * MultiplyAdd(-value, value, value),
+                       delta + begin + h);
+        });
   }
 }
 
@@ -420,14 +578,17 @@ struct Factors {
   std::ptrdiff_t stride_c;
 };
 
-template <typename Scalar, bool kAdd, int kTall, int kWide>
+// kTall vectors, and half a one below them where kHalf.
+template <typename Scalar, bool kAdd, int kTall, bool kHalf, int kWide>
 ERRMAP_INLINE void MultiplyTile(const Factors<Scalar>& f,
                                 std::ptrdiff_t row,
                                 std::ptrdiff_t column) {
+  constexpr std::ptrdiff_t kWhole = kTall * kLanes<Scalar>;
   const Scalar* a = f.a + row;
   const Scalar* b = f.b + column * f.column_b;
   Scalar* c = f.c + column * f.stride_c + row;
-  Group<Scalar, kTall> sums[kWide];
+  Group<Scalar, (kTall > 0 ? kTall : 1)> sums[kWide];
+  Half<Scalar> halves[kWide];
 #pragma GCC unroll 12
   for (int j = 0; j < kWide; ++j) {
 #pragma GCC unroll 4
@@ -435,20 +596,28 @@ ERRMAP_INLINE void MultiplyTile(const Factors<Scalar>& f,
       sums[j].v[i] =
           kAdd ? Load(c + j * f.stride_c + i * kLanes<Scalar>) : Vec<Scalar>{};
     }
+    if constexpr (kHalf) {
+      halves[j] = kAdd ? LoadHalf(c + j * f.stride_c + kWhole) : Half<Scalar>{};
+    }
   }
   for (std::ptrdiff_t k = 0; k < f.inner; ++k) {
-    Group<Scalar, kTall> left;
+    Group<Scalar, (kTall > 0 ? kTall : 1)> left;
+    Half<Scalar> left_half;
 #pragma GCC unroll 4
     for (int i = 0; i < kTall; ++i) {
       left.v[i] = Load(a + k * f.stride_a + i * kLanes<Scalar>);
     }
+    if constexpr (kHalf) left_half = LoadHalf(a + k * f.stride_a + kWhole);
 #pragma GCC unroll 12
     for (int j = 0; j < kWide; ++j) {
-      const Vec<Scalar> right =
-          Repeated<Scalar>(b[k * f.inner_b + j * f.column_b]);
+      const Scalar value = b[k * f.inner_b + j * f.column_b];
+      const Vec<Scalar> right = Repeated<Vec<Scalar>>(value);
 #pragma GCC unroll 4
       for (int i = 0; i < kTall; ++i) {
         sums[j].v[i] = MultiplyAdd(left.v[i], right, sums[j].v[i]);
+      }
+      if constexpr (kHalf) {
+        halves[j] = MultiplyAdd(left_half, FirstHalf(right), halves[j]);
       }
     }
   }
@@ -458,31 +627,51 @@ ERRMAP_INLINE void MultiplyTile(const Factors<Scalar>& f,
     for (int i = 0; i < kTall; ++i) {
       Store<Scalar>(sums[j].v[i], c + j * f.stride_c + i * kLanes<Scalar>);
     }
+    if constexpr (kHalf) {
+      StoreHalf<Scalar>(halves[j], c + j * f.stride_c + kWhole);
+    }
   }
 }
 
 // All tiles of kWide columns from *column on.
-template <typename Scalar, bool kAdd, int kTall, int kWide>
+template <typename Scalar, bool kAdd, int kTall, bool kHalf, int kWide>
 ERRMAP_INLINE void MultiplyColumns(const Factors<Scalar>& f,
                                    std::ptrdiff_t row,
                                    std::ptrdiff_t columns,
                                    std::ptrdiff_t* column) {
   for (; *column + kWide <= columns; *column += kWide) {
-    MultiplyTile<Scalar, kAdd, kTall, kWide>(f, row, *column);
+    MultiplyTile<Scalar, kAdd, kTall, kHalf, kWide>(f, row, *column);
   }
 }
 
-// The rows from `row` on that kTall vectors hold.
-template <typename Scalar, bool kAdd, int kTall>
+// The rows from `row` on that kTall vectors hold, and a half one.
+template <typename Scalar, bool kAdd, int kTall, bool kHalf>
 void MultiplyRows(const Factors<Scalar>& f,
                   std::ptrdiff_t row,
                   std::ptrdiff_t columns) {
+  constexpr int kWidest = WidestOf(kTall + (kHalf ? 1 : 0));
   std::ptrdiff_t column = 0;
-  MultiplyColumns<Scalar, kAdd, kTall, WidestOf(kTall)>(
+  MultiplyColumns<Scalar, kAdd, kTall, kHalf, kWidest>(
       f, row, columns, &column);
-  MultiplyColumns<Scalar, kAdd, kTall, 4>(f, row, columns, &column);
-  MultiplyColumns<Scalar, kAdd, kTall, 2>(f, row, columns, &column);
-  MultiplyColumns<Scalar, kAdd, kTall, 1>(f, row, columns, &column);
+  MultiplyColumns<Scalar, kAdd, kTall, kHalf, 4>(f, row, columns, &column);
+  MultiplyColumns<Scalar, kAdd, kTall, kHalf, 2>(f, row, columns, &column);
+  MultiplyColumns<Scalar, kAdd, kTall, kHalf, 1>(f, row, columns, &column);
+}
+
+// The last `rest` vectors, fewer than kTallest, and a half one.
+template <typename Scalar, bool kAdd, bool kHalf>
+ERRMAP_INLINE void MultiplyRest(const Factors<Scalar>& f,
+                                std::ptrdiff_t row,
+                                std::ptrdiff_t rest,
+                                std::ptrdiff_t columns) {
+  if constexpr (kTallest > 2) {
+    if (rest == 3) MultiplyRows<Scalar, kAdd, 3, kHalf>(f, row, columns);
+    if (rest == 2) MultiplyRows<Scalar, kAdd, 2, kHalf>(f, row, columns);
+  }
+  if (rest == 1) MultiplyRows<Scalar, kAdd, 1, kHalf>(f, row, columns);
+  if constexpr (kHalf) {
+    if (rest == 0) MultiplyRows<Scalar, kAdd, 0, kHalf>(f, row, columns);
+  }
 }
 
 template <typename Scalar, bool kAdd>
@@ -492,15 +681,16 @@ ERRMAP_INLINE void MultiplyAll(const Factors<Scalar>& f,
   constexpr std::ptrdiff_t kRows = kTallest * kLanes<Scalar>;
   std::ptrdiff_t row = 0;
   for (; row + kRows <= height; row += kRows) {
-    MultiplyRows<Scalar, kAdd, kTallest>(f, row, columns);
+    MultiplyRows<Scalar, kAdd, kTallest, false>(f, row, columns);
   }
-  // Heights are whole vectors of kVectorBytes.
   const std::ptrdiff_t rest = (height - row) / kLanes<Scalar>;
-  if constexpr (kTallest > 2) {
-    if (rest == 3) MultiplyRows<Scalar, kAdd, 3>(f, row, columns);
-    if (rest == 2) MultiplyRows<Scalar, kAdd, 2>(f, row, columns);
+  if constexpr (kHasHalves) {
+    if ((height - row) % kLanes<Scalar> != 0) {
+      MultiplyRest<Scalar, kAdd, true>(f, row, rest, columns);
+      return;
+    }
   }
-  if (rest == 1) MultiplyRows<Scalar, kAdd, 1>(f, row, columns);
+  MultiplyRest<Scalar, kAdd, false>(f, row, rest, columns);
 }
 
 template <typename Scalar>
@@ -542,4 +732,5 @@ constexpr NetKernels<Scalar> MakeNetKernels(const char* name) {
 }  // namespace
 }  // namespace errmap::models
 
+#undef ERRMAP_INLINED
 #undef ERRMAP_INLINE

@@ -21,10 +21,14 @@ constexpr Index kBlockBytes = Index{128} << 10;
 constexpr Index kPlainBlockBytes = Index{256} << 10;
 
 template <typename Scalar>
-Index BlockFor(Index height, Index inner, NetArithmetic arithmetic) {
+Index BlockFor(Index hidden, Index inner, NetArithmetic arithmetic) {
   constexpr Index kTile = 12;  // a multiple of every product's tile
   constexpr Index kFewest = 16;
   constexpr auto kBytes = static_cast<Index>(sizeof(Scalar));
+  // In whole vectors: sums over blocks have the order that they had when
+  // heights were padded to these.
+  constexpr Index kLanes = kVectorBytes / kBytes;
+  const Index height = (hidden + kLanes - 1) / kLanes * kLanes;
   if (arithmetic == NetArithmetic::kPlain) {
     return std::max(kFewest, kPlainBlockBytes / (height * kBytes));
   }
@@ -75,7 +79,7 @@ NetProblem<Scalar> MakeProblem(const NetShape& shape,
       static_cast<Scalar>(wfactor / static_cast<double>(shape.num_weights()));
   problem.height = PaddedHeight<Scalar>(shape.hidden);
   problem.block =
-      std::min(BlockFor<Scalar>(problem.height, shape.inputs + 1, arithmetic),
+      std::min(BlockFor<Scalar>(shape.hidden, shape.inputs + 1, arithmetic),
                num_patterns);
   problem.kernels = arithmetic == NetArithmetic::kPlain
                         ? &PlainNetKernels<Scalar>()

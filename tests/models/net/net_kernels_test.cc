@@ -207,8 +207,8 @@ struct Block {
 template <typename Scalar>
 std::vector<BlockSize> BlockSizes() {
   std::vector<BlockSize> sizes;
-  for (std::ptrdiff_t height = 8; height <= 72; height += 8) {
-    if (height % PaddedHeight<Scalar>(1) != 0) continue;
+  constexpr std::ptrdiff_t kStep = PaddedHeight<Scalar>(1);
+  for (std::ptrdiff_t height = kStep; height <= 72; height += kStep) {
     for (const std::ptrdiff_t columns : {1, 2, 3, 7, 16, 31, 50}) {
       for (std::ptrdiff_t outputs = 1; outputs <= 3; ++outputs) {
         sizes.push_back({height, columns, outputs});
@@ -457,11 +457,11 @@ TYPED_TEST(NetKernelsIn, NodesOfNoWeightHaveNoPart) {
   }
 }
 
-TEST(PaddedHeight, IsTheNextWholeVector) {
-  EXPECT_EQ(PaddedHeight<double>(1), 8);
+TEST(PaddedHeight, IsTheNextHalfOfTheWidestVector) {
+  EXPECT_EQ(PaddedHeight<double>(1), 4);
   EXPECT_EQ(PaddedHeight<double>(8), 8);
-  EXPECT_EQ(PaddedHeight<double>(9), 16);
-  EXPECT_EQ(PaddedHeight<float>(1), 16);
+  EXPECT_EQ(PaddedHeight<double>(9), 12);
+  EXPECT_EQ(PaddedHeight<float>(1), 8);
   EXPECT_EQ(PaddedHeight<float>(60), 64);
 }
 
