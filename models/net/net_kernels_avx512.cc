@@ -1,3 +1,5 @@
+#include <immintrin.h>
+
 #include "models/net/net_kernels_body.h"
 #include "models/net/net_kernels_versions.h"
 

@@ -4,14 +4,10 @@
 // compiles it with compiler options of its own, so whatever stands here must be
 // local to that file or inlined: the linker might else take a function of the
 // fastest version for the whole program. Hence no standard library and no
-// Eigen.
+// Eigen. Those with instructions of their own include <immintrin.h> before it.
 
 #include <cstddef>
 #include <cstdint>
-
-#if defined(__FMA__)
-#include <immintrin.h>
-#endif
 
 #include "models/net/net_kernels.h"
 
