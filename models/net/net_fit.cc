@@ -10,6 +10,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "models/net/feedforward_net.h"
+#include "models/net/training_sample.h"
 
 namespace errmap::models {
 namespace {
@@ -102,6 +103,19 @@ double HeldOutSquares(const NetDesign& design,
   } catch (const std::invalid_argument&) {
     return kNaN;  // these rows cannot be fitted, such as a constant target
   }
+}
+
+// `all`, but for the rows that are not among `taken`.
+NetTraining RowsOf(const NetTraining& all, const std::vector<Index>& taken) {
+  return {.shape = all.shape,
+          .inputs = all.inputs(taken, Eigen::all),
+          .targets = all.targets(taken, Eigen::all),
+          .row_weights = all.row_weights.size() == 0
+                             ? Eigen::VectorXd()
+                             : Eigen::VectorXd(all.row_weights(taken)),
+          .wfactor = all.wfactor,
+          .initial_weights = all.initial_weights,
+          .seed = all.seed};
 }
 
 // The work of `earlier` steps in front of that of `last`.
@@ -216,15 +230,25 @@ fitting::Minimum TrainAlong(const NetRows& rows,
                             std::uint64_t seed,
                             const fitting::RunControl& run) {
   if (wfactors.empty()) throw std::invalid_argument("TrainAlong: no wfactor");
-  NetTraining step = rows.From(seed, wfactors.front());
-  fitting::Minimum minimum = trainer.Train(step, run);
-  for (std::size_t i = 1; i < wfactors.size(); ++i) {
+  const Index count = rows.training.inputs.rows();
+  const bool walks_on_few = wfactors.size() > 1 && count > kMostTuningRows;
+  std::vector<double> steps = wfactors;
+  if (walks_on_few) {  // the last twice, in place of the first
+    steps.erase(steps.begin());
+    steps.push_back(steps.back());
+  }
+  NetTraining all = rows.From(seed, steps.front());
+  NetTraining few;
+  if (walks_on_few) few = RowsOf(all, StratifiedRows(count, kMostTuningRows));
+  fitting::Minimum minimum = trainer.Train(walks_on_few ? few : all, run);
+  for (std::size_t i = 1; i < steps.size(); ++i) {
     const fitting::Termination end = minimum.summary.termination;
     if (end == fitting::Termination::kFailed ||
         end == fitting::Termination::kInterrupted) {
       break;
     }
-    step.wfactor = wfactors[i];
+    NetTraining& step = walks_on_few && i + 1 < steps.size() ? few : all;
+    step.wfactor = steps[i];
     step.initial_weights = std::move(minimum.x);
     const fitting::FitSummary earlier = std::move(minimum.summary);
     minimum = trainer.Train(step, run);

@@ -66,10 +66,15 @@ struct NetTrial {
   std::uint64_t seed = 1;
 };
 
+/// So many rows stand for all where nets are compared, and on the way to one.
+inline constexpr Eigen::Index kMostTuningRows = 5'000;
+
 /// Trains at each of `wfactors` in turn, the first from the start of `seed`,
-/// each other from the weights of the one before. The summary is that of the
-/// last, but for the counts, seconds and trace, which are those of all. Throws
-/// std::invalid_argument where there are no wfactors.
+/// each other from the weights of the one before. Of more rows than
+/// kMostTuningRows, two wfactors or more: at all but the first on so many of
+/// the rows, drawn from all over them, then at the last again on all. The
+/// summary is that of the last, but for the counts, seconds and trace, which
+/// are those of all. Throws std::invalid_argument where there are no wfactors.
 fitting::Minimum TrainAlong(const NetRows& rows,
                             const NetTrainer& trainer,
                             const std::vector<double>& wfactors,

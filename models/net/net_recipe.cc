@@ -416,9 +416,6 @@ class SpecNetRecipe final : public NetRecipe {
     return starts;
   }
 
-  // Time grows with the rows, accuracy beyond these hardly.
-  static constexpr Index kMostTuningRows = 5'000;
-
   std::string name_;
   NetOptions options_;
 };

@@ -45,18 +45,20 @@ std::vector<std::vector<Index>> RowsByGroup(const data::Grouping& groups) {
 
 }  // namespace
 
-std::vector<Index> StratifiedRows(const data::Dataset& training, Index most) {
+std::vector<Index> StratifiedRows(Index count, Index most) {
   if (most < 1) throw std::invalid_argument("StratifiedRows: no row is wanted");
+  if (count > most) return OneOfEachStretch(count, most);
+  std::vector<Index> rows(static_cast<std::size_t>(count));
+  std::iota(rows.begin(), rows.end(), Index{0});
+  return rows;
+}
+
+std::vector<Index> StratifiedRows(const data::Dataset& training, Index most) {
   // Fewer groups than this would stand for few thermal states.
   constexpr Index kFewestGroups = 100;
   const Index count = training.num_rows();
-  std::vector<Index> rows;
-  if (count <= most) {
-    rows.resize(static_cast<std::size_t>(count));
-    std::iota(rows.begin(), rows.end(), Index{0});
-    return rows;
-  }
-  if (training.has_groups()) {
+  if (most > 0 && count > most && training.has_groups()) {
+    std::vector<Index> rows;
     const auto groups = RowsByGroup(training.groups());
     const auto num_groups = static_cast<Index>(groups.size());
     for (Index draws = num_groups * most / count; draws >= kFewestGroups;
@@ -71,7 +73,7 @@ std::vector<Index> StratifiedRows(const data::Dataset& training, Index most) {
       return rows;
     }
   }
-  return OneOfEachStretch(count, most);
+  return StratifiedRows(count, most);
 }
 
 }  // namespace errmap::models

@@ -17,4 +17,7 @@ namespace errmap::models {
 std::vector<Eigen::Index> StratifiedRows(const data::Dataset& training,
                                          Eigen::Index most);
 
+/// The same of `count` rows without groups.
+std::vector<Eigen::Index> StratifiedRows(Eigen::Index count, Eigen::Index most);
+
 }  // namespace errmap::models

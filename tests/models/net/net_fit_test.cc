@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "models/net/feedforward_net.h"
 #include "models/recipe_catalog.h"
 #include "tests/models/model_test_data.h"
 
@@ -108,6 +109,68 @@ TEST(Starts, AreTheSameOnAnyNumberOfThreads) {
     EXPECT_EQ(one.starts[i].holdout_rmse, two.starts[i].holdout_rmse);
     EXPECT_GT(one.starts[i].holdout_rmse, 0.0);
   }
+}
+
+// Does nothing but take note of what it is to train on.
+class NotingTrainer final : public NetTrainer {
+ public:
+  struct Step {
+    double wfactor;
+    Eigen::Index rows;
+    bool operator==(const Step&) const = default;
+  };
+  fitting::Minimum Train(const NetTraining& training,
+                         const fitting::RunControl&) const override {
+    steps.push_back({training.wfactor, training.inputs.rows()});
+    EXPECT_EQ(training.targets.rows(), training.inputs.rows());
+    EXPECT_EQ(training.row_weights.size(), training.inputs.rows());
+    // Row i holds i, and weighs i + 1: whoever draws takes all of it.
+    EXPECT_EQ(training.inputs.col(0), training.targets.col(0));
+    const Eigen::VectorXd weights = training.targets.col(0).array() + 1.0;
+    EXPECT_EQ(training.row_weights, weights);
+    fitting::Minimum minimum;
+    minimum.x = training.initial_weights.array() + 1.0;
+    minimum.summary.termination = fitting::Termination::kIterationLimit;
+    minimum.summary.iterations = 1;
+    return minimum;
+  }
+  std::vector<EffectiveOption> options() const override { return {}; }
+
+  mutable std::vector<Step> steps;
+};
+
+NetRows NumberedRows(Eigen::Index count) {
+  NetRows rows;
+  rows.training.shape = {.inputs = 1, .hidden = 1};
+  rows.training.targets =
+      Eigen::VectorXd::LinSpaced(count, 0.0, static_cast<double>(count - 1));
+  rows.training.inputs = rows.training.targets;
+  rows.training.row_weights = rows.training.targets.array() + 1.0;
+  return rows;
+}
+
+TEST(TrainAlong, WalksOnFewOfManyRowsAndThenOnAllInAsManySteps) {
+  using Step = NotingTrainer::Step;
+  const auto walk = [](Eigen::Index count, std::vector<double> wfactors) {
+    const NotingTrainer trainer;
+    const fitting::Minimum minimum =
+        TrainAlong(NumberedRows(count), trainer, wfactors, 1, {});
+    EXPECT_EQ(trainer.steps.size(), wfactors.size());
+    EXPECT_EQ(minimum.summary.iterations,
+              static_cast<std::int64_t>(wfactors.size()));
+    // Each went on from the one before.
+    const Eigen::VectorXd start = InitialWeights({1, 1, 1}, 1);
+    EXPECT_NEAR(
+        (minimum.x - start).mean(), static_cast<double>(wfactors.size()), 1e-9);
+    return trainer.steps;
+  };
+  constexpr Eigen::Index kFew = kMostTuningRows;
+  EXPECT_THAT(walk(kFew, {1.0, 0.1, 0.01}),
+              ElementsAre(Step{1.0, kFew}, Step{0.1, kFew}, Step{0.01, kFew}));
+  EXPECT_THAT(
+      walk(kFew + 1, {1.0, 0.1, 0.01}),
+      ElementsAre(Step{0.1, kFew}, Step{0.01, kFew}, Step{0.01, kFew + 1}));
+  EXPECT_THAT(walk(kFew + 1, {0.01}), ElementsAre(Step{0.01, kFew + 1}));
 }
 
 TEST(Wfactor, ByDiscrepancyGivesTheWantedRms) {
