@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "stats/distributions.h"
+#include "stats/unit_freedom.h"
 
 namespace errmap::models {
 namespace {
@@ -34,25 +34,11 @@ bool IsKnown(const MatrixX3d& half_widths, Index direction) {
          half_widths.col(direction).allFinite();
 }
 
-// A mean square of f degrees of freedom has the variance 2 mean^2 / f. What
-// `mean_squares` show of that variance is uncertain itself: f is what they
-// leave with this confidence, and one for each at least.
-double DegreesOfFreedom(const VectorXd& mean_squares) {
-  constexpr double kConfidence = 0.8;
-  const auto n = static_cast<double>(mean_squares.size());
-  const double mean = mean_squares.mean();
-  const double squares = (mean_squares.array() - mean).square().sum();
-  const double most =
-      squares / stats::ChiSquaredQuantile(1.0 - kConfidence, n - 1.0);
-  return most > 0.0 ? n * std::max(1.0, 2.0 * mean * mean / most)
-                    : std::numeric_limits<double>::infinity();
-}
-
 // Student's t times the root of the mean of the sessions' `mean_squares`.
 double Spread(const VectorXd& mean_squares, double coverage) {
   return std::sqrt(mean_squares.mean()) *
          stats::StudentQuantile(0.5 * (1.0 + coverage),
-                                DegreesOfFreedom(mean_squares));
+                                stats::UnitFreedom(mean_squares));
 }
 
 }  // namespace

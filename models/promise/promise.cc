@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "models/promise/applicability.h"
-#include "models/promise/conformal.h"
 #include "models/promise/held_out_errors.h"
+#include "models/promise/unit_interval.h"
 #include "models/study/study_defaults.h"
 
 namespace errmap::models {

@@ -249,10 +249,9 @@ class MachineEvaluator {
         unit.symbol));
   }
 
-  // Of 90 %. The map's own interval is for it alone: among few units the
-  // largest one's, which a sum over many maps hardly ever reaches. What adds up
-  // is the standard deviation of its held-out errors, with as many degrees of
-  // freedom as units were held out.
+  // Of 90 %. The map's own interval is a quantile, and these do not add up over
+  // many maps. What does is the standard deviation of its held-out errors, with
+  // as many degrees of freedom as units were held out.
   void SetHalfWidth(const ErrorSource& source, double factor, MapAtPoints* at) {
     const FittedModel& map = *source.map;
     if (map.held_out != nullptr && !map.held_out->units.empty()) {

@@ -1,0 +1,101 @@
+#include "models/promise/unit_interval.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "models/study/judgement/units_of_analysis.h"
+#include "stats/distributions.h"
+#include "stats/unit_freedom.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+// What adds up to a share but for rounding does.
+constexpr double kRounding = 1e-9;
+
+// |residual| of each unit.
+std::map<Index, std::vector<double>> SizesOfUnits(
+    const VectorXd& residuals, const std::vector<Index>& units) {
+  std::map<Index, std::vector<double>> sizes;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    sizes[units[i]].push_back(std::abs(residuals[static_cast<Index>(i)]));
+  }
+  return sizes;
+}
+
+// The least size that `share` of the units' weight does not exceed, each unit
+// of weight 1 shared by its rows.
+double QuantileOverUnits(const std::map<Index, std::vector<double>>& sizes,
+                         double share) {
+  std::vector<std::pair<double, double>> weighted;
+  for (const auto& [unit, of_unit] : sizes) {
+    for (const double size : of_unit) {
+      weighted.emplace_back(size, 1.0 / static_cast<double>(of_unit.size()));
+    }
+  }
+  std::ranges::sort(weighted);
+  double left = (share - kRounding) * static_cast<double>(sizes.size());
+  for (const auto& [size, weight] : weighted) {
+    left -= weight;
+    if (left <= 0.0) return size;
+  }
+  return weighted.back().first;
+}
+
+// Student's t over the normal's quantile.
+double Widening(const std::map<Index, std::vector<double>>& sizes,
+                double coverage) {
+  VectorXd mean_squares(static_cast<Index>(sizes.size()));
+  Index u = 0;
+  for (const auto& [unit, of_unit] : sizes) {
+    const Eigen::Map<const VectorXd> values(of_unit.data(),
+                                            static_cast<Index>(of_unit.size()));
+    mean_squares[u++] =
+        values.squaredNorm() / static_cast<double>(values.size());
+  }
+  const double upper = 0.5 * (1.0 + coverage);
+  return stats::StudentQuantile(upper, stats::UnitFreedom(mean_squares)) /
+         stats::NormalQuantile(upper);
+}
+
+}  // namespace
+
+PredictionInterval::Level UnitIntervalLevel(const VectorXd& residuals,
+                                            const std::vector<Index>& units,
+                                            double coverage) {
+  PredictionInterval::Level level;
+  level.coverage = coverage;
+  const auto sizes = SizesOfUnits(residuals, units);
+  if (sizes.size() < 2 || !residuals.allFinite()) return level;
+  const auto count = static_cast<double>(sizes.size());
+  level.at_least = (count + 1.0) * coverage > count + kRounding;
+  level.half_width =
+      QuantileOverUnits(sizes, coverage) * Widening(sizes, coverage);
+  return level;
+}
+
+std::optional<PredictionInterval> PromiseOf(const data::Dataset& dataset,
+                                            const Holdout& holdout,
+                                            const HoldoutResult& result) {
+  if (!result.ok() || holdout.among_neighbours) return std::nullopt;
+  const HeldOutRows held = GatherHeldOut(dataset, holdout);
+  PredictionInterval interval;
+  interval.holdout = holdout.name;
+  UnitsOfAnalysis units;
+  const std::vector<Index> codes = AssignUnits(holdout, held, &units);
+  interval.unit = units.name;
+  interval.units = static_cast<Index>(units.labels.size());
+  if (interval.units < 2) return std::nullopt;
+  const VectorXd residuals = ResidualsOf(held, result);
+  for (const double coverage : PredictionInterval::kCoverages) {
+    interval.levels.push_back(UnitIntervalLevel(residuals, codes, coverage));
+  }
+  return interval;
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/measurements/dataset.h"
+#include "models/prediction_interval.h"
+#include "models/study/study.h"
+
+namespace errmap::models {
+
+/// The half-width that holds `coverage` of the errors of a further unit, drawn
+/// as these were, on average over such units: the quantile of |residual| over
+/// all rows, in which every unit weighs the same, times Student's t over the
+/// normal's quantile. The degrees of freedom are UnitFreedom of the units' mean
+/// squares: few where units differ as if each were one error, more where all
+/// err alike.
+///
+/// No interval that assumes nothing of how units differ is as narrow, and with
+/// fewer than 9 units for 0.9, 19 for 0.95, there is none at all (Dunn,
+/// Wasserman & Ramdas 2022): the level is then marked at_least. `units` (n)
+/// number the unit of each residual from 0, in any order. NaN residuals and
+/// fewer than two units make NaN.
+PredictionInterval::Level UnitIntervalLevel(
+    const Eigen::VectorXd& residuals,
+    const std::vector<Eigen::Index>& units,
+    double coverage);
+
+/// The promise of a model from its predictions of `holdout`'s held-out rows;
+/// nothing where they fall into fewer than two units, or lie between rows that
+/// it was fitted to.
+std::optional<PredictionInterval> PromiseOf(const data::Dataset& dataset,
+                                            const Holdout& holdout,
+                                            const HoldoutResult& result);
+
+}  // namespace errmap::models
