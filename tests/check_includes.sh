@@ -78,14 +78,16 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     rooms["cli/study_file/machine"] = rooms["cli/study_file/toml"] \
                                       "cli/study_file/memory " \
                                       "cli/study_file/toml "
-    rooms["cli/report"] = " cli cli/shell cli/study_file cli/study_file/plan "
+    rooms["cli/report"] = " cli cli/shell "
     rooms["cli/report/figures"] = rooms["cli/report"] "cli/report "
     rooms["cli/report/words"] = rooms["cli/report/figures"]
     rooms["cli/report/tables"] = rooms["cli/report/words"] "cli/report/words "
     rooms["cli/report/documents"] = rooms["cli/report/tables"] \
                                     "cli/report/tables cli/report/figures "
-    rooms["cli/fleet"] = rooms["cli/report/documents"] \
-                         "cli/report/documents cli/study_file/toml "
+    rooms["cli/output"] = rooms["cli/report/documents"] \
+                          "cli/report/documents cli/study_file " \
+                          "cli/study_file/plan "
+    rooms["cli/fleet"] = rooms["cli/output"] "cli/output cli/study_file/toml "
     rooms["cli/commands"] = rooms["cli/fleet"] "cli/fleet " \
                             "cli/study_file/machine cli/study_file/memory "
     rooms["cli/commands/studies"] = rooms["cli/commands"] "cli/commands "

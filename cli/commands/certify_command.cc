@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/certify_json.h"
 #include "cli/commands/format_option.h"
-#include "cli/report/words/certify_json.h"
 #include "cli/report/words/certify_text.h"
 #include "cli/shell/number_text.h"
 #include "cli/shell/standard_streams.h"

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/report/claimed_folder.h"
+#include "cli/output/claimed_folder.h"
 #include "cli/shell/number_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "data/atomic_file.h"

@@ -9,8 +9,8 @@
 
 #include "cli/command.h"
 #include "cli/commands/format_option.h"
+#include "cli/commands/residual_json.h"
 #include "cli/json_blocks.h"
-#include "cli/report/words/residual_json.h"
 #include "cli/report/words/residual_text.h"
 #include "cli/report/words/residual_words.h"
 #include "cli/shell/number_text.h"

@@ -13,9 +13,9 @@
 #include <fmt/format.h>
 
 #include "cli/fleet/gzip.h"
-#include "cli/report/claimed_folder.h"
-#include "cli/report/configuration_record.h"
-#include "cli/report/documents/results_document.h"
+#include "cli/output/claimed_folder.h"
+#include "cli/output/configuration_record.h"
+#include "cli/output/results_document.h"
 #include "cli/shell/shown_path.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/plan/component_names.h"

@@ -8,7 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/fleet/gzip.h"
-#include "cli/report/claimed_folder.h"
+#include "cli/output/claimed_folder.h"
 #include "data/atomic_file.h"
 #include "data/formats/nesting.h"
 #include "data/input_error.h"

@@ -32,11 +32,6 @@ bool IsSet(const char* name) {
 
 }  // namespace
 
-std::size_t Terminal::text_columns() const {
-  constexpr std::size_t kMost = 100;
-  return std::min(columns, kMost);
-}
-
 Terminal OutputTerminal() {
   constexpr long kFewestRows = 5;
   Terminal terminal;
@@ -94,17 +89,6 @@ void PrintFitted(std::string_view text) {
                       Wanted("COLUMNS", kFewestColumns) > 0
                   ? FitLines(text, terminal.columns)
                   : std::string(text));
-}
-
-void Screen::Add(std::string_view more, bool is_strong) {
-  if (is_strong) {
-    const auto first = static_cast<std::size_t>(std::ranges::count(text, '\n'));
-    const auto lines = static_cast<std::size_t>(std::ranges::count(more, '\n'));
-    for (std::size_t i = 0; i < std::max<std::size_t>(lines, 1); ++i) {
-      strong.push_back(first + i);
-    }
-  }
-  text += more;
 }
 
 void PrintScreen(const Screen& screen) {

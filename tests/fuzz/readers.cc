@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "cli/command.h"
-#include "cli/report/claimed_folder.h"
+#include "cli/output/claimed_folder.h"
 #include "cli/study_file/machine/machine_file.h"
 #include "cli/study_file/toml/study_file.h"
 #include "data/csv.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cli/command.h"
-#include "cli/report/documents/results_document.h"
+#include "cli/output/results_document.h"
 #include "cli/report/documents/study_table.h"
 #include "cli/study_file/plan/study_plan.h"
 #include "cli/study_file/plan/study_run.h"
@@ -109,7 +109,7 @@ void Judge(const std::string& file, bool is_noise) {
   const models::StudyRecord record = cli::RecordOf(run);
   const std::string text = models::ToJsonText(record);
   Require(models::ToJsonText(models::FromJsonText(text)) == text);
-  Require(!cli::StudyTable(run, record, {}).text.empty());
+  Require(!cli::StudyTable(record, {}).text.empty());
   if (!is_noise) return;
   const cli::Comparison& comparison = run.components.at(0);
   for (std::size_t h = 0; h < comparison.holdouts.size(); ++h) {

@@ -9,7 +9,7 @@
 
 #include "cli/command.h"
 #include "cli/commands/control/export_tables.h"
-#include "cli/report/claimed_folder.h"
+#include "cli/output/claimed_folder.h"
 #include "cli/shell/number_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "data/input_error.h"

@@ -10,7 +10,7 @@
 
 #include "cli/command.h"
 #include "cli/commands/maps/map_warnings.h"
-#include "cli/report/claimed_folder.h"
+#include "cli/output/claimed_folder.h"
 #include "cli/shell/number_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/memory/map_log.h"

@@ -11,7 +11,7 @@
 #include "cli/fleet/deployments.h"
 #include "cli/fleet/gzip.h"
 #include "cli/fleet/store.h"
-#include "cli/report/claimed_folder.h"
+#include "cli/output/claimed_folder.h"
 #include "cli/shell/number_text.h"
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"

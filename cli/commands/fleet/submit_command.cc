@@ -15,7 +15,7 @@
 #include "cli/fleet/fleet_plan.h"
 #include "cli/fleet/fleet_run.h"
 #include "cli/fleet/slurm_scripts.h"
-#include "cli/report/claimed_folder.h"
+#include "cli/output/claimed_folder.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "data/atomic_file.h"

@@ -14,7 +14,7 @@
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/commands/progress.h"
 #include "cli/json_blocks.h"
-#include "cli/report/claimed_folder.h"
+#include "cli/output/claimed_folder.h"
 #include "cli/report/figures/learning_figures.h"
 #include "cli/report/figures/svg.h"
 #include "cli/report/words/next_steps.h"

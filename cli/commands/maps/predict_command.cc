@@ -11,7 +11,7 @@
 #include "cli/command.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/commands/maps/probe_correction.h"
-#include "cli/report/claimed_folder.h"
+#include "cli/output/claimed_folder.h"
 #include "cli/report/words/interval_text.h"
 #include "cli/shell/number_text.h"
 #include "cli/shell/standard_streams.h"

@@ -11,7 +11,7 @@
 #include "cli/commands/format_option.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/json_blocks.h"
-#include "cli/report/claimed_folder.h"
+#include "cli/output/claimed_folder.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/number_text.h"
 #include "cli/shell/shown_path.h"

@@ -12,10 +12,10 @@
 #include "cli/commands/studies/compare_plan.h"
 #include "cli/commands/studies/probe_table.h"
 #include "cli/fleet/store_folder.h"
-#include "cli/report/claimed_folder.h"
-#include "cli/report/documents/output_folder.h"
+#include "cli/output/claimed_folder.h"
+#include "cli/output/output_folder.h"
+#include "cli/output/results_document.h"
 #include "cli/report/documents/report_html.h"
-#include "cli/report/documents/results_document.h"
 #include "cli/report/documents/study_table.h"
 #include "cli/report/figures/figures.h"
 #include "cli/report/tables/result_table.h"
@@ -128,6 +128,13 @@ std::optional<int> RunIfFleet(const CompareArguments& arguments) {
                           .quiet = arguments.data.quiet});
 }
 
+// The file, where fit can read the same rows of it.
+std::string DataForFit(const StudyRun& run) {
+  const ComponentConfig& component = run.config.components.front();
+  return component.where.empty() && component.later.empty() ? component.data
+                                                            : "";
+}
+
 Screen Formatted(const StudyRun& run,
                  const models::StudyRecord& record,
                  const CompareArguments& arguments) {
@@ -135,11 +142,11 @@ Screen Formatted(const StudyRun& run,
   if (format == "json") return {models::ToJsonText(record), {}};
   if (format == "csv") return {CsvTable(LeaderboardRows(record)), {}};
   if (format == "md") return {MarkdownTable(LeaderboardRows(record)), {}};
-  Screen screen = StudyTable(run,
-                             record,
+  Screen screen = StudyTable(record,
                              {.all = arguments.all,
                               .details = arguments.details,
                               .folder = arguments.out,
+                              .data = DataForFit(run),
                               .terminal = OutputTerminal()});
   for (const models::ComponentRecord& component : record.components) {
     screen.Add(ProbesText(component));

@@ -10,7 +10,7 @@
 #include "cli/command.h"
 #include "cli/commands/format_option.h"
 #include "cli/json_blocks.h"
-#include "cli/report/claimed_folder.h"
+#include "cli/output/claimed_folder.h"
 #include "cli/report/documents/start_report.h"
 #include "cli/report/words/fit_summary.h"
 #include "cli/report/words/interval_text.h"

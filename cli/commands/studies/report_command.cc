@@ -8,8 +8,8 @@
 #include "cli/command.h"
 #include "cli/fleet/merge.h"
 #include "cli/fleet/store_folder.h"
-#include "cli/report/claimed_folder.h"
-#include "cli/report/documents/report_files.h"
+#include "cli/output/claimed_folder.h"
+#include "cli/output/report_files.h"
 #include "cli/report/documents/report_html.h"
 #include "cli/report/documents/report_markdown.h"
 #include "cli/report/figures/figures.h"
@@ -141,17 +141,20 @@ int RunReport(const ReportArguments& arguments) {
     folder.Finish();
   }
   if (arguments.figures.empty()) return kDone;
-  const FigureSet figures = FiguresInFolder(results, arguments.folder, true);
+  const std::vector<ReportFile> figures =
+      FigureFiles(FiguresInFolder(results, arguments.folder, true),
+                  FormatNamed(arguments.image));
+  std::vector<std::string> names;
+  for (const ReportFile& file : figures) names.push_back(file.name);
   ClaimedFolder folder(arguments.figures,
-                       FigureFileNames(figures),
+                       names,
                        {ResultsPath(arguments.folder)},
                        arguments.force);
-  const std::size_t written =
-      WriteFigures(figures, FormatNamed(arguments.image), &folder);
+  for (const ReportFile& file : figures) folder.Write(file.name, file.text);
   folder.Finish();
   Say(fmt::format(
       "{} figures as svg in {}; gnuplot *.gp there draws them as {}",
-      written,
+      figures.size() / 2,
       data::PrintablePath(arguments.figures),
       arguments.image));
   return kDone;

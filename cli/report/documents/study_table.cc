@@ -10,12 +10,12 @@
 #include "cli/report/tables/machine_tables.h"
 #include "cli/report/tables/result_table.h"
 #include "cli/report/words/component_numbers.h"
+#include "cli/report/words/data_words.h"
 #include "cli/report/words/next_steps.h"
 #include "cli/report/words/verdict_text.h"
 #include "cli/shell/number_text.h"
 #include "cli/shell/shell_word.h"
 #include "cli/shell/wrap_text.h"
-#include "cli/study_file/data_arguments.h"
 #include "data/text.h"
 
 namespace errmap::cli {
@@ -57,13 +57,11 @@ std::string UnconvergedNote(const ModelRecord& model) {
 // What is written about one component, line by line.
 class ComponentScreen {
  public:
-  ComponentScreen(const Comparison& comparison,
-                  const models::StudyRecord& record,
+  ComponentScreen(const models::StudyRecord& record,
                   std::size_t index,
                   const StudyTableOptions& options,
                   Screen* screen)
-      : comparison_(comparison),
-        study_(record),
+      : study_(record),
         index_(index),
         record_(record.components[index]),
         view_(ViewOf(record_)),
@@ -76,7 +74,6 @@ class ComponentScreen {
   void Details();
 
  private:
-  const Comparison& comparison_;
   const models::StudyRecord& study_;
   std::size_t index_;
   const models::ComponentRecord& record_;
@@ -125,21 +122,21 @@ void ComponentScreen::Verdict() {
 }
 
 void ComponentScreen::Data() {
-  const data::Dataset& dataset = comparison_.data.dataset;
+  const models::DataRecord& data = record_.data;
   constexpr std::size_t kMostInputsNamed = 6;
   std::vector<std::string> inputs;
-  for (const data::ColumnInfo& input : dataset.inputs()) {
-    inputs.push_back(data::Printable(input.name, input.name.size()));
+  for (const std::string& input : data.inputs) {
+    inputs.push_back(data::Printable(input, input.size()));
   }
   const std::size_t more =
       inputs.size() - std::min(inputs.size(), kMostInputsNamed);
   inputs.resize(inputs.size() - more);
   Paragraph(fmt::format(
       "{}: {}{}; {} from {}{}",
-      comparison_.file,
-      Count(dataset.num_rows(), "row"),
-      UnitsText(dataset),
-      TargetText(dataset),
+      data.file,
+      Count(data.rows, "row"),
+      UnitsWords(data),
+      TargetWords(data),
       inputs.empty() ? "no inputs" : fmt::format("{}", fmt::join(inputs, ", ")),
       more > 0 ? fmt::format(" and {} more", more) : ""));
 }
@@ -265,13 +262,6 @@ std::string OverallWords(const models::StudyRecord& record) {
   return text;
 }
 
-// The file, where fit can read the same rows of it.
-std::string DataForFit(const StudyRun& run) {
-  const ComponentConfig& component = run.config.components.front();
-  return component.where.empty() && component.later.empty() ? component.data
-                                                            : "";
-}
-
 // Its last columns are on the page, where a terminal has no room for them.
 std::string LeadingColumns(Table table, std::size_t width) {
   const auto is_wide = [&] {
@@ -319,17 +309,18 @@ std::string WhereMapsAre(const StudyTableOptions& options) {
 
 }  // namespace
 
-Screen StudyTable(const StudyRun& run,
-                  const models::StudyRecord& record,
+Screen StudyTable(const models::StudyRecord& record,
                   const StudyTableOptions& options) {
   Screen screen;
   const auto component = [&](std::size_t i) {
-    return ComponentScreen(run.components[i], record, i, options, &screen);
+    return ComponentScreen(record, i, options, &screen);
   };
-  if (!run.has_several() && !record.components.empty()) {
+  const std::size_t asked_for =
+      record.provenance.configuration.component.size();
+  if (asked_for <= 1 && record.components.size() == 1) {
     ComponentScreen one = component(0);
     one.Answer();
-    one.Next(DataForFit(run));
+    one.Next(options.data);
     if (options.details) one.Details();
   } else {
     const std::size_t width = options.terminal.text_columns();

@@ -3,8 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "cli/shell/terminal.h"
-#include "cli/study_file/comparison.h"
+#include "cli/shell/screen.h"
 #include "models/study/record/study_record.h"
 
 namespace errmap::cli {
@@ -13,13 +12,15 @@ struct StudyTableOptions {
   bool all = false;         // every row of tables
   bool details = false;     // p values, gaps, times, every sentence
   std::string folder = {};  // that the maps are written to; "" none
+  /// The measurements as fit can open them, "" where it cannot have the same
+  /// rows.
+  std::string data = {};
   Terminal terminal = {};
 };
 
-/// A run as a terminal shows it: the verdict in at most eight lines, the table,
-/// what to do next; of several components a row each.
-Screen StudyTable(const StudyRun& run,
-                  const models::StudyRecord& record,
+/// A study as a terminal shows it: the verdict in at most eight lines, the
+/// table, what to do next; of several components a row each.
+Screen StudyTable(const models::StudyRecord& record,
                   const StudyTableOptions& options);
 
 }  // namespace errmap::cli

@@ -148,28 +148,18 @@ std::string FigureSvg(const Figure& figure) {
              figure.description);
 }
 
-std::vector<std::string> FigureFileNames(const FigureSet& figures) {
-  std::vector<std::string> names;
+std::vector<ReportFile> FigureFiles(const FigureSet& figures,
+                                    ImageFormat format) {
+  std::vector<ReportFile> files;
   for (const Figure* figure : Drawn(figures)) {
-    names.push_back(figure->plot.name + ".svg");
-    names.push_back(figure->plot.name + ".gp");
-  }
-  return names;
-}
-
-std::size_t WriteFigures(const FigureSet& figures,
-                         ImageFormat format,
-                         ClaimedFolder* folder) {
-  const std::vector<const Figure*> drawn = Drawn(figures);
-  for (const Figure* figure : drawn) {
     const std::string& name = figure->plot.name;
-    folder->Write(name + ".svg", SvgFile(FigureSvg(*figure)));
-    folder->Write(name + ".gp",
-                  PlotScript(figure->plot,
-                             format,
-                             fmt::format("{}.{}", name, ToString(format))));
+    files.push_back({name + ".svg", SvgFile(FigureSvg(*figure))});
+    files.push_back({name + ".gp",
+                     PlotScript(figure->plot,
+                                format,
+                                fmt::format("{}.{}", name, ToString(format)))});
   }
-  return drawn.size();
+  return files;
 }
 
 }  // namespace errmap::cli

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "cli/report/claimed_folder.h"
 #include "cli/report/figures/gnuplot.h"
 #include "cli/report/report_view.h"
 
@@ -63,14 +62,15 @@ FigureSet MakeFigures(const models::StudyRecord& record,
 /// The figure as SVG.
 std::string FigureSvg(const Figure& figure);
 
-/// Names of the files that WriteFigures writes.
-std::vector<std::string> FigureFileNames(const FigureSet& figures);
+/// A file of a report: its name in the report's folder, and what it holds.
+struct ReportFile {
+  std::string name;
+  std::string text;
+};
 
-/// Writes every figure as DIR/NAME.svg with DIR/NAME.gp, the gnuplot script
-/// that draws it as NAME.FORMAT, data included. Returns their number. Throws
-/// std::system_error where the folder cannot be written.
-std::size_t WriteFigures(const FigureSet& figures,
-                         ImageFormat format,
-                         ClaimedFolder* folder);
+/// Every figure as NAME.svg with NAME.gp, the gnuplot script that draws it as
+/// NAME.FORMAT, data included: two files each.
+std::vector<ReportFile> FigureFiles(const FigureSet& figures,
+                                    ImageFormat format);
 
 }  // namespace errmap::cli

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/json_blocks.h"
 #include "models/study/record/record_json.h"
 #include "stats/holdout.h"
 
@@ -13,12 +12,13 @@ namespace errmap::cli {
 namespace {
 
 // A number, text or truth as one line; lists and objects as JSON.
-std::string ValueText(const Json& value) {
+std::string ValueText(const models::RecordJson& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_null()) return "-";
   if (value.is_number_float())
     return fmt::format("{:.6g}", value.get<double>());
-  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return value.dump(
+      -1, ' ', false, models::RecordJson::error_handler_t::replace);
 }
 
 template <typename T>
@@ -429,7 +429,8 @@ Table ProvenanceTable(const models::StudyRecord& record) {
     add("sha256 of " + input.file, input.sha256);
   }
   add("libraries", SettingsText(provenance.libraries));
-  const Json configuration = models::ToJson(provenance.configuration);
+  const models::RecordJson configuration =
+      models::ToJson(provenance.configuration);
   for (const auto& [key, value] : configuration.items()) {
     add("configuration: " + key, ValueText(value));
   }

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "cli/shell/terminal.h"
+#include "cli/shell/screen.h"
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/regression_report.h"

@@ -41,6 +41,7 @@ struct DataRecord {
   std::string unit;  // "": none
   std::vector<std::string> inputs;
   std::optional<std::string> group;
+  std::int64_t groups = 0;
   std::optional<std::string> session;
   std::optional<std::string> time;
   std::string time_unit;
@@ -57,6 +58,7 @@ ERRMAP_RECORD(DataRecord,
               unit,
               inputs,
               group,
+              groups,
               session,
               time,
               time_unit,

@@ -59,6 +59,7 @@ DataRecord MakeData(const ComponentStudy& study) {
                     .unit = dataset.target().unit.symbol,
                     .inputs = {},
                     .group = {},
+                    .groups = 0,
                     .session = {},
                     .time = TextOrNothing(study.data.time_column),
                     .time_unit = "rows",
@@ -74,7 +75,10 @@ DataRecord MakeData(const ComponentStudy& study) {
     record.session = TextOrNothing(dataset.log()->sessions.column);
     record.time_unit = dataset.log()->time_unit;
   }
-  if (dataset.has_groups()) record.group = dataset.groups().column;
+  if (dataset.has_groups()) {
+    record.group = dataset.groups().column;
+    record.groups = std::ssize(dataset.groups().labels);
+  }
   for (const data::DroppedColumn& column : study.data.dropped) {
     record.dropped.push_back({.column = column.column, .why = column.why});
   }

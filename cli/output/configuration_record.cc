@@ -1,4 +1,4 @@
-#include "cli/report/configuration_record.h"
+#include "cli/output/configuration_record.h"
 
 #include "cli/shell/shown_path.h"
 

@@ -1,4 +1,4 @@
-#include "cli/report/documents/report_files.h"
+#include "cli/output/report_files.h"
 
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-#include "cli/report/words/residual_json.h"
+#include "cli/commands/residual_json.h"
 
 #include <algorithm>
 

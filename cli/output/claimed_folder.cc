@@ -1,4 +1,4 @@
-#include "cli/report/claimed_folder.h"
+#include "cli/output/claimed_folder.h"
 
 #include <cerrno>
 #include <filesystem>

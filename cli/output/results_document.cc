@@ -1,6 +1,6 @@
-#include "cli/report/documents/results_document.h"
+#include "cli/output/results_document.h"
 
-#include "cli/report/configuration_record.h"
+#include "cli/output/configuration_record.h"
 #include "cli/report/words/verdict_text.h"
 #include "cli/shell/shown_path.h"
 #include "cli/study_file/provenance.h"

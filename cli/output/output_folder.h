@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/report/claimed_folder.h"
+#include "cli/output/claimed_folder.h"
 #include "cli/study_file/comparison.h"
 #include "cli/study_file/plan/study_plan.h"
 #include "models/study/record/study_record.h"
@@ -26,9 +26,5 @@ void NameMaps(const StudyRun& run, models::StudyRecord* record);
 void WriteOutputs(const StudyRun& run,
                   const models::StudyRecord& record,
                   ClaimedFolder* folder);
-
-/// Held-out residual table: one line per hold-out, fold and test row, with
-/// group, target and each model's prediction (empty where it failed).
-std::string ResidualsCsv(const Comparison& comparison);
 
 }  // namespace errmap::cli

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/report/claimed_folder.h"
+#include "cli/output/claimed_folder.h"
 #include "cli/report/figures/figures.h"
 #include "models/promise/learning_record.h"
 #include "models/study/record/study_record.h"

@@ -1,4 +1,4 @@
-#include "cli/report/words/certify_json.h"
+#include "cli/commands/certify_json.h"
 
 #include "models/version.h"
 

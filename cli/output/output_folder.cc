@@ -1,4 +1,4 @@
-#include "cli/report/documents/output_folder.h"
+#include "cli/output/output_folder.h"
 
 #include <cctype>
 #include <filesystem>
@@ -7,13 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "cli/report/documents/report_files.h"
+#include "cli/output/report_files.h"
+#include "cli/report/documents/residuals_csv.h"
 #include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
-#include "data/csv.h"
-#include "data/formula_text.h"
 #include "models/model_file.h"
-#include "models/study/judgement/extrapolated_rows.h"
 
 namespace errmap::cli {
 namespace {
@@ -101,63 +99,6 @@ void RemoveAbandoned(const std::string& folder) {
   data::RemoveAbandonedFiles(folder);
   data::RemoveAbandonedFiles(
       (std::filesystem::path(folder) / "models").string());
-}
-
-std::string ResidualsCsv(const Comparison& comparison) {
-  const data::Dataset& dataset = comparison.data.dataset;
-  std::string text = "holdout,fold,row";
-  if (dataset.has_groups()) {
-    text += "," + data::CsvField(dataset.groups().column);
-  }
-  text += "," + data::CsvField(dataset.target().name) + ",inside";
-  for (const models::ModelResult& model : comparison.study.models) {
-    text += "," + data::CsvField(model.name);
-  }
-  text += "\n";
-  const auto& advice = comparison.judgement.recommendation;
-  for (std::size_t h = 0; h < comparison.holdouts.size(); ++h) {
-    const models::Holdout& holdout = comparison.holdouts[h];
-    std::vector<Eigen::Array<bool, Eigen::Dynamic, 1>> outside;
-    if (advice) {
-      outside = models::ExtrapolatedRows(
-          dataset, holdout, *comparison.study.models[advice->model].final_fit);
-    }
-    const data::Dataset& source =
-        holdout.test_data != nullptr ? *holdout.test_data : dataset;
-    for (std::size_t fold = 0; fold < holdout.folds.size(); ++fold) {
-      const Eigen::Index size =
-          holdout.test_data != nullptr
-              ? source.num_rows()
-              : static_cast<Eigen::Index>(holdout.folds[fold].test.size());
-      for (Eigen::Index i = 0; i < size; ++i) {
-        const Eigen::Index index =
-            holdout.test_data != nullptr
-                ? i
-                : holdout.folds[fold].test[static_cast<std::size_t>(i)];
-        const auto row = static_cast<std::size_t>(index);
-        text += fmt::format(
-            "{},{},{}", data::CsvField(holdout.name), fold, source.rows()[row]);
-        if (dataset.has_groups()) {
-          const data::Grouping& groups = source.groups();
-          text +=
-              "," +
-              data::CsvField(
-                  groups.labels[static_cast<std::size_t>(groups.codes[row])]);
-        }
-        text += "," + data::CsvNumber(source.target_values()[index]) + ",";
-        if (!outside.empty()) text += outside[fold][i] ? "0" : "1";
-        for (const models::ModelResult& model : comparison.study.models) {
-          const models::HoldoutResult& result = model.holdouts[h];
-          text += ",";
-          if (result.ok()) {
-            text += data::CsvNumber(result.folds[fold].test_predictions[i]);
-          }
-        }
-        text += "\n";
-      }
-    }
-  }
-  return data::MarkedCsv(std::move(text));
 }
 
 std::vector<std::string> OutputNames(const StudyPlan& plan) {
