@@ -24,12 +24,12 @@
 #include "cli/shell/command_reference.h"
 #include "cli/shell/completion.h"
 #include "cli/shell/man_page.h"
-#include "cli/shell/shell_word.h"
 #include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "models/report/shell_word.h"
 #include "models/version.h"
 
 namespace errmap::cli {

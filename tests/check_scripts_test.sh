@@ -24,7 +24,8 @@ fail() {
 good_tree() {
   rm -rf "$tree"
   mkdir -p "$tree/stats" "$tree/data" "$tree/fitting/minimisers" \
-    "$tree/models/study" "$tree/models/net" "$tree/cli/report" "$tree/tests/benchmarks"
+    "$tree/models/study" "$tree/models/net" "$tree/models/report" \
+    "$tree/cli/output" "$tree/tests/benchmarks"
   printf '%s\n' '#pragma once' '#include <vector>' '#include <Eigen/Core>' \
     >"$tree/stats/summary.h"
   printf '%s\n' '#include "stats/summary.h"' \
@@ -42,16 +43,18 @@ good_tree() {
     '#include <fmt/format.h>' '#include <tbb/parallel_for.h>' \
     >"$tree/models/study/study.cc"
   printf '%s\n' '#pragma once' '#include <nlohmann/json_fwd.hpp>' \
-    '#include "models/study/study.h"' >"$tree/cli/report/report.h"
-  printf '%s\n' '#include "cli/report/report.h"' '#include <unistd.h>' \
-    '#include <CLI/CLI.hpp>' '#include "data/csv.h"' >"$tree/cli/report/report.cc"
+    '#include "models/study/study.h"' >"$tree/cli/output/report.h"
+  printf '%s\n' '#include "cli/output/report.h"' '#include <unistd.h>' \
+    '#include <CLI/CLI.hpp>' '#include "data/csv.h"' >"$tree/cli/output/report.cc"
   printf '%s\n' '#pragma once' '#include "models/kind.h"' \
     >"$tree/models/net/net.h"
   printf '%s\n' '#pragma once' >"$tree/models/kind.h"
+  printf '%s\n' '#pragma once' '#include "models/study/study.h"' \
+    >"$tree/models/report/page.h"
   printf '%s\n' '#pragma once' '#include "fitting/minimisers/optimizer.h"' \
     >"$tree/tests/test_problems.h"
   printf '%s\n' '#include <gtest/gtest.h>' '#include <nlohmann/json.hpp>' \
-    '#include "cli/report/report.h"' '#include "tests/test_problems.h"' \
+    '#include "cli/output/report.h"' '#include "tests/test_problems.h"' \
     >"$tree/tests/optimizer_test.cc"
 }
 
@@ -79,18 +82,20 @@ check_includes || fail "check_includes refuses a good tree"
 violation stats/summary.h '#include "data/csv.h"'
 violation stats/summary.cc '#include "fitting/minimisers/optimizer.h"'
 violation stats/summary.cc '#include "models/study/study.h"'
-violation stats/summary.cc '#include "cli/report/report.h"'
+violation stats/summary.cc '#include "cli/output/report.h"'
 violation data/csv.h '#include "stats/summary.h"'
 violation data/csv.h '#include "fitting/minimisers/optimizer.h"'
 violation data/csv.h '#include "models/study/study.h"'
-violation data/csv.h '#include "cli/report/report.h"'
+violation data/csv.h '#include "cli/output/report.h"'
 violation fitting/minimisers/optimizer.h '#include "data/csv.h"'
 violation fitting/minimisers/optimizer.h '#include "models/study/study.h"'
-violation fitting/minimisers/ceres_optimizer.cc '#include "cli/report/report.h"'
-violation models/study/study.cc '#include "cli/report/report.h"'
-violation models/study/study.cc '  #  include "cli/report/report.h"  // indented'
+violation fitting/minimisers/ceres_optimizer.cc '#include "cli/output/report.h"'
+violation models/study/study.cc '#include "cli/output/report.h"'
+violation models/study/study.cc '  #  include "cli/output/report.h"  // indented'
+violation models/report/page.h '#include "cli/output/report.h"'
 # Between rooms: upwards, sideways, unknown, and from the root of a folder.
 violation models/net/net.h '#include "models/study/study.h"'
+violation models/study/study.cc '#include "models/report/page.h"'
 violation models/kind.h '#include "models/net/net.h"'
 violation fitting/minimisers/optimizer.h '#include "fitting/nonlinear/fit.h"'
 cases=$((cases + 1))
@@ -114,14 +119,14 @@ violation stats/summary.cc '#include "tests/test_problems.h"'
 violation data/csv.h '#include "tests/test_problems.h"'
 violation fitting/minimisers/optimizer.h '#include "tests/test_problems.h"'
 violation models/study/study.h '#include "tests/test_problems.h"'
-violation cli/report/report.cc '#include "tests/test_problems.h"'
+violation cli/output/report.cc '#include "tests/test_problems.h"'
 # Not written from the root, not in quotes, not readable.
 violation stats/summary.cc '#include "summary.h"'
 violation models/study/study.cc '#include "../stats/summary.h"'
 violation models/study/study.cc '#include "models/../stats/summary.h"'
 violation tests/optimizer_test.cc '#include "test_problems.h"'
-violation cli/report/report.cc '#include <models/study/study.h>'
-violation cli/report/report.cc '#include REPORT_HEADER'
+violation cli/output/report.cc '#include <models/study/study.h>'
+violation cli/output/report.cc '#include REPORT_HEADER'
 # Foreign libraries away from home.
 violation fitting/minimisers/optimizer.h '#include <ceres/types.h>'
 violation models/study/study.cc '#include <ceres/ceres.h>'
@@ -132,7 +137,7 @@ violation models/study/study.cc '#include <nlopt.h>'
 violation fitting/minimisers/ceres_optimizer.cc '#include <boost/math/tools/roots.hpp>'
 violation stats/summary.h '#include <boost/math/tools/roots.hpp>'
 violation models/study/study.cc '#include <CLI/CLI.hpp>'
-violation cli/report/report.h '#include <CLI/App.hpp>'
+violation cli/output/report.h '#include <CLI/App.hpp>'
 violation data/csv.h '#include <nlohmann/json.hpp>'
 violation models/study/study.h '#include <nlohmann/json_fwd.hpp>'
 violation stats/summary.cc '#include <nlohmann/json.hpp>'

@@ -6,11 +6,11 @@
 
 #include "cli/command.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/shell/number_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "data/atomic_file.h"
 #include "data/formats/pattern_file.h"
 #include "data/text.h"
+#include "models/report/number_text.h"
 
 namespace errmap::cli {
 namespace {

@@ -7,12 +7,12 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/report/table.h"
 #include "cli/shell/model_defaults.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
-#include "cli/shell/wrap_text.h"
 #include "models/recipe_catalog.h"
+#include "models/report/table.h"
+#include "models/report/wrap_text.h"
 
 namespace errmap::cli {
 namespace {

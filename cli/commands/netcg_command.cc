@@ -10,7 +10,6 @@
 #include "cli/commands/format_option.h"
 #include "cli/commands/netcg_json.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/shell/number_text.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/provenance.h"
@@ -18,6 +17,7 @@
 #include "data/text.h"
 #include "models/netcg/netcg_files.h"
 #include "models/netcg/report_study.h"
+#include "models/report/number_text.h"
 
 namespace errmap::cli {
 namespace {

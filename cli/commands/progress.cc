@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/wrap_text.h"
 #include "cli/study_file/plan/rough_time.h"
+#include "models/report/wrap_text.h"
 
 namespace errmap::cli {
 

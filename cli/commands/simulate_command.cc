@@ -8,10 +8,10 @@
 
 #include "cli/command.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/shell/number_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "data/turning_centre/simulation.h"
 #include "data/turning_centre/simulation_files.h"
+#include "models/report/number_text.h"
 
 namespace errmap::cli {
 namespace {

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "cli/shell/number_text.h"
 #include "cli/study_file/plan/rough_time.h"
 #include "cli/study_file/plan/study_plan.h"
 #include "data/text.h"
+#include "models/report/number_text.h"
 
 namespace errmap::cli {
 namespace {

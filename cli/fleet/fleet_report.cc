@@ -10,13 +10,13 @@
 
 #include <fmt/format.h>
 
-#include "cli/report/documents/report_style.h"
-#include "cli/report/figures/row_pictures.h"
-#include "cli/report/figures/svg.h"
-#include "cli/report/html.h"
-#include "cli/report/plot.h"
-#include "cli/report/report_view.h"
-#include "cli/report/table.h"
+#include "models/report/documents/report_style.h"
+#include "models/report/figures/row_pictures.h"
+#include "models/report/figures/svg.h"
+#include "models/report/html.h"
+#include "models/report/plot.h"
+#include "models/report/report_view.h"
+#include "models/report/table.h"
 
 namespace errmap::cli {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/report/table.h"
 #include "models/fleet/component_summary.h"
+#include "models/report/table.h"
 
 namespace errmap::cli {
 

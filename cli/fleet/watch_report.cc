@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "cli/fleet/store_folder.h"
-#include "cli/report/documents/report_style.h"
-#include "cli/report/figures/svg.h"
-#include "cli/report/html.h"
-#include "cli/report/plot.h"
-#include "cli/shell/shell_word.h"
+#include "models/report/documents/report_style.h"
+#include "models/report/figures/svg.h"
+#include "models/report/html.h"
+#include "models/report/plot.h"
+#include "models/report/shell_word.h"
 
 namespace errmap::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/fleet/deployments.h"
-#include "cli/report/table.h"
+#include "models/report/table.h"
 
 namespace errmap::cli {
 

@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "cli/output/report_files.h"
-#include "cli/report/documents/residuals_csv.h"
 #include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
 #include "models/model_file.h"
+#include "models/report/documents/residuals_csv.h"
 
 namespace errmap::cli {
 namespace {

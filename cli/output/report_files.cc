@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
-#include "cli/report/documents/report_html.h"
-#include "cli/report/documents/report_markdown.h"
-#include "cli/report/figures/learning_figures.h"
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
 #include "data/text.h"
+#include "models/report/documents/report_html.h"
+#include "models/report/documents/report_markdown.h"
+#include "models/report/figures/learning_figures.h"
 
 namespace errmap::cli {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "cli/output/claimed_folder.h"
-#include "cli/report/figures/figures.h"
 #include "models/promise/learning_record.h"
+#include "models/report/figures/figures.h"
 #include "models/study/record/study_record.h"
 
 namespace errmap::cli {

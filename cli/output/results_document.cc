@@ -1,9 +1,9 @@
 #include "cli/output/results_document.h"
 
 #include "cli/output/configuration_record.h"
-#include "cli/report/words/verdict_text.h"
 #include "cli/shell/shown_path.h"
 #include "cli/study_file/provenance.h"
+#include "models/report/words/verdict_text.h"
 #include "models/study/record/make_study_record.h"
 #include "models/version.h"
 

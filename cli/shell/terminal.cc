@@ -7,7 +7,7 @@
 #include <sys/ioctl.h>
 
 #include "cli/shell/standard_streams.h"
-#include "cli/shell/wrap_text.h"
+#include "models/report/wrap_text.h"
 
 namespace errmap::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "cli/shell/screen.h"
+#include "models/report/screen.h"
 
 namespace errmap::cli {
 

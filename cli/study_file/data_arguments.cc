@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/shell/number_text.h"
 #include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/fault_text.h"
 #include "models/model_spec.h"
 #include "models/recipe_catalog.h"
+#include "models/report/number_text.h"
 
 namespace errmap::cli {
 

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/shell/number_text.h"
 #include "data/text.h"
 #include "models/fault_effect.h"
+#include "models/report/number_text.h"
 
 namespace errmap::cli {
 namespace {

@@ -10,11 +10,11 @@
 
 #include "cli/command.h"
 #include "cli/output/results_document.h"
-#include "cli/report/documents/study_table.h"
 #include "cli/study_file/plan/study_plan.h"
 #include "cli/study_file/plan/study_run.h"
 #include "data/csv.h"
 #include "data/input_error.h"
+#include "models/report/documents/study_table.h"
 #include "models/study/record/study_record.h"
 #include "tests/fuzz/readers.h"
 #include "tests/fuzz/scratch_folder.h"

@@ -10,7 +10,6 @@
 #include "cli/command.h"
 #include "cli/commands/control/export_tables.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/shell/number_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "data/input_error.h"
 #include "data/text.h"
@@ -22,6 +21,7 @@
 #include "models/export/safe_names.h"
 #include "models/export/structured_text.h"
 #include "models/model_file.h"
+#include "models/report/number_text.h"
 
 namespace errmap::cli {
 namespace {

@@ -11,7 +11,6 @@
 #include "cli/command.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/shell/number_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/memory/map_log.h"
 #include "data/atomic_file.h"
@@ -20,6 +19,7 @@
 #include "models/export/compensation_table.h"
 #include "models/export/error_curve.h"
 #include "models/model_file.h"
+#include "models/report/number_text.h"
 
 namespace errmap::cli {
 namespace {

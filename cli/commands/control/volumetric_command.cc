@@ -17,7 +17,6 @@
 #include "cli/command.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/shell/number_text.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/machine/machine_file.h"
@@ -30,6 +29,7 @@
 #include "data/text.h"
 #include "models/kinematics/machine.h"
 #include "models/kinematics/volumetric.h"
+#include "models/report/number_text.h"
 #include "stats/summary.h"
 
 namespace errmap::cli {

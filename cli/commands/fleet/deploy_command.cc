@@ -12,7 +12,6 @@
 #include "cli/fleet/gzip.h"
 #include "cli/fleet/store.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/shell/number_text.h"
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
@@ -20,6 +19,7 @@
 #include "data/text.h"
 #include "models/map_experience.h"
 #include "models/model_file.h"
+#include "models/report/number_text.h"
 
 namespace errmap::cli {
 namespace {

@@ -9,9 +9,9 @@
 #include "cli/commands/fleet/fleet_commands.h"
 #include "cli/fleet/store.h"
 #include "cli/json_blocks.h"
-#include "cli/report/table.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
+#include "models/report/table.h"
 
 namespace errmap::cli {
 namespace {

@@ -9,7 +9,6 @@
 #include "cli/commands/maps/map_rows.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/json_blocks.h"
-#include "cli/shell/number_text.h"
 #include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
@@ -20,6 +19,7 @@
 #include "models/model_file.h"
 #include "models/promise/applicability.h"
 #include "models/promise/session_check.h"
+#include "models/report/number_text.h"
 
 namespace errmap::cli {
 namespace {

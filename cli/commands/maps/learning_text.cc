@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/report/learning_words.h"
 #include "data/text.h"
+#include "models/report/learning_words.h"
 
 namespace errmap::cli {
 namespace {

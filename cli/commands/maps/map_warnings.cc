@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "cli/shell/number_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "data/measurements/column_match.h"
 #include "data/text.h"
+#include "models/report/number_text.h"
 #include "models/trained_range.h"
 
 namespace errmap::cli {

@@ -12,8 +12,6 @@
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/commands/maps/probe_correction.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/report/words/interval_text.h"
-#include "cli/shell/number_text.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/memory/map_log.h"
@@ -22,6 +20,8 @@
 #include "data/formula_text.h"
 #include "data/measurements/dataset.h"
 #include "models/model_file.h"
+#include "models/report/number_text.h"
+#include "models/report/words/interval_text.h"
 #include "models/trained_range.h"
 
 namespace errmap::cli {

@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "cli/commands/maps/map_rows.h"
-#include "cli/shell/number_text.h"
 #include "data/input_error.h"
 #include "models/promise/session_offset.h"
+#include "models/report/number_text.h"
 
 namespace errmap::cli {
 namespace {

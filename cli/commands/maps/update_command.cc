@@ -13,7 +13,6 @@
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/shell/interrupt.h"
-#include "cli/shell/number_text.h"
 #include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
@@ -23,6 +22,7 @@
 #include "models/model_file.h"
 #include "models/promise/map_update.h"
 #include "models/promise/promise.h"
+#include "models/report/number_text.h"
 #include "models/study/study_defaults.h"
 
 namespace errmap::cli {

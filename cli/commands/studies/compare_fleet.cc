@@ -14,10 +14,10 @@
 #include "cli/fleet/launcher.h"
 #include "cli/fleet/merge.h"
 #include "cli/shell/interrupt.h"
-#include "cli/shell/number_text.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "data/text.h"
+#include "models/report/number_text.h"
 
 namespace errmap::cli {
 namespace {

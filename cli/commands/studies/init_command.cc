@@ -7,7 +7,6 @@
 
 #include "cli/command.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/shell/number_text.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/plan/study_plan.h"
@@ -16,6 +15,7 @@
 #include "data/atomic_file.h"
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
+#include "models/report/number_text.h"
 
 namespace errmap::cli {
 namespace {

@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "cli/shell/number_text.h"
 #include "cli/shell/terminal.h"
-#include "cli/shell/wrap_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "data/text.h"
 #include "models/promise/probe_study.h"
+#include "models/report/number_text.h"
+#include "models/report/wrap_text.h"
 
 namespace errmap::cli {
 

@@ -10,14 +10,14 @@
 #include "cli/fleet/store_folder.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/output/report_files.h"
-#include "cli/report/documents/report_html.h"
-#include "cli/report/documents/report_markdown.h"
-#include "cli/report/figures/figures.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "models/report/documents/report_html.h"
+#include "models/report/documents/report_markdown.h"
+#include "models/report/figures/figures.h"
 #include "models/study/record/study_record.h"
 
 namespace errmap::cli {

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cli/shell/number_text.h"
 #include "cli/study_file/memory/point_log.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
@@ -17,6 +16,7 @@
 #include "data/text.h"
 #include "models/history/view.h"
 #include "models/map_experience.h"
+#include "models/report/number_text.h"
 #include "models/trained_range.h"
 #include "stats/distributions.h"
 

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "cli/shell/number_text.h"
-#include "cli/shell/wrap_text.h"
 #include "cli/study_file/plan/rough_time.h"
 #include "data/text.h"
+#include "models/report/number_text.h"
+#include "models/report/wrap_text.h"
 
 namespace errmap::cli {
 namespace {

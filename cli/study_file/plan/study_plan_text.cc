@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cli/shell/number_text.h"
-#include "cli/shell/wrap_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/plan/rough_time.h"
 #include "data/text.h"
+#include "models/report/number_text.h"
+#include "models/report/wrap_text.h"
 
 namespace errmap::cli {
 namespace {

@@ -11,11 +11,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cli/shell/number_text.h"
-#include "cli/shell/wrap_text.h"
 #include "cli/study_file/data_arguments.h"
 #include "cli/study_file/toml/toml_text.h"
 #include "data/text.h"
+#include "models/report/number_text.h"
+#include "models/report/wrap_text.h"
 #include "stats/holdout.h"
 
 namespace errmap::cli {

@@ -5,7 +5,7 @@
 #include <regex>
 #include <set>
 
-#include "cli/shell/wrap_text.h"
+#include "models/report/wrap_text.h"
 #include "tests/cli/cli_fixture.h"
 #include "tests/cli/one_line.h"
 

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "models/report/figures/figures.h"
+
+namespace errmap::cli {
+
+/// Held-out error of the recommended map without each of its sensors, and
+/// without those that are alike; none where the record has nothing of it.
+std::vector<Figure> ImportanceFigures(const ReportView& view,
+                                      const std::string& prefix);
+
+}  // namespace errmap::cli
