@@ -81,7 +81,7 @@ std::string ProvenanceCommandLine(int argc, char** argv) {
         word.starts_with("--format=") || word.starts_with("--shard=")) {
       continue;
     }
-    line += " " + ShellWord(word);
+    line += " " + report::ShellWord(word);
   }
   return line;
 }

@@ -49,14 +49,15 @@ int RunCertify(const CertifyArguments& arguments,
         ProvenanceJson(command_line, {{"part", arguments.part}}, {});
     PrintResult(DumpJson(document));
   } else {
-    PrintResult(CertificationText(certification, floors, arguments.details));
+    PrintResult(
+        report::CertificationText(certification, floors, arguments.details));
   }
   if (certification.passed()) return kDone;
   const auto missed = static_cast<long long>(certification.missed.size());
   Say(
       fmt::format("certify: {} missed, the first: {}; this installation is not "
                   "to be trusted",
-                  Count(missed, "floor"),
+                  report::Count(missed, "floor"),
                   certification.missed.front()));
   return kEveryFitFailed;
 }

@@ -29,9 +29,9 @@ int RunConvert(const ConvertArguments& arguments) {
       data::PatternText(table, data::PatternFormOf(arguments.out)));
   if (!arguments.quiet) {
     Say(fmt::format("{} of {} and {} in {}",
-                    Count(table.input_values.rows(), "pattern"),
-                    Count(table.input_values.cols(), "input"),
-                    Count(table.target_values.cols(), "target"),
+                    report::Count(table.input_values.rows(), "pattern"),
+                    report::Count(table.input_values.cols(), "input"),
+                    report::Count(table.target_values.cols(), "target"),
                     data::PrintablePath(arguments.out)));
   }
   return kDone;

@@ -18,15 +18,15 @@ namespace errmap::cli {
 namespace {
 
 std::string ListText(std::size_t width) {
-  Table table{.columns = {{.name = "model", .is_number = false},
-                          {.name = "what it is", .is_number = false}}};
+  report::Table table{.columns = {{.name = "model", .is_number = false},
+                                  {.name = "what it is", .is_number = false}}};
   for (const std::string& type : models::ModelTypes()) {
     table.rows.push_back({type, models::AboutModel(type)});
   }
   table.rows.push_back({"poly:formula=x+x^2+x*t", "the terms as written"});
   table.rows.push_back({"file:model.json", "an existing map, as it is"});
-  return TerminalTable(table, width) + "\n" +
-         WrapText(
+  return report::TerminalTable(table, width) + "\n" +
+         report::WrapText(
              "Options follow after colons, as in "
              "net:scg:hidden=60:wfactor=1e-3; errmap models MODEL lists those "
              "of a model.",
@@ -59,7 +59,7 @@ std::string ModelText(const std::string& type, std::size_t width) {
   for (const std::string& name : names) {
     std::string begin = fmt::format("{:13} {:11} ", name, defaults[name]);
     for (const std::string& line :
-         WrapLines(ValuesOf(type, name), width - kIndent)) {
+         report::WrapLines(ValuesOf(type, name), width - kIndent)) {
       text += fmt::format("{:{}}{}\n", begin, kIndent, line);
       begin.clear();
     }

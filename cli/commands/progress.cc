@@ -34,7 +34,7 @@ std::string ProgressText(const ProgressState& state, std::size_t width) {
          {fits + elapsed + about + left + best + " (" + state.holdout + ")",
           fits + elapsed + about + left + best,
           fits + brief + best}) {
-      if (WidthOf(text) <= width) return text;
+      if (report::WidthOf(text) <= width) return text;
     }
   }
   return fits + elapsed + about + left;

@@ -244,7 +244,7 @@ int RunResiduals(const ResidualsArguments& arguments,
           ? std::numeric_limits<double>::quiet_NaN()
           : stats::RSquaredAsPrinted1995(inputs.fitted + values, inputs.fitted);
   const std::string sentences =
-      ResidualSentences(report, metrics.residuals, printed, unit);
+      report::ResidualSentences(report, metrics.residuals, printed, unit);
   if (arguments.format == "json") {
     Json document = {
         {"schema", "errmap-residuals-1"},
@@ -274,21 +274,22 @@ int RunResiduals(const ResidualsArguments& arguments,
       "{}, column {}: {} in {}{}\n",
       arguments.file,
       arguments.column,
-      Count(values.size(), "value"),
+      report::Count(values.size(), "value"),
       inputs.order,
       inputs.group_column.empty() ? "" : ", groups " + inputs.group_column));
   if (arguments.as_printed_1995) {
-    PrintResult(Report1995Text(printed, r_squared_1995, unit) + "\ncorrect:\n");
+    PrintResult(report::Report1995Text(printed, r_squared_1995, unit) +
+                "\ncorrect:\n");
   }
-  PrintResult(
-      fmt::format("{}\n{}\n{}\n{}\n",
-                  SampleText(metrics, values, report.normality.shape, unit),
-                  NormalityText(report, values.size()),
-                  RandomnessText(report),
-                  WrapText(sentences, kWidth)));
+  PrintResult(fmt::format(
+      "{}\n{}\n{}\n{}\n",
+      report::SampleText(metrics, values, report.normality.shape, unit),
+      report::NormalityText(report, values.size()),
+      report::RandomnessText(report),
+      report::WrapText(sentences, kWidth)));
   if (arguments.details) {
-    PrintResult(
-        DetailsText(report, values, unit, static_cast<Index>(arguments.bins)));
+    PrintResult(report::DetailsText(
+        report, values, unit, static_cast<Index>(arguments.bins)));
   }
   return kDone;
 }

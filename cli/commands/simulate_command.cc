@@ -50,9 +50,9 @@ int RunSimulate(const SimulateArguments& arguments) {
   folder.Finish();
   if (!arguments.quiet) {
     Say(fmt::format("{} of {}, {} in {}; README.md there says what they are",
-                    Count(options.days, "day"),
-                    Count(options.cycles, "cycle"),
-                    Count(static_cast<long long>(names.size()), "file"),
+                    report::Count(options.days, "day"),
+                    report::Count(options.cycles, "cycle"),
+                    report::Count(static_cast<long long>(names.size()), "file"),
                     arguments.folder));
   }
   return kDone;

@@ -69,12 +69,12 @@ std::string FleetPlanText(const FleetPlan& plan,
   std::string text = fmt::format(
       "{}, of which {} were looked at\nsome {:.0f} fits in all; roughly {} on "
       "{} of {}\n",
-      Count(plan.components, "component"),
+      report::Count(plan.components, "component"),
       plan.looked_at,
       plan.fits,
       RoughTimeText(plan.seconds / static_cast<double>(tasks * jobs)),
-      Count(tasks, "task"),
-      Count(jobs, "job"));
+      report::Count(tasks, "task"),
+      report::Count(jobs, "job"));
   for (const std::string& line : plan.unusable) {
     text += "unusable: " + line + "\n";
   }

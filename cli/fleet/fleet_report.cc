@@ -69,11 +69,11 @@ std::string Paragraph(const std::string& html, const char* style = "soft") {
 
 std::string Collapsed(const std::string& title, const std::string& content) {
   return fmt::format("<details><summary>{}</summary>\n{}</details>\n",
-                     HtmlText(title),
+                     report::HtmlText(title),
                      content);
 }
 
-std::string FigureHtml(const Plot& plot,
+std::string FigureHtml(const report::Plot& plot,
                        const std::string& title,
                        const std::string& description,
                        bool wide) {
@@ -81,9 +81,9 @@ std::string FigureHtml(const Plot& plot,
       "<figure{}><figcaption><b>{}</b></figcaption>{}<p class=\"soft "
       "small\">{}</p></figure>\n",
       wide ? " class=\"wide\"" : "",
-      HtmlText(title),
-      Svg(plot, title, description),
-      HtmlText(description));
+      report::HtmlText(title),
+      report::Svg(plot, title, description),
+      report::HtmlText(description));
 }
 
 class FleetPage {
@@ -100,8 +100,8 @@ class FleetPage {
   }
 
   std::string Html() const {
-    const std::string title =
-        fmt::format("Error maps of {}", Count(all_.components, "component"));
+    const std::string title = fmt::format(
+        "Error maps of {}", report::Count(all_.components, "component"));
     std::string html = fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
         "<meta name=\"viewport\" content=\"width=device-width, "
@@ -109,9 +109,9 @@ class FleetPage {
         "content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
         "data:\">\n<title>{}</title>\n<style>{}</style></head>\n<body>\n"
         "<header><h1>{}</h1></header>\n<main>\n",
-        HtmlText(title),
-        kReportStyle,
-        HtmlText(title));
+        report::HtmlText(title),
+        report::kReportStyle,
+        report::HtmlText(title));
     html += Answer() + Matrix() + ByField(0) + ByField(1) + Worst() +
             Failures() + All();
     return html + Footer() + "</main>\n</body></html>\n";
@@ -125,7 +125,7 @@ class FleetPage {
         "<p class=\"sentence\">{} of {} with a goal meet it on rows that no "
         "fit saw; {} failed{}.</p>",
         all_.met,
-        Count(judged, "component"),
+        report::Count(judged, "component"),
         all_.failed,
         found_.missing.empty()
             ? std::string()
@@ -141,12 +141,12 @@ class FleetPage {
           "mean).</p>",
           kPercent * all_.Left());
     }
-    return "<div class=\"answer\">" + card + HtmlTable(Winners()) + "</div>" +
-           "<div>" + Distribution() + "</div></div>\n";
+    return "<div class=\"answer\">" + card + report::HtmlTable(Winners()) +
+           "</div>" + "<div>" + Distribution() + "</div></div>\n";
   }
 
   // Where polynomials, nets, or maps that remember win.
-  Table Winners() const {
+  report::Table Winners() const {
     std::map<std::string, std::pair<std::int64_t, std::int64_t>> counts;
     for (const ComponentSummary& summary : found_.summaries) {
       if (!HasMap(summary)) continue;
@@ -155,14 +155,14 @@ class FleetPage {
       ++maps;
       remember += summary.recommendation->longest_memory ? 1 : 0;
     }
-    Table table;
+    report::Table table;
     table.columns = {{.name = "recommended", .is_number = false},
                      {.name = "components"},
                      {.name = "with a memory"}};
     for (const auto& [choice, count] : counts) {
-      table.rows.push_back({Cell(std::string_view(choice)),
-                            Cell(count.first),
-                            Cell(count.second)});
+      table.rows.push_back({report::Cell(std::string_view(choice)),
+                            report::Cell(count.first),
+                            report::Cell(count.second)});
     }
     table.missing = "no component has a map";
     return table;
@@ -170,8 +170,10 @@ class FleetPage {
 
   // Share of the components up to an error, before and after.
   std::string Distribution() const {
-    Series before{.label = "no map", .mark = Mark::kLine, .colour = "#A33A00"};
-    Series after{.label = "recommended map", .mark = Mark::kLine};
+    report::Series before{
+        .label = "no map", .mark = report::Mark::kLine, .colour = "#A33A00"};
+    report::Series after{.label = "recommended map",
+                         .mark = report::Mark::kLine};
     std::vector<double> errors_before;
     std::vector<double> errors_after;
     std::int64_t left_out = 0;
@@ -187,17 +189,17 @@ class FleetPage {
     }
     before.columns = Shares(std::move(errors_before));
     after.columns = Shares(std::move(errors_after));
-    Plot plot;
+    report::Plot plot;
     plot.name = "distribution";
     plot.x = {.quantity = "RMSE held out",
-              .unit = PrettyUnit(unit_),
+              .unit = report::PrettyUnit(unit_),
               .logarithmic = true};
     plot.y = {.quantity = "components up to it",
               .unit = "%",
               .low = 0.0,
               .high = kPercent};
     plot.series = {before, after};
-    if (!HasPoints(plot)) {
+    if (!report::HasPoints(plot)) {
       return "<figure><figcaption><b>Errors before and after</b></figcaption>"
              "<p class=\"absent\">No component has a map.</p></figure>";
     }
@@ -248,7 +250,7 @@ class FleetPage {
     if (rows.size() < 2 || columns.size() < 2) return "";
     constexpr double kHalf = 0.5;
     constexpr double kLimit = 2.0;
-    Series series{.mark = Mark::kCells};
+    report::Series series{.mark = report::Mark::kCells};
     series.columns.resize(5);
     NumberKeys(&rows);
     NumberKeys(&columns);
@@ -263,7 +265,7 @@ class FleetPage {
       }
     }
     const int height = std::clamp(16 * static_cast<int>(rows.size()), 240, 900);
-    Plot plot;
+    report::Plot plot;
     plot.name = "matrix";
     plot.width = 820;
     plot.height = height;
@@ -308,7 +310,7 @@ class FleetPage {
       }
     }
     if (tallies.empty()) return "";
-    Table table;
+    report::Table table;
     table.columns = {{.name = FieldName(field), .is_number = false},
                      {.name = "components"},
                      {.name = "goal met"},
@@ -316,15 +318,16 @@ class FleetPage {
                      {.name = "failed"},
                      {.name = "error left, %"}};
     for (const auto& [value, tally] : tallies) {
-      table.rows.push_back({Cell(std::string_view(value)),
-                            Cell(tally.components),
-                            Cell(tally.met),
-                            Cell(tally.missed),
-                            Cell(tally.failed),
-                            Cell(Number{kPercent * tally.Left(), 3})});
+      table.rows.push_back(
+          {report::Cell(std::string_view(value)),
+           report::Cell(tally.components),
+           report::Cell(tally.met),
+           report::Cell(tally.missed),
+           report::Cell(tally.failed),
+           report::Cell(report::Number{kPercent * tally.Left(), 3})});
     }
     return Collapsed(fmt::format("By {}: {}", FieldName(field), tallies.size()),
-                     HtmlTable(table));
+                     report::HtmlTable(table));
   }
 
   std::string Worst() const {
@@ -360,8 +363,8 @@ class FleetPage {
           std::isfinite(found.uncompensated)
               ? fmt::format("{:.3g}", scale * found.uncompensated)
               : "-",
-          HtmlText(PrettyUnit(summary->display.unit)),
-          HtmlName(found.model));
+          report::HtmlText(report::PrettyUnit(summary->display.unit)),
+          report::HtmlName(found.model));
     }
     return html + "</table></div>\n";
   }
@@ -370,11 +373,12 @@ class FleetPage {
     std::string list;
     for (const ComponentSummary& summary : found_.summaries) {
       if (HasMap(summary)) continue;
-      list += "<li>" + HtmlName(summary.name) + ": " +
-              HtmlText(summary.why.value_or("")) + "</li>\n";
+      list += "<li>" + report::HtmlName(summary.name) + ": " +
+              report::HtmlText(summary.why.value_or("")) + "</li>\n";
     }
     for (const std::string& name : found_.missing) {
-      list += "<li>" + HtmlName(name) + ": missing, run its share again</li>\n";
+      list += "<li>" + report::HtmlName(name) +
+              ": missing, run its share again</li>\n";
     }
     if (list.empty()) return "";
     return Collapsed("Components that failed or are missing",
@@ -400,12 +404,12 @@ class FleetPage {
           "<tr><td class=\"t\">{}</td><td class=\"t\">{}</td><td>{:.3g} {}</td>"
           "<td>{}</td>{}<td class=\"t\">{}</td></tr>\n",
           Linked(summary),
-          HtmlName(found.model),
+          report::HtmlName(found.model),
           scale * found.rmse,
-          HtmlText(PrettyUnit(summary.display.unit)),
+          report::HtmlText(report::PrettyUnit(summary.display.unit)),
           interval,
           pictures ? "<td class=\"t\">" +
-                         IntervalPicture(
+                         report::IntervalPicture(
                              found.rmse, found.ci95, found.uncompensated) +
                          "</td>"
                    : "",
@@ -428,12 +432,12 @@ class FleetPage {
     std::error_code ignored;
     if (!std::filesystem::exists(paths_.InFolder(summary.name, kPageFile),
                                  ignored)) {
-      return HtmlName(summary.name);
+      return report::HtmlName(summary.name);
     }
     return fmt::format("<a href=\"{}/{}\">{}</a>",
-                       HtmlText(StorePaths::FolderOf(summary.name)),
+                       report::HtmlText(StorePaths::FolderOf(summary.name)),
                        kPageFile,
-                       HtmlName(summary.name));
+                       report::HtmlName(summary.name));
   }
 
   std::string Footer() const {
@@ -441,8 +445,8 @@ class FleetPage {
         fmt::format("errmap {}, study {}, seed {}. A component's own page: "
                     "errmap report STORE --component NAME. Errors are RMSE "
                     "on rows held out of the fit, error = actual - nominal.",
-                    HtmlText(found_.fleet.version),
-                    HtmlText(found_.fleet.file),
+                    report::HtmlText(found_.fleet.version),
+                    report::HtmlText(found_.fleet.file),
                     found_.fleet.seed),
         "soft small");
   }

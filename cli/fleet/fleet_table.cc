@@ -44,7 +44,7 @@ std::string Headline(const std::vector<ComponentSummary>& summaries) {
   }
   return fmt::format(
       "{}: goal met by {}, not met by {}{}, failed {}\n",
-      Count(std::ssize(summaries), "component"),
+      report::Count(std::ssize(summaries), "component"),
       met,
       missed,
       without == 0 ? std::string() : fmt::format(", no goal for {}", without),
@@ -53,8 +53,8 @@ std::string Headline(const std::vector<ComponentSummary>& summaries) {
 
 }  // namespace
 
-Table FleetTable(const std::vector<ComponentSummary>& summaries) {
-  Table table;
+report::Table FleetTable(const std::vector<ComponentSummary>& summaries) {
+  report::Table table;
   table.columns = {{.name = "component", .is_number = false},
                    {.name = "status", .is_number = false},
                    {.name = "recommended", .is_number = false},
@@ -64,18 +64,18 @@ Table FleetTable(const std::vector<ComponentSummary>& summaries) {
                    {.name = "unit", .is_number = false},
                    {.name = "goal", .is_number = false}};
   for (const ComponentSummary& summary : summaries) {
-    std::vector<Cell> row{Cell(std::string_view(summary.name)),
-                          Cell(ToString(summary.status))};
+    std::vector<report::Cell> row{report::Cell(std::string_view(summary.name)),
+                                  report::Cell(ToString(summary.status))};
     if (summary.recommendation) {
       const auto& found = *summary.recommendation;
       const double scale = summary.display.scale;
       row.insert(row.end(),
-                 {Cell(std::string_view(found.model)),
-                  Cell(std::string_view(found.holdout)),
-                  Cell(Number{found.uncompensated, 4, scale}),
-                  Cell(Number{found.rmse, 4, scale}),
-                  Cell(std::string_view(summary.display.unit)),
-                  Cell(ToString(found.goal))});
+                 {report::Cell(std::string_view(found.model)),
+                  report::Cell(std::string_view(found.holdout)),
+                  report::Cell(report::Number{found.uncompensated, 4, scale}),
+                  report::Cell(report::Number{found.rmse, 4, scale}),
+                  report::Cell(std::string_view(summary.display.unit)),
+                  report::Cell(ToString(found.goal))});
     }
     row.resize(table.columns.size());
     table.rows.push_back(std::move(row));
@@ -85,8 +85,8 @@ Table FleetTable(const std::vector<ComponentSummary>& summaries) {
 
 std::string FormattedFleet(const std::vector<ComponentSummary>& summaries,
                            const std::string& format) {
-  if (format == "csv") return CsvTable(FleetTable(summaries));
-  if (format == "md") return MarkdownTable(FleetTable(summaries));
+  if (format == "csv") return report::CsvTable(FleetTable(summaries));
+  if (format == "md") return report::MarkdownTable(FleetTable(summaries));
   if (format == "json") {
     models::RecordJson document = {{"schema", "errmap-fleet-results-1"},
                                    {"components", models::ToJson(summaries)}};
@@ -102,7 +102,7 @@ std::string FormattedFleet(const std::vector<ComponentSummary>& summaries,
     worst.resize(kMostShown);
     note = fmt::format("The worst {} against their goals:\n", kMostShown);
   }
-  return Headline(summaries) + note + TerminalTable(FleetTable(worst));
+  return Headline(summaries) + note + report::TerminalTable(FleetTable(worst));
 }
 
 }  // namespace errmap::cli

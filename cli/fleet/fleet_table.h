@@ -9,7 +9,8 @@
 namespace errmap::cli {
 
 /// A row per component: what is recommended and how it does.
-Table FleetTable(const std::vector<models::ComponentSummary>& summaries);
+report::Table FleetTable(
+    const std::vector<models::ComponentSummary>& summaries);
 
 /// What compare --format prints of a fleet; on a terminal, of a large one, the
 /// numbers and the components that failed or do worst.

@@ -19,12 +19,12 @@ using models::WatchStatus;
 
 std::string Figure(const WatchedComponent& component, std::size_t number) {
   const double scale = component.deployment.shown_scale;
-  Series found{.label = "found", .mark = Mark::kPoints};
-  Series line{.label = "", .mark = Mark::kLine};
-  Series promised{.label = "promised",
-                  .mark = Mark::kLine,
-                  .colour = "#A33A00",
-                  .dashed = true};
+  report::Series found{.label = "found", .mark = report::Mark::kPoints};
+  report::Series line{.label = "", .mark = report::Mark::kLine};
+  report::Series promised{.label = "promised",
+                          .mark = report::Mark::kLine,
+                          .colour = "#A33A00",
+                          .dashed = true};
   found.columns.resize(2);
   promised.columns.resize(2);
   for (std::size_t i = 0; i < component.checks.size(); ++i) {
@@ -40,7 +40,7 @@ std::string Figure(const WatchedComponent& component, std::size_t number) {
       static_cast<double>(component.checks.size() + 1));
   promised.columns[1].push_back(scale * component.deployment.promised);
   line.columns = found.columns;
-  Plot plot;
+  report::Plot plot;
   plot.name = fmt::format("watched-{}", number);
   plot.x = {.quantity = "session since it was deployed"};
   plot.y = {
@@ -53,9 +53,9 @@ std::string Figure(const WatchedComponent& component, std::size_t number) {
   return fmt::format(
       "<figure><figcaption><b>{}</b></figcaption>{}<p class=\"soft "
       "small\">{}</p></figure>\n",
-      HtmlName(component.deployment.component),
-      Svg(plot, component.deployment.component, description),
-      HtmlText(description));
+      report::HtmlName(component.deployment.component),
+      report::Svg(plot, component.deployment.component, description),
+      report::HtmlText(description));
 }
 
 }  // namespace
@@ -66,10 +66,10 @@ std::string WatchedComponent::Proposal(const std::string& store) const {
         "measure {}, then errmap update {} {} -o new.json; where that is "
         "better, errmap deploy {} {} --model new.json",
         what,
-        ShellWord(StorePaths{store}.Map(deployment.map)),
-        ShellWord(file),
-        ShellWord(store),
-        ShellWord(deployment.component));
+        report::ShellWord(StorePaths{store}.Map(deployment.map)),
+        report::ShellWord(file),
+        report::ShellWord(store),
+        report::ShellWord(deployment.component));
   };
   const auto outside = [&] {
     return checks.back().session.outside_share > models::kMostlyOutside;
@@ -90,8 +90,8 @@ std::string WatchedComponent::Proposal(const std::string& store) const {
   return why_not;
 }
 
-Table WatchTable(const std::vector<WatchedComponent>& components) {
-  Table table;
+report::Table WatchTable(const std::vector<WatchedComponent>& components) {
+  report::Table table;
   table.columns = {{.name = "component", .is_number = false},
                    {.name = "status", .is_number = false},
                    {.name = "sessions"},
@@ -103,21 +103,23 @@ Table WatchTable(const std::vector<WatchedComponent>& components) {
                    {.name = "shift"},
                    {.name = "p sensor"}};
   for (const WatchedComponent& component : components) {
-    std::vector<Cell> row{
-        Cell(std::string_view(component.deployment.component)),
-        Cell(ToString(component.status))};
+    std::vector<report::Cell> row{
+        report::Cell(std::string_view(component.deployment.component)),
+        report::Cell(ToString(component.status))};
     if (component.examined) {
       const double scale = component.deployment.shown_scale;
       const models::WatchedSession& newest = component.checks.back().session;
-      row.insert(row.end(),
-                 {Cell(std::ssize(component.checks)),
-                  Cell(Number{component.found, 3, scale}),
-                  Cell(Number{component.deployment.promised, 3, scale}),
-                  Cell(std::string_view(component.deployment.shown_unit)),
-                  Cell(P{component.p_map}),
-                  Cell(std::string_view(newest.sensor)),
-                  Cell(Number{newest.sensor_shift, 3}),
-                  Cell(P{newest.p_sensor})});
+      row.insert(
+          row.end(),
+          {report::Cell(std::ssize(component.checks)),
+           report::Cell(report::Number{component.found, 3, scale}),
+           report::Cell(
+               report::Number{component.deployment.promised, 3, scale}),
+           report::Cell(std::string_view(component.deployment.shown_unit)),
+           report::Cell(report::P{component.p_map}),
+           report::Cell(std::string_view(newest.sensor)),
+           report::Cell(report::Number{newest.sensor_shift, 3}),
+           report::Cell(report::P{newest.p_sensor})});
     }
     row.resize(table.columns.size());
     table.rows.push_back(std::move(row));
@@ -146,11 +148,11 @@ std::string WatchHtml(const std::string& store,
     }
     const std::string proposal = component.Proposal(store);
     if (proposal.empty()) continue;
-    proposals += "<li>" + HtmlName(component.deployment.component) + ": " +
-                 HtmlText(proposal) + "</li>\n";
+    proposals += "<li>" + report::HtmlName(component.deployment.component) +
+                 ": " + report::HtmlText(proposal) + "</li>\n";
   }
   const std::string title = fmt::format(
-      "Maps watched: {}", Count(std::ssize(components), "component"));
+      "Maps watched: {}", report::Count(std::ssize(components), "component"));
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
       "<meta name=\"viewport\" content=\"width=device-width, "
@@ -163,11 +165,11 @@ std::string WatchHtml(const std::string& store,
       "made; at most {5:g} % of the components that are named worse or changed "
       "are so by chance (Benjamini and Hochberg 1995).</p>\n</main>\n"
       "</body></html>\n",
-      HtmlText(title),
-      kReportStyle,
+      report::HtmlText(title),
+      report::kReportStyle,
       proposals.empty() ? "" : "<ul>" + proposals + "</ul>\n",
       figures,
-      HtmlTable(WatchTable(sorted)),
+      report::HtmlTable(WatchTable(sorted)),
       100.0 * models::kFalseDiscoveries);
 }
 

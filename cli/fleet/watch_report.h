@@ -28,7 +28,7 @@ struct WatchedComponent {
 };
 
 /// A row per component.
-Table WatchTable(const std::vector<WatchedComponent>& components);
+report::Table WatchTable(const std::vector<WatchedComponent>& components);
 
 /// watch.html: the table, and the sessions of those that are not as promised
 /// against what was promised.

@@ -135,7 +135,7 @@ void WriteOutputs(const StudyRun& run,
   const std::vector<ComponentFiles> files = FilesOf(run);
   folder->Write(kResults, models::ToJsonText(record));
   for (std::size_t i = 0; i < files.size(); ++i) {
-    folder->Write(files[i].residuals, ResidualsCsv(run.components[i]));
+    folder->Write(files[i].residuals, report::ResidualsCsv(run.components[i]));
     WriteModels(run, run.components[i], files[i].models, folder);
   }
   WriteReport(record, folder);

@@ -32,19 +32,19 @@ std::vector<models::LearningRecord> ReadLearning(const std::string& folder) {
   return found;
 }
 
-FigureSet FiguresInFolder(const models::StudyRecord& record,
-                          const std::string& folder,
-                          bool everything) {
-  FigureSet figures = MakeFigures(record, everything);
-  AddLearning(record, ReadLearning(folder), &figures);
+report::FigureSet FiguresInFolder(const models::StudyRecord& record,
+                                  const std::string& folder,
+                                  bool everything) {
+  report::FigureSet figures = report::MakeFigures(record, everything);
+  report::AddLearning(record, ReadLearning(folder), &figures);
   return figures;
 }
 
 void WriteReport(const models::StudyRecord& record, ClaimedFolder* folder) {
   folder->Write(
       kReportPage,
-      ReportHtml(record, FiguresInFolder(record, folder->PathOf("."))));
-  folder->Write(kReportText, ReportMarkdown(record));
+      report::ReportHtml(record, FiguresInFolder(record, folder->PathOf("."))));
+  folder->Write(kReportText, report::ReportMarkdown(record));
 }
 
 }  // namespace errmap::cli

@@ -19,9 +19,9 @@ inline constexpr const char* kReportText = "report.md";
 std::vector<models::LearningRecord> ReadLearning(const std::string& folder);
 
 /// All figures of a study in its folder, those of ReadLearning among them.
-FigureSet FiguresInFolder(const models::StudyRecord& record,
-                          const std::string& folder,
-                          bool everything = false);
+report::FigureSet FiguresInFolder(const models::StudyRecord& record,
+                                  const std::string& folder,
+                                  bool everything = false);
 
 /// Draws report.html and report.md; `errmap report` draws the same bytes from
 /// results.json later. Each file appears whole or not at all. Throws

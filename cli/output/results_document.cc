@@ -21,7 +21,7 @@ models::StudyRecord RecordOf(const StudyRun& run, int jobs) {
     for (auto& table : record.components.back().figures.tables) {
       table.file = ShownPath(table.file);
     }
-    AddSentences(&record.components.back());
+    report::AddSentences(&record.components.back());
   }
   return record;
 }

@@ -32,9 +32,9 @@ bool IsSet(const char* name) {
 
 }  // namespace
 
-Terminal OutputTerminal() {
+report::Terminal OutputTerminal() {
   constexpr long kFewestRows = 5;
-  Terminal terminal;
+  report::Terminal terminal;
   winsize size{};
   if (isatty(STDOUT_FILENO) == 1) {
     const char* const kind = std::getenv("TERM");
@@ -67,7 +67,7 @@ std::string FitLines(std::string_view text, std::size_t width) {
                            line[kSecondColumn - 1] == ' ' &&
                            line[kSecondColumn] != ' ';
     const std::size_t indent = is_option ? kSecondColumn : first;
-    if (WidthOf(line) <= width || first == std::string_view::npos ||
+    if (report::WidthOf(line) <= width || first == std::string_view::npos ||
         indent + kNarrowest > width) {
       fitted.append(line).append("\n");
       continue;
@@ -75,7 +75,7 @@ std::string FitLines(std::string_view text, std::size_t width) {
     fitted.append(line.substr(0, indent));
     std::string begin;
     for (const std::string& part :
-         WrapLines(line.substr(indent), width - indent)) {
+         report::WrapLines(line.substr(indent), width - indent)) {
       fitted.append(begin).append(part).append("\n");
       begin.assign(indent, ' ');
     }
@@ -84,14 +84,14 @@ std::string FitLines(std::string_view text, std::size_t width) {
 }
 
 void PrintFitted(std::string_view text) {
-  const Terminal terminal = OutputTerminal();
+  const report::Terminal terminal = OutputTerminal();
   PrintResult(isatty(STDOUT_FILENO) == 1 ||
                       Wanted("COLUMNS", kFewestColumns) > 0
                   ? FitLines(text, terminal.columns)
                   : std::string(text));
 }
 
-void PrintScreen(const Screen& screen) {
+void PrintScreen(const report::Screen& screen) {
   if (!OutputTerminal().colour || screen.strong.empty()) {
     PrintResult(screen.text);
     return;

@@ -10,10 +10,10 @@ namespace errmap::cli {
 
 /// What standard output can show; 80 columns where it is no terminal. COLUMNS,
 /// LINES and NO_COLOR of the environment come first.
-Terminal OutputTerminal();
+report::Terminal OutputTerminal();
 
 /// PrintResult, the strong lines bold where standard output has colours.
-void PrintScreen(const Screen& screen);
+void PrintScreen(const report::Screen& screen);
 
 /// `text` with its lines of more than `width` columns broken at blanks; what
 /// goes on stands below what it goes on with, in the second column of a list

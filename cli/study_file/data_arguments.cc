@@ -151,12 +151,13 @@ std::string UnitsText(const data::Dataset& dataset) {
   if (dataset.has_groups()) {
     text = fmt::format(
         ", {} ({})",
-        Count(static_cast<long long>(dataset.groups().labels.size()), "group"),
+        report::Count(static_cast<long long>(dataset.groups().labels.size()),
+                      "group"),
         dataset.groups().column);
   }
   if (!dataset.has_sessions()) return text + ", one run";
   const std::string& column = dataset.log()->sessions.column;
-  return text + ", " + Count(dataset.num_sessions(), "session") +
+  return text + ", " + report::Count(dataset.num_sessions(), "session") +
          (column.empty() ? "" : " (" + column + ")");
 }
 

@@ -121,7 +121,7 @@ std::string EffectText(const models::FaultEffect& effect,
   if (!std::isfinite(effect.rmse_with) || !std::isfinite(effect.rmse_without)) {
     return "";
   }
-  const ErrorText error(unit, effect.rmse_without);
+  const report::ErrorText error(unit, effect.rmse_without);
   return fmt::format(
       "a plain linear map misses the other rows by {} RMSE with "
       "{}, by {} without",
@@ -158,7 +158,7 @@ std::vector<std::string> FaultLines(const data::PreparedDataset& prepared,
   if (policy == data::FaultPolicy::kDropRows) {
     lines.push_back(
         fmt::format("{} left out for them",
-                    Count(static_cast<long long>(rows.size()), "row")));
+                    report::Count(static_cast<long long>(rows.size()), "row")));
     return lines;
   }
   const std::string effect =

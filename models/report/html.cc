@@ -2,7 +2,7 @@
 
 #include "data/text.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 // Line breaks and the like as blanks.
@@ -58,4 +58,4 @@ std::string MarkdownText(std::string_view text) {
   return escaped;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

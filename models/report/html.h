@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// Text as it must stand in HTML, in an attribute in quotes too: & < > " '
 /// become entities, control characters blanks, and bytes that are no UTF-8 are
@@ -18,4 +18,4 @@ std::string HtmlName(std::string_view name);
 /// escaped, line breaks become blanks.
 std::string MarkdownText(std::string_view text);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -10,7 +10,7 @@
 #include "data/text.h"
 #include "models/promise/sensor_curve.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 constexpr double kPercent = 100.0;
@@ -123,4 +123,4 @@ ErrorText ErrorTextOf(const models::SensorCurveRecord& curve,
   return {unit, smallest};
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

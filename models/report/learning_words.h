@@ -5,7 +5,7 @@
 #include "models/promise/learning_record.h"
 #include "models/report/number_text.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// "with all 10: 1.20 um expected (1.10 to 1.40); about 5 more to reach 1.00 um
 /// (2 at least; 10 % that it is never reached)"; "" without a law.
@@ -24,4 +24,4 @@ ErrorText ErrorTextOf(const models::LearningCurvesRecord& curves,
 ErrorText ErrorTextOf(const models::SensorCurveRecord& curve,
                       const data::Unit& unit);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace errmap::cli {
+namespace errmap::report {
 
 ErrorText::ErrorText(const data::Unit& unit, double smallest)
     : scale_(unit.display_scale), symbol_(unit.display_symbol), decimals_(3) {
@@ -46,4 +46,4 @@ std::string Count(long long n, const std::string& noun) {
   return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

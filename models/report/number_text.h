@@ -4,7 +4,7 @@
 
 #include "data/units.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// Writes errors for people: in the unit's display unit, all with the same
 /// number of decimals.
@@ -36,4 +36,4 @@ std::string PWords(double p);
 /// "3 rows", "1 row".
 std::string Count(long long n, const std::string& noun);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 std::size_t NumColumns(Mark mark) {
@@ -94,4 +94,4 @@ std::string Shortened(std::string_view text, std::size_t most) {
          std::string(text.substr(starts[starts.size() - back]));
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// How a series is drawn, and the columns that it needs.
 enum class Mark {
@@ -90,4 +90,4 @@ std::string WithUnit(std::string_view what, std::string_view unit);
 /// At most `most` characters (not bytes), the middle replaced by "…".
 std::string Shortened(std::string_view text, std::size_t most);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

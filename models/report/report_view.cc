@@ -6,7 +6,7 @@
 
 #include "data/units.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 void ReadHoldouts(ReportView* view) {
@@ -167,4 +167,4 @@ std::string PageWords(const std::string& sentence) {
   return words;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -8,7 +8,7 @@
 #include "models/report/plot.h"
 #include "models/study/record/study_record.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 using models::ComponentRecord;
 using models::ModelRecord;
@@ -60,4 +60,4 @@ std::string PrettyUnit(const std::string& symbol);
 /// A sentence of the record as pages write it: "0.5 um" -> "0.5 µm".
 std::string PageWords(const std::string& sentence);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace errmap::cli {
+namespace errmap::report {
 
 std::size_t Terminal::text_columns() const {
   constexpr std::size_t kMost = 100;
@@ -20,4 +20,4 @@ void Screen::Add(std::string_view more, bool is_strong) {
   text += more;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

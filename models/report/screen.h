@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// What text is shown on.
 struct Terminal {
@@ -25,4 +25,4 @@ struct Screen {
   void Add(std::string_view more, bool is_strong = false);
 };
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

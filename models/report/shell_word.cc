@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-namespace errmap::cli {
+namespace errmap::report {
 
 std::string ShellWord(const std::string& word) {
   constexpr std::string_view kPlain =
@@ -65,4 +65,4 @@ std::string ShellCommand(const std::vector<std::string>& words,
   return text;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// A word as a shell reads it back: in quotes where it needs them.
 std::string ShellWord(const std::string& word);
@@ -18,4 +18,4 @@ std::string ShellCommand(const std::vector<std::string>& words,
                          std::size_t width,
                          std::size_t indent);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

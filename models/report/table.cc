@@ -11,7 +11,7 @@
 #include "models/report/html.h"
 #include "models/report/wrap_text.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 // What is known of a value in words, given how errors are written; "" where
@@ -305,4 +305,4 @@ std::string HtmlTable(const Table& whole) {
   return html + "<p class=\"soft small\">" + HtmlText(table.note) + "</p>\n";
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -14,7 +14,7 @@
 // Tables of typed cells, which are written for terminals, spreadsheets,
 // Markdown and pages by the functions below and nowhere else.
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// A number with so many significant digits; shown as value * scale.
 struct Number {
@@ -127,4 +127,4 @@ std::string MarkdownTable(const Table& whole, const std::string& level = "");
 /// "" for a table that says only what it misses.
 std::string HtmlTable(const Table& whole);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

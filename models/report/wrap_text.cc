@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 bool Continues(char c) {
@@ -92,4 +92,4 @@ std::string Squeezed(const std::string& text, std::size_t most) {
          text.substr(BytesOf(text, all - tail));
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// `text` in lines of at most `width` columns, broken at blanks, and where a
 /// word alone is longer.
@@ -20,4 +20,4 @@ std::size_t WidthOf(std::string_view text);
 /// At most `most` characters, "..." in place of the middle.
 std::string Squeezed(const std::string& text, std::size_t most);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -109,7 +109,7 @@ void Judge(const std::string& file, bool is_noise) {
   const models::StudyRecord record = cli::RecordOf(run);
   const std::string text = models::ToJsonText(record);
   Require(models::ToJsonText(models::FromJsonText(text)) == text);
-  Require(!cli::StudyTable(record, {}).text.empty());
+  Require(!report::StudyTable(record, {}).text.empty());
   if (!is_noise) return;
   const cli::Comparison& comparison = run.components.at(0);
   for (std::size_t h = 0; h < comparison.holdouts.size(); ++h) {

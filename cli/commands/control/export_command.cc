@@ -113,16 +113,17 @@ void SayWhatWasWritten(const models::MapExport& map,
   }
   const std::string& unit = map.program.target.unit.symbol;
   Say(fmt::format("{} in {}", names, data::PrintablePath(folder)));
-  Say(fmt::format("{}: error{} of {}, {} of state; compensation = -error",
-                  map.name,
-                  unit.empty() ? "" : " in " + unit,
-                  Count(map.program.size(models::Space::kReading), "input"),
-                  Count(map.program.size(models::Space::kState), "number")));
-  Say(
-      fmt::format("its arithmetic agrees with errmap predict to {:.1e} of the "
-                  "error's range over {}",
-                  map.deviations.anywhere,
-                  Count(static_cast<long long>(map.rows.size()), "row")));
+  Say(fmt::format(
+      "{}: error{} of {}, {} of state; compensation = -error",
+      map.name,
+      unit.empty() ? "" : " in " + unit,
+      report::Count(map.program.size(models::Space::kReading), "input"),
+      report::Count(map.program.size(models::Space::kState), "number")));
+  Say(fmt::format(
+      "its arithmetic agrees with errmap predict to {:.1e} of the "
+      "error's range over {}",
+      map.deviations.anywhere,
+      report::Count(static_cast<long long>(map.rows.size()), "row")));
   if (map.deviations.inside > models::AllowedDeviation(map.precision)) {
     Say("warning: the map's own sums cancel; a penalised map (poly:ridge) "
         "would be steadier");

@@ -96,7 +96,7 @@ ErrorCurve AfterLog(const models::FittedModel& fitted,
     throw UsageError(fmt::format("--row {}: {} has {}",
                                  row,
                                  data::PrintablePath(arguments.log),
-                                 Count(num_rows, "row")));
+                                 report::Count(num_rows, "row")));
   }
   const Eigen::MatrixXd readings = InputsOf(fitted, table);
   const MapLog map = MakeMapLog(fitted, table, {});
@@ -209,14 +209,14 @@ void ExportLinuxcnc(const std::string& model,
   data::WriteFileAtomically(out, file.text);
   if (quiet) return;
   const auto text = [&](double error) {
-    return ErrorText(unit, error).WithUnit(error);
+    return report::ErrorText(unit, error).WithUnit(error);
   };
   Say(
       fmt::format("{}: COMP_FILE_TYPE = 0 in {}, {} from {:g} to {:g}; beyond "
                   "the ends LinuxCNC holds the value",
                   data::PrintablePath(out),
                   unit.symbol,
-                  Count(file.num_points, "point"),
+                  report::Count(file.num_points, "point"),
                   file.low,
                   file.high));
   if (two) {
@@ -292,7 +292,7 @@ models::ExportedFile ExportTable(const models::FittedModel& fitted,
       "{}",
       map.name,
       StateText(curve),
-      ErrorText(map.program.target.unit, table.interpolation_error)
+      report::ErrorText(map.program.target.unit, table.interpolation_error)
           .WithUnit(table.interpolation_error));
   return {map.name + ".csv", table.text};
 }

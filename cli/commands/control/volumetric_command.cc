@@ -189,11 +189,11 @@ std::string SensitiveText(const Machine& machine) {
 
 void SayErrors(const Synthesis& s) {
   const double most = s.sensitive.maxCoeff();
-  const ErrorText text(s.machine.length, most);
+  const report::ErrorText text(s.machine.length, most);
   Say(
       fmt::format("{} of {}: tool less work, in {} at most {}, 95 % within {}; "
                   "compensate by minus that",
-                  Count(s.sensitive.size(), "point"),
+                  report::Count(s.sensitive.size(), "point"),
                   data::QuotedText(s.machine.name),
                   SensitiveText(s.machine),
                   text.WithUnit(most),
@@ -201,7 +201,7 @@ void SayErrors(const Synthesis& s) {
   const double difference = s.errors.LargestDifference();
   Say(fmt::format(
       "exact and first order differ by at most {}",
-      ErrorText(s.machine.length, difference).WithUnit(difference)));
+      report::ErrorText(s.machine.length, difference).WithUnit(difference)));
 }
 
 // The components that matter most, by the RMS of what each adds.
@@ -219,7 +219,7 @@ void SayContributions(const Synthesis& s) {
   constexpr std::size_t kMost = 6;
   sizes.resize(std::min(sizes.size(), kMost));
   if (sizes.empty()) return;
-  const ErrorText text(s.machine.length, sizes.front().first);
+  const report::ErrorText text(s.machine.length, sizes.front().first);
   std::vector<std::string> parts;
   for (const auto& [size, name] : sizes) {
     parts.push_back(fmt::format("{} {}", name, text(size)));
@@ -236,7 +236,7 @@ void SayRest(const Synthesis& s, const MatrixX3d& truth) {
                      static_cast<double>(lengths.size()));
   };
   const double before = rms(truth);
-  const ErrorText text(s.machine.length, before);
+  const report::ErrorText text(s.machine.length, before);
   Say(fmt::format("measured there {} RMS, {} less what the maps say",
                   text.WithUnit(before),
                   text.WithUnit(rms(truth - s.errors.exact))));
@@ -258,7 +258,7 @@ std::string DiagonalText(const Synthesis& s,
   for (const DiagonalFigures& diagonal : all) {
     most = std::max(most, diagonal.figures.systematic);
   }
-  const ErrorText text(s.machine.length, most);
+  const report::ErrorText text(s.machine.length, most);
   std::vector<std::string> parts;
   for (const DiagonalFigures& diagonal : all) {
     parts.push_back(
@@ -293,7 +293,7 @@ void SayOutsidePoints(const Synthesis& s) {
     const auto count = std::ranges::count(s.maps.outside[k], true);
     if (count == 0) continue;
     parts.push_back(fmt::format(
-        "{} at {}", s.machine.errors[k].name, Count(count, "point")));
+        "{} at {}", s.machine.errors[k].name, report::Count(count, "point")));
   }
   if (parts.empty()) return;
   Say(fmt::format(

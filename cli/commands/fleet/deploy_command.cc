@@ -131,7 +131,7 @@ int RunDeploy(const DeployArguments& arguments) {
   // nobody knows of.
   ChangeStore(
       paths, lock, [&](Database* copy) { WriteDeployment(copy, deployment); });
-  const ErrorText error(fitted.target.unit, deployment.promised);
+  const report::ErrorText error(fitted.target.unit, deployment.promised);
   PrintResult(fmt::format(
       "{}: {} since {}, promised {}; its file: {}\n",
       data::Printable(arguments.component, arguments.component.size()),

@@ -35,15 +35,15 @@ Json JsonOf(const SqlValue& value) {
       value);
 }
 
-Cell CellOf(const SqlValue& value) {
+report::Cell CellOf(const SqlValue& value) {
   constexpr int kDigits = 6;
   return std::visit(
-      [](const auto& held) -> Cell {
+      [](const auto& held) -> report::Cell {
         using Held = std::decay_t<decltype(held)>;
         if constexpr (std::is_same_v<Held, std::monostate>) {
           return {};
         } else if constexpr (std::is_same_v<Held, double>) {
-          return Number{held, kDigits};
+          return report::Number{held, kDigits};
         } else {
           return held;
         }
@@ -69,13 +69,13 @@ std::string JsonText(Statement* query) {
                    {"rows", std::move(rows)}});
 }
 
-Table TableOf(Statement* query) {
-  Table table;
+report::Table TableOf(Statement* query) {
+  report::Table table;
   for (int i = 0; i < query->num_columns(); ++i) {
     table.columns.push_back({.name = query->ColumnName(i), .is_number = true});
   }
   while (query->Next()) {
-    std::vector<Cell>& row = table.rows.emplace_back();
+    std::vector<report::Cell>& row = table.rows.emplace_back();
     for (int i = 0; i < query->num_columns(); ++i) {
       const SqlValue value = query->Value(i);
       if (std::holds_alternative<std::string>(value)) {
@@ -95,9 +95,9 @@ int RunQuery(const QueryArguments& arguments) {
     if (arguments.format == "json") {
       PrintResult(JsonText(&query));
     } else {
-      const Table table = TableOf(&query);
-      PrintResult(arguments.format == "csv" ? CsvTable(table)
-                                            : TerminalTable(table));
+      const report::Table table = TableOf(&query);
+      PrintResult(arguments.format == "csv" ? report::CsvTable(table)
+                                            : report::TerminalTable(table));
     }
   } catch (const SqliteError& error) {
     if (InstallInterruptFlag()) return kInterrupted;

@@ -214,7 +214,7 @@ class Watcher {
     }
     if (!files.unknown.empty() && !arguments.quiet) {
       Say(fmt::format("{} of no component with a map deployed",
-                      Count(std::ssize(files.unknown), "file")));
+                      report::Count(std::ssize(files.unknown), "file")));
     }
     if (files.files.empty()) {
       throw data::InputError(
@@ -226,7 +226,7 @@ class Watcher {
       Say(fmt::format(
           "{} as they were studied, not measured since: what is found of them "
           "tells nothing of another day",
-          Count(known_, "file")));
+          report::Count(known_, "file")));
     }
     Judge();
   }
@@ -373,7 +373,7 @@ std::string WatchText(const std::string& store,
     const std::string& name = component.deployment.component;
     proposals += data::Printable(name, name.size()) + ": " + proposal + "\n";
   }
-  std::string text = Count(std::ssize(components), "component");
+  std::string text = report::Count(std::ssize(components), "component");
   for (const auto& [status, count] : counts) {
     text += fmt::format(", {} {}", count, status);
   }
@@ -381,7 +381,7 @@ std::string WatchText(const std::string& store,
       "; at most {:g} % of those named worse or changed are so by chance "
       "(Benjamini-Hochberg)\n",
       100.0 * models::kFalseDiscoveries);
-  if (!told.empty()) text += TerminalTable(WatchTable(told));
+  if (!told.empty()) text += report::TerminalTable(WatchTable(told));
   return text + proposals;
 }
 
@@ -404,7 +404,7 @@ int RunWatch(const WatchArguments& arguments) {
   if (arguments.format == "json") {
     PrintResult(DumpJson(WatchJson(arguments.store, components)));
   } else if (arguments.format == "csv") {
-    PrintResult(CsvTable(WatchTable(components)));
+    PrintResult(report::CsvTable(WatchTable(components)));
   } else {
     PrintResult(WatchText(arguments.store, components));
   }

@@ -78,7 +78,7 @@ std::string TimesText(const models::HeldOutErrors& errors,
 }
 
 std::string StatusText(const models::SessionCheck& check,
-                       const ErrorText& error) {
+                       const report::ErrorText& error) {
   if (check.begins_inside) {
     return "Not known whether the map holds: it has a memory, and the first "
            "rows of the session are missing. Give all rows since its start, "
@@ -113,7 +113,7 @@ std::string StatusText(const models::SessionCheck& check,
           kPercent * check.off_probability,
           check.more_probes
               ? fmt::format("{} like these would settle it.",
-                            Count(*check.more_probes, "more probe"))
+                            report::Count(*check.more_probes, "more probe"))
               : "More probes like these would not settle it; take them later "
                 "or elsewhere.");
   }
@@ -121,7 +121,7 @@ std::string StatusText(const models::SessionCheck& check,
 }
 
 std::string RemedyText(const models::SessionCheck& check,
-                       const ErrorText& error) {
+                       const report::ErrorText& error) {
   switch (check.remedy) {
     case models::Remedy::kNone:
       return "";
@@ -207,12 +207,12 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
         {HashInput(arguments.model), HashInput(arguments.rows.file)});
     PrintResult(DumpJson(document));
   } else {
-    const ErrorText error(fitted.target.unit, check.promised);
+    const report::ErrorText error(fitted.target.unit, check.promised);
     PrintFitted(fmt::format(
         "{} ({}) on {} of {}{}: RMS {}, mean {}; promised {} RMSE\n",
         arguments.model,
         fitted.name,
-        Count(check.probes, "probe"),
+        report::Count(check.probes, "probe"),
         arguments.rows.file,
         TimesText(errors, elapsed),
         error.WithUnit(check.probe_rms),

@@ -117,7 +117,7 @@ Json ChangeJson(const std::optional<models::RelationChange>& change) {
 }
 
 std::string BaselineText(const models::KeptPromise& kept,
-                         const ErrorText& error) {
+                         const report::ErrorText& error) {
   if (!kept.better_than_nothing()) {
     return fmt::format(
         "it is worse than no compensation, {}: do not use it here",
@@ -144,12 +144,12 @@ std::string ChangeText(const models::RelationChange& change) {
       std::abs(change.shift),
       symbol.empty() ? "" : " " + symbol,
       change.shift > 0.0 ? "above what" : "below what",
-      Count(change.num_rows, "row"));
+      report::Count(change.num_rows, "row"));
 }
 
 // What a user wants to know of it, in words.
 std::string PromiseText(const models::KeptPromise& kept,
-                        const ErrorText& error) {
+                        const report::ErrorText& error) {
   constexpr double kPercent = 100.0;
   std::string text;
   if (std::isfinite(kept.promised)) {
@@ -189,7 +189,7 @@ int RunEvaluate(const EvaluateArguments& arguments,
   const Eigen::Index clipped = prediction.clipped.count();
   if (clipped > 0 && !arguments.quiet) {
     Say(fmt::format("warning: {} clipped by the map's guards",
-                    Count(clipped, "row")));
+                    report::Count(clipped, "row")));
   }
   const std::optional<models::RelationChange> change =
       models::ChangedRelation(fitted, dataset.input_values());
@@ -234,15 +234,15 @@ int RunEvaluate(const EvaluateArguments& arguments,
               {HashInput(arguments.model), HashInput(arguments.rows.file)})}}));
     return kDone;
   }
-  PrintFitted(
-      fmt::format("{} ({}) on {}: target - predicted of {}\n{}{}{}",
-                  arguments.model,
-                  fitted.name,
-                  arguments.rows.file,
-                  TargetText(dataset),
-                  SummaryText(metrics, fitted.target.unit, ks_d, ks_p),
-                  PromiseText(kept, ErrorText(fitted.target.unit, kept.found)),
-                  change ? ChangeText(*change) : ""));
+  PrintFitted(fmt::format(
+      "{} ({}) on {}: target - predicted of {}\n{}{}{}",
+      arguments.model,
+      fitted.name,
+      arguments.rows.file,
+      TargetText(dataset),
+      report::SummaryText(metrics, fitted.target.unit, ks_d, ks_p),
+      PromiseText(kept, report::ErrorText(fitted.target.unit, kept.found)),
+      change ? ChangeText(*change) : ""));
   return kDone;
 }
 

@@ -225,7 +225,7 @@ std::string ComparisonOfChosen(const models::SensorCurveRecord& curve,
     }
   }
   std::vector<std::string> options;
-  AddDataOptions(ShellWords(command_line), &options);
+  report::AddDataOptions(report::ShellWords(command_line), &options);
   std::vector<std::string> words{"errmap", "compare", arguments.data.file};
   for (std::size_t i = 0; i < options.size(); ++i) {
     const std::string flag = options[i].substr(0, options[i].find('='));
@@ -237,7 +237,7 @@ std::string ComparisonOfChosen(const models::SensorCurveRecord& curve,
   }
   words.insert(words.end(), {"--inputs", NameList(inputs)});
   return "With these alone:\n  " +
-         ShellCommand(words, OutputTerminal().columns, 2) + "\n";
+         report::ShellCommand(words, OutputTerminal().columns, 2) + "\n";
 }
 
 void LearnBySensors(const LearnArguments& arguments,
@@ -338,8 +338,9 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
   }
   if (folder) {
     folder->Write(Stem(arguments) + ".json", DumpJson(document));
-    for (const Figure& figure : LearningFigures(record, "")) {
-      folder->Write(Stem(arguments) + ".svg", SvgFile(FigureSvg(figure)));
+    for (const report::Figure& figure : report::LearningFigures(record, "")) {
+      folder->Write(Stem(arguments) + ".svg",
+                    report::SvgFile(report::FigureSvg(figure)));
     }
     folder->Finish();
   }

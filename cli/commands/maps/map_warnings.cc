@@ -53,7 +53,7 @@ void SayOutside(const std::vector<models::TrainedInput>& inputs,
   Say(fmt::format(
       "warning: {} outside the trained range of the inputs: there the "
       "map extrapolates",
-      Count(rows, "row")));
+      report::Count(rows, "row")));
   const std::vector<models::InputOutside> outside =
       models::InputsOutside(inputs, values);
   for (std::size_t i = 0; i < outside.size() && i < kMostInputs; ++i) {
@@ -69,7 +69,7 @@ void SayOutside(const std::vector<models::TrainedInput>& inputs,
         symbol.empty() ? "" : " " + symbol,
         input.min,
         input.max,
-        Count(found.num_rows, "row"),
+        report::Count(found.num_rows, "row"),
         found.looks_like.empty()
             ? ""
             : fmt::format("; as if in {}: say so in the column's name",
@@ -78,7 +78,8 @@ void SayOutside(const std::vector<models::TrainedInput>& inputs,
   if (outside.size() > kMostInputs) {
     Say(fmt::format(
         "warning: and {} more outside",
-        Count(static_cast<long long>(outside.size() - kMostInputs), "input")));
+        report::Count(static_cast<long long>(outside.size() - kMostInputs),
+                      "input")));
   }
 }
 
@@ -128,7 +129,7 @@ void SayUnlike(const std::vector<models::RowFlag>& flags,
     Say(fmt::format(
         "warning: {} in a thermal state unlike those of training, or with "
         "inputs that do not go together as they did there",
-        Count(unlike, "row")));
+        report::Count(unlike, "row")));
   }
   if (!flags.empty() && flags[worst].outside()) {
     Say(fmt::format("warning: farthest outside is data row {}: {}",
@@ -153,7 +154,7 @@ bool SayNotFinite(const Eigen::VectorXd& predicted,
                   "does not serve there",
                   data::PrintablePath(file),
                   count,
-                  Count(predicted.size(), "prediction"),
+                  report::Count(predicted.size(), "prediction"),
                   rows[static_cast<std::size_t>(first)]));
   return true;
 }

@@ -154,14 +154,15 @@ int RunPredict(const PredictArguments& arguments) {
     const std::string& unit = fitted.target.unit.symbol;
     const bool aligned = fitted.align == data::Alignment::kFirst;
     Say(fmt::format("{} predicted as {}{}{}; compensate by minus that",
-                    Count(predicted.size(), "row"),
+                    report::Count(predicted.size(), "row"),
                     fitted.target.name,
                     unit.empty() ? "" : " in " + unit,
                     aligned ? " since the session's first row" : ""));
     if (fitted.interval) {
-      Say(IntervalLine(models::MakeRecord(*fitted.interval),
-                       ErrorText(fitted.target.unit,
-                                 fitted.interval->levels[0].half_width)));
+      Say(report::IntervalLine(
+          models::MakeRecord(*fitted.interval),
+          report::ErrorText(fitted.target.unit,
+                            fitted.interval->levels[0].half_width)));
     }
     if (probes) Say(probes->line);
     for (const std::string& warning : map.warnings) Say(warning);
@@ -171,7 +172,7 @@ int RunPredict(const PredictArguments& arguments) {
       Say(
           fmt::format("warning: {} clipped by the map's guards, since an input "
                       "or the error went far beyond its trained range",
-                      Count(clipped, "row")));
+                      report::Count(clipped, "row")));
     }
   }
   return SayNotFinite(predicted, all_rows, arguments.file) ? kEveryFitFailed

@@ -26,12 +26,12 @@ std::string LineOf(const models::FittedModel& fitted,
       std::ranges::count_if(track.used, [](Index used) { return used > 0; });
   const Index last = track.offset.size() - 1;
   const double known = std::sqrt(track.variance[last]);
-  const ErrorText error(fitted.target.unit, std::sqrt(model.noise));
+  const report::ErrorText error(fitted.target.unit, std::sqrt(model.noise));
   return fmt::format(
       "{} move {} of {}; the offset in the last is {}, known to {}",
-      Count(probes, "probe"),
+      report::Count(probes, "probe"),
       corrected,
-      Count(track.offset.size(), "row"),
+      report::Count(track.offset.size(), "row"),
       error.WithUnit(track.offset[last]),
       error.WithUnit(known));
 }

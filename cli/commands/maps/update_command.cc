@@ -98,7 +98,7 @@ Json TrialJson(const models::UpdateTrial& trial) {
 
 std::string TrialText(const models::UpdateTrial& trial,
                       const data::Unit& unit) {
-  const ErrorText error(unit, std::min(trial.old_rmse, trial.new_rmse));
+  const report::ErrorText error(unit, std::min(trial.old_rmse, trial.new_rmse));
   std::string text =
       fmt::format("RMSE ({}) on new sessions, each unseen\n", error.symbol());
   text += fmt::format("  {:<12}  {:>9}  {:>9}\n", "session", "old", "new");

@@ -135,19 +135,21 @@ std::string DataForFit(const StudyRun& run) {
                                                             : "";
 }
 
-Screen Formatted(const StudyRun& run,
-                 const models::StudyRecord& record,
-                 const CompareArguments& arguments) {
+report::Screen Formatted(const StudyRun& run,
+                         const models::StudyRecord& record,
+                         const CompareArguments& arguments) {
   const std::string& format = arguments.format;
   if (format == "json") return {models::ToJsonText(record), {}};
-  if (format == "csv") return {CsvTable(LeaderboardRows(record)), {}};
-  if (format == "md") return {MarkdownTable(LeaderboardRows(record)), {}};
-  Screen screen = StudyTable(record,
-                             {.all = arguments.all,
-                              .details = arguments.details,
-                              .folder = arguments.out,
-                              .data = DataForFit(run),
-                              .terminal = OutputTerminal()});
+  if (format == "csv")
+    return {report::CsvTable(report::LeaderboardRows(record)), {}};
+  if (format == "md")
+    return {report::MarkdownTable(report::LeaderboardRows(record)), {}};
+  report::Screen screen = report::StudyTable(record,
+                                             {.all = arguments.all,
+                                              .details = arguments.details,
+                                              .folder = arguments.out,
+                                              .data = DataForFit(run),
+                                              .terminal = OutputTerminal()});
   for (const models::ComponentRecord& component : record.components) {
     screen.Add(ProbesText(component));
   }
@@ -216,8 +218,9 @@ int RunCompare(const CompareArguments& arguments) {
   // Before the files: a full disk must not cost the answer.
   PrintScreen(Formatted(run, record, arguments));
   if (!arguments.page.empty()) {
-    data::WriteFileAtomically(arguments.page,
-                              ReportHtml(record, MakeFigures(record)));
+    data::WriteFileAtomically(
+        arguments.page,
+        report::ReportHtml(record, report::MakeFigures(record)));
   }
   if (folder) WriteOutputs(run, record, &*folder);
   return StatusOf(run);

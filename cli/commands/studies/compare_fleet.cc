@@ -87,7 +87,7 @@ int RunCompareFleet(CompareFleetArguments arguments) {
         arguments.shard
             ? fmt::format("share {} of 0 to {}, ", share.index, share.count - 1)
             : std::string(),
-        Count(result.components, "component"),
+        report::Count(result.components, "component"),
         result.fitted,
         result.kept,
         result.failed,

@@ -60,7 +60,7 @@ Json SensitivityJson(const models::Sensitivity& sensitivity) {
 }
 
 std::string SensitivityText(const models::Sensitivity& sensitivity,
-                            const ErrorText& error) {
+                            const report::ErrorText& error) {
   if (sensitivity.jump_of.empty()) return "";
   std::string text = fmt::format(
       "{:g} degC of noise in each thermometer moves it by {} (RMS), one that "
@@ -140,8 +140,8 @@ std::string FitText(const models::FittedModel& fitted,
                     const stats::ErrorMetrics& train,
                     const data::Dataset& dataset,
                     const FitArguments& arguments) {
-  const ErrorText error(fitted.target.unit, train.rmse);
-  Terminal room = OutputTerminal();
+  const report::ErrorText error(fitted.target.unit, train.rmse);
+  report::Terminal room = OutputTerminal();
   const std::size_t width = room.text_columns();
   if (arguments.details) {
     room.columns = std::string::npos;
@@ -149,12 +149,12 @@ std::string FitText(const models::FittedModel& fitted,
   }
   std::string text;
   const auto say = [&](const std::string& words) {
-    if (!words.empty()) text += WrapText(words, width) + "\n";
+    if (!words.empty()) text += report::WrapText(words, width) + "\n";
   };
   say(fmt::format("{}: {} fitted to {}, RMSE {} on these rows (not held out)",
                   fitted.name,
-                  Count(fitted.model->num_parameters(), "parameter"),
-                  Count(train.residuals.n, "row"),
+                  report::Count(fitted.model->num_parameters(), "parameter"),
+                  report::Count(train.residuals.n, "row"),
                   error.WithUnit(train.rmse)));
   constexpr Eigen::Index kMostTerms = 12;
   if (arguments.details || fitted.model->num_parameters() <= kMostTerms + 1) {
@@ -162,16 +162,16 @@ std::string FitText(const models::FittedModel& fitted,
   } else if (!fitted.equation.empty()) {
     say("The equation is long: it is in the file, and here with --details.");
   }
-  std::istringstream lines(FitSummaryText(fitted.summary));
+  std::istringstream lines(report::FitSummaryText(fitted.summary));
   for (std::string line; std::getline(lines, line);) say(line);
   for (const std::string& remark : fitted.remarks) say(remark);
-  text += StartsText(fitted.starts, error);
-  if (arguments.correlations) text += CorrelationText(dataset, room);
+  text += report::StartsText(fitted.starts, error);
+  if (arguments.correlations) text += report::CorrelationText(dataset, room);
   if (fitted.regression) {
-    text += RegressionText(*fitted.regression, fitted.target, room);
+    text += report::RegressionText(*fitted.regression, fitted.target, room);
   }
   if (fitted.interval) {
-    say(IntervalLine(models::MakeRecord(*fitted.interval), error));
+    say(report::IntervalLine(models::MakeRecord(*fitted.interval), error));
   }
   say(SensitivityText(sensitivity, error));
   say(fmt::format(

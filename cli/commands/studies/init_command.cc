@@ -48,7 +48,7 @@ int RunInitFleet(const InitArguments& arguments) {
   PrintResult(fmt::format(
       "{}: {}{}; look it over, then errmap compare --config {} --out STORE\n",
       path,
-      Count(proposal.files, "file"),
+      report::Count(proposal.files, "file"),
       proposal.left_out.empty()
           ? std::string()
           : fmt::format("; left out, since they cannot be mapped: {}",

@@ -50,20 +50,21 @@ std::string ProbesText(const models::ComponentRecord& component) {
     for (const double rmse : model.rmse) smallest = std::min(smallest, rmse);
   }
   const data::Unit unit = data::UnitOfSymbol(component.data.unit);
-  const ErrorText error(unit, smallest);
+  const report::ErrorText error(unit, smallest);
   std::string text =
       "\n" +
-      WrapText(fmt::format(
-                   "RMSE ({}) on unseen sessions after probes of each, {} "
-                   "apart from its first row on ({}; the same {} for every "
-                   "number; zero: probes without a map)",
-                   error.symbol(),
-                   probes.time_unit == "s"
-                       ? fmt::format("{:g} min", probes.spacing / kMinute)
-                       : Count(static_cast<long long>(probes.spacing), "row"),
-                   probes.holdout,
-                   Count(probes.scored_rows, "row")),
-               OutputTerminal().text_columns()) +
+      report::WrapText(
+          fmt::format("RMSE ({}) on unseen sessions after probes of each, {} "
+                      "apart from its first row on ({}; the same {} for every "
+                      "number; zero: probes without a map)",
+                      error.symbol(),
+                      probes.time_unit == "s"
+                          ? fmt::format("{:g} min", probes.spacing / kMinute)
+                          : report::Count(
+                                static_cast<long long>(probes.spacing), "row"),
+                      probes.holdout,
+                      report::Count(probes.scored_rows, "row")),
+          OutputTerminal().text_columns()) +
       fmt::format("\n{:{}}", "probes", widest + 2);
   for (const std::int64_t number : probes.numbers) {
     text += fmt::format("{:>10}", number);

@@ -32,9 +32,9 @@ struct ReportArguments {
   bool force = false;
 };
 
-ImageFormat FormatNamed(const std::string& name) {
-  if (name == "svg") return ImageFormat::kSvg;
-  return name == "png" ? ImageFormat::kPng : ImageFormat::kPdf;
+report::ImageFormat FormatNamed(const std::string& name) {
+  if (name == "svg") return report::ImageFormat::kSvg;
+  return name == "png" ? report::ImageFormat::kPng : report::ImageFormat::kPdf;
 }
 
 std::string ResultsPath(const std::string& folder) {
@@ -75,12 +75,13 @@ int RunStoreReport(const ReportArguments& arguments) {
   }
   const models::StudyRecord results = ReadResultsOf(store, arguments.component);
   if (arguments.format == "md") {
-    PrintResult(ReportMarkdown(results));
+    PrintResult(report::ReportMarkdown(results));
   } else if (arguments.format == "html") {
-    PrintResult(ReportHtml(results, MakeFigures(results)));
+    PrintResult(report::ReportHtml(results, report::MakeFigures(results)));
   } else {
     const std::string page = store.InFolder(arguments.component, kPageFile);
-    data::WriteFileAtomically(page, ReportHtml(results, MakeFigures(results)));
+    data::WriteFileAtomically(
+        page, report::ReportHtml(results, report::MakeFigures(results)));
     PrintResult(page + "\n");
   }
   return kDone;
@@ -118,18 +119,19 @@ int RunReport(const ReportArguments& arguments) {
   const std::string& component = arguments.component;
   if (!component.empty()) results = OfComponent(std::move(results), component);
   if (arguments.format == "md") {
-    PrintResult(ReportMarkdown(results));
+    PrintResult(report::ReportMarkdown(results));
   } else if (arguments.format == "html") {
-    PrintResult(
-        ReportHtml(results, FiguresInFolder(results, arguments.folder)));
+    PrintResult(report::ReportHtml(results,
+                                   FiguresInFolder(results, arguments.folder)));
   } else if (!component.empty()) {
     const std::string page = StorePaths::FolderOf(component) + ".html";
     ClaimedFolder folder(arguments.folder,
                          {page},
                          {ResultsPath(arguments.folder)},
                          arguments.force);
-    folder.Write(
-        page, ReportHtml(results, FiguresInFolder(results, arguments.folder)));
+    folder.Write(page,
+                 report::ReportHtml(
+                     results, FiguresInFolder(results, arguments.folder)));
     folder.Finish();
     PrintResult(folder.PathOf(page) + "\n");
   } else {
@@ -141,16 +143,17 @@ int RunReport(const ReportArguments& arguments) {
     folder.Finish();
   }
   if (arguments.figures.empty()) return kDone;
-  const std::vector<ReportFile> figures =
-      FigureFiles(FiguresInFolder(results, arguments.folder, true),
-                  FormatNamed(arguments.image));
+  const std::vector<report::ReportFile> figures =
+      report::FigureFiles(FiguresInFolder(results, arguments.folder, true),
+                          FormatNamed(arguments.image));
   std::vector<std::string> names;
-  for (const ReportFile& file : figures) names.push_back(file.name);
+  for (const report::ReportFile& file : figures) names.push_back(file.name);
   ClaimedFolder folder(arguments.figures,
                        names,
                        {ResultsPath(arguments.folder)},
                        arguments.force);
-  for (const ReportFile& file : figures) folder.Write(file.name, file.text);
+  for (const report::ReportFile& file : figures)
+    folder.Write(file.name, file.text);
   folder.Finish();
   Say(fmt::format(
       "{} figures as svg in {}; gnuplot *.gp there draws them as {}",

@@ -108,7 +108,7 @@ class MachineEvaluator {
       remarks_.push_back(fmt::format(
           "warning: {} with a memory ran through the points alone; give the "
           "day's temperatures so far with --after",
-          Count(num_with_memory_, "map")));
+          report::Count(num_with_memory_, "map")));
     }
     result.remarks = std::move(remarks_);
     return result;

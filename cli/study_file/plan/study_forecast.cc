@@ -77,10 +77,11 @@ void StudyForecast::Note(std::size_t component,
   }
   best_rmse_ = fit.holdout_rmse;
   constexpr std::size_t kMostName = 24;
-  best_ = {fmt::format("{} {}",
-                       Squeezed(data::Printable(model.name, model.name.size()),
+  best_ = {fmt::format(
+               "{} {}",
+               report::Squeezed(data::Printable(model.name, model.name.size()),
                                 kMostName),
-                       ErrorText(of.unit, best_rmse_).WithUnit(best_rmse_)),
+               report::ErrorText(of.unit, best_rmse_).WithUnit(best_rmse_)),
            data::Printable(of.holdout_name, of.holdout_name.size())};
 }
 

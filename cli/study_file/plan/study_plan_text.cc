@@ -34,7 +34,7 @@ std::string HoldoutList(const std::vector<models::Holdout>& holdouts) {
     parts.push_back(fmt::format(
         "{} ({})",
         Shown(holdout.name),
-        Count(static_cast<long long>(holdout.folds.size()), "fold")));
+        report::Count(static_cast<long long>(holdout.folds.size()), "fold")));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -54,7 +54,7 @@ std::string ComponentText(const ComponentPlan& component,
         " where {} = {}", Shown(filter.column), Shown(ValueText(filter)));
   }
   text += fmt::format("\n  rows      {}{}\n",
-                      Count(dataset.num_rows(), "row"),
+                      report::Count(dataset.num_rows(), "row"),
                       Shown(UnitsText(dataset)));
   text += fmt::format("  target    {}\n", Shown(TargetText(dataset)));
   text += fmt::format("  inputs    {}\n", dataset.num_inputs());
@@ -66,7 +66,7 @@ std::string ComponentText(const ComponentPlan& component,
   text += fmt::format("  hold-outs {}\n",
                       HoldoutList(component.comparison.holdouts));
   std::string list =
-      WrapText(fmt::format("{}", fmt::join(models, ", ")), kWidth - 12);
+      report::WrapText(fmt::format("{}", fmt::join(models, ", ")), kWidth - 12);
   for (std::size_t at = 0; (at = list.find('\n', at)) != list.npos; ++at) {
     list.insert(at + 1, "            ");
   }
@@ -85,10 +85,10 @@ std::string PlanText(const StudyPlan& plan, int jobs, const std::string& out) {
     seconds += RoughSeconds(plan.components[i], jobs);
   }
   text += fmt::format("{} in all, seed {}; roughly {} on {}\n",
-                      Count(plan.num_fits(), "fit"),
+                      report::Count(plan.num_fits(), "fit"),
                       plan.config.seed,
                       RoughTimeText(seconds),
-                      Count(jobs, "job"));
+                      report::Count(jobs, "job"));
   if (out.empty()) {
     text += "no files (give --out DIR for them)\n";
   } else {

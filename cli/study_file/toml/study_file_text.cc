@@ -111,10 +111,11 @@ std::string StudyKeys(const StudyPlan& plan) {
       "seed = {}   # of all random choices\n\n"
       "{}\n",
       plan.config.seed,
-      Commented(WrapText("Rows to judge by: " + stats::HoldoutFormsText() +
-                             ". Whole sessions held out tell how a map does on "
-                             "another day.",
-                         kWidth)));
+      Commented(report::WrapText(
+          "Rows to judge by: " + stats::HoldoutFormsText() +
+              ". Whole sessions held out tell how a map does on "
+              "another day.",
+          kWidth)));
   text += ListKey(
       "holdouts", plan.config.holdouts, plan.components.front().HoldoutNames());
   text +=
@@ -128,8 +129,8 @@ std::string StudyKeys(const StudyPlan& plan) {
 std::string FoundText(const ComponentPlan& component) {
   const data::PreparedDataset& prepared = component.comparison.data;
   const data::Dataset& dataset = prepared.dataset;
-  std::string text =
-      "# " + Count(dataset.num_rows(), "row") + Shown(UnitsText(dataset));
+  std::string text = "# " + report::Count(dataset.num_rows(), "row") +
+                     Shown(UnitsText(dataset));
   if (!dataset.has_groups()) text += ": name the column of cycles with group";
   text += "\n";
   for (const data::DroppedColumn& dropped : prepared.dropped) {

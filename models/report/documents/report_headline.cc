@@ -12,7 +12,7 @@
 #include "models/report/words/remark_text.h"
 #include "models/report/words/verdict_text.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 const char* const kSignConvention =
     "Error = actual - nominal: compensate by minus the predicted error. "
@@ -142,4 +142,4 @@ Headline HeadlineOf(const ReportView& view) {
   return line;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -5,7 +5,7 @@
 
 #include "models/report/report_view.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// What the first screen says of a component, as plain text.
 struct Headline {
@@ -28,4 +28,4 @@ Headline HeadlineOf(const ReportView& view);
 /// The sign convention, in one sentence.
 extern const char* const kSignConvention;
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -17,7 +17,7 @@
 #include "models/report/tables/result_table.h"
 #include "models/report/words/next_steps.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 constexpr std::size_t kOpenComponents = 1;
@@ -554,4 +554,4 @@ std::string ReportHtml(const models::StudyRecord& record,
   return Page(record, figures).Html();
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -4,7 +4,7 @@
 
 #include "models/report/figures/figures.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// report.html: one self-contained page drawn from the record alone, with the
 /// figures of MakeFigures. Of a study that is incomplete or failed it says what
@@ -12,4 +12,4 @@ namespace errmap::cli {
 std::string ReportHtml(const models::StudyRecord& record,
                        const FigureSet& figures);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

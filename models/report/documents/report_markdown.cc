@@ -9,7 +9,7 @@
 #include "models/report/tables/report_tables.h"
 #include "models/report/tables/result_table.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 std::string Paragraph(const std::string& text) {
@@ -92,4 +92,4 @@ std::string ReportMarkdown(const models::StudyRecord& record) {
   return text + MarkdownTable(ProvenanceTable(record), "##");
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -1,6 +1,6 @@
 #include "models/report/documents/report_style.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 const char* const kReportStyle = R"css(
 :root{color-scheme:light;--ink:#1b1f24;--soft:#4c5560;--line:#d5dae0;--paper:#fff;--tint:#f4f6f8;--mark:#e6f1fa;--blue:#0b5394;--good:#0a6b3d;--bad:#a33a00}
@@ -97,4 +97,4 @@ a{color:inherit;text-decoration:none}
 }
 )css";
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

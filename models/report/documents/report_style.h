@@ -1,8 +1,8 @@
 #pragma once
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// The style sheet of report.html: every contrast at least 4.5 to 1.
 extern const char* const kReportStyle;
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -9,7 +9,7 @@
 #include "data/formula_text.h"
 #include "models/study/judgement/extrapolated_rows.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 std::string ResidualsCsv(const models::ComponentStudy& study) {
   const data::Dataset& dataset = study.data.dataset;
@@ -68,4 +68,4 @@ std::string ResidualsCsv(const models::ComponentStudy& study) {
   return data::MarkedCsv(std::move(text));
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -6,7 +6,7 @@
 
 #include "models/study/record/fit_blocks.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 std::string StartsText(const std::vector<models::StartResult>& starts,
                        const ErrorText& error) {
   if (starts.empty()) return "";
@@ -38,4 +38,4 @@ std::string StartsText(const std::vector<models::StartResult>& starts,
                      spread.sd);
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -18,7 +18,7 @@
 #include "models/report/words/verdict_text.h"
 #include "models/report/wrap_text.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 constexpr std::size_t kMostRows = 12;
@@ -344,4 +344,4 @@ Screen StudyTable(const models::StudyRecord& record,
   return screen;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

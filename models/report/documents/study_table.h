@@ -6,7 +6,7 @@
 #include "models/report/screen.h"
 #include "models/study/record/study_record.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 struct StudyTableOptions {
   bool all = false;         // every row of tables
@@ -23,4 +23,4 @@ struct StudyTableOptions {
 Screen StudyTable(const models::StudyRecord& record,
                   const StudyTableOptions& options);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

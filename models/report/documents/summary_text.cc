@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 std::string Line(const std::string& label,
@@ -55,4 +55,4 @@ std::string SummaryText(const stats::ErrorMetrics& metrics,
   return text;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -5,7 +5,7 @@
 #include "data/units.h"
 #include "stats/error_metrics.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// Residual statistics as lines for a terminal, in the display unit.
 std::string SummaryText(const stats::ErrorMetrics& metrics,
@@ -13,4 +13,4 @@ std::string SummaryText(const stats::ErrorMetrics& metrics,
                         double ks_d,
                         double ks_p_given);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

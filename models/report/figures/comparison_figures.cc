@@ -9,7 +9,7 @@
 
 #include "models/report/figures/figure_parts.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 constexpr std::size_t kNameLength = 24;
@@ -367,4 +367,4 @@ Figure CorrelationFigure(const ReportView& view, const std::string& prefix) {
   return figure;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

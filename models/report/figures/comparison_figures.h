@@ -5,7 +5,7 @@
 
 #include "models/report/figures/figures.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// Error of every model under each hold-out: the picture that decides.
 Figure GapFigure(const ReportView& view, const std::string& prefix);
@@ -22,4 +22,4 @@ std::vector<Figure> StartFigures(const ReportView& view,
 /// Correlation of inputs and target.
 Figure CorrelationFigure(const ReportView& view, const std::string& prefix);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

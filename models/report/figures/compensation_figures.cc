@@ -13,7 +13,7 @@
 #include "models/report/figures/figure_parts.h"
 #include "models/report/figures/held_out_rows.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 constexpr int kWide = 1180;
@@ -502,4 +502,4 @@ std::vector<Figure> CostFigures(const ReportView& view,
   return {std::move(figure)};
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -5,7 +5,7 @@
 
 #include "models/report/figures/figures.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 // What the recommended map does to the machine's error, on rows that its fits
 // have not seen. A figure that the data do not allow is not made.
@@ -37,4 +37,4 @@ std::vector<Figure> TrainingResidualFigures(const ReportView& view,
 std::vector<Figure> CostFigures(const ReportView& view,
                                 const std::string& prefix);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -10,7 +10,7 @@
 #include "stats/normality/probability_plot.h"
 #include "stats/summary.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 constexpr std::size_t kFewestForShape = 8;
@@ -216,4 +216,4 @@ Figure EcdfFigure(const ResidualContext& context) {
   return figure;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -2,7 +2,7 @@
 
 #include "models/report/figures/figure_parts.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 // How the residuals are distributed; the figures of the report of 1995.
 
@@ -18,4 +18,4 @@ Figure PpccFigure(const ResidualContext& context);
 /// The empirical distribution against the normal one, with their largest gap.
 Figure EcdfFigure(const ResidualContext& context);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

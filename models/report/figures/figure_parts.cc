@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace errmap::cli {
+namespace errmap::report {
 
 bool SpansDecades(double low, double high) {
   constexpr double kManyTimes = 15.0;
@@ -82,4 +82,4 @@ Series ZeroLine(const std::vector<double>& x) {
           .colour = kGrey};
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

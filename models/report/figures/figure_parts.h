@@ -8,7 +8,7 @@
 #include "models/report/figures/figures.h"
 #include "models/report/figures/held_out_rows.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 // Okabe and Ito's colours (2008), told apart in every kind of colour vision.
 inline constexpr const char* kBlue = "#0072B2";
@@ -60,4 +60,4 @@ Series Points(std::vector<double> x, std::vector<double> y);
 /// y = 0 from the lowest to the highest x.
 Series ZeroLine(const std::vector<double>& x);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

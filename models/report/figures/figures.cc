@@ -12,7 +12,7 @@
 #include "models/report/figures/sensor_figures.h"
 #include "models/report/figures/svg.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 constexpr std::size_t kFewComponents = 6;
@@ -162,4 +162,4 @@ std::vector<ReportFile> FigureFiles(const FigureSet& figures,
   return files;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -6,7 +6,7 @@
 #include "models/report/figures/gnuplot.h"
 #include "models/report/report_view.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// Where in a component's part of the report a figure stands.
 enum class FigurePlace {
@@ -73,4 +73,4 @@ struct ReportFile {
 std::vector<ReportFile> FigureFiles(const FigureSet& figures,
                                     ImageFormat format);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -7,7 +7,7 @@
 
 #include "data/text.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 std::string Range(const Axis& axis) {
@@ -254,4 +254,4 @@ std::string PlotScript(const Plot& plot,
   return text + plots + "\nunset output\n";
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

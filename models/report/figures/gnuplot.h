@@ -5,7 +5,7 @@
 
 #include "models/report/plot.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 enum class ImageFormat { kSvg, kPdf, kPng };
 /// "svg", "pdf", "png".
@@ -24,4 +24,4 @@ std::string PlotScript(const Plot& plot,
                        ImageFormat format,
                        std::string_view file);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

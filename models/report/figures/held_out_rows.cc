@@ -5,7 +5,7 @@
 
 #include "models/report/plot.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 HeldOutRows HeldOutRowsOf(const ReportView& view,
                           const std::string& model,
@@ -75,4 +75,4 @@ HeldOutRows HeldOutRowsOf(const ReportView& view,
   return rows;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -5,7 +5,7 @@
 
 #include "models/report/report_view.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// Held-out rows of one model under one hold-out, those with a prediction; the
 /// errors in the shown unit.
@@ -31,4 +31,4 @@ HeldOutRows HeldOutRowsOf(const ReportView& view,
                           const std::string& model,
                           const std::string& holdout);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -10,7 +10,7 @@
 #include "models/report/figures/figure_parts.h"
 #include "models/report/learning_words.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 void AddCurve(const std::string& label,
@@ -182,4 +182,4 @@ void AddLearning(const models::StudyRecord& record,
   }
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -5,7 +5,7 @@
 #include "models/promise/learning_record.h"
 #include "models/report/figures/figures.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// Error on unseen units against the number learnt from, or against the number
 /// of sensors, whichever errmap learn was asked for; none of neither.
@@ -18,4 +18,4 @@ void AddLearning(const models::StudyRecord& record,
                  const std::vector<models::LearningRecord>& learnt,
                  FigureSet* figures);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -12,7 +12,7 @@
 #include "data/units.h"
 #include "models/report/figures/figure_parts.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using models::MachineChoiceRecord;
@@ -305,4 +305,4 @@ std::vector<Figure> MachineFigures(const MachineRecord& machine) {
   return MachinePictures(machine, *before, *after).Figures();
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -5,7 +5,7 @@
 #include "models/report/figures/figures.h"
 #include "models/study/record/machine_record.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// The error at the tool over the working plane, before and after compensation
 /// by the recommended maps: mean errors as arrows, on one scale and after
@@ -13,4 +13,4 @@ namespace errmap::cli {
 /// Nothing where the record has no plane.
 std::vector<Figure> MachineFigures(const models::MachineRecord& machine);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 constexpr double kLineHeight = 17.0;
@@ -153,4 +153,4 @@ PlotLayout LayOut(const Plot& plot) {
   return layout;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -7,7 +7,7 @@
 #include "models/report/figures/plot_scale.h"
 #include "models/report/plot.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 // In pixels:
 inline constexpr double kTextSize = 12.0;
@@ -50,4 +50,4 @@ bool HasColours(const Plot& plot);
 /// the series of `plot`, which has to outlive it.
 PlotLayout LayOut(const Plot& plot);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

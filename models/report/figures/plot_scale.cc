@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 constexpr double kHalf = 0.5;
@@ -152,4 +152,4 @@ double Scale::Value(double place) const {
   return logarithmic_ ? std::pow(10.0, place) : place;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

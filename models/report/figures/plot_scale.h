@@ -6,7 +6,7 @@
 
 #include "models/report/plot.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// A mark at an axis and what is written beside it.
 struct Tic {
@@ -53,4 +53,4 @@ class Scale {
   double Value(double place) const;
 };
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

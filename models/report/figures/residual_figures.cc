@@ -11,7 +11,7 @@
 #include "models/report/figures/distribution_figures.h"
 #include "models/report/figures/figure_parts.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 // Characters of a name that fit under a figure, and under a small one.
@@ -326,4 +326,4 @@ Figure SmallResidualFigure(const ReportView& view,
   return figure;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -5,7 +5,7 @@
 
 #include "models/report/figures/figures.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// The figures of a model's held-out residuals: predicted against measured,
 /// against position, group and (where `inputs`) each used input, map, and the
@@ -23,4 +23,4 @@ Figure SmallResidualFigure(const ReportView& view,
                            const std::string& holdout,
                            const std::string& name);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

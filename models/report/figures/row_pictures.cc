@@ -9,7 +9,7 @@
 #include "models/report/figures/figure_parts.h"
 #include "models/report/html.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 constexpr double kWidth = 120.0;
@@ -113,4 +113,4 @@ std::string Sparkline(const std::vector<double>& errors,
               kDot));
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -5,7 +5,7 @@
 
 #include "models/study/record/record_values.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 // Pictures that stand in a row of a table, as SVG.
 
@@ -22,4 +22,4 @@ std::string IntervalPicture(double rmse,
 std::string Sparkline(const std::vector<double>& errors,
                       const std::string& words);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -8,7 +8,7 @@
 
 #include "models/report/figures/figure_parts.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 constexpr std::size_t kMostAlone = 12;
@@ -176,4 +176,4 @@ std::vector<Figure> ImportanceFigures(const ReportView& view,
   return {std::move(figure)};
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

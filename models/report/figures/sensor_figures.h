@@ -5,11 +5,11 @@
 
 #include "models/report/figures/figures.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// Held-out error of the recommended map without each of its sensors, and
 /// without those that are alike; none where the record has nothing of it.
 std::vector<Figure> ImportanceFigures(const ReportView& view,
                                       const std::string& prefix);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

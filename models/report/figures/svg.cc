@@ -12,7 +12,7 @@
 #include "models/report/figures/plot_layout.h"
 #include "models/report/html.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 constexpr double kHalf = 0.5;
@@ -427,4 +427,4 @@ std::string SvgFile(std::string_view svg) {
          std::string(svg.substr(kTag.size())) + "\n";
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -5,7 +5,7 @@
 
 #include "models/report/plot.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// The plot as SVG, fit for standing inline in a page (SvgFile: by itself):
 /// flat shapes and text, coordinates to 0.1 px, what is alike in one path. All
@@ -21,4 +21,4 @@ std::string Svg(const Plot& plot,
 /// What Svg draws as a file of its own.
 std::string SvgFile(std::string_view svg);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

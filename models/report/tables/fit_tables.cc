@@ -8,7 +8,7 @@
 #include "models/study/record/record_json.h"
 #include "stats/holdout.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 // A number, text or truth as one line; lists and objects as JSON.
@@ -437,4 +437,4 @@ Table ProvenanceTable(const models::StudyRecord& record) {
   return table;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

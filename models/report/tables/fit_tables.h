@@ -5,7 +5,7 @@
 
 #include "models/report/tables/report_tables.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// Error beside what a step of each map costs on a controller.
 Table CostTable(const ReportView& view);
@@ -48,4 +48,4 @@ Table HoldoutTable(const ReportView& view);
 /// Where the figures come from: of the whole document.
 Table ProvenanceTable(const models::StudyRecord& record);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

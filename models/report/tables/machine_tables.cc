@@ -13,7 +13,7 @@
 
 #include "data/units.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using models::MachineChoiceRecord;
@@ -266,4 +266,4 @@ std::vector<Table> MachineTables(const MachineRecord& machine) {
   return tables;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

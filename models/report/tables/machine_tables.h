@@ -5,7 +5,7 @@
 #include "models/report/table.h"
 #include "models/study/record/machine_record.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// What compensation is worth: the error at the tool on days that no fit saw,
 /// each way of choosing maps a row.
@@ -32,4 +32,4 @@ Table MachineMapTable(const models::MachineRecord& machine);
 /// All of these that have rows, in this order.
 std::vector<Table> MachineTables(const models::MachineRecord& machine);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -6,7 +6,7 @@
 
 #include "models/report/words/verdict_text.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 std::string ErrorHead(const ReportView& view, const std::string& what) {
@@ -269,4 +269,4 @@ Table IndependenceTable(const ReportView& view, const std::string& holdout) {
   return table;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -5,7 +5,7 @@
 #include "models/report/report_view.h"
 #include "models/report/table.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// Errors between neighbours beside those on unseen groups.
 Table GapTable(const ReportView& view);
@@ -26,4 +26,4 @@ Table NormalityTable(const ReportView& view, const std::string& holdout);
 /// Tests of independence and bias of every model's held-out residuals.
 Table IndependenceTable(const ReportView& view, const std::string& holdout);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

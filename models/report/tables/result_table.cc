@@ -9,7 +9,7 @@
 #include "models/report/words/verdict_text.h"
 #include "models/report/wrap_text.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using models::ComponentRecord;
@@ -515,4 +515,4 @@ Table PageLeaderboard(const ReportView& view) {
   return table;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

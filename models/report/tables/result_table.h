@@ -3,7 +3,7 @@
 #include "models/report/report_view.h"
 #include "models/report/table.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 // What models achieved, for people and for files. The columns are declared
 // once, in the .cc file, with what each is called and where it stands.
@@ -34,4 +34,4 @@ std::string UnseenWords(const ReportView& view);
 /// significance, goal, cost.
 Table PageLeaderboard(const ReportView& view);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using models::Certification;
@@ -234,4 +234,4 @@ std::string CertificationText(const Certification& certification,
   return text;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

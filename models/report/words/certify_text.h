@@ -4,7 +4,7 @@
 
 #include "models/certification/certification.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// Tables of the parts that were run, the floors beside them. `details`: every
 /// run of every solver and every gradient too.
@@ -12,4 +12,4 @@ std::string CertificationText(const models::Certification& certification,
                               const models::CertificationFloors& floors,
                               bool details);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

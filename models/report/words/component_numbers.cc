@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace errmap::cli {
+namespace errmap::report {
 
 std::string ComponentNumbers::RmseWithInterval(
     const std::string& model, const std::string& holdout) const {
@@ -43,4 +43,4 @@ std::string ListBesides(const std::vector<std::string>& names,
   return fmt::format("{}", fmt::join(others, ", "));
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

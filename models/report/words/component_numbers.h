@@ -6,7 +6,7 @@
 
 #include "models/report/report_view.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// What the sentences about one component take from its record, which has to
 /// outlive it.
@@ -50,4 +50,4 @@ std::string CountOfUnits(std::int64_t count,
 std::string ListBesides(const std::vector<std::string>& names,
                         const std::string& besides);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -4,7 +4,7 @@
 
 #include "models/report/number_text.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 std::string UnitsWords(const models::DataRecord& data) {
   std::string text = ", no groups";
@@ -22,4 +22,4 @@ std::string TargetWords(const models::DataRecord& data) {
                             : "");
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

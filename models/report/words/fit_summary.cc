@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace errmap::cli {
+namespace errmap::report {
 
 std::string FitSummaryText(const fitting::FitSummary& summary) {
   std::string text = fmt::format("stop: {} ({})\n",
@@ -35,4 +35,4 @@ std::string FitSummaryText(const fitting::FitSummary& summary) {
   return text + "\n";
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace errmap::cli {
+namespace errmap::report {
 
 std::string IntervalText(const models::PromiseRecord& promise,
                          const ErrorText& error) {
@@ -36,4 +36,4 @@ std::string IntervalLine(const models::PromiseRecord& promise,
                      plural);
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

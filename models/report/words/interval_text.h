@@ -5,7 +5,7 @@
 #include "models/report/number_text.h"
 #include "models/study/record/study_record.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// "90 % of the errors on an unseen cycle lie within 1.4 um, 95 % within 2 um"
 std::string IntervalText(const models::PromiseRecord& promise,
@@ -14,4 +14,4 @@ std::string IntervalText(const models::PromiseRecord& promise,
 std::string IntervalLine(const models::PromiseRecord& promise,
                          const ErrorText& error);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

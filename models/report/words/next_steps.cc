@@ -13,7 +13,7 @@
 #include "models/report/shell_word.h"
 #include "models/report/words/verdict_text.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -177,4 +177,4 @@ std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
   return steps;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

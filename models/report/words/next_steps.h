@@ -5,7 +5,7 @@
 
 #include "models/study/record/study_record.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// Adds the options by which a command read its measurements, which compare,
 /// fit and learn have alike.
@@ -37,4 +37,4 @@ std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
                                    const std::string& data,
                                    const std::string& folder);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -14,7 +14,7 @@
 #include "models/report/wrap_text.h"
 #include "models/study/record/make_figure_record.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using models::RegressionReport;
@@ -371,4 +371,4 @@ std::string CorrelationText(const data::Dataset& dataset,
   return "\n" + InRoom(table, room);
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

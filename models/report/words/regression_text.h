@@ -7,7 +7,7 @@
 #include "models/regression_report.h"
 #include "models/report/screen.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// The report of a regression for people: step log, coefficient table, ANOVA,
 /// s, R2, PRESS, condition, excluded and aliased terms. Tables that are wider
@@ -19,4 +19,4 @@ std::string RegressionText(const models::RegressionReport& report,
 /// Correlation matrix (Pearson, weighted) of the inputs and the target.
 std::string CorrelationText(const data::Dataset& dataset, const Terminal& room);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -11,7 +11,7 @@
 #include "data/text.h"
 #include "models/report/words/interval_text.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using models::Confidence;
@@ -481,4 +481,4 @@ std::string GoalFigures(const models::ResultRecord& result,
   return text;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -4,7 +4,7 @@
 
 #include "models/report/words/component_numbers.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// The sentence of a ground or doubt of the recommendation.
 std::string RemarkText(const ComponentNumbers& component,
@@ -18,4 +18,4 @@ std::string WhereToMeasure(const models::RemarkRecord& remark);
 std::string GoalFigures(const models::ResultRecord& result,
                         const ErrorText& error);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

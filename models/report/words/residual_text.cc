@@ -10,7 +10,7 @@
 #include "stats/normality/simulated_quantiles.h"
 #include "stats/summary.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using stats::TestResult;
@@ -377,4 +377,4 @@ std::string Report1995Text(const stats::Report1995Statistics& printed,
                             printed.ks_probability);
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -6,7 +6,7 @@
 #include "models/study/judgement/residual_assessment.h"
 #include "stats/error_metrics.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// Location and spread, a few lines.
 std::string SampleText(const stats::ErrorMetrics& metrics,
@@ -33,4 +33,4 @@ std::string Report1995Text(const stats::Report1995Statistics& printed,
                            double r_squared,
                            const data::Unit& unit);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

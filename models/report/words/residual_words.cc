@@ -8,7 +8,7 @@
 
 #include "models/report/number_text.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using stats::TestResult;
@@ -226,4 +226,4 @@ std::string ResidualSentences(const models::ResidualReport& report,
   return text;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -5,7 +5,7 @@
 #include "data/units.h"
 #include "models/study/judgement/residual_assessment.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// What the figures say about the residuals, in sentences that follow from
 /// them and from nothing else: their shape, how the 1995 program would have
@@ -15,4 +15,4 @@ std::string ResidualSentences(const models::ResidualReport& report,
                               const stats::Report1995Statistics& printed,
                               const data::Unit& unit);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

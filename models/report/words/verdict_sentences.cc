@@ -11,7 +11,7 @@
 
 #include "stats/comparison/paired_comparison.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using models::Choice;
@@ -286,4 +286,4 @@ std::string MemorisationSentence(const ModelRecord& model) {
   return "";
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

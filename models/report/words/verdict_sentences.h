@@ -4,7 +4,7 @@
 
 #include "models/report/words/component_numbers.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 /// Which model has the lowest error under a hold-out, and how surely.
 std::string VerdictSentence(const ComponentNumbers& component,
@@ -20,4 +20,4 @@ std::string GapSentence(const ComponentNumbers& component);
 /// How much noise a model learns, of one whose memorisation was looked at.
 std::string MemorisationSentence(const ModelRecord& model);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -12,7 +12,7 @@
 #include "models/report/words/verdict_sentences.h"
 #include "models/report/wrap_text.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using models::FindNamed;
@@ -156,4 +156,4 @@ std::string VerdictParagraphs(const models::ComponentRecord& record,
   return text;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -6,7 +6,7 @@
 
 #include "models/report/report_view.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 // What a record says, in sentences. Nothing is decided here.
 
@@ -34,4 +34,4 @@ std::string MeasureNext(const models::ComponentRecord& record);
 std::string VerdictParagraphs(const models::ComponentRecord& record,
                               std::size_t width);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -12,7 +12,7 @@
 namespace errmap {
 namespace {
 
-using cli::WidthOf;
+using report::WidthOf;
 using ::testing::AllOf;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
@@ -34,7 +34,7 @@ class Screens : public Cli {
       const Outcome outcome = Run(words);
       EXPECT_EQ(outcome.status, 0) << outcome.err;
       for (const std::string& line : SplitLines(outcome.out)) {
-        EXPECT_LE(WidthOf(line), std::stoul(columns)) << line;
+        EXPECT_LE(report::WidthOf(line), std::stoul(columns)) << line;
       }
     }
   }

@@ -4,7 +4,7 @@
 
 #include "tests/models/report/report_document.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 TEST(HtmlText, EscapesWhatHasAMeaningInTextAndAttributes) {
@@ -41,4 +41,4 @@ TEST(MarkdownText, LeavesNoHostileNameAMeaning) {
 }
 
 }  // namespace
-}  // namespace errmap::cli
+}  // namespace errmap::report

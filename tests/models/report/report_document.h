@@ -13,6 +13,11 @@ namespace errmap {
 
 using Json = models::RecordJson;
 
+/// As results.json has it.
+inline std::string FileText(const Json& document) {
+  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 struct DocumentSpec {
   std::size_t components = 1;
   std::size_t rows = 60;

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using ::testing::HasSubstr;
@@ -116,4 +116,4 @@ TEST(HtmlTable, EscapesAndMarks) {
 }
 
 }  // namespace
-}  // namespace errmap::cli
+}  // namespace errmap::report

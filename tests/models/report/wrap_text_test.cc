@@ -5,7 +5,7 @@
 
 #include "models/report/shell_word.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using ::testing::ElementsAre;
@@ -49,4 +49,4 @@ TEST(ShellCommand, GoesOnInTheNextLine) {
 }
 
 }  // namespace
-}  // namespace errmap::cli
+}  // namespace errmap::report

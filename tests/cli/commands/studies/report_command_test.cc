@@ -14,9 +14,9 @@ bool HasGnuplot() { return std::system("command -v gnuplot >/dev/null") == 0; }
 
 class ReportCommand : public Cli {
  protected:
-  void WriteStudy(const cli::Json& document) const {
+  void WriteStudy(const Json& document) const {
     std::filesystem::create_directory(scratch_ / "study");
-    Write("study/results.json", cli::DumpJson(document));
+    Write("study/results.json", FileText(document));
   }
 };
 
@@ -47,7 +47,7 @@ TEST_F(ReportCommand, KeepsInTheRecordAllThatWasJudged) {
                "poly:eq7,poly:full:degree=3,net:scg:iterations=5",
                "--format",
                "json"});
-  const std::string text = cli::DumpJson(document);
+  const std::string text = FileText(document);
   EXPECT_EQ(models::ToJsonText(models::FromJsonText(text)), text);
   const Json& advice = document["components"][0]["recommendation"];
   EXPECT_EQ(advice["grounds"].size(), advice["reasons"].size());

@@ -11,7 +11,7 @@
 #include "models/report/tables/result_table.h"
 #include "tests/models/report/report_document.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using ::testing::HasSubstr;
@@ -200,7 +200,7 @@ TEST(ReportHtml, ShowsHostileNamesAsText) {
     spec.unit = name;
     spec.models = {"mean", "poly:" + name, "net:" + name};
     // As it would come out of the file.
-    const Json document = Json::parse(DumpJson(MakeReportDocument(spec)));
+    const Json document = Json::parse(FileText(MakeReportDocument(spec)));
     const std::string html = Write(document);
     EXPECT_THAT(html, Not(HasSubstr("<script"))) << name;
     EXPECT_THAT(html, Not(HasSubstr("<img"))) << name;
@@ -295,7 +295,7 @@ TEST(ReportHtml, HatchesWhatWasNotMeasured) {
 
 TEST(ReportHtml, IsTheSameForTheSameDocument) {
   const Json document = MakeReportDocument();
-  EXPECT_EQ(Write(document), Write(Json::parse(DumpJson(document))));
+  EXPECT_EQ(Write(document), Write(Json::parse(FileText(document))));
 }
 
 TEST(ReportMarkdown, HoldsTheAnswerAndTheTables) {
@@ -309,4 +309,4 @@ TEST(ReportMarkdown, HoldsTheAnswerAndTheTables) {
 }
 
 }  // namespace
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -10,7 +10,7 @@
 #include "models/report/figures/held_out_rows.h"
 #include "tests/models/report/report_document.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using ::testing::HasSubstr;
@@ -259,4 +259,4 @@ TEST(Shortened, CutsTheMiddleAndNoCharacter) {
 }
 
 }  // namespace
-}  // namespace errmap::cli
+}  // namespace errmap::report

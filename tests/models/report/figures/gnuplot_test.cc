@@ -10,7 +10,7 @@
 #include "data/atomic_file.h"
 #include "tests/models/report/report_document.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using ::testing::HasSubstr;
@@ -153,4 +153,4 @@ TEST_F(GnuplotTest, ShowsHostileNamesAsTextAndRunsNothing) {
 }
 
 }  // namespace
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -11,7 +11,7 @@
 #include "models/report/figures/gnuplot.h"
 #include "models/report/figures/svg.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using models::MachineChoiceRecord;
@@ -161,4 +161,4 @@ TEST(MachineFigures, StandWhatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using ::testing::AllOf;
@@ -54,4 +54,4 @@ TEST(Sparkline, IsNotDrawnOfOneUnitOrOfWhatIsNotKnown) {
 }
 
 }  // namespace
-}  // namespace errmap::cli
+}  // namespace errmap::report

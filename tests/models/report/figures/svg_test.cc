@@ -9,7 +9,7 @@
 
 #include "tests/models/report/report_document.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using ::testing::HasSubstr;
@@ -204,4 +204,4 @@ TEST(Svg, IsEmptyOfNothingAndRefusesColumnsOfDifferentLengths) {
 }
 
 }  // namespace
-}  // namespace errmap::cli
+}  // namespace errmap::report

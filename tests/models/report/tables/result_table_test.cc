@@ -5,7 +5,7 @@
 
 #include "tests/models/report/report_document.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using ::testing::HasSubstr;
@@ -72,4 +72,4 @@ TEST(ResultTables, AgreeWithEachOther) {
 }
 
 }  // namespace
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -6,7 +6,7 @@
 #include "models/report/wrap_text.h"
 #include "tests/models/report/report_document.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 using models::ComponentRecord;
@@ -366,4 +366,4 @@ TEST(PageWords, HaveTheSymbolsThatPeopleWrite) {
 }
 
 }  // namespace
-}  // namespace errmap::cli
+}  // namespace errmap::report
