@@ -139,7 +139,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--into", type=pathlib.Path)
     parser.add_argument("--coverage", action="store_true")
-    arguments = parser.parse_args()
+    arguments = parser.parse_intermixed_args()
     with tempfile.TemporaryDirectory() as scratch:
         folder = (arguments.into or pathlib.Path(scratch)).resolve()
         with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
