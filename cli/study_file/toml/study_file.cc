@@ -11,7 +11,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
 
 #include "cli/command.h"
 #include "cli/study_file/toml/component_pattern.h"
@@ -310,16 +309,10 @@ toml::table ParseOverride(const std::string& text) {
   }
   const std::string source = std::string(kOverride) + text;
   const std::string key = text.substr(0, equals);
-  if (LineOfBareLetter(key) > 0) {
-    throw UsageError(data::PrintablePath(source) +
-                     ": a letter beyond ASCII in a key; write it in quotes");
-  }
-  if (LineOfBareLetter(text) == 0) {
-    try {
-      return toml::parse(text, source);
-    } catch (const toml::parse_error&) {
-      // Then the value is text, or the key is wrong.
-    }
+  try {
+    return toml::parse(text, source);
+  } catch (const toml::parse_error&) {
+    // Then the value is text, or the key is wrong.
   }
   try {
     return toml::parse(key + " = " + TomlText(text.substr(equals + 1)), source);

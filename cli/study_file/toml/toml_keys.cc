@@ -71,13 +71,6 @@ toml::table ParseToml(const std::string& text, const std::string& path) {
                     line,
                     kMostKeyParts));
   }
-  if (const std::size_t line = LineOfBareLetter(text); line > 0) {
-    throw data::InputError(
-        fmt::format("{}: line {}: a letter beyond ASCII outside of quotes; "
-                    "write keys and text with it in quotes",
-                    data::PrintablePath(path),
-                    line));
-  }
   // The parser asserts that there is none.
   if (const std::size_t at = text.find('\0'); at != std::string::npos) {
     const auto before = std::count(

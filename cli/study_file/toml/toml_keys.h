@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include "cli/study_file/given_error.h"
+#include "cli/study_file/toml/toml_parser.h"
 #include "data/text.h"
 
 namespace errmap::cli {

@@ -29,10 +29,11 @@ std::size_t EndOfString(std::string_view text, std::size_t begin) {
   return text.size();
 }
 
-// The line of the first character outside of strings and comments at which
-// `stops` is true; 0: none.
-template <typename Stops>
-std::size_t LineWhere(std::string_view text, Stops stops) {
+}  // namespace
+
+std::size_t LineOfLongKey(std::string_view text) {
+  constexpr std::string_view kEndsAKeyOrValue = "\n=,{}[]";
+  std::size_t dots = 0;  // since then
   std::size_t line = 1;
   std::size_t at = 0;
   while (at < text.size()) {
@@ -42,38 +43,16 @@ std::size_t LineWhere(std::string_view text, Stops stops) {
       next = EndOfString(text, at);
     } else if (c == '#') {
       next = std::min(text.find('\n', at), text.size());
-    } else if (stops(c)) {
-      return line;
+    } else if (c == '.') {
+      if (++dots >= kMostKeyParts) return line;
+    } else if (kEndsAKeyOrValue.find(c) != std::string_view::npos) {
+      dots = 0;
     }
     const std::string_view passed = text.substr(at, next - at);
     line += static_cast<std::size_t>(std::ranges::count(passed, '\n'));
     at = next;
   }
   return 0;
-}
-
-}  // namespace
-
-std::size_t LineOfLongKey(std::string_view text) {
-  // Dots since the last sign that ends a key or a value.
-  std::size_t dots = 0;
-  return LineWhere(text, [&](char c) {
-    if (c == '.') return ++dots >= kMostKeyParts;
-    if (std::string_view("\n=,{}[]").find(c) != std::string_view::npos) {
-      dots = 0;
-    }
-    return false;
-  });
-}
-
-std::size_t LineOfBareLetter(std::string_view text) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.starts_with(kByteOrderMark)) {
-    text.remove_prefix(kByteOrderMark.size());
-  }
-  constexpr unsigned char kFirst = 0x80;
-  return LineWhere(
-      text, [](char c) { return static_cast<unsigned char>(c) >= kFirst; });
 }
 
 std::string TomlText(std::string_view text) {

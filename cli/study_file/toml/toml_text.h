@@ -13,11 +13,6 @@ inline constexpr std::size_t kMostKeyParts = 64;
 /// The line (from 1) where a TOML text has a key of more parts; 0: nowhere.
 std::size_t LineOfLongKey(std::string_view text);
 
-/// The line (from 1) where a TOML text has a letter beyond ASCII outside of
-/// strings and comments, where TOML allows none (toml++ 3.3 reaches code there
-/// that it holds unreachable); 0: nowhere.
-std::size_t LineOfBareLetter(std::string_view text);
-
 /// Any text as a TOML string, on one line.
 std::string TomlText(std::string_view text);
 

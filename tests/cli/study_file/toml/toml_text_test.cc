@@ -1,6 +1,11 @@
 #include "cli/study_file/toml/toml_text.h"
 
+#include <string>
+
 #include <gtest/gtest.h>
+
+#include "cli/study_file/toml/toml_keys.h"
+#include "data/input_error.h"
 
 namespace errmap::cli {
 namespace {
@@ -42,13 +47,24 @@ TEST(TomlText, FindsKeysOfTooManyPartsOutsideOfStringsAndComments) {
   EXPECT_EQ(LineOfLongKey("x = \"\n" + longer + " = 1"), 2U);
 }
 
-TEST(LineOfBareLetter, KnowsStringsCommentsAndTheByteOrderMark) {
-  EXPECT_EQ(LineOfBareLetter("x = 1\ny = \u07c7"), 2U);
-  EXPECT_EQ(LineOfBareLetter("gr\u00f6sse = 1"), 1U);
-  EXPECT_EQ(LineOfBareLetter("\"gr\u00f6sse\" = '\u00b5m' # \u00b5"), 0U);
-  EXPECT_EQ(LineOfBareLetter("\xEF\xBB\xBF"
-                             "x = 1"),
-            0U);
+// Found by the fuzzer: the parser held some of these for impossible.
+TEST(ParseToml, RefusesLettersBeyondAsciiOutsideOfQuotes) {
+  for (const std::string text : {"x = 1\ny = \u07c7",
+                                 "gr\u00f6sse = 1",
+                                 "x = 1'\u0492",
+                                 "x = true.'\u2c60'",
+                                 "x = 1 \u00a7"}) {
+    EXPECT_THROW(ParseToml(text, "study.toml"), data::InputError) << text;
+  }
+}
+
+TEST(ParseToml, ReadsLettersBeyondAsciiInQuotes) {
+  const toml::table table = ParseToml(
+      "\"gr\u00f6sse\" = '\u00b5m' # \u00b5\n"
+      "text = \"\"\"a\\\n  \u00a7\"\"\"",
+      "study.toml");
+  EXPECT_EQ(table["gr\u00f6sse"].value_or(std::string()), "\u00b5m");
+  EXPECT_EQ(table["text"].value_or(std::string()), "a\u00a7");
 }
 
 }  // namespace
