@@ -95,12 +95,24 @@ TEST_F(FlagsOfAThermalMachine, FindsASensorRaisedByFiveDegrees) {
   EXPECT_NEAR(change->shift, 5.0, 1.0);
 }
 
-TEST_F(FlagsOfAThermalMachine, FindsADeadSensor) {
-  MatrixXd inputs = OneDay();
-  inputs.col(ColumnOf("t12_degC")).setZero();
-  const Shares shares = SharesOf(inputs, "t12_degC");
-  EXPECT_EQ(shares.flagged, 1.0);
-  EXPECT_GT(shares.named, 0.95);
+// The coolant tank too, with which no other reading goes.
+TEST_F(FlagsOfAThermalMachine, FindsEverySensorThatIsDeadOrBeyondItsRange) {
+  for (const TrainedInput& input : map_->inputs) {
+    const std::string& name = input.column.name;
+    if (input.column.unit.symbol != "degC") continue;
+    for (const bool dead : {true, false}) {
+      MatrixXd inputs = OneDay();
+      auto readings = inputs.col(ColumnOf(name));
+      if (dead) {
+        readings.setZero();
+      } else {
+        readings.array() += input.max + 5.0 - readings.maxCoeff();
+      }
+      const Shares shares = SharesOf(inputs, name);
+      EXPECT_EQ(shares.flagged, 1.0) << name;
+      EXPECT_GT(shares.named, 0.95) << name;
+    }
+  }
 }
 
 TEST_F(FlagsOfAThermalMachine, FindsSwappedColumns) {
