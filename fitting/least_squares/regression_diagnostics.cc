@@ -42,6 +42,17 @@ VectorXd Weighted(const VectorXd& values, const VectorXd& weights) {
   return values.cwiseProduct(weights.cwiseSqrt());
 }
 
+// R of a tall design, itself of another: it has the same singular values. Made
+// at its final size: an Eigen matrix that is resized when memory ends is freed
+// twice.
+MatrixXd TriangleOf(const MatrixXd& design) {
+  if (design.rows() <= design.cols()) return design;
+  return Eigen::HouseholderQR<MatrixXd>(design)
+      .matrixQR()
+      .topRows(design.cols())
+      .triangularView<Eigen::Upper>();
+}
+
 void FindCondition(const MatrixXd& centred,
                    const VectorXd& means,
                    const VectorXd& intercept,
@@ -55,14 +66,8 @@ void FindCondition(const MatrixXd& centred,
     const double length = design.col(j).norm();
     if (length > 0.0) design.col(j) /= length;
   }
-  MatrixXd triangle = design;
-  if (design.rows() > design.cols()) {
-    triangle = Eigen::HouseholderQR<MatrixXd>(design)
-                   .matrixQR()
-                   .topRows(design.cols())
-                   .triangularView<Eigen::Upper>();
-  }
-  const VectorXd singular = Eigen::BDCSVD<MatrixXd>(triangle).singularValues();
+  const VectorXd singular =
+      Eigen::BDCSVD<MatrixXd>(TriangleOf(design)).singularValues();
   const double size =
       static_cast<double>(std::max(design.rows(), design.cols()));
   fit->condition = singular[0] / singular[singular.size() - 1];
