@@ -60,6 +60,17 @@ void PackedWeights<Scalar>::SetZero() {
   bias.setZero();
 }
 
+namespace {
+
+// One output and no weights, as most problems are: a number a pattern, in loops
+// without choices.
+template <typename Scalar>
+bool IsPlain(const NetProblem<Scalar>& problem) {
+  return problem.shape.outputs == 1 && problem.weights.size() == 0;
+}
+
+}  // namespace
+
 template <typename Scalar>
 double Outputs(const NetProblem<Scalar>& problem,
                Index begin,
@@ -68,9 +79,10 @@ double Outputs(const NetProblem<Scalar>& problem,
                Scalar* o) {
   const Index outputs = problem.shape.outputs;
   const Scalar slope = static_cast<Scalar>(OutputSlope(problem.shape));
-  for (Index p = 0; p < columns; ++p) {
-    for (Index j = 0; j < outputs; ++j) {
-      o[p * outputs + j] = slope * (o[p * outputs + j] + bias[j]);
+  for (Index j = 0; j < outputs; ++j) {
+    const Scalar from = bias[j];
+    for (Index i = j; i < outputs * columns; i += outputs) {
+      o[i] = slope * (o[i] + from);
     }
   }
   if (problem.shape.output == OutputFunction::kSigmoid) {
@@ -79,6 +91,13 @@ double Outputs(const NetProblem<Scalar>& problem,
   const Scalar* targets = problem.targets.data() + begin * outputs;
   const bool weighted = problem.weights.size() != 0;
   double sum = 0.0;
+  if (IsPlain(problem)) {
+    for (Index p = 0; p < columns; ++p) {
+      const auto error = static_cast<double>(o[p] - targets[p]);
+      sum += error * error;
+    }
+    return sum;
+  }
   for (Index p = 0; p < columns; ++p) {
     double squares = 0.0;
     for (Index j = 0; j < outputs; ++j) {
@@ -105,6 +124,13 @@ void OutputSlopes(const NetProblem<Scalar>& problem,
   const Scalar share =
       Scalar(1) / static_cast<Scalar>(problem.num_patterns() * outputs);
   const Scalar* targets = problem.targets.data() + begin * outputs;
+  if (sigmoid && IsPlain(problem)) {
+    for (Index p = 0; p < columns; ++p) {
+      d_output[p] =
+          share * (z[p] - targets[p]) * (slope * (z[p] - z[p] * z[p]));
+    }
+    return;
+  }
   for (Index p = 0; p < columns; ++p) {
     const Scalar factor = weighted ? share * problem.weights[begin + p] : share;
     for (Index j = 0; j < outputs; ++j) {
@@ -129,24 +155,30 @@ double OutputCurvature(const NetProblem<Scalar>& problem,
   const Scalar slope = static_cast<Scalar>(OutputSlope(problem.shape));
   const bool weighted = problem.weights.size() != 0;
   const Scalar* targets = problem.targets.data() + begin * outputs;
+  const auto bend_of = [&](Index i, Scalar step, bool bends) {
+    Scalar first_z = first[i] + step;
+    Scalar second_z = second[i];
+    if (bends) {  // z' = c z (1-z) o', z'' = c z (1-z) (o'' + c (1-2z) o'^2)
+      const Scalar derivative = slope * (z[i] - z[i] * z[i]);
+      second_z =
+          derivative * (second_z + slope * (Scalar(1) - Scalar(2) * z[i]) *
+                                       first_z * first_z);
+      first_z *= derivative;
+    }
+    return static_cast<double>(first_z) * static_cast<double>(first_z) +
+           static_cast<double>(z[i] - targets[i]) *
+               static_cast<double>(second_z);
+  };
   double sum = 0.0;
+  if (sigmoid && IsPlain(problem)) {
+    const Scalar step = bias_step[0];
+    for (Index p = 0; p < columns; ++p) sum += bend_of(p, step, true);
+    return sum;
+  }
   for (Index p = 0; p < columns; ++p) {
     double bend = 0.0;
     for (Index j = 0; j < outputs; ++j) {
-      const Index i = p * outputs + j;
-      Scalar first_z = first[i] + bias_step[j];
-      Scalar second_z = second[i];
-      if (sigmoid) {  // z' = c z (1-z) o', z'' = c z (1-z) (o'' + c (1-2z)
-                      // o'^2)
-        const Scalar derivative = slope * (z[i] - z[i] * z[i]);
-        second_z =
-            derivative * (second_z + slope * (Scalar(1) - Scalar(2) * z[i]) *
-                                         first_z * first_z);
-        first_z *= derivative;
-      }
-      bend += static_cast<double>(first_z) * static_cast<double>(first_z) +
-              static_cast<double>(z[i] - targets[i]) *
-                  static_cast<double>(second_z);
+      bend += bend_of(p * outputs + j, bias_step[j], sigmoid);
     }
     sum += weighted ? bend * static_cast<double>(problem.weights[begin + p])
                     : bend;
@@ -179,10 +211,11 @@ void GradientSum<Scalar>::Add(Index begin,
                              d_output_.data(),
                              delta_.data(),
                              sum_.w2.data());
-  for (Index p = 0; p < columns; ++p) {
-    for (Index j = 0; j < problem_.shape.outputs; ++j) {
-      sum_.bias[j] += d_output_[p * problem_.shape.outputs + j];
-    }
+  const Index outputs = problem_.shape.outputs;
+  for (Index j = 0; j < outputs; ++j) {
+    Scalar sum = sum_.bias[j];
+    for (Index i = j; i < outputs * columns; i += outputs) sum += d_output_[i];
+    sum_.bias[j] = sum;
   }
   problem_.kernels->add_products(problem_.Size(columns),
                                  problem_.patterns.rows(),
