@@ -45,6 +45,26 @@ void Call(Gemm gemm,
        static_cast<int>(c->outerStride()));
 }
 
+void CallSyrk(CBLAS_TRANSPOSE transpose,
+              const MatrixView<double>& a,
+              Eigen::Index inner,
+              MutableMatrixView<double>* c,
+              bool accumulate) {
+  assert(c->cols() == c->rows());
+  UseOneThreadPerCall();
+  cblas_dsyrk(CblasColMajor,
+              CblasLower,
+              transpose,
+              static_cast<int>(c->rows()),
+              static_cast<int>(inner),
+              1.0,
+              a.data(),
+              static_cast<int>(a.outerStride()),
+              accumulate ? 1.0 : 0.0,
+              c->data(),
+              static_cast<int>(c->outerStride()));
+}
+
 }  // namespace
 
 void UseOneThreadPerCall() {
@@ -95,19 +115,14 @@ void MultiplyByOwnTranspose(const MatrixView<double>& a,
                             MutableMatrixView<double> c,
                             bool accumulate) {
   assert(c.rows() == a.rows());
-  assert(c.cols() == a.rows());
-  UseOneThreadPerCall();
-  cblas_dsyrk(CblasColMajor,
-              CblasLower,
-              CblasNoTrans,
-              static_cast<int>(a.rows()),
-              static_cast<int>(a.cols()),
-              1.0,
-              a.data(),
-              static_cast<int>(a.outerStride()),
-              accumulate ? 1.0 : 0.0,
-              c.data(),
-              static_cast<int>(c.outerStride()));
+  CallSyrk(CblasNoTrans, a, a.cols(), &c, accumulate);
+}
+
+void MultiplyOwnTransposeBy(const MatrixView<double>& a,
+                            MutableMatrixView<double> c,
+                            bool accumulate) {
+  assert(c.rows() == a.cols());
+  CallSyrk(CblasTrans, a, a.rows(), &c, accumulate);
 }
 
 bool FactorizeCholesky(MutableMatrixView<double> a) {

@@ -54,6 +54,11 @@ void MultiplyByOwnTranspose(const MatrixView<double>& a,
                             MutableMatrixView<double> c,
                             bool accumulate = false);
 
+/// The same of c = a' a, a (k x m).
+void MultiplyOwnTransposeBy(const MatrixView<double>& a,
+                            MutableMatrixView<double> c,
+                            bool accumulate = false);
+
 /// Cholesky factor L of a symmetric matrix (m x m) in the place of its lower
 /// triangle, which alone is read. False where it is not positive definite to
 /// rounding; its content is then lost.

@@ -44,12 +44,12 @@ CrossProducts SumProducts(const MatrixXd& columns,
   if (columns.rows() == 0) return sums;
   ThrowIfInterrupted();
   VectorXd weighted = response;
-  MatrixXd rows = columns.transpose();
+  MatrixXd rooted;
   if (weights.size() != 0) {
     weighted.array() *= weights.array();
     sums.weight = weights.sum();
     sums.columns = columns.transpose() * weights;
-    rows *= weights.cwiseSqrt().asDiagonal();
+    rooted = weights.cwiseSqrt().asDiagonal() * columns;
   } else {
     sums.weight = static_cast<double>(columns.rows());
     sums.columns = columns.colwise().sum().transpose();
@@ -57,7 +57,10 @@ CrossProducts SumProducts(const MatrixXd& columns,
   sums.response = weighted.sum();
   sums.response_square = weighted.dot(response);
   sums.with_response = columns.transpose() * weighted;
-  if (columns.cols() != 0) MultiplyByOwnTranspose(rows, sums.products);
+  if (columns.cols() != 0) {
+    MultiplyOwnTransposeBy(weights.size() != 0 ? rooted : columns,
+                           sums.products);
+  }
   return sums;
 }
 

@@ -96,12 +96,18 @@ Eigen::MatrixXd TermMatrix(const Eigen::MatrixXd& scaled_inputs,
                          static_cast<Index>(terms.size()));
   for (Index column = 0; column < matrix.cols(); ++column) {
     const TermPowers& powers = terms[static_cast<std::size_t>(column)];
-    matrix.col(column).setOnes();
+    bool has_factor = false;
     for (Index input = 0; input < scaled_inputs.cols(); ++input) {
       for (int i = 0; i < powers[static_cast<std::size_t>(input)]; ++i) {
-        matrix.col(column).array() *= scaled_inputs.col(input).array();
+        if (has_factor) {
+          matrix.col(column).array() *= scaled_inputs.col(input).array();
+        } else {
+          matrix.col(column) = scaled_inputs.col(input);
+        }
+        has_factor = true;
       }
     }
+    if (!has_factor) matrix.col(column).setOnes();
   }
   return matrix;
 }

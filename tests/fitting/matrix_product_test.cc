@@ -163,12 +163,19 @@ TEST(MultiplyByOwnTranspose, FillsTheLowerTriangleOnly) {
     MultiplyByOwnTranspose(a, c);
     Eigen::MatrixXd twice = c;
     MultiplyByOwnTranspose(a, twice, true);
+    const Eigen::MatrixXd transposed = a.transpose();
+    Eigen::MatrixXd turned = Eigen::MatrixXd::Constant(size.m, size.m, kAbove);
+    MultiplyOwnTransposeBy(transposed, turned);
+    Eigen::MatrixXd turned_twice = turned;
+    MultiplyOwnTransposeBy(transposed, turned_twice, true);
     const Eigen::MatrixXd expected = a * a.transpose();
     for (Index j = 0; j < size.m; ++j) {
       for (Index i = 0; i < size.m; ++i) {
         EXPECT_NEAR(c(i, j), i < j ? kAbove : expected(i, j), bound);
         EXPECT_NEAR(
             twice(i, j), i < j ? kAbove : 2.0 * expected(i, j), 2.0 * bound);
+        EXPECT_NEAR(turned(i, j), c(i, j), bound);
+        EXPECT_NEAR(turned_twice(i, j), twice(i, j), 2.0 * bound);
       }
     }
   }
