@@ -9,6 +9,8 @@
 
 #include "fitting/interruption.h"
 #include "fitting/least_squares/triangular_reduction.h"
+#include "models/error_model.h"
+#include "models/shared_work.h"
 
 namespace errmap::models {
 namespace {
@@ -28,6 +30,29 @@ bool IsClosedUnder(const std::set<TermPowers>& terms, std::size_t input) {
         term.begin(), term.end(), [](int power) { return power == 0; });
     return constant || terms.contains(term);
   });
+}
+
+template <typename Number>
+void AppendBytes(const Number* from, std::size_t count, std::string* to) {
+  to->append(reinterpret_cast<const char*>(from), count * sizeof(Number));
+}
+
+// All that the triangle of a design depends on, but for the rows.
+std::string KeyOf(const PolynomialDesign& design) {
+  std::string key = "triangle";
+  for (const Index input : design.inputs()) {
+    const auto& info = design.dataset().inputs();
+    key += ' ' + info[static_cast<std::size_t>(input)].name;
+  }
+  for (const VectorXd* numbers :
+       {&design.scaling().offset, &design.scaling().scale}) {
+    AppendBytes(
+        numbers->data(), static_cast<std::size_t>(numbers->size()), &key);
+  }
+  for (const TermPowers& powers : design.terms()) {
+    AppendBytes(powers.data(), powers.size(), &key);
+  }
+  return key;
 }
 
 }  // namespace
@@ -252,6 +277,26 @@ DesignRows CollectRows(const PolynomialDesign& design,
     }
   }
   return rows;
+}
+
+DesignRows CollectRows(const PolynomialDesign& design,
+                       const std::vector<Index>& parts,
+                       const FitContext& context) {
+  const auto collect = [&] {
+    return CollectRows(design,
+                       parts,
+                       context.most_design_values,
+                       context.threads,
+                       context.stop);
+  };
+  if (context.shared == nullptr || !parts.empty() ||
+      !NeedsTriangle(
+          design.rows(), design.num_terms(), context.most_design_values)) {
+    return collect();
+  }
+  return *context.shared->Get<DesignRows>(KeyOf(design), [&] {
+    return std::make_shared<const DesignRows>(collect());
+  });
 }
 
 }  // namespace errmap::models

@@ -14,6 +14,8 @@
 
 namespace errmap::models {
 
+struct FitContext;
+
 /// Which inputs are moved to the middle of their range before products and
 /// powers are formed.
 enum class Centring {
@@ -98,6 +100,12 @@ DesignRows CollectRows(const PolynomialDesign& design,
                        double most_values,
                        int threads,
                        const std::atomic<bool>* stop = nullptr);
+
+/// The same by what `context` says. The triangle of all rows is made once for
+/// the recipes that share the work of these rows.
+DesignRows CollectRows(const PolynomialDesign& design,
+                       const std::vector<Eigen::Index>& parts,
+                       const FitContext& context);
 
 /// True where CollectRows makes triangles of such a design.
 bool NeedsTriangle(Eigen::Index rows, Eigen::Index terms, double most_values);

@@ -146,8 +146,7 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
       inputs,
       PolynomialScaling(training, inputs, terms, form_options.centring),
       terms);
-  DesignRows rows = CollectRows(
-      design, {}, context.most_design_values, context.threads, context.stop);
+  DesignRows rows = CollectRows(design, {}, context);
   const bool are_observations = rows.are_observations();
   if (!form_options.intercept) rows.intercept.setZero(rows.response.size());
   const fitting::RegressionProblem problem{rows.terms,

@@ -202,8 +202,7 @@ DictionaryRows CollectDictionary(const TermDictionary& dictionary,
     rows.parts = parts;
     return rows;
   }
-  DesignRows collected = CollectRows(
-      design, parts, context.most_design_values, context.threads, context.stop);
+  DesignRows collected = CollectRows(design, parts, context);
   rows.candidates =
       std::make_unique<fitting::MatrixColumns>(std::move(collected.terms));
   rows.response = std::move(collected.response);

@@ -12,6 +12,7 @@
 #include "models/polynomial/polynomial_model.h"
 #include "models/recipe_catalog.h"
 #include "models/regression_report.h"
+#include "models/shared_work.h"
 #include "tests/fitting/regression_test_data.h"
 #include "tests/models/model_test_data.h"
 
@@ -206,6 +207,33 @@ TEST(SelectionRecipe, TrianglesGiveWhatTheRowsGive) {
                   kRelative * rows.regression->rows.press);
     }
   }
+}
+
+TEST(SelectionRecipe, TrianglesAreMadeOnceForAllThatShareTheWorkOfTheRows) {
+  FitContext alone;
+  alone.most_design_values = 1000.0;
+  const auto predicted = [&](const std::string& spec,
+                             const data::Dataset& dataset,
+                             SharedWork* shared) {
+    FitContext context = alone;
+    context.shared = shared;
+    return MakeRecipe(spec)->Fit(dataset, context).Predict(ManyRows(false));
+  };
+  const data::Dataset dataset = ManyRows(true);
+  SharedWork shared;
+  for (const std::string spec : {"poly:full:degree=2",
+                                 "poly:stepwise:degree=2",
+                                 "poly:stepwise:degree=2:centred=no",
+                                 "poly:full:degree=1",
+                                 "poly:best:degree=1",
+                                 "poly:stepwise:degree=2:criterion=cv"}) {
+    EXPECT_EQ(predicted(spec, dataset, &shared),
+              predicted(spec, dataset, nullptr))
+        << spec;
+  }
+  // Rows that are not the same betray who made the triangle.
+  EXPECT_EQ(predicted("poly:full:degree=1", ManyRows(false), &shared),
+            predicted("poly:full:degree=1", dataset, nullptr));
 }
 
 TEST(SelectionRecipe, BootstrapOverGroupTrianglesIsThatOverTheirRows) {
