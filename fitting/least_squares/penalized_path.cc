@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include <Eigen/Dense>
 
 #include "fitting/matrix_product.h"
+#include "fitting/multiversion.h"
 
 namespace errmap::fitting {
 namespace {
@@ -22,6 +24,33 @@ std::vector<double> FallingGrid(double largest, int decades, int per_decade) {
                    std::pow(10.0, -static_cast<double>(i) / per_decade));
   }
   return grid;
+}
+
+// sum += factors[k] times column columns[k] of a matrix, one k after another.
+ERRMAP_MULTIVERSION
+void AddColumns(const double* matrix,
+                std::ptrdiff_t rows,
+                const std::ptrdiff_t* columns,
+                const double* factors,
+                std::ptrdiff_t count,
+                double* sum) {
+  std::ptrdiff_t k = 0;
+  for (; k + 4 <= count; k += 4) {
+    const double* c0 = matrix + columns[k] * rows;
+    const double* c1 = matrix + columns[k + 1] * rows;
+    const double* c2 = matrix + columns[k + 2] * rows;
+    const double* c3 = matrix + columns[k + 3] * rows;
+    for (std::ptrdiff_t i = 0; i < rows; ++i) {
+      double value = sum[i] + factors[k] * c0[i];
+      value += factors[k + 1] * c1[i];
+      value += factors[k + 2] * c2[i];
+      sum[i] = value + factors[k + 3] * c3[i];
+    }
+  }
+  for (; k < count; ++k) {
+    const double* c = matrix + columns[k] * rows;
+    for (std::ptrdiff_t i = 0; i < rows; ++i) sum[i] += factors[k] * c[i];
+  }
 }
 
 // The lasso's path: between knots its coefficients are linear in the strength
@@ -80,9 +109,7 @@ class LassoPathFollower {
       if (active_.empty()) break;
       const VectorXd step = Direction();
       VectorXd slope = VectorXd::Zero(residual_.size());
-      for (std::size_t i = 0; i < active_.size(); ++i) {
-        slope += step[static_cast<Index>(i)] * correlation_.col(active_[i]);
-      }
+      AddActive(step, &slope);
       double length = strength;
       joining = -1;
       Index leaving = -1;
@@ -121,9 +148,7 @@ class LassoPathFollower {
       strength -= length;
       if (leaving >= 0) Leave(leaving);
       residual_ = covariance_;
-      for (const Index j : active_) {
-        residual_ -= coefficients_[j] * correlation_.col(j);
-      }
+      AddActive(-coefficients_(active_), &residual_);
       if (joining < 0 && leaving < 0) break;  // reached no penalty at all
     }
     for (; at < strengths.size(); ++at) {
@@ -139,6 +164,16 @@ class LassoPathFollower {
   static constexpr double kCollinear = 1e-10;
 
   Index num_active() const { return static_cast<Index>(active_.size()); }
+
+  // sum += R_A times factors (of the active columns).
+  void AddActive(const VectorXd& factors, VectorXd* sum) const {
+    AddColumns(correlation_.data(),
+               correlation_.rows(),
+               active_.data(),
+               factors.data(),
+               num_active(),
+               sum->data());
+  }
 
   void Join(Index column) {
     may_join_[static_cast<std::size_t>(column)] = false;

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "fitting/selection/multiversion.h"
+#include "fitting/multiversion.h"
 
 namespace errmap::fitting {
 namespace {

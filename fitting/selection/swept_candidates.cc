@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "fitting/selection/multiversion.h"
+#include "fitting/multiversion.h"
 
 namespace errmap::fitting {
 namespace {
