@@ -3,6 +3,7 @@
 #include <array>
 #include <stdexcept>
 
+#include <openssl/crypto.h>
 #include <openssl/evp.h>
 
 namespace errmap::data {
@@ -66,6 +67,10 @@ std::string Sha256(std::string_view content) {
   Sha256Stream stream;
   stream.Add(content);
   return Hexadecimal(stream.Finish());
+}
+
+std::string OpenSslVersion() {
+  return OpenSSL_version(OPENSSL_FULL_VERSION_STRING);
 }
 
 }  // namespace errmap::data

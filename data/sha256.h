@@ -31,4 +31,7 @@ std::string Hexadecimal(std::string_view bytes);
 /// SHA-256 of `content` in lower-case hexadecimal.
 std::string Sha256(std::string_view content);
 
+/// Version of the library that computes it.
+std::string OpenSslVersion();
+
 }  // namespace errmap::data

@@ -93,9 +93,7 @@ prints early_stopping 6 -- 'ended by the caller'
 prints lilliefors -- 'D = 0.10095'
 prints one_row map.json -- '0 allocations'
 prints my_model data.csv -- 'mm by neighbours'
-prints compare data.csv results.json -- 'use blend'
-grep -q '"schema": *"errmap-results-1"' "$scratch/elsewhere/results.json" ||
-  fail "compare writes no results.json"
+prints compare data.csv results.json page.html -- 'Use blend: 0.808 um RMSE'
 for source in "$root"/tests/outside_project/*.cc; do
   most=25
   case $source in */my_model.cc) most=40 ;; esac
@@ -126,6 +124,37 @@ cd "$scratch/elsewhere"
 quietly "errmap --version" errmap --version
 quietly "errmap compare" errmap compare "$table" --models mean,poly:eq8
 grep -q '^[* =] *poly:eq8 ' "$log" || fail "errmap compare prints no table"
+
+# What the library made above: the program draws the same page from the same
+# record, and finds the same record but for where and how long.
+mkdir lib
+cp results.json lib/results.json
+quietly "errmap report" errmap report lib
+cmp lib/report.html page.html || fail "compare draws another page"
+errmap compare data.csv --quiet --format json >theirs.json
+python3 - results.json theirs.json >"$log" 2>&1 <<'SCRIPT' ||
+import json, sys
+
+def figures(value):
+    """Less what is measured of the machine."""
+    if isinstance(value, list):
+        return [figures(one) for one in value]
+    if not isinstance(value, dict):
+        return value
+    return {
+        key: figures(one)
+        for key, one in value.items()
+        if "seconds" not in key and not key.endswith("_ns") and key != "provenance"
+    }
+
+mine, theirs = (figures(json.load(open(name))) for name in sys.argv[1:])
+for one, other in zip(mine["components"], theirs["components"]):
+    for key in one:
+        assert one[key] == other[key], key
+assert mine == theirs
+SCRIPT
+  fail "compare finds something else than the program: $(tail -1 "$log")"
+rm -r lib theirs.json
 
 # Schemas.
 count=0

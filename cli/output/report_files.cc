@@ -8,8 +8,8 @@
 #include "data/atomic_file.h"
 #include "data/text.h"
 #include "models/report/documents/report_html.h"
-#include "models/report/documents/report_markdown.h"
 #include "models/report/figures/learning_figures.h"
+#include "models/report/report.h"
 
 namespace errmap::cli {
 

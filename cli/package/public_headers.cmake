@@ -27,6 +27,7 @@ set(ERRMAP_PUBLIC_HEADERS
   fitting/nonlinear/variable_projection.h
   fitting/selection/best_subset.h
   fitting/selection/stepwise_selection.h
+  models/comparison/compare.h
   models/error_model.h
   models/export/export_map.h
   models/export/program_cost.h
@@ -56,6 +57,7 @@ set(ERRMAP_PUBLIC_HEADERS
   models/promise/session_offset.h
   models/recipe_catalog.h
   models/regression_report.h
+  models/report/report.h
   models/scaling.h
   models/study/given_predictions.h
   models/study/judgement/verdict.h

@@ -12,6 +12,7 @@
 #include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/fault_text.h"
+#include "models/comparison/compare.h"
 #include "models/model_spec.h"
 #include "models/recipe_catalog.h"
 #include "models/report/number_text.h"
@@ -171,27 +172,26 @@ data::Alignment AlignOf(const std::string& text) {
   return text == "first" ? data::Alignment::kFirst : data::Alignment::kNone;
 }
 
+data::DatasetSelection SelectionOf(const ComponentConfig& component) {
+  return {.target = component.target,
+          .inputs = component.inputs,
+          .exclude = component.exclude,
+          .group = component.group,
+          .time = component.time,
+          .session = component.session,
+          .weight = component.weight,
+          .align = component.align,
+          .missing = component.missing,
+          .faults = component.faults,
+          .keep_dead = component.keep_dead,
+          .where = component.where};
+}
+
 data::PreparedDataset MakeDataLike(const data::CsvTable& table,
                                    const data::PreparedDataset& like,
                                    const ComponentConfig& component) {
-  const data::Dataset& dataset = like.dataset;
-  data::DatasetSelection selection{.target = dataset.target().name,
-                                   .inputs = {},
-                                   .exclude = {},
-                                   .group = dataset.groups().column,
-                                   .time = component.time,
-                                   .session = component.session,
-                                   .weight = component.weight,
-                                   .align = component.align,
-                                   .missing = component.missing,
-                                   .faults = component.faults,
-                                   .keep_dead = true,
-                                   .where = component.where,
-                                   .only_to_judge = true};
-  for (const data::ColumnInfo& input : dataset.inputs()) {
-    selection.inputs.push_back(input.name);
-  }
-  return data::MakeDataset(table, selection);
+  return data::MakeDataset(
+      table, models::SelectionLike(like.dataset, SelectionOf(component)));
 }
 
 GivenError ErrorOfFlag(const char* flag,

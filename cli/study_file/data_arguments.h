@@ -57,6 +57,9 @@ std::string TargetText(const data::Dataset& dataset);
 /// Of "none" or "first".
 data::Alignment AlignOf(const std::string& text);
 
+/// What a component says of its columns and rows.
+data::DatasetSelection SelectionOf(const ComponentConfig& component);
+
 /// Rows of another table with the columns of `like` (target, inputs, groups,
 /// time and sessions) and of `component` (weight, missing, faults, where).
 data::PreparedDataset MakeDataLike(const data::CsvTable& table,

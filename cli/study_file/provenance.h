@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "cli/json_blocks.h"
@@ -21,12 +20,7 @@ struct InputFile {
 /// Reads `file` for its hash; throws data::InputError where it cannot.
 InputFile HashInput(const std::string& file);
 
-/// Libraries that the figures pass through, with the versions in use (OpenBLAS
-/// with its options and the processor it took, Ceres as compiled against), by
-/// name.
-const std::vector<std::pair<std::string, std::string>>& LibraryVersions();
-
-/// Where a result comes from; the configuration is left to the caller.
+/// models::MakeProvenance of this run, paths as they are shown.
 models::ProvenanceRecord MakeProvenance(const std::string& command_line,
                                         const std::vector<InputFile>& inputs);
 

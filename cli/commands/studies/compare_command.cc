@@ -24,10 +24,8 @@
 #include "cli/study_file/plan/study_run.h"
 #include "data/atomic_file.h"
 #include "data/text.h"
-#include "models/report/documents/report_html.h"
 #include "models/report/documents/study_table.h"
-#include "models/report/figures/figures.h"
-#include "models/report/tables/result_table.h"
+#include "models/report/report.h"
 #include "models/study/journal/fit_journal_file.h"
 #include "models/study/split_file.h"
 
@@ -140,10 +138,8 @@ report::Screen Formatted(const StudyRun& run,
                          const CompareArguments& arguments) {
   const std::string& format = arguments.format;
   if (format == "json") return {models::ToJsonText(record), {}};
-  if (format == "csv")
-    return {report::CsvTable(report::LeaderboardRows(record)), {}};
-  if (format == "md")
-    return {report::MarkdownTable(report::LeaderboardRows(record)), {}};
+  if (format == "csv") return {report::TableCsv(record), {}};
+  if (format == "md") return {report::TableMarkdown(record), {}};
   report::Screen screen = report::StudyTable(record,
                                              {.all = arguments.all,
                                               .details = arguments.details,
@@ -218,9 +214,7 @@ int RunCompare(const CompareArguments& arguments) {
   // Before the files: a full disk must not cost the answer.
   PrintScreen(Formatted(run, record, arguments));
   if (!arguments.page.empty()) {
-    data::WriteFileAtomically(
-        arguments.page,
-        report::ReportHtml(record, report::MakeFigures(record)));
+    data::WriteFileAtomically(arguments.page, report::ReportHtml(record));
   }
   if (folder) WriteOutputs(run, record, &*folder);
   return StatusOf(run);

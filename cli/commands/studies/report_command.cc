@@ -16,8 +16,8 @@
 #include "data/input_error.h"
 #include "data/text.h"
 #include "models/report/documents/report_html.h"
-#include "models/report/documents/report_markdown.h"
 #include "models/report/figures/figures.h"
+#include "models/report/report.h"
 #include "models/study/record/study_record.h"
 
 namespace errmap::cli {
@@ -77,11 +77,10 @@ int RunStoreReport(const ReportArguments& arguments) {
   if (arguments.format == "md") {
     PrintResult(report::ReportMarkdown(results));
   } else if (arguments.format == "html") {
-    PrintResult(report::ReportHtml(results, report::MakeFigures(results)));
+    PrintResult(report::ReportHtml(results));
   } else {
     const std::string page = store.InFolder(arguments.component, kPageFile);
-    data::WriteFileAtomically(
-        page, report::ReportHtml(results, report::MakeFigures(results)));
+    data::WriteFileAtomically(page, report::ReportHtml(results));
     PrintResult(page + "\n");
   }
   return kDone;

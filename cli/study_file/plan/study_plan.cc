@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -20,7 +19,6 @@
 #include "data/sha256.h"
 #include "data/text.h"
 #include "models/file_recipe.h"
-#include "models/recipe_catalog.h"
 #include "models/study/split_file.h"
 #include "models/study/study_defaults.h"
 #include "stats/error_metrics.h"
@@ -61,40 +59,37 @@ class ComponentPlanner {
 
   ComponentPlan Plan() const {
     data::PreparedDataset prepared = PrepareData();
-    const data::Dataset& dataset = prepared.dataset;
-    const data::Unit& unit = dataset.target().unit;
     std::vector<models::Holdout> holdouts = MakeHoldouts(prepared);
     if (holdouts.empty()) {
       throw data::InputError(
           fmt::format("{}: names no hold-out", component_.split));
     }
-    std::vector<std::unique_ptr<models::ModelRecipe>> recipes =
-        MakeRecipes(dataset, FewestTrainingRows(holdouts));
-    const std::size_t num_added = AddBaselines(dataset, &recipes);
-    // What throws stands before the aggregate: GCC 12 destroys members of a
-    // half-built one twice (GCC PR 66139).
-    std::vector<models::GivenPredictions> given = ReadGiven();
-    const double goal = SizeOf("goal", component_.goal, study_.goal, dataset)
-                            .value_or(models::DefaultGoal(unit));
-    const double indifference =
+    std::vector<std::string> left_out;
+    ComponentPlan plan =
+        models::PlanModels({.name = component_.name,
+                            .file = ShownPath(component_.data),
+                            .sha256 = reader_->Sha256Of(component_.data),
+                            .data = std::move(prepared),
+                            .holdouts = std::move(holdouts),
+                            .study = {},
+                            .judgement = {}},
+                           study_.models,
+                           &left_out);
+    if (!quiet_) {
+      for (const std::string& line : left_out) Remark(line);
+    }
+    plan.given = ReadGiven();
+    const data::Dataset& dataset = plan.comparison.data.dataset;
+    const data::Unit& unit = dataset.target().unit;
+    plan.comparison.goal = SizeOf("goal", component_.goal, study_.goal, dataset)
+                               .value_or(models::DefaultGoal(unit));
+    plan.comparison.indifference =
         SizeOf("indifference",
                component_.indifference,
                study_.indifference,
                dataset)
             .value_or(models::DefaultIndifference(unit));
-    return {.comparison = {.name = component_.name,
-                           .file = ShownPath(component_.data),
-                           .sha256 = reader_->Sha256Of(component_.data),
-                           .goal = goal,
-                           .indifference = indifference,
-                           .data = std::move(prepared),
-                           .holdouts = std::move(holdouts),
-                           .study = {},
-                           .first_added = recipes.size() - num_added,
-                           .num_added = num_added,
-                           .judgement = {}},
-            .recipes = std::move(recipes),
-            .given = std::move(given)};
+    return plan;
   }
 
  private:
@@ -105,20 +100,8 @@ class ComponentPlanner {
   }
 
   data::PreparedDataset PrepareData() const {
-    data::PreparedDataset prepared =
-        data::MakeDataset(reader_->Read(component_.data),
-                          {.target = component_.target,
-                           .inputs = component_.inputs,
-                           .exclude = component_.exclude,
-                           .group = component_.group,
-                           .time = component_.time,
-                           .session = component_.session,
-                           .weight = component_.weight,
-                           .align = component_.align,
-                           .missing = component_.missing,
-                           .faults = component_.faults,
-                           .keep_dead = component_.keep_dead,
-                           .where = component_.where});
+    data::PreparedDataset prepared = data::MakeDataset(
+        reader_->Read(component_.data), SelectionOf(component_));
     SayWhatWasFound(prepared, FaultUse::kFit);
     if (!component_.later.empty()) {
       prepared.dataset = WithoutLater(prepared.dataset);
@@ -213,54 +196,6 @@ class ComponentPlanner {
     return given;
   }
 
-  Eigen::Index FewestTrainingRows(
-      const std::vector<models::Holdout>& holdouts) const {
-    constexpr std::size_t kFewestUsable = 2;
-    std::size_t fewest = std::numeric_limits<std::size_t>::max();
-    for (const models::Holdout& holdout : holdouts) {
-      for (const stats::Fold& fold : holdout.folds) {
-        fewest = std::min(fewest, fold.train.size());
-      }
-    }
-    if (fewest < kFewestUsable) {
-      throw data::InputError(fmt::format(
-          "{}: too few rows for every model: a fold trains on {}; more "
-          "data or another --holdout are needed",
-          component_.data,
-          fewest));
-    }
-    return static_cast<Eigen::Index>(fewest);
-  }
-
-  std::vector<std::unique_ptr<models::ModelRecipe>> MakeRecipes(
-      const data::Dataset& dataset, Eigen::Index fewest_training_rows) const {
-    if (study_.models.empty()) {
-      models::DefaultRecipes defaults =
-          models::MakeDefaultRecipes(dataset, fewest_training_rows);
-      if (!quiet_) {
-        for (const std::string& line : defaults.left_out) Remark(line);
-      }
-      return std::move(defaults.recipes);
-    }
-    std::vector<std::unique_ptr<models::ModelRecipe>> recipes;
-    for (const std::string& spec : study_.models) {
-      recipes.push_back(models::MakeRecipe(spec));
-    }
-    return recipes;
-  }
-
-  // What any map must beat is always there to be beaten.
-  static std::size_t AddBaselines(
-      const data::Dataset& dataset,
-      std::vector<std::unique_ptr<models::ModelRecipe>>* recipes) {
-    auto baselines = models::MissingBaselines(dataset, *recipes);
-    const std::size_t added = baselines.size();
-    recipes->insert(recipes->end(),
-                    std::make_move_iterator(baselines.begin()),
-                    std::make_move_iterator(baselines.end()));
-    return added;
-  }
-
   // The component's own, else the study's, in the target's unit. A bare number
   // that says nothing was meant in the unit that people read errors in.
   std::optional<double> SizeOf(const char* what,
@@ -332,28 +267,6 @@ void FillInDefaults(StudyPlan* plan) {
 }
 
 }  // namespace
-
-std::vector<std::string> ComponentPlan::HoldoutNames() const {
-  std::vector<std::string> names;
-  for (const models::Holdout& holdout : comparison.holdouts) {
-    names.push_back(holdout.name);
-  }
-  return names;
-}
-
-std::vector<std::string> ComponentPlan::ModelNames() const {
-  std::vector<std::string> names;
-  for (const auto& recipe : recipes) names.push_back(recipe->name());
-  return names;
-}
-
-int ComponentPlan::num_fits() const {
-  std::size_t fits_per_model = 1;  // to all rows
-  for (const models::Holdout& holdout : comparison.holdouts) {
-    fits_per_model += holdout.folds.size();
-  }
-  return static_cast<int>(fits_per_model * recipes.size());
-}
 
 int StudyPlan::num_fits() const {
   return std::transform_reduce(

@@ -1,28 +1,15 @@
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "cli/study_file/comparison.h"
 #include "cli/study_file/study_config.h"
-#include "models/error_model.h"
-#include "models/study/given_predictions.h"
+#include "models/comparison/component_plan.h"
 
 namespace errmap::cli {
 
-/// A component with its data read and all that will be fitted to them.
-struct ComponentPlan {
-  /// Still without results.
-  Comparison comparison;
-  std::vector<std::unique_ptr<models::ModelRecipe>> recipes;
-  std::vector<models::GivenPredictions> given;  // judged beside them
-
-  std::vector<std::string> HoldoutNames() const;
-  std::vector<std::string> ModelNames() const;
-  /// Fits of every model to all rows and to every fold.
-  int num_fits() const;
-};
+using models::ComponentPlan;
 
 /// What a study will do: everything is read, nothing is fitted.
 struct StudyPlan {

@@ -1,9 +1,8 @@
-#include "models/report/documents/report_markdown.h"
-
 #include <fmt/format.h>
 
 #include "models/report/documents/report_headline.h"
 #include "models/report/html.h"
+#include "models/report/report.h"
 #include "models/report/tables/fit_tables.h"
 #include "models/report/tables/machine_tables.h"
 #include "models/report/tables/report_tables.h"

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "models/report/documents/report_markdown.h"
+#include "models/report/report.h"
 #include "models/report/tables/report_tables.h"
 #include "models/report/tables/result_table.h"
 #include "tests/models/report/report_document.h"

@@ -1,0 +1,69 @@
+#include "models/comparison/compare.h"
+
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "data/atomic_file.h"
+#include "data/csv.h"
+#include "data/sha256.h"
+#include "models/comparison/component_plan.h"
+#include "models/study/study_defaults.h"
+
+namespace errmap::models {
+
+data::DatasetSelection SelectionLike(const data::Dataset& like,
+                                     data::DatasetSelection selection) {
+  selection.target = like.target().name;
+  selection.inputs.clear();
+  for (const data::ColumnInfo& input : like.inputs()) {
+    selection.inputs.push_back(input.name);
+  }
+  selection.exclude.clear();
+  selection.group = like.groups().column;
+  selection.keep_dead = true;
+  selection.only_to_judge = true;
+  return selection;
+}
+
+ComponentStudy CompareMaps(const std::string& file,
+                           const data::DatasetSelection& selection,
+                           const ComparisonOptions& options) {
+  const std::string text = data::ReadFile(file);
+  ComponentStudy component{
+      .name = std::filesystem::path(file).stem().string(),
+      .file = file,
+      .sha256 = data::Sha256(text),
+      .data = data::MakeDataset(data::ParseCsv(text, file), selection),
+      .holdouts = {},
+      .study = {},
+      .judgement = {}};
+  const data::Dataset& dataset = component.data.dataset;
+  const data::Unit& unit = dataset.target().unit;
+  component.goal = options.goal.value_or(DefaultGoal(unit));
+  component.indifference =
+      options.indifference.value_or(DefaultIndifference(unit));
+  for (const std::string& words :
+       options.holdouts.empty() ? DefaultHoldouts(dataset) : options.holdouts) {
+    const stats::HoldoutSpec spec = stats::ParseHoldout(words);
+    std::shared_ptr<const data::Dataset> test_data;
+    if (spec.kind == stats::HoldoutKind::kFile) {
+      test_data = std::make_shared<const data::Dataset>(
+          data::MakeDataset(data::ReadCsv(spec.file),
+                            SelectionLike(dataset, selection))
+              .dataset);
+    }
+    component.holdouts.push_back(
+        MakeHoldout(spec, dataset, options.seed, std::move(test_data)));
+  }
+  ComponentPlan plan =
+      PlanModels(std::move(component), options.models, nullptr);
+  RunComponent(&plan,
+               {.seed = options.seed,
+                .jobs = options.jobs,
+                .stop = options.stop,
+                .progress = options.progress});
+  return std::move(plan.comparison);
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,141 @@
+#include "models/comparison/component_plan.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "data/input_error.h"
+#include "models/promise/promise.h"
+#include "models/recipe_catalog.h"
+
+namespace errmap::models {
+namespace {
+
+Eigen::Index FewestTrainingRows(const ComponentStudy& component) {
+  constexpr std::size_t kFewestUsable = 2;
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  for (const Holdout& holdout : component.holdouts) {
+    for (const stats::Fold& fold : holdout.folds) {
+      fewest = std::min(fewest, fold.train.size());
+    }
+  }
+  if (fewest < kFewestUsable) {
+    throw data::InputError(fmt::format(
+        "{}: too few rows for every model: a fold trains on {}; more data or "
+        "another hold-out are needed",
+        component.file,
+        fewest));
+  }
+  return static_cast<Eigen::Index>(fewest);
+}
+
+std::vector<std::unique_ptr<ModelRecipe>> MakeRecipes(
+    const std::vector<std::string>& specs,
+    const data::Dataset& dataset,
+    Eigen::Index fewest_training_rows,
+    std::vector<std::string>* left_out) {
+  std::vector<std::unique_ptr<ModelRecipe>> recipes;
+  if (specs.empty()) {
+    DefaultRecipes defaults = MakeDefaultRecipes(dataset, fewest_training_rows);
+    if (left_out != nullptr) *left_out = std::move(defaults.left_out);
+    recipes = std::move(defaults.recipes);
+  }
+  for (const std::string& spec : specs) recipes.push_back(MakeRecipe(spec));
+  return recipes;
+}
+
+// What the recommended map needs, and what would make it better.
+void AddAdvice(const StudyOptions& options, ComponentPlan* plan) {
+  ComponentStudy* const component = &plan->comparison;
+  const std::size_t h = component->judgement.recommendation->holdout;
+  const std::size_t model = component->judgement.recommendation->model;
+  if (model >= plan->recipes.size()) return;  // predictions made elsewhere
+  const data::Dataset& dataset = component->data.dataset;
+  const ModelResult& recommended = component->study.models[model];
+  component->importance = ImportanceOfSensors(dataset,
+                                              component->holdouts[h],
+                                              recommended.holdouts[h],
+                                              *recommended.final_fit,
+                                              options.stop);
+  component->session_worth = WorthOfASession(dataset,
+                                             component->holdouts[h],
+                                             *plan->recipes[model],
+                                             recommended.holdouts[h],
+                                             options);
+}
+
+}  // namespace
+
+std::vector<std::string> ComponentPlan::HoldoutNames() const {
+  std::vector<std::string> names;
+  for (const Holdout& holdout : comparison.holdouts) {
+    names.push_back(holdout.name);
+  }
+  return names;
+}
+
+std::vector<std::string> ComponentPlan::ModelNames() const {
+  std::vector<std::string> names;
+  for (const auto& recipe : recipes) names.push_back(recipe->name());
+  return names;
+}
+
+int ComponentPlan::num_fits() const {
+  std::size_t fits_per_model = 1;  // to all rows
+  for (const Holdout& holdout : comparison.holdouts) {
+    fits_per_model += holdout.folds.size();
+  }
+  return static_cast<int>(fits_per_model * recipes.size());
+}
+
+ComponentPlan PlanModels(ComponentStudy component,
+                         const std::vector<std::string>& specs,
+                         std::vector<std::string>* left_out) {
+  const data::Dataset& dataset = component.data.dataset;
+  std::vector<std::unique_ptr<ModelRecipe>> recipes =
+      MakeRecipes(specs, dataset, FewestTrainingRows(component), left_out);
+  component.first_added = recipes.size();
+  auto baselines = MissingBaselines(dataset, recipes);
+  component.num_added = baselines.size();
+  std::ranges::move(baselines, std::back_inserter(recipes));
+  return {.comparison = std::move(component),
+          .recipes = std::move(recipes),
+          .given = {}};
+}
+
+void RunComponent(ComponentPlan* plan,
+                  StudyOptions options,
+                  bool keep_fold_maps) {
+  // In its place, which options.journal may know.
+  ComponentStudy& component = plan->comparison;
+  const data::Dataset& dataset = component.data.dataset;
+  options.indifference = component.indifference;
+  component.study =
+      RunStudy(dataset, component.holdouts, plan->recipes, options);
+  options.journal = nullptr;  // keeps fits of the study alone
+  for (const GivenPredictions& given : plan->given) {
+    component.study.models.push_back(
+        JudgeGivenPredictions(given, dataset, component.holdouts));
+  }
+  component.judgement =
+      JudgeStudy(dataset,
+                 component.holdouts,
+                 component.study,
+                 {component.indifference, component.goal, options.seed});
+  if (component.judgement.recommendation && !component.study.interrupted) {
+    const std::size_t h = component.judgement.recommendation->holdout;
+    for (ModelResult& model : component.study.models) {
+      if (!model.final_fit) continue;
+      AddApplicability(dataset, &*model.final_fit);
+      AddPromise(
+          dataset, component.holdouts[h], model.holdouts[h], &*model.final_fit);
+    }
+    AddAdvice(options, plan);
+  }
+  if (!keep_fold_maps) ForgetFoldMaps(&component.study);
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,56 @@
+#include "models/report/report.h"
+
+#include <algorithm>
+
+#include "models/report/documents/report_html.h"
+#include "models/report/documents/study_table.h"
+#include "models/report/tables/result_table.h"
+#include "models/report/words/verdict_text.h"
+#include "models/study/record/make_provenance.h"
+#include "models/study/record/make_study_record.h"
+#include "models/version.h"
+
+namespace errmap::report {
+
+models::StudyRecord MakeRecord(
+    const std::vector<models::ComponentStudy>& components,
+    std::uint64_t seed,
+    int jobs) {
+  std::vector<models::InputFileRecord> inputs;
+  models::StudyRecord record;
+  record.schema = models::kResultsSchema;
+  record.version = models::Version();
+  record.seed = seed;
+  for (const models::ComponentStudy& component : components) {
+    record.interrupted |= component.study.interrupted;
+    inputs.push_back({.file = component.file, .sha256 = component.sha256});
+    record.components.push_back(models::MakeComponentRecord(component, jobs));
+    AddSentences(&record.components.back());
+  }
+  record.provenance = models::MakeProvenance("", std::move(inputs));
+  record.provenance.configuration.seed = seed;
+  return record;
+}
+
+std::string VerdictText(const models::ComponentRecord& component) {
+  const std::vector<std::string> words = FirstWords(component);
+  return words.empty() ? "" : words.front();
+}
+
+std::string ScreenText(const models::StudyRecord& record, std::size_t columns) {
+  return StudyTable(record, {.terminal = {.columns = columns}}).text;
+}
+
+std::string TableCsv(const models::StudyRecord& record) {
+  return CsvTable(LeaderboardRows(record));
+}
+
+std::string TableMarkdown(const models::StudyRecord& record) {
+  return MarkdownTable(LeaderboardRows(record));
+}
+
+std::string ReportHtml(const models::StudyRecord& record) {
+  return ReportHtml(record, MakeFigures(record));
+}
+
+}  // namespace errmap::report

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "models/study/record/provenance_record.h"
+
+namespace errmap::models {
+
+/// Where a result comes from: this version, its compiler, platform and the
+/// libraries that the figures pass through, by name (OpenBLAS with its options
+/// and the processor it took, Ceres as compiled against). The configuration is
+/// left to the caller.
+ProvenanceRecord MakeProvenance(std::string command_line,
+                                std::vector<InputFileRecord> inputs);
+
+}  // namespace errmap::models
