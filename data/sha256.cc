@@ -1,9 +1,11 @@
 #include "data/sha256.h"
 
 #include <array>
+#include <new>
 #include <stdexcept>
 
 #include <openssl/crypto.h>
+#include <openssl/err.h>
 #include <openssl/evp.h>
 
 namespace errmap::data {
@@ -14,7 +16,13 @@ struct FreeContext {
 };
 
 void Require(bool done) {
-  if (!done) throw std::runtime_error("SHA-256 is not available in libcrypto");
+  if (done) return;
+  // What begins no digest for want of memory says no more than that.
+  const int reason = ERR_GET_REASON(ERR_peek_last_error());
+  if (reason == ERR_R_MALLOC_FAILURE || reason == EVP_R_INITIALIZATION_ERROR) {
+    throw std::bad_alloc();
+  }
+  throw std::runtime_error("SHA-256 is not available in libcrypto");
 }
 
 }  // namespace
@@ -24,7 +32,7 @@ struct Sha256Stream::State {
 };
 
 Sha256Stream::Sha256Stream() : state_(std::make_unique<State>()) {
-  Require(state_->context != nullptr);
+  if (state_->context == nullptr) throw std::bad_alloc();
   Require(EVP_DigestInit_ex(state_->context.get(), EVP_sha256(), nullptr) == 1);
 }
 
