@@ -408,11 +408,15 @@ int RunWatch(const WatchArguments& arguments) {
   } else {
     PrintResult(WatchText(arguments.store, components));
   }
-  const bool worse =
-      std::ranges::any_of(components, [](const WatchedComponent& component) {
+  if (std::ranges::any_of(components, [](const WatchedComponent& component) {
         return component.status == WatchStatus::kWorse;
-      });
-  return worse ? kEveryFitFailed : kDone;
+      })) {
+    return kEveryFitFailed;
+  }
+  // Silence would be taken for health.
+  const bool all_examined =
+      std::ranges::all_of(components, &WatchedComponent::examined);
+  return all_examined ? kDone : kUnusableInput;
 }
 
 }  // namespace
@@ -446,9 +450,9 @@ void AddWatchCommand(CLI::App* app, Run* run) {
       "worse or changed are so by chance. Sessions are kept in the store, "
       "watch.html\ndraws them. A file is of the component whose data have its "
       "name and the most of its folders.\nExit status: 0 none is worse, 3 no "
-      "store, one of a newer errmap, nothing deployed or no data of\nwhat is, "
-      "4 some map is worse than promised.\nExample: errmap watch fleet "
-      "september/");
+      "store, one of a newer errmap, nothing deployed, no data of\nwhat is or "
+      "data that cannot be judged, 4 some map is worse than promised.\n"
+      "Example: errmap watch fleet september/");
   command->callback([arguments, run] { run->status = RunWatch(*arguments); });
 }
 

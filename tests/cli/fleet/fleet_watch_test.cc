@@ -179,8 +179,10 @@ TEST_F(WatchedFiles, ThatCannotBeReadChangeNothing) {
   ASSERT_NE(Run({"watch", "store", "new"}).status, kUnusable);
   const auto before = Content("store", {"checks"});
   Write("new/m01/x_down.csv", "day,position_mm,error_mm\n1,2,\n");
-  const Json found =
-      RunJson({"watch", "store", "new/m01/x_down.csv", "--format", "json"});
+  const auto outcome =
+      Run({"watch", "store", "new/m01/x_down.csv", "--format", "json"});
+  EXPECT_EQ(outcome.status, kUnusable);
+  const Json found = Json::parse(outcome.out);
   EXPECT_EQ(found["components"][0]["status"], "not judged");
   EXPECT_EQ(found["components"][0]["found"], nullptr);
   EXPECT_EQ(Content("store", {"checks"}), before);
