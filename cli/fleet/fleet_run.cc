@@ -12,7 +12,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/fleet/gzip.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/output/configuration_record.h"
 #include "cli/output/results_document.h"
@@ -27,6 +26,7 @@
 #include "data/sha256.h"
 #include "data/text.h"
 #include "models/file_recipe.h"
+#include "models/fleet/store/gzip.h"
 #include "models/fleet/watch.h"
 #include "models/model_file.h"
 #include "models/study/record/record_json.h"
@@ -108,7 +108,7 @@ std::string KeyOf(const std::string& asked,
 // What is written of one component, and its summary last.
 class ComponentFiles {
  public:
-  ComponentFiles(const StorePaths& store, const std::string& name)
+  ComponentFiles(const fleet::StorePaths& store, const std::string& name)
       : store_(store), name_(name) {}
 
   void Write(const char* file, const std::string& content) const {
@@ -123,7 +123,7 @@ class ComponentFiles {
   }
 
  private:
-  const StorePaths& store_;
+  const fleet::StorePaths& store_;
   const std::string& name_;
 };
 
@@ -144,7 +144,7 @@ std::string MapOf(const StudyRun& run) {
 class FleetRunner {
  public:
   FleetRunner(const StudyFile& study,
-              const StorePaths& store,
+              const fleet::StorePaths& store,
               const FleetRunOptions& options)
       : config_(study.config),
         sources_(study.sources),
@@ -190,7 +190,7 @@ class FleetRunner {
   void Study(const ComponentConfig& component, const ComponentSource& source) {
     const std::string asked = AskedOf(config_, component, source);
     const std::string key = KeyOf(asked, config_, component);
-    const auto earlier = FindSummary(store_, component.name);
+    const auto earlier = fleet::FindSummary(store_, component.name);
     if (earlier && earlier->key == key &&
         earlier->status == models::ModelStatus::kOk) {
       Count(&FleetRunResult::kept);
@@ -234,7 +234,8 @@ class FleetRunner {
     const bool failed = summary.status != models::ModelStatus::kOk;
     if (failed) {
       // Of an earlier run: they are not this component's any more.
-      for (const char* file : {kResultsFile, kMapFile, kRelationsFile}) {
+      for (const char* file :
+           {fleet::kResultsFile, fleet::kMapFile, fleet::kRelationsFile}) {
         files.Remove(file);
       }
       if (!options_.quiet) {
@@ -243,7 +244,7 @@ class FleetRunner {
                         *summary.why));
       }
     }
-    files.Write(kSummaryFile, models::ToJsonText(std::move(summary)));
+    files.Write(fleet::kSummaryFile, models::ToJsonText(std::move(summary)));
     Count(failed ? &FleetRunResult::failed : &FleetRunResult::fitted);
   }
 
@@ -257,21 +258,21 @@ class FleetRunner {
                            models::ComponentSummary* summary) {
     const std::string map = MapOf(run);
     if (map.empty()) {
-      files.Remove(kMapFile);
+      files.Remove(fleet::kMapFile);
     } else {
       summary->map = models::SummaryMapRecord{
           .sha256 = data::Sha256(map),
           .bytes = static_cast<std::int64_t>(map.size())};
-      files.Write(kMapFile, Gzip(map));
+      files.Write(fleet::kMapFile, fleet::Gzip(map));
     }
     const auto relations =
         models::LearnRelations(run.components.front().data.dataset);
     if (relations) {
-      files.Write(kRelationsFile, Gzip(relations->ToJsonText()));
+      files.Write(fleet::kRelationsFile, fleet::Gzip(relations->ToJsonText()));
     } else {
-      files.Remove(kRelationsFile);
+      files.Remove(fleet::kRelationsFile);
     }
-    files.Write(kResultsFile, PackResults(std::move(record)));
+    files.Write(fleet::kResultsFile, fleet::PackResults(std::move(record)));
   }
 
   void Count(int FleetRunResult::*number) {
@@ -285,7 +286,7 @@ class FleetRunner {
 
   const StudyConfig& config_;
   const std::vector<ComponentSource>& sources_;
-  const StorePaths& store_;
+  const fleet::StorePaths& store_;
   const FleetRunOptions& options_;
   std::vector<std::size_t> share_;  // index into the components
   int jobs_each_ = 1;
@@ -303,8 +304,9 @@ StudyFile ExpandFleet(StudyFile study) {
   return study;
 }
 
-FleetRecord FleetOf(const StudyFile& study, const std::string& command_line) {
-  FleetRecord fleet;
+fleet::FleetRecord FleetOf(const StudyFile& study,
+                           const std::string& command_line) {
+  fleet::FleetRecord fleet;
   fleet.version = models::Version();
   fleet.file = std::filesystem::path(study.file.file).filename().string();
   fleet.sha256 = study.file.sha256;
@@ -317,12 +319,12 @@ FleetRecord FleetOf(const StudyFile& study, const std::string& command_line) {
          .data = study.sources[i].path,
          .asked = AskedOf(study.config, component, study.sources[i])});
   }
-  std::ranges::sort(fleet.components, {}, &FleetComponentRecord::name);
+  std::ranges::sort(fleet.components, {}, &fleet::FleetComponentRecord::name);
   return fleet;
 }
 
 FleetRunResult RunFleet(const StudyFile& study,
-                        const StorePaths& store,
+                        const fleet::StorePaths& store,
                         const FleetRunOptions& options) {
   return FleetRunner(study, store, options).Run();
 }

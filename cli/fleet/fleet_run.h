@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/fleet/store_folder.h"
 #include "cli/study_file/toml/study_file.h"
 #include "models/fleet/component_summary.h"
 #include "models/fleet/share.h"
+#include "models/fleet/store/store_folder.h"
 
 namespace errmap::cli {
 
@@ -18,7 +18,8 @@ namespace errmap::cli {
 StudyFile ExpandFleet(StudyFile study);
 
 /// What fleet.json says of an expanded study, in order of the names.
-FleetRecord FleetOf(const StudyFile& study, const std::string& command_line);
+fleet::FleetRecord FleetOf(const StudyFile& study,
+                           const std::string& command_line);
 
 struct FleetRunOptions {
   int jobs = 1;  // components at a time
@@ -44,7 +45,7 @@ struct FleetRunResult {
 /// the same data and words stays. Throws std::system_error where nothing can be
 /// written.
 FleetRunResult RunFleet(const StudyFile& study,
-                        const StorePaths& store,
+                        const fleet::StorePaths& store,
                         const FleetRunOptions& options);
 
 }  // namespace errmap::cli

@@ -8,15 +8,15 @@
 #include <fmt/format.h>
 
 #include "cli/commands/fleet/fleet_commands.h"
-#include "cli/fleet/deployments.h"
-#include "cli/fleet/gzip.h"
-#include "cli/fleet/store.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
 #include "data/sha256.h"
 #include "data/text.h"
+#include "models/fleet/store/deployments.h"
+#include "models/fleet/store/gzip.h"
+#include "models/fleet/store/store.h"
 #include "models/map_experience.h"
 #include "models/model_file.h"
 #include "models/report/number_text.h"
@@ -31,14 +31,14 @@ struct DeployArguments {
 };
 
 // A packed file of a component, "" where there is none.
-std::string Unpacked(const StorePaths& paths,
+std::string Unpacked(const fleet::StorePaths& paths,
                      const std::string& component,
                      const char* file) {
   const std::string path = paths.InFolder(component, file);
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return "";
   try {
-    return Gunzip(data::ReadFile(path), data::kMostTextOfPrograms);
+    return fleet::Gunzip(data::ReadFile(path), data::kMostTextOfPrograms);
   } catch (const data::InputError& error) {
     throw data::InputError(data::PrintablePath(path) + ": " + error.what());
   }
@@ -49,15 +49,16 @@ struct Recommended {
   std::string target;
   std::string sha256;
 };
-Recommended FindComponent(Database* store, const DeployArguments& arguments) {
-  Statement row = store->Prepare(
+Recommended FindComponent(fleet::Database* store,
+                          const DeployArguments& arguments) {
+  fleet::Statement row = store->Prepare(
       "SELECT target, maps.sha256, why FROM components LEFT JOIN maps ON "
       "component = name WHERE name = ?");
   row.With(arguments.component);
   if (row.Next()) {
     const std::string why = row.Text(2);
     if (!why.empty()) {
-      throw data::InputError(WhyNoMap(arguments.component, why));
+      throw data::InputError(fleet::WhyNoMap(arguments.component, why));
     }
     return {.target = row.Text(0), .sha256 = row.Text(1)};
   }
@@ -68,13 +69,14 @@ Recommended FindComponent(Database* store, const DeployArguments& arguments) {
       data::PrintablePath(arguments.store)));
 }
 
-std::string MapText(const StorePaths& paths,
+std::string MapText(const fleet::StorePaths& paths,
                     const DeployArguments& arguments,
                     const Recommended& recommended) {
   if (!arguments.model.empty()) {
     return data::ReadFile(arguments.model, data::kMostTextOfPrograms);
   }
-  const std::string text = Unpacked(paths, arguments.component, kMapFile);
+  const std::string text =
+      Unpacked(paths, arguments.component, fleet::kMapFile);
   if (!recommended.sha256.empty() && data::Sha256(text) == recommended.sha256) {
     return text;
   }
@@ -84,13 +86,13 @@ std::string MapText(const StorePaths& paths,
       data::QuotedName(arguments.component)));
 }
 
-Deployment DeploymentOf(const DeployArguments& arguments,
-                        const models::FittedModel& fitted) {
+fleet::Deployment DeploymentOf(const DeployArguments& arguments,
+                               const models::FittedModel& fitted) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   const bool has_levels = fitted.interval && fitted.interval->levels.size() > 1;
   return {
       .component = arguments.component,
-      .since = NowText(),
+      .since = fleet::NowText(),
       .model = fitted.name,
       .promised = fitted.held_out ? fitted.held_out->rmse : kNaN,
       .within_95 = has_levels ? fitted.interval->levels[1].half_width : kNaN,
@@ -99,10 +101,10 @@ Deployment DeploymentOf(const DeployArguments& arguments,
 }
 
 int RunDeploy(const DeployArguments& arguments) {
-  const StorePaths paths{arguments.store};
-  ReadFleet(paths);
-  const StoreLock lock(paths);
-  Database store = OpenStore(paths);
+  const fleet::StorePaths paths{arguments.store};
+  fleet::ReadFleet(paths);
+  const fleet::StoreLock lock(paths);
+  fleet::Database store = fleet::OpenStore(paths);
   const Recommended recommended = FindComponent(&store, arguments);
   const std::string map = MapText(paths, arguments, recommended);
   const models::FittedModel fitted = models::ModelFromJson(
@@ -113,7 +115,7 @@ int RunDeploy(const DeployArguments& arguments) {
                     data::QuotedName(fitted.target.name),
                     data::QuotedName(recommended.target)));
   }
-  Deployment deployment = DeploymentOf(arguments, fitted);
+  fleet::Deployment deployment = DeploymentOf(arguments, fitted);
   deployment.map = data::Sha256(map);
   const auto keep = [&](const std::string& text) {
     const std::string path = paths.Map(data::Sha256(text));
@@ -122,15 +124,16 @@ int RunDeploy(const DeployArguments& arguments) {
   };
   keep(map);
   const std::string relations =
-      Unpacked(paths, arguments.component, kRelationsFile);
+      Unpacked(paths, arguments.component, fleet::kRelationsFile);
   if (!relations.empty()) {
     deployment.relations = data::Sha256(relations);
     keep(relations);
   }
   // Files of a newer schema are refused before this; what was written so far
   // nobody knows of.
-  ChangeStore(
-      paths, lock, [&](Database* copy) { WriteDeployment(copy, deployment); });
+  fleet::ChangeStore(paths, lock, [&](fleet::Database* copy) {
+    fleet::WriteDeployment(copy, deployment);
+  });
   const report::ErrorText error(fitted.target.unit, deployment.promised);
   PrintResult(fmt::format(
       "{}: {} since {}, promised {}; its file: {}\n",

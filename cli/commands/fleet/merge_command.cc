@@ -4,9 +4,10 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/commands/fleet/fleet_commands.h"
-#include "cli/fleet/fleet_table.h"
-#include "cli/fleet/merge.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/study_file/data_arguments.h"
+#include "models/fleet/store/fleet_table.h"
+#include "models/fleet/store/merge.h"
 
 namespace errmap::cli {
 namespace {
@@ -17,8 +18,10 @@ struct MergeArguments {
 };
 
 int RunMerge(const MergeArguments& arguments) {
-  const FleetSummaries found = MergeStore(StorePaths{arguments.store});
-  PrintResult(FormattedFleet(found.summaries, arguments.format));
+  const fleet::FleetSummaries found =
+      fleet::MergeStore(fleet::StorePaths{arguments.store});
+  if (!found.missing.empty()) Say(fleet::MissingWords(found));
+  PrintResult(fleet::FormattedFleet(found.summaries, arguments.format));
   return found.missing.empty() ? kDone : kEveryFitFailed;
 }
 

@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "cli/commands/fleet/fleet_commands.h"
-#include "cli/fleet/store.h"
 #include "cli/json_blocks.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
+#include "models/fleet/store/store.h"
 #include "models/report/table.h"
 
 namespace errmap::cli {
@@ -22,7 +22,7 @@ struct QueryArguments {
   std::string format = "table";
 };
 
-Json JsonOf(const SqlValue& value) {
+Json JsonOf(const fleet::SqlValue& value) {
   return std::visit(
       [](const auto& held) -> Json {
         using Held = std::decay_t<decltype(held)>;
@@ -35,7 +35,7 @@ Json JsonOf(const SqlValue& value) {
       value);
 }
 
-report::Cell CellOf(const SqlValue& value) {
+report::Cell CellOf(const fleet::SqlValue& value) {
   constexpr int kDigits = 6;
   return std::visit(
       [](const auto& held) -> report::Cell {
@@ -51,7 +51,7 @@ report::Cell CellOf(const SqlValue& value) {
       value);
 }
 
-std::string JsonText(Statement* query) {
+std::string JsonText(fleet::Statement* query) {
   Json columns = Json::array();
   for (int i = 0; i < query->num_columns(); ++i) {
     columns.push_back(query->ColumnName(i));
@@ -69,7 +69,7 @@ std::string JsonText(Statement* query) {
                    {"rows", std::move(rows)}});
 }
 
-report::Table TableOf(Statement* query) {
+report::Table TableOf(fleet::Statement* query) {
   report::Table table;
   for (int i = 0; i < query->num_columns(); ++i) {
     table.columns.push_back({.name = query->ColumnName(i), .is_number = true});
@@ -77,7 +77,7 @@ report::Table TableOf(Statement* query) {
   while (query->Next()) {
     std::vector<report::Cell>& row = table.rows.emplace_back();
     for (int i = 0; i < query->num_columns(); ++i) {
-      const SqlValue value = query->Value(i);
+      const fleet::SqlValue value = query->Value(i);
       if (std::holds_alternative<std::string>(value)) {
         table.columns[static_cast<std::size_t>(i)].is_number = false;
       }
@@ -88,10 +88,10 @@ report::Table TableOf(Statement* query) {
 }
 
 int RunQuery(const QueryArguments& arguments) {
-  Database store = OpenStore(StorePaths{arguments.store});
+  fleet::Database store = fleet::OpenStore(fleet::StorePaths{arguments.store});
   store.StopWhere(InstallInterruptFlag());
   try {
-    Statement query = store.PrepareQuery(arguments.sql);
+    fleet::Statement query = store.PrepareQuery(arguments.sql);
     if (arguments.format == "json") {
       PrintResult(JsonText(&query));
     } else {
@@ -99,7 +99,7 @@ int RunQuery(const QueryArguments& arguments) {
       PrintResult(arguments.format == "csv" ? report::CsvTable(table)
                                             : report::TerminalTable(table));
     }
-  } catch (const SqliteError& error) {
+  } catch (const fleet::SqliteError& error) {
     if (InstallInterruptFlag()) return kInterrupted;
     throw UsageError(fmt::format(
         "SQL: {}; only one SELECT is allowed, and errmap query STORE \"SELECT "

@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 
 #include "cli/commands/fleet/fleet_commands.h"
+#include "cli/fleet/claim_store.h"
 #include "cli/fleet/fleet_plan.h"
 #include "cli/fleet/fleet_run.h"
 #include "cli/fleet/slurm_scripts.h"
@@ -57,7 +58,7 @@ int RunScript(const std::string& path) {
 int RunSubmit(const SubmitArguments& arguments,
               const std::string& command_line) {
   const StudyFile study = ExpandFleet(ReadStudyFile(arguments.config));
-  const StorePaths store{arguments.store};
+  const fleet::StorePaths store{arguments.store};
   ClaimStore(store, arguments.force);
   const std::string folder = (fs::absolute(arguments.store) / "slurm").string();
   const SlurmJob job{.program = fs::read_symlink("/proc/self/exe").string(),
@@ -67,7 +68,7 @@ int RunSubmit(const SubmitArguments& arguments,
                      .tasks = arguments.tasks,
                      .cpus = arguments.cpus,
                      .plan = PlanFleet(study.config)};
-  WriteFleet(store, FleetOf(study, command_line));
+  fleet::WriteFleet(store, FleetOf(study, command_line));
   PrepareFolder(folder);
   data::WriteFileAtomically(folder + "/shards.sh", ShardsScript(job));
   data::WriteFileAtomically(folder + "/merge.sh", MergeScript(job));

@@ -13,10 +13,6 @@
 
 #include "cli/commands/fleet/fleet_commands.h"
 #include "cli/commands/maps/map_rows.h"
-#include "cli/fleet/deployments.h"
-#include "cli/fleet/store.h"
-#include "cli/fleet/watch_report.h"
-#include "cli/fleet/watched_files.h"
 #include "cli/json_blocks.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
@@ -25,6 +21,10 @@
 #include "data/measurements/column_match.h"
 #include "data/sha256.h"
 #include "data/text.h"
+#include "models/fleet/store/deployments.h"
+#include "models/fleet/store/store.h"
+#include "models/fleet/store/watch_report.h"
+#include "models/fleet/store/watched_files.h"
 #include "models/model_file.h"
 
 namespace errmap::cli {
@@ -83,7 +83,7 @@ std::string HashOf(const data::Dataset& dataset, const SessionRows& session) {
 // session.
 class Examiner {
  public:
-  Examiner(const StorePaths& paths, const Deployment& deployment)
+  Examiner(const fleet::StorePaths& paths, const fleet::Deployment& deployment)
       : fitted_(models::LoadModel(paths.Map(deployment.map))) {
     if (deployment.relations.empty()) return;
     relations_ = models::SensorRelations::FromJsonText(
@@ -92,7 +92,7 @@ class Examiner {
 
   const models::FittedModel& fitted() const { return fitted_; }
 
-  std::vector<Check> Examine(const std::string& file) const {
+  std::vector<fleet::Check> Examine(const std::string& file) const {
     MapRowsArguments arguments;
     arguments.file = file;
     const MapRows rows = ReadMapRows(fitted_, arguments, true);
@@ -101,9 +101,9 @@ class Examiner {
         rows.dataset.target_values() -
         fitted_.PredictForm(judged.form_inputs).errors;
     const std::vector<const data::CsvColumn*> sensors = SensorsIn(rows.table);
-    std::vector<Check> checks;
+    std::vector<fleet::Check> checks;
     for (const SessionRows& session : SessionsOf(fitted_, rows)) {
-      Check& check = checks.emplace_back();
+      fleet::Check& check = checks.emplace_back();
       check.session = Statistics(session, residuals, judged.flags);
       check.rows_sha256 = HashOf(rows.dataset, session);
       check.file = data::PrintablePath(file);
@@ -177,10 +177,11 @@ bool HasSessionsHeldOut(const models::FittedModel& fitted) {
 }
 
 // New sessions after those that are known; the same ones are known already.
-void Append(std::vector<Check> found, std::vector<Check>* checks) {
-  for (Check& check : found) {
-    const auto known =
-        std::ranges::find(*checks, check.rows_sha256, &Check::rows_sha256);
+void Append(std::vector<fleet::Check> found,
+            std::vector<fleet::Check>* checks) {
+  for (fleet::Check& check : found) {
+    const auto known = std::ranges::find(
+        *checks, check.rows_sha256, &fleet::Check::rows_sha256);
     if (known == checks->end()) {
       checks->push_back(std::move(check));
     } else {
@@ -192,18 +193,18 @@ void Append(std::vector<Check> found, std::vector<Check>* checks) {
 class Watcher {
  public:
   Watcher(const WatchArguments& arguments,
-          const FleetRecord& study,
-          Database* store)
+          const fleet::FleetRecord& study,
+          fleet::Database* store)
       : paths_{arguments.store},
         store_(*store),
-        deployments_(DeploymentsInUse(store)) {
+        deployments_(fleet::DeploymentsInUse(store)) {
     if (deployments_.empty()) {
       throw data::InputError(
           "no map is deployed in this store; errmap deploy STORE COMPONENT "
           "does that");
     }
-    const WatchedFiles files =
-        FindWatchedFiles(study, deployments_, arguments.data);
+    const fleet::WatchedFiles files =
+        fleet::FindWatchedFiles(study, deployments_, arguments.data);
     constexpr std::size_t kMostTold = 5;
     for (std::size_t i = 0; i < files.remarks.size(); ++i) {
       if (i == kMostTold) {
@@ -221,7 +222,7 @@ class Watcher {
           "no file is of a component with a map deployed: keep the names and "
           "folders of the study, or write COMPONENT=FILE");
     }
-    for (const WatchedFile& file : files.files) Examine(file);
+    for (const fleet::WatchedFile& file : files.files) Examine(file);
     if (known_ > 0 && !arguments.quiet) {
       Say(fmt::format(
           "{} as they were studied, not measured since: what is found of them "
@@ -231,17 +232,17 @@ class Watcher {
     Judge();
   }
 
-  std::vector<WatchedComponent>& components() { return components_; }
+  std::vector<fleet::WatchedComponent>& components() { return components_; }
 
  private:
-  void Examine(const WatchedFile& file) {
+  void Examine(const fleet::WatchedFile& file) {
     if (components_.empty() ||
         components_.back().deployment.id != file.deployment->id) {
-      WatchedComponent& component = components_.emplace_back();
+      fleet::WatchedComponent& component = components_.emplace_back();
       component.deployment = *file.deployment;
-      component.checks = ChecksOf(&store_, file.deployment->id);
+      component.checks = fleet::ChecksOf(&store_, file.deployment->id);
     }
-    WatchedComponent& component = components_.back();
+    fleet::WatchedComponent& component = components_.back();
     try {
       const Examiner examiner(paths_, component.deployment);
       Append(examiner.Examine(file.file), &component.checks);
@@ -257,7 +258,7 @@ class Watcher {
   }
 
   static void JudgeMap(const models::FittedModel& fitted,
-                       WatchedComponent* component) {
+                       fleet::WatchedComponent* component) {
     if (component->checks.empty()) return;
     component->found = std::sqrt(component->checks.back().session.mean_square);
     if (!HasSessionsHeldOut(fitted)) {
@@ -267,7 +268,7 @@ class Watcher {
       return;
     }
     std::vector<models::WatchedSession> sessions;
-    for (const Check& check : component->checks) {
+    for (const fleet::Check& check : component->checks) {
       sessions.push_back(check.session);
     }
     const auto judgement = models::JudgeSessions(*fitted.held_out, sessions);
@@ -279,7 +280,7 @@ class Watcher {
   // One family of tests: every map, and every component's sensors.
   void Judge() {
     std::vector<double> p;
-    for (const WatchedComponent& component : components_) {
+    for (const fleet::WatchedComponent& component : components_) {
       if (std::isfinite(component.p_map)) p.push_back(component.p_map);
       if (const double sensor = SensorP(component); std::isfinite(sensor)) {
         p.push_back(sensor);
@@ -287,7 +288,7 @@ class Watcher {
     }
     const std::vector<double> rates = models::FalseDiscoveryRates(p);
     std::size_t next = 0;
-    for (WatchedComponent& component : components_) {
+    for (fleet::WatchedComponent& component : components_) {
       component.rate_map =
           std::isfinite(component.p_map) ? rates[next++] : kNaN;
       component.rate_sensor =
@@ -299,11 +300,11 @@ class Watcher {
     }
   }
 
-  static double SensorP(const WatchedComponent& component) {
+  static double SensorP(const fleet::WatchedComponent& component) {
     return component.examined ? component.checks.back().session.p_sensor : kNaN;
   }
 
-  static WatchStatus StatusOf(const WatchedComponent& component) {
+  static WatchStatus StatusOf(const fleet::WatchedComponent& component) {
     if (!component.examined) return WatchStatus::kNotJudged;
     if (component.rate_map < models::kFalseDiscoveries &&
         component.found > component.deployment.promised) {
@@ -320,10 +321,10 @@ class Watcher {
                                           : WatchStatus::kNotJudged;
   }
 
-  StorePaths paths_;
-  Database& store_;
-  std::vector<Deployment> deployments_;
-  std::vector<WatchedComponent> components_;
+  fleet::StorePaths paths_;
+  fleet::Database& store_;
+  std::vector<fleet::Deployment> deployments_;
+  std::vector<fleet::WatchedComponent> components_;
   std::ptrdiff_t known_ = 0;  // files that are those of the study
 };
 
@@ -332,9 +333,9 @@ Json NumberOrNull(double value) {
 }
 
 Json WatchJson(const std::string& store,
-               const std::vector<WatchedComponent>& components) {
+               const std::vector<fleet::WatchedComponent>& components) {
   Json list = Json::array();
-  for (const WatchedComponent& component : components) {
+  for (const fleet::WatchedComponent& component : components) {
     Json json = {{"name", component.deployment.component},
                  {"status", ToString(component.status)},
                  {"since", component.deployment.since},
@@ -361,11 +362,11 @@ Json WatchJson(const std::string& store,
 }
 
 std::string WatchText(const std::string& store,
-                      const std::vector<WatchedComponent>& components) {
+                      const std::vector<fleet::WatchedComponent>& components) {
   std::map<std::string, int> counts;
-  std::vector<WatchedComponent> told;
+  std::vector<fleet::WatchedComponent> told;
   std::string proposals;
-  for (const WatchedComponent& component : components) {
+  for (const fleet::WatchedComponent& component : components) {
     ++counts[std::string(ToString(component.status))];
     if (component.status != WatchStatus::kAsPromised) told.push_back(component);
     const std::string proposal = component.Proposal(store);
@@ -381,41 +382,43 @@ std::string WatchText(const std::string& store,
       "; at most {:g} % of those named worse or changed are so by chance "
       "(Benjamini-Hochberg)\n",
       100.0 * models::kFalseDiscoveries);
-  if (!told.empty()) text += report::TerminalTable(WatchTable(told));
+  if (!told.empty()) text += report::TerminalTable(fleet::WatchTable(told));
   return text + proposals;
 }
 
 int RunWatch(const WatchArguments& arguments) {
-  const StorePaths paths{arguments.store};
-  const FleetRecord study = ReadFleet(paths);  // before a lock is left there
-  const StoreLock lock(paths);
-  Database store = OpenStore(paths);
+  const fleet::StorePaths paths{arguments.store};
+  const fleet::FleetRecord study =
+      fleet::ReadFleet(paths);  // before a lock is left there
+  const fleet::StoreLock lock(paths);
+  fleet::Database store = fleet::OpenStore(paths);
   Watcher watcher(arguments, study, &store);
-  const std::vector<WatchedComponent>& components = watcher.components();
-  const std::string now = NowText();
-  ChangeStore(paths, lock, [&](Database* copy) {
-    for (const WatchedComponent& component : components) {
+  const std::vector<fleet::WatchedComponent>& components = watcher.components();
+  const std::string now = fleet::NowText();
+  fleet::ChangeStore(paths, lock, [&](fleet::Database* copy) {
+    for (const fleet::WatchedComponent& component : components) {
       if (!component.examined) continue;
-      WriteChecks(copy, component.deployment.id, component.checks, now);
+      fleet::WriteChecks(copy, component.deployment.id, component.checks, now);
     }
   });
   data::WriteFileAtomically(paths.Watch(),
-                            WatchHtml(arguments.store, components));
+                            fleet::WatchHtml(arguments.store, components));
   if (arguments.format == "json") {
     PrintResult(DumpJson(WatchJson(arguments.store, components)));
   } else if (arguments.format == "csv") {
-    PrintResult(report::CsvTable(WatchTable(components)));
+    PrintResult(report::CsvTable(fleet::WatchTable(components)));
   } else {
     PrintResult(WatchText(arguments.store, components));
   }
-  if (std::ranges::any_of(components, [](const WatchedComponent& component) {
-        return component.status == WatchStatus::kWorse;
-      })) {
+  if (std::ranges::any_of(components,
+                          [](const fleet::WatchedComponent& component) {
+                            return component.status == WatchStatus::kWorse;
+                          })) {
     return kEveryFitFailed;
   }
   // Silence would be taken for health.
   const bool all_examined =
-      std::ranges::all_of(components, &WatchedComponent::examined);
+      std::ranges::all_of(components, &fleet::WatchedComponent::examined);
   return all_examined ? kDone : kUnusableInput;
 }
 

@@ -11,7 +11,6 @@
 #include "cli/commands/studies/compare_fleet.h"
 #include "cli/commands/studies/compare_plan.h"
 #include "cli/commands/studies/probe_table.h"
-#include "cli/fleet/store_folder.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/output/output_folder.h"
 #include "cli/output/results_document.h"
@@ -24,6 +23,7 @@
 #include "cli/study_file/plan/study_run.h"
 #include "data/atomic_file.h"
 #include "data/text.h"
+#include "models/fleet/store/store_folder.h"
 #include "models/report/documents/study_table.h"
 #include "models/report/report.h"
 #include "models/study/journal/fit_journal_file.h"
@@ -112,7 +112,7 @@ std::optional<int> RunIfFleet(const CompareArguments& arguments) {
   }
   StudyFile study = ConfigOfFile(arguments);
   if (!study.has_patterns() && !arguments.shard &&
-      (arguments.out.empty() || !IsStore(arguments.out))) {
+      (arguments.out.empty() || !fleet::IsStore(arguments.out))) {
     return std::nullopt;
   }
   return RunCompareFleet({.study = std::move(study),

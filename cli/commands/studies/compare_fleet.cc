@@ -8,15 +8,16 @@
 
 #include "cli/command.h"
 #include "cli/commands/progress.h"
+#include "cli/fleet/claim_store.h"
 #include "cli/fleet/fleet_plan.h"
 #include "cli/fleet/fleet_run.h"
-#include "cli/fleet/fleet_table.h"
 #include "cli/fleet/launcher.h"
-#include "cli/fleet/merge.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/study_file/data_arguments.h"
 #include "data/text.h"
+#include "models/fleet/store/fleet_table.h"
+#include "models/fleet/store/merge.h"
 #include "models/report/number_text.h"
 
 namespace errmap::cli {
@@ -38,7 +39,7 @@ void CheckWords(const CompareFleetArguments& arguments) {
   }
 }
 
-int StatusOf(const FleetSummaries& found) {
+int StatusOf(const fleet::FleetSummaries& found) {
   const bool any = std::ranges::any_of(
       found.summaries, [](const models::ComponentSummary& summary) {
         return summary.status == models::ModelStatus::kOk;
@@ -63,9 +64,9 @@ int RunCompareFleet(CompareFleetArguments arguments) {
         PlanFleet(study.config), share.count, arguments.jobs, arguments.out));
     return kDone;
   }
-  const StorePaths store{arguments.out};
+  const fleet::StorePaths store{arguments.out};
   ClaimStore(store, arguments.force);
-  WriteFleet(store, FleetOf(study, arguments.command_line));
+  fleet::WriteFleet(store, FleetOf(study, arguments.command_line));
   FleetRunResult result;
   {
     Progress progress(!arguments.quiet);
@@ -95,8 +96,9 @@ int RunCompareFleet(CompareFleetArguments arguments) {
   }
   if (result.interrupted) return kInterrupted;
   if (arguments.shard) return kDone;
-  const FleetSummaries found = MergeStore(store);
-  PrintResult(FormattedFleet(found.summaries, arguments.format));
+  const fleet::FleetSummaries found = fleet::MergeStore(store);
+  if (!found.missing.empty()) Say(fleet::MissingWords(found));
+  PrintResult(fleet::FormattedFleet(found.summaries, arguments.format));
   return StatusOf(found);
 }
 

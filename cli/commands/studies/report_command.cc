@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/fleet/merge.h"
-#include "cli/fleet/store_folder.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/output/report_files.h"
 #include "cli/shell/standard_streams.h"
@@ -15,6 +13,8 @@
 #include "data/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "models/fleet/store/merge.h"
+#include "models/fleet/store/store_folder.h"
 #include "models/report/documents/report_html.h"
 #include "models/report/figures/figures.h"
 #include "models/report/report.h"
@@ -53,19 +53,20 @@ models::StudyRecord ReadResults(const std::string& folder) {
 
 // The page of one component of a store, or of all of them together.
 int RunStoreReport(const ReportArguments& arguments) {
-  const StorePaths store{arguments.folder};
+  const fleet::StorePaths store{arguments.folder};
   if (arguments.component.empty()) {
     if (!arguments.figures.empty() || !arguments.format.empty()) {
       throw UsageError(
           "the report of a store is report.html; --format and --figures go "
           "with --component");
     }
-    DrawFleetReport(store, ReadSummaries(store));
+    fleet::DrawFleetReport(store, fleet::ReadSummaries(store));
     return kDone;
   }
-  const FleetRecord fleet = ReadFleet(store);
-  if (std::ranges::find(
-          fleet.components, arguments.component, &FleetComponentRecord::name) ==
+  const fleet::FleetRecord fleet = fleet::ReadFleet(store);
+  if (std::ranges::find(fleet.components,
+                        arguments.component,
+                        &fleet::FleetComponentRecord::name) ==
       fleet.components.end()) {
     throw UsageError(fmt::format(
         "no component {} in {}; errmap query STORE \"SELECT name FROM "
@@ -73,13 +74,15 @@ int RunStoreReport(const ReportArguments& arguments) {
         data::QuotedName(arguments.component),
         data::PrintablePath(arguments.folder)));
   }
-  const models::StudyRecord results = ReadResultsOf(store, arguments.component);
+  const models::StudyRecord results =
+      fleet::ReadResultsOf(store, arguments.component);
   if (arguments.format == "md") {
     PrintResult(report::ReportMarkdown(results));
   } else if (arguments.format == "html") {
     PrintResult(report::ReportHtml(results));
   } else {
-    const std::string page = store.InFolder(arguments.component, kPageFile);
+    const std::string page =
+        store.InFolder(arguments.component, fleet::kPageFile);
     data::WriteFileAtomically(page, report::ReportHtml(results));
     PrintResult(page + "\n");
   }
@@ -113,7 +116,7 @@ models::StudyRecord OfComponent(models::StudyRecord record,
 }
 
 int RunReport(const ReportArguments& arguments) {
-  if (IsStore(arguments.folder)) return RunStoreReport(arguments);
+  if (fleet::IsStore(arguments.folder)) return RunStoreReport(arguments);
   models::StudyRecord results = ReadResults(arguments.folder);
   const std::string& component = arguments.component;
   if (!component.empty()) results = OfComponent(std::move(results), component);
@@ -123,7 +126,7 @@ int RunReport(const ReportArguments& arguments) {
     PrintResult(report::ReportHtml(results,
                                    FiguresInFolder(results, arguments.folder)));
   } else if (!component.empty()) {
-    const std::string page = StorePaths::FolderOf(component) + ".html";
+    const std::string page = fleet::StorePaths::FolderOf(component) + ".html";
     ClaimedFolder folder(arguments.folder,
                          {page},
                          {ResultsPath(arguments.folder)},

@@ -1,4 +1,4 @@
-#include "cli/fleet/gzip.h"
+#include "models/fleet/store/gzip.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "data/input_error.h"
 
-namespace errmap::cli {
+namespace errmap::fleet {
 namespace {
 
 constexpr int kGzipWindow = 15 + 16;  // zlib's word for gzip's own header
@@ -71,4 +71,4 @@ std::string Gunzip(std::string_view compressed, std::size_t most) {
   return text;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

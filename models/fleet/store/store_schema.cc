@@ -1,6 +1,6 @@
-#include "cli/fleet/store_schema.h"
+#include "models/fleet/store/store_schema.h"
 
-namespace errmap::cli {
+namespace errmap::fleet {
 
 const char* const kStoreMigrations[] = {
     R"sql(
@@ -168,4 +168,4 @@ WHERE d.until IS NULL;
 )sql",
 };
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

@@ -6,7 +6,7 @@
 #include "models/fleet/component_summary.h"
 #include "models/report/table.h"
 
-namespace errmap::cli {
+namespace errmap::fleet {
 
 /// A row per component: what is recommended and how it does.
 report::Table FleetTable(
@@ -18,4 +18,4 @@ std::string FormattedFleet(
     const std::vector<models::ComponentSummary>& summaries,
     const std::string& format);
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/fleet/deployments.h"
+#include "models/fleet/store/deployments.h"
 #include "models/report/table.h"
 
-namespace errmap::cli {
+namespace errmap::fleet {
 
 /// What watch found of one component.
 struct WatchedComponent {
@@ -35,4 +35,4 @@ report::Table WatchTable(const std::vector<WatchedComponent>& components);
 std::string WatchHtml(const std::string& store,
                       const std::vector<WatchedComponent>& components);
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/fleet/deployments.h"
-#include "cli/fleet/store_folder.h"
+#include "models/fleet/store/deployments.h"
+#include "models/fleet/store/store_folder.h"
 
-namespace errmap::cli {
+namespace errmap::fleet {
 
 /// A file of new measurements and the deployment that it is of.
 struct WatchedFile {
@@ -30,4 +30,4 @@ WatchedFiles FindWatchedFiles(const FleetRecord& study,
                               const std::vector<Deployment>& deployments,
                               const std::vector<std::string>& paths);
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/fleet/store_folder.h"
 #include "models/fleet/component_summary.h"
+#include "models/fleet/store/store_folder.h"
 
-namespace errmap::cli {
+namespace errmap::fleet {
 
 /// What the shards of a study have left behind so far.
 struct FleetSummaries {
@@ -19,11 +19,13 @@ struct FleetSummaries {
 /// no store.
 FleetSummaries ReadSummaries(const StorePaths& paths);
 
+/// Which are missing, and what to do; "" where none is.
+std::string MissingWords(const FleetSummaries& found);
+
 /// Draws report.html.
 void DrawFleetReport(const StorePaths& paths, const FleetSummaries& found);
 
-/// Puts them into errmap.sqlite and report.html and says on stderr what is
-/// missing.
+/// Puts them into errmap.sqlite and report.html.
 FleetSummaries MergeStore(const StorePaths& paths);
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

@@ -8,7 +8,7 @@
 #include "models/fleet/component_summary.h"
 #include "models/study/record/record.h"
 
-namespace errmap::cli {
+namespace errmap::fleet {
 
 /// Where the files of a store are:
 ///
@@ -63,10 +63,6 @@ struct FleetRecord {
 /// Whether the folder holds a store.
 bool IsStore(const std::string& folder);
 
-/// Makes the folder a store, or finds that it is one. Throws UsageError where
-/// it holds other files, unless `force`.
-void ClaimStore(const StorePaths& paths, bool force);
-
 /// Throws data::InputError where the folder is no store.
 FleetRecord ReadFleet(const StorePaths& paths);
 /// Writes fleet.json unless it says the same already.
@@ -88,4 +84,4 @@ std::string PackResults(models::StudyRecord record);
 models::StudyRecord ReadResultsOf(const StorePaths& paths,
                                   const std::string& component);
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

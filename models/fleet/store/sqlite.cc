@@ -1,4 +1,4 @@
-#include "cli/fleet/sqlite.h"
+#include "models/fleet/store/sqlite.h"
 
 #include <array>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <new>
 #include <sqlite3.h>
 
-namespace errmap::cli {
+namespace errmap::fleet {
 namespace {
 
 bool LacksMemory(sqlite3* database) {
@@ -216,4 +216,4 @@ void Database::CopyFrom(Database* from) {
 
 std::string SqliteVersion() { return sqlite3_libversion(); }
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

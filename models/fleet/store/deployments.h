@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/fleet/sqlite.h"
+#include "models/fleet/store/sqlite.h"
 #include "models/fleet/watch.h"
 
-namespace errmap::cli {
+namespace errmap::fleet {
 
 /// A map on a machine.
 struct Deployment {
@@ -54,4 +54,4 @@ void WriteChecks(Database* store,
 /// This moment, UTC: "2026-03-31T08:15:00Z".
 std::string NowText();
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

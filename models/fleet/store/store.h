@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "cli/fleet/sqlite.h"
-#include "cli/fleet/store_folder.h"
 #include "data/file_descriptor.h"
 #include "models/fleet/component_summary.h"
+#include "models/fleet/store/sqlite.h"
+#include "models/fleet/store/store_folder.h"
 
-namespace errmap::cli {
+namespace errmap::fleet {
 
 /// Version of the tables in errmap.sqlite that this program writes; an older
 /// store is brought up to it by the next command that writes.
@@ -43,4 +43,4 @@ void WriteSummaries(Database* store,
                     const FleetRecord& fleet,
                     const std::vector<models::ComponentSummary>& summaries);
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

@@ -13,7 +13,7 @@
 struct sqlite3;
 struct sqlite3_stmt;
 
-namespace errmap::cli {
+namespace errmap::fleet {
 
 /// SQLite says that something cannot be done; what() says what, in its words.
 class SqliteError : public std::runtime_error {
@@ -116,4 +116,4 @@ class Database {
 /// Version of the library in use.
 std::string SqliteVersion();
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

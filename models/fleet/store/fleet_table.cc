@@ -1,14 +1,13 @@
-#include "cli/fleet/fleet_table.h"
+#include "models/fleet/store/fleet_table.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "cli/json_blocks.h"
 #include "models/study/record/record_json.h"
 
-namespace errmap::cli {
+namespace errmap::fleet {
 namespace {
 
 using models::ComponentSummary;
@@ -105,4 +104,4 @@ std::string FormattedFleet(const std::vector<ComponentSummary>& summaries,
   return Headline(summaries) + note + report::TerminalTable(FleetTable(worst));
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

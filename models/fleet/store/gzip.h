@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace errmap::cli {
+namespace errmap::fleet {
 
 /// As `gzip` writes it, without a name or a time: the same text gives the same
 /// bytes.
@@ -14,4 +14,4 @@ std::string Gzip(std::string_view text);
 /// holds more than `most` bytes.
 std::string Gunzip(std::string_view compressed, std::size_t most);
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

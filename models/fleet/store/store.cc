@@ -1,4 +1,4 @@
-#include "cli/fleet/store.h"
+#include "models/fleet/store/store.h"
 
 #include <cerrno>
 #include <chrono>
@@ -16,11 +16,11 @@
 #include <fmt/format.h>
 #include <sys/file.h>
 
-#include "cli/fleet/store_schema.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "models/fleet/store/store_schema.h"
 
-namespace errmap::cli {
+namespace errmap::fleet {
 namespace {
 
 namespace fs = std::filesystem;
@@ -378,4 +378,4 @@ void WriteSummaries(Database* store,
       "(SELECT component FROM deployments)");
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

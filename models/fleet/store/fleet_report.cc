@@ -1,4 +1,4 @@
-#include "cli/fleet/fleet_report.h"
+#include "models/fleet/store/fleet_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@
 #include "models/report/report_view.h"
 #include "models/report/table.h"
 
-namespace errmap::cli {
+namespace errmap::fleet {
 namespace {
 
 using models::ComponentSummary;
@@ -464,4 +464,4 @@ std::string FleetReportHtml(const StorePaths& paths,
   return FleetPage(paths, found).Html();
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

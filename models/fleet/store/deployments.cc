@@ -1,9 +1,9 @@
-#include "cli/fleet/deployments.h"
+#include "models/fleet/store/deployments.h"
 
 #include <array>
 #include <ctime>
 
-namespace errmap::cli {
+namespace errmap::fleet {
 namespace {
 
 models::WatchStatus StatusNamed(const std::string& name) {
@@ -134,4 +134,4 @@ std::string NowText() {
   return text.data();
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

@@ -1,18 +1,18 @@
-#include "cli/fleet/watch_report.h"
+#include "models/fleet/store/watch_report.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "cli/fleet/store_folder.h"
+#include "models/fleet/store/store_folder.h"
 #include "models/report/documents/report_style.h"
 #include "models/report/figures/svg.h"
 #include "models/report/html.h"
 #include "models/report/plot.h"
 #include "models/report/shell_word.h"
 
-namespace errmap::cli {
+namespace errmap::fleet {
 namespace {
 
 using models::WatchStatus;
@@ -173,4 +173,4 @@ std::string WatchHtml(const std::string& store,
       100.0 * models::kFalseDiscoveries);
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

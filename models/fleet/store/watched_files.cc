@@ -1,4 +1,4 @@
-#include "cli/fleet/watched_files.h"
+#include "models/fleet/store/watched_files.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -11,7 +11,7 @@
 #include "data/input_error.h"
 #include "data/text.h"
 
-namespace errmap::cli {
+namespace errmap::fleet {
 namespace {
 
 namespace fs = std::filesystem;
@@ -170,4 +170,4 @@ WatchedFiles FindWatchedFiles(const FleetRecord& study,
   return finder.Found();
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

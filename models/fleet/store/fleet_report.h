@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "cli/fleet/merge.h"
+#include "models/fleet/store/merge.h"
 
-namespace errmap::cli {
+namespace errmap::fleet {
 
 /// report.html of a store: one self-contained page of all components. Those
 /// whose own page is there are linked; errmap report STORE --component NAME
@@ -12,4 +12,4 @@ namespace errmap::cli {
 std::string FleetReportHtml(const StorePaths& paths,
                             const FleetSummaries& found);
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

@@ -1,4 +1,4 @@
-#include "cli/fleet/merge.h"
+#include "models/fleet/store/merge.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -6,32 +6,28 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cli/fleet/fleet_report.h"
-#include "cli/fleet/store.h"
-#include "cli/study_file/data_arguments.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "models/fleet/store/fleet_report.h"
+#include "models/fleet/store/store.h"
 
-namespace errmap::cli {
-namespace {
-
-void SayMissing(const FleetSummaries& found) {
-  if (found.missing.empty()) return;
+namespace errmap::fleet {
+std::string MissingWords(const FleetSummaries& found) {
+  if (found.missing.empty()) return "";
   constexpr std::size_t kMostNamed = 5;
   std::vector<std::string> names;
   for (const std::string& name : found.missing) {
     if (names.size() == kMostNamed) break;
     names.push_back(data::Printable(name, name.size()));
   }
-  Say(fmt::format("{} of {} components are missing: {}{}; run the shards again",
-                  found.missing.size(),
-                  found.fleet.components.size(),
-                  fmt::join(names, "; "),
-                  names.size() < found.missing.size() ? "; ..." : ""));
+  return fmt::format(
+      "{} of {} components are missing: {}{}; run the shards again",
+      found.missing.size(),
+      found.fleet.components.size(),
+      fmt::join(names, "; "),
+      names.size() < found.missing.size() ? "; ..." : "");
 }
-
-}  // namespace
 
 FleetSummaries ReadSummaries(const StorePaths& paths) {
   FleetSummaries found{
@@ -70,8 +66,7 @@ FleetSummaries MergeStore(const StorePaths& paths) {
     WriteSummaries(store, found.fleet, found.summaries);
   });
   DrawFleetReport(paths, found);
-  SayMissing(found);
   return found;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet

@@ -1,4 +1,4 @@
-#include "cli/fleet/store_folder.h"
+#include "models/fleet/store/store_folder.h"
 
 #include <algorithm>
 #include <cctype>
@@ -6,17 +6,15 @@
 
 #include <fmt/format.h>
 
-#include "cli/command.h"
-#include "cli/fleet/gzip.h"
-#include "cli/output/claimed_folder.h"
 #include "data/atomic_file.h"
 #include "data/formats/nesting.h"
 #include "data/input_error.h"
 #include "data/sha256.h"
 #include "data/text.h"
+#include "models/fleet/store/gzip.h"
 #include "models/study/record/record_json.h"
 
-namespace errmap::cli {
+namespace errmap::fleet {
 
 namespace fs = std::filesystem;
 
@@ -50,19 +48,6 @@ std::vector<std::int64_t> RowsOf(const models::HoldoutRecord& holdout) {
   const auto repeated = std::ranges::unique(rows);
   rows.erase(repeated.begin(), repeated.end());
   return rows;
-}
-
-// Whether there is nothing in a folder but what is being written, or was when a
-// task was killed: another task may be about to make it a store.
-bool IsFree(const std::string& folder) {
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    if (!entry->path().filename().string().starts_with(".errmap-")) {
-      return false;
-    }
-  }
-  return true;
 }
 
 }  // namespace
@@ -111,17 +96,6 @@ std::string StorePaths::InFolder(const std::string& component,
 bool IsStore(const std::string& folder) {
   std::error_code ignored;
   return fs::is_regular_file(StorePaths{folder}.Fleet(), ignored);
-}
-
-void ClaimStore(const StorePaths& paths, bool force) {
-  // In this order: it may become a store meanwhile.
-  if (!force && !IsFree(paths.store) && !IsStore(paths.store)) {
-    throw UsageError(fmt::format(
-        "{} is no store and not empty; choose another folder with --out, or "
-        "use it with --force",
-        data::PrintablePath(paths.store)));
-  }
-  PrepareFolder(paths.store);
 }
 
 FleetRecord ReadFleet(const StorePaths& paths) {
@@ -222,4 +196,4 @@ models::StudyRecord ReadResultsOf(const StorePaths& paths,
   }
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::fleet
