@@ -27,6 +27,7 @@
 #include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
+#include "data/argument_name.h"
 #include "data/input_error.h"
 #include "data/text.h"
 #include "models/report/shell_word.h"
@@ -294,9 +295,18 @@ bool HasRoomForProducts() {
   return true;
 }
 
+// "keep_dead" is "--keep-dead" here.
+std::string FlagOf(std::string_view member, std::string_view value) {
+  std::string flag = "--" + std::string(member);
+  std::ranges::replace(flag, '_', '-');
+  if (!value.empty()) flag.append(" ").append(value);
+  return flag;
+}
+
 }  // namespace
 
 int RunApplication(int argc, char** argv) {
+  data::NameArgumentsBy(FlagOf);
   HoldStandardStreams();
   std::set_terminate(EndAtOnce);
   if (!HasRoomForProducts()) {

@@ -327,7 +327,7 @@ std::vector<Fold> MakeFolds(const HoldoutSpec& spec,
   const auto require_groups = [&](Index needed) {
     if (group_codes.empty()) {
       Refuse(spec.text,
-             "there are no groups; name a column with --group, or hold out "
+             "there are no groups; give the code of each row's, or hold out "
              "rows (every:3, kfold:5)");
     }
     RequireUnits(spec,
@@ -363,8 +363,7 @@ std::vector<Fold> MakeFolds(const HoldoutSpec& spec,
           spec.k,
           "sessions",
           group_codes.empty()
-              ? "name their column with --session, or hold out rows "
-                "(blocks:5)"
+              ? "give the code of each row's, or hold out rows (blocks:5)"
           : groups.count() >= 2
               ? "sessions:" + std::to_string(groups.count()) + " is possible"
               : "of one run only groups or rows can be held out "

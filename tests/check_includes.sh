@@ -1,6 +1,7 @@
 #!/bin/sh
 # No folder and no room in it includes upwards, no headers include each other
-# in a circle, and each foreign library has one home:
+# in a circle, each foreign library has one home, and no text of the library
+# names a flag of the command line (data::ArgumentName does):
 #
 #   check_includes.sh [ROOT]
 #
@@ -129,6 +130,12 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     if (folder != "tests" && !(room in rooms)) {
       violation("the room " room "/ is not known to this check")
     }
+  }
+
+  # Reports print commands to type.
+  folder ~ /^(stats|data|fitting|models)$/ && room !~ /^models\/report/ &&
+  /"([^"\\]|\\.)*--[a-z]/ && !/^[ \t]*\/\// {
+    violation("a flag is named in a text; see data/argument_name.h")
   }
 
   /^[ \t]*#[ \t]*include([ \t<"]|$)/ {

@@ -93,6 +93,15 @@ violation fitting/minimisers/ceres_optimizer.cc '#include "cli/output/report.h"'
 violation models/study/study.cc '#include "cli/output/report.h"'
 violation models/study/study.cc '  #  include "cli/output/report.h"  // indented'
 violation models/report/page.h '#include "cli/output/report.h"'
+# Flags in texts.
+violation data/csv.h 'const char* kAdvice = "name it with --target";'
+violation models/study/study.cc '  "a \"b\" with --keep-dead");'
+cases=$((cases + 1))
+good_tree
+printf '%s\n' '// Where "--target" is not given.' '#define KEPT "a -- b"' \
+  >>"$tree/data/csv.h"
+printf '%s\n' 'const char* kFlag = "--target";' >>"$tree/models/report/page.h"
+check_includes || fail "check_includes refuses flags where they may be"
 # Between rooms: upwards, sideways, unknown, and from the root of a folder.
 violation models/net/net.h '#include "models/study/study.h"'
 violation models/study/study.cc '#include "models/report/page.h"'

@@ -5,6 +5,7 @@
 #include <optional>
 #include <system_error>
 
+#include "data/argument_name.h"
 #include "data/text.h"
 #include "data/units.h"
 
@@ -87,11 +88,12 @@ struct BadCell {
   std::string what =
       table.Where(cell.row, cell.column->name) + ": " + Complaint(text);
   if (cell.use == ColumnUse::kInput) {
-    what += ", or leave the column out with --exclude " +
-            Printable(cell.column->name, text.max_size());
+    what +=
+        ", or leave the column out with " +
+        ArgumentName("exclude", Printable(cell.column->name, text.max_size()));
   }
   if (IsMissingText(text)) {
-    what += ", or drop such rows with --missing drop-rows";
+    what += ", or drop such rows with " + ArgumentName("missing", "drop-rows");
     if (num_missing > 1) {
       what += " (the columns in use have " + std::to_string(num_missing) +
               " such cells)";
@@ -162,7 +164,7 @@ std::string ListOfNames(const std::vector<std::string>& names) {
 
 std::size_t RequireColumn(const CsvTable& table,
                           std::string_view name,
-                          std::string_view option) {
+                          std::string_view argument) {
   const std::ptrdiff_t found = table.Find(name);
   if (found >= 0) return static_cast<std::size_t>(found);
   std::vector<std::string> known;
@@ -170,7 +172,7 @@ std::size_t RequireColumn(const CsvTable& table,
   const std::string nearest = NearestName(name, known);
   throw InputError(
       PrintablePath(table.file) + ": no column " + QuotedName(name) + " (" +
-      std::string(option) + "); " +
+      std::string(argument) + "); " +
       (nearest.empty() ? "" : "did you mean " + QuotedName(nearest) + "? ") +
       "the columns are " + ListOfNames(known));
 }
@@ -188,13 +190,16 @@ void RequireNumbers(const CsvTable& table, const ColumnInUse& column) {
   }
   switch (column.use) {
     case ColumnUse::kTarget:
-      what += "; name a column of measured errors with --target";
+      what +=
+          "; name a column of measured errors with " + ArgumentName("target");
       break;
     case ColumnUse::kInput:
-      what += " and cannot be an input; leave it out of --inputs";
+      what +=
+          " and cannot be an input; leave it out of " + ArgumentName("inputs");
       break;
     case ColumnUse::kWeight:
-      what += "; name a column of positive numbers with --weight";
+      what +=
+          "; name a column of positive numbers with " + ArgumentName("weight");
       break;
     case ColumnUse::kGroup:
     case ColumnUse::kOther:
@@ -359,8 +364,8 @@ KeptRows CheckCells(const CsvTable& table,
                      QuotedName(emptiest->name) + " lacks " +
                      std::to_string(most_missing) + " of " +
                      std::to_string(num_passed) +
-                     "); fill them in, or leave such columns out with "
-                     "--exclude");
+                     "); fill them in, or leave such columns out with " +
+                     ArgumentName("exclude"));
   }
   if (num_dropped > 0) {
     kept.remark = std::to_string(num_dropped) + " of " +

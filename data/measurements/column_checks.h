@@ -21,11 +21,11 @@ struct ColumnInUse {
   ColumnUse use;
 };
 
-/// Index of a column that the command line named by `option` ("--target").
-/// Throws InputError, with the known columns, where there is none.
+/// Index of a column that somebody named by an argument (ArgumentName). Throws
+/// InputError, with the known columns, where there is none.
 std::size_t RequireColumn(const CsvTable& table,
                           std::string_view name,
-                          std::string_view option);
+                          std::string_view argument);
 
 /// Throws InputError where the column holds no number at all.
 void RequireNumbers(const CsvTable& table, const ColumnInUse& column);

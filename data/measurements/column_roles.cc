@@ -6,6 +6,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
 
@@ -70,17 +71,19 @@ class RoleChooser {
   void ChooseWeightAndTarget() {
     if (!selection_.weight.empty()) {
       roles_.weight = static_cast<std::ptrdiff_t>(
-          RequireColumn(table_, selection_.weight, "--weight"));
+          RequireColumn(table_, selection_.weight, ArgumentName("weight")));
     }
-    roles_.target = selection_.target.empty()
-                        ? DefaultTarget()
-                        : RequireColumn(table_, selection_.target, "--target");
+    roles_.target =
+        selection_.target.empty()
+            ? DefaultTarget()
+            : RequireColumn(table_, selection_.target, ArgumentName("target"));
     RequireNumbers(table_, {roles_.target, ColumnUse::kTarget});
     if (Is(roles_.weight, roles_.target)) {
       ThrowUnusable(table_,
                     "column " + QuotedName(Name(roles_.target)) +
                         " cannot be both the target and the weight; name "
-                        "another with --weight");
+                        "another with " +
+                        ArgumentName("weight"));
     }
     if (roles_.weight != kNoColumn) {
       RequireNumbers(
@@ -105,8 +108,9 @@ class RoleChooser {
     if (candidates.empty()) {
       ThrowUnusable(
           table_,
-          "no column's name starts with 'error'; name the measured error with "
-          "--target (" +
+          "no column's name starts with 'error'; name the measured error "
+          "with " +
+              ArgumentName("target") + " (" +
               (numeric_names.empty()
                    ? "but no column holds numbers"
                    : "columns of numbers: " + ListOfNames(numeric_names)) +
@@ -114,9 +118,8 @@ class RoleChooser {
     }
     if (candidates.size() > 1) {
       ThrowUnusable(table_,
-                    "several columns could be the target; name one with "
-                    "--target: " +
-                        ListOfNames(names));
+                    "several columns could be the target; name one with " +
+                        ArgumentName("target") + ": " + ListOfNames(names));
     }
     return candidates.front();
   }
@@ -124,12 +127,13 @@ class RoleChooser {
   void ChooseGroup() {
     if (!selection_.group.empty()) {
       roles_.group = static_cast<std::ptrdiff_t>(
-          RequireColumn(table_, selection_.group, "--group"));
+          RequireColumn(table_, selection_.group, ArgumentName("group")));
       if (Is(roles_.group, roles_.target)) {
         ThrowUnusable(table_,
                       "column " + QuotedName(selection_.group) +
                           " cannot be both the target and the group; name "
-                          "another with --group");
+                          "another with " +
+                          ArgumentName("group"));
       }
       return;
     }
@@ -184,26 +188,29 @@ class InputChooser {
     const std::unordered_set<std::string> excluded = ExcludedNames();
     std::unordered_set<std::string> seen;
     for (const std::string& name : selection_.inputs) {
-      const std::size_t index = RequireColumn(
-          table_,
-          name,
-          selection_.only_to_judge ? "an input of the map" : "--inputs");
+      const std::size_t index =
+          RequireColumn(table_,
+                        name,
+                        selection_.only_to_judge ? "an input of the map"
+                                                 : ArgumentName("inputs"));
       if (!seen.insert(name).second) {
-        ThrowUnusable(
-            table_,
-            "--inputs names " + QuotedName(name) + " twice; name it once");
+        ThrowUnusable(table_,
+                      ArgumentName("inputs") + " names " + QuotedName(name) +
+                          " twice; name it once");
       }
       if (index == roles_.target) {
         ThrowUnusable(table_,
                       QuotedName(name) +
                           " is the target and cannot be an input; leave it "
-                          "out of --inputs");
+                          "out of " +
+                          ArgumentName("inputs"));
       }
       if (excluded.contains(name)) {
         ThrowUnusable(table_,
-                      QuotedName(name) +
-                          " is named in --inputs and in --exclude; take it "
-                          "out of one of them");
+                      QuotedName(name) + " is named in " +
+                          ArgumentName("inputs") + " and in " +
+                          ArgumentName("exclude") +
+                          "; take it out of one of them");
       }
       RequireNumbers(table_, {index, ColumnUse::kInput});
       chosen_.inputs.push_back(index);
@@ -212,7 +219,7 @@ class InputChooser {
 
   std::unordered_set<std::string> ExcludedNames() const {
     for (const std::string& name : selection_.exclude) {
-      RequireColumn(table_, name, "--exclude");
+      RequireColumn(table_, name, ArgumentName("exclude"));
     }
     return {selection_.exclude.begin(), selection_.exclude.end()};
   }
@@ -251,8 +258,8 @@ class InputChooser {
         Drop(i, "measures the target's quantity");
         chosen_.remarks.push_back(
             "column " + name +
-            " measures the target's quantity and is left out; "
-            "name it in --inputs to use it");
+            " measures the target's quantity and is left out; name it in " +
+            ArgumentName("inputs") + " to use it");
       } else {
         chosen_.inputs.push_back(i);
       }
@@ -306,9 +313,8 @@ void ThrowNoInputs(const CsvTable& table,
             dropped[i].why;
   }
   ThrowUnusable(table,
-                what +
-                    "; name inputs with --inputs, or keep dead ones with "
-                    "--keep-dead");
+                what + "; name inputs with " + ArgumentName("inputs") +
+                    ", or keep dead ones with " + ArgumentName("keep_dead"));
 }
 
 }  // namespace errmap::data

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
 
@@ -266,7 +267,7 @@ Dataset WithoutRows(const Dataset& dataset,
 Grouping GroupByColumn(const CsvTable& table,
                        const std::string& column,
                        const std::vector<Eigen::Index>& rows) {
-  const std::size_t index = RequireColumn(table, column, "--group");
+  const std::size_t index = RequireColumn(table, column, ArgumentName("group"));
   const CsvColumn& cells = table.columns[index];
   bool all_numbers = true;
   for (const Eigen::Index row : rows) {
@@ -288,7 +289,8 @@ Eigen::VectorXd NumericColumn(const CsvTable& table,
                               const std::string& column,
                               MissingPolicy missing,
                               std::vector<Eigen::Index>* rows) {
-  const std::size_t index = RequireColumn(table, column, "--column");
+  const std::size_t index =
+      RequireColumn(table, column, ArgumentName("column"));
   const ColumnInUse used{index, ColumnUse::kOther};
   RequireNumbers(table, used);
   RefuseMixedDecimals(table, {used});

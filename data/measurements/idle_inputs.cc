@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
 
 namespace errmap::data {
@@ -48,8 +49,8 @@ std::vector<std::string> RepeatedInputs::Look(const Dataset::Parts& parts) {
       NameInRemark(parts.inputs[static_cast<std::size_t>(used)].name);
   if (values == parts.target_values) {
     remarks.push_back("input " + name + " repeats the target " +
-                      NameInRemark(parts.target.name) +
-                      " value for value; --exclude " + name + " leaves it out");
+                      NameInRemark(parts.target.name) + " value for value; " +
+                      ArgumentName("exclude", name) + " leaves it out");
   }
   std::vector<Eigen::Index>& alike = inputs_by_hash_[Hash(values)];
   for (const Eigen::Index other : alike) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/dataset.h"
@@ -155,7 +156,8 @@ class DatasetBuilder {
                  ? " has a single row"
                  : " is constant (" + CsvNumber(first) + " in all " +
                        std::to_string(parts_.rows.size()) + " rows)") +
-            ", so there is nothing to map; name another with --target");
+            ", so there is nothing to map; name another with " +
+            ArgumentName("target"));
   }
 
   // Every figure of a target is a sum of squares.
@@ -268,10 +270,11 @@ class DatasetBuilder {
   void ReportDead(std::size_t input, const std::string& how) {
     const std::string why = "is dead (" + how + ")";
     if (!selection_.keep_dead) Drop(input, why);
-    remarks_.push_back("input " + NameInRemark(Name(input)) + " " + why +
-                       (selection_.keep_dead
-                            ? " and is kept"
-                            : " and is left out; --keep-dead keeps it"));
+    remarks_.push_back(
+        "input " + NameInRemark(Name(input)) + " " + why +
+        (selection_.keep_dead
+             ? " and is kept"
+             : " and is left out; " + ArgumentName("keep_dead") + " keeps it"));
   }
 
   const CsvTable& table_;

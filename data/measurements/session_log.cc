@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
 
@@ -84,8 +85,8 @@ std::string AlignTarget(Dataset::Parts* parts) {
     parts->target_values[static_cast<Eigen::Index>(i)] -= first[session_of(i)];
   }
   return "the first value of each session is taken off " +
-         QuotedName(parts->target.name) +
-         " (--align first): the map tells the change since";
+         QuotedName(parts->target.name) + " (" +
+         ArgumentName("align", "first") + "): the map tells the change since";
 }
 
 }  // namespace errmap::data

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/text_times.h"
 #include "data/text.h"
@@ -67,13 +68,14 @@ class SessionFinder {
     return name == selection_.target || name == selection_.weight;
   }
 
-  std::size_t NamedColumn(const std::string& name, const char* option) const {
-    const std::size_t index = RequireColumn(table_, name, option);
+  std::size_t NamedColumn(const std::string& name,
+                          const std::string& argument) const {
+    const std::size_t index = RequireColumn(table_, name, argument);
     if (IsMeasured(index)) {
       throw InputError(PrintablePath(table_.file) + ": column " +
                        QuotedName(table_.columns[index].name) +
                        " is the target or the weight; name another with " +
-                       option);
+                       argument);
     }
     return index;
   }
@@ -106,7 +108,7 @@ class SessionFinder {
     const bool named = !selection_.time.empty();
     std::vector<std::size_t> candidates;
     if (named) {
-      candidates.push_back(NamedColumn(selection_.time, "--time"));
+      candidates.push_back(NamedColumn(selection_.time, ArgumentName("time")));
     } else {
       candidates = ColumnsOf([](const CsvColumn& column) {
         return StartsWithIgnoringCase(column.name, "time");
@@ -121,8 +123,9 @@ class SessionFinder {
     if (candidates.size() == 1) {
       TakeTime(candidates.front(), named);
     } else if (candidates.size() > 1) {
-      found_.remarks.emplace_back(
-          "several columns could be the time; name one with --time");
+      found_.remarks.push_back(
+          "several columns could be the time; name one with " +
+          ArgumentName("time"));
     }
   }
 
@@ -160,7 +163,8 @@ class SessionFinder {
                  table_.Where(row, column.name) + ": " + QuotedText(text) +
                      " is no time",
                  "write seconds, or dates and times such as "
-                 "2024-03-01T12:00:05, or name another column with --time");
+                 "2024-03-01T12:00:05, or name another column with " +
+                     ArgumentName("time"));
         return;
       } else {
         at = *times.seconds[exception->second];
@@ -212,7 +216,8 @@ class SessionFinder {
   void ChooseSessions() {
     if (IsNone(selection_.session)) return;
     if (!selection_.session.empty()) {
-      TakeSessions(NamedColumn(selection_.session, "--session"), true);
+      TakeSessions(NamedColumn(selection_.session, ArgumentName("session")),
+                   true);
       return;
     }
     for (const char* name : {"session", "day", "run"}) {
@@ -270,8 +275,8 @@ class SessionFinder {
     if (!HoldLast(here, &held)) {
       throw InputError(PrintablePath(table_.file) + ": column " +
                        QuotedName(column.name) +
-                       " names no session in any row; name another with "
-                       "--session");
+                       " names no session in any row; name another with " +
+                       ArgumentName("session"));
     }
     sessions.codes = std::move(codes);
     found_.sessions = std::move(sessions);
@@ -289,13 +294,14 @@ class SessionFinder {
         last[session] = now;
         continue;
       }
-      throw InputError(
-          table_.Where(DataRow(i), TimeColumn().name) + ": time goes back by " +
-          CsvNumber(last[session] - now) + " s within " +
-          QuotedName(found_.sessions.column) + " " +
-          QuotedText(found_.sessions.labels[session]) +
-          "; sort its rows by time, name the sessions with --session, or go by "
-          "the numbers of the rows with --time none");
+      throw InputError(table_.Where(DataRow(i), TimeColumn().name) +
+                       ": time goes back by " + CsvNumber(last[session] - now) +
+                       " s within " + QuotedName(found_.sessions.column) + " " +
+                       QuotedText(found_.sessions.labels[session]) +
+                       "; sort its rows by time, name the sessions with " +
+                       ArgumentName("session") +
+                       ", or go by the numbers of the rows with " +
+                       ArgumentName("time", "none"));
     }
   }
 
@@ -317,7 +323,8 @@ class SessionFinder {
                    QuotedName(TimeColumn().name) + " goes back at " +
                    std::to_string(num_back) + " of " + std::to_string(n - 1) +
                    " steps, so the rows are not in order of time",
-               "sort them, or name the column of sessions with --session");
+               "sort them, or name the column of sessions with " +
+                   ArgumentName("session"));
       UseRowNumbers();
     }
     const double leap = found_.time_column >= 0
@@ -414,7 +421,8 @@ CsvTable AppendedTable(const CsvTable& earlier,
     table.line_runs.emplace_back(earlier.num_rows + row, line);
   }
   for (const std::string& name : columns) {
-    CsvColumn column = earlier.columns[RequireColumn(earlier, name, "--after")];
+    CsvColumn column =
+        earlier.columns[RequireColumn(earlier, name, ArgumentName("after"))];
     const CsvColumn& more = later.columns[RequireColumn(later, name, "DATA")];
     column.values.insert(
         column.values.end(), more.values.begin(), more.values.end());

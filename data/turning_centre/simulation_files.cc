@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "data/argument_name.h"
+
 namespace errmap::data::turning_centre {
 namespace {
 
@@ -375,26 +377,26 @@ Not measured: made by `errmap simulate turning-centre`, which describes the mode
 |---|---|
 )";
   const auto row = [&](const std::string& name, const std::string& value) {
-    text += "| `" + name + "` | " + value + " |\n";
+    text += "| `" + ArgumentName(name) + "` | " + value + " |\n";
   };
-  row("--seed", std::to_string(run.seed));
-  row("--days", std::to_string(run.days));
-  row("--cycles", std::to_string(run.cycles));
-  row("--duty", SevenDigits(run.workload.duty));
-  row("--speed", SevenDigits(run.workload.speed));
-  row("--warm", SevenDigits(run.warm_hours) + " h");
-  row("--air", SevenDigits(run.air_factor));
-  row("--noise", SevenDigits(run.noise_um) + " um");
-  row("--angle-noise", SevenDigits(run.noise_urad) + " urad");
-  row("--sensor-noise", SevenDigits(run.sensor_noise) + " degC");
-  row("--dead", ListOfNumbers(run.dead));
-  row("--stuck", ListOfNumbers(run.stuck));
-  row("--drifting", ListOfNumbers(run.drifting));
-  row("--noisy", ListOfNumbers(run.noisy));
-  if (run.from_day > 1) row("--from-day", std::to_string(run.from_day));
-  if (run.shift_um != 0.0) row("--shift-um", SevenDigits(run.shift_um));
-  row("--points", std::to_string(run.points_per_day));
-  row("--truth", options.truth ? "yes" : "no");
+  row("seed", std::to_string(run.seed));
+  row("days", std::to_string(run.days));
+  row("cycles", std::to_string(run.cycles));
+  row("duty", SevenDigits(run.workload.duty));
+  row("speed", SevenDigits(run.workload.speed));
+  row("warm", SevenDigits(run.warm_hours) + " h");
+  row("air", SevenDigits(run.air_factor));
+  row("noise", SevenDigits(run.noise_um) + " um");
+  row("angle_noise", SevenDigits(run.noise_urad) + " urad");
+  row("sensor_noise", SevenDigits(run.sensor_noise) + " degC");
+  row("dead", ListOfNumbers(run.dead));
+  row("stuck", ListOfNumbers(run.stuck));
+  row("drifting", ListOfNumbers(run.drifting));
+  row("noisy", ListOfNumbers(run.noisy));
+  if (run.from_day > 1) row("from_day", std::to_string(run.from_day));
+  if (run.shift_um != 0.0) row("shift_um", SevenDigits(run.shift_um));
+  row("points", std::to_string(run.points_per_day));
+  row("truth", options.truth ? "yes" : "no");
   text += R"(
 ## Files
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "data/argument_name.h"
 #include "data/atomic_file.h"
 #include "data/formats/pattern_file.h"
 #include "data/input_error.h"
@@ -363,8 +364,9 @@ std::string NetcgText(const std::vector<NetcgRecord>& records,
     text += result.corrected_scaling == NetcgScaling::kTraining
                 ? ", training scaling\n"
                 : ";\n    but scaled by the test file's range: the training "
-                  "run's is not known\n    (--training names its pattern "
-                  "file)\n";
+                  "run's is not known\n    (" +
+                      data::ArgumentName("training") +
+                      " names its pattern file)\n";
     text += "  wrote";
     for (const NetcgOutputFile& file : record.files) {
       text += " " + data::PrintablePath(file.path);

@@ -1,5 +1,6 @@
 #include "models/netcg/run_report.h"
 
+#include "data/argument_name.h"
 #include "data/formats/fortran_format.h"
 
 namespace errmap::models {
@@ -137,8 +138,8 @@ std::string Ending(const NetcgSpecification& run, const NetcgResult& result) {
 
 std::string WhatTheyAre(const NetcgResult& result, NetcgStatistics statistics) {
   if (statistics == NetcgStatistics::kAsPrinted) {
-    return " Statistics as the program of 1995 prints them; \"errmap netcg "
-           "--help\" names its errata\n";
+    return " Statistics as the program of 1995 prints them; \"errmap netcg " +
+           data::ArgumentName("help") + "\" names its errata\n";
   }
   std::string text =
       " Corrected: divisors n and n - 1, R-SQ = 1 - SSE/SST, scale factor "
@@ -207,7 +208,9 @@ std::string ResidualGraph(const NetcgFigures& figures) {
 }
 
 std::string NetcgErrata() {
-  return "What the program of 1995 has wrong, and prints without --corrected:\n"
+  return "What the program of 1995 has wrong, and prints without " +
+         data::ArgumentName("corrected") +
+         ":\n"
          "- means and standard deviations are divided by (n+1)(J+1) and that "
          "less 1 in\n"
          "  place of n J and n J - 1 (J outputs): with one output the mean is "

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "data/argument_name.h"
 #include "data/formats/nesting.h"
 #include "data/input_error.h"
 #include "data/text.h"
@@ -85,7 +86,8 @@ LearningRecord LearningFromJsonText(std::string_view text) {
   data::RequireShallowJson(text);
   const RecordJson json = RecordJson::parse(text, nullptr, false);
   if (json.is_discarded()) {
-    throw data::InputError("is no JSON; errmap learn --out writes it");
+    throw data::InputError("is no JSON; errmap learn " +
+                           data::ArgumentName("out") + " writes it");
   }
   LearningRecord record;
   record.schema.clear();

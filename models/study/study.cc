@@ -14,6 +14,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "data/argument_name.h"
 #include "fitting/interruption.h"
 #include "models/recipe_catalog.h"
 #include "models/shared_work.h"
@@ -162,6 +163,31 @@ class HeldOutSoFar {
   std::vector<std::vector<Sum>> sums_;  // (models x hold-outs)
 };
 
+// MakeFolds knows codes, and not which column they may come from.
+void RequireUnits(const stats::HoldoutSpec& spec,
+                  const Dataset& dataset,
+                  const std::vector<Index>& sessions) {
+  const auto refuse = [&](const std::string& why) {
+    throw std::invalid_argument(
+        fmt::format("hold-out '{}': {}", spec.text, why));
+  };
+  const bool of_groups = spec.kind == stats::HoldoutKind::kGroups ||
+                         spec.kind == stats::HoldoutKind::kLeaveOneGroupOut;
+  if (of_groups && !dataset.has_groups()) {
+    refuse(
+        fmt::format("there are no groups; name a column with {}, or hold "
+                    "out rows (every:3, kfold:5)",
+                    data::ArgumentName("group")));
+  }
+  if (spec.kind == stats::HoldoutKind::kSessions && sessions.empty()) {
+    refuse(
+        fmt::format("needs at least {} sessions, found 0; name their column "
+                    "with {}, or hold out rows (blocks:5)",
+                    spec.k,
+                    data::ArgumentName("session")));
+  }
+}
+
 }  // namespace
 
 bool ModelResult::ok() const { return why().empty(); }
@@ -193,6 +219,7 @@ Holdout MakeHoldout(const stats::HoldoutSpec& spec,
   holdout.repeats = std::max<Index>(1, spec.repeats);
   const bool by_session = spec.kind == stats::HoldoutKind::kSessions;
   const std::vector<Index> sessions = dataset.session_codes();
+  RequireUnits(spec, dataset, sessions);
   holdout.folds =
       stats::MakeFolds(spec,
                        dataset.num_rows(),

@@ -461,7 +461,7 @@ TEST(MakeFolds, RefusesGroupsWhereThereAreNone) {
     ExpectRefused(text,
                   10,
                   {},
-                  "there are no groups; name a column with --group, or hold "
+                  "there are no groups; give the code of each row's, or hold "
                   "out rows (every:3, kfold:5)");
   }
 }
@@ -504,8 +504,8 @@ TEST(MakeFolds, HoldsOutSessionsAsGroups) {
   ExpectRefused("sessions:2",
                 3,
                 {},
-                "found 0; name their column with "
-                "--session, or hold out rows (blocks:5)");
+                "found 0; give the code of each row's, or hold out rows "
+                "(blocks:5)");
 }
 
 TEST(MakeFolds, HoldsOutContiguousBlocksLongerFirst) {

@@ -18,6 +18,7 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 
+#include "data/argument_name.h"
 #include "data/input_error.h"
 #include "data/sha256.h"
 #include "data/text.h"
@@ -156,7 +157,8 @@ void JournalFile::RequireNoOther(const std::string& folder, bool force) {
   if (force || kBeforeSum.starts_with(begin)) return;
   throw data::InputError(data::PrintablePath(path) +
                          ": is no journal of errmap; choose another folder, "
-                         "move it away, or go on with --force");
+                         "move it away, or go on with " +
+                         data::ArgumentName("force"));
 }
 
 JournalFile::~JournalFile() { Flush(); }
@@ -291,11 +293,11 @@ std::vector<std::string> JournalFile::OpeningRemarks() const {
   const std::string path = data::PrintablePath(path_);
   std::vector<std::string> remarks;
   if (set_aside_) {
-    remarks.push_back(
-        fmt::format("{}: that of an earlier run is now {}; --resume would have "
-                    "gone on from it",
-                    path,
-                    kPreviousName));
+    remarks.push_back(fmt::format(
+        "{}: that of an earlier run is now {}; {} would have gone on from it",
+        path,
+        kPreviousName,
+        data::ArgumentName("resume")));
   }
   if (damaged_lines_ > 0) {
     remarks.push_back(fmt::format("{}: {} passed over; the fits are made again",
@@ -317,20 +319,20 @@ std::vector<std::string> JournalFile::WritingRemarks() const {
         Count(unfit_, "fit")));
   }
   if (too_long_ > 0) {
-    remarks.push_back(
-        fmt::format("{}: {} not kept, being above {} MiB each; --resume would "
-                    "make them again",
-                    path,
-                    Count(too_long_, "fit"),
-                    kLongestRecord >> 20U));
+    remarks.push_back(fmt::format(
+        "{}: {} not kept, being above {} MiB each; {} would make them again",
+        path,
+        Count(too_long_, "fit"),
+        kLongestRecord >> 20U,
+        data::ArgumentName("resume")));
   }
   if (error_ != 0) {
-    remarks.push_back(
-        fmt::format("cannot write {}: {}; {} not kept, --resume would make "
-                    "them again",
-                    path,
-                    std::generic_category().message(error_),
-                    Count(unwritten_, "fit")));
+    remarks.push_back(fmt::format(
+        "cannot write {}: {}; {} not kept, {} would make them again",
+        path,
+        std::generic_category().message(error_),
+        Count(unwritten_, "fit"),
+        data::ArgumentName("resume")));
   }
   return remarks;
 }

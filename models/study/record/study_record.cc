@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "data/argument_name.h"
 #include "data/formats/nesting.h"
 #include "data/input_error.h"
 #include "models/study/record/record_json.h"
@@ -33,7 +34,8 @@ StudyRecord FromJsonText(std::string_view text) {
   data::RequireShallowJson(text);
   const RecordJson json = RecordJson::parse(text, nullptr, false);
   if (json.is_discarded()) {
-    throw data::InputError("is no JSON; errmap compare --out writes it");
+    throw data::InputError("is no JSON; errmap compare " +
+                           data::ArgumentName("out") + " writes it");
   }
   StudyRecord record;
   FromJson(json, &record);

@@ -243,14 +243,16 @@ TEST_F(Cli, OneCycleOnlyRefusesGroupsAndSaysWhatIsPossible) {
 
 TEST_F(Cli, GroupsWithoutAGroupColumnAreRefused) {
   WriteWithoutPosition("f.csv");
-  EXPECT_THAT(RefusalOf(Run({"compare",
-                             "f.csv",
-                             "--holdout",
-                             "groups:5",
-                             "--models",
-                             "mean"}),
-                        kUnusable),
-              HasSubstr("f.csv: hold-out 'groups:5': there are no groups"));
+  EXPECT_THAT(
+      RefusalOf(Run({"compare",
+                     "f.csv",
+                     "--holdout",
+                     "groups:5",
+                     "--models",
+                     "mean"}),
+                kUnusable),
+      HasSubstr("f.csv: hold-out 'groups:5': there are no groups; name a "
+                "column with --group"));
 }
 
 TEST_F(Cli, DataWithoutPositionLeavePositionModelsOut) {

@@ -274,7 +274,7 @@ TEST(GroupByColumn, RefusesMissingCellsAndUnknownRows) {
       ThrowsMessage<InputError>(
           StartsWith("f.csv: line 3 (data row 1), column 'g': empty cell")));
   EXPECT_THAT([&] { GroupByColumn(table, "h", {0}); },
-              ThrowsMessage<InputError>(HasSubstr("no column 'h' (--group)")));
+              ThrowsMessage<InputError>(HasSubstr("no column 'h' (group)")));
   EXPECT_THROW(GroupByColumn(table, "g", {2}), std::invalid_argument);
   EXPECT_THROW(GroupByColumn(table, "g", {-1}), std::invalid_argument);
 }

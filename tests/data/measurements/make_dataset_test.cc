@@ -146,7 +146,7 @@ TEST(MakeDataset, LeavesOutColumnsOfTheTargetsQuantity) {
   EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("t1_degC"));
   EXPECT_THAT(prepared.remarks,
               ElementsAre("column disp_ch2_um measures the target's quantity "
-                          "and is left out; name it in --inputs to use it"));
+                          "and is left out; name it in inputs to use it"));
   ASSERT_THAT(DroppedNames(prepared), ElementsAre("disp_ch2_um"));
   EXPECT_EQ(prepared.dropped[0].why, "measures the target's quantity");
 
@@ -175,19 +175,19 @@ TEST(MakeDataset, ReadsAnythingInColumnsNotInUse) {
 TEST(MakeDatasetError, UnknownColumnsAreNamedWithTheKnownOnes) {
   constexpr std::string_view kText = "cycle,t1_degC,error\n1,2,3\n2,3,4\n";
   EXPECT_EQ(ErrorOf(kText, {.group = "cycel"}),
-            "f.csv: no column 'cycel' (--group); did you mean 'cycle'? the "
+            "f.csv: no column 'cycel' (group); did you mean 'cycle'? the "
             "columns are 'cycle', 't1_degC', 'error'");
   EXPECT_EQ(ErrorOf(kText, {.target = "displacement"}),
-            "f.csv: no column 'displacement' (--target); the columns are "
+            "f.csv: no column 'displacement' (target); the columns are "
             "'cycle', 't1_degC', 'error'");
   EXPECT_THAT(ErrorOf(kText, {.inputs = {"T1_degc"}}),
-              HasSubstr("(--inputs); did you mean 't1_degC'?"));
+              HasSubstr("(inputs); did you mean 't1_degC'?"));
   EXPECT_THAT(ErrorOf(kText, {.exclude = {"nothing"}}),
-              HasSubstr("no column 'nothing' (--exclude)"));
+              HasSubstr("no column 'nothing' (exclude)"));
   EXPECT_THAT(ErrorOf(kText, {.inputs = {"t1_degC"}, .exclude = {"nothing"}}),
-              HasSubstr("no column 'nothing' (--exclude)"));
+              HasSubstr("no column 'nothing' (exclude)"));
   EXPECT_THAT(ErrorOf(kText, {.weight = "w"}),
-              HasSubstr("no column 'w' (--weight)"));
+              HasSubstr("no column 'w' (weight)"));
 }
 
 TEST(MakeDatasetError, VeryManyKnownColumnsAreCutShort) {
@@ -204,24 +204,24 @@ TEST(MakeDatasetError, VeryManyKnownColumnsAreCutShort) {
 TEST(MakeDatasetError, NoTargetOrSeveral) {
   EXPECT_EQ(ErrorOf("a,b\n1,2\n"),
             "f.csv: no column's name starts with 'error'; name the measured "
-            "error with --target (columns of numbers: 'a', 'b')");
+            "error with target (columns of numbers: 'a', 'b')");
   EXPECT_THAT(ErrorOf("a\nx\n"), HasSubstr("no column holds numbers"));
   EXPECT_EQ(ErrorOf("error_x,a,error_y\n1,2,3\n"),
             "f.csv: several columns could be the target; name one with "
-            "--target: 'error_x', 'error_y'");
+            "target: 'error_x', 'error_y'");
 }
 
 TEST(MakeDatasetError, TextCannotBeATargetAnInputOrAWeight) {
   constexpr std::string_view kText = "a,note,error\n1,x,3\n2,y,4\n";
   EXPECT_EQ(ErrorOf(kText, {.inputs = {"note"}}),
             "f.csv: column 'note' holds no numbers (data row 0 is 'x') and "
-            "cannot be an input; leave it out of --inputs");
+            "cannot be an input; leave it out of inputs");
   EXPECT_THAT(
       ErrorOf(kText, {.target = "note"}),
-      AllOf(HasSubstr("'note' holds no numbers"), HasSubstr("with --target")));
+      AllOf(HasSubstr("'note' holds no numbers"), HasSubstr("with target")));
   EXPECT_THAT(
       ErrorOf(kText, {.weight = "note"}),
-      AllOf(HasSubstr("'note' holds no numbers"), HasSubstr("with --weight")));
+      AllOf(HasSubstr("'note' holds no numbers"), HasSubstr("with weight")));
 }
 
 TEST(MakeDatasetError, OneColumnCannotServeTwice) {
@@ -229,9 +229,9 @@ TEST(MakeDatasetError, OneColumnCannotServeTwice) {
   EXPECT_THAT(ErrorOf(kText, {.inputs = {"a", "error"}}),
               HasSubstr("'error' is the target and cannot be an input"));
   EXPECT_THAT(ErrorOf(kText, {.inputs = {"a", "b", "a"}}),
-              HasSubstr("--inputs names 'a' twice"));
+              HasSubstr("inputs names 'a' twice"));
   EXPECT_THAT(ErrorOf(kText, {.inputs = {"a"}, .exclude = {"a"}}),
-              HasSubstr("'a' is named in --inputs and in --exclude"));
+              HasSubstr("'a' is named in inputs and in exclude"));
   EXPECT_THAT(ErrorOf(kText, {.target = "a", .weight = "a"}),
               HasSubstr("both the target and the weight"));
   EXPECT_THAT(ErrorOf(kText, {.target = "a", .group = "a"}),
@@ -241,7 +241,7 @@ TEST(MakeDatasetError, OneColumnCannotServeTwice) {
 TEST(MakeDatasetError, NoInputIsLeft) {
   EXPECT_EQ(ErrorOf("a,error\n0,1\n0,2\n"),
             "f.csv: no input is left: 'a' is dead (0 in all 2 rows); name "
-            "inputs with --inputs, or keep dead ones with --keep-dead");
+            "inputs with inputs, or keep dead ones with keep_dead");
   EXPECT_THAT(ErrorOf("a,error\n1,1\n2,2\n", {.exclude = {"a"}}),
               HasSubstr("f.csv: no input is left; name inputs"));
   EXPECT_THAT(ErrorOf("time_s,error_um\n0,1\n1,2\n"),
@@ -255,15 +255,15 @@ TEST(MakeDatasetError, NoInputIsLeft) {
 TEST(MakeDatasetError, BadCellsAreNamedWithTheirPlaceAndRemedy) {
   EXPECT_EQ(ErrorOf("t3_degC,error\n1,1\n# gap\n,2\n3,3\n"),
             "f.csv: line 4 (data row 1), column 't3_degC': empty cell; fill it "
-            "in, or leave the column out with --exclude t3_degC, or drop such "
-            "rows with --missing drop-rows");
+            "in, or leave the column out with exclude = t3_degC, or drop such "
+            "rows with missing = drop-rows");
   EXPECT_EQ(ErrorOf("a,error\n1,NA\n2,nan\n3,4\n"),
             "f.csv: line 2 (data row 0), column 'error': 'NA' is a missing "
-            "value; fill it in, or drop such rows with --missing drop-rows "
+            "value; fill it in, or drop such rows with missing = drop-rows "
             "(the columns in use have 2 such cells)");
   EXPECT_EQ(ErrorOf("a,error\n1,1\n-Inf,2\n"),
             "f.csv: line 3 (data row 1), column 'a': '-Inf' is not finite; "
-            "correct it, or leave the column out with --exclude a");
+            "correct it, or leave the column out with exclude = a");
   EXPECT_THAT(ErrorOf("a,error\n1,1\n1e999,2\n"),
               HasSubstr("'1e999' is beyond the range of a double"));
   EXPECT_THAT(ErrorOf("a,error\n1,1\nbroken,2\n"),
@@ -315,7 +315,7 @@ TEST(MakeDatasetError, NoRowIsLeft) {
                     {.missing = MissingPolicy::kDropRows}),
             "f.csv: no row is left: each has a missing cell in the columns in "
             "use ('a' lacks 2 of 3); fill them in, or leave such columns out "
-            "with --exclude");
+            "with exclude");
 }
 
 TEST(MakeDataset, LeavesOutChannelsThatWereNeverLogged) {
@@ -329,7 +329,7 @@ TEST(MakeDataset, LeavesOutChannelsThatWereNeverLogged) {
 TEST(MakeDatasetError, ConstantTarget) {
   EXPECT_EQ(ErrorOf("a,error\n1,0.5\n2,0.5\n"),
             "f.csv: target 'error' is constant (0.5 in all 2 rows), so there "
-            "is nothing to map; name another with --target");
+            "is nothing to map; name another with target");
   EXPECT_THAT(
       ErrorOf("a,error\n1,1\n2,1\n,2\n", {.missing = MissingPolicy::kDropRows}),
       HasSubstr("is constant (1 in all 2 rows)"));
@@ -372,13 +372,13 @@ TEST(MakeDataset, LeavesOutDeadInputsWithARemark) {
   EXPECT_THAT(
       prepared.remarks,
       ElementsAre("input zero is dead (0 in all 10 rows) and is left out; "
-                  "--keep-dead keeps it",
+                  "keep_dead keeps it",
                   "input constant is dead (21.5 in all 10 rows) and is left "
-                  "out; --keep-dead keeps it",
+                  "out; keep_dead keeps it",
                   "input stuck is dead (8 in 9 of 10 rows) and is left out; "
-                  "--keep-dead keeps it",
+                  "keep_dead keeps it",
                   "input live repeats the target error_mm value for value; "
-                  "--exclude live leaves it out"));
+                  "exclude = live leaves it out"));
   EXPECT_THAT(DroppedNames(prepared), ElementsAre("zero", "constant", "stuck"));
   EXPECT_EQ(prepared.dropped[0].why, "is dead (0 in all 10 rows)");
 }
@@ -429,7 +429,7 @@ TEST(MakeDataset, TakesRowsOnlyToJudgeAsTheyAre) {
 TEST(MakeDatasetError, MissingGroup) {
   EXPECT_EQ(ErrorOf("cycle,a,error\n1,1,1\n,2,2\n"),
             "f.csv: line 3 (data row 1), column 'cycle': empty cell; fill it "
-            "in, or drop such rows with --missing drop-rows");
+            "in, or drop such rows with missing = drop-rows");
 }
 // ---- Rows by the value of a column.
 

@@ -214,9 +214,9 @@ TEST(Sessions, SayWhereACellIsMissing) {
 
 TEST(Sessions, AskWhichOfSeveralTimesIsMeant) {
   EXPECT_THAT(Find("time_s,time_h\n0,1\n1,2\n").remarks,
-              Contains(HasSubstr("name one with --time")));
+              Contains(HasSubstr("name one with time")));
   EXPECT_THAT([] { Find("x\n0\n", {.time = "clock"}); },
-              Refuses("no column 'clock' (--time)"));
+              Refuses("no column 'clock' (time)"));
 }
 
 TEST(Sessions, NeverTakeWhatIsMeasuredForTheTime) {
@@ -228,7 +228,7 @@ TEST(Sessions, NeverTakeWhatIsMeasuredForTheTime) {
   EXPECT_THAT(
       [&] { Find(text, {.target = "day", .session = "day"}); },
       Refuses("column 'day' is the target or the weight; name another with "
-              "--session"));
+              "session"));
 }
 
 TEST(AppendedTable, GoesOnWithTheRowsOfTheLater) {
@@ -295,7 +295,7 @@ TEST(MakeDataset, TakesTheFirstValueOfEachSessionOffTheTarget) {
                   {.align = Alignment::kFirst});
   EXPECT_EQ(prepared.dataset.target_values(), Eigen::Vector4d(0, 2, 0, 4));
   EXPECT_EQ(prepared.dataset.align(), Alignment::kFirst);
-  EXPECT_THAT(prepared.remarks, Contains(HasSubstr("--align first")));
+  EXPECT_THAT(prepared.remarks, Contains(HasSubstr("align = first")));
 }
 
 }  // namespace

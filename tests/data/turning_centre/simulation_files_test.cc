@@ -258,7 +258,7 @@ TEST(SimulationFiles, MachineNamesAMapForEveryComponentFile) {
 
 TEST(SimulationFiles, ReadmeStatesOptionsAndDays) {
   const std::string text = SimulationFile(Small(), {}, "README.md");
-  EXPECT_THAT(text, HasSubstr("| `--dead` | 3, 4, 16, 19 |"));
+  EXPECT_THAT(text, HasSubstr("| `dead` | 3, 4, 16, 19 |"));
   EXPECT_THAT(text, HasSubstr("| 1 | 08:00 |"));
   EXPECT_THAT(text, HasSubstr("the compensation is -error"));
 }
