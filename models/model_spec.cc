@@ -1,25 +1,12 @@
 #include "models/model_spec.h"
 
 #include <algorithm>
-#include <charconv>
-#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "data/text.h"
 
 namespace errmap::models {
 namespace {
-
-std::string Refusal(std::string_view text, const std::string& why) {
-  return fmt::format("model '{}': {}", text, why);
-}
-
-[[noreturn]] void RefuseSpec(std::string_view text, const std::string& why) {
-  throw std::invalid_argument(Refusal(text, why));
-}
 
 // Splits at `separator` outside double quotes; the quotes stay.
 std::vector<std::string> SplitOutsideQuotes(std::string_view text,
@@ -46,14 +33,11 @@ std::string Unquote(const std::string& value) {
   return whole ? value.substr(1, value.size() - 2) : value;
 }
 
-template <typename Number>
-bool ParseWhole(const std::string& text, Number* value) {
-  const char* end = text.data() + text.size();
-  const auto [stopped, error] = std::from_chars(text.data(), end, *value);
-  return error == std::errc() && stopped == end;
-}
-
 }  // namespace
+
+void RefuseSpec(std::string_view spec, const std::string& why) {
+  throw std::invalid_argument(fmt::format("model '{}': {}", spec, why));
+}
 
 ModelSpec ParseModelSpec(std::string_view text) {
   ModelSpec spec;
@@ -91,114 +75,6 @@ std::vector<std::string> SplitList(std::string_view text) {
     if (spec.empty()) RefuseSpec(text, "the list has an empty place");
   }
   return specs;
-}
-
-const std::string* SpecOptions::Find(const std::string& key) {
-  if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
-    known_.push_back(key);
-  }
-  for (const auto& [name, value] : spec_.options) {
-    if (name == key) return &value;
-  }
-  return nullptr;
-}
-
-void SpecOptions::Refuse(const std::string& why) const {
-  RefuseSpec(spec_.text, why);
-}
-
-std::int64_t SpecOptions::TakeInteger(const std::string& key,
-                                      std::int64_t fallback,
-                                      std::int64_t least,
-                                      std::int64_t most) {
-  const std::string* text = Find(key);
-  if (text == nullptr) return fallback;
-  std::int64_t value = 0;
-  if (!ParseWhole(*text, &value) || value < least || value > most) {
-    const bool bounded = most != std::numeric_limits<std::int64_t>::max();
-    Refuse(fmt::format("{} must be {}a whole number from {}{}, found '{}'",
-                       key,
-                       WordBefore(key),
-                       least,
-                       bounded ? fmt::format(" to {}", most) : " on",
-                       *text));
-  }
-  return value;
-}
-
-double SpecOptions::TakeNumber(const std::string& key,
-                               double fallback,
-                               double least,
-                               double most) {
-  const std::string* text = Find(key);
-  if (text == nullptr) return fallback;
-  double value = 0.0;
-  if (!ParseWhole(*text, &value) || !(value >= least && value <= most)) {
-    const bool bounded = most != std::numeric_limits<double>::max();
-    Refuse(fmt::format("{} must be {}a number from {}{}, found '{}'",
-                       key,
-                       WordBefore(key),
-                       least,
-                       bounded ? fmt::format(" to {}", most) : " on",
-                       *text));
-  }
-  return value;
-}
-
-std::string SpecOptions::TakeText(const std::string& key,
-                                  const std::string& fallback) {
-  const std::string* text = Find(key);
-  if (text == nullptr) return fallback;
-  if (text->empty()) Refuse(key + " is empty");
-  return *text;
-}
-
-std::string SpecOptions::WordBefore(const std::string& key) const {
-  for (const auto& [name, word] : words_) {
-    if (name == key) return word + " or ";
-  }
-  return "";
-}
-
-bool SpecOptions::IsWord(const std::string& key, std::string_view word) {
-  const std::string* text = Find(key);
-  words_.emplace_back(key, word);
-  return text != nullptr && *text == word;
-}
-
-std::size_t SpecOptions::TakeChoice(const std::string& key,
-                                    std::size_t fallback,
-                                    const std::vector<std::string>& allowed) {
-  const std::string* text = Find(key);
-  if (text == nullptr) return fallback;
-  const auto found = std::find(allowed.begin(), allowed.end(), *text);
-  if (found == allowed.end()) {
-    Refuse(fmt::format("{} must be one of {}, found '{}'",
-                       key,
-                       fmt::join(allowed, ", "),
-                       *text));
-  }
-  return static_cast<std::size_t>(found - allowed.begin());
-}
-
-void SpecOptions::RefuseOthers() const {
-  for (const auto& [key, value] : spec_.options) {
-    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
-    const std::string nearest = data::NearestName(key, known_);
-    throw UnknownOption(
-        Refusal(
-            spec_.text,
-            known_.empty()
-                ? fmt::format(
-                      "{} takes no options, found '{}'", spec_.type, key)
-                : fmt::format(
-                      "no option '{}'; {}{} has {}",
-                      key,
-                      nearest.empty() ? "" : "did you mean '" + nearest + "'? ",
-                      spec_.type,
-                      fmt::join(known_, ", "))),
-        known_);
-  }
 }
 
 }  // namespace errmap::models

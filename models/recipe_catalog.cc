@@ -1,8 +1,6 @@
 #include "models/recipe_catalog.h"
 
 #include <algorithm>
-#include <array>
-#include <stdexcept>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -11,80 +9,101 @@
 #include "data/text.h"
 #include "models/blend/blend_recipe.h"
 #include "models/file_recipe.h"
-#include "models/model_spec.h"
 #include "models/net/net_recipe.h"
-#include "models/polynomial/polynomial_recipe.h"
+#include "models/option_list.h"
+#include "models/polynomial/polynomial_options.h"
 
 namespace errmap::models {
 
 namespace {
 
-struct ModelType {
-  std::string_view name;
-  std::string_view about;
-};
+// Every type of every family, in the order that they are presented.
+const std::vector<ModelType>& AllTypes() {
+  static const std::vector<ModelType> types = [] {
+    std::vector<ModelType> all;
+    for (const std::vector<ModelType>& family :
+         {TypesOf<ConstantOptions>(),
+          TypesOf<PositionTemperatureOptions>(),
+          TypesOf<FullOptions>(),
+          TypesOf<StepwiseOptions>(),
+          TypesOf<BestSubsetOptions>(),
+          TypesOf<PenalizedOptions>(),
+          TypesOf<NetOptions>(),
+          TypesOf<BlendOptions>(),
+          TypesOf<FormulaOptions>()}) {
+      all.insert(all.end(), family.begin(), family.end());
+    }
+    return all;
+  }();
+  return types;
+}
 
-constexpr std::array kModelTypes = {
-    ModelType{"zero", "no compensation: what the machine does by itself"},
-    ModelType{"mean", "one offset for all"},
-    ModelType{"poly:position", "a parabola over the position, no sensor"},
-    ModelType{"poly:temperature", "a straight line over one temperature"},
-    ModelType{"poly:eq7", "Eq. 7 of 1995: quadratic in position and in T"},
-    ModelType{"poly:eq8", "Eq. 8 of 1995: quadratic in position, T, product"},
-    ModelType{"poly:eq9", "Eq. 9 of 1995: quadratic in position, linear in T"},
-    ModelType{"poly:full", "every product of the inputs up to a degree"},
-    ModelType{"poly:stepwise", "terms that come and go by a criterion"},
-    ModelType{"poly:best", "the best subset of the terms"},
-    ModelType{"poly:ridge", "all terms, large coefficients penalised"},
-    ModelType{"poly:lasso", "few terms, by a penalty that drops them"},
-    ModelType{"net:scg", "a neural net, scaled conjugate gradients (1995)"},
-    ModelType{"net:lm", "a neural net, Levenberg-Marquardt"},
-    ModelType{"net:cg", "a neural net, conjugate gradients"},
-    ModelType{"net:backprop", "a neural net, gradient descent"},
-    ModelType{"net:ceres", "a neural net, a solver of Ceres"},
-    ModelType{"net:nlopt", "a neural net, a solver of NLopt"},
-    ModelType{"blend", "an average of maps that see the inputs differently"}};
+// Of a formula, which has no name of its own: "poly:formula=...".
+constexpr std::string_view kFormula = "poly";
+
+const ModelType* FindType(const ModelSpec& spec) {
+  if (spec.type == kFormula &&
+      (spec.options.empty() || spec.options.front().first != "formula")) {
+    return nullptr;
+  }
+  const auto found = std::ranges::find(AllTypes(), spec.type, &ModelType::name);
+  return found == AllTypes().end() ? nullptr : &*found;
+}
+
+const ModelType& TypeOf(const ModelSpec& spec) {
+  if (const ModelType* type = FindType(spec)) return *type;
+  const std::string nearest = data::NearestName(spec.type, ModelTypes());
+  RefuseSpec(
+      spec.text,
+      fmt::format("unknown; {}there are {}, poly:formula=..., file:model.json",
+                  nearest.empty() ? "" : "did you mean '" + nearest + "'? ",
+                  fmt::join(ModelTypes(), ", ")));
+}
 
 }  // namespace
 
 const std::vector<std::string>& ModelTypes() {
   static const std::vector<std::string> types = [] {
     std::vector<std::string> names;
-    for (const ModelType& type : kModelTypes) names.emplace_back(type.name);
+    for (const ModelType& type : AllTypes()) {
+      if (type.name != kFormula) names.push_back(type.name);
+    }
     return names;
   }();
   return types;
 }
 
 std::string_view AboutModel(std::string_view type) {
-  const auto* const found =
-      std::ranges::find(kModelTypes, type, &ModelType::name);
-  return found == kModelTypes.end() ? "" : found->about;
+  const auto found = std::ranges::find(AllTypes(), type, &ModelType::name);
+  if (found == AllTypes().end()) return "";
+  return found->about;
 }
 
 std::unique_ptr<ModelRecipe> MakeRecipe(std::string_view spec_text) {
   if (auto recipe = MakeFileRecipe(spec_text)) return recipe;
   const ModelSpec spec = ParseModelSpec(spec_text);
-  if (auto recipe = MakePolynomialRecipe(spec)) return recipe;
-  if (auto recipe = MakeNetRecipe(spec)) return recipe;
-  if (auto recipe = MakeBlendRecipe(spec)) return recipe;
-  const std::string nearest = data::NearestName(spec.type, ModelTypes());
-  throw std::invalid_argument(fmt::format(
-      "model '{}': unknown; {}there are {}, poly:formula=..., file:model.json",
-      spec_text,
-      nearest.empty() ? "" : "did you mean '" + nearest + "'? ",
-      fmt::join(ModelTypes(), ", ")));
+  return TypeOf(spec).make(spec);
 }
 
-std::vector<std::string> OptionNames(std::string_view type) {
-  // Each recipe knows its own options alone: asked for one that none has, it
-  // names those.
-  try {
-    MakeRecipe(fmt::format("{}:?=1", type));
-  } catch (const UnknownOption& error) {
-    return error.known();
+std::string RewrittenSpec(std::string_view spec_text) {
+  const ModelSpec spec = ParseModelSpec(spec_text);
+  return TypeOf(spec).rewrite(spec);
+}
+
+std::vector<ModelOption> OptionsOfModel(std::string_view type) {
+  const ModelSpec spec = ParseModelSpec(type);
+  std::vector<ModelOption> options;
+  const ModelType& model = TypeOf(spec);
+  const std::vector<EffectiveOption> in_effect = model.make(spec)->options();
+  for (const OptionInfo& info : model.options) {
+    options.push_back({info.name, info.about, info.values, ""});
+    for (const EffectiveOption& effective : in_effect) {
+      if (effective.key == info.name) {
+        options.back().fallback = TextOf(effective.value);
+      }
+    }
   }
-  return {};
+  return options;
 }
 
 DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
@@ -92,25 +111,20 @@ DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
   constexpr int kHighestFullDegree = 6;
   constexpr Eigen::Index kRowsPerCoefficient = 5;
   constexpr double kMostProducts = 5e10;  // some seconds
-  constexpr std::array<std::string_view, 6> kWhenNamed = {"poly:best",
-                                                          "net:lm",
-                                                          "net:cg",
-                                                          "net:backprop",
-                                                          "net:ceres",
-                                                          "net:nlopt"};
   DefaultRecipes defaults;
-  for (const std::string& type : ModelTypes()) {
-    if (std::ranges::find(kWhenNamed, type) != kWhenNamed.end()) continue;
+  for (const ModelType& listed : AllTypes()) {
+    if (!listed.is_compared) continue;
+    const std::string& type = listed.name;
     // The report's net, and one that is tuned for what it will not have seen.
     if (type == "blend" && dataset.num_inputs() > 0) {
-      defaults.recipes.push_back(MakeRecipe(kTunedNet));
+      defaults.recipes.push_back(MakeRecipe(NetInViews()));
     }
     if (type == "poly:full") {
       // Without a position the equations of the report are not there to stand
       // for a linear map.
       const int lowest = FindPosition(dataset, "") < 0 ? 1 : 2;
       for (int degree = lowest; degree <= kHighestFullDegree; ++degree) {
-        auto recipe = MakeRecipe(fmt::format("poly:full:degree={}", degree));
+        auto recipe = MakeRecipe(FullOptions{.degree = degree});
         const Eigen::Index coefficients = *recipe->NumCoefficients(dataset);
         const auto wide = static_cast<double>(coefficients);
         const auto tall = static_cast<double>(fewest_training_rows);
@@ -122,9 +136,13 @@ DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
       }
       continue;
     }
-    auto recipe = MakeRecipe(type == "poly:ridge" || type == "poly:lasso"
-                                 ? type + ":view=auto"
-                                 : type);
+    const auto penalized = [&](fitting::Penalty family) {
+      return MakeRecipe(
+          PenalizedOptions{.family = family, .basis = {.view = ViewOptions()}});
+    };
+    auto recipe = type == "poly:ridge"   ? penalized(fitting::Penalty::kRidge)
+                  : type == "poly:lasso" ? penalized(fitting::Penalty::kLasso)
+                                         : MakeRecipe(type);
     if (const auto missing = recipe->WhatIsMissing(dataset)) {
       defaults.left_out.push_back(
           fmt::format("{} is left out: the data lack {}", type, *missing));

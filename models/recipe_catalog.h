@@ -21,9 +21,21 @@ const std::vector<std::string>& ModelTypes();
 /// What a type of model is, in a line; "" for a type that there is not.
 std::string_view AboutModel(std::string_view type);
 
-/// Names of the options that a type takes, in the order of its own messages.
-/// Throws std::invalid_argument for a type that there is not.
-std::vector<std::string> OptionNames(std::string_view type);
+/// An option of a type of model, for people.
+struct ModelOption {
+  std::string name;
+  std::string about;     // what it is, in a few words
+  std::string values;    // "a whole number from 1 to 10000"
+  std::string fallback;  // what it is unless given; "" where that depends
+};
+
+/// The options that a type takes. Throws std::invalid_argument for a type that
+/// there is not.
+std::vector<ModelOption> OptionsOfModel(std::string_view type);
+
+/// A SPEC as its options write it: in their order, without those that are the
+/// default. Throws as MakeRecipe; not for file:model.json.
+std::string RewrittenSpec(std::string_view spec);
 
 struct DefaultRecipes {
   std::vector<std::unique_ptr<ModelRecipe>> recipes;

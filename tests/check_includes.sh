@@ -132,8 +132,8 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     }
   }
 
-  # Reports print commands to type.
-  folder ~ /^(stats|data|fitting|models)$/ && room !~ /^models\/report/ &&
+  # The report and the page of a store print commands to type.
+  folder ~ /^(stats|data|fitting|models)$/ && room !~ /^models\/(report|fleet\/store)/ &&
   /"([^"\\]|\\.)*--[a-z]/ && !/^[ \t]*\/\// {
     violation("a flag is named in a text; see data/argument_name.h")
   }

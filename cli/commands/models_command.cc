@@ -1,4 +1,3 @@
-#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -7,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/shell/model_defaults.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "models/recipe_catalog.h"
@@ -34,32 +32,18 @@ std::string ListText(std::size_t width) {
          "\n";
 }
 
-// The values that an option takes, as it says to whoever gives another.
-std::string ValuesOf(const std::string& type, const std::string& option) {
-  constexpr std::string_view kMust = " must be ";
-  try {
-    models::MakeRecipe(fmt::format("{}:{}=?", type, option));
-  } catch (const std::invalid_argument& error) {
-    const std::string text = error.what();
-    const std::size_t begin = text.find(option + std::string(kMust));
-    if (begin == std::string::npos) return "text";
-    const std::size_t from = begin + option.size() + kMust.size();
-    return text.substr(from, text.rfind(", found") - from);
-  }
-  return "text";
-}
-
 std::string ModelText(const std::string& type, std::size_t width) {
-  const std::vector<std::string> names = models::OptionNames(type);
-  std::map<std::string, std::string> defaults = ModelDefaults(type);
+  const std::vector<models::ModelOption> options = models::OptionsOfModel(type);
   std::string text = fmt::format("{}: {}\n", type, models::AboutModel(type));
-  if (names.empty()) return text + "It takes no options.\n";
+  if (options.empty()) return text + "It takes no options.\n";
   constexpr std::size_t kIndent = 26;
-  text += fmt::format("\n{:14}{:12}values\n", "option", "default");
-  for (const std::string& name : names) {
-    std::string begin = fmt::format("{:13} {:11} ", name, defaults[name]);
-    for (const std::string& line :
-         report::WrapLines(ValuesOf(type, name), width - kIndent)) {
+  text += fmt::format(
+      "\n{:14}{:12}what it is, and its values\n", "option", "default");
+  for (const models::ModelOption& option : options) {
+    std::string begin =
+        fmt::format("{:13} {:11} ", option.name, option.fallback);
+    for (const std::string& line : report::WrapLines(
+             option.about + ": " + option.values, width - kIndent)) {
       text += fmt::format("{:{}}{}\n", begin, kIndent, line);
       begin.clear();
     }

@@ -27,6 +27,7 @@ set(ERRMAP_PUBLIC_HEADERS
   fitting/nonlinear/variable_projection.h
   fitting/selection/best_subset.h
   fitting/selection/stepwise_selection.h
+  models/blend/blend_recipe.h
   models/comparison/compare.h
   models/error_model.h
   models/export/export_map.h
@@ -41,10 +42,13 @@ set(ERRMAP_PUBLIC_HEADERS
   models/kinematics/volumetric.h
   models/map_experience.h
   models/model_file.h
+  models/model_options.h
   models/model_spec.h
   models/net/feedforward_net.h
   models/net/net_objective.h
+  models/net/net_options.h
   models/polynomial/polynomial_model.h
+  models/polynomial/polynomial_options.h
   models/promise/applicability.h
   models/promise/kept_promise.h
   models/promise/learning_curve.h

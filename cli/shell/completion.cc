@@ -76,8 +76,8 @@ void OfferModel(const std::string& before,
     const std::size_t last = typed.rfind(':');
     const std::string done = typed.substr(0, last + 1);
     std::vector<std::string> keys;
-    for (const std::string& name : models::OptionNames(type)) {
-      const std::string key = name + "=";
+    for (const models::ModelOption& option : models::OptionsOfModel(type)) {
+      const std::string key = option.name + "=";
       if (done.find(":" + key) == std::string::npos) keys.push_back(key);
     }
     Offer(keys, before + done, typed.substr(last + 1), completion);

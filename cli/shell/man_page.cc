@@ -1,12 +1,10 @@
 #include "cli/shell/man_page.h"
 
-#include <map>
 #include <sstream>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include "cli/shell/model_defaults.h"
 #include "models/recipe_catalog.h"
 #include "models/version.h"
 
@@ -115,13 +113,10 @@ std::string CommandSection(const CommandReference& command) {
 
 // The options of a model, with the values that serve unless others are given.
 std::string ModelOptions(const std::string& type) {
-  const std::map<std::string, std::string> defaults = ModelDefaults(type);
   std::string text;
-  for (const std::string& name : models::OptionNames(type)) {
-    text += (text.empty() ? "" : ", ") + name;
-    if (const auto found = defaults.find(name); found != defaults.end()) {
-      text += "=" + found->second;
-    }
+  for (const models::ModelOption& option : models::OptionsOfModel(type)) {
+    text += (text.empty() ? "" : ", ") + option.name;
+    if (!option.fallback.empty()) text += "=" + option.fallback;
   }
   return text.empty() ? "no options" : text;
 }

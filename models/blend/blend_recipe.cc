@@ -15,10 +15,11 @@
 #include "models/averaged_model.h"
 #include "models/blend/form_to_model.h"
 #include "models/blend/stacking.h"
-#include "models/history/view.h"
+#include "models/history/view_options.h"
 #include "models/history/with_history.h"
 #include "models/inner_folds.h"
 #include "models/net/net_recipe.h"
+#include "models/option_list.h"
 #include "models/polynomial/penalized_candidates.h"
 #include "models/polynomial/polynomial_model.h"
 
@@ -29,8 +30,6 @@ using data::Dataset;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-enum class WeightRule { kPower4, kWithin20, kStack };
 
 const std::vector<std::string>& RuleWords() {
   static const std::vector<std::string> words = {"power4", "within20", "stack"};
@@ -83,25 +82,16 @@ struct Part {
 
 class BlendRecipe final : public ModelRecipe {
  public:
-  explicit BlendRecipe(const ModelSpec& spec) : name_(spec.text) {
-    SpecOptions options(spec);
-    rule_ = static_cast<WeightRule>(options.TakeChoice("rule", 0, RuleWords()));
-    with_net_ = options.TakeChoice("net", 0, {"no", "yes"}) == 1;
-    choices_ = PenalizedChoices::Take(&options);
-    // Views are what averaging lives on.
-    choices_.view.given = true;
-    options.RefuseOthers();
+  BlendRecipe(const BlendOptions& options, std::string name)
+      : name_(CheckedName(options, std::move(name))), options_(options) {
+    if (!options_.bases.view) options_.bases.view.emplace();
   }
 
   std::string name() const override { return name_; }
   ModelKind kind() const override { return ModelKind::kBlend; }
 
   std::vector<EffectiveOption> options() const override {
-    std::vector<EffectiveOption> all;
-    all.push_back({"rule", RuleWords()[static_cast<std::size_t>(rule_)]});
-    all.push_back({"net", std::string(with_net_ ? "yes" : "no")});
-    choices_.Describe(&all);
-    return all;
+    return InEffect(options_);
   }
 
   std::optional<std::string> WhatIsMissing(
@@ -122,7 +112,8 @@ class BlendRecipe final : public ModelRecipe {
     const InnerFolds folds = MakeInnerFolds(training, context);
     const std::vector<BasisCandidate> bases =
         JudgeBases(training,
-                   choices_,
+                   options_.bases,
+                   {},
                    {fitting::Penalty::kRidge, fitting::Penalty::kLasso},
                    folds,
                    context);
@@ -132,26 +123,27 @@ class BlendRecipe final : public ModelRecipe {
           {basis.fit->candidate.held_out_rmse, &basis.fit->candidate.held_out});
     }
     std::optional<FittedModel> net;
-    if (with_net_ && rule_ != WeightRule::kStack) {
+    if (options_.net && options_.rule != WeightRule::kStack) {
       net = FitNet(training, context);
       scores.push_back({net->inner_rmse, nullptr});
     }
     const VectorXd weights =
-        WeightsFrom(rule_, scores, training.target_values());
+        WeightsFrom(options_.rule, scores, training.target_values());
 
     std::vector<Part> parts = CollapseBases(training, bases, weights);
     if (net && weights[weights.size() - 1] > kLeastWeight) {
       parts.push_back({net->name, weights[weights.size() - 1], *net});
     }
     FittedModel fitted = Average(training, std::move(parts));
-    fitted.summary.message = fmt::format(
-        "{} candidates weighted by {} on inner hold-outs ({})",
-        scores.size(),
-        rule_ == WeightRule::kPower4     ? "error^-4"
-        : rule_ == WeightRule::kWithin20 ? "equal weights within 20 % of the "
-                                           "best"
-                                         : "stacking",
-        folds.text);
+    fitted.summary.message =
+        fmt::format("{} candidates weighted by {} on inner hold-outs ({})",
+                    scores.size(),
+                    options_.rule == WeightRule::kPower4 ? "error^-4"
+                    : options_.rule == WeightRule::kWithin20
+                        ? "equal weights within 20 % of the "
+                          "best"
+                        : "stacking",
+                    folds.text);
     return fitted;
   }
 
@@ -164,7 +156,7 @@ class BlendRecipe final : public ModelRecipe {
     FitContext alone = context;
     alone.explain = false;
     alone.keep_trace = false;
-    return MakeNetRecipe(ParseModelSpec(kTunedNet))->Fit(training, alone);
+    return MakeRecipe(NetInViews())->Fit(training, alone);
   }
 
   // Members of one basis are polynomials of the same terms: one equation.
@@ -290,12 +282,12 @@ class BlendRecipe final : public ModelRecipe {
     fitted.target = training.target();
     fitted.summary.termination = fitting::Termination::kDirect;
     fitted.inputs = DescribeInputs(read, all);
-    if (choices_.guarded()) {
+    if (options_.bases.guarded()) {
       fitted.guards = MakeGuards(fitted.inputs, training.target_values());
     }
     fitted.model = std::make_shared<AveragedModel>(
         static_cast<Index>(columns.size()),
-        RuleWords()[static_cast<std::size_t>(rule_)],
+        RuleWords()[static_cast<std::size_t>(options_.rule)],
         std::move(members));
     if (!history.derived.empty()) {
       fitted = WithHistory(std::move(fitted), training, history);
@@ -304,16 +296,47 @@ class BlendRecipe final : public ModelRecipe {
   }
 
   std::string name_;
-  WeightRule rule_;
-  bool with_net_;
-  PenalizedChoices choices_;
+  BlendOptions options_;
 };
+
+OptionList<BlendOptions> List() {
+  OptionList<BlendOptions> list;
+  list.push_back(OptionFor("rule",
+                           "where the weights come from",
+                           &BlendOptions::rule,
+                           EnumWords<WeightRule>(RuleWords()))
+                     .Always());
+  list.push_back(OptionFor("net",
+                           "net:scg:view=auto among the members",
+                           &BlendOptions::net,
+                           OneOf<bool>{{{"no", false}, {"yes", true}}})
+                     .Always());
+  AddWithin(
+      BasisOptionList(), [](auto& options) { return &options.bases; }, &list);
+  return list;
+}
 
 }  // namespace
 
-std::unique_ptr<ModelRecipe> MakeBlendRecipe(const ModelSpec& spec) {
-  if (spec.type != "blend") return nullptr;
-  return std::make_unique<BlendRecipe>(spec);
+template <>
+const std::vector<ListedModel<BlendOptions>>& ListedModels() {
+  static const std::vector<ListedModel<BlendOptions>> models = {
+      {.name = "blend",
+       .about = "an average of maps that see the inputs differently",
+       .defaults = {},
+       .options = List(),
+       .complete = NameTheViewOf}};
+  return models;
 }
+
+void BlendOptions::Validate() const { ValidateOptions(*this); }
+
+std::unique_ptr<ModelRecipe> MakeRecipe(const BlendOptions& options,
+                                        std::string name) {
+  return std::make_unique<BlendRecipe>(options, std::move(name));
+}
+
+template BlendOptions OptionsOf(std::string_view spec);
+template std::string SpecOf(const BlendOptions& options);
 
 }  // namespace errmap::models

@@ -1,18 +1,38 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <string_view>
 
 #include "models/error_model.h"
-#include "models/model_spec.h"
+#include "models/model_options.h"
+#include "models/polynomial/polynomial_options.h"
 
 namespace errmap::models {
+
+/// Where weights come from: error^-4, equal ones within 20 % of the best,
+/// stacking.
+enum class WeightRule { kPower4, kWithin20, kStack };
 
 /// blend: the weighted average of candidates (family x view x terms, each at
 /// its best penalty, and a net), with weights from the inner hold-outs of the
 /// training rows alone. One choice among near-equals is a gamble; averages of
-/// maps that see the inputs differently are not. Null where `spec` is of
-/// another model. Throws std::invalid_argument on options that it does not
-/// have.
-std::unique_ptr<ModelRecipe> MakeBlendRecipe(const ModelSpec& spec);
+/// maps that see the inputs differently are not.
+struct BlendOptions {
+  WeightRule rule = WeightRule::kPower4;
+  bool net = false;  // with NetInViews(), but for kStack
+  /// Views are what averaging lives on: without a `view` it is auto.
+  BasisOptions bases = {.view = ViewOptions()};
+
+  std::string_view type() const { return "blend"; }
+  /// Throws std::invalid_argument naming option, value and range.
+  void Validate() const;
+  bool operator==(const BlendOptions&) const = default;
+};
+
+/// Throws as Validate. The recipe's name is `name` or, where that is empty,
+/// SpecOf(options).
+std::unique_ptr<ModelRecipe> MakeRecipe(const BlendOptions& options,
+                                        std::string name = "");
 
 }  // namespace errmap::models

@@ -53,7 +53,6 @@ double HeldOutError(const Dataset& rows,
 
 FittedModel FitInView(const Dataset& training,
                       const ViewOptions& options,
-                      bool guarded,
                       const FitContext& context,
                       const FitRows& fit) {
   const auto shared = SharedViews(training, options, context);
@@ -86,7 +85,7 @@ FittedModel FitInView(const Dataset& training,
     fitted.remarks.push_back(fmt::format(
         "view {} by inner hold-outs (tried {})", chosen->label(), tried));
   }
-  if (guarded) {
+  if (options.clip) {
     fitted.guards = MakeGuards(fitted.inputs, training.target_values());
   }
   if (chosen->history == nullptr || fitted.inputs.empty()) return fitted;

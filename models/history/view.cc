@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "models/history/view_options.h"
 #include "models/shared_work.h"
 
 namespace errmap::models {
@@ -20,44 +21,12 @@ namespace {
 using data::Dataset;
 using Eigen::Index;
 
-const std::vector<std::string>& ViewWords() {
-  static const std::vector<std::string> words = {
-      "raw", "history", "zero", "history+zero"};
-  return words;
-}
-
 bool Filters(View view) {
   return view == View::kHistory || view == View::kHistoryAndZero;
 }
 
 bool TakesZero(View view) {
   return view == View::kZero || view == View::kHistoryAndZero;
-}
-
-std::vector<double> ParseTimeConstants(const std::string& text) {
-  std::vector<double> constants;
-  std::size_t begin = 0;
-  while (begin <= text.size()) {
-    const std::size_t end = std::min(text.find('+', begin), text.size());
-    const std::string item = text.substr(begin, end - begin);
-    std::size_t used = 0;
-    double value = 0.0;
-    try {
-      value = std::stod(item, &used);
-    } catch (const std::exception&) {
-      used = 0;
-    }
-    if (item.empty() || used != item.size() || !(value > 0.0) ||
-        !std::isfinite(value)) {
-      throw std::invalid_argument(fmt::format(
-          "history must be auto, none or time constants above 0 joined by +, "
-          "found '{}'",
-          text));
-    }
-    constants.push_back(value);
-    begin = end + 1;
-  }
-  return constants;
 }
 
 bool IsAngle(const data::ColumnInfo& column) {
@@ -144,6 +113,12 @@ std::string WhyNot(const Dataset& training,
 
 }  // namespace
 
+const std::vector<std::string>& ViewWords() {
+  static const std::vector<std::string> words = {
+      "raw", "history", "zero", "history+zero"};
+  return words;
+}
+
 std::string_view ToString(View view) {
   return ViewWords()[static_cast<std::size_t>(view)];
 }
@@ -157,74 +132,6 @@ std::string ViewedRows::label() const {
 View ViewOf(std::string_view word) {
   return static_cast<View>(std::ranges::find(ViewWords(), word) -
                            ViewWords().begin());
-}
-
-ViewOptions ViewOptions::Take(SpecOptions* options) {
-  ViewOptions taken;
-  const std::string view = options->TakeText("view", "");
-  const std::string history = options->TakeText("history", "");
-  const std::string zero = options->TakeText("zero", "");
-  const std::string angles = options->TakeText("angles", "");
-  taken.never_intercept =
-      options->TakeChoice("intercept", 0, {"yes", "no"}) == 1;
-  taken.given = !view.empty() || !history.empty() || !zero.empty() ||
-                !angles.empty() || taken.never_intercept;
-  if (!history.empty() && history != "auto" && history != "none") {
-    taken.time_constants = ParseTimeConstants(history);
-  }
-  taken.with_history = history != "none";
-  taken.with_zero = options->TakeChoice("zero", 0, {"session", "none"}) == 0;
-  const std::size_t form =
-      options->TakeChoice("angles", 0, {"auto", "sincos", "none"});
-  if (form > 0) taken.sine_and_cosine = form == 1;
-  std::vector<std::string> words = {"auto"};
-  std::ranges::copy(ViewWords(), std::back_inserter(words));
-  const std::size_t word = options->TakeChoice("view", 0, words);
-  if (word > 0) {
-    taken.view = static_cast<View>(word - 1);
-  } else if (view.empty() && taken.given) {
-    // Named by what it is made of: history=600+3600, zero=session.
-    const bool filters = !history.empty() && taken.with_history;
-    const bool zeroes = !zero.empty() && taken.with_zero;
-    taken.view = filters && zeroes ? View::kHistoryAndZero
-                 : filters         ? View::kHistory
-                 : zeroes          ? View::kZero
-                                   : View::kRaw;
-  }
-  return taken;
-}
-
-bool ViewOptions::TakeClip(SpecOptions* options) const {
-  return options->TakeChoice("clip", 0, {"auto", "none"}) == 0 && given;
-}
-
-void ViewOptions::Describe(std::vector<EffectiveOption>* options) const {
-  if (!given) return;
-  options->push_back({"view", std::string(view ? ToString(*view) : "auto")});
-  if (!time_constants.empty()) {
-    options->push_back(
-        {"history", fmt::format("{}", fmt::join(time_constants, "+"))});
-  } else if (!with_history) {
-    options->push_back({"history", std::string("none")});
-  }
-  if (!with_zero) options->push_back({"zero", std::string("none")});
-  if (never_intercept) options->push_back({"intercept", std::string("no")});
-  if (sine_and_cosine) {
-    options->push_back(
-        {"angles", std::string(*sine_and_cosine ? "sincos" : "none")});
-  }
-}
-
-std::string ViewOptions::Key() const {
-  std::vector<EffectiveOption> options;
-  Describe(&options);
-  std::string key;
-  for (const EffectiveOption& option : options) {
-    if (option.key == "view") continue;
-    key +=
-        fmt::format("{}={} ", option.key, std::get<std::string>(option.value));
-  }
-  return key;
 }
 
 bool IsPosition(const data::ColumnInfo& column) {
@@ -287,15 +194,16 @@ double LargestFirstError(const Dataset& training) {
 }
 
 std::vector<ViewedRows> MakeViews(const Dataset& training,
-                                  const ViewOptions& options,
+                                  const std::optional<ViewOptions>& asked,
                                   double indifference) {
-  const std::vector<double> time_constants = options.time_constants.empty()
-                                                 ? MakeTimeConstants(training)
-                                                 : options.time_constants;
+  const ViewOptions options = asked.value_or(ViewOptions{.view = View::kRaw});
+  const bool with_history =
+      !options.time_constants || !options.time_constants->empty();
+  const std::vector<double> time_constants =
+      options.time_constants && with_history ? *options.time_constants
+                                             : MakeTimeConstants(training);
   std::vector<View> wanted;
-  if (!options.given) {
-    wanted = {View::kRaw};
-  } else if (options.view) {
+  if (options.view) {
     const std::string why = WhyNot(training, *options.view, time_constants);
     if (!why.empty()) {
       throw std::invalid_argument(
@@ -305,18 +213,17 @@ std::vector<ViewedRows> MakeViews(const Dataset& training,
   } else {
     for (const View view :
          {View::kRaw, View::kHistory, View::kZero, View::kHistoryAndZero}) {
-      if (Filters(view) && !options.with_history) continue;
-      if (TakesZero(view) && !options.with_zero) continue;
+      if (Filters(view) && !with_history) continue;
+      if (TakesZero(view) && !options.zero) continue;
       // A zero alone is part of a zero with history.
-      if (view == View::kZero && options.with_history) continue;
+      if (view == View::kZero && with_history) continue;
       if (WhyNot(training, view, time_constants).empty()) {
         wanted.push_back(view);
       }
     }
   }
   std::vector<bool> angle_forms = {options.sine_and_cosine.value_or(false)};
-  if (options.given && !options.view && !options.sine_and_cosine &&
-      TurnsFar(training)) {
+  if (!options.view && !options.sine_and_cosine && TurnsFar(training)) {
     angle_forms.push_back(true);
   }
   std::vector<std::pair<View, bool>> forms;
@@ -343,8 +250,8 @@ std::vector<ViewedRows> MakeViews(const Dataset& training,
     }
     // Inputs that are zero where a session begins give an error that is zero
     // there, if that is what was measured.
-    viewed.intercept = !options.never_intercept &&
-                       !(TakesZero(view) && first_error <= indifference);
+    viewed.intercept =
+        options.intercept && !(TakesZero(view) && first_error <= indifference);
     views.push_back(std::move(viewed));
   }
   return views;
@@ -352,19 +259,20 @@ std::vector<ViewedRows> MakeViews(const Dataset& training,
 
 std::shared_ptr<const std::vector<ViewedRows>> SharedViews(
     const Dataset& training,
-    const ViewOptions& options,
+    const std::optional<ViewOptions>& options,
     const FitContext& context) {
   const auto make = [&] {
     return std::make_shared<const std::vector<ViewedRows>>(
         MakeViews(training, options, context.indifference));
   };
   if (context.shared == nullptr) return make();
-  const std::string view =
-      !options.given
-          ? "none"
-          : std::string(options.view ? ToString(*options.view) : "auto");
   auto views = context.shared->GetWhileHeld<std::vector<ViewedRows>>(
-      fmt::format("views {} {}", view, options.Key()), make);
+      fmt::format("views {} {}",
+                  !options         ? "none"
+                  : !options->view ? "auto"
+                                   : ToString(*options->view),
+                  KeyOf(options)),
+      make);
   // Whoever fits other rows must not share; a wrong map would be silent.
   if (views->front().rows->target_values() != training.target_values()) {
     throw std::logic_error("SharedViews: the rows are not those shared");

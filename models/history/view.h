@@ -9,7 +9,6 @@
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/history/history.h"
-#include "models/model_spec.h"
 
 namespace errmap::models {
 
@@ -20,31 +19,29 @@ enum class View {
   kZero,            // less their values in the session's first row
   kHistoryAndZero,  // both: inputs and filtered inputs less those values
 };
-std::string_view ToString(View view);  // the words of view=
-View ViewOf(std::string_view word);    // of one of these words
+/// "raw", "history", "zero", "history+zero": the words of view=, in this order.
+const std::vector<std::string>& ViewWords();
+std::string_view ToString(View view);
+View ViewOf(std::string_view word);  // of one of these words
 
-/// What a SPEC says of views: view=, history=, zero=, intercept=, angles=.
+/// Of a map that may see its inputs in another form than measured.
 struct ViewOptions {
-  /// Whether any of them was given: else the map reads its inputs as they are.
-  bool given = false;
-  std::optional<View> view;            // empty: chosen on inner hold-outs
-  std::vector<double> time_constants;  // unit of time; empty: MakeTimeConstants
-  bool with_history = true;            // of the views to choose from
-  bool with_zero = true;
-  /// A map without intercept in zeroed views: always, or where each session
-  /// begins at zero within the indifference.
-  bool never_intercept = false;
+  std::optional<View> view = {};  // empty: chosen on inner hold-outs
+  /// Of the filters, above 0, in the unit of time; empty: MakeTimeConstants; an
+  /// empty list: no view with filters is among those to choose from.
+  std::optional<std::vector<double>> time_constants = {};
+  /// Whether views with a zero are among those to choose from.
+  bool zero = true;
+  /// False: a map in a zeroed view never has one; else it has none where each
+  /// session begins at zero within the indifference.
+  bool intercept = true;
   /// Sine and cosine of angles in place of the angles; empty: chosen with the
   /// view where an angle turns far enough, else not.
-  std::optional<bool> sine_and_cosine;
+  std::optional<bool> sine_and_cosine = {};
+  /// Whether the map is guarded (Guards).
+  bool clip = true;
 
-  static ViewOptions Take(SpecOptions* options);
-  /// Takes clip=: whether maps in views are guarded.
-  bool TakeClip(SpecOptions* options) const;
-  /// Those that are not the default.
-  void Describe(std::vector<EffectiveOption>* options) const;
-  /// Words that tell which views MakeViews gives, but for the view alone.
-  std::string Key() const;
+  bool operator==(const ViewOptions&) const = default;
 };
 
 /// Training rows in one view.
@@ -59,19 +56,20 @@ struct ViewedRows {
   std::string label() const;  // "history+zero", "raw with sine and cosine"
 };
 
-/// The views of `options` that these rows allow, simplest first: filters need
+/// The views of `options` (without them the rows as they are) that these rows
+/// allow, simplest first: filters need
 /// an input besides positions and sessions with a length, the zero two
 /// sessions or more. Throws std::invalid_argument where a view that was asked
 /// for by name is not possible.
 std::vector<ViewedRows> MakeViews(const data::Dataset& training,
-                                  const ViewOptions& options,
+                                  const std::optional<ViewOptions>& options,
                                   double indifference);
 
 /// The same of the rows that are fitted, shared with the recipes that hold them
 /// at the same time by way of context.shared.
 std::shared_ptr<const std::vector<ViewedRows>> SharedViews(
     const data::Dataset& training,
-    const ViewOptions& options,
+    const std::optional<ViewOptions>& options,
     const FitContext& context);
 
 /// The median length of the sessions of `training` / 100, / 30 and / 10: what

@@ -134,11 +134,6 @@ void Precede(const fitting::FitSummary& earlier, fitting::FitSummary* last) {
 
 }  // namespace
 
-const std::vector<std::string>& InputScalingNames() {
-  static const std::vector<std::string> names = {"standard", "range", "none"};
-  return names;
-}
-
 NetTraining NetRows::From(std::uint64_t seed, double wfactor) const {
   NetTraining from = training;
   from.wfactor = wfactor;

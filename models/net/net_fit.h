@@ -7,27 +7,11 @@
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/inner_folds.h"
+#include "models/net/net_design.h"
 #include "models/net/net_trainer.h"
 #include "models/scaling.h"
 
 namespace errmap::models {
-
-enum class InputScaling { kStandard, kRange, kNone };
-
-/// "standard", "range", "none": the words of `scale=`, in that order.
-const std::vector<std::string>& InputScalingNames();
-
-/// What a net is before it sees any rows.
-struct NetDesign {
-  std::int64_t hidden = 20;
-  InputScaling scaling = InputScaling::kStandard;
-  OutputFunction output = OutputFunction::kSigmoid;
-  double slope = 1.0;
-
-  NetShape ShapeFor(const data::Dataset& dataset) const {
-    return {dataset.num_inputs(), hidden, 1, output, slope};
-  }
-};
 
 /// Training rows as a net sees them, and the way back to physical units.
 struct NetRows {

@@ -1,248 +1,323 @@
 #include "models/net/net_options.h"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <limits>
-#include <stdexcept>
-#include <string>
+#include <utility>
 
-#include <fmt/format.h>
+#include "fitting/minimisers/levenberg_marquardt.h"
+#include "models/history/view_options.h"
+#include "models/option_list.h"
 
 namespace errmap::models {
 namespace {
 
-using Eigen::Index;
+constexpr double kDefaultWfactor = 1e-5;
+constexpr std::int64_t kFewNodes = 10;  // of a net in a view
 
-// Budgets and stops under the report's names.
-fitting::StoppingRules TakeStoppingRules(fitting::StoppingRules rules,
-                                         SpecOptions* options) {
+fitting::StoppingRules DefaultRules(const NetMethod& method) {
+  return std::holds_alternative<LmTraining>(method)
+             ? fitting::LevenbergMarquardtOptions().stopping
+             : fitting::StoppingRules();
+}
+
+std::string Contradiction(const NetOptions& options) {
+  const bool by_discrepancy = options.discrepancy.has_value();
+  const bool many_starts = options.starts && *options.starts > 1;
+  if (by_discrepancy && options.wfactor) {
+    return "discrepancy= finds the wfactor, which wfactor= fixes";
+  }
+  if (options.choose && !many_starts) {
+    return "choose= chooses among several starts; give starts=N";
+  }
+  if (by_discrepancy && options.hidden && options.hidden->by_cv()) {
+    return "discrepancy= needs a number of hidden nodes; choose it with "
+           "wfactor=cv first";
+  }
+  if (by_discrepancy && many_starts) {
+    return "discrepancy= follows one start; take its wfactor to starts=";
+  }
+  if (options.members && *options.members > 1 &&
+      (many_starts || by_discrepancy)) {
+    return "members= averages several starts; starts= and discrepancy= choose "
+           "one";
+  }
+  if (by_discrepancy && options.path == true) {
+    return "discrepancy= walks a path of its own";
+  }
+  return "";
+}
+
+// Of every net.
+OptionList<NetOptions> CommonList() {
+  using Options = NetOptions;
+  constexpr std::int64_t kMostNodes = 10'000;
   constexpr std::int64_t kMostSteps = 1'000'000'000;
-  constexpr double kMost = 1e12;
-  constexpr double kLeastSeconds = 1e-3;
-  rules.iterations =
-      options->TakeInteger("iterations", rules.iterations, 1, kMostSteps);
-  rules.evaluations =
-      options->TakeInteger("evaluations",
-                           rules.evaluations,
-                           1,
-                           std::numeric_limits<std::int64_t>::max());
-  rules.seconds =
-      options->TakeNumber("seconds", rules.seconds, kLeastSeconds, kMost);
-  rules.cost_goal = options->TakeNumber("egoal", rules.cost_goal, 0.0, kMost);
-  rules.gradient_goal =
-      options->TakeNumber("gwgoal", rules.gradient_goal, 0.0, kMost);
-  rules.slow_ratio =
-      options->TakeNumber("errdel", rules.slow_ratio, 1e-6, kMost);
-  rules.progress_interval =
-      options->TakeInteger("nfreq", rules.progress_interval, 1, kMostSteps);
-  return rules;
+  constexpr std::int64_t kMostStarts = 10'000;
+  constexpr std::int64_t kMostMembers = 100;
+  constexpr std::int64_t kFewestRows = 100;
+  constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
+  constexpr Number kWfactors{0.0, 1e6};
+  constexpr Number kDeltas{1e-300, 1e300};
+  constexpr Number kGoals{0.0, 1e12};
+  constexpr Number kRatios{1e-6, 1e12};
+  constexpr Number kSeconds{1e-3, 1e12};
+  constexpr Number kSlopes{1e-3, 1e3};
+  const auto several = [](const Options& options) {
+    return *options.starts > 1;
+  };
+  OptionList<Options> list;
+  list.push_back(OptionFor("hidden",
+                           "hidden nodes",
+                           &Options::hidden,
+                           WordOr<GivenOrByCv<std::int64_t>, Whole>{
+                               "cv", kByCrossValidation, Whole{1, kMostNodes}})
+                     .Always());
+  list.push_back(OptionFor("wfactor",
+                           "weight decay",
+                           &Options::wfactor,
+                           WordOr<GivenOrByCv<double>, Number>{
+                               "cv", kByCrossValidation, kWfactors})
+                     .Always());
+  list.push_back(OptionFor("discrepancy",
+                           "the RMS residual that finds the wfactor",
+                           &Options::discrepancy,
+                           kDeltas));
+  list.push_back(
+      OptionFor("path",
+                "down to its wfactor from strong ones",
+                &Options::path,
+                OneOf<std::optional<bool>>{
+                    {{"auto", std::nullopt}, {"yes", true}, {"no", false}}})
+          .When([](const Options& options) { return *options.path; }));
+  list.push_back(OptionFor("iterations",
+                           "the most steps",
+                           &Options::iterations,
+                           Whole{1, kMostSteps})
+                     .Always());
+  list.push_back(OptionFor("egoal",
+                           "ends at a root-mean-square error below it",
+                           &Options::egoal,
+                           kGoals)
+                     .Always());
+  list.push_back(OptionFor("gwgoal",
+                           "ends at a gradient below it, against the weights",
+                           &Options::gwgoal,
+                           kGoals)
+                     .Always());
+  list.push_back(
+      OptionFor("scale",
+                "of the inputs",
+                &Options::scale,
+                EnumWords<InputScaling>({"standard", "range", "none"}))
+          .Always());
+  list.push_back(OptionFor("output",
+                           "of the net: bounded, or not",
+                           &Options::output,
+                           EnumWords<OutputFunction>({"sigmoid", "linear"}))
+                     .Always());
+  list.push_back(
+      OptionFor("slope", "of the sigmoid", &Options::slope, kSlopes).Always());
+  list.push_back(OptionFor("evaluations",
+                           "the most evaluations",
+                           &Options::evaluations,
+                           Whole{1, kNoLimit}));
+  list.push_back(OptionFor("errdel",
+                           "ends where the error stays above this share of it",
+                           &Options::errdel,
+                           kRatios));
+  list.push_back(OptionFor("nfreq",
+                           "steps between looks at errdel",
+                           &Options::nfreq,
+                           Whole{1, kMostSteps})
+                     .When([](const Options& options) {
+                       return options.errdel.has_value();
+                     }));
+  list.push_back(OptionFor(
+      "seconds", "the most time of a fit", &Options::seconds, kSeconds));
+  list.push_back(OptionFor("starts",
+                           "starts of which one is taken",
+                           &Options::starts,
+                           Whole{1, kMostStarts})
+                     .When(several));
+  list.push_back(OptionFor("choose",
+                           "which start: of lowest cost, by inner hold-outs",
+                           &Options::choose,
+                           EnumWords<StartRule>({"cost", "cv"}))
+                     .When(several));
+  list.push_back(
+      OptionFor("members",
+                "starts that are averaged",
+                &Options::members,
+                Whole{1, kMostMembers})
+          .When([](const Options& options) { return *options.members > 1; }));
+  list.push_back(OptionFor(
+      "rows",
+      "the most rows to train on",
+      &Options::rows,
+      WordOr<std::int64_t, Whole>{
+          "all", NetOptions::kAllRows, Whole{kFewestRows, kNoLimit}}));
+  const auto view = [](auto& options) { return &options.view; };
+  AddWithin(ViewOptionList(), view, &list);
+  list.push_back(Within<Options>(ClipOption(), view));
+  return list;
 }
 
-WfactorOption TakeWfactor(const ModelSpec& spec, SpecOptions* options) {
-  constexpr double kMostWfactor = 1e6;
-  constexpr double kLeastDelta = 1e-300;
-  constexpr double kMostDelta = 1e300;
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  WfactorOption taken;
-  taken.delta =
-      options->TakeNumber("discrepancy", kNone, kLeastDelta, kMostDelta);
-  const bool by_cv = options->IsWord("wfactor", "cv");
-  if (!std::isnan(taken.delta)) {
-    if (options->Has("wfactor")) {
-      throw std::invalid_argument(fmt::format(
-          "model '{}': discrepancy= finds the wfactor, which wfactor= fixes",
-          spec.text));
-    }
-    taken.rule = WfactorRule::kDiscrepancy;
-  } else if (by_cv) {
-    taken.rule = WfactorRule::kCrossValidation;
-  } else {
-    taken.wfactor =
-        options->TakeNumber("wfactor", taken.wfactor, 0.0, kMostWfactor);
-  }
-  return taken;
+template <typename Training>
+constexpr auto kOf =
+    [](auto& options) { return std::get_if<Training>(&options.method); };
+
+OptionList<ScgTraining> ListOf(const ScgTraining& /*method*/) {
+  return {OptionFor("variant",
+                    "Moller's algorithm, or the report's program",
+                    &ScgTraining::variant,
+                    EnumWords<fitting::ScgVariant>({"moller", "netcg"}))
+              .Always(),
+          OptionFor("precision",
+                    "of its arithmetic",
+                    &ScgTraining::is_single,
+                    OneOf<bool>{{{"double", false}, {"single", true}}})
+              .Always()};
 }
 
-void DescribeWfactor(const WfactorOption& option,
-                     std::vector<EffectiveOption>* all) {
-  switch (option.rule) {
-    case WfactorRule::kGiven:
-      all->push_back({"wfactor", option.wfactor});
-      break;
-    case WfactorRule::kCrossValidation:
-      all->push_back({"wfactor", std::string("cv")});
-      break;
-    case WfactorRule::kDiscrepancy:
-      all->push_back({"discrepancy", option.delta});
-      break;
-  }
+OptionList<LmTraining> ListOf(const LmTraining& /*method*/) { return {}; }
+
+OptionList<CgTraining> ListOf(const CgTraining& /*method*/) { return {}; }
+
+OptionList<BackpropTraining> ListOf(const BackpropTraining& /*method*/) {
+  constexpr Number kRates{1e-12, 1e12};
+  constexpr Number kMomenta{0.0, 0.999999};
+  return {OptionFor("learning_rate",
+                    "eta of Eq. 68",
+                    &BackpropTraining::learning_rate,
+                    kRates)
+              .Always(),
+          OptionFor("momentum",
+                    "share of the last step that is added",
+                    &BackpropTraining::momentum,
+                    kMomenta)
+              .Always()};
 }
 
-// What `choose=` says of several starts: lowest cost, or least error on inner
-// hold-outs.
-const std::vector<std::string>& StartRules() {
-  static const std::vector<std::string> words = {"cost", "cv"};
-  return words;
+constexpr const char* kAboutMethod = "the solver's method";
+constexpr const char* kAboutMemory = "pairs of vectors that it keeps";
+// Pairs of vectors that a quasi-Newton method may be asked to keep.
+constexpr Whole kMemories{1, 1000};
+
+OptionList<CeresTraining> ListOf(const CeresTraining& /*method*/) {
+  return {
+      OptionFor("method",
+                kAboutMethod,
+                &CeresTraining::method,
+                EnumWords<fitting::CeresMethod>(fitting::CeresMethodNames()))
+          .Always(),
+      OptionFor("memory", kAboutMemory, &CeresTraining::memory, kMemories)
+          .Always()};
 }
 
-// What `path=` says of the way to a wfactor: down WfactorPath where it is
-// tuned, always, never.
-const std::vector<std::string>& PathWords() {
-  static const std::vector<std::string> words = {"auto", "yes", "no"};
-  return words;
+OptionList<NloptTraining> ListOf(const NloptTraining& /*method*/) {
+  constexpr Number kBoxes{1e-6, 1e6};
+  return {
+      OptionFor("method",
+                kAboutMethod,
+                &NloptTraining::method,
+                EnumWords<fitting::NloptMethod>(fitting::NloptMethodNames()))
+          .Always(),
+      OptionFor("memory", kAboutMemory, &NloptTraining::memory, kMemories)
+          .Always(),
+      OptionFor("box",
+                "how far from the start crs2_lm searches",
+                &NloptTraining::box,
+                kBoxes)
+          .When([](const NloptTraining& method) {
+            return method.method == fitting::NloptMethod::kCrs2Lm;
+          })};
 }
 
-// The iterations of a fit along the path are shared by its steps.
-fitting::StoppingRules RulesOfAStep(fitting::StoppingRules rules) {
-  const auto steps = static_cast<std::int64_t>(WfactorPath().size());
-  rules.iterations = (rules.iterations + steps - 1) / steps;
-  return rules;
-}
-
-// Of those that each have a meaning by themselves.
-void RefuseContradictions(const ModelSpec& spec, const NetOptions& taken) {
-  if (taken.tunes_hidden && taken.wfactor.rule == WfactorRule::kDiscrepancy) {
-    throw std::invalid_argument(fmt::format(
-        "model '{}': discrepancy= needs a number of hidden nodes; choose it "
-        "with wfactor=cv first",
-        spec.text));
-  }
-  if (taken.starts > 1 && taken.wfactor.rule == WfactorRule::kDiscrepancy) {
-    throw std::invalid_argument(fmt::format(
-        "model '{}': discrepancy= follows one start; take its wfactor to "
-        "starts=",
-        spec.text));
-  }
-  if (taken.members > 1 &&
-      (taken.starts > 1 || taken.wfactor.rule == WfactorRule::kDiscrepancy)) {
-    throw std::invalid_argument(
-        fmt::format("model '{}': members= averages several starts; starts= and "
-                    "discrepancy= choose one",
-                    spec.text));
-  }
-  if (taken.walks_path && taken.wfactor.rule == WfactorRule::kDiscrepancy) {
-    throw std::invalid_argument(fmt::format(
-        "model '{}': discrepancy= walks a path of its own", spec.text));
-  }
+template <typename Training>
+ListedModel<NetOptions> ModelOf(std::string name, std::string about) {
+  OptionList<NetOptions> options = CommonList();
+  AddWithin(ListOf(Training()), kOf<Training>, &options);
+  return {.name = std::move(name),
+          .about = std::move(about),
+          .defaults = {.method = Training()},
+          .options = std::move(options),
+          .contradiction = Contradiction,
+          .complete = NameTheViewOf,
+          .is_compared = std::is_same_v<Training, ScgTraining>};
 }
 
 }  // namespace
 
-NetOptions TakeNetOptions(const ModelSpec& spec) {
-  constexpr double kLeastSlope = 1e-3;
-  constexpr double kMostSlope = 1e3;
-  constexpr std::int64_t kMostStarts = 10'000;
-  constexpr std::int64_t kMostMembers = 100;
-  constexpr std::int64_t kFewestRows = 100;
-  SpecOptions options(spec);
-  NetOptions taken;
-  taken.tunes_hidden = options.IsWord("hidden", "cv");
-  taken.view = ViewOptions::Take(&options);
-  taken.clips = options.TakeChoice("clip", 0, {"auto", "none"}) == 0;
-  // A net with a view is to hold where it was not trained.
-  constexpr std::int64_t kFewNodes = 10;
-  constexpr std::int64_t kFewSteps = 750;
-  constexpr std::int64_t kSomeMembers = 3;
-  if (taken.view.given) taken.design.hidden = kFewNodes;
-  const bool one_start =
-      options.Has("starts") || options.Has("discrepancy") || !taken.view.given;
-  taken.members = options.TakeInteger(
-      "members", one_start ? 1 : kSomeMembers, 1, kMostMembers);
-  if (!taken.tunes_hidden) {
-    taken.design.hidden =
-        options.TakeInteger("hidden", taken.design.hidden, 1, 10'000);
-  }
-  taken.wfactor = TakeWfactor(spec, &options);
-  if (taken.view.given && !options.Has("wfactor") &&
-      !options.Has("discrepancy")) {
-    taken.wfactor.rule = WfactorRule::kCrossValidation;
-  }
-  const std::size_t path = options.TakeChoice("path", 0, PathWords());
-  taken.walks_path = path == 0
-                         ? taken.wfactor.rule == WfactorRule::kCrossValidation
-                         : path == 1;
-  fitting::StoppingRules defaults = DefaultStoppingRules(spec.type);
-  if (taken.view.given) {
-    defaults.iterations = std::min(defaults.iterations, kFewSteps);
-  }
-  taken.stopping = TakeStoppingRules(defaults, &options);
-  taken.design.scaling = static_cast<InputScaling>(
-      options.TakeChoice("scale", 0, InputScalingNames()));
-  taken.design.output = static_cast<OutputFunction>(
-      options.TakeChoice("output", 0, {"sigmoid", "linear"}));
-  taken.design.slope =
-      options.TakeNumber("slope", taken.design.slope, kLeastSlope, kMostSlope);
-  taken.starts = options.TakeInteger("starts", 1, 1, kMostStarts);
-  const std::string choose = options.TakeText("choose", "");
-  taken.chooses_start_by_cv =
-      options.TakeChoice("choose", 0, StartRules()) == 1;
-  if (!choose.empty() && taken.starts < 2) {
-    throw std::invalid_argument(fmt::format(
-        "model '{}': choose= chooses among several starts; give starts=N",
-        spec.text));
-  }
-  RefuseContradictions(spec, taken);
-  if (options.IsWord("rows", "all")) {
-    taken.most_rows = std::numeric_limits<Index>::max();
-    options.TakeText("rows", "");
-  } else {
-    taken.most_rows = options.TakeInteger("rows",
-                                          NetOptions::kMostRows,
-                                          kFewestRows,
-                                          std::numeric_limits<Index>::max());
-  }
-  taken.trainer = MakeNetTrainer(
-      spec.type,
-      taken.walks_path ? RulesOfAStep(taken.stopping) : taken.stopping,
-      &options);
-  options.RefuseOthers();
-  return taken;
+template <>
+const std::vector<ListedModel<NetOptions>>& ListedModels() {
+  // In the order of NetMethod.
+  static const std::vector<ListedModel<NetOptions>> models = {
+      ModelOf<ScgTraining>("net:scg",
+                           "a neural net, scaled conjugate gradients (1995)"),
+      ModelOf<LmTraining>("net:lm", "a neural net, Levenberg-Marquardt"),
+      ModelOf<CgTraining>("net:cg", "a neural net, conjugate gradients"),
+      ModelOf<BackpropTraining>("net:backprop",
+                                "a neural net, gradient descent"),
+      ModelOf<CeresTraining>("net:ceres", "a neural net, a solver of Ceres"),
+      ModelOf<NloptTraining>("net:nlopt", "a neural net, a solver of NLopt")};
+  return models;
 }
 
-std::vector<EffectiveOption> NetOptions::Describe() const {
-  std::vector<EffectiveOption> all;
-  if (tunes_hidden) {
-    all.push_back({"hidden", std::string("cv")});
-  } else {
-    all.push_back({"hidden", design.hidden});
+std::string_view NetOptions::type() const {
+  return ListedModels<NetOptions>()[method.index()].name;
+}
+
+void NetOptions::Validate() const { ValidateOptions(*this); }
+
+NetOptions NetOptions::Resolved() const {
+  constexpr std::int64_t kFewSteps = 750;
+  constexpr std::int64_t kSomeMembers = 3;
+  NetOptions all = *this;
+  if (!hidden) all.hidden = view ? kFewNodes : NetDesign().hidden;
+  if (!wfactor && !discrepancy) {
+    if (view) {
+      all.wfactor = kByCrossValidation;
+    } else {
+      all.wfactor = kDefaultWfactor;
+    }
   }
-  DescribeWfactor(wfactor, &all);
-  if (walks_path) all.push_back({"path", std::string("yes")});
-  all.push_back({"iterations", stopping.iterations});
-  all.push_back({"egoal", stopping.cost_goal});
-  all.push_back({"gwgoal", stopping.gradient_goal});
-  all.push_back(
-      {"scale", InputScalingNames()[static_cast<std::size_t>(design.scaling)]});
-  all.push_back({"output", std::string(ToString(design.output))});
-  all.push_back({"slope", design.slope});
-  const fitting::StoppingRules unlimited;
-  if (stopping.evaluations != unlimited.evaluations) {
-    all.push_back({"evaluations", stopping.evaluations});
+  if (!path) all.path = all.tunes_wfactor();
+  if (!iterations) {
+    const std::int64_t usual = DefaultRules(method).iterations;
+    all.iterations = view ? std::min(usual, kFewSteps) : usual;
   }
-  if (stopping.slow_ratio != unlimited.slow_ratio) {
-    all.push_back({"errdel", stopping.slow_ratio});
-    all.push_back({"nfreq", stopping.progress_interval});
+  if (!members) {
+    all.members = view && !starts && !discrepancy ? kSomeMembers : 1;
   }
-  if (stopping.seconds != unlimited.seconds) {
-    all.push_back({"seconds", stopping.seconds});
-  }
-  if (starts > 1) {
-    all.push_back({"starts", starts});
-    all.push_back({"choose", StartRules()[chooses_start_by_cv ? 1 : 0]});
-  }
-  if (members > 1) all.push_back({"members", members});
-  if (most_rows == std::numeric_limits<Index>::max()) {
-    all.push_back({"rows", std::string("all")});
-  } else if (most_rows != kMostRows) {
-    all.push_back({"rows", most_rows});
-  }
-  view.Describe(&all);
-  if (view.given && !clips) {
-    all.push_back({"clip", std::string("none")});
-  }
-  std::ranges::move(trainer->options(), std::back_inserter(all));
+  if (!starts) all.starts = 1;
+  if (!choose && *all.starts > 1) all.choose = StartRule::kCost;
   return all;
 }
+
+NetDesign NetOptions::design() const {
+  const std::int64_t usual = view ? kFewNodes : NetDesign().hidden;
+  return {.hidden = tunes_hidden() ? usual : std::int64_t{*hidden},
+          .scaling = scale,
+          .output = output,
+          .slope = slope};
+}
+
+fitting::StoppingRules NetOptions::stopping() const {
+  fitting::StoppingRules rules = DefaultRules(method);
+  rules.iterations = *iterations;
+  rules.evaluations = evaluations;
+  if (seconds) rules.seconds = *seconds;
+  rules.cost_goal = egoal;
+  rules.gradient_goal = gwgoal;
+  if (errdel) rules.slow_ratio = *errdel;
+  rules.progress_interval = nfreq;
+  return rules;
+}
+
+double NetOptions::given_wfactor() const {
+  return !wfactor || wfactor->by_cv() ? kDefaultWfactor : double{*wfactor};
+}
+
+template NetOptions OptionsOf(std::string_view spec);
+template std::string SpecOf(const NetOptions& options);
 
 }  // namespace errmap::models

@@ -1,54 +1,172 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
-#include <vector>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
 
 #include <Eigen/Core>
 
+#include "fitting/minimisers/ceres_optimizer.h"
+#include "fitting/minimisers/gradient_descent.h"
+#include "fitting/minimisers/nlopt_optimizer.h"
 #include "fitting/minimisers/optimizer.h"
+#include "fitting/minimisers/scaled_conjugate_gradient.h"
 #include "models/error_model.h"
 #include "models/history/view.h"
-#include "models/model_spec.h"
-#include "models/net/net_fit.h"
-#include "models/net/net_trainer.h"
+#include "models/model_options.h"
+#include "models/net/net_design.h"
 
 namespace errmap::models {
 
-/// How wfactor comes about.
-enum class WfactorRule { kGiven, kCrossValidation, kDiscrepancy };
+/// Says of a number that inner hold-outs choose it.
+struct ByCrossValidation {};
+inline constexpr ByCrossValidation kByCrossValidation;
 
-/// What a SPEC says of wfactor: wfactor= or discrepancy=.
-struct WfactorOption {
-  WfactorRule rule = WfactorRule::kGiven;
-  double wfactor = 1e-5;
-  double delta = 0.0;  // kDiscrepancy: wanted RMS, the target's unit
+/// A number, or kByCrossValidation.
+template <typename Value>
+class GivenOrByCv {
+ public:
+  constexpr GivenOrByCv(Value value) : value_(value) {}
+  constexpr GivenOrByCv(ByCrossValidation /*by_cv*/) {}
+
+  constexpr bool by_cv() const { return !value_.has_value(); }
+  /// Of one that is given.
+  constexpr explicit operator Value() const { return *value_; }
+  bool operator==(const GivenOrByCv&) const = default;
+
+ private:
+  std::optional<Value> value_;
 };
 
-/// What the SPEC of a net says.
+// How a net is trained, one type for each method.
+
+/// net:scg: fitting::ScaledConjugateGradient.
+struct ScgTraining {
+  fitting::ScgVariant variant = fitting::ScgVariant::kMoller;
+  bool is_single = false;  // float in place of double
+
+  bool operator==(const ScgTraining&) const = default;
+};
+
+/// net:lm: fitting::LevenbergMarquardt.
+struct LmTraining {
+  bool operator==(const LmTraining&) const = default;
+};
+
+/// net:cg: fitting::ConjugateGradient.
+struct CgTraining {
+  bool operator==(const CgTraining&) const = default;
+};
+
+/// net:backprop: fitting::GradientDescent.
+struct BackpropTraining {
+  /// 1e-12 .. 1e12
+  double learning_rate = fitting::GradientDescentOptions().learning_rate;
+  /// 0 .. 0.999999
+  double momentum = fitting::GradientDescentOptions().momentum;
+
+  bool operator==(const BackpropTraining&) const = default;
+};
+
+/// net:ceres: fitting::CeresOptimizer.
+struct CeresTraining {
+  fitting::CeresMethod method = fitting::CeresMethod::kAuto;
+  int memory = fitting::CeresOptions().memory;  // 1 .. 1000
+
+  bool operator==(const CeresTraining&) const = default;
+};
+
+/// net:nlopt: fitting::NloptOptimizer.
+struct NloptTraining {
+  fitting::NloptMethod method = fitting::NloptMethod::kLbfgs;
+  int memory = fitting::NloptOptions().memory;  // 1 .. 1000
+  double box = fitting::NloptOptions().box;     // of kCrs2Lm, 1e-6 .. 1e6
+
+  bool operator==(const NloptTraining&) const = default;
+};
+
+using NetMethod = std::variant<ScgTraining,
+                               LmTraining,
+                               CgTraining,
+                               BackpropTraining,
+                               CeresTraining,
+                               NloptTraining>;
+
+/// Which of several starts is taken: of lowest cost, or of least error on inner
+/// hold-outs.
+enum class StartRule { kCost, kCrossValidation };
+
+/// A net of one hidden layer. What is left empty follows from the others
+/// (Resolved): a net in a view is to hold where it was not trained.
 struct NetOptions {
-  // Time grows with the rows, accuracy beyond these hardly.
-  static constexpr std::int64_t kMostRows = 20'000;
+  NetMethod method = ScgTraining{};
+  /// Nodes, 1 .. 10,000; empty: 20, in a view 10.
+  std::optional<GivenOrByCv<std::int64_t>> hidden = {};
+  /// The wfactor of Eq. 20, 0 .. 1e6; empty: 1e-5, in a view by
+  /// cross-validation.
+  std::optional<GivenOrByCv<double>> wfactor = {};
+  /// In place of a wfactor: the largest whose RMS residual on the training rows
+  /// is at most this, above 0, in the target's unit (Eq. 126-135).
+  std::optional<double> discrepancy = {};
+  /// Goes down WfactorPath to its wfactor; empty: where that is chosen.
+  std::optional<bool> path = {};
+  /// Limits of a fit, its path included; 1 .. 1e9. Empty: 1500, of net:lm 200,
+  /// in a view at most 750.
+  std::optional<std::int64_t> iterations = {};
+  /// 0 .. 1e12 (fitting::StoppingRules::cost_goal).
+  double egoal = fitting::StoppingRules().cost_goal;
+  /// 0 .. 1e12 (fitting::StoppingRules::gradient_goal).
+  double gwgoal = fitting::StoppingRules().gradient_goal;
+  InputScaling scale = InputScaling::kStandard;
+  OutputFunction output = OutputFunction::kSigmoid;
+  double slope = 1.0;  // of the sigmoid, Eq. 12; 1e-3 .. 1e3
+  /// At least 1 (fitting::StoppingRules::evaluations).
+  std::int64_t evaluations = fitting::StoppingRules().evaluations;
+  /// 1e-6 .. 1e12 (fitting::StoppingRules::slow_ratio); empty: never stops.
+  std::optional<double> errdel = {};
+  /// 1 .. 1e9 (fitting::StoppingRules::progress_interval).
+  std::int64_t nfreq = fitting::StoppingRules().progress_interval;
+  std::optional<double> seconds = {};  // 1e-3 .. 1e12; empty: no limit
+  /// Of which one is taken, 1 .. 10,000; empty: 1.
+  std::optional<std::int64_t> starts = {};
+  std::optional<StartRule> choose = {};  // of several starts; empty: kCost
+  /// Starts that are averaged, 1 .. 100; empty: 1, in a view 3 unless `starts`
+  /// or `discrepancy` is given.
+  std::optional<std::int64_t> members = {};
+  /// Of those it trains on, at least 100; kAllRows takes all. Time grows with
+  /// the rows, accuracy beyond these hardly.
+  std::int64_t rows = 20'000;
+  std::optional<ViewOptions> view = {};
 
-  ViewOptions view;
-  Eigen::Index most_rows = kMostRows;  // of those it trains on
-  bool clips = true;                   // guards a map in a view
-  std::int64_t members = 1;            // starts that are averaged
-  NetDesign design;
-  WfactorOption wfactor;
-  bool walks_path = false;    // goes down WfactorPath to its wfactor
-  bool tunes_hidden = false;  // else the nodes of the design
-  std::int64_t starts = 1;    // of which one is chosen
-  bool chooses_start_by_cv = false;
-  fitting::StoppingRules stopping;            // of a fit, its path included
-  std::shared_ptr<const NetTrainer> trainer;  // not null
+  static constexpr std::int64_t kAllRows =
+      std::numeric_limits<std::int64_t>::max();
 
-  /// Those in effect, under their names in a SPEC.
-  std::vector<EffectiveOption> Describe() const;
+  std::string_view type() const;
+  /// Throws std::invalid_argument naming option, value and range, or what
+  /// contradicts.
+  void Validate() const;
+  bool operator==(const NetOptions&) const = default;
+
+  /// With all that is empty filled in, but for wfactor beside discrepancy and
+  /// choose beside one start.
+  NetOptions Resolved() const;
+
+  // Of resolved ones:
+  NetDesign design() const;
+  fitting::StoppingRules stopping() const;
+  bool tunes_hidden() const { return hidden->by_cv(); }
+  bool tunes_wfactor() const { return wfactor && wfactor->by_cv(); }
+  /// The wfactor given; the default where it is found otherwise.
+  double given_wfactor() const;
 };
 
-/// Those of a model of NetTypes(). Throws std::invalid_argument on options that
-/// are unknown, out of range or at odds with each other.
-NetOptions TakeNetOptions(const ModelSpec& spec);
+/// Throws as Validate. The recipe's name is `name` or, where that is empty,
+/// SpecOf(options).
+std::unique_ptr<ModelRecipe> MakeRecipe(const NetOptions& options,
+                                        std::string name = "");
 
 }  // namespace errmap::models

@@ -20,6 +20,7 @@
 #include "models/net/net_tuning.h"
 #include "models/net/net_wfactor.h"
 #include "models/net/training_sample.h"
+#include "models/option_list.h"
 #include "models/shared_work.h"
 
 namespace errmap::models {
@@ -43,17 +44,30 @@ std::string WithUnit(double value, const data::Dataset& dataset) {
                       : fmt::format("{:.4g} {}", value, unit);
 }
 
+// The iterations of a fit along the path are shared by its steps.
+std::unique_ptr<NetTrainer> TrainerOfAFit(const NetOptions& options) {
+  fitting::StoppingRules rules = options.stopping();
+  if (*options.path) {
+    const auto steps = static_cast<std::int64_t>(WfactorPath().size());
+    rules.iterations = (rules.iterations + steps - 1) / steps;
+  }
+  return MakeNetTrainer(options.method, rules);
+}
+
 // A one-hidden-layer net; how it is trained is its trainer's business.
-class SpecNetRecipe final : public NetRecipe {
+class OneLayerRecipe final : public NetRecipe {
  public:
-  explicit SpecNetRecipe(const ModelSpec& spec)
-      : name_(spec.text), options_(TakeNetOptions(spec)) {}
+  OneLayerRecipe(const NetOptions& options, std::string name)
+      : name_(CheckedName(options, std::move(name))),
+        options_(options.Resolved()),
+        design_(options_.design()),
+        trainer_(TrainerOfAFit(options_)) {}
 
   std::string name() const override { return name_; }
   ModelKind kind() const override { return ModelKind::kNet; }
 
   std::vector<EffectiveOption> options() const override {
-    return options_.Describe();
+    return InEffect(options_);
   }
 
   std::optional<std::string> WhatIsMissing(
@@ -63,8 +77,8 @@ class SpecNetRecipe final : public NetRecipe {
   }
 
   std::optional<Index> NumCoefficients(const Dataset& dataset) const override {
-    if (options_.tunes_hidden) return std::nullopt;
-    return options_.design.ShapeFor(dataset).num_weights();
+    if (options_.tunes_hidden()) return std::nullopt;
+    return design_.ShapeFor(dataset).num_weights();
   }
 
   FittedModel Fit(const Dataset& training,
@@ -73,8 +87,7 @@ class SpecNetRecipe final : public NetRecipe {
       throw std::invalid_argument("the data lack " + *missing);
     }
     // A net with a memory is a blend's as well as its own.
-    if (context.shared == nullptr || !options_.view.given ||
-        context.keep_trace) {
+    if (context.shared == nullptr || !options_.view || context.keep_trace) {
       return FitAlone(training, context);
     }
     return *context.shared->Get<FittedModel>(name_, [&] {
@@ -84,17 +97,17 @@ class SpecNetRecipe final : public NetRecipe {
 
   std::unique_ptr<NetRecipe> WithChoicesOf(
       const FittedModel& fitted) const override {
-    return std::make_unique<SpecNetRecipe>(FixedTo(fitted));
+    return std::make_unique<OneLayerRecipe>(FixedTo(fitted));
   }
 
   double EffectiveParametersOf(const FittedModel& fitted,
                                const Dataset& training) const override {
-    const SpecNetRecipe fixed = FixedTo(fitted);
-    const Dataset sample = Sample(training, options_.most_rows);
+    const OneLayerRecipe fixed = FixedTo(fitted);
+    const Dataset sample = Sample(training, options_.rows);
     const Dataset viewed = fitted.history != nullptr
                                ? DeriveDataset(sample, *fitted.history)
                                : sample;
-    const NetRows rows = ScaleRows(fixed.options_.design, viewed);
+    const NetRows rows = ScaleRows(fixed.design_, viewed);
     const ModelDescription description = fitted.model->Describe();
     // Of averaged starts the first speaks for the others.
     const auto* blend = std::get_if<BlendForm>(&description);
@@ -102,20 +115,20 @@ class SpecNetRecipe final : public NetRecipe {
                               ? std::get<NetForm>(blend->members.front().form)
                               : std::get<NetForm>(description);
     NetTraining at_minimum = rows.training;
-    at_minimum.wfactor = fixed.options_.wfactor.wfactor;
+    at_minimum.wfactor = fixed.options_.given_wfactor();
     return EffectiveParameters(at_minimum, rows.WeightsOf(form));
   }
 
  private:
   FittedModel FitAlone(const Dataset& training,
                        const FitContext& context) const {
-    const bool takes_all = training.num_rows() <= options_.most_rows;
-    const auto shared =
-        takes_all ? SharedViews(training, options_.view, context)
-                  : std::make_shared<const std::vector<ViewedRows>>(
-                        MakeViews(Sample(training, options_.most_rows),
-                                  options_.view,
-                                  context.indifference));
+    const bool takes_all = training.num_rows() <= options_.rows;
+    const auto shared = takes_all
+                            ? SharedViews(training, options_.view, context)
+                            : std::make_shared<const std::vector<ViewedRows>>(
+                                  MakeViews(Sample(training, options_.rows),
+                                            options_.view,
+                                            context.indifference));
     const std::vector<ViewedRows>& views = *shared;
     std::vector<TunedNet> tuned;
     std::vector<double> scores;
@@ -127,12 +140,12 @@ class SpecNetRecipe final : public NetRecipe {
     const std::size_t best = IndexOfLowest(scores);
     const ViewedRows& viewed = views[best];
     FittedModel fitted = FitView(*viewed.rows, tuned[best], context);
-    if (options_.view.given) {
+    if (options_.view) {
       fitted.choices.push_back({"view", std::string(ToString(viewed.view))});
       if (viewed.sine_and_cosine) {
         fitted.choices.push_back({"angles", std::string("sincos")});
       }
-      if (options_.clips) {
+      if (options_.view->clip) {
         fitted.guards = MakeGuards(fitted.inputs, training.target_values());
       }
     }
@@ -176,25 +189,26 @@ class SpecNetRecipe final : public NetRecipe {
                : rows.SelectRows(StratifiedRows(rows, most));
   }
 
-  SpecNetRecipe FixedTo(const FittedModel& fitted) const {
-    SpecNetRecipe fixed = *this;
-    fixed.options_.starts = 1;
-    fixed.options_.members = 1;
-    fixed.options_.chooses_start_by_cv = false;
-    fixed.options_.tunes_hidden = false;
-    fixed.options_.wfactor.rule = WfactorRule::kGiven;
+  OneLayerRecipe FixedTo(const FittedModel& fitted) const {
+    NetOptions fixed = options_;
+    fixed.starts = 1;
+    fixed.members = 1;
+    fixed.choose.reset();
+    fixed.hidden = design_.hidden;
+    fixed.wfactor = options_.given_wfactor();
+    fixed.discrepancy.reset();
     for (const EffectiveOption& choice : fitted.choices) {
       if (choice.key == "hidden") {
-        fixed.options_.design.hidden = std::get<std::int64_t>(choice.value);
+        fixed.hidden = std::get<std::int64_t>(choice.value);
       } else if (choice.key == "wfactor") {
-        fixed.options_.wfactor.wfactor = std::get<double>(choice.value);
+        fixed.wfactor = std::get<double>(choice.value);
       } else if (choice.key == "view") {
-        fixed.options_.view.view = ViewOf(std::get<std::string>(choice.value));
+        fixed.view->view = ViewOf(std::get<std::string>(choice.value));
       } else if (choice.key == "angles") {
-        fixed.options_.view.sine_and_cosine = true;
+        fixed.view->sine_and_cosine = true;
       }
     }
-    return fixed;
+    return {fixed, name_};
   }
 
   // The net, or the average of several, on rows as they stand.
@@ -207,16 +221,16 @@ class SpecNetRecipe final : public NetRecipe {
     fitted.target = training.target();
     fitted.align = training.align();
     fitted.inputs = DescribeAllInputs(training);
-    NetDesign design = options_.design;
+    NetDesign design = design_;
     design.hidden = tuned.hidden;
     DescribeTuning(tuned, training, &fitted);
     const NetRows rows = ScaleRows(design, training);
-    if (options_.members > 1) {
+    if (*options_.members > 1) {
       AverageStarts(rows, tuned.wfactor, context, &fitted);
       return fitted;
     }
     fitting::Minimum minimum =
-        options_.wfactor.rule == WfactorRule::kDiscrepancy
+        options_.discrepancy
             ? FitToDiscrepancy(training, rows, context, &fitted)
             : FitStarts(
                   training, design, rows, tuned.wfactor, context, &fitted);
@@ -231,11 +245,11 @@ class SpecNetRecipe final : public NetRecipe {
                      FittedModel* fitted) const {
     const std::vector<Index> columns = AllColumns(rows.training.shape.inputs);
     std::vector<std::uint64_t> seeds;
-    for (std::int64_t k = 0; k < options_.members; ++k) {
+    for (std::int64_t k = 0; k < *options_.members; ++k) {
       seeds.push_back(SeedOfStart(context.seed, k));
     }
-    std::vector<fitting::Minimum> minima = TrainFromStarts(
-        rows, *options_.trainer, Wfactors(wfactor), &seeds, context);
+    std::vector<fitting::Minimum> minima =
+        TrainFromStarts(rows, *trainer_, Wfactors(wfactor), &seeds, context);
     fitted->starts = DescribeStarts(seeds, minima);
     std::vector<AveragedMember> members;
     for (std::size_t i = 0; i < minima.size(); ++i) {
@@ -259,35 +273,29 @@ class SpecNetRecipe final : public NetRecipe {
   TunedNet Tune(const Dataset& training,
                 bool judged,
                 const FitContext& context) const {
-    const NetTuning tuning = {
-        .hidden = options_.tunes_hidden,
-        .wfactor = options_.wfactor.rule == WfactorRule::kCrossValidation,
-        .fixed_wfactor = options_.wfactor.wfactor,
-        .along_path = options_.walks_path};
+    const NetTuning tuning = {.hidden = options_.tunes_hidden(),
+                              .wfactor = options_.tunes_wfactor(),
+                              .fixed_wfactor = options_.given_wfactor(),
+                              .along_path = *options_.path};
     if (tuning.hidden || tuning.wfactor) {
-      return TuneNet(
-          options_.design, tuning, *options_.trainer, training, context);
+      return TuneNet(design_, tuning, *trainer_, training, context);
     }
     TunedNet fixed;
-    fixed.hidden = options_.design.hidden;
-    fixed.wfactor = options_.wfactor.wfactor;
+    fixed.hidden = design_.hidden;
+    fixed.wfactor = options_.given_wfactor();
     if (judged) {
       const InnerFolds inner = MakeInnerFolds(training, context);
       const NetTrial trial = {
           fixed.hidden, Wfactors(fixed.wfactor), context.seed};
-      fixed.rmse = InnerHoldoutRmse(options_.design,
-                                    *options_.trainer,
-                                    training,
-                                    inner,
-                                    {trial},
-                                    context)
+      fixed.rmse = InnerHoldoutRmse(
+                       design_, *trainer_, training, inner, {trial}, context)
                        .front();
     }
     return fixed;
   }
 
   std::vector<double> Wfactors(double last) const {
-    return WfactorsOf(last, options_.walks_path);
+    return WfactorsOf(last, *options_.path);
   }
 
   static void DescribeTuning(const TunedNet& tuned,
@@ -312,7 +320,7 @@ class SpecNetRecipe final : public NetRecipe {
                                     const FitContext& context,
                                     FittedModel* fitted) const {
     fitting::DiscrepancyChoice choice = ChooseWfactorByDiscrepancy(
-        rows, *options_.trainer, options_.wfactor.delta, context);
+        rows, *trainer_, *options_.discrepancy, context);
     fitted->choices.push_back({"wfactor", choice.alpha});
     fitted->choices.push_back(
         {"discrepancy_reached", std::string(choice.reached ? "yes" : "no")});
@@ -322,7 +330,7 @@ class SpecNetRecipe final : public NetRecipe {
         choice.alpha,
         choice.steps.size(),
         WithUnit(choice.misfit, training),
-        WithUnit(options_.wfactor.delta, training),
+        WithUnit(*options_.discrepancy, training),
         choice.reached ? "" : " (not reached)"));
     return std::move(choice.minimum);
   }
@@ -334,19 +342,19 @@ class SpecNetRecipe final : public NetRecipe {
                              const FitContext& context,
                              FittedModel* fitted) const {
     std::vector<std::uint64_t> seeds;
-    for (std::int64_t k = 0; k < options_.starts; ++k) {
+    for (std::int64_t k = 0; k < *options_.starts; ++k) {
       seeds.push_back(SeedOfStart(context.seed, k));
     }
-    std::vector<fitting::Minimum> minima = TrainFromStarts(
-        rows, *options_.trainer, Wfactors(wfactor), &seeds, context);
-    if (options_.starts == 1) return std::move(minima.front());
+    std::vector<fitting::Minimum> minima =
+        TrainFromStarts(rows, *trainer_, Wfactors(wfactor), &seeds, context);
+    if (*options_.starts == 1) return std::move(minima.front());
     std::vector<double> costs;
     for (const fitting::Minimum& minimum : minima) {
       costs.push_back(minimum.summary.final_cost);
     }
     std::size_t best = IndexOfLowest(costs);
     fitted->starts = DescribeStarts(seeds, minima);
-    if (options_.chooses_start_by_cv ||
+    if (options_.choose == StartRule::kCrossValidation ||
         (context.explain && training.num_rows() > 1)) {
       const InnerFolds inner = MakeInnerFolds(training, context);
       const std::vector<double> rmse =
@@ -354,7 +362,7 @@ class SpecNetRecipe final : public NetRecipe {
       for (std::size_t i = 0; i < rmse.size(); ++i) {
         fitted->starts[i].holdout_rmse = rmse[i];
       }
-      if (options_.chooses_start_by_cv) {
+      if (options_.choose == StartRule::kCrossValidation) {
         best = ChooseByRmse(training, seeds, rmse, inner.text, best, fitted);
       }
     }
@@ -399,7 +407,7 @@ class SpecNetRecipe final : public NetRecipe {
       trials.push_back({design.hidden, Wfactors(wfactor), seed});
     }
     return InnerHoldoutRmse(
-        design, *options_.trainer, training, inner, trials, context);
+        design, *trainer_, training, inner, trials, context);
   }
 
   static std::vector<StartResult> DescribeStarts(
@@ -417,15 +425,16 @@ class SpecNetRecipe final : public NetRecipe {
   }
 
   std::string name_;
-  NetOptions options_;
+  NetOptions options_;  // resolved
+  NetDesign design_;
+  std::shared_ptr<const NetTrainer> trainer_;
 };
 
 }  // namespace
 
-std::unique_ptr<ModelRecipe> MakeNetRecipe(const ModelSpec& spec) {
-  const std::vector<std::string>& types = NetTypes();
-  if (std::ranges::find(types, spec.type) == types.end()) return nullptr;
-  return std::make_unique<SpecNetRecipe>(spec);
+std::unique_ptr<ModelRecipe> MakeRecipe(const NetOptions& options,
+                                        std::string name) {
+  return std::make_unique<OneLayerRecipe>(options, std::move(name));
 }
 
 }  // namespace errmap::models

@@ -3,15 +3,13 @@
 #include <memory>
 
 #include "models/error_model.h"
-#include "models/model_spec.h"
+#include "models/net/net_options.h"
 
 namespace errmap::models {
 
 /// The net that comparisons offer beside the report's, which is trained past
-/// what unseen groups bear. A net with a view has defaults of its own: 10
-/// hidden nodes, wfactor chosen on inner hold-outs along WfactorPath, 750
-/// iterations on that path, three starts averaged.
-inline constexpr const char* kTunedNet = "net:scg:view=auto";
+/// what unseen groups bear: "net:scg:view=auto".
+inline NetOptions NetInViews() { return {.view = ViewOptions()}; }
 
 /// What a net's recipe can do besides fitting.
 class NetRecipe : public ModelRecipe {
@@ -24,10 +22,5 @@ class NetRecipe : public ModelRecipe {
   virtual double EffectiveParametersOf(const FittedModel& fitted,
                                        const data::Dataset& training) const = 0;
 };
-
-/// The recipe of a net (net_trainer.h), or null where `spec.type` is another
-/// model. Throws std::invalid_argument on options that are unknown or out of
-/// range.
-std::unique_ptr<ModelRecipe> MakeNetRecipe(const ModelSpec& spec);
 
 }  // namespace errmap::models

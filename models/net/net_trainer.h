@@ -2,12 +2,9 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "fitting/minimisers/optimizer.h"
-#include "models/error_model.h"
-#include "models/model_spec.h"
+#include "models/net/net_options.h"
 #include "models/net/net_problem.h"
 
 namespace errmap::models {
@@ -30,20 +27,10 @@ class NetTrainer {
   virtual ~NetTrainer() = default;
   virtual fitting::Minimum Train(const NetTraining& training,
                                  const fitting::RunControl& run) const = 0;
-  virtual std::vector<EffectiveOption> options() const = 0;
 };
 
-/// "net:scg", "net:lm", "net:cg", "net:backprop", "net:ceres", "net:nlopt".
-const std::vector<std::string>& NetTypes();
-
-/// When a model of NetTypes() stops unless told otherwise.
-fitting::StoppingRules DefaultStoppingRules(const std::string& type);
-
-/// The trainer of a model of NetTypes(), with its own options taken from
-/// `options`; throws std::invalid_argument where they are out of range.
+/// The trainer of a method that stops by these rules.
 std::unique_ptr<NetTrainer> MakeNetTrainer(
-    const std::string& type,
-    const fitting::StoppingRules& stopping,
-    SpecOptions* options);
+    const NetMethod& method, const fitting::StoppingRules& stopping);
 
 }  // namespace errmap::models

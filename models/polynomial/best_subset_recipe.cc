@@ -7,9 +7,10 @@
 #include <fmt/ranges.h>
 
 #include "fitting/selection/best_subset.h"
+#include "models/option_list.h"
 #include "models/polynomial/polynomial_fit.h"
+#include "models/polynomial/polynomial_options.h"
 #include "models/polynomial/selection_bootstrap.h"
-#include "models/polynomial/selection_recipe.h"
 #include "models/polynomial/term_dictionary.h"
 #include "models/regression_report.h"
 
@@ -26,39 +27,17 @@ constexpr Index kMostTerms = 48;
 // The best of all subsets.
 class BestSubsetRecipe final : public PolynomialRecipe {
  public:
-  explicit BestSubsetRecipe(const ModelSpec& spec)
-      : PolynomialRecipe(spec.text) {
-    SpecOptions options(spec);
-    terms_ = TermOptions::Take(&options, true);
-    constexpr std::size_t kBic = 2;
-    static const std::vector<Criterion> criteria = {Criterion::kAic,
-                                                    Criterion::kAicc,
-                                                    Criterion::kBic,
-                                                    Criterion::kAdjustedR2,
-                                                    Criterion::kCp};
-    rules_.criterion = criteria[options.TakeChoice(
-        "criterion", kBic, {"aic", "aicc", "bic", "adjr2", "cp"})];
-    constexpr std::int64_t kNoLimit = -1;
-    rules_.max_terms =
-        options.TakeInteger("max_terms", kNoLimit, 0, kMostTerms);
-    rules_.sigma2 = options.TakeNumber("sigma2",
-                                       std::numeric_limits<double>::quiet_NaN(),
-                                       std::numeric_limits<double>::min(),
-                                       std::numeric_limits<double>::max());
-    constexpr std::int64_t kMostRepetitions = 1'000'000;
-    bootstrap_ = static_cast<int>(
-        options.TakeInteger("bootstrap", 0, 0, kMostRepetitions));
-    options.RefuseOthers();
+  BestSubsetRecipe(const BestSubsetOptions& options, std::string name)
+      : PolynomialRecipe(CheckedName(options, std::move(name))),
+        options_(options),
+        terms_(options.terms) {
+    rules_.criterion = options.criterion;
+    if (options.max_terms) rules_.max_terms = *options.max_terms;
+    if (options.sigma2) rules_.sigma2 = *options.sigma2;
   }
 
   std::vector<EffectiveOption> options() const override {
-    std::vector<EffectiveOption> options{
-        {"criterion", std::string(ToString(rules_.criterion))}};
-    if (rules_.max_terms >= 0) {
-      options.push_back({"max_terms", std::int64_t{rules_.max_terms}});
-    }
-    terms_.Describe(&options);
-    return options;
+    return InEffect(options_);
   }
 
   std::optional<Index> NumCoefficients(const Dataset&) const override {
@@ -72,7 +51,7 @@ class BestSubsetRecipe final : public PolynomialRecipe {
           fmt::format("needs at least 3 rows, found {}", training.num_rows()));
     }
     TermOptions terms = terms_;
-    if (terms.degree == 0 && terms.set == TermSet::kFull) {
+    if (!terms.degree && terms.set == TermSet::kFull) {
       terms.degree = DegreeFor(training.num_inputs());
     }
     const TermDictionary dictionary(training, terms);
@@ -149,9 +128,10 @@ class BestSubsetRecipe final : public PolynomialRecipe {
                  const fitting::BestSubsetResult& best,
                  const FitContext& context,
                  RegressionReport* report) const {
-    if (bootstrap_ == 0 || !rows.are_observations()) return;
+    const auto repetitions = static_cast<int>(options_.bootstrap);
+    if (repetitions == 0 || !rows.are_observations()) return;
     const Dataset& training = dictionary.design.dataset();
-    report->bootstrap = bootstrap_;
+    report->bootstrap = repetitions;
     report->bootstrap_unit =
         training.has_groups() ? training.groups().column : "row";
     ReportInclusion(dictionary,
@@ -159,7 +139,7 @@ class BestSubsetRecipe final : public PolynomialRecipe {
                     BootstrapInclusion(
                         rows,
                         training.groups().codes,
-                        bootstrap_,
+                        repetitions,
                         [&](const fitting::SelectionProblem& drawn) {
                           return fitting::SelectBestSubset(drawn,
                                                            dictionary.include,
@@ -172,15 +152,65 @@ class BestSubsetRecipe final : public PolynomialRecipe {
                     report);
   }
 
+  BestSubsetOptions options_;
   TermOptions terms_;
   fitting::BestSubsetOptions rules_;
-  int bootstrap_ = 0;
 };
+
+OptionList<BestSubsetOptions> List() {
+  using Options = BestSubsetOptions;
+  constexpr std::int64_t kMostRepetitions = 1'000'000;
+  OptionList<Options> list;
+  list.push_back(OptionFor("criterion",
+                           "what the best subset is judged by",
+                           &Options::criterion,
+                           OneOf<Criterion>{{{"aic", Criterion::kAic},
+                                             {"aicc", Criterion::kAicc},
+                                             {"bic", Criterion::kBic},
+                                             {"adjr2", Criterion::kAdjustedR2},
+                                             {"cp", Criterion::kCp}}})
+                     .Always());
+  list.push_back(OptionFor("max_terms",
+                           "the most terms",
+                           &Options::max_terms,
+                           Whole{0, kMostTerms}));
+  list.push_back(OptionFor("sigma2",
+                           "variance of the error, for cp",
+                           &Options::sigma2,
+                           Number{std::numeric_limits<double>::min(),
+                                  std::numeric_limits<double>::max()})
+                     .Never());
+  list.push_back(OptionFor("bootstrap",
+                           "repetitions that tell how firm each term is",
+                           &Options::bootstrap,
+                           Whole{0, kMostRepetitions})
+                     .Never());
+  AddWithin(
+      TermOptionList(), [](auto& options) { return &options.terms; }, &list);
+  return list;
+}
 
 }  // namespace
 
-std::unique_ptr<ModelRecipe> MakeBestSubsetRecipe(const ModelSpec& spec) {
-  return std::make_unique<BestSubsetRecipe>(spec);
+template <>
+const std::vector<ListedModel<BestSubsetOptions>>& ListedModels() {
+  static const std::vector<ListedModel<BestSubsetOptions>> models = {
+      {.name = "poly:best",
+       .about = "the best subset of the terms",
+       .defaults = {},
+       .options = List(),
+       .is_compared = false}};
+  return models;
 }
+
+void BestSubsetOptions::Validate() const { ValidateOptions(*this); }
+
+std::unique_ptr<ModelRecipe> MakeRecipe(const BestSubsetOptions& options,
+                                        std::string name) {
+  return std::make_unique<BestSubsetRecipe>(options, std::move(name));
+}
+
+template BestSubsetOptions OptionsOf(std::string_view spec);
+template std::string SpecOf(const BestSubsetOptions& options);
 
 }  // namespace errmap::models

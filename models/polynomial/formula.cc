@@ -184,4 +184,16 @@ std::vector<TermPowers> ResolveTerms(const std::vector<NamedTerm>& terms,
   return resolved;
 }
 
+std::string TermsText(const std::vector<NamedTerm>& terms) {
+  std::vector<std::string> products;
+  for (const NamedTerm& term : terms) {
+    std::vector<std::string> factors;
+    for (const NamedTerm::Factor& factor : term.factors) {
+      factors.push_back(TermName({factor.power}, {factor.input}));
+    }
+    products.push_back(fmt::format("{}", fmt::join(factors, "*")));
+  }
+  return fmt::format("{}", fmt::join(products, "+"));
+}
+
 }  // namespace errmap::models

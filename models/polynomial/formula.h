@@ -13,10 +13,20 @@ struct NamedTerm {
   struct Factor {
     std::string input;
     int power = 1;
+
+    bool operator==(const Factor&) const = default;
   };
   std::vector<Factor> factors;
   std::size_t position = 0;  // 1-based, of its first character
+
+  /// The same term, wherever it stands.
+  bool operator==(const NamedTerm& other) const {
+    return factors == other.factors;
+  }
 };
+
+/// Terms as ParseTerms reads them.
+std::string TermsText(const std::vector<NamedTerm>& terms);
 
 /// Reads a sum of products of powers, "position_mm+t1_degC^2*t2_degC", in
 /// ordinary arithmetic (`^` is a power; there is no crossing as in R). Names

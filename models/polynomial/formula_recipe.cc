@@ -1,11 +1,14 @@
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "models/history/fit_in_view.h"
+#include "models/history/view_options.h"
+#include "models/option_list.h"
 #include "models/polynomial/formula.h"
 #include "models/polynomial/polynomial_fit.h"
-#include "models/polynomial/selection_recipe.h"
+#include "models/polynomial/polynomial_options.h"
 #include "models/regression_report.h"
 
 namespace errmap::models {
@@ -18,36 +21,21 @@ using Eigen::Index;
 // are, moved only where that leaves the set of maps the same.
 class FormulaRecipe final : public PolynomialRecipe {
  public:
-  explicit FormulaRecipe(const ModelSpec& spec) : PolynomialRecipe(spec.text) {
-    SpecOptions options(spec);
-    formula_ = options.TakeText("formula", "");
-    try {
-      terms_ = ParseTerms(formula_, "formula");
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(
-          fmt::format("model '{}': {}", spec.text, error.what()));
-    }
-    form_.centring = options.TakeChoice("centred", 0, {"harmless", "no"}) == 0
-                         ? Centring::kHarmless
-                         : Centring::kNone;
+  FormulaRecipe(const FormulaOptions& options, std::string name)
+      : PolynomialRecipe(CheckedName(options, std::move(name))),
+        options_(options),
+        terms_(ParseTerms(options.formula, "formula")),
+        form_{.centring = options.centring, .intercept = options.intercept} {
     // Moving an input needs the intercept to take up what it leaves.
-    form_.intercept = options.TakeChoice("intercept", 0, {"yes", "no"}) == 0;
     if (!form_.intercept) form_.centring = Centring::kNone;
-    view_ = ViewOptions::Take(&options);
-    options.RefuseOthers();
-    if (view_.given && !view_.view) {
-      throw std::invalid_argument(
-          fmt::format("model '{}': a formula is written for one view; name it, "
-                      "such as view=history:history=600",
-                      spec.text));
+    if (!form_.intercept && !options_.view) {
+      options_.view = ViewOptions{.view = View::kRaw};
     }
+    if (options_.view) options_.view->clip = false;
   }
 
   std::vector<EffectiveOption> options() const override {
-    std::vector<EffectiveOption> options = {{"formula", formula_}};
-    if (!form_.intercept) options.push_back({"intercept", std::string("no")});
-    view_.Describe(&options);
-    return options;
+    return InEffect(options_);
   }
 
   std::optional<std::string> WhatIsMissing(
@@ -55,7 +43,7 @@ class FormulaRecipe final : public PolynomialRecipe {
     for (const NamedTerm& term : terms_) {
       for (const NamedTerm::Factor& factor : term.factors) {
         // A derived input is known when its view is made.
-        const bool derived = view_.given && factor.input.ends_with(')');
+        const bool derived = options_.view && factor.input.ends_with(')');
         if (!derived && dataset.FindInput(factor.input) < 0) {
           return "an input '" + factor.input + "'";
         }
@@ -70,10 +58,9 @@ class FormulaRecipe final : public PolynomialRecipe {
 
   FittedModel Fit(const Dataset& training,
                   const FitContext& context) const override {
-    if (!view_.given) return FitRows(training, context);
+    if (!options_.view) return FitRows(training, context);
     return FitInView(training,
-                     view_,
-                     false,
+                     *options_.view,
                      context,
                      [&](const Dataset& rows, const FitContext& inner) {
                        return FitRows(rows, inner);
@@ -97,28 +84,71 @@ class FormulaRecipe final : public PolynomialRecipe {
     return FitTerms(training, used.inputs, used.terms, context, form_);
   }
 
-  std::string formula_;
+  FormulaOptions options_;
   std::vector<NamedTerm> terms_;
   FormOptions form_;
-  ViewOptions view_;
 };
+
+std::string Contradiction(const FormulaOptions& options) {
+  try {
+    ParseTerms(options.formula, "formula");
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  if (options.view && !options.view->view) {
+    return "a formula is written for one view; name it, such as "
+           "view=history:history=600";
+  }
+  return "";
+}
+
+OptionList<FormulaOptions> List() {
+  OptionList<FormulaOptions> list;
+  list.push_back(OptionFor("formula",
+                           "its terms, such as x+x^2+x*t",
+                           &FormulaOptions::formula,
+                           Words()));
+  list.push_back(OptionFor("centred",
+                           "inputs moved where that leaves the maps the same",
+                           &FormulaOptions::centring,
+                           OneOf<Centring>{{{"harmless", Centring::kHarmless},
+                                            {"no", Centring::kNone}}})
+                     .Never());
+  list.push_back(OptionFor("intercept",
+                           "a constant besides the terms",
+                           &FormulaOptions::intercept,
+                           OneOf<bool>{{{"yes", true}, {"no", false}}}));
+  AddWithin(
+      ViewOptionList(), [](auto& options) { return &options.view; }, &list);
+  std::erase_if(list, [seen = false](const auto& option) mutable {
+    return option.name == "intercept" && std::exchange(seen, true);
+  });
+  return list;
+}
 
 }  // namespace
 
-std::unique_ptr<ModelRecipe> MakeFormulaRecipe(const ModelSpec& spec) {
-  return std::make_unique<FormulaRecipe>(spec);
+template <>
+const std::vector<ListedModel<FormulaOptions>>& ListedModels() {
+  static const std::vector<ListedModel<FormulaOptions>> models = {
+      {.name = "poly",
+       .about = "the terms as written",
+       .defaults = {},
+       .options = List(),
+       .contradiction = Contradiction,
+       .complete = [](ModelSpec* spec) { NameTheView(spec, false); },
+       .is_compared = false}};
+  return models;
 }
 
-std::unique_ptr<ModelRecipe> MakeSelectionRecipe(const ModelSpec& spec) {
-  if (spec.type == "poly:stepwise") return MakeStepwiseRecipe(spec);
-  if (spec.type == "poly:best") return MakeBestSubsetRecipe(spec);
-  if (spec.type == "poly:ridge" || spec.type == "poly:lasso") {
-    return MakePenalizedRecipe(spec);
-  }
-  const bool has_formula =
-      !spec.options.empty() && spec.options.front().first == "formula";
-  if (spec.type == "poly" && has_formula) return MakeFormulaRecipe(spec);
-  return nullptr;
+void FormulaOptions::Validate() const { ValidateOptions(*this); }
+
+std::unique_ptr<ModelRecipe> MakeRecipe(const FormulaOptions& options,
+                                        std::string name) {
+  return std::make_unique<FormulaRecipe>(options, std::move(name));
 }
+
+template FormulaOptions OptionsOf(std::string_view spec);
+template std::string SpecOf(const FormulaOptions& options);
 
 }  // namespace errmap::models

@@ -13,6 +13,7 @@
 #include "models/inner_folds.h"
 #include "models/polynomial/formula.h"
 #include "models/polynomial/polynomial_design.h"
+#include "models/polynomial/polynomial_options.h"
 #include "models/polynomial/term_set.h"
 
 namespace errmap::models {
@@ -26,13 +27,6 @@ struct PenalizedBasis {
   Centring centring = Centring::kStandardised;
   std::vector<NamedTerm> exclude;
   bool guarded = false;  // inputs and predictions clipped at the trained range
-};
-
-/// How a penalty is chosen.
-struct PenaltyRule {
-  std::optional<double> strength;   // given; empty: by inner hold-outs
-  bool one_standard_error = false;  // the strongest within one standard error
-                                    // of the least (Breiman et al. 1984)
 };
 
 /// Held-out errors along the penalties of one family, and its fit to all rows

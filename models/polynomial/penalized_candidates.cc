@@ -7,8 +7,8 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "models/history/view_options.h"
 #include "models/polynomial/term_dictionary.h"
 #include "models/shared_work.h"
 
@@ -23,7 +23,7 @@ using FitsByPenalty = std::map<Penalty, std::shared_ptr<const PenalizedFit>>;
 
 // The sets worth a try over these inputs, in order of size.
 std::vector<TermSet> ServingTerms(const std::vector<bool>& is_position,
-                                  int degree) {
+                                  std::optional<int> degree) {
   // More terms than this are left to those who ask for them.
   constexpr Index kMostTerms = 1500;
   constexpr std::size_t kFewInputs = 4;
@@ -33,10 +33,8 @@ std::vector<TermSet> ServingTerms(const std::vector<bool>& is_position,
   if (has_position && has_others) sets.push_back(TermSet::kAxis);
   if (is_position.size() <= kFewInputs) sets.push_back(TermSet::kFull);
   std::erase_if(sets, [&](TermSet set) {
-    const int taken =
-        degree > 0
-            ? degree
-            : DefaultDegreeOf(set, static_cast<Index>(is_position.size()));
+    const int taken = degree.value_or(
+        DefaultDegreeOf(set, static_cast<Index>(is_position.size())));
     const auto count = CountTerms(set, is_position, taken);
     return set != TermSet::kLinear && (!count || *count > kMostTerms);
   });
@@ -45,102 +43,80 @@ std::vector<TermSet> ServingTerms(const std::vector<bool>& is_position,
 
 }  // namespace
 
-PenalizedChoices PenalizedChoices::Take(SpecOptions* options) {
-  PenalizedChoices taken;
-  taken.view = ViewOptions::Take(options);
-  std::vector<std::string> words = {"auto"};
-  std::ranges::copy(TermSetWords(), std::back_inserter(words));
-  const std::size_t set = options->TakeChoice("terms", 0, words);
-  if (set > 0) taken.terms = static_cast<TermSet>(set - 1);
-  constexpr std::int64_t kMostDegree = 4;
-  taken.degree =
-      static_cast<int>(options->TakeInteger("degree", 0, 1, kMostDegree));
-  const std::string exclude = options->TakeText("exclude", "");
-  if (!exclude.empty()) taken.exclude = ParseTerms(exclude, "exclude");
-  constexpr std::size_t kYes = 1;
-  constexpr std::size_t kNo = 2;
-  const std::size_t centred =
-      options->TakeChoice("centred", 0, {"standard", "yes", "no"});
-  if (centred == kYes) taken.centring = Centring::kAll;
-  if (centred == kNo) taken.centring = Centring::kNone;
-  if (options->TakeChoice("clip", 0, {"auto", "none"}) == 1) taken.clip = false;
-  return taken;
-}
-
-void PenalizedChoices::Describe(std::vector<EffectiveOption>* options) const {
-  view.Describe(options);
-  if (terms) {
-    options->push_back({"terms", std::string(ToString(*terms))});
-  } else if (view.given) {
-    options->push_back({"terms", std::string("auto")});
-  }
-  TermOptions{.degree = degree,
-              .centring = centring == Centring::kNone ? Centring::kNone
-                                                      : Centring::kAll,
-              .include = {},
-              .exclude = exclude}
-      .Describe(options);
-  if (centring == Centring::kAll) {
-    options->push_back({"centred", std::string("yes")});
-  }
-  if (clip && view.given) options->push_back({"clip", std::string("none")});
-}
-
-bool PenalizedChoices::chooses_basis() const {
-  return view.given && (!view.view || !terms);
+OptionList<BasisOptions> BasisOptionList() {
+  OptionList<BasisOptions> list;
+  const auto view = [](auto& options) { return &options.view; };
+  AddWithin(ViewOptionList(), view, &list);
+  list.push_back(OptionFor("terms",
+                           "the products that it has",
+                           &BasisOptions::terms,
+                           AutoOrEnum<TermSet>(TermSetWords()))
+                     .When([](const BasisOptions& options) {
+                       return options.terms || options.view;
+                     }));
+  list.push_back(Within<BasisOptions>(
+      DegreeOption(), [](auto& options) { return &options.degree; }));
+  list.push_back(
+      OptionFor("centred",
+                "products of standardised, centred or raw inputs",
+                &BasisOptions::centring,
+                OneOf<Centring>{{{"standard", Centring::kStandardised},
+                                 {"yes", Centring::kAll},
+                                 {"no", Centring::kNone}}}));
+  list.push_back(
+      Within<BasisOptions>(TermsOption("exclude", "terms that are never in"),
+                           [](auto& options) { return &options.exclude; }));
+  list.push_back(Within<BasisOptions>(ClipOption(), view));
+  return list;
 }
 
 std::vector<BasisCandidate> JudgeBases(const Dataset& training,
-                                       const PenalizedChoices& choices,
+                                       const BasisOptions& options,
+                                       const PenaltyRule& rule,
                                        const std::vector<Penalty>& penalties,
                                        const InnerFolds& folds,
                                        const FitContext& context) {
-  const std::string of_views = choices.view.Key();
+  const std::string of_views = KeyOf(options.view);
   // What others may want as well depends on the words of its key alone.
-  const bool shareable = context.shared != nullptr && choices.exclude.empty() &&
-                         !choices.rule.strength &&
-                         !choices.rule.one_standard_error;
+  const bool shareable = context.shared != nullptr && options.exclude.empty() &&
+                         !rule.strength && !rule.one_standard_error;
   std::vector<BasisCandidate> judged;
-  const auto views = SharedViews(training, choices.view, context);
+  const auto views = SharedViews(training, options.view, context);
   for (const ViewedRows& made : *views) {
     // Holds all of them.
     const std::shared_ptr<const ViewedRows> viewed(views, &made);
     std::vector<TermSet> sets;
-    if (choices.terms) {
-      sets = {*choices.terms};
-    } else if (choices.view.given) {
-      sets = ServingTerms(viewed->is_position, choices.degree);
+    if (options.terms) {
+      sets = {*options.terms};
+    } else if (options.view) {
+      sets = ServingTerms(viewed->is_position, options.degree);
     } else {
       sets = {TermSet::kFull};
     }
     for (const TermSet set : sets) {
-      const int degree =
-          choices.degree > 0
-              ? choices.degree
-              : DefaultDegreeOf(set,
-                                static_cast<Index>(viewed->is_position.size()));
+      const int degree = options.degree.value_or(
+          DefaultDegreeOf(set, static_cast<Index>(viewed->is_position.size())));
       const PenalizedBasis basis{.terms = set,
                                  .degree = degree,
-                                 .centring = choices.centring,
-                                 .exclude = choices.exclude,
-                                 .guarded = choices.guarded()};
+                                 .centring = options.centring,
+                                 .exclude = options.exclude,
+                                 .guarded = options.guarded()};
       const std::string of_basis =
           fmt::format("view={} {} terms={} degree={} centring={} guarded={}",
                       viewed->label(),
                       of_views,
                       ToString(set),
                       degree,
-                      static_cast<int>(choices.centring),
+                      static_cast<int>(options.centring),
                       basis.guarded);
       // One pass over the rows serves all that will be asked for.
       const auto make = [&](const std::vector<Penalty>& wanted) {
-        const auto sums = SumBasis(
-            viewed, basis, choices.rule.strength ? nullptr : &folds, context);
+        const auto sums =
+            SumBasis(viewed, basis, rule.strength ? nullptr : &folds, context);
         auto fits_of = std::make_shared<FitsByPenalty>();
         for (const Penalty penalty : wanted) {
           fits_of->emplace(
-              penalty,
-              FitPenalty(sums, penalty, choices.rule, context.indifference));
+              penalty, FitPenalty(sums, penalty, rule, context.indifference));
         }
         return fits_of;
       };
@@ -160,7 +136,7 @@ std::vector<BasisCandidate> JudgeBases(const Dataset& training,
              .fit = fit,
              .terms = set,
              .degree = degree,
-             .num_excluded = static_cast<Index>(choices.exclude.size()),
+             .num_excluded = static_cast<Index>(options.exclude.size()),
              .guarded = basis.guarded,
              .label = fmt::format("{}, {}, {}",
                                   fitting::ToString(penalty),

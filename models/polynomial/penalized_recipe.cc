@@ -5,10 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "models/history/view_options.h"
 #include "models/inner_folds.h"
+#include "models/option_list.h"
 #include "models/polynomial/penalized_candidates.h"
 #include "models/polynomial/polynomial_fit.h"
-#include "models/polynomial/selection_recipe.h"
+#include "models/polynomial/polynomial_options.h"
 #include "models/polynomial/term_dictionary.h"
 #include "models/regression_report.h"
 
@@ -22,46 +24,12 @@ using fitting::Penalty;
 // All terms of a basis, their coefficients shrunk.
 class PenalizedRecipe final : public PolynomialRecipe {
  public:
-  explicit PenalizedRecipe(const ModelSpec& spec)
-      : PolynomialRecipe(spec.text),
-        penalty_(spec.type == "poly:ridge" ? Penalty::kRidge
-                                           : Penalty::kLasso) {
-    SpecOptions options(spec);
-    choices_ = PenalizedChoices::Take(&options);
-    const double strength =
-        options.TakeNumber("penalty",
-                           std::numeric_limits<double>::quiet_NaN(),
-                           0.0,
-                           std::numeric_limits<double>::max());
-    if (!std::isnan(strength)) choices_.rule.strength = strength;
-    choices_.rule.one_standard_error =
-        options.TakeChoice("rule", 0, {"min", "1se"}) == 1;
-    if (choices_.rule.strength) {
-      if (choices_.rule.one_standard_error) {
-        throw std::invalid_argument(fmt::format(
-            "model '{}': rule= chooses the penalty, which penalty= fixes",
-            spec.text));
-      }
-      if (choices_.chooses_basis()) {
-        throw std::invalid_argument(fmt::format(
-            "model '{}': penalty= is of one basis; name view= and terms= too",
-            spec.text));
-      }
-    }
-    options.RefuseOthers();
-  }
+  PenalizedRecipe(const PenalizedOptions& options, std::string name)
+      : PolynomialRecipe(CheckedName(options, std::move(name))),
+        options_(options) {}
 
   std::vector<EffectiveOption> options() const override {
-    std::vector<EffectiveOption> options;
-    if (choices_.rule.strength) {
-      options.push_back({"penalty", *choices_.rule.strength});
-    } else {
-      options.push_back(
-          {"rule",
-           std::string(choices_.rule.one_standard_error ? "1se" : "min")});
-    }
-    choices_.Describe(&options);
-    return options;
+    return InEffect(options_);
   }
 
   std::optional<std::string> WhatIsMissing(
@@ -80,11 +48,15 @@ class PenalizedRecipe final : public PolynomialRecipe {
       throw std::invalid_argument(
           fmt::format("needs at least 3 rows, found {}", training.num_rows()));
     }
-    const InnerFolds folds = choices_.rule.strength
+    const InnerFolds folds = options_.penalty.strength
                                  ? InnerFolds()
                                  : MakeInnerFolds(training, context);
-    const std::vector<BasisCandidate> candidates =
-        JudgeBases(training, choices_, {penalty_}, folds, context);
+    const std::vector<BasisCandidate> candidates = JudgeBases(training,
+                                                              options_.basis,
+                                                              options_.penalty,
+                                                              {options_.family},
+                                                              folds,
+                                                              context);
     const BasisCandidate& best =
         *std::ranges::min_element(candidates, [](const auto& a, const auto& b) {
           return a.fit->candidate.held_out_rmse <
@@ -103,14 +75,14 @@ class PenalizedRecipe final : public PolynomialRecipe {
         (chosen.coefficients.array() != 0.0).count(),
         chosen.coefficients.size(),
         best.degree);
-    if (choices_.view.given) {
+    if (options_.basis.view) {
       fitted.choices.push_back(
           {"view", std::string(ToString(best.viewed->view))});
       if (best.viewed->sine_and_cosine) {
         fitted.choices.push_back({"angles", std::string("sincos")});
       }
     }
-    if (choices_.chooses_basis()) {
+    if (options_.basis.chooses_basis()) {
       fitted.choices.push_back({"terms", std::string(ToString(best.terms))});
       fitted.remarks.push_back(
           fmt::format("{} by cross-validation over {} of {} bases",
@@ -118,7 +90,7 @@ class PenalizedRecipe final : public PolynomialRecipe {
                       folds.text,
                       candidates.size()));
     }
-    if (penalty_ == Penalty::kLasso) {
+    if (options_.family == Penalty::kLasso) {
       fitted.remarks.push_back("chosen: " + ChosenNames(design, chosen));
     }
     if (context.explain) Explain(training, design, best, folds, &fitted);
@@ -148,7 +120,7 @@ class PenalizedRecipe final : public PolynomialRecipe {
     report->method = fmt::format(
         "{} over {} terms up to degree {}, penalty {:.6g}{} on columns of "
         "variance 1",
-        fitting::ToString(penalty_),
+        fitting::ToString(options_.family),
         design.num_terms() - best.num_excluded,
         best.degree,
         fit.strength,
@@ -183,14 +155,74 @@ class PenalizedRecipe final : public PolynomialRecipe {
     fitted->regression = std::move(report);
   }
 
-  Penalty penalty_;
-  PenalizedChoices choices_;
+  PenalizedOptions options_;
 };
+
+std::string Contradiction(const PenalizedOptions& options) {
+  if (!options.penalty.strength) return "";
+  if (options.penalty.one_standard_error) {
+    return "rule= chooses the penalty, which penalty= fixes";
+  }
+  if (options.basis.chooses_basis()) {
+    return "penalty= is of one basis; name view= and terms= too";
+  }
+  return "";
+}
+
+OptionList<PenalizedOptions> List() {
+  using Options = PenalizedOptions;
+  OptionList<Options> list;
+  list.push_back(OptionFor<Options>(
+      "penalty",
+      "its strength; without it by inner hold-outs",
+      [](auto& options) { return &options.penalty.strength; },
+      Number{0.0, std::numeric_limits<double>::max()}));
+  list.push_back(
+      OptionFor<Options>(
+          "rule",
+          "the penalty of least error, or the strongest near it",
+          [](auto& options) { return &options.penalty.one_standard_error; },
+          OneOf<bool>{{{"min", false}, {"1se", true}}})
+          .When([](const Options& options) {
+            return !options.penalty.strength;
+          }));
+  AddWithin(
+      BasisOptionList(), [](auto& options) { return &options.basis; }, &list);
+  return list;
+}
 
 }  // namespace
 
-std::unique_ptr<ModelRecipe> MakePenalizedRecipe(const ModelSpec& spec) {
-  return std::make_unique<PenalizedRecipe>(spec);
+template <>
+const std::vector<ListedModel<PenalizedOptions>>& ListedModels() {
+  static const std::vector<ListedModel<PenalizedOptions>> models = {
+      {.name = "poly:ridge",
+       .about = "all terms, large coefficients penalised",
+       .defaults = {},
+       .options = List(),
+       .contradiction = Contradiction,
+       .complete = NameTheViewOf},
+      {.name = "poly:lasso",
+       .about = "few terms, by a penalty that drops them",
+       .defaults = {.family = Penalty::kLasso},
+       .options = List(),
+       .contradiction = Contradiction,
+       .complete = NameTheViewOf}};
+  return models;
 }
+
+std::string_view PenalizedOptions::type() const {
+  return family == Penalty::kRidge ? "poly:ridge" : "poly:lasso";
+}
+
+void PenalizedOptions::Validate() const { ValidateOptions(*this); }
+
+std::unique_ptr<ModelRecipe> MakeRecipe(const PenalizedOptions& options,
+                                        std::string name) {
+  return std::make_unique<PenalizedRecipe>(options, std::move(name));
+}
+
+template PenalizedOptions OptionsOf(std::string_view spec);
+template std::string SpecOf(const PenalizedOptions& options);
 
 }  // namespace errmap::models

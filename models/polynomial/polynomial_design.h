@@ -10,20 +10,12 @@
 #include "data/measurements/dataset.h"
 #include "fitting/least_squares/linear_least_squares.h"
 #include "models/polynomial/polynomial_basis.h"
+#include "models/polynomial/term_set.h"
 #include "models/scaling.h"
 
 namespace errmap::models {
 
 struct FitContext;
-
-/// Which inputs are moved to the middle of their range before products and
-/// powers are formed.
-enum class Centring {
-  kStandardised,  // each to its mean, and scaled to sd 1
-  kAll,           // each
-  kNone,          // none: products of the inputs as they are
-  kHarmless,      // those where it does not change what the terms can express
-};
 
 /// Scaling of the columns `inputs` of `training` for `terms`: each input's
 /// largest size, after centring or not, becomes 1 (its sd, where it is

@@ -1,15 +1,14 @@
-#include "models/polynomial/polynomial_recipe.h"
-
 #include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "models/option_list.h"
 #include "models/polynomial/polynomial_basis.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/polynomial/polynomial_model.h"
-#include "models/polynomial/selection_recipe.h"
+#include "models/polynomial/polynomial_options.h"
 
 namespace errmap::models {
 namespace {
@@ -17,13 +16,12 @@ namespace {
 using data::Dataset;
 using Eigen::Index;
 
-constexpr int kMostDegree = 12;
-
 // `zero` (no compensation at all) and `mean`.
 class ConstantRecipe final : public PolynomialRecipe {
  public:
-  ConstantRecipe(std::string name, bool is_zero)
-      : PolynomialRecipe(std::move(name)), is_zero_(is_zero) {}
+  ConstantRecipe(const ConstantOptions& options, std::string name)
+      : PolynomialRecipe(CheckedName(options, std::move(name))),
+        is_zero_(options.is_zero) {}
 
   ModelKind kind() const override { return ModelKind::kBaseline; }
   std::optional<Index> NumCoefficients(const Dataset&) const override {
@@ -45,50 +43,69 @@ class ConstantRecipe final : public PolynomialRecipe {
   bool is_zero_;
 };
 
-// A form of the report in position x and one temperature T.
-struct PositionTemperatureForm {
-  const char* type;
+struct TermsOfForm {
+  std::string_view type;
+  std::string_view about;
   std::vector<TermPowers> terms;  // powers of (x, T); of one input where only
   bool uses_position;             // that one is used
   bool uses_temperature;
 };
 
-const std::vector<PositionTemperatureForm>& PositionTemperatureForms() {
-  static const std::vector<PositionTemperatureForm> forms = {
-      {"poly:position", {{1}, {2}}, true, false},
-      {"poly:temperature", {{1}}, false, true},
-      {"poly:eq7", {{1, 0}, {2, 0}, {0, 1}, {0, 2}}, true, true},
-      {"poly:eq8", {{1, 0}, {2, 0}, {0, 1}, {1, 1}}, true, true},
-      {"poly:eq9", {{1, 0}, {2, 0}, {0, 1}}, true, true}};
+// In the order of PositionTemperatureForm.
+const std::vector<TermsOfForm>& Forms() {
+  static const std::vector<TermsOfForm> forms = {
+      {"poly:position",
+       "a parabola over the position, no sensor",
+       {{1}, {2}},
+       true,
+       false},
+      {"poly:temperature",
+       "a straight line over one temperature",
+       {{1}},
+       false,
+       true},
+      {"poly:eq7",
+       "Eq. 7 of 1995: quadratic in position and in T",
+       {{1, 0}, {2, 0}, {0, 1}, {0, 2}},
+       true,
+       true},
+      {"poly:eq8",
+       "Eq. 8 of 1995: quadratic in position, T, product",
+       {{1, 0}, {2, 0}, {0, 1}, {1, 1}},
+       true,
+       true},
+      {"poly:eq9",
+       "Eq. 9 of 1995: quadratic in position, linear in T",
+       {{1, 0}, {2, 0}, {0, 1}},
+       true,
+       true}};
   return forms;
+}
+
+const TermsOfForm& FormOf(PositionTemperatureForm form) {
+  return Forms()[static_cast<std::size_t>(form)];
 }
 
 class PositionTemperatureRecipe final : public PolynomialRecipe {
  public:
-  PositionTemperatureRecipe(const ModelSpec& spec,
-                            const PositionTemperatureForm& form)
-      : PolynomialRecipe(spec.text), form_(form) {
-    SpecOptions options(spec);
-    if (form_.uses_position) position_ = options.TakeText("position", "");
-    if (form_.uses_temperature) temperature_ = options.TakeText("T", "");
-    options.RefuseOthers();
-  }
+  PositionTemperatureRecipe(const PositionTemperatureOptions& options,
+                            std::string name)
+      : PolynomialRecipe(CheckedName(options, std::move(name))),
+        options_(options),
+        form_(FormOf(options.form)) {}
 
   std::vector<EffectiveOption> options() const override {
-    std::vector<EffectiveOption> options;
-    if (!position_.empty()) options.push_back({"position", position_});
-    if (!temperature_.empty()) options.push_back({"T", temperature_});
-    return options;
+    return InEffect(options_);
   }
 
   std::optional<std::string> WhatIsMissing(
       const Dataset& dataset) const override {
-    if (form_.uses_position && position_.empty() &&
+    if (form_.uses_position && options_.position.empty() &&
         FindPosition(dataset, "") < 0) {
       return "a position: no input's name starts with 'position' "
              "(position=NAME names one)";
     }
-    if (form_.uses_temperature && temperature_.empty() &&
+    if (form_.uses_temperature && options_.temperature.empty() &&
         TemperatureCandidates(dataset).empty()) {
       return "a temperature: there is no input other than the position";
     }
@@ -108,7 +125,7 @@ class PositionTemperatureRecipe final : public PolynomialRecipe {
     }
     std::vector<Index> columns;
     if (form_.uses_position) {
-      columns.push_back(FindPosition(training, position_));
+      columns.push_back(FindPosition(training, options_.position));
     }
     if (!form_.uses_temperature) {
       return FitTerms(training, columns, form_.terms, context);
@@ -132,41 +149,37 @@ class PositionTemperatureRecipe final : public PolynomialRecipe {
 
  private:
   std::vector<Index> TemperatureCandidates(const Dataset& dataset) const {
-    if (!temperature_.empty()) {
-      const Index named = dataset.FindInput(temperature_);
+    if (!options_.temperature.empty()) {
+      const Index named = dataset.FindInput(options_.temperature);
       if (named < 0) {
-        throw std::invalid_argument("T='" + temperature_ +
+        throw std::invalid_argument("T='" + options_.temperature +
                                     "' is not among the inputs");
       }
       return {named};
     }
-    const Index position = FindPosition(dataset, position_);
+    const Index position = FindPosition(dataset, options_.position);
     std::vector<Index> candidates = AllColumns(dataset);
     std::erase(candidates, position);
     return candidates;
   }
 
-  const PositionTemperatureForm& form_;
-  std::string position_;
-  std::string temperature_;
+  PositionTemperatureOptions options_;
+  const TermsOfForm& form_;
 };
 
 // All terms up to a degree.
 class FullRecipe final : public PolynomialRecipe {
  public:
-  explicit FullRecipe(const ModelSpec& spec) : PolynomialRecipe(spec.text) {
-    SpecOptions options(spec);
-    degree_ =
-        static_cast<int>(options.TakeInteger("degree", 2, 1, kMostDegree));
-    options.RefuseOthers();
-  }
+  FullRecipe(const FullOptions& options, std::string name)
+      : PolynomialRecipe(CheckedName(options, std::move(name))),
+        options_(options) {}
 
   std::vector<EffectiveOption> options() const override {
-    return {{"degree", std::int64_t{degree_}}};
+    return InEffect(options_);
   }
 
   std::optional<Index> NumCoefficients(const Dataset& dataset) const override {
-    const auto terms = CountTerms(dataset.num_inputs(), degree_);
+    const auto terms = CountTerms(dataset.num_inputs(), options_.degree);
     return terms ? *terms + 1 : std::numeric_limits<Index>::max();
   }
 
@@ -177,35 +190,110 @@ class FullRecipe final : public PolynomialRecipe {
       throw std::invalid_argument(fmt::format(
           "degree {} in {} inputs has {} coefficients, more than the {} "
           "training rows",
-          degree_,
+          options_.degree,
           training.num_inputs(),
           coefficients,
           training.num_rows()));
     }
     return FitTerms(training,
                     AllColumns(training),
-                    AllTerms(training.num_inputs(), degree_),
+                    AllTerms(training.num_inputs(), options_.degree),
                     context);
   }
 
  private:
-  int degree_;
+  FullOptions options_;
 };
 
 }  // namespace
 
-std::unique_ptr<ModelRecipe> MakePolynomialRecipe(const ModelSpec& spec) {
-  if (spec.type == "zero" || spec.type == "mean") {
-    SpecOptions(spec).RefuseOthers();
-    return std::make_unique<ConstantRecipe>(spec.text, spec.type == "zero");
-  }
-  for (const PositionTemperatureForm& form : PositionTemperatureForms()) {
-    if (spec.type == form.type) {
-      return std::make_unique<PositionTemperatureRecipe>(spec, form);
-    }
-  }
-  if (spec.type == "poly:full") return std::make_unique<FullRecipe>(spec);
-  return MakeSelectionRecipe(spec);
+template <>
+const std::vector<ListedModel<ConstantOptions>>& ListedModels() {
+  static const std::vector<ListedModel<ConstantOptions>> models = {
+      {.name = "zero",
+       .about = "no compensation: what the machine does by itself",
+       .defaults = {.is_zero = true},
+       .options = {}},
+      {.name = "mean",
+       .about = "one offset for all",
+       .defaults = {},
+       .options = {}}};
+  return models;
 }
+
+template <>
+const std::vector<ListedModel<PositionTemperatureOptions>>& ListedModels() {
+  using Options = PositionTemperatureOptions;
+  static const auto models = [] {
+    std::vector<ListedModel<Options>> all;
+    for (const TermsOfForm& form : Forms()) {
+      OptionList<Options> options;
+      if (form.uses_position) {
+        options.push_back(
+            OptionFor("position", "its column", &Options::position, Words()));
+      }
+      if (form.uses_temperature) {
+        options.push_back(
+            OptionFor("T", "the column of T", &Options::temperature, Words()));
+      }
+      all.push_back({.name = std::string(form.type),
+                     .about = std::string(form.about),
+                     .defaults = {.form = static_cast<PositionTemperatureForm>(
+                                      &form - Forms().data())},
+                     .options = std::move(options)});
+    }
+    return all;
+  }();
+  return models;
+}
+
+template <>
+const std::vector<ListedModel<FullOptions>>& ListedModels() {
+  constexpr std::int64_t kMostDegree = 12;
+  static const auto models = [] {
+    Option<FullOptions> degree = OptionFor("degree",
+                                           "the highest power of a term",
+                                           &FullOptions::degree,
+                                           Whole{1, kMostDegree})
+                                     .Always();
+    degree.always_in_spec = true;
+    return std::vector<ListedModel<FullOptions>>{
+        {.name = "poly:full",
+         .about = "every product of the inputs up to a degree",
+         .defaults = {},
+         .options = {std::move(degree)}}};
+  }();
+  return models;
+}
+
+std::string_view PositionTemperatureOptions::type() const {
+  return FormOf(form).type;
+}
+
+void ConstantOptions::Validate() const { ValidateOptions(*this); }
+void PositionTemperatureOptions::Validate() const { ValidateOptions(*this); }
+void FullOptions::Validate() const { ValidateOptions(*this); }
+
+std::unique_ptr<ModelRecipe> MakeRecipe(const ConstantOptions& options,
+                                        std::string name) {
+  return std::make_unique<ConstantRecipe>(options, std::move(name));
+}
+
+std::unique_ptr<ModelRecipe> MakeRecipe(
+    const PositionTemperatureOptions& options, std::string name) {
+  return std::make_unique<PositionTemperatureRecipe>(options, std::move(name));
+}
+
+std::unique_ptr<ModelRecipe> MakeRecipe(const FullOptions& options,
+                                        std::string name) {
+  return std::make_unique<FullRecipe>(options, std::move(name));
+}
+
+template ConstantOptions OptionsOf(std::string_view spec);
+template std::string SpecOf(const ConstantOptions& options);
+template PositionTemperatureOptions OptionsOf(std::string_view spec);
+template std::string SpecOf(const PositionTemperatureOptions& options);
+template FullOptions OptionsOf(std::string_view spec);
+template std::string SpecOf(const FullOptions& options);
 
 }  // namespace errmap::models

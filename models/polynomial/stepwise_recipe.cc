@@ -9,10 +9,12 @@
 
 #include "fitting/selection/stepwise_selection.h"
 #include "models/history/fit_in_view.h"
+#include "models/history/view_options.h"
 #include "models/inner_folds.h"
+#include "models/option_list.h"
 #include "models/polynomial/polynomial_fit.h"
+#include "models/polynomial/polynomial_options.h"
 #include "models/polynomial/selection_bootstrap.h"
-#include "models/polynomial/selection_recipe.h"
 #include "models/polynomial/term_dictionary.h"
 #include "models/regression_report.h"
 
@@ -23,11 +25,8 @@ using data::Dataset;
 using Eigen::Index;
 using Eigen::VectorXd;
 using fitting::Criterion;
-using fitting::StepwiseOptions;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kDefaultBootstrap = 200;
-constexpr std::int64_t kByDefault = -1;
 
 std::string Upper(std::string_view word) {
   std::string upper(word);
@@ -47,117 +46,53 @@ const std::vector<std::string>& Heredities() {
   return words;
 }
 
+// What the engine is told.
+fitting::StepwiseOptions RulesOf(const StepwiseOptions& options) {
+  fitting::StepwiseOptions rules;
+  rules.select = options.select.value_or(options.criterion);
+  rules.stop = options.stop.value_or(options.criterion);
+  rules.choose = options.choose.value_or(options.criterion);
+  rules.direction = options.direction;
+  rules.heredity = options.heredity;
+  rules.enter = options.enter.value_or(rules.enter);
+  rules.remove = options.remove.value_or(std::max(rules.remove, rules.enter));
+  if (options.max_terms) rules.max_terms = *options.max_terms;
+  if (options.sigma2) rules.sigma2 = *options.sigma2;
+  return rules;
+}
+
+// With what is left open filled in: one criterion, or three.
+StepwiseOptions Resolved(StepwiseOptions options) {
+  const fitting::StepwiseOptions rules = RulesOf(options);
+  options.select.reset();
+  options.stop.reset();
+  options.choose.reset();
+  if (rules.select == rules.stop && rules.stop == rules.choose) {
+    options.criterion = rules.select;
+  } else {
+    options.select = rules.select;
+    options.stop = rules.stop;
+    options.choose = rules.choose;
+  }
+  if (rules.Uses(Criterion::kPValue)) {
+    options.enter = rules.enter;
+    options.remove = rules.remove;
+  }
+  return options;
+}
+
 // Terms chosen one by one.
 class StepwiseRecipe final : public PolynomialRecipe {
  public:
-  explicit StepwiseRecipe(const ModelSpec& spec) : PolynomialRecipe(spec.text) {
-    const auto refuse = [&](const std::string& why) {
-      throw std::invalid_argument(
-          fmt::format("model '{}': {}", spec.text, why));
-    };
-    SpecOptions options(spec);
-    try {
-      terms_ = TermOptions::Take(&options, true);
-    } catch (const std::invalid_argument& error) {
-      if (std::string_view(error.what()).starts_with("model ")) throw;
-      refuse(error.what());
-    }
-    const std::vector<std::string>& all = fitting::CriterionWords();
-    const std::vector<std::string> criteria(all.begin(), all.end() - 1);
-    constexpr auto kDefault = static_cast<std::size_t>(Criterion::kBic);
-    const std::size_t criterion =
-        options.TakeChoice("criterion", kDefault, criteria);
-    const auto take = [&](const char* key,
-                          const std::vector<std::string>& words) {
-      return static_cast<Criterion>(options.TakeChoice(key, criterion, words));
-    };
-    rules_.select = take("select", criteria);
-    rules_.stop = take("stop", all);
-    rules_.choose = take("choose", criteria);
-    rules_.direction = static_cast<fitting::Direction>(
-        options.TakeChoice("direction", 0, Directions()));
-    rules_.heredity = static_cast<fitting::Heredity>(
-        options.TakeChoice("heredity", 0, Heredities()));
-    constexpr double kNotGiven = -1.0;
-    const double enter = options.TakeNumber("enter", kNotGiven, 0.0, 1.0);
-    const double remove = options.TakeNumber("remove", kNotGiven, 0.0, 1.0);
-    if (enter >= 0.0) rules_.enter = enter;
-    rules_.remove =
-        remove >= 0.0 ? remove : std::max(rules_.remove, rules_.enter);
-    if ((enter >= 0.0 || remove >= 0.0) &&
-        rules_.select != Criterion::kPValue &&
-        rules_.stop != Criterion::kPValue) {
-      refuse(
-          "enter and remove are p-values; they need criterion=p, select=p "
-          "or stop=p");
-    }
-    if (rules_.remove < rules_.enter) {
-      refuse(fmt::format(
-          "remove ({}) is below enter ({}): a term could enter and leave for "
-          "ever; give remove >= enter",
-          rules_.remove,
-          rules_.enter));
-    }
-    for (const auto& [key, value] :
-         {std::pair("enter", rules_.enter), {"remove", rules_.remove}}) {
-      if (!(value > 0.0 && value < 1.0)) {
-        refuse(fmt::format(
-            "{} must be above 0 and below 1, found {}", key, value));
-      }
-    }
-    constexpr std::int64_t kMostTerms = 1'000'000;
-    if (options.IsWord("max_terms", "none")) {
-      share_of_rows_ = false;
-    } else {
-      rules_.max_terms =
-          options.TakeInteger("max_terms", kByDefault, 0, kMostTerms);
-      share_of_rows_ = rules_.max_terms == kByDefault;
-    }
-    rules_.sigma2 = options.TakeNumber(
-        "sigma2", kNan, 0.0, std::numeric_limits<double>::max());
-    if (rules_.sigma2 == 0.0) refuse("sigma2 must be above 0");
-    constexpr std::int64_t kMostRepetitions = 1'000'000;
-    bootstrap_ =
-        options.TakeInteger("bootstrap", kByDefault, 0, kMostRepetitions);
-    view_ = ViewOptions::Take(&options);
-    guarded_ = view_.TakeClip(&options);
-    if (view_.never_intercept) refuse("intercept=no is for ridge and lasso");
-    options.RefuseOthers();
+  StepwiseRecipe(const StepwiseOptions& options, std::string name)
+      : PolynomialRecipe(CheckedName(options, std::move(name))),
+        options_(Resolved(options)),
+        rules_(RulesOf(options)) {
     rules_.Validate();
   }
 
   std::vector<EffectiveOption> options() const override {
-    std::vector<EffectiveOption> options;
-    const auto add = [&](const char* key, std::string_view value) {
-      options.push_back({key, std::string(value)});
-    };
-    if (rules_.select == rules_.stop && rules_.stop == rules_.choose) {
-      add("criterion", ToString(rules_.select));
-    } else {
-      add("select", ToString(rules_.select));
-      add("stop", ToString(rules_.stop));
-      add("choose", ToString(rules_.choose));
-    }
-    add("direction", DirectionWord());
-    if (rules_.heredity != fitting::Heredity::kNone) {
-      add("heredity", Heredities()[static_cast<std::size_t>(rules_.heredity)]);
-    }
-    if (rules_.Uses(Criterion::kPValue)) {
-      options.push_back({"enter", rules_.enter});
-      options.push_back({"remove", rules_.remove});
-    }
-    if (rules_.max_terms >= 0) {
-      options.push_back({"max_terms", std::int64_t{rules_.max_terms}});
-    } else {
-      add("max_terms", share_of_rows_ ? "rows/5" : "none");
-    }
-    if (!std::isnan(rules_.sigma2)) {
-      options.push_back({"sigma2", rules_.sigma2});
-    }
-    terms_.Describe(&options);
-    view_.Describe(&options);
-    if (view_.given && !guarded_) add("clip", "none");
-    return options;
+    return InEffect(options_);
   }
 
   std::optional<Index> NumCoefficients(const Dataset&) const override {
@@ -166,10 +101,9 @@ class StepwiseRecipe final : public PolynomialRecipe {
 
   FittedModel Fit(const Dataset& training,
                   const FitContext& context) const override {
-    if (!view_.given) return FitRows(training, context);
+    if (!options_.view) return FitRows(training, context);
     return FitInView(training,
-                     view_,
-                     guarded_,
+                     *options_.view,
                      context,
                      [&](const Dataset& rows, const FitContext& inner) {
                        return FitRows(rows, inner);
@@ -183,7 +117,7 @@ class StepwiseRecipe final : public PolynomialRecipe {
       throw std::invalid_argument(
           fmt::format("needs at least 3 rows, found {}", training.num_rows()));
     }
-    const TermDictionary dictionary(training, terms_);
+    const TermDictionary dictionary(training, options_.terms);
     const bool by_triangle = NeedsTriangle(training.num_rows(),
                                            dictionary.design.num_terms(),
                                            context.most_design_values);
@@ -203,7 +137,7 @@ class StepwiseRecipe final : public PolynomialRecipe {
     // over whole groups, each of which is a triangle.
     const std::int64_t repetitions =
         !context.explain                             ? 0
-        : bootstrap_ >= 0                            ? bootstrap_
+        : options_.bootstrap                         ? *options_.bootstrap
         : by_triangle || !context.default_bootstraps ? 0
                                                      : kDefaultBootstrap;
     const bool group_parts =
@@ -220,7 +154,7 @@ class StepwiseRecipe final : public PolynomialRecipe {
       rules.parents = dictionary.Parents();
     }
     const fitting::SelectionProblem problem = rows.Problem();
-    const StepwiseOptions how = RulesFor(training, rules);
+    const fitting::StepwiseOptions how = RulesFor(training, rules);
     const fitting::SelectionResult selection =
         fitting::SelectStepwise(problem, rules, how, context.stop);
 
@@ -249,8 +183,12 @@ class StepwiseRecipe final : public PolynomialRecipe {
             "there are groups");
       }
     }
-    FittedModel fitted = FitTerms(
-        training, used.inputs, used.terms, context, {terms_.centring}, &report);
+    FittedModel fitted = FitTerms(training,
+                                  used.inputs,
+                                  used.terms,
+                                  context,
+                                  {options_.terms.centring},
+                                  &report);
     fitted.summary.message =
         fmt::format("{} of {} candidate terms up to degree {} chosen by {} {}",
                     used.terms.size(),
@@ -266,11 +204,11 @@ class StepwiseRecipe final : public PolynomialRecipe {
       fitted.remarks.push_back(fmt::format(
           "max_terms ends the selection at {} terms{}; {}",
           how.max_terms,
-          share_of_rows_
+          !options_.max_terms
               ? fmt::format(", a fifth of {} rows", training.num_rows())
               : "",
-          share_of_rows_ ? "max_terms=none goes on as R's step() does"
-                         : "a larger one would let it go on"));
+          !options_.max_terms ? "max_terms=none goes on as R's step() does"
+                              : "a larger one would let it go on"));
     }
     return fitted;
   }
@@ -278,10 +216,10 @@ class StepwiseRecipe final : public PolynomialRecipe {
   // Among enough candidates there are always some that follow the noise, and
   // no criterion stops at them once few rows are left to judge by: of 100
   // columns of noise BIC took 58 for 60 rows.
-  StepwiseOptions RulesFor(const Dataset& training,
-                           const fitting::TermRules& rules) const {
-    StepwiseOptions how = rules_;
-    if (!share_of_rows_) return how;
+  fitting::StepwiseOptions RulesFor(const Dataset& training,
+                                    const fitting::TermRules& rules) const {
+    fitting::StepwiseOptions how = rules_;
+    if (options_.max_terms) return how;
     constexpr Index kRowsPerTerm = 5;
     how.max_terms = std::max({training.num_rows() / kRowsPerTerm,
                               static_cast<Index>(rules.include.size()),
@@ -370,18 +308,126 @@ class StepwiseRecipe final : public PolynomialRecipe {
     }
   }
 
-  TermOptions terms_;
-  StepwiseOptions rules_;
-  bool share_of_rows_ = true;  // max_terms is a fifth of the rows
-  std::int64_t bootstrap_ = kByDefault;
-  ViewOptions view_;
-  bool guarded_ = false;
+  StepwiseOptions options_;  // those in effect
+  fitting::StepwiseOptions rules_;
 };
+
+std::string Contradiction(const StepwiseOptions& options) {
+  const fitting::StepwiseOptions rules = RulesOf(options);
+  if ((options.enter || options.remove) && rules.select != Criterion::kPValue &&
+      rules.stop != Criterion::kPValue) {
+    return "enter and remove are p-values; they need criterion=p, select=p or "
+           "stop=p";
+  }
+  if (rules.remove < rules.enter) {
+    return fmt::format(
+        "remove ({}) is below enter ({}): a term could enter and leave for "
+        "ever; give remove >= enter",
+        rules.remove,
+        rules.enter);
+  }
+  for (const auto& [key, value] :
+       {std::pair("enter", rules.enter), {"remove", rules.remove}}) {
+    if (!(value > 0.0 && value < 1.0)) {
+      return fmt::format(
+          "{} must be above 0 and below 1, found {}", key, value);
+    }
+  }
+  if (options.sigma2 == 0.0) return "sigma2 must be above 0";
+  if (options.view && !options.view->intercept) {
+    return "intercept=no is for ridge and lasso";
+  }
+  return "";
+}
+
+OptionList<StepwiseOptions> List() {
+  using Options = StepwiseOptions;
+  constexpr std::int64_t kMost = 1'000'000;
+  const std::vector<std::string>& all = fitting::CriterionWords();
+  const auto criteria = EnumWords<Criterion>({all.begin(), all.end() - 1});
+  OptionList<Options> list;
+  list.push_back(
+      OptionFor("criterion",
+                "what select, stop and choose go by",
+                &Options::criterion,
+                criteria)
+          .When([](const Options& options) { return !options.select; }));
+  list.push_back(OptionFor(
+      "select", "what the next term is judged by", &Options::select, criteria));
+  list.push_back(OptionFor("stop",
+                           "what ends the moves",
+                           &Options::stop,
+                           EnumWords<Criterion>(all)));
+  list.push_back(OptionFor("choose",
+                           "what chooses among the models passed through",
+                           &Options::choose,
+                           criteria));
+  list.push_back(OptionFor("direction",
+                           "how terms come and go",
+                           &Options::direction,
+                           EnumWords<fitting::Direction>(Directions()))
+                     .Always());
+  list.push_back(OptionFor("heredity",
+                           "products need their parts: one, or all",
+                           &Options::heredity,
+                           EnumWords<fitting::Heredity>(Heredities())));
+  list.push_back(OptionFor("enter",
+                           "the largest p of a term that enters",
+                           &Options::enter,
+                           Number{0.0, 1.0}));
+  list.push_back(OptionFor("remove",
+                           "the largest p of a term that stays",
+                           &Options::remove,
+                           Number{0.0, 1.0}));
+  list.push_back(OptionFor("max_terms",
+                           "the most terms",
+                           &Options::max_terms,
+                           WordOr<std::int64_t, Whole>{
+                               "none", Options::kNoLimit, Whole{0, kMost}})
+                     .Always());
+  list.back().write = [write = list.back().write](const Options& options) {
+    return options.max_terms ? write(options)
+                             : OptionText(std::string("rows/5"));
+  };
+  list.push_back(OptionFor("sigma2",
+                           "variance of the error, for cp",
+                           &Options::sigma2,
+                           Number{0.0, std::numeric_limits<double>::max()}));
+  list.push_back(OptionFor("bootstrap",
+                           "repetitions that tell how firm each term is",
+                           &Options::bootstrap,
+                           Whole{0, kMost})
+                     .Never());
+  AddWithin(
+      TermOptionList(), [](auto& options) { return &options.terms; }, &list);
+  const auto view = [](auto& options) { return &options.view; };
+  AddWithin(ViewOptionList(), view, &list);
+  list.push_back(Within<Options>(ClipOption(), view));
+  return list;
+}
 
 }  // namespace
 
-std::unique_ptr<ModelRecipe> MakeStepwiseRecipe(const ModelSpec& spec) {
-  return std::make_unique<StepwiseRecipe>(spec);
+template <>
+const std::vector<ListedModel<StepwiseOptions>>& ListedModels() {
+  static const std::vector<ListedModel<StepwiseOptions>> models = {
+      {.name = "poly:stepwise",
+       .about = "terms that come and go by a criterion",
+       .defaults = {},
+       .options = List(),
+       .contradiction = Contradiction,
+       .complete = NameTheViewOf}};
+  return models;
 }
+
+void StepwiseOptions::Validate() const { ValidateOptions(*this); }
+
+std::unique_ptr<ModelRecipe> MakeRecipe(const StepwiseOptions& options,
+                                        std::string name) {
+  return std::make_unique<StepwiseRecipe>(options, std::move(name));
+}
+
+template StepwiseOptions OptionsOf(std::string_view spec);
+template std::string SpecOf(const StepwiseOptions& options);
 
 }  // namespace errmap::models

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "models/history/view.h"
 #include "models/polynomial/polynomial_fit.h"
@@ -22,6 +21,20 @@ using Eigen::MatrixXd;
 
 constexpr double kMostValues = 1.25e8;  // 1 GB
 constexpr Index kMostTriangle = 4000;   // columns; four triangles of 128 MB
+
+// "position_mm+t1_degC^2".
+struct Terms {
+  using Value = std::vector<NamedTerm>;
+  std::string name;
+
+  std::string values() const { return Words().values(); }
+  std::optional<Value> Read(const std::string& text) const {
+    if (text.empty()) return std::nullopt;
+    return ParseTerms(text, name);
+  }
+  bool Allows(const Value& /*value*/) const { return true; }
+  OptionText Write(const Value& value) const { return TermsText(value); }
+};
 
 std::vector<std::string> InputNames(const Dataset& dataset) {
   std::vector<std::string> names;
@@ -98,54 +111,47 @@ int DefaultDegree(Index num_inputs) {
   return num_inputs <= kFewInputs ? 3 : 2;
 }
 
-TermOptions TermOptions::Take(SpecOptions* options, bool with_include) {
-  TermOptions terms;
-  constexpr std::int64_t kByTerms = 0;
+Option<std::optional<int>> DegreeOption() {
   constexpr std::int64_t kMostDegree = 4;
-  terms.set = static_cast<TermSet>(options->TakeChoice(
-      "terms", static_cast<std::size_t>(TermSet::kFull), TermSetWords()));
-  terms.degree = static_cast<int>(
-      options->TakeInteger("degree", kByTerms, 1, kMostDegree));
-  terms.centring = options->TakeChoice("centred", 0, {"yes", "no"}) == 0
-                       ? Centring::kAll
-                       : Centring::kNone;
-  const auto list = [&](const char* key) {
-    const std::string text = options->TakeText(key, "");
-    return text.empty() ? std::vector<NamedTerm>() : ParseTerms(text, key);
-  };
-  if (with_include) terms.include = list("include");
-  terms.exclude = list("exclude");
-  return terms;
+  return OptionFor<std::optional<int>>(
+      "degree",
+      "the highest power of a term",
+      [](auto& degree) { return &degree; },
+      Whole{1, kMostDegree});
 }
 
-void TermOptions::Describe(std::vector<EffectiveOption>* options) const {
-  const auto text = [](const std::vector<NamedTerm>& terms) {
-    std::vector<std::string> products;
-    for (const NamedTerm& term : terms) {
-      std::vector<std::string> factors;
-      for (const NamedTerm::Factor& factor : term.factors) {
-        factors.push_back(TermName({factor.power}, {factor.input}));
-      }
-      products.push_back(fmt::format("{}", fmt::join(factors, "*")));
-    }
-    return fmt::format("{}", fmt::join(products, "+"));
-  };
-  if (set != TermSet::kFull) {
-    options->push_back({"terms", std::string(ToString(set))});
-  }
-  if (degree > 0) options->push_back({"degree", std::int64_t{degree}});
-  if (centring == Centring::kNone) {
-    options->push_back({"centred", std::string("no")});
-  }
-  if (!include.empty()) options->push_back({"include", text(include)});
-  if (!exclude.empty()) options->push_back({"exclude", text(exclude)});
+Option<std::vector<NamedTerm>> TermsOption(std::string name,
+                                           std::string about) {
+  return OptionFor<std::vector<NamedTerm>>(
+      name, std::move(about), [](auto& terms) { return &terms; }, Terms{name});
+}
+
+OptionList<TermOptions> TermOptionList() {
+  OptionList<TermOptions> list;
+  list.push_back(OptionFor("terms",
+                           "the products to choose from",
+                           &TermOptions::set,
+                           EnumWords<TermSet>(TermSetWords())));
+  list.push_back(Within<TermOptions>(
+      DegreeOption(), [](auto& options) { return &options.degree; }));
+  list.push_back(OptionFor(
+      "centred",
+      "products of inputs about the middle of their range",
+      &TermOptions::centring,
+      OneOf<Centring>{{{"yes", Centring::kAll}, {"no", Centring::kNone}}}));
+  list.push_back(
+      Within<TermOptions>(TermsOption("include", "terms that are always in"),
+                          [](auto& options) { return &options.include; }));
+  list.push_back(
+      Within<TermOptions>(TermsOption("exclude", "terms that are never in"),
+                          [](auto& options) { return &options.exclude; }));
+  return list;
 }
 
 TermDictionary::TermDictionary(const Dataset& training,
                                const TermOptions& options)
-    : degree(options.degree > 0
-                 ? options.degree
-                 : DefaultDegreeOf(options.set, training.num_inputs())),
+    : degree(options.degree.value_or(
+          DefaultDegreeOf(options.set, training.num_inputs()))),
       design(MakeDesign(training, options.set, degree, options.centring)),
       include(Find(options.include, design, degree, "include")),
       excluded(static_cast<std::size_t>(design.num_terms()), false) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,26 +9,20 @@
 #include "fitting/selection/selection_state.h"
 #include "fitting/selection/stepwise_selection.h"
 #include "models/error_model.h"
-#include "models/model_spec.h"
+#include "models/option_list.h"
 #include "models/polynomial/formula.h"
 #include "models/polynomial/polynomial_design.h"
+#include "models/polynomial/polynomial_options.h"
 #include "models/polynomial/term_set.h"
 
 namespace errmap::models {
 
-/// The options that all recipes share which choose among terms.
-struct TermOptions {
-  TermSet set = TermSet::kFull;
-  int degree = 0;  // 1 .. 4; 0: DefaultDegreeOf the set
-  Centring centring = Centring::kAll;
-  std::vector<NamedTerm> include;
-  std::vector<NamedTerm> exclude;
-
-  /// Takes terms, degree, centred and exclude, and include where it is allowed.
-  static TermOptions Take(SpecOptions* options, bool with_include);
-  /// Those that are not the default.
-  void Describe(std::vector<EffectiveOption>* options) const;
-};
+/// What a SPEC may say of the terms that are chosen from: terms, degree,
+/// centred, include and exclude.
+OptionList<TermOptions> TermOptionList();
+/// The degree and the terms left out, which penalised families have as well.
+Option<std::optional<int>> DegreeOption();
+Option<std::vector<NamedTerm>> TermsOption(std::string name, std::string about);
 
 /// The terms that may be chosen over the inputs of a data set, and which of
 /// them are forced in or out.

@@ -22,6 +22,15 @@ enum class TermSet {
 std::string_view ToString(TermSet set);
 const std::vector<std::string>& TermSetWords();
 
+/// Which inputs are moved to the middle of their range before products and
+/// powers are formed.
+enum class Centring {
+  kStandardised,  // each to its mean, and scaled to sd 1
+  kAll,           // each
+  kNone,          // none: products of the inputs as they are
+  kHarmless,      // those where it does not change what the terms can express
+};
+
 /// Highest power that a set takes where no degree is given: 1, 2, 3, and for
 /// full by the number of inputs (DefaultDegree).
 int DefaultDegreeOf(TermSet set, Eigen::Index num_inputs);

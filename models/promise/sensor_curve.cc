@@ -333,10 +333,9 @@ std::vector<std::string> SubstitutesFor(const Design& design,
 Design BestDesign(const data::Dataset& dataset,
                   const fitting::FoldCodes& folds) {
   ViewOptions options;
-  options.given = true;
   options.sine_and_cosine = false;
   std::vector<ViewedRows> views = MakeViews(dataset, options, 0.0);
-  options.with_history = false;  // the zero alone
+  options.time_constants.emplace();  // the zero alone
   for (ViewedRows& viewed : MakeViews(dataset, options, 0.0)) {
     if (viewed.view == View::kZero) views.push_back(std::move(viewed));
   }

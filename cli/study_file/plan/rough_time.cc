@@ -49,8 +49,8 @@ double NetSeconds(const models::ModelRecipe& recipe,
   constexpr double kIterations = 1500.0;
   constexpr double kFitsOfCrossValidation = 30.0;
   if (!HasText(recipe, "rows", "all")) {
-    constexpr auto kRows = static_cast<double>(models::NetOptions::kMostRows);
-    rows = std::min(rows, Option(recipe, "rows", kRows));
+    const auto kept = static_cast<double>(models::NetOptions().rows);
+    rows = std::min(rows, Option(recipe, "rows", kept));
   }
   const double hidden = Option(recipe, "hidden", 1.0);
   double per_iteration =

@@ -1,12 +1,14 @@
 #include "models/history/view.h"
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "models/polynomial/polynomial_options.h"
 #include "tests/models/history/history_data.h"
 
 namespace errmap::models {
@@ -15,10 +17,8 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-ViewOptions OptionsOf(const std::string& text) {
-  const ModelSpec spec = ParseModelSpec("poly:ridge" + text);
-  SpecOptions options(spec);
-  return ViewOptions::Take(&options);
+std::optional<ViewOptions> ViewIn(const std::string& text) {
+  return OptionsOf<PenalizedOptions>("poly:ridge" + text).basis.view;
 }
 
 std::vector<std::string> NamesOf(const data::Dataset& dataset) {
@@ -31,7 +31,7 @@ std::vector<std::string> NamesOf(const data::Dataset& dataset) {
 
 TEST(View, AModelWithoutAWordOfViewsReadsItsInputsAsTheyAre) {
   const auto views =
-      MakeViews(errmap::testing::WanderingDays(), OptionsOf(""), 0.0);
+      MakeViews(errmap::testing::WanderingDays(), ViewIn(""), 0.0);
   ASSERT_EQ(views.size(), 1U);
   EXPECT_EQ(views[0].view, View::kRaw);
   EXPECT_EQ(views[0].history, nullptr);
@@ -40,7 +40,7 @@ TEST(View, AModelWithoutAWordOfViewsReadsItsInputsAsTheyAre) {
 
 TEST(View, AutoOffersRawHistoryAndHistoryWithZero) {
   const auto views =
-      MakeViews(errmap::testing::WanderingDays(), OptionsOf(":view=auto"), 0.0);
+      MakeViews(errmap::testing::WanderingDays(), ViewIn(":view=auto"), 0.0);
   ASSERT_EQ(views.size(), 3U);
   EXPECT_EQ(views[0].view, View::kRaw);
   EXPECT_EQ(views[1].view, View::kHistory);
@@ -70,8 +70,8 @@ data::Dataset TurningAxes(double span) {
 }
 
 TEST(View, AutoTriesSineAndCosineOfAnglesThatTurnFar) {
-  const auto near = MakeViews(TurningAxes(20.0), OptionsOf(":view=auto"), 0.0);
-  const auto far = MakeViews(TurningAxes(180.0), OptionsOf(":view=auto"), 0.0);
+  const auto near = MakeViews(TurningAxes(20.0), ViewIn(":view=auto"), 0.0);
+  const auto far = MakeViews(TurningAxes(180.0), ViewIn(":view=auto"), 0.0);
   EXPECT_EQ(far.size(), 2 * near.size());
   ASSERT_GE(far.size(), 2U);
   EXPECT_EQ(far[0].label(), "raw");
@@ -84,14 +84,14 @@ TEST(View, AutoTriesSineAndCosineOfAnglesThatTurnFar) {
   EXPECT_NEAR(far[1].rows->input_values()(7, 3),
               std::cos(axes.input_values()(7, 1) * std::acos(-1.0) / 180.0),
               1e-15);
-  EXPECT_EQ(MakeViews(axes, OptionsOf(":view=auto:angles=none"), 0.0).size(),
+  EXPECT_EQ(MakeViews(axes, ViewIn(":view=auto:angles=none"), 0.0).size(),
             near.size());
-  EXPECT_EQ(MakeViews(axes, OptionsOf(":view=raw"), 0.0).size(), 1U);
+  EXPECT_EQ(MakeViews(axes, ViewIn(":view=raw"), 0.0).size(), 1U);
 }
 
 TEST(View, NamesAndUnitsSayWhatADerivedInputIs) {
   const auto views = MakeViews(errmap::testing::WanderingDays(),
-                               OptionsOf(":history=300:zero=session"),
+                               ViewIn(":history=300:zero=session"),
                                0.0);
   ASSERT_EQ(views.size(), 1U);
   EXPECT_THAT(NamesOf(*views[0].rows),
@@ -119,11 +119,11 @@ TEST(View, AZeroNeedsTwoSessionsAndAFilterMoreThanPositions) {
     first[static_cast<std::size_t>(i)] = i;
   }
   const data::Dataset one = days.SelectRows(first);
-  const auto views = MakeViews(one, OptionsOf(":view=auto"), 0.0);
+  const auto views = MakeViews(one, ViewIn(":view=auto"), 0.0);
   ASSERT_EQ(views.size(), 2U);
   EXPECT_EQ(views[1].view, View::kHistory);
   try {
-    MakeViews(one, OptionsOf(":view=zero"), 0.0);
+    MakeViews(one, ViewIn(":view=zero"), 0.0);
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(), HasSubstr("two sessions"));
@@ -134,11 +134,11 @@ TEST(View, AZeroedMapHasNoInterceptOnlyWhereSessionsBeginAtZero) {
   // The target is the row's number: day 1 begins at 0, days 2 and 3 do not.
   const data::Dataset days = errmap::testing::WanderingDays();
   EXPECT_EQ(LargestFirstError(days), 80.0);
-  const ViewOptions zero = OptionsOf(":view=history+zero");
+  const auto zero = ViewIn(":view=history+zero");
   EXPECT_TRUE(MakeViews(days, zero, 1.0)[0].intercept);
   EXPECT_FALSE(MakeViews(days, zero, 80.0)[0].intercept);
   EXPECT_FALSE(
-      MakeViews(days, OptionsOf(":view=zero:intercept=no"), 1.0)[0].intercept);
+      MakeViews(days, ViewIn(":view=zero:intercept=no"), 1.0)[0].intercept);
 }
 
 TEST(View, RefusesTimeConstantsThatAreNone) {
@@ -147,7 +147,7 @@ TEST(View, RefusesTimeConstantsThatAreNone) {
                            ":history=10+x",
                            ":history=10+",
                            ":history=inf"}) {
-    EXPECT_THROW(OptionsOf(text), std::invalid_argument) << text;
+    EXPECT_THROW(ViewIn(text), std::invalid_argument) << text;
   }
 }
 

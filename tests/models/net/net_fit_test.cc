@@ -134,7 +134,6 @@ class NotingTrainer final : public NetTrainer {
     minimum.summary.iterations = 1;
     return minimum;
   }
-  std::vector<EffectiveOption> options() const override { return {}; }
 
   mutable std::vector<Step> steps;
 };

@@ -79,15 +79,14 @@ data::Dataset Ramp(Index rows) {
   return data::Dataset(std::move(parts));
 }
 
-TEST(NetRecipe, MakesNetsAndNothingElse) {
-  EXPECT_EQ(MakeNetRecipe(ParseModelSpec("poly:eq8")), nullptr);
-  EXPECT_EQ(MakeNetRecipe(ParseModelSpec("net")), nullptr);
-  for (const char* spec : {"net:scg", "net:cg", "net:backprop:hidden=3"}) {
-    const auto recipe = MakeNetRecipe(ParseModelSpec(spec));
-    ASSERT_NE(recipe, nullptr) << spec;
-    EXPECT_EQ(recipe->name(), spec);
-    EXPECT_EQ(recipe->kind(), ModelKind::kNet);
-  }
+TEST(NetRecipe, IsMadeOfOptions) {
+  const auto recipe =
+      MakeRecipe(NetOptions{.method = CgTraining(), .hidden = 3});
+  EXPECT_EQ(recipe->name(), "net:cg:hidden=3");
+  EXPECT_EQ(recipe->kind(), ModelKind::kNet);
+  const data::Dataset dataset = QuadraticData(40);
+  EXPECT_EQ(recipe->Fit(dataset, {}).Predict(dataset),
+            FitSpec("net:cg:hidden=3", dataset).Predict(dataset));
 }
 
 TEST(NetRecipe, TellsTheOptionsThatTookEffect) {

@@ -1,5 +1,3 @@
-#include "models/polynomial/polynomial_recipe.h"
-
 #include <cmath>
 #include <stdexcept>
 
@@ -8,6 +6,7 @@
 
 #include "models/polynomial/polynomial_basis.h"
 #include "models/polynomial/polynomial_model.h"
+#include "models/polynomial/polynomial_options.h"
 #include "models/recipe_catalog.h"
 #include "tests/models/model_test_data.h"
 

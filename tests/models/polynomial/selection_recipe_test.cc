@@ -1,6 +1,4 @@
 // poly:stepwise, poly:best, poly:ridge, poly:lasso and poly:formula as recipes.
-#include "models/polynomial/selection_recipe.h"
-
 #include <cmath>
 #include <functional>
 #include <stdexcept>
@@ -10,6 +8,7 @@
 
 #include "models/polynomial/polynomial_basis.h"
 #include "models/polynomial/polynomial_model.h"
+#include "models/polynomial/polynomial_options.h"
 #include "models/recipe_catalog.h"
 #include "models/regression_report.h"
 #include "models/shared_work.h"

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+#include "data/measurements/dataset.h"
+#include "models/error_model.h"
+#include "models/net/net_problem.h"
+
+namespace errmap::models {
+
+/// How inputs are scaled: to mean 0 and sd 1, to their range, not at all.
+enum class InputScaling { kStandard, kRange, kNone };
+
+/// What a net is before it sees any rows.
+struct NetDesign {
+  std::int64_t hidden = 20;
+  InputScaling scaling = InputScaling::kStandard;
+  OutputFunction output = OutputFunction::kSigmoid;
+  double slope = 1.0;
+
+  NetShape ShapeFor(const data::Dataset& dataset) const {
+    return {dataset.num_inputs(), hidden, 1, output, slope};
+  }
+};
+
+}  // namespace errmap::models

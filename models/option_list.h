@@ -1,0 +1,440 @@
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "models/error_model.h"
+#include "models/model_options.h"
+#include "models/model_spec.h"
+
+namespace errmap::models {
+
+// The list of a family's options, from which come reading and writing SPECs,
+// their error messages, the options in effect, what `Validate` refuses, help
+// and completion. An option more is a member and a line of the list.
+
+using OptionText = decltype(EffectiveOption::value);
+
+/// What people read of an option.
+struct OptionInfo {
+  std::string name;
+  std::string about;   // "hidden nodes"
+  std::string values;  // "a whole number from 1 to 10000"
+};
+
+// Kinds of value: each reads words, knows what is allowed, and writes a value
+// so that it reads back.
+
+struct Whole {
+  using Value = std::int64_t;
+  std::int64_t least;
+  std::int64_t most;  // the largest of all: none
+
+  std::string values() const;
+  std::optional<Value> Read(const std::string& text) const;
+  bool Allows(Value value) const { return value >= least && value <= most; }
+  OptionText Write(Value value) const { return value; }
+};
+
+struct Number {
+  using Value = double;
+  double least;
+  double most;  // the largest of all: none
+
+  std::string values() const;
+  std::optional<Value> Read(const std::string& text) const;
+  bool Allows(Value value) const { return value >= least && value <= most; }
+  OptionText Write(Value value) const { return value; }
+};
+
+/// Any text but none.
+struct Words {
+  using Value = std::string;
+
+  std::string values() const { return "text"; }
+  std::optional<Value> Read(const std::string& text) const;
+  bool Allows(const Value& /*value*/) const { return true; }
+  OptionText Write(const Value& value) const { return value; }
+};
+
+std::string OneOfWords(const std::vector<std::string>& words);
+
+template <typename T>
+struct OneOf {
+  using Value = T;
+  std::vector<std::pair<std::string, T>> words;
+
+  std::string values() const {
+    std::vector<std::string> all;
+    for (const auto& [word, value] : words) all.push_back(word);
+    return OneOfWords(all);
+  }
+  std::optional<Value> Read(const std::string& text) const {
+    for (const auto& [word, value] : words) {
+      if (word == text) return value;
+    }
+    return std::nullopt;
+  }
+  bool Allows(const Value& wanted) const {
+    for (const auto& [word, value] : words) {
+      if (value == wanted) return true;
+    }
+    return false;
+  }
+  OptionText Write(const Value& wanted) const {
+    for (const auto& [word, value] : words) {
+      if (value == wanted) return word;
+    }
+    return "?";
+  }
+};
+
+/// The values of an enumeration in its order, without those past the words.
+template <typename Enum>
+OneOf<Enum> EnumWords(const std::vector<std::string>& words) {
+  OneOf<Enum> kind;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    kind.words.emplace_back(words[i], static_cast<Enum>(i));
+  }
+  return kind;
+}
+
+/// The same after "auto", which leaves the choice to the fit.
+template <typename Enum>
+OneOf<std::optional<Enum>> AutoOrEnum(const std::vector<std::string>& words) {
+  OneOf<std::optional<Enum>> kind{{{"auto", std::nullopt}}};
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    kind.words.emplace_back(words[i], static_cast<Enum>(i));
+  }
+  return kind;
+}
+
+/// `special`, which is written as a word, or a value of another kind.
+template <typename T, typename Kind>
+struct WordOr {
+  using Value = T;
+  std::string word;
+  T special;
+  Kind kind;
+
+  std::string values() const { return word + " or " + kind.values(); }
+  std::optional<Value> Read(const std::string& text) const {
+    if (text == word) return special;
+    const auto value = kind.Read(text);
+    if (!value || !kind.Allows(*value)) return std::nullopt;
+    return static_cast<T>(*value);
+  }
+  bool Allows(const Value& value) const {
+    return value == special ||
+           kind.Allows(static_cast<typename Kind::Value>(value));
+  }
+  OptionText Write(const Value& value) const {
+    if (value == special) return word;
+    return kind.Write(static_cast<typename Kind::Value>(value));
+  }
+};
+
+/// One option of `Options`.
+template <typename Options>
+struct Option : OptionInfo {
+  /// Takes a word; false where it is no allowed value.
+  std::function<bool(const std::string& text, Options*)> read;
+  std::function<bool(const Options&)> allows;
+  /// Nothing where the options do not have it, or leave it open.
+  std::function<std::optional<OptionText>(const Options&)> write;
+  /// Whether it differs from what `defaults` have.
+  std::function<bool(const Options&, const Options& defaults)> is_set;
+  /// Whether it is named among those in effect; empty: where it is set.
+  std::function<bool(const Options&)> is_shown;
+  bool always_in_spec = false;
+
+  Option Always() && {
+    is_shown = [](const Options&) { return true; };
+    return std::move(*this);
+  }
+  Option Never() && {
+    is_shown = [](const Options&) { return false; };
+    return std::move(*this);
+  }
+  Option When(std::function<bool(const Options&)> shown) && {
+    is_shown = std::move(shown);
+    return std::move(*this);
+  }
+};
+
+template <typename Options>
+using OptionList = std::vector<Option<Options>>;
+
+/// An option whose place `at(options)` points at, null where these options do
+/// not have it (its word is then only checked). Where the place is a
+/// std::optional of the kind's value, an empty one is always allowed.
+template <typename Options, typename At, typename Kind>
+requires std::invocable<At, Options&> Option<Options> OptionFor(
+    std::string name, std::string about, At at, Kind kind) {
+  using Value = typename Kind::Value;
+  using Place = std::remove_pointer_t<std::invoke_result_t<At, Options&>>;
+  constexpr bool kMayBeOpen = requires(Place place) { place.has_value(); }
+  &&!std::is_same_v<Place, Value>;
+  const auto value_at = [at](const Options& options) -> std::optional<Value> {
+    const auto* place = at(options);
+    if (place == nullptr) return std::nullopt;
+    if constexpr (kMayBeOpen) {
+      if (!place->has_value()) return std::nullopt;
+      return static_cast<Value>(**place);
+    } else {
+      return static_cast<Value>(*place);
+    }
+  };
+  Option<Options> option;
+  option.name = std::move(name);
+  option.about = std::move(about);
+  option.values = kind.values();
+  option.read = [at, kind](const std::string& text, Options* options) {
+    const auto value = kind.Read(text);
+    if (!value || !kind.Allows(*value)) return false;
+    auto* place = at(*options);
+    if (place == nullptr) return true;
+    if constexpr (kMayBeOpen) {
+      *place = static_cast<typename Place::value_type>(*value);
+    } else {
+      *place = static_cast<Place>(*value);
+    }
+    return true;
+  };
+  option.allows = [value_at, kind](const Options& options) {
+    const auto value = value_at(options);
+    return !value || kind.Allows(*value);
+  };
+  option.write = [value_at,
+                  kind](const Options& options) -> std::optional<OptionText> {
+    const auto value = value_at(options);
+    if (!value) return std::nullopt;
+    return kind.Write(*value);
+  };
+  option.is_set = [value_at](const Options& options, const Options& defaults) {
+    const auto value = value_at(options);
+    return value && value != value_at(defaults);
+  };
+  return option;
+}
+
+template <typename Options, typename Member, typename Kind>
+Option<Options> OptionFor(std::string name,
+                          std::string about,
+                          Member Options::*member,
+                          Kind kind) {
+  return OptionFor<Options>(
+      std::move(name),
+      std::move(about),
+      [member](auto& options) { return &(options.*member); },
+      std::move(kind));
+}
+
+/// The options of a part of `Options`, which `at(options)` points at or, where
+/// there is none, is null.
+template <typename Options, typename Part, typename At>
+Option<Options> Within(const Option<Part>& part, At at) {
+  Option<Options> option;
+  static_cast<OptionInfo&>(option) = part;
+  option.read = [part, at](const std::string& text, Options* options) {
+    if (Part* own = at(*options)) return part.read(text, own);
+    Part unused{};
+    return part.read(text, &unused);
+  };
+  option.allows = [part, at](const Options& options) {
+    const Part* own = at(options);
+    return own == nullptr || part.allows(*own);
+  };
+  option.write = [part,
+                  at](const Options& options) -> std::optional<OptionText> {
+    const Part* own = at(options);
+    return own == nullptr ? std::nullopt : part.write(*own);
+  };
+  option.is_set = [part, at](const Options& options, const Options& defaults) {
+    const Part* own = at(options);
+    const Part* default_part = at(defaults);
+    return own != nullptr &&
+           part.is_set(*own, default_part ? *default_part : Part{});
+  };
+  if (part.is_shown) {
+    option.is_shown = [part, at](const Options& options) {
+      const Part* own = at(options);
+      return own != nullptr && part.is_shown(*own);
+    };
+  }
+  option.always_in_spec = part.always_in_spec;
+  return option;
+}
+
+template <typename Options, typename Part, typename At>
+void AddWithin(const OptionList<Part>& parts, At at, OptionList<Options>* all) {
+  for (const Option<Part>& part : parts) {
+    all->push_back(Within<Options>(part, at));
+  }
+}
+
+/// A model of a family, as a SPEC names it.
+template <typename Options>
+struct ListedModel {
+  std::string name;
+  std::string about;
+  Options defaults;
+  OptionList<Options> options;
+  /// What of these, each allowed, contradicts; "" where nothing does.
+  std::string (*contradiction)(const Options&) = nullptr;
+  /// Makes a SPEC say what it implies, where it does.
+  void (*complete)(ModelSpec*) = nullptr;
+  /// Whether it is among the models compared when none are named.
+  bool is_compared = true;
+};
+
+/// The models of a family; specialised beside its options. Each `Options` has
+/// `type()`, the name of its model.
+template <typename Options>
+const std::vector<ListedModel<Options>>& ListedModels();
+
+[[noreturn]] void RefuseValue(std::string_view spec,
+                              const OptionInfo& option,
+                              const std::string& found);
+/// Refuses options of the SPEC that are not among `known`.
+void RefuseOthers(const ModelSpec& spec, const std::vector<OptionInfo>& known);
+std::string TextOf(const OptionText& value);
+/// ":key=value", quoted where it must be.
+std::string SpecWord(const std::string& key, const OptionText& value);
+
+template <typename Options>
+const ListedModel<Options>& ListedModelNamed(std::string_view spec,
+                                             std::string_view name) {
+  for (const ListedModel<Options>& model : ListedModels<Options>()) {
+    if (model.name == name) return model;
+  }
+  RefuseSpec(spec, "is of another family");
+}
+
+template <typename Options>
+std::vector<OptionInfo> InfoOf(const OptionList<Options>& options) {
+  return {options.begin(), options.end()};
+}
+
+template <typename Options>
+Options ReadOptions(ModelSpec spec) {
+  const auto& model = ListedModelNamed<Options>(spec.text, spec.type);
+  if (model.complete != nullptr) model.complete(&spec);
+  Options taken = model.defaults;
+  for (const Option<Options>& option : model.options) {
+    for (const auto& [key, value] : spec.options) {
+      if (key != option.name) continue;
+      bool is_allowed = false;
+      try {
+        is_allowed = option.read(value, &taken);
+      } catch (const std::invalid_argument& error) {
+        RefuseSpec(spec.text, error.what());
+      }
+      if (!is_allowed) RefuseValue(spec.text, option, value);
+    }
+  }
+  RefuseOthers(spec, InfoOf(model.options));
+  if (model.contradiction != nullptr) {
+    const std::string why = model.contradiction(taken);
+    if (!why.empty()) RefuseSpec(spec.text, why);
+  }
+  return taken;
+}
+
+template <typename Options>
+Options OptionsOf(std::string_view spec) {
+  return ReadOptions<Options>(ParseModelSpec(spec));
+}
+
+template <typename Options>
+std::string SpecOf(const Options& options) {
+  const auto& model = ListedModelNamed<Options>("", options.type());
+  std::string spec = model.name;
+  for (const Option<Options>& option : model.options) {
+    if (!option.always_in_spec && !option.is_set(options, model.defaults)) {
+      continue;
+    }
+    const auto value = option.write(options);
+    if (value) spec += SpecWord(option.name, *value);
+  }
+  return spec;
+}
+
+/// Throws std::invalid_argument naming option, value and range, or what
+/// contradicts.
+template <typename Options>
+void ValidateOptions(const Options& options) {
+  const auto& model = ListedModelNamed<Options>("", options.type());
+  for (const Option<Options>& option : model.options) {
+    if (option.allows(options)) continue;
+    RefuseValue(SpecOf(options), option, TextOf(*option.write(options)));
+  }
+  if (model.contradiction != nullptr) {
+    const std::string why = model.contradiction(options);
+    if (!why.empty()) RefuseSpec(SpecOf(options), why);
+  }
+}
+
+/// The name of a recipe of these options: `name`, or their SPEC where it is
+/// empty. Throws as ValidateOptions.
+template <typename Options>
+std::string CheckedName(const Options& options, std::string name) {
+  ValidateOptions(options);
+  return name.empty() ? SpecOf(options) : std::move(name);
+}
+
+/// Those in effect, of options that leave nothing open which is to be named.
+template <typename Options>
+std::vector<EffectiveOption> InEffect(const Options& options) {
+  const auto& model = ListedModelNamed<Options>("", options.type());
+  std::vector<EffectiveOption> all;
+  for (const Option<Options>& option : model.options) {
+    const bool shown = option.is_shown ? option.is_shown(options)
+                                       : option.is_set(options, model.defaults);
+    if (!shown) continue;
+    if (auto value = option.write(options)) {
+      all.push_back({option.name, *std::move(value)});
+    }
+  }
+  return all;
+}
+
+/// A model of any family.
+struct ModelType {
+  std::string name;
+  std::string about;
+  std::vector<OptionInfo> options;
+  bool is_compared;
+  std::unique_ptr<ModelRecipe> (*make)(const ModelSpec& spec);
+  /// The SPEC as its options write it.
+  std::string (*rewrite)(const ModelSpec& spec);
+};
+
+template <typename Options>
+std::vector<ModelType> TypesOf() {
+  std::vector<ModelType> types;
+  for (const ListedModel<Options>& model : ListedModels<Options>()) {
+    types.push_back({model.name,
+                     model.about,
+                     InfoOf(model.options),
+                     model.is_compared,
+                     [](const ModelSpec& spec) -> std::unique_ptr<ModelRecipe> {
+                       return MakeRecipe(ReadOptions<Options>(spec), spec.text);
+                     },
+                     [](const ModelSpec& spec) {
+                       return SpecOf(ReadOptions<Options>(spec));
+                     }});
+  }
+  return types;
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,184 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fitting/information_criteria.h"
+#include "fitting/least_squares/penalized_path.h"
+#include "fitting/selection/stepwise_selection.h"
+#include "models/error_model.h"
+#include "models/history/view.h"
+#include "models/model_options.h"
+#include "models/polynomial/formula.h"
+#include "models/polynomial/term_set.h"
+
+namespace errmap::models {
+
+// The options of constants and polynomials. Of each, `Validate` throws
+// std::invalid_argument naming option, value and range, or what contradicts;
+// `MakeRecipe` does so as well, and the recipe's name is `name` or, where that
+// is empty, SpecOf(options).
+
+/// zero (no compensation at all) and mean.
+struct ConstantOptions {
+  bool is_zero = false;
+
+  std::string_view type() const { return is_zero ? "zero" : "mean"; }
+  void Validate() const;
+  bool operator==(const ConstantOptions&) const = default;
+};
+
+/// The forms of the report in position x and one temperature T; two of them
+/// read only one of both.
+enum class PositionTemperatureForm {
+  kPosition,
+  kTemperature,
+  kEq7,
+  kEq8,
+  kEq9,
+};
+
+/// poly:position, poly:temperature, poly:eq7, poly:eq8, poly:eq9.
+struct PositionTemperatureOptions {
+  PositionTemperatureForm form = PositionTemperatureForm::kEq8;
+  std::string position = {};     // "": the first input named so
+  std::string temperature = {};  // T; "": the input that leaves least
+
+  std::string_view type() const;
+  void Validate() const;
+  bool operator==(const PositionTemperatureOptions&) const = default;
+};
+
+/// poly:full: all products up to a degree.
+struct FullOptions {
+  int degree = 2;  // 1 .. 12
+
+  std::string_view type() const { return "poly:full"; }
+  void Validate() const;
+  bool operator==(const FullOptions&) const = default;
+};
+
+/// Which terms may be chosen.
+struct TermOptions {
+  TermSet set = TermSet::kFull;
+  std::optional<int> degree = {};      // 1 .. 4; empty: DefaultDegreeOf the set
+  Centring centring = Centring::kAll;  // or kNone
+  std::vector<NamedTerm> include = {};
+  std::vector<NamedTerm> exclude = {};
+
+  bool operator==(const TermOptions&) const = default;
+};
+
+/// poly:stepwise: terms chosen one by one (fitting::StepwiseOptions).
+struct StepwiseOptions {
+  /// max_terms without a limit.
+  static constexpr std::int64_t kNoLimit = -1;
+
+  fitting::Criterion criterion = fitting::Criterion::kBic;
+  std::optional<fitting::Criterion> select = {};  // empty: the criterion
+  std::optional<fitting::Criterion> stop = {};
+  std::optional<fitting::Criterion> choose = {};
+  fitting::Direction direction = fitting::Direction::kForward;
+  fitting::Heredity heredity = fitting::Heredity::kNone;
+  /// p-values, 0 < enter <= remove < 1; only where p selects or stops. Empty:
+  /// 0.05, and 0.10 or `enter`, whichever is larger.
+  std::optional<double> enter = {};
+  std::optional<double> remove = {};
+  /// 0 .. 1,000,000, or kNoLimit; empty: a fifth of the rows.
+  std::optional<std::int64_t> max_terms = {};
+  std::optional<double> sigma2 = {};  // for Cp, above 0; empty: estimated
+  /// 0 .. 1,000,000 for the report; empty: 200 where the rows are few.
+  std::optional<std::int64_t> bootstrap = {};
+  TermOptions terms = {};
+  /// Its `intercept` is always true.
+  std::optional<ViewOptions> view = {};
+
+  std::string_view type() const { return "poly:stepwise"; }
+  void Validate() const;
+  bool operator==(const StepwiseOptions&) const = default;
+};
+
+/// poly:best: the best of all subsets (fitting::BestSubsetOptions).
+struct BestSubsetOptions {
+  fitting::Criterion criterion = fitting::Criterion::kBic;  // not p, PRESS, CV
+  std::optional<std::int64_t> max_terms = {};  // 0 .. 48; empty: no limit
+  std::optional<double> sigma2 = {};  // for Cp, above 0; empty: estimated
+  std::int64_t bootstrap = 0;         // 0 .. 1,000,000 for the report
+  TermOptions terms = {};
+
+  std::string_view type() const { return "poly:best"; }
+  void Validate() const;
+  bool operator==(const BestSubsetOptions&) const = default;
+};
+
+/// How a penalty is chosen.
+struct PenaltyRule {
+  /// Given, at least 0; empty: by inner hold-outs.
+  std::optional<double> strength = {};
+  /// The strongest within one standard error of the least (Breiman et al.
+  /// 1984).
+  bool one_standard_error = false;
+
+  bool operator==(const PenaltyRule&) const = default;
+};
+
+/// Bases that a penalised family may take.
+struct BasisOptions {
+  std::optional<ViewOptions> view = {};
+  std::optional<TermSet> terms = {};  // empty: those that serve, where a view
+                                      // is given, else full
+  std::optional<int> degree = {};     // 1 .. 4; empty: that of the terms
+  Centring centring = Centring::kStandardised;  // or kAll, kNone
+  std::vector<NamedTerm> exclude = {};
+
+  bool operator==(const BasisOptions&) const = default;
+
+  /// Whether more than one basis may be judged.
+  bool chooses_basis() const { return view && (!view->view || !terms); }
+  bool guarded() const { return view && view->clip; }
+};
+
+/// poly:ridge and poly:lasso: all terms of a basis, shrunk.
+struct PenalizedOptions {
+  fitting::Penalty family = fitting::Penalty::kRidge;
+  PenaltyRule penalty = {};
+  BasisOptions basis = {};
+
+  std::string_view type() const;
+  void Validate() const;
+  bool operator==(const PenalizedOptions&) const = default;
+};
+
+/// poly:formula=...: the terms that are written down.
+struct FormulaOptions {
+  std::string formula = {};                 // as ParseTerms reads them
+  Centring centring = Centring::kHarmless;  // or kNone
+  bool intercept = true;
+  /// Names one; its `clip` and `intercept` are not read.
+  std::optional<ViewOptions> view = {};
+
+  std::string_view type() const { return "poly"; }
+  void Validate() const;
+  bool operator==(const FormulaOptions&) const = default;
+};
+
+std::unique_ptr<ModelRecipe> MakeRecipe(const ConstantOptions& options,
+                                        std::string name = "");
+std::unique_ptr<ModelRecipe> MakeRecipe(
+    const PositionTemperatureOptions& options, std::string name = "");
+std::unique_ptr<ModelRecipe> MakeRecipe(const FullOptions& options,
+                                        std::string name = "");
+std::unique_ptr<ModelRecipe> MakeRecipe(const StepwiseOptions& options,
+                                        std::string name = "");
+std::unique_ptr<ModelRecipe> MakeRecipe(const BestSubsetOptions& options,
+                                        std::string name = "");
+std::unique_ptr<ModelRecipe> MakeRecipe(const PenalizedOptions& options,
+                                        std::string name = "");
+std::unique_ptr<ModelRecipe> MakeRecipe(const FormulaOptions& options,
+                                        std::string name = "");
+
+}  // namespace errmap::models
