@@ -18,6 +18,9 @@ using data::Dataset;
 using Eigen::Index;
 
 constexpr Index kFewestSessions = 4;
+// One more than these takes at most 2 % off an error that falls as fast as
+// their number grows, and its loss drowns in what the fits differ by.
+constexpr Index kMostSessions = 50;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // How a fold's error grows when its training rows lose a session.
@@ -74,7 +77,8 @@ std::optional<SessionWorth> WorthOfASession(const Dataset& dataset,
                                             const HoldoutResult& result,
                                             const StudyOptions& options) {
   if (!holdout.whole_sessions || holdout.test_data != nullptr ||
-      dataset.num_sessions() < kFewestSessions || !result.ok()) {
+      dataset.num_sessions() < kFewestSessions ||
+      dataset.num_sessions() > kMostSessions || !result.ok()) {
     return std::nullopt;
   }
   FitContext context{.seed = options.seed,

@@ -84,6 +84,14 @@ TEST(SessionWorth, IsTheErrorWithOneSessionFewer) {
   EXPECT_NEAR(worth->ratio_of_one_more, std::pow(5.0 / 6.0, exponent), 1e-12);
 }
 
+TEST(SessionWorth, IsNotAskedOfManySessions) {
+  std::vector<double> offsets;
+  for (int day = 0; day < 50; ++day) offsets.push_back(day % 7);
+  EXPECT_TRUE(WorthToMean(DaysOf(offsets), "sessions:5", {}));
+  offsets.push_back(1.0);
+  EXPECT_FALSE(WorthToMean(DaysOf(offsets), "sessions:5", {}));
+}
+
 TEST(SessionWorth, IsNotKnownOfFewSessionsOrOtherHoldOuts) {
   EXPECT_FALSE(WorthToMean(DaysOf({0.0, 3.0, 1.0}), "sessions:3", {}));
   EXPECT_FALSE(WorthToMean(DaysOf({0.0, 3.0, 1.0, 2.0}), "every:3", {}));
