@@ -17,9 +17,9 @@ int main(int argc, char** argv) {
     SaveModel(map, {{"made_by", "an outside project"}}, argv[2]);
     if (LoadModel(argv[2]).Predict(rows) != map.Predict(rows)) std::exit(1);
     const double n = static_cast<double>(rows.num_rows());
-    const auto left = rows.target_values() - map.Predict(rows);
+    const Eigen::VectorXd left = rows.target_values() - map.Predict(rows);
     std::cout << recipe->name() << " " << 1e3 * left.norm() / std::sqrt(n)
-              << "\n";
+              << " um\n";
   };
   try_out(FullOptions{.degree = 3});
   try_out(NetOptions{.method = CeresTraining{}, .hidden = 4, .iterations = 5});

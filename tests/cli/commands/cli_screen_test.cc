@@ -361,15 +361,16 @@ TEST_F(Screens, ExplainCommandsAndModels) {
   EXPECT_THAT(Run({"help", "compare"}).out,
               AllOf(HasSubstr("net:scg"), HasSubstr("groups:K")));
   EXPECT_THAT(Run({"models"}).out, ContainsRegex("poly:eq8 +Eq. 8 of 1995"));
-  EXPECT_THAT(Run({"models", "net:scg"}).out,
-              AllOf(ContainsRegex("hidden +20 +cv or a whole number from 1 to "
-                                  "10000"),
-                    ContainsRegex("wfactor +1e-05 +cv or a number from 0"),
-                    ContainsRegex("evaluations +a whole number from 1 on"),
-                    ContainsRegex("rows +all or a whole number from 100 on"),
-                    ContainsRegex("history +auto, none or time constants")));
+  EXPECT_THAT(
+      Run({"models", "net:scg"}).out,
+      AllOf(ContainsRegex("hidden +20 +hidden nodes: cv or a whole "
+                          "number from 1 to 10000"),
+            ContainsRegex("wfactor +1e-05 +.*: cv or a number from 0"),
+            ContainsRegex("evaluations +.*: a whole number from 1 on"),
+            ContainsRegex("rows +.*: all or a whole number from\n +100"),
+            ContainsRegex("history +.*: auto, none\n +or time")));
   EXPECT_THAT(Run({"models", "poly:stepwise"}).out,
-              ContainsRegex("max_terms +rows/5 +none or a whole number"));
+              ContainsRegex("max_terms +rows/5 +.*: none or a whole number"));
   EXPECT_EQ(Run({"models", "net:sgc"}).status, kWrongCommandLine);
 }
 
