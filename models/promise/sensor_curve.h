@@ -52,9 +52,10 @@ struct SensorSearch {
   std::function<void(int done, int all)> progress = {};
 };
 
-/// Chooses sensors by sequential replacement, inside folds of whole units for
-/// `points`, and from all rows for `chosen`. Throws std::invalid_argument where
-/// there are fewer than two sensors or units, fitting::Interrupted on a stop.
+/// Chooses sensors by sequential replacement from several beginnings, inside
+/// folds of whole units for `points`, and from all rows for `chosen`. Throws
+/// std::invalid_argument where there are fewer than two sensors or units,
+/// fitting::Interrupted on a stop.
 SensorCurve LearnSensors(const data::Dataset& dataset,
                          const SensorSearch& search);
 

@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -136,11 +137,11 @@ TEST(CurvesOf, FallsWithTheNumberOfDaysAndNamesWhatFails) {
   EXPECT_NE(curves[1].why_failed, "");
 }
 
-// The data with a target made of two of its sensors.
-data::Dataset WithTwoSensorTruth(const data::Dataset& days,
-                                 const std::string& one,
-                                 const std::string& other) {
-  data::Dataset::Parts parts{.source = "two sensors",
+// The data with a target made of some of its sensors.
+data::Dataset WithTruthOf(
+    const data::Dataset& days,
+    const std::vector<std::pair<std::string, double>>& factors) {
+  data::Dataset::Parts parts{.source = "made of sensors",
                              .inputs = days.inputs(),
                              .input_values = days.input_values(),
                              .target = days.target(),
@@ -151,24 +152,43 @@ data::Dataset WithTwoSensorTruth(const data::Dataset& days,
                              .log = days.log(),
                              .log_rows = days.log_rows()};
   stats::Random random(3);
-  const VectorXd noise = VectorXd::NullaryExpr(
+  parts.target_values = VectorXd::NullaryExpr(
       days.num_rows(), [&] { return 0.05 * (random.Uniform() - 0.5); });
-  parts.target_values = days.input_values().col(days.FindInput(one)) -
-                        1.5 * days.input_values().col(days.FindInput(other)) +
-                        noise;
+  for (const auto& [sensor, factor] : factors) {
+    parts.target_values +=
+        factor * days.input_values().col(days.FindInput(sensor));
+  }
   return data::Dataset(std::move(parts));
 }
 
+std::set<std::string> NamesOf(const SensorCurve& curve) {
+  std::set<std::string> names;
+  for (const SensorCurve::Chosen& chosen : curve.chosen) {
+    names.insert(chosen.sensor);
+  }
+  return names;
+}
+
 TEST(LearnSensors, FindsTheTwoSensorsThatTheTruthUses) {
-  const data::Dataset days =
-      WithTwoSensorTruth(SimulatedDays(4, 6, 8), "t12_degC", "t27_degC");
+  const data::Dataset days = WithTruthOf(
+      SimulatedDays(4, 6, 8), {{"t12_degC", 1.0}, {"t27_degC", -1.5}});
   const SensorCurve curve = LearnSensors(days, {.most_sensors = 4});
   EXPECT_EQ(curve.enough, 2);
-  ASSERT_EQ(curve.chosen.size(), 2U);
-  const std::set<std::string> found = {curve.chosen[0].sensor,
-                                       curve.chosen[1].sensor};
-  EXPECT_EQ(found, (std::set<std::string>{"t12_degC", "t27_degC"}));
+  EXPECT_EQ(NamesOf(curve), (std::set<std::string>{"t12_degC", "t27_degC"}));
   EXPECT_EQ(curve.chosen[0].stability, 1.0);
+}
+
+TEST(LearnSensors, FindsSensorsToWhichNoSingleStepLeads) {
+  const std::vector<std::pair<std::string, double>> truth = {
+      {"t00_degC", 1.0},
+      {"t12_degC", -1.0},
+      {"t27_degC", 1.0},
+      {"t36_degC", -1.0}};
+  const SensorCurve curve = LearnSensors(
+      WithTruthOf(SimulatedDays(4, 6, 8), truth), {.most_sensors = 4});
+  EXPECT_EQ(
+      NamesOf(curve),
+      (std::set<std::string>{"t00_degC", "t12_degC", "t27_degC", "t36_degC"}));
 }
 
 TEST(LearnSensors, EndsWhereItIsAskedTo) {
