@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -269,12 +270,18 @@ class ChoiceSearch {
   // What rounding gains is no gain.
   static constexpr double kGain = 1e-9;
 
-  double Squares(const std::vector<Index>& sensors) const {
-    return JudgeSensors(design_, training_, sensors).squares;
+  // Beginnings end in the same sets: each is judged once.
+  double Squares(std::vector<Index> sensors) {
+    std::ranges::sort(sensors);
+    const auto [known, is_new] = squares_.try_emplace(sensors, 0.0);
+    if (is_new) {
+      known->second = JudgeSensors(design_, training_, sensors).squares;
+    }
+    return known->second;
   }
 
   // The sensor at `place` becomes the one that does best there.
-  void ImprovePlace(std::size_t place, Choice* choice) const {
+  void ImprovePlace(std::size_t place, Choice* choice) {
     std::vector<Index> trial = choice->sensors;
     for (Index other = 0; other < static_cast<Index>(design_.names.size());
          ++other) {
@@ -288,7 +295,7 @@ class ChoiceSearch {
     }
   }
 
-  Choice Grown(std::vector<Index> sensors) const {
+  Choice Grown(std::vector<Index> sensors) {
     sensors.push_back(-1);
     Choice grown{.sensors = std::move(sensors)};
     ImprovePlace(grown.sensors.size() - 1, &grown);
@@ -296,7 +303,7 @@ class ChoiceSearch {
   }
 
   // Without the sensor that is missed least.
-  Choice Shrunk(const std::vector<Index>& sensors) const {
+  Choice Shrunk(const std::vector<Index>& sensors) {
     Choice shrunk;
     for (std::size_t place = 0; place < sensors.size(); ++place) {
       std::vector<Index> rest = sensors;
@@ -342,6 +349,7 @@ class ChoiceSearch {
   const Design& design_;
   const Training& training_;
   std::vector<Choice> best_;  // by number of sensors
+  std::map<std::vector<Index>, double> squares_;
   stats::Random random_{1};
 };
 
