@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <CLI/Version.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/mman.h>
@@ -24,13 +25,14 @@
 #include "cli/shell/command_reference.h"
 #include "cli/shell/completion.h"
 #include "cli/shell/man_page.h"
-#include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/argument_name.h"
 #include "data/input_error.h"
+#include "data/shown_path.h"
 #include "data/text.h"
 #include "models/report/shell_word.h"
+#include "models/study/record/make_provenance.h"
 #include "models/version.h"
 
 namespace errmap::cli {
@@ -62,6 +64,29 @@ std::string OneLine(std::string text) {
     if (c == '\n' || c == '\r') c = ' ';
   }
   return text;
+}
+
+// A word of the command line with paths as they are shown; they may stand after
+// '=' or ':' (--out=/home/me/study, file:/home/me/map.json) and in lists.
+std::string ShownWord(const std::string& word) {
+  if (word.starts_with('/')) {
+    return data::ShownPath(word);  // commas are part of it
+  }
+  std::string shown;
+  for (std::size_t at = 0; at < word.size();) {
+    const bool begins =
+        word[at] == '/' && at > 0 &&
+        std::string_view("=:,\"").find(word[at - 1]) != std::string_view::npos;
+    if (!begins) {
+      shown += word[at++];
+      continue;
+    }
+    const std::size_t end =
+        std::min(word.find_first_of(",\"", at), word.size());
+    shown += data::ShownPath(word.substr(at, end - at));
+    at = end;
+  }
+  return shown;
 }
 
 // Results must not depend on where and how fast they were made.
@@ -191,7 +216,7 @@ void AddHelpCommand(CLI::App* app) {
 int RunParsed(int argc, char** argv) {
   if (std::find(argv, argv + argc, std::string_view("--keep-paths")) !=
       argv + argc) {
-    KeepPaths();
+    data::KeepPaths();
   }
   Run run{.command_line = ProvenanceCommandLine(argc, argv)};
   CLI::App app(kAbout, "errmap");
@@ -307,6 +332,7 @@ std::string FlagOf(std::string_view member, std::string_view value) {
 
 int RunApplication(int argc, char** argv) {
   data::NameArgumentsBy(FlagOf);
+  models::NameLibrary("CLI11", CLI11_VERSION);
   HoldStandardStreams();
   std::set_terminate(EndAtOnce);
   if (!HasRoomForProducts()) {

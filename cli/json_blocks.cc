@@ -1,5 +1,7 @@
 #include "cli/json_blocks.h"
 
+#include "models/study/record/record_json.h"
+
 namespace errmap::cli {
 
 std::string DumpJson(const Json& document) {
@@ -7,6 +9,14 @@ std::string DumpJson(const Json& document) {
   // Names from files may hold any bytes: what is no UTF-8 is replaced.
   return document.dump(kIndent, ' ', false, Json::error_handler_t::replace) +
          "\n";
+}
+
+Json ProvenanceJson(const std::string& command_line,
+                    const Json& configuration,
+                    const std::vector<study_file::InputFile>& inputs) {
+  Json json = models::ToJson(study_file::MakeProvenance(command_line, inputs));
+  json["configuration"] = configuration;
+  return json;
 }
 
 }  // namespace errmap::cli

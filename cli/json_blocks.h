@@ -1,8 +1,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
+
+#include "models/study_file/provenance.h"
 
 namespace errmap::cli {
 
@@ -10,5 +13,13 @@ using Json = nlohmann::ordered_json;
 
 /// A document as every command prints it.
 std::string DumpJson(const Json& document);
+
+/// The block "provenance" of every document: {"version", "command_line",
+/// "configuration", "inputs": [{"file","sha256"}], "compiler", "libraries":
+/// {name: version}, "platform"}. `configuration` is what took effect, defaults
+/// included; null where there is none.
+Json ProvenanceJson(const std::string& command_line,
+                    const Json& configuration,
+                    const std::vector<study_file::InputFile>& inputs);
 
 }  // namespace errmap::cli

@@ -94,6 +94,17 @@ prints lilliefors -- 'D = 0.10095'
 prints one_row map.json -- '0 allocations'
 prints my_model data.csv -- 'mm by neighbours'
 prints compare data.csv results.json page.html -- 'Use blend: 0.808 um RMSE'
+cat >"$scratch/elsewhere/study.toml" <<'TOML'
+holdouts = ["every:3", "groups:5"]
+models = ["mean", "poly:eq8"]
+[[component]]
+data = "data.csv"
+goal = "2um"
+TOML
+prints study study.toml study.json study.html -- 'poly:eq8'
+"$prefix/bin/errmap" simulate turning-centre -o "$scratch/elsewhere/s" \
+  --days 6 --cycles 6 --points 40 --dead 3,4,16,19 --quiet
+prints machine s/machine.toml s machine.json -- 'recommended'
 for source in "$root"/tests/outside_project/*.cc; do
   most=25
   case $source in */my_model.cc) most=40 ;; esac
@@ -101,6 +112,14 @@ for source in "$root"/tests/outside_project/*.cc; do
   [ "$(grep -c '[^ ]' "$source")" -le "$most" ] ||
     fail "$(basename "$source") has more than $most lines"
 done
+rm -rf "$outside"
+quietly "configuring with the report alone" configure -DERRMAP_PARTS=report
+quietly "building with the report alone" "$cmake" --build "$outside"
+[ ! -e "$outside/study" ] || fail "the report alone builds more"
+(cd "$scratch/elsewhere" &&
+  quietly "running with the report alone" "$outside/report" study.json alone.html)
+cmp "$scratch/elsewhere/study.html" "$scratch/elsewhere/alone.html" ||
+  fail "the report alone draws another page"
 rm -rf "$outside"
 quietly "configuring with the statistics alone" configure \
   -DERRMAP_PARTS=stats -DCMAKE_DISABLE_FIND_PACKAGE_Ceres=TRUE \
@@ -131,8 +150,7 @@ mkdir lib
 cp results.json lib/results.json
 quietly "errmap report" errmap report lib
 cmp lib/report.html page.html || fail "compare draws another page"
-errmap compare data.csv --quiet --format json >theirs.json
-python3 - results.json theirs.json >"$log" 2>&1 <<'SCRIPT' ||
+cat >"$scratch/same.py" <<'SCRIPT'
 import json, sys
 
 def figures(value):
@@ -153,8 +171,20 @@ for one, other in zip(mine["components"], theirs["components"]):
         assert one[key] == other[key], key
 assert mine == theirs
 SCRIPT
-  fail "compare finds something else than the program: $(tail -1 "$log")"
-rm -r lib theirs.json
+# finds_what PROGRAM MINE WORDS...: errmap compare WORDS finds the same.
+finds_what() {
+  program=$1
+  mine=$2
+  shift 2
+  errmap compare "$@" --quiet --format json >theirs.json
+  python3 "$scratch/same.py" "$mine" theirs.json >"$log" 2>&1 ||
+    fail "$program finds something else than errmap: $(tail -1 "$log")"
+}
+finds_what compare results.json data.csv
+finds_what study study.json --config study.toml --set seed=2
+finds_what machine machine.json --machine s/machine.toml s --later 2 \
+  --holdout sessions:4 --models poly:ridge:view=raw
+rm -r lib s theirs.json
 
 # Schemas.
 count=0

@@ -6,13 +6,13 @@
 
 #include "cli/command.h"
 #include "cli/commands/certify_json.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/study_file/data_arguments.h"
-#include "cli/study_file/provenance.h"
 #include "models/certification/certification.h"
 #include "models/report/number_text.h"
 #include "models/report/words/certify_text.h"
+#include "models/study_file/provenance.h"
 
 namespace errmap::cli {
 namespace {

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/study_file/data_arguments.h"
 #include "data/atomic_file.h"
 #include "data/formats/pattern_file.h"
 #include "data/text.h"

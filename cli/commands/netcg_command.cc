@@ -7,17 +7,18 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
 #include "cli/commands/netcg_json.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/study_file/data_arguments.h"
-#include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
+#include "data/prepare_folder.h"
 #include "data/text.h"
 #include "models/netcg/netcg_files.h"
 #include "models/netcg/report_study.h"
 #include "models/report/number_text.h"
+#include "models/study_file/provenance.h"
 
 namespace errmap::cli {
 namespace {
@@ -79,7 +80,7 @@ void WriteFiles(const std::vector<models::NetcgRecord>& records,
 int RunFile(const NetcgArguments& arguments, const std::string& command_line) {
   const std::string& out = arguments.options.netcg.out;
   // Before the work, not after it.
-  if (!out.empty()) PrepareFolder(out);
+  if (!out.empty()) data::PrepareFolder(out);
   const models::NetcgOptions& options = arguments.options.netcg;
   const bool as_json = arguments.format == "json";
   const auto records = models::RunNetcgFile(
@@ -107,7 +108,7 @@ int RunStudy(const NetcgArguments& arguments, const std::string& command_line) {
   const bool as_json = arguments.format == "json";
   const std::string& out = arguments.options.netcg.out;
   // Before the work, not after it.
-  if (!out.empty()) PrepareFolder(out);
+  if (!out.empty()) data::PrepareFolder(out);
   const models::NetcgStudy study =
       models::RunReportStudy(arguments.study, arguments.options);
   const std::string text = models::StudyText(study);

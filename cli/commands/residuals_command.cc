@@ -8,18 +8,17 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
 #include "cli/commands/residual_json.h"
 #include "cli/json_blocks.h"
-#include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
-#include "cli/study_file/data_arguments.h"
-#include "cli/study_file/provenance.h"
 #include "data/csv.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/dataset.h"
+#include "data/shown_path.h"
 #include "data/text.h"
 #include "models/report/number_text.h"
 #include "models/report/words/residual_text.h"
@@ -28,6 +27,7 @@
 #include "models/study/record/fit_blocks.h"
 #include "models/study/record/make_residual_record.h"
 #include "models/study/record/record_json.h"
+#include "models/study_file/provenance.h"
 #include "stats/error_metrics.h"
 #include "stats/report_1995.h"
 
@@ -248,7 +248,7 @@ int RunResiduals(const ResidualsArguments& arguments,
   if (arguments.format == "json") {
     Json document = {
         {"schema", "errmap-residuals-1"},
-        {"file", ShownPath(arguments.file)},
+        {"file", data::ShownPath(arguments.file)},
         {"column", arguments.column},
         {"unit", unit.symbol},
         {"summary", SummaryJson(metrics, values, report.normality.shape)},
@@ -265,7 +265,7 @@ int RunResiduals(const ResidualsArguments& arguments,
     document["provenance"] =
         ProvenanceJson(command_line,
                        ConfigurationJson(arguments, inputs),
-                       {HashInput(arguments.file)});
+                       {study_file::HashInput(arguments.file)});
     PrintResult(DumpJson(document));
     return kDone;
   }

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/study_file/data_arguments.h"
 #include "data/turning_centre/simulation.h"
 #include "data/turning_centre/simulation_files.h"
 #include "models/report/number_text.h"

@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/output/claimed_folder.h"
+#include "data/prepare_folder.h"
 #include "data/text.h"
 
 namespace errmap::cli {
@@ -38,7 +39,7 @@ void ClaimStore(const fleet::StorePaths& paths, bool force) {
         "use it with --force",
         data::PrintablePath(paths.store)));
   }
-  PrepareFolder(paths.store);
+  data::PrepareFolder(paths.store);
 }
 
 }  // namespace errmap::cli

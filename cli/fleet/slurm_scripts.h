@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "cli/fleet/fleet_plan.h"
+#include "models/fleet/run/fleet_plan.h"
 
 namespace errmap::cli {
 
@@ -16,7 +16,7 @@ struct SlurmJob {
   std::string folder;  // of the scripts and the logs
   std::int64_t tasks = 1;
   int cpus = 1;
-  FleetPlan plan;
+  fleet::FleetPlan plan;
 };
 
 /// Each a shell script that people may read and change.

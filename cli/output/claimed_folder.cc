@@ -12,6 +12,7 @@
 #include "cli/json_blocks.h"
 #include "data/atomic_file.h"
 #include "data/formats/nesting.h"
+#include "data/prepare_folder.h"
 #include "data/same_file.h"
 #include "data/sha256.h"
 #include "data/text.h"
@@ -22,11 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kSchema = "errmap-files-1";
-
-[[noreturn]] void ThrowNoFolder(const std::string& path, std::error_code why) {
-  throw std::system_error(
-      why, "cannot write into the folder " + data::PrintablePath(path));
-}
 
 }  // namespace
 
@@ -65,15 +61,6 @@ void RequirePlaceFor(const std::string& output) {
   }
 }
 
-void PrepareFolder(const std::string& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) ThrowNoFolder(path, error);
-  if (access(path.c_str(), W_OK | X_OK) != 0) {
-    ThrowNoFolder(path, {errno, std::generic_category()});
-  }
-}
-
 ClaimedFolder::ClaimedFolder(std::string path,
                              const std::vector<std::string>& names,
                              const std::vector<std::string>& inputs,
@@ -94,7 +81,7 @@ ClaimedFolder::ClaimedFolder(std::string path,
         "folder, move it away, or replace it with --force",
         data::PrintablePath(PathOf(name))));
   }
-  PrepareFolder(path_);
+  data::PrepareFolder(path_);
 }
 
 std::string ClaimedFolder::PathOf(const std::string& name) const {
@@ -146,7 +133,7 @@ void ClaimedFolder::Write(const std::string& name, std::string_view content) {
     is_begun_ = true;
   }
   const std::string path = PathOf(name);
-  PrepareFolder(fs::path(path).parent_path().string());
+  data::PrepareFolder(fs::path(path).parent_path().string());
   data::WriteFileAtomically(path, content);
   hashes_[name] = data::Sha256(content);
 }

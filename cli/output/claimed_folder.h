@@ -19,10 +19,6 @@ void RefuseInputAsOutput(const std::string& flag,
 /// written to. Throws std::system_error as the writing would.
 void RequirePlaceFor(const std::string& output);
 
-/// Creates the folder `path` (and its parents) where it is missing and makes
-/// sure that files can be written there. Throws std::system_error.
-void PrepareFolder(const std::string& path);
-
 /// A folder that errmap writes files of its own names into. errmap-files.json
 /// there says which it wrote, so that a later run replaces these and no others:
 ///

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "cli/output/claimed_folder.h"
-#include "cli/study_file/comparison.h"
-#include "cli/study_file/plan/study_plan.h"
 #include "models/study/record/study_record.h"
+#include "models/study_file/plan/study_plan.h"
+#include "models/study_file/plan/study_run.h"
 
 namespace errmap::cli {
 
@@ -14,16 +14,11 @@ namespace errmap::cli {
 void RemoveAbandoned(const std::string& folder);
 
 /// Names of all files that WriteOutputs may write of a study.
-std::vector<std::string> OutputNames(const StudyPlan& plan);
+std::vector<std::string> OutputNames(const study_file::StudyPlan& plan);
 
-/// Says of each map in `record` which file WriteOutputs makes of it.
-void NameMaps(const StudyRun& run, models::StudyRecord* record);
-
-/// Writes results.json (`record`), residuals.csv, models/*.json and the
-/// report into a folder; of several components residuals/COMPONENT.csv and
-/// models/COMPONENT/*.json.
+/// Writes the files of a run (study_file::WriteRunFiles) and the report.
 /// Throws std::system_error naming the path that could not be written.
-void WriteOutputs(const StudyRun& run,
+void WriteOutputs(const study_file::StudyRun& run,
                   const models::StudyRecord& record,
                   ClaimedFolder* folder);
 

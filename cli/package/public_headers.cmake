@@ -69,6 +69,15 @@ set(ERRMAP_PUBLIC_HEADERS
   models/study/record/study_record.h
   models/study/study.h
   models/study/study_defaults.h
+  models/study_file/machine/machine_file.h
+  models/study_file/machine/machine_judge.h
+  models/study_file/machine/machine_study.h
+  models/study_file/plan/run_files.h
+  models/study_file/plan/run_record.h
+  models/study_file/plan/study_plan.h
+  models/study_file/plan/study_run.h
+  models/study_file/study_config.h
+  models/study_file/toml/study_file.h
   models/version.h
   stats/bias.h
   stats/comparison/holm.h

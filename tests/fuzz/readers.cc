@@ -10,8 +10,6 @@
 
 #include "cli/command.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/study_file/machine/machine_file.h"
-#include "cli/study_file/toml/study_file.h"
 #include "data/csv.h"
 #include "data/formats/pattern_file.h"
 #include "data/input_error.h"
@@ -28,6 +26,8 @@
 #include "models/study/journal/fit_record.h"
 #include "models/study/record/study_record.h"
 #include "models/study/split_file.h"
+#include "models/study_file/machine/machine_file.h"
+#include "models/study_file/toml/study_file.h"
 #include "stats/holdout.h"
 #include "tests/fuzz/scratch_folder.h"
 
@@ -97,7 +97,7 @@ void ReadPredictions(std::string_view bytes) {
 
 void ReadMachine(std::string_view bytes) {
   static const ScratchFolder folder;
-  cli::ReadMachineOutline(folder.Write("machine.toml", bytes));
+  study_file::ReadMachineOutline(folder.Write("machine.toml", bytes));
 }
 
 // Sums are public, so a forger writes them: each line of the text is taken for
@@ -177,7 +177,7 @@ void ReadJournal(std::string_view bytes) {
 }
 
 void ReadStudy(std::string_view bytes) {
-  cli::ParseStudyFile(std::string(bytes), "study.toml", {});
+  study_file::ParseStudyFile(std::string(bytes), "study.toml", {});
 }
 
 void ReadNetcg(std::string_view bytes) {

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "cli/command.h"
-#include "cli/output/results_document.h"
-#include "cli/study_file/plan/study_plan.h"
-#include "cli/study_file/plan/study_run.h"
 #include "data/csv.h"
 #include "data/input_error.h"
 #include "models/report/documents/study_table.h"
 #include "models/study/record/study_record.h"
+#include "models/study_file/plan/run_record.h"
+#include "models/study_file/plan/study_plan.h"
+#include "models/study_file/plan/study_run.h"
 #include "tests/fuzz/readers.h"
 #include "tests/fuzz/scratch_folder.h"
 
@@ -101,17 +101,18 @@ void Judge(const std::string& file, bool is_noise) {
       "poly:stepwise:degree=2",
       "poly:ridge:degree=2",
       "net:scg:hidden=2:iterations=5:wfactor=1e-3"};
-  cli::StudyConfig config;
+  study_file::StudyConfig config;
   config.holdouts = {"every:3", "groups:3", "leave-one-group-out"};
   config.models = models;
   config.components.emplace_back().data = file;
-  const cli::StudyRun run = cli::RunPlan(cli::PlanStudy(config, true), "", {});
-  const models::StudyRecord record = cli::RecordOf(run);
+  const study_file::StudyRun run =
+      study_file::RunPlan(study_file::PlanStudy(config));
+  const models::StudyRecord record = study_file::RecordOf(run);
   const std::string text = models::ToJsonText(record);
   Require(models::ToJsonText(models::FromJsonText(text)) == text);
   Require(!report::StudyTable(record, {}).text.empty());
   if (!is_noise) return;
-  const cli::Comparison& comparison = run.components.at(0);
+  const models::ComponentStudy& comparison = run.components.at(0);
   for (std::size_t h = 0; h < comparison.holdouts.size(); ++h) {
     const auto& verdict = comparison.judgement.verdicts[h];
     if (!comparison.holdouts[h].whole_groups || !verdict ||

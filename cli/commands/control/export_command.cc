@@ -9,8 +9,8 @@
 
 #include "cli/command.h"
 #include "cli/commands/control/export_tables.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/study_file/data_arguments.h"
 #include "data/input_error.h"
 #include "data/text.h"
 #include "models/export/c_code.h"

@@ -9,15 +9,15 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/study_file/data_arguments.h"
-#include "cli/study_file/memory/map_log.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
 #include "models/export/compensation_table.h"
 #include "models/export/error_curve.h"
+#include "models/history/map_log.h"
 #include "models/model_file.h"
 #include "models/report/number_text.h"
 
@@ -89,7 +89,7 @@ ErrorCurve AfterLog(const models::FittedModel& fitted,
                     const models::MapProgram& program,
                     const TableArguments& arguments) {
   const data::CsvTable table =
-      ReadForMap(fitted, arguments.log, MapColumns::kInputs, true);
+      ReadForMap(fitted, arguments.log, models::MapColumns::kInputs, true);
   const auto num_rows = static_cast<int>(table.num_rows);
   const int row = arguments.row < 0 ? num_rows - 1 : arguments.row;
   if (row >= num_rows) {
@@ -98,8 +98,8 @@ ErrorCurve AfterLog(const models::FittedModel& fitted,
                                  data::PrintablePath(arguments.log),
                                  report::Count(num_rows, "row")));
   }
-  const Eigen::MatrixXd readings = InputsOf(fitted, table);
-  const MapLog map = MakeMapLog(fitted, table, {});
+  const Eigen::MatrixXd readings = models::InputsOf(fitted, table);
+  const models::MapLog map = models::MakeMapLog(fitted, table, {});
   models::ProgramRun run(program, models::Precision::kDouble);
   const auto session = [&](Index at) {
     return map.log->sessions.codes[static_cast<std::size_t>(at)];

@@ -15,21 +15,21 @@
 #include <fmt/ranges.h>
 
 #include "cli/command.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/study_file/data_arguments.h"
-#include "cli/study_file/machine/machine_file.h"
-#include "cli/study_file/machine/machine_points.h"
-#include "cli/study_file/machine/true_poses.h"
-#include "cli/study_file/memory/map_log.h"
 #include "data/atomic_file.h"
 #include "data/csv.h"
 #include "data/formula_text.h"
 #include "data/text.h"
+#include "models/history/map_log.h"
 #include "models/kinematics/machine.h"
 #include "models/kinematics/volumetric.h"
 #include "models/report/number_text.h"
+#include "models/study_file/machine/machine_file.h"
+#include "models/study_file/machine/machine_points.h"
+#include "models/study_file/machine/true_poses.h"
 #include "stats/summary.h"
 
 namespace errmap::cli {
@@ -47,7 +47,7 @@ struct VolumetricArguments {
   std::string machine;
   std::string points;
   std::string out;
-  MapLogArguments log;
+  models::MapLogArguments log;
   models::VolumetricOptions options;
   bool quiet = false;
 };
@@ -56,7 +56,7 @@ struct VolumetricArguments {
 struct Synthesis {
   const Machine& machine;
   const data::CsvTable& points;
-  const MachinePoints& maps;
+  const study_file::MachinePoints& maps;
   const VolumetricErrors& errors;
   VectorXd sensitive;  // (m) length of the error in the sensitive directions
 };
@@ -244,23 +244,24 @@ void SayRest(const Synthesis& s, const MatrixX3d& truth) {
 
 // "ppp 12.1, pnp 3.0 um"
 std::string DiagonalText(const Synthesis& s,
-                         const DiagonalRuns& runs,
+                         const study_file::DiagonalRuns& runs,
                          const MatrixX3d& errors) {
   std::vector<Index> rows(s.points.num_rows);
   std::iota(rows.begin(), rows.end(), Index{0});
-  const std::vector<DiagonalFigures> all =
-      DiagonalFiguresOf(s.points,
-                        runs,
-                        rows,
-                        PlacesOf(s.machine.chain, s.maps.coordinates),
-                        errors);
+  const std::vector<study_file::DiagonalFigures> all =
+      study_file::DiagonalFiguresOf(
+          s.points,
+          runs,
+          rows,
+          study_file::PlacesOf(s.machine.chain, s.maps.coordinates),
+          errors);
   double most = 0.0;
-  for (const DiagonalFigures& diagonal : all) {
+  for (const study_file::DiagonalFigures& diagonal : all) {
     most = std::max(most, diagonal.figures.systematic);
   }
   const report::ErrorText text(s.machine.length, most);
   std::vector<std::string> parts;
-  for (const DiagonalFigures& diagonal : all) {
+  for (const study_file::DiagonalFigures& diagonal : all) {
     parts.push_back(
         fmt::format("{} {}", diagonal.name, text(diagonal.figures.systematic)));
   }
@@ -270,7 +271,8 @@ std::string DiagonalText(const Synthesis& s,
 // ISO 230-6:2002, both ways together, where the points lie on diagonals.
 std::vector<std::string> DiagonalLines(const Synthesis& s,
                                        const std::optional<MatrixX3d>& truth) {
-  const std::optional<DiagonalRuns> runs = ReadDiagonalRuns(s.points);
+  const std::optional<study_file::DiagonalRuns> runs =
+      study_file::ReadDiagonalRuns(s.points);
   if (!runs) return {};
   constexpr const char* kWhat = "systematic deviation E along diagonals";
   std::vector<std::string> lines = {
@@ -322,13 +324,14 @@ int RunVolumetric(const VolumetricArguments& arguments) {
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
-  const MachineFile file = ReadMachineFile(arguments.machine);
+  const study_file::MachineFile file =
+      study_file::ReadMachineFile(arguments.machine);
   RefuseInputAsOutput("-o", arguments.out, InputsOf(arguments, file.machine));
   const data::CsvTable points = data::ReadCsv(arguments.points);
   std::optional<data::CsvTable> log;
   if (!arguments.log.after.empty()) log = data::ReadCsv(arguments.log.after);
-  const MachinePoints maps =
-      EvaluateAt(file.machine, points, log ? &*log : nullptr, arguments.log);
+  const study_file::MachinePoints maps = study_file::EvaluateAt(
+      file.machine, points, log ? &*log : nullptr, arguments.log);
   const VolumetricErrors errors = models::CombineErrors(
       file.machine.chain, maps.coordinates, maps.components, arguments.options);
   const Synthesis synthesis{file.machine,
@@ -337,7 +340,8 @@ int RunVolumetric(const VolumetricArguments& arguments) {
                             errors,
                             SensitiveLengths(file.machine, errors.exact)};
   std::optional<MatrixX3d> truth;
-  if (HasTrueErrors(points)) truth = TrueErrors(points, file.machine);
+  if (study_file::HasTrueErrors(points))
+    truth = study_file::TrueErrors(points, file.machine);
   const std::vector<std::string> diagonals = DiagonalLines(synthesis, truth);
   const std::string text = OutputTable(synthesis).Text();
   if (arguments.out.empty()) {

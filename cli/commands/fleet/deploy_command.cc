@@ -12,6 +12,7 @@
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
+#include "data/prepare_folder.h"
 #include "data/sha256.h"
 #include "data/text.h"
 #include "models/fleet/store/deployments.h"
@@ -119,7 +120,7 @@ int RunDeploy(const DeployArguments& arguments) {
   deployment.map = data::Sha256(map);
   const auto keep = [&](const std::string& text) {
     const std::string path = paths.Map(data::Sha256(text));
-    PrepareFolder(std::filesystem::path(path).parent_path().string());
+    data::PrepareFolder(std::filesystem::path(path).parent_path().string());
     data::WriteFileAtomically(path, text);
   };
   keep(map);

@@ -3,9 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/fleet/fleet_commands.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/study_file/data_arguments.h"
 #include "models/fleet/store/fleet_table.h"
 #include "models/fleet/store/merge.h"
 

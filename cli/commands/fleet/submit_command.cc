@@ -11,16 +11,17 @@
 #include <fmt/format.h>
 #include <sys/wait.h>
 
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/fleet/fleet_commands.h"
 #include "cli/fleet/claim_store.h"
-#include "cli/fleet/fleet_plan.h"
-#include "cli/fleet/fleet_run.h"
 #include "cli/fleet/slurm_scripts.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/study_file/data_arguments.h"
 #include "data/atomic_file.h"
+#include "data/prepare_folder.h"
 #include "data/text.h"
+#include "models/fleet/run/fleet_plan.h"
+#include "models/fleet/run/fleet_run.h"
 
 extern char** environ;
 
@@ -57,7 +58,8 @@ int RunScript(const std::string& path) {
 
 int RunSubmit(const SubmitArguments& arguments,
               const std::string& command_line) {
-  const StudyFile study = ExpandFleet(ReadStudyFile(arguments.config));
+  const study_file::StudyFile study =
+      fleet::ExpandFleet(study_file::ReadStudyFile(arguments.config));
   const fleet::StorePaths store{arguments.store};
   ClaimStore(store, arguments.force);
   const std::string folder = (fs::absolute(arguments.store) / "slurm").string();
@@ -67,9 +69,9 @@ int RunSubmit(const SubmitArguments& arguments,
                      .folder = folder,
                      .tasks = arguments.tasks,
                      .cpus = arguments.cpus,
-                     .plan = PlanFleet(study.config)};
-  fleet::WriteFleet(store, FleetOf(study, command_line));
-  PrepareFolder(folder);
+                     .plan = fleet::PlanFleet(study.config)};
+  fleet::WriteFleet(store, fleet::FleetOf(study, command_line));
+  data::PrepareFolder(folder);
   data::WriteFileAtomically(folder + "/shards.sh", ShardsScript(job));
   data::WriteFileAtomically(folder + "/merge.sh", MergeScript(job));
   data::WriteFileAtomically(folder + "/submit.sh", SubmitScript(job));

@@ -11,12 +11,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/fleet/fleet_commands.h"
-#include "cli/commands/maps/map_rows.h"
+#include "cli/commands/maps/map_warnings.h"
 #include "cli/json_blocks.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/study_file/data_arguments.h"
-#include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
 #include "data/measurements/column_match.h"
 #include "data/sha256.h"
@@ -26,6 +25,7 @@
 #include "models/fleet/store/watch_report.h"
 #include "models/fleet/store/watched_files.h"
 #include "models/model_file.h"
+#include "models/study_file/provenance.h"
 
 namespace errmap::cli {
 namespace {
@@ -49,9 +49,9 @@ struct SessionRows {
 };
 
 std::vector<SessionRows> SessionsOf(const models::FittedModel& fitted,
-                                    const MapRows& rows) {
+                                    const models::MapRows& rows) {
   const std::vector<models::Moment> moments =
-      MomentsOf(fitted, rows.table, rows.dataset.rows(), {});
+      models::MomentsOf(fitted, rows.table, rows.dataset.rows(), {});
   std::vector<SessionRows> sessions;
   for (std::size_t i = 0; i < moments.size(); ++i) {
     if (sessions.empty() || sessions.back().label != moments[i].session) {
@@ -93,9 +93,7 @@ class Examiner {
   const models::FittedModel& fitted() const { return fitted_; }
 
   std::vector<fleet::Check> Examine(const std::string& file) const {
-    MapRowsArguments arguments;
-    arguments.file = file;
-    const MapRows rows = ReadMapRows(fitted_, arguments, true);
+    const models::MapRows rows = ReadMapRows(fitted_, file, {}, true);
     const RowsJudged judged = JudgeMapRows(fitted_, rows, true);
     const Eigen::VectorXd residuals =
         rows.dataset.target_values() -
@@ -246,7 +244,8 @@ class Watcher {
     try {
       const Examiner examiner(paths_, component.deployment);
       Append(examiner.Examine(file.file), &component.checks);
-      known_ += HashInput(file.file).sha256 == file.deployment->data_sha256;
+      known_ += study_file::HashInput(file.file).sha256 ==
+                file.deployment->data_sha256;
       component.file = file.file;
       component.examined = !component.checks.empty();
       JudgeMap(examiner.fitted(), &component);

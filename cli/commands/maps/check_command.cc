@@ -5,21 +5,21 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
-#include "cli/commands/maps/map_rows.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/json_blocks.h"
-#include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
-#include "cli/study_file/data_arguments.h"
-#include "cli/study_file/provenance.h"
 #include "data/input_error.h"
+#include "data/shown_path.h"
 #include "data/text.h"
 #include "models/model_file.h"
 #include "models/promise/applicability.h"
+#include "models/promise/map_rows.h"
 #include "models/promise/session_check.h"
 #include "models/report/number_text.h"
+#include "models/study_file/provenance.h"
 
 namespace errmap::cli {
 namespace {
@@ -29,7 +29,9 @@ constexpr double kPercent = 100.0;
 
 struct CheckArguments {
   std::string model;
-  MapRowsArguments rows;
+  std::string file;
+  // Rows without a target are readings between the probes.
+  models::MapRowsOptions rows{.missing = data::MissingPolicy::kDropRows};
   std::string format = "table";
   bool quiet = false;
 };
@@ -177,15 +179,16 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
         data::PrintablePath(arguments.model)));
   }
   const models::HeldOutErrors& errors = *fitted.held_out;
-  const MapRows rows = ReadMapRows(fitted, arguments.rows, arguments.quiet);
+  const models::MapRows rows =
+      ReadMapRows(fitted, arguments.file, arguments.rows, arguments.quiet);
   const RowsJudged judged = JudgeMapRows(fitted, rows, arguments.quiet);
   const Eigen::VectorXd predicted =
       fitted.PredictForm(judged.form_inputs).errors;
-  if (SayNotFinite(predicted, rows.dataset.rows(), arguments.rows.file)) {
+  if (SayNotFinite(predicted, rows.dataset.rows(), arguments.file)) {
     return kEveryFitFailed;
   }
   const Eigen::VectorXd elapsed =
-      ElapsedSinceStart(fitted, rows, arguments.rows.log);
+      models::ElapsedSinceStart(fitted, rows, arguments.rows.log);
   const models::SessionCheck check =
       models::CheckSession(errors,
                            elapsed,
@@ -195,16 +198,17 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
   if (arguments.format == "json") {
     Json document = {{"schema", "errmap-check-1"},
                      {"model", fitted.name},
-                     {"file", ShownPath(arguments.rows.file)},
+                     {"file", data::ShownPath(arguments.file)},
                      {"target", fitted.target.name},
                      {"unit", fitted.target.unit.symbol}};
     document.update(CheckJson(check));
     document["sites"] = SitesJson(sites);
-    document["provenance"] = ProvenanceJson(
-        command_line,
-        {{"missing", arguments.rows.missing},
-         {"faults", arguments.rows.faults}},
-        {HashInput(arguments.model), HashInput(arguments.rows.file)});
+    document["provenance"] =
+        ProvenanceJson(command_line,
+                       {{"missing", ToString(arguments.rows.missing)},
+                        {"faults", ToString(arguments.rows.faults)}},
+                       {study_file::HashInput(arguments.model),
+                        study_file::HashInput(arguments.file)});
     PrintResult(DumpJson(document));
   } else {
     const report::ErrorText error(fitted.target.unit, check.promised);
@@ -213,7 +217,7 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
         arguments.model,
         fitted.name,
         report::Count(check.probes, "probe"),
-        arguments.rows.file,
+        arguments.file,
         TimesText(errors, elapsed),
         error.WithUnit(check.probe_rms),
         error.WithUnit(check.probe_mean),
@@ -230,7 +234,6 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
 
 void AddCheckCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<CheckArguments>();
-  arguments->rows.missing = kProbesOnly;
   CLI::App* command = app->add_subcommand(
       "check", "Tell from a few probes whether a map holds in this session");
   command->add_option("MODEL", arguments->model, "Model file")
@@ -238,7 +241,7 @@ void AddCheckCommand(CLI::App* app, Run* run) {
       ->type_name("FILE.json");
   command
       ->add_option("PROBES",
-                   arguments->rows.file,
+                   arguments->file,
                    "CSV file of a few measurements of one session: inputs and "
                    "target")
       ->required()

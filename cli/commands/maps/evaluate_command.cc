@@ -6,25 +6,26 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
-#include "cli/commands/maps/map_rows.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/json_blocks.h"
-#include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
-#include "cli/study_file/data_arguments.h"
-#include "cli/study_file/provenance.h"
+#include "data/shown_path.h"
 #include "data/text.h"
 #include "models/model_file.h"
 #include "models/promise/kept_promise.h"
+#include "models/promise/map_rows.h"
 #include "models/report/documents/summary_text.h"
 #include "models/report/number_text.h"
+#include "models/report/words/data_words.h"
 #include "models/study/fold_pool.h"
 #include "models/study/record/fit_blocks.h"
 #include "models/study/record/make_residual_record.h"
 #include "models/study/record/make_study_record.h"
 #include "models/study/record/record_json.h"
+#include "models/study_file/provenance.h"
 #include "models/trained_range.h"
 #include "stats/kolmogorov_smirnov.h"
 
@@ -33,7 +34,8 @@ namespace {
 
 struct EvaluateArguments {
   std::string model;
-  MapRowsArguments rows;
+  std::string file;
+  models::MapRowsOptions rows;
   std::string format = "table";
   bool quiet = false;
 };
@@ -178,12 +180,13 @@ std::string PromiseText(const models::KeptPromise& kept,
 int RunEvaluate(const EvaluateArguments& arguments,
                 const std::string& command_line) {
   const models::FittedModel fitted = models::LoadModel(arguments.model);
-  const MapRows rows = ReadMapRows(fitted, arguments.rows, arguments.quiet);
+  const models::MapRows rows =
+      ReadMapRows(fitted, arguments.file, arguments.rows, arguments.quiet);
   const data::Dataset& dataset = rows.dataset;
   const RowsJudged judged = JudgeMapRows(fitted, rows, arguments.quiet);
   const models::Prediction prediction = fitted.PredictForm(judged.form_inputs);
   const Eigen::VectorXd& predicted = prediction.errors;
-  if (SayNotFinite(predicted, dataset.rows(), arguments.rows.file)) {
+  if (SayNotFinite(predicted, dataset.rows(), arguments.file)) {
     return kEveryFitFailed;
   }
   const Eigen::Index clipped = prediction.clipped.count();
@@ -201,7 +204,7 @@ int RunEvaluate(const EvaluateArguments& arguments,
     Say(
         fmt::format("{}: the predictions err by {:.3g} RMSE, too much to be "
                     "squared; the map does not serve there",
-                    data::PrintablePath(arguments.rows.file),
+                    data::PrintablePath(arguments.file),
                     metrics.rmse));
     return kEveryFitFailed;
   }
@@ -212,7 +215,7 @@ int RunEvaluate(const EvaluateArguments& arguments,
     PrintResult(DumpJson(
         {{"schema", "errmap-evaluate-1"},
          {"model", fitted.name},
-         {"file", ShownPath(arguments.rows.file)},
+         {"file", data::ShownPath(arguments.file)},
          {"target", fitted.target.name},
          {"unit", fitted.target.unit.symbol},
          {"align", data::ToString(fitted.align)},
@@ -227,19 +230,19 @@ int RunEvaluate(const EvaluateArguments& arguments,
           models::ToJson(models::MakeRecord(
               stats::AssessNormality(stats::OrderedSample(residuals)), {}))},
          {"provenance",
-          ProvenanceJson(
-              command_line,
-              {{"missing", arguments.rows.missing},
-               {"faults", arguments.rows.faults}},
-              {HashInput(arguments.model), HashInput(arguments.rows.file)})}}));
+          ProvenanceJson(command_line,
+                         {{"missing", ToString(arguments.rows.missing)},
+                          {"faults", ToString(arguments.rows.faults)}},
+                         {study_file::HashInput(arguments.model),
+                          study_file::HashInput(arguments.file)})}}));
     return kDone;
   }
   PrintFitted(fmt::format(
       "{} ({}) on {}: target - predicted of {}\n{}{}{}",
       arguments.model,
       fitted.name,
-      arguments.rows.file,
-      TargetText(dataset),
+      arguments.file,
+      report::TargetWords(dataset),
       report::SummaryText(metrics, fitted.target.unit, ks_d, ks_p),
       PromiseText(kept, report::ErrorText(fitted.target.unit, kept.found)),
       change ? ChangeText(*change) : ""));
@@ -256,8 +259,7 @@ void AddEvaluateCommand(CLI::App* app, Run* run) {
       ->required()
       ->type_name("FILE.json");
   command
-      ->add_option(
-          "DATA", arguments->rows.file, "CSV file with inputs and target")
+      ->add_option("DATA", arguments->file, "CSV file with inputs and target")
       ->required()
       ->type_name("FILE.csv");
   AddRowOptions(command, &arguments->rows.missing, &arguments->rows.faults);

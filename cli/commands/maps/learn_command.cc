@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
 #include "cli/commands/maps/learning_text.h"
 #include "cli/commands/maps/map_warnings.h"
@@ -16,12 +17,11 @@
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/shell/interrupt.h"
-#include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
-#include "cli/study_file/data_arguments.h"
-#include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
+#include "data/prepare_folder.h"
+#include "data/shown_path.h"
 #include "fitting/interruption.h"
 #include "models/model_spec.h"
 #include "models/promise/learning_curve.h"
@@ -36,6 +36,7 @@
 #include "models/study/journal/fit_label.h"
 #include "models/study/record/record_json.h"
 #include "models/study/study_defaults.h"
+#include "models/study_file/provenance.h"
 
 namespace errmap::cli {
 namespace {
@@ -91,7 +92,7 @@ std::unique_ptr<models::JournalFile> OpenJournal(
   // Of its own, so that a study in the same folder keeps its fits.
   const std::string folder =
       (std::filesystem::path(arguments.out) / "learn").string();
-  PrepareFolder(folder);
+  data::PrepareFolder(folder);
   // What a killed run was writing.
   data::RemoveAbandonedFiles(arguments.out);
   JournalFile::RequireNoOther(folder, arguments.force);
@@ -148,7 +149,7 @@ Eigen::MatrixXd ReadCandidates(const std::string& file,
     columns.inputs.push_back({.column = input});
   }
   const data::CsvTable table =
-      ReadForMap(columns, file, MapColumns::kInputs, quiet);
+      ReadForMap(columns, file, models::MapColumns::kInputs, quiet);
   Eigen::MatrixXd values(static_cast<Index>(table.num_rows),
                          dataset.num_inputs());
   for (Index i = 0; i < values.cols(); ++i) {
@@ -280,10 +281,11 @@ void LearnNext(const LearnArguments& arguments,
 
 // In the target's unit.
 double GoalOf(const LearnArguments& arguments, const data::Unit& target) {
-  const GivenError given = ErrorOfFlag("--goal", arguments.goal, false);
+  const study_file::GivenError given =
+      ErrorOfFlag("--goal", arguments.goal, false);
   if (!given.is_given()) return models::DefaultGoal(target);
   try {
-    return InUnitOf(target, given);
+    return study_file::InUnitOf(target, given);
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("--goal {}", error.what()));
   }
@@ -320,17 +322,18 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
     return kInterrupted;
   }
   models::LearningRecord& record = learned.record;
-  record.file = ShownPath(arguments.data.file);
+  record.file = data::ShownPath(arguments.data.file);
   record.target = dataset.target().name;
   record.unit = dataset.target().unit.symbol;
   if (!arguments.by.empty()) record.by = arguments.by;
   Json document = models::ToJson(record);
-  document["provenance"] = ProvenanceJson(command_line,
-                                          {{"models", arguments.model_list},
-                                           {"repeats", arguments.repeats},
-                                           {"sensors", arguments.sensors},
-                                           {"seed", arguments.seed}},
-                                          {HashInput(arguments.data.file)});
+  document["provenance"] =
+      ProvenanceJson(command_line,
+                     {{"models", arguments.model_list},
+                      {"repeats", arguments.repeats},
+                      {"sensors", arguments.sensors},
+                      {"seed", arguments.seed}},
+                     {study_file::HashInput(arguments.data.file)});
   if (arguments.format == "json") {
     PrintResult(DumpJson(document));
   } else {

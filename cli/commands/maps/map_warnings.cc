@@ -1,14 +1,15 @@
 #include "cli/commands/maps/map_warnings.h"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "cli/study_file/data_arguments.h"
-#include "data/measurements/column_match.h"
+#include "cli/commands/data_arguments.h"
 #include "data/text.h"
 #include "models/report/number_text.h"
-#include "models/trained_range.h"
+#include "models/report/words/fault_text.h"
+#include "models/report/words/outside_text.h"
 
 namespace errmap::cli {
 
@@ -16,126 +17,49 @@ using Eigen::Index;
 
 data::CsvTable ReadForMap(const models::FittedModel& fitted,
                           const std::string& file,
-                          MapColumns columns,
+                          models::MapColumns columns,
                           bool quiet) {
-  std::vector<data::ColumnInfo> of_map;
-  for (const models::TrainedInput& input : fitted.inputs) {
-    of_map.push_back(input.column);
-  }
-  if (columns == MapColumns::kInputsAndTarget) of_map.push_back(fitted.target);
-  data::TableForMap read = data::InMapUnits(data::ReadCsv(file), of_map);
-  if (!quiet) {
-    for (const std::string& remark : read.remarks) Say(remark);
-  }
+  data::TableForMap read = models::ReadForMap(fitted, file, columns);
+  SayUnless(quiet, read.remarks);
   return std::move(read.table);
 }
 
-Eigen::MatrixXd InputsOf(const models::FittedModel& fitted,
-                         const data::CsvTable& table) {
-  Eigen::MatrixXd inputs(static_cast<Eigen::Index>(table.num_rows),
-                         static_cast<Eigen::Index>(fitted.inputs.size()));
-  Eigen::Index column = 0;
-  for (const models::TrainedInput& input : fitted.inputs) {
-    inputs.col(column++) = data::NumericColumn(
-        table, input.column.name, data::MissingPolicy::kError, nullptr);
+models::MapRows ReadMapRows(const models::FittedModel& fitted,
+                            const std::string& file,
+                            const models::MapRowsOptions& options,
+                            bool quiet) {
+  models::MapRows rows = models::MakeMapRows(
+      fitted,
+      ReadForMap(fitted, file, models::MapColumns::kInputsAndTarget, quiet),
+      options);
+  if (!quiet) {
+    SayUnless(false, rows.prepared.remarks);
+    SayUnless(false,
+              report::FaultLines(
+                  rows.prepared, options.faults, report::FaultUse::kJudge));
+    SayUnless(false, rows.warnings);
   }
-  return inputs;
+  return rows;
 }
 
-void SayOutside(const std::vector<models::TrainedInput>& inputs,
-                const Eigen::MatrixXd& values) {
-  constexpr std::size_t kMostInputs = 5;
-  Index rows = 0;
-  for (Index row = 0; row < values.rows(); ++row) {
-    rows += models::IsInside(inputs, values, row) ? 0 : 1;
-  }
-  if (rows == 0) return;
-  Say(fmt::format(
-      "warning: {} outside the trained range of the inputs: there the "
-      "map extrapolates",
-      report::Count(rows, "row")));
-  const std::vector<models::InputOutside> outside =
-      models::InputsOutside(inputs, values);
-  for (std::size_t i = 0; i < outside.size() && i < kMostInputs; ++i) {
-    const models::InputOutside& found = outside[i];
-    const models::TrainedInput& input =
-        inputs[static_cast<std::size_t>(found.input)];
-    const std::string& symbol = input.column.unit.symbol;
-    Say(fmt::format(
-        "warning: {} is {:g} to {:g}{}, trained {:g} to {:g}: {} outside{}",
-        data::Printable(input.column.name, input.column.name.size()),
-        found.min,
-        found.max,
-        symbol.empty() ? "" : " " + symbol,
-        input.min,
-        input.max,
-        report::Count(found.num_rows, "row"),
-        found.looks_like.empty()
-            ? ""
-            : fmt::format("; as if in {}: say so in the column's name",
-                          found.looks_like)));
-  }
-  if (outside.size() > kMostInputs) {
-    Say(fmt::format(
-        "warning: and {} more outside",
-        report::Count(static_cast<long long>(outside.size() - kMostInputs),
-                      "input")));
-  }
+RowsJudged JudgeMapRows(const models::FittedModel& fitted,
+                        const models::MapRows& rows,
+                        bool quiet) {
+  RowsJudged judged{.form_inputs = fitted.FormInputs(rows.dataset),
+                    .flags = {}};
+  const Eigen::MatrixXd& inputs = rows.dataset.input_values();
+  judged.flags = models::FlagRows(fitted, inputs, judged.form_inputs);
+  if (!quiet)
+    SayOutside(fitted.inputs, inputs, judged.flags, rows.dataset.rows());
+  return judged;
 }
 
-std::string FlagText(const models::RowFlag& flag) {
-  const std::string name =
-      data::Printable(flag.column.name, flag.column.name.size());
-  const std::string& symbol = flag.column.unit.symbol;
-  switch (flag.why) {
-    case models::Outside::kNo:
-      return "";
-    case models::Outside::kRange:
-    case models::Outside::kRelation:
-      return fmt::format("{} is {:.6g}{}, {} {:.6g} to {:.6g}",
-                         name,
-                         flag.value,
-                         symbol.empty() ? "" : " " + symbol,
-                         flag.why == models::Outside::kRange
-                             ? "trained"
-                             : "the other inputs tell",
-                         flag.low,
-                         flag.high);
-    case models::Outside::kDistance:
-      return fmt::format(
-          "the thermal state is {:.1f} times as far from every trained one as "
-          "held-out rows were",
-          flag.severity);
-    case models::Outside::kLeverage:
-      return fmt::format(
-          "the leverage of the thermal state is {:.2g}, at most {:.2g} in "
-          "held-out rows",
-          flag.value,
-          flag.high);
-  }
-  return "";
-}
-
-void SayUnlike(const std::vector<models::RowFlag>& flags,
-               const std::vector<Index>& rows) {
-  Index unlike = 0;
-  std::size_t worst = 0;
-  for (std::size_t i = 0; i < flags.size(); ++i) {
-    if (!flags[i].outside()) continue;
-    if (flags[i].severity > flags[worst].severity) worst = i;
-    if (flags[i].why != models::Outside::kRange) ++unlike;
-  }
-  if (unlike > 0) {
-    Say(fmt::format(
-        "warning: {} in a thermal state unlike those of training, or with "
-        "inputs that do not go together as they did there",
-        report::Count(unlike, "row")));
-  }
-  if (!flags.empty() && flags[worst].outside()) {
-    Say(fmt::format("warning: farthest outside is data row {}: {}",
-                    rows[worst],
-                    FlagText(flags[worst])));
-  }
+void SayOutside(const std::vector<models::TrainedInput>& trained,
+                const Eigen::MatrixXd& inputs,
+                const std::vector<models::RowFlag>& flags,
+                const std::vector<Index>& rows) {
+  SayUnless(false, report::OutsideLines(trained, inputs));
+  SayUnless(false, report::UnlikeLines(flags, rows));
 }
 
 bool SayNotFinite(const Eigen::VectorXd& predicted,

@@ -3,35 +3,43 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "data/csv.h"
 #include "models/error_model.h"
 #include "models/promise/applicability.h"
+#include "models/promise/map_rows.h"
 
 namespace errmap::cli {
 
-enum class MapColumns { kInputs, kInputsAndTarget };
-
-/// Reads a file in the names and units of the map (InMapUnits) and says what
-/// was converted, unless quiet.
+/// models::ReadForMap; says what was converted, unless quiet.
 data::CsvTable ReadForMap(const models::FittedModel& fitted,
                           const std::string& file,
-                          MapColumns columns,
+                          models::MapColumns columns,
                           bool quiet);
 
-/// The map's inputs in every row of such a table (rows x inputs). Throws
-/// data::InputError where a column is missing or a cell is no number.
-Eigen::MatrixXd InputsOf(const models::FittedModel& fitted,
-                         const data::CsvTable& table);
+/// The measured rows of a file; remarks and warnings go to stderr unless quiet.
+/// Throws data::InputError as MakeMapRows does.
+models::MapRows ReadMapRows(const models::FittedModel& fitted,
+                            const std::string& file,
+                            const models::MapRowsOptions& options,
+                            bool quiet);
 
-/// Says on stderr which inputs leave their trained range, in how many rows and
-/// how far; `values` (m x p) in the map's units. Says nothing where none does.
-void SayOutside(const std::vector<models::TrainedInput>& inputs,
-                const Eigen::MatrixXd& values);
+/// Says where `rows` are unlike training, unless quiet.
+struct RowsJudged {
+  Eigen::MatrixXd form_inputs;  // (rows x inputs of the form)
+  std::vector<models::RowFlag> flags;
+};
+RowsJudged JudgeMapRows(const models::FittedModel& fitted,
+                        const models::MapRows& rows,
+                        bool quiet);
 
-/// Says which rows are unlike training though each input may lie within its
-/// range, and names the worst; `rows` (m) are the data rows of the file.
-void SayUnlike(const std::vector<models::RowFlag>& flags,
-               const std::vector<Eigen::Index>& rows);
+/// Says on stderr which inputs (m x p) leave their trained range and which rows
+/// are unlike training; `rows` (m) are the data rows of the file.
+void SayOutside(const std::vector<models::TrainedInput>& trained,
+                const Eigen::MatrixXd& inputs,
+                const std::vector<models::RowFlag>& flags,
+                const std::vector<Eigen::Index>& rows);
 
 /// "t12_degC is 38.2 degC, the other inputs tell 33.1 to 33.7".
 std::string FlagText(const models::RowFlag& flag);

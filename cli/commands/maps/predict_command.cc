@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -9,17 +10,18 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/maps/map_warnings.h"
-#include "cli/commands/maps/probe_correction.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/study_file/data_arguments.h"
-#include "cli/study_file/memory/map_log.h"
 #include "data/atomic_file.h"
 #include "data/csv.h"
 #include "data/formula_text.h"
+#include "data/input_error.h"
 #include "data/measurements/dataset.h"
+#include "models/history/map_log.h"
 #include "models/model_file.h"
+#include "models/promise/probe_correction.h"
 #include "models/report/number_text.h"
 #include "models/report/words/interval_text.h"
 #include "models/trained_range.h"
@@ -32,7 +34,7 @@ struct PredictArguments {
   std::string file;
   std::string out;
   std::string probes;
-  MapLogArguments log;
+  models::MapLogArguments log;
   bool quiet = false;
 };
 
@@ -41,7 +43,7 @@ struct PredictArguments {
 data::Dataset RowsToPredict(const models::FittedModel& fitted,
                             const data::CsvTable& table,
                             Eigen::MatrixXd inputs,
-                            const MapLog& map) {
+                            const models::MapLog& map) {
   data::Dataset::Parts parts;
   parts.source = table.file;
   for (const models::TrainedInput& input : fitted.inputs) {
@@ -58,10 +60,44 @@ data::Dataset RowsToPredict(const models::FittedModel& fitted,
   return data::Dataset(std::move(parts));
 }
 
+models::ProbeCorrection Correct(const models::FittedModel& fitted,
+                                const models::RowsForMap& today,
+                                const PredictArguments& arguments) {
+  if (fitted.held_out == nullptr) {
+    throw data::InputError(
+        "the map holds no errors of unseen days to weigh probes by; fit it "
+        "with compare, or with fit and without --no-interval");
+  }
+  const models::MapRows probes =
+      ReadMapRows(fitted,
+                  arguments.probes,
+                  models::ProbeRowsOptions(fitted, arguments.log),
+                  arguments.quiet);
+  return models::CorrectByProbes(fitted, probes, today, arguments.log);
+}
+
+std::string OffsetText(const models::FittedModel& fitted,
+                       const models::ProbeCorrection& correction) {
+  const models::OffsetTrack& track = correction.track;
+  const auto corrected = std::ranges::count_if(
+      track.used, [](Eigen::Index used) { return used > 0; });
+  const Eigen::Index last = track.offset.size() - 1;
+  const double known = std::sqrt(track.variance[last]);
+  const report::ErrorText error(fitted.target.unit,
+                                std::sqrt(correction.model.noise));
+  return fmt::format(
+      "{} move {} of {}; the offset in the last is {}, known to {}",
+      report::Count(correction.num_probes, "probe"),
+      corrected,
+      report::Count(track.offset.size(), "row"),
+      error.WithUnit(track.offset[last]),
+      error.WithUnit(known));
+}
+
 // Of the interval of one row; NaN without one.
 double HalfWidth(const models::FittedModel& fitted,
                  std::size_t level,
-                 const std::optional<ProbeCorrection>& probes,
+                 const std::optional<models::ProbeCorrection>& probes,
                  Eigen::Index row) {
   if (!fitted.interval) return std::numeric_limits<double>::quiet_NaN();
   return fitted.interval->levels[level].half_width *
@@ -83,23 +119,19 @@ int RunPredict(const PredictArguments& arguments) {
       arguments.out,
       {arguments.model, arguments.file, arguments.log.after, arguments.probes});
   const models::FittedModel fitted = models::LoadModel(arguments.model);
-  const data::CsvTable table =
-      ReadForMap(fitted, arguments.file, MapColumns::kInputs, arguments.quiet);
-  const Eigen::MatrixXd inputs = InputsOf(fitted, table);
+  const data::CsvTable table = ReadForMap(
+      fitted, arguments.file, models::MapColumns::kInputs, arguments.quiet);
+  const Eigen::MatrixXd inputs = models::InputsOf(fitted, table);
   std::vector<Eigen::Index> all_rows(table.num_rows);
   std::iota(all_rows.begin(), all_rows.end(), Eigen::Index{0});
-  const MapLog map = MakeMapLog(fitted, table, arguments.log);
+  const models::MapLog map = models::MakeMapLog(fitted, table, arguments.log);
   const data::Dataset rows = RowsToPredict(fitted, table, inputs, map);
   const Eigen::MatrixXd form_inputs = fitted.FormInputs(rows);
   models::Prediction prediction = fitted.PredictForm(form_inputs);
-  std::optional<ProbeCorrection> probes;
+  std::optional<models::ProbeCorrection> probes;
   if (!arguments.probes.empty()) {
-    probes = CorrectByProbes(fitted,
-                             arguments.probes,
-                             {table, inputs},
-                             arguments.log,
-                             arguments.quiet);
-    prediction.errors += probes->offset;
+    probes = Correct(fitted, {table, inputs}, arguments);
+    prediction.errors += probes->track.offset;
   }
   const std::vector<models::RowFlag> flags =
       models::FlagRows(fitted, inputs, form_inputs);
@@ -164,10 +196,9 @@ int RunPredict(const PredictArguments& arguments) {
           report::ErrorText(fitted.target.unit,
                             fitted.interval->levels[0].half_width)));
     }
-    if (probes) Say(probes->line);
+    if (probes) Say(OffsetText(fitted, *probes));
     for (const std::string& warning : map.warnings) Say(warning);
-    SayOutside(fitted.inputs, inputs);
-    SayUnlike(flags, all_rows);
+    SayOutside(fitted.inputs, inputs, flags, all_rows);
     if (const Eigen::Index clipped = prediction.clipped.count(); clipped > 0) {
       Say(
           fmt::format("warning: {} clipped by the map's guards, since an input "

@@ -8,22 +8,22 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/shell/interrupt.h"
-#include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/study_file/data_arguments.h"
-#include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
+#include "data/shown_path.h"
 #include "data/text.h"
 #include "models/model_file.h"
 #include "models/promise/map_update.h"
 #include "models/promise/promise.h"
 #include "models/report/number_text.h"
 #include "models/study/study_defaults.h"
+#include "models/study_file/provenance.h"
 
 namespace errmap::cli {
 namespace {
@@ -34,8 +34,8 @@ struct UpdateArguments {
   std::string known;  // rows that the map was fitted to; "": as it says itself
   std::string time;
   std::string session;
-  std::string missing = "error";
-  std::string faults = "keep";
+  data::MissingPolicy missing = data::MissingPolicy::kError;
+  data::FaultPolicy faults = data::FaultPolicy::kKeep;
   std::string out;
   std::uint64_t seed = 1;
   std::string format = "table";
@@ -46,20 +46,20 @@ struct UpdateArguments {
 data::Dataset ReadRows(const models::FittedModel& map,
                        const std::string& file,
                        const UpdateArguments& arguments) {
-  data::DatasetSelection selection{
-      .target = map.target.name,
-      .time = arguments.time,
-      .session = arguments.session,
-      .align = map.align,
-      .missing = MissingPolicyOf(arguments.missing),
-      .faults = FaultPolicyOf(arguments.faults),
-      .keep_dead = true,
-      .only_to_judge = true};
+  data::DatasetSelection selection{.target = map.target.name,
+                                   .time = arguments.time,
+                                   .session = arguments.session,
+                                   .align = map.align,
+                                   .missing = arguments.missing,
+                                   .faults = arguments.faults,
+                                   .keep_dead = true,
+                                   .only_to_judge = true};
   for (const models::TrainedInput& input : map.inputs) {
     selection.inputs.push_back(input.column.name);
   }
   data::PreparedDataset prepared = data::MakeDataset(
-      ReadForMap(map, file, MapColumns::kInputsAndTarget, arguments.quiet),
+      ReadForMap(
+          map, file, models::MapColumns::kInputsAndTarget, arguments.quiet),
       selection);
   if (!arguments.quiet) {
     for (const std::string& remark : prepared.remarks) Say(remark);
@@ -75,7 +75,7 @@ std::string KnownFile(const UpdateArguments& arguments) {
   const std::string file = provenance.value("data", "");
   const std::string sha256 = provenance.value("data_sha256", "");
   if (!file.empty() && std::filesystem::exists(file) &&
-      HashInput(file).sha256 == sha256) {
+      study_file::HashInput(file).sha256 == sha256) {
     return file;
   }
   Say(fmt::format(
@@ -160,34 +160,37 @@ int RunUpdate(const UpdateArguments& arguments,
                         .indifference = indifference},
                        &fitted);
     if (stop.load()) return kInterrupted;
-    models::SaveModel(fitted,
-                      ModelProvenance(command_line,
-                                      HashInput(arguments.file),
-                                      all->num_rows(),
-                                      arguments.seed),
-                      arguments.out);
+    models::SaveModel(
+        fitted,
+        study_file::ModelProvenance(command_line,
+                                    study_file::HashInput(arguments.file),
+                                    all->num_rows(),
+                                    arguments.seed),
+        arguments.out);
   } else {
     data::WriteFileAtomically(arguments.out, data::ReadFile(arguments.model));
   }
   if (arguments.format == "json") {
-    std::vector<InputFile> inputs = {HashInput(arguments.model),
-                                     HashInput(arguments.file)};
-    if (known) inputs.push_back(HashInput(known_file));
-    PrintResult(DumpJson({{"schema", "errmap-update-1"},
-                          {"model", old_map.name},
-                          {"file", ShownPath(arguments.out)},
-                          {"target", old_map.target.name},
-                          {"unit", old_map.target.unit.symbol},
-                          {"updated", better},
-                          {"old_rmse", trial.old_rmse},
-                          {"new_rmse", trial.new_rmse},
-                          {"sessions", TrialJson(trial)},
-                          {"provenance",
-                           ProvenanceJson(command_line,
-                                          {{"missing", arguments.missing},
-                                           {"faults", arguments.faults},
-                                           {"seed", arguments.seed}},
-                                          inputs)}}));
+    std::vector<study_file::InputFile> inputs = {
+        study_file::HashInput(arguments.model),
+        study_file::HashInput(arguments.file)};
+    if (known) inputs.push_back(study_file::HashInput(known_file));
+    PrintResult(
+        DumpJson({{"schema", "errmap-update-1"},
+                  {"model", old_map.name},
+                  {"file", data::ShownPath(arguments.out)},
+                  {"target", old_map.target.name},
+                  {"unit", old_map.target.unit.symbol},
+                  {"updated", better},
+                  {"old_rmse", trial.old_rmse},
+                  {"new_rmse", trial.new_rmse},
+                  {"sessions", TrialJson(trial)},
+                  {"provenance",
+                   ProvenanceJson(command_line,
+                                  {{"missing", ToString(arguments.missing)},
+                                   {"faults", ToString(arguments.faults)},
+                                   {"seed", arguments.seed}},
+                                  inputs)}}));
   } else {
     PrintResult(fmt::format(
         "{}{}\n",

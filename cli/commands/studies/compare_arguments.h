@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/studies/probe_table.h"
-#include "cli/study_file/data_arguments.h"
-#include "cli/study_file/study_config.h"
+#include "models/study_file/study_config.h"
 
 namespace CLI {
 class App;
@@ -26,7 +26,7 @@ struct CompareArguments {
   std::optional<std::string> indifference = {};
   std::string split;
   std::string save_split;
-  std::vector<PredictionsFile> predictions;
+  std::vector<study_file::PredictionsFile> predictions;
   bool resume = false;
   bool force = false;
   std::string config;

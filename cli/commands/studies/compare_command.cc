@@ -11,16 +11,12 @@
 #include "cli/commands/studies/compare_fleet.h"
 #include "cli/commands/studies/compare_plan.h"
 #include "cli/commands/studies/probe_table.h"
+#include "cli/commands/studies/study_plan_text.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/output/output_folder.h"
-#include "cli/output/results_document.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
-#include "cli/study_file/machine/machine_judge.h"
-#include "cli/study_file/plan/study_forecast.h"
-#include "cli/study_file/plan/study_plan_text.h"
-#include "cli/study_file/plan/study_run.h"
 #include "data/atomic_file.h"
 #include "data/text.h"
 #include "models/fleet/store/store_folder.h"
@@ -28,12 +24,17 @@
 #include "models/report/report.h"
 #include "models/study/journal/fit_journal_file.h"
 #include "models/study/split_file.h"
+#include "models/study_file/machine/machine_judge.h"
+#include "models/study_file/plan/run_files.h"
+#include "models/study_file/plan/run_record.h"
+#include "models/study_file/plan/study_forecast.h"
+#include "models/study_file/plan/study_run.h"
 
 namespace errmap::cli {
 namespace {
 
 // Whether a model that was asked for could be judged.
-bool AnyJudged(const Comparison& component) {
+bool AnyJudged(const models::ComponentStudy& component) {
   const auto& models = component.study.models;
   for (std::size_t i = 0; i < models.size(); ++i) {
     const bool added = i >= component.first_added &&
@@ -46,13 +47,13 @@ bool AnyJudged(const Comparison& component) {
   return false;
 }
 
-int StatusOf(const StudyRun& run) {
+int StatusOf(const study_file::StudyRun& run) {
   if (run.interrupted) {
     Say("interrupted; what was finished is shown");
     return kInterrupted;
   }
   bool any = false;
-  for (const Comparison& component : run.components) {
+  for (const models::ComponentStudy& component : run.components) {
     if (AnyJudged(component)) {
       any = true;
     } else if (run.has_several()) {
@@ -65,9 +66,9 @@ int StatusOf(const StudyRun& run) {
   return kEveryFitFailed;
 }
 
-void SayShortOfMemory(const StudyRun& run) {
+void SayShortOfMemory(const study_file::StudyRun& run) {
   int fits = 0;
-  for (const Comparison& component : run.components) {
+  for (const models::ComponentStudy& component : run.components) {
     fits += component.study.short_of_memory;
   }
   if (fits == 0) return;
@@ -77,7 +78,8 @@ void SayShortOfMemory(const StudyRun& run) {
       fits));
 }
 
-void SaveSplit(const Comparison& comparison, const ComponentConfig& config) {
+void SaveSplit(const models::ComponentStudy& comparison,
+               const study_file::ComponentConfig& config) {
   if (config.save_split.empty()) return;
   data::WriteFileAtomically(
       config.save_split,
@@ -110,7 +112,7 @@ std::optional<int> RunIfFleet(const CompareArguments& arguments) {
     }
     return std::nullopt;
   }
-  StudyFile study = ConfigOfFile(arguments);
+  study_file::StudyFile study = ConfigOfFile(arguments);
   if (!study.has_patterns() && !arguments.shard &&
       (arguments.out.empty() || !fleet::IsStore(arguments.out))) {
     return std::nullopt;
@@ -127,13 +129,14 @@ std::optional<int> RunIfFleet(const CompareArguments& arguments) {
 }
 
 // The file, where fit can read the same rows of it.
-std::string DataForFit(const StudyRun& run) {
-  const ComponentConfig& component = run.config.components.front();
-  return component.where.empty() && component.later.empty() ? component.data
-                                                            : "";
+std::string DataForFit(const study_file::StudyRun& run) {
+  const study_file::ComponentConfig& component = run.config.components.front();
+  return component.selection.where.empty() && component.later.empty()
+             ? component.data
+             : "";
 }
 
-report::Screen Formatted(const StudyRun& run,
+report::Screen Formatted(const study_file::StudyRun& run,
                          const models::StudyRecord& record,
                          const CompareArguments& arguments) {
   const std::string& format = arguments.format;
@@ -156,9 +159,9 @@ int RunCompare(const CompareArguments& arguments) {
   if (arguments.resume && arguments.out.empty()) {
     throw UsageError("--resume needs the folder of the earlier run: --out DIR");
   }
-  const std::optional<MachineStudy> machine = MachineOf(arguments);
+  const std::optional<study_file::MachineStudy> machine = MachineOf(arguments);
   if (const std::optional<int> status = RunIfFleet(arguments)) return *status;
-  StudyPlan plan = PlanOf(arguments, machine);
+  study_file::StudyPlan plan = PlanOf(arguments, machine);
   const int jobs = JobsOf(arguments);
   if (arguments.dry_run) {
     PrintResult(PlanText(plan, jobs, arguments.out));
@@ -166,7 +169,7 @@ int RunCompare(const CompareArguments& arguments) {
   }
   // Better now than after minutes of fitting.
   const std::vector<std::string> inputs = plan.InputPaths();
-  for (const ComponentConfig& component : plan.config.components) {
+  for (const study_file::ComponentConfig& component : plan.config.components) {
     RefuseInputAsOutput("--save-split", component.save_split, inputs);
     RequirePlaceFor(component.save_split);
   }
@@ -181,36 +184,38 @@ int RunCompare(const CompareArguments& arguments) {
     SaveSplit(plan.components[i].comparison, plan.config.components[i]);
   }
   const std::unique_ptr<models::JournalFile> journal = OpenJournal(arguments);
-  StudyRun run;
+  study_file::StudyRun run;
   {
     Progress progress(!arguments.data.quiet);
-    StudyForecast forecast(plan, jobs);
-    run = RunPlan(std::move(plan),
-                  arguments.command_line,
-                  {.jobs = jobs,
-                   .stop = &InstallInterruptFlag(),
-                   .journal = journal.get(),
-                   .describe_resume = arguments.resume && !arguments.data.quiet,
-                   .keep_fold_maps = machine.has_value(),
-                   .progress = [&](std::size_t component,
-                                   const models::FitProgress& fit) {
-                     forecast.Note(component, fit);
-                     const StudyForecast::Best best = forecast.BestSoFar();
-                     progress.Show({.done = fit.done,
-                                    .all = fit.all,
-                                    .left = forecast.SecondsLeft(),
-                                    .best = best.map,
-                                    .holdout = best.holdout});
-                   }});
+    study_file::StudyForecast forecast(plan, jobs);
+    run = study_file::RunPlan(
+        std::move(plan),
+        arguments.command_line,
+        {.jobs = jobs,
+         .stop = &InstallInterruptFlag(),
+         .journal = journal.get(),
+         .journal_has = Sayer(!arguments.resume || arguments.data.quiet),
+         .keep_fold_maps = machine.has_value(),
+         .progress = [&](std::size_t component,
+                         const models::FitProgress& fit) {
+           forecast.Note(component, fit);
+           const study_file::StudyForecast::Best best = forecast.BestSoFar();
+           progress.Show({.done = fit.done,
+                          .all = fit.all,
+                          .left = forecast.SecondsLeft(),
+                          .best = best.map,
+                          .holdout = best.holdout});
+         }});
   }
   if (journal != nullptr) {
     SayUnless(arguments.data.quiet, journal->WritingRemarks());
   }
   SayShortOfMemory(run);
-  models::StudyRecord record = RecordOf(run, jobs);
-  if (machine && !run.interrupted) record.machine = JudgeMachine(*machine, run);
+  models::StudyRecord record = study_file::RecordOf(run, jobs);
+  if (machine && !run.interrupted)
+    record.machine = study_file::JudgeMachine(*machine, run);
   AddProbes(run, arguments.probes, &record);
-  if (folder) NameMaps(run, &record);
+  if (folder) study_file::NameMaps(run, &record);
   // Before the files: a full disk must not cost the answer.
   PrintScreen(Formatted(run, record, arguments));
   if (!arguments.page.empty()) {

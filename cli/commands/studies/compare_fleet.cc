@@ -7,15 +7,16 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/progress.h"
 #include "cli/fleet/claim_store.h"
-#include "cli/fleet/fleet_plan.h"
-#include "cli/fleet/fleet_run.h"
+#include "cli/fleet/fleet_plan_text.h"
 #include "cli/fleet/launcher.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/study_file/data_arguments.h"
 #include "data/text.h"
+#include "models/fleet/run/fleet_plan.h"
+#include "models/fleet/run/fleet_run.h"
 #include "models/fleet/store/fleet_table.h"
 #include "models/fleet/store/merge.h"
 #include "models/report/number_text.h"
@@ -28,7 +29,8 @@ void CheckWords(const CompareFleetArguments& arguments) {
     throw UsageError(
         "a study of files by pattern, or a share of one, needs --out STORE");
   }
-  for (const ComponentConfig& component : arguments.study.config.components) {
+  for (const study_file::ComponentConfig& component :
+       arguments.study.config.components) {
     if (component.save_split.empty() && component.split.empty() &&
         component.predictions.empty()) {
       continue;
@@ -58,26 +60,29 @@ int RunCompareFleet(CompareFleetArguments arguments) {
     share = ShareOf(*arguments.shard,
                     [](const char* name) { return std::getenv(name); });
   }
-  const StudyFile study = ExpandFleet(std::move(arguments.study));
+  const study_file::StudyFile study =
+      fleet::ExpandFleet(std::move(arguments.study));
   if (arguments.dry_run) {
-    PrintResult(FleetPlanText(
-        PlanFleet(study.config), share.count, arguments.jobs, arguments.out));
+    PrintResult(FleetPlanText(fleet::PlanFleet(study.config),
+                              share.count,
+                              arguments.jobs,
+                              arguments.out));
     return kDone;
   }
   const fleet::StorePaths store{arguments.out};
   ClaimStore(store, arguments.force);
-  fleet::WriteFleet(store, FleetOf(study, arguments.command_line));
-  FleetRunResult result;
+  fleet::WriteFleet(store, fleet::FleetOf(study, arguments.command_line));
+  fleet::FleetRunResult result;
   {
     Progress progress(!arguments.quiet);
-    result = RunFleet(
+    result = fleet::RunFleet(
         study,
         store,
         {.jobs = arguments.jobs,
          .stop = &InstallInterruptFlag(),
          .share = share,
          .command_line = arguments.command_line,
-         .quiet = arguments.quiet,
+         .remark = Sayer(arguments.quiet),
          .progress = [&](int done, int all) {
            progress.Show({.done = done, .all = all, .what = "components"});
          }});

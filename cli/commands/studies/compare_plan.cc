@@ -68,34 +68,25 @@ std::vector<std::string> ModelSpecs(const CompareArguments& arguments) {
 }
 
 // Without a study file the command line asks for one component.
-StudyConfig ConfigOf(const CompareArguments& arguments) {
-  const GivenError goal = ErrorOfFlag("--goal", arguments.goal, false);
-  const GivenError indifference =
+study_file::StudyConfig ConfigOf(const CompareArguments& arguments) {
+  const study_file::GivenError goal =
+      ErrorOfFlag("--goal", arguments.goal, false);
+  const study_file::GivenError indifference =
       ErrorOfFlag("--indifference", arguments.indifference, true);
   CheckHoldouts(arguments.holdouts);
   const DataArguments& data = arguments.data;
-  ComponentConfig component;
+  study_file::ComponentConfig component;
   component.data = data.file;
-  component.target = data.target;
-  component.inputs = SplitNames(data.inputs, "--inputs");
-  component.exclude = SplitNames(data.exclude, "--exclude");
-  component.group = data.group;
-  component.time = data.time;
-  component.session = data.session;
-  component.align = AlignOf(data.align);
-  component.weight = data.weight;
-  component.missing = MissingPolicyOf(data.missing);
-  component.faults = FaultPolicyOf(data.faults);
-  component.keep_dead = data.keep_dead;
+  component.selection = data.selection;
   component.split = arguments.split;
   component.save_split = arguments.save_split;
   component.predictions = arguments.predictions;
   std::vector<std::string> specs = ModelSpecs(arguments);
-  for (const PredictionsFile& predictions : component.predictions) {
+  for (const study_file::PredictionsFile& predictions : component.predictions) {
     if (std::ranges::find(specs, predictions.name) != specs.end() ||
         std::ranges::count(component.predictions,
                            predictions.name,
-                           &PredictionsFile::name) > 1) {
+                           &study_file::PredictionsFile::name) > 1) {
       throw UsageError("two models are named " + predictions.name +
                        "; give the --predictions another name");
     }
@@ -108,9 +99,17 @@ StudyConfig ConfigOf(const CompareArguments& arguments) {
           .components = {std::move(component)}};
 }
 
+study_file::StudyFile ReadChanged(const CompareArguments& arguments) {
+  try {
+    return study_file::ReadStudyFile(arguments.config, arguments.changes);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
 }  // namespace
 
-StudyFile ConfigOfFile(const CompareArguments& arguments) {
+study_file::StudyFile ConfigOfFile(const CompareArguments& arguments) {
   const auto given = [&](const char* flag) {
     return arguments.given.contains(flag);
   };
@@ -118,25 +117,25 @@ StudyFile ConfigOfFile(const CompareArguments& arguments) {
     throw UsageError(
         "DATA and --config exclude each other; the study file names its data");
   }
-  StudyFile file = ReadStudyFile(arguments.config, arguments.changes);
-  StudyConfig& config = file.config;
-  const StudyConfig flags = ConfigOf(arguments);
+  study_file::StudyFile file = ReadChanged(arguments);
+  study_file::StudyConfig& config = file.config;
+  const study_file::StudyConfig flags = ConfigOf(arguments);
   if (given("--seed")) config.seed = flags.seed;
   if (given("--goal")) {
     config.goal = flags.goal;
-    for (ComponentConfig& component : config.components) {
+    for (study_file::ComponentConfig& component : config.components) {
       component.goal = flags.goal;
     }
   }
   if (given("--indifference")) {
     config.indifference = flags.indifference;
-    for (ComponentConfig& component : config.components) {
+    for (study_file::ComponentConfig& component : config.components) {
       component.indifference = flags.indifference;
     }
   }
   if (given("--holdout")) config.holdouts = flags.holdouts;
   if (given("--models") || given("--model")) config.models = flags.models;
-  const ComponentConfig& from = flags.components.front();
+  const study_file::ComponentConfig& from = flags.components.front();
   for (const char* flag : {"--target",
                            "--inputs",
                            "--exclude",
@@ -155,18 +154,22 @@ StudyFile ConfigOfFile(const CompareArguments& arguments) {
                     data::PrintablePath(arguments.config),
                     config.components.size()));
   }
-  for (ComponentConfig& component : config.components) {
-    if (given("--target")) component.target = from.target;
-    if (given("--inputs")) component.inputs = from.inputs;
-    if (given("--exclude")) component.exclude = from.exclude;
-    if (given("--group")) component.group = from.group;
-    if (given("--time")) component.time = from.time;
-    if (given("--session")) component.session = from.session;
-    if (given("--align")) component.align = from.align;
-    if (given("--weight")) component.weight = from.weight;
-    if (given("--missing")) component.missing = from.missing;
-    if (given("--faults")) component.faults = from.faults;
-    if (given("--keep-dead")) component.keep_dead = from.keep_dead;
+  for (study_file::ComponentConfig& component : config.components) {
+    if (given("--target")) component.selection.target = from.selection.target;
+    if (given("--inputs")) component.selection.inputs = from.selection.inputs;
+    if (given("--exclude"))
+      component.selection.exclude = from.selection.exclude;
+    if (given("--group")) component.selection.group = from.selection.group;
+    if (given("--time")) component.selection.time = from.selection.time;
+    if (given("--session"))
+      component.selection.session = from.selection.session;
+    if (given("--align")) component.selection.align = from.selection.align;
+    if (given("--weight")) component.selection.weight = from.selection.weight;
+    if (given("--missing"))
+      component.selection.missing = from.selection.missing;
+    if (given("--faults")) component.selection.faults = from.selection.faults;
+    if (given("--keep-dead"))
+      component.selection.keep_dead = from.selection.keep_dead;
     if (given("--split")) component.split = from.split;
     if (given("--save-split")) component.save_split = from.save_split;
     if (given("--predictions")) component.predictions = from.predictions;
@@ -174,7 +177,8 @@ StudyFile ConfigOfFile(const CompareArguments& arguments) {
   return file;
 }
 
-std::optional<MachineStudy> MachineOf(const CompareArguments& arguments) {
+std::optional<study_file::MachineStudy> MachineOf(
+    const CompareArguments& arguments) {
   if (arguments.machine.empty()) {
     if (arguments.given.contains("--later")) {
       throw UsageError("--later goes with --machine");
@@ -198,16 +202,18 @@ std::optional<MachineStudy> MachineOf(const CompareArguments& arguments) {
         "--machine needs the folder of its components' data: errmap compare "
         "--machine machine.toml DIR");
   }
-  return ReadMachineStudy(arguments.machine,
-                          arguments.data.file,
-                          arguments.later,
-                          arguments.data.session);
+  return study_file::ReadMachineStudy(arguments.machine,
+                                      arguments.data.file,
+                                      arguments.later,
+                                      arguments.data.selection.session);
 }
 
-StudyPlan PlanOf(const CompareArguments& arguments,
-                 const std::optional<MachineStudy>& machine) {
+study_file::StudyPlan PlanOf(
+    const CompareArguments& arguments,
+    const std::optional<study_file::MachineStudy>& machine) {
+  const study_file::Remark remark = Sayer(arguments.data.quiet);
   if (machine) {
-    return PlanOfMachine(*machine, ConfigOf(arguments), arguments.data.quiet);
+    return study_file::PlanOfMachine(*machine, ConfigOf(arguments), remark);
   }
   if (arguments.config.empty()) {
     if (!arguments.given.contains("DATA")) {
@@ -216,12 +222,9 @@ StudyPlan PlanOf(const CompareArguments& arguments,
     if (!arguments.changes.empty()) {
       throw UsageError("--set changes a study file; name it with --config");
     }
-    return PlanStudy(ConfigOf(arguments), arguments.data.quiet);
+    return study_file::PlanStudy(ConfigOf(arguments), remark);
   }
-  const StudyFile file = ConfigOfFile(arguments);
-  StudyPlan plan = PlanStudy(file.config, arguments.data.quiet);
-  plan.inputs.insert(plan.inputs.begin(), file.file);
-  return plan;
+  return study_file::PlanStudy(ConfigOfFile(arguments), remark);
 }
 
 }  // namespace errmap::cli

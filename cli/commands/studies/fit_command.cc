@@ -8,16 +8,15 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/shell/interrupt.h"
-#include "cli/shell/shown_path.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
-#include "cli/study_file/data_arguments.h"
-#include "cli/study_file/provenance.h"
 #include "data/atomic_file.h"
+#include "data/shown_path.h"
 #include "data/text.h"
 #include "fitting/interruption.h"
 #include "models/file_recipe.h"
@@ -35,6 +34,7 @@
 #include "models/study/record/make_figure_record.h"
 #include "models/study/record/record_json.h"
 #include "models/study/study_defaults.h"
+#include "models/study_file/provenance.h"
 
 namespace errmap::cli {
 namespace {
@@ -88,7 +88,7 @@ Json FitJson(const models::FittedModel& fitted,
   Json json = {
       {"schema", "errmap-fit-1"},
       {"model", fitted.name},
-      {"file", ShownPath(arguments.out)},
+      {"file", data::ShownPath(arguments.out)},
       {"target", fitted.target.name},
       {"unit", fitted.target.unit.symbol},
       {"inputs", std::move(inputs)},
@@ -122,7 +122,7 @@ Json ConfigurationJson(const models::ModelRecipe& recipe,
   for (const data::ColumnInfo& input : dataset.inputs()) {
     inputs.push_back(input.name);
   }
-  const std::string& weight = arguments.data.weight;
+  const std::string& weight = arguments.data.selection.weight;
   return {
       {"model", recipe.name()},
       {"options", models::ToJson(models::MakeRecord(recipe.options()))},
@@ -130,8 +130,8 @@ Json ConfigurationJson(const models::ModelRecipe& recipe,
       {"inputs", std::move(inputs)},
       {"group", dataset.has_groups() ? Json(dataset.groups().column) : Json()},
       {"weight", weight.empty() ? Json() : Json(weight)},
-      {"missing", arguments.data.missing},
-      {"faults", arguments.data.faults},
+      {"missing", ToString(arguments.data.selection.missing)},
+      {"faults", ToString(arguments.data.selection.faults)},
       {"seed", arguments.seed}};
 }
 
@@ -240,10 +240,11 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
       Say(fmt::format("no interval: {}", error.what()));
     }
   }
-  const InputFile input = HashInput(arguments.data.file);
+  const study_file::InputFile input =
+      study_file::HashInput(arguments.data.file);
   models::SaveModel(
       fitted,
-      ModelProvenance(
+      study_file::ModelProvenance(
           command_line, input, prepared.dataset.num_rows(), arguments.seed),
       arguments.out);
   const models::Sensitivity sensitivity =

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/commands/data_arguments.h"
 #include "cli/shell/terminal.h"
-#include "cli/study_file/data_arguments.h"
 #include "data/text.h"
 #include "models/promise/probe_study.h"
 #include "models/report/number_text.h"
@@ -15,12 +15,12 @@
 
 namespace errmap::cli {
 
-void AddProbes(const StudyRun& run,
+void AddProbes(const study_file::StudyRun& run,
                const ProbeArguments& arguments,
                models::StudyRecord* record) {
   if (arguments.numbers.empty()) return;
   for (std::size_t i = 0; i < run.components.size(); ++i) {
-    const Comparison& component = run.components[i];
+    const models::ComponentStudy& component = run.components[i];
     if (!component.judgement.recommendation) continue;
     const std::size_t h = component.judgement.recommendation->holdout;
     const data::SessionLog* log = component.data.dataset.log().get();

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "cli/study_file/comparison.h"
 #include "models/study/record/study_record.h"
+#include "models/study_file/plan/study_run.h"
 
 namespace errmap::cli {
 
@@ -19,7 +19,7 @@ struct ProbeArguments {
 /// Puts into the record of each component with a recommendation what probes
 /// would make of its models under the hold-out that decides. Says on stderr
 /// where the data do not allow it.
-void AddProbes(const StudyRun& run,
+void AddProbes(const study_file::StudyRun& run,
                const ProbeArguments& arguments,
                models::StudyRecord* record);
 

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/output/report_files.h"
 #include "cli/shell/standard_streams.h"
-#include "cli/study_file/data_arguments.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "data/measurements/dataset.h"
 #include "models/study/record/data_record.h"
 
 namespace errmap::report {
@@ -9,8 +10,10 @@ namespace errmap::report {
 /// ", 70 groups (cycle), 2 sessions (day)" or ", ... one run", to follow a
 /// number of rows.
 std::string UnitsWords(const models::DataRecord& data);
+std::string UnitsWords(const data::Dataset& dataset);
 
 /// The target's name, and what was taken off it.
 std::string TargetWords(const models::DataRecord& data);
+std::string TargetWords(const data::Dataset& dataset);
 
 }  // namespace errmap::report

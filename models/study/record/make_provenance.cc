@@ -1,5 +1,6 @@
 #include "models/study/record/make_provenance.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <Eigen/Core>
@@ -39,8 +40,8 @@ std::string FmtVersion() {
                      FMT_VERSION % 100);
 }
 
-const ByName<std::string>& LibraryVersions() {
-  static const ByName<std::string> versions = {
+ByName<std::string>& LibraryVersions() {
+  static ByName<std::string> versions = {
       {"Boost", stats::BoostVersion()},
       {"Ceres", fitting::CeresVersion()},
       {"Eigen",
@@ -67,6 +68,12 @@ const ByName<std::string>& LibraryVersions() {
 }
 
 }  // namespace
+
+void NameLibrary(const std::string& name, const std::string& version) {
+  ByName<std::string>& versions = LibraryVersions();
+  versions.insert(std::ranges::upper_bound(versions, std::pair(name, version)),
+                  {name, version});
+}
 
 ProvenanceRecord MakeProvenance(std::string command_line,
                                 std::vector<InputFileRecord> inputs) {

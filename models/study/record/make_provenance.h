@@ -14,4 +14,8 @@ namespace errmap::models {
 ProvenanceRecord MakeProvenance(std::string command_line,
                                 std::vector<InputFileRecord> inputs);
 
+/// A library of the program's own to be named among them; called before all
+/// else.
+void NameLibrary(const std::string& name, const std::string& version);
+
 }  // namespace errmap::models

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/study_file/plan/rough_time.h"
-
 namespace errmap::cli {
 namespace {
 
@@ -47,14 +45,6 @@ TEST(Progress, HasNothingLeftAtTheEnd) {
   EXPECT_EQ(
       ProgressText({.done = 2, .all = 2, .seconds = 0.25, .left = 0.0}, kWide),
       "2/2 fits, 0.2 s");
-}
-
-TEST(RoughTime, HasOneDigitAndTheUnitThatSuits) {
-  EXPECT_EQ(RoughTimeText(0.3), "a second");
-  EXPECT_EQ(RoughTimeText(7.4), "7 s");
-  EXPECT_EQ(RoughTimeText(43.0), "40 s");
-  EXPECT_EQ(RoughTimeText(300.0), "5 min");
-  EXPECT_EQ(RoughTimeText(36000.0), "10 h");
 }
 
 }  // namespace

@@ -1,0 +1,248 @@
+#include "cli/commands/data_arguments.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <initializer_list>
+#include <stdexcept>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/command.h"
+#include "cli/shell/standard_streams.h"
+#include "data/shown_path.h"
+#include "models/model_spec.h"
+#include "models/recipe_catalog.h"
+#include "models/report/words/fault_text.h"
+
+namespace errmap::cli {
+
+namespace {
+
+// An option of words, each of which stands for a value that ToString names.
+template <typename Value>
+CLI::Option* AddChoice(CLI::App* command,
+                       const std::string& flag,
+                       const std::string& what,
+                       std::initializer_list<Value> values,
+                       Value* chosen) {
+  std::vector<std::string> words;
+  for (const Value value : values) words.emplace_back(ToString(value));
+  const std::vector<Value> meant(values);
+  return command
+      ->add_option_function<std::string>(
+          flag,
+          [words, meant, chosen](const std::string& word) {
+            *chosen = meant[static_cast<std::size_t>(
+                std::ranges::find(words, word) - words.begin())];
+          },
+          what)
+      ->check(CLI::IsMember(words))
+      ->type_name(fmt::format("{}", fmt::join(words, "|")))
+      ->default_str(std::string(ToString(*chosen)));
+}
+
+// Splits "A,B" at commas outside double quotes and takes the quotes off.
+std::vector<std::string> SplitNames(const std::string& flag,
+                                    const std::string& list) {
+  std::vector<std::string> names;
+  if (list.empty()) return names;
+  try {
+    names = models::SplitList(list);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("{}: {}", flag, error.what()));
+  }
+  for (std::string& name : names) {
+    if (name.size() >= 2 && name.front() == '"' && name.back() == '"') {
+      name = name.substr(1, name.size() - 2);
+      for (std::size_t at = 0; (at = name.find("\"\"", at)) != name.npos;
+           ++at) {
+        name.erase(at, 1);  // RFC 4180: two quotes stand for one
+      }
+    }
+  }
+  return names;
+}
+
+void AddNames(CLI::App* command,
+              const std::string& flag,
+              const std::string& what,
+              std::vector<std::string>* names) {
+  command
+      ->add_option_function<std::string>(
+          flag,
+          [flag, names](const std::string& list) {
+            *names = SplitNames(flag, list);
+          },
+          what)
+      ->type_name("A,B,...");
+}
+
+}  // namespace
+
+void AddDataArguments(CLI::App* command, DataArguments* arguments) {
+  data::DatasetSelection& selection = arguments->selection;
+  command->add_option("DATA", arguments->file, "CSV file, one row per sample")
+      ->required()
+      ->type_name("FILE.csv");
+  command
+      ->add_option("--target",
+                   selection.target,
+                   "Column to be mapped (default: the only one named error*)")
+      ->type_name("COL");
+  AddNames(command,
+           "--inputs",
+           "Columns to map from (default: every other numeric column)",
+           &selection.inputs);
+  AddNames(
+      command, "--exclude", "Columns never to map from", &selection.exclude);
+  command
+      ->add_option("--group",
+                   selection.group,
+                   "Column that tells warm-up cycles, days or segments apart "
+                   "(default: cycle)")
+      ->type_name("COL");
+  command
+      ->add_option("--time",
+                   selection.time,
+                   "Column of times or dates (default: the only time*; none: "
+                   "the number of the row)")
+      ->type_name("COL");
+  command
+      ->add_option("--session",
+                   selection.session,
+                   "Column that tells uninterrupted runs apart (default: "
+                   "session, day or run; none: cut where time breaks off)")
+      ->type_name("COL");
+  AddChoice(command,
+            "--align",
+            "first: take each session's first value off the target",
+            {data::Alignment::kFirst, data::Alignment::kNone},
+            &selection.align);
+  command->add_option("--weight", selection.weight, "Column of row weights > 0")
+      ->type_name("COL");
+  AddRowOptions(command, &selection.missing, &selection.faults);
+  command->add_flag("--keep-dead",
+                    selection.keep_dead,
+                    "Keep inputs that hold one value only (failed sensors)");
+  command->add_flag(
+      "--quiet", arguments->quiet, "No remarks and no progress on stderr");
+}
+
+void AddRowOptions(CLI::App* command,
+                   data::MissingPolicy* missing,
+                   data::FaultPolicy* faults) {
+  AddChoice(command,
+            "--missing",
+            "What empty, NA and NaN cells do: error or drop-rows",
+            {data::MissingPolicy::kError, data::MissingPolicy::kDropRows},
+            missing);
+  AddChoice(command,
+            "--faults",
+            "What becomes of rows with failed readings (9999, jumps of "
+            "a thermometer), which are named: keep or drop-rows",
+            {data::FaultPolicy::kKeep, data::FaultPolicy::kDropRows},
+            faults);
+}
+
+void AddMapLogArguments(CLI::App* command, models::MapLogArguments* arguments) {
+  command
+      ->add_option("--after",
+                   arguments->after,
+                   "Rows before these: the filters of a map with a memory run "
+                   "through them first")
+      ->type_name("EARLIER.csv");
+  command
+      ->add_option("--time",
+                   arguments->time,
+                   "Column of times or dates (default: the only time*)")
+      ->type_name("COL");
+  command
+      ->add_option("--session",
+                   arguments->session,
+                   "Column that tells uninterrupted runs apart (default: that "
+                   "of the map)")
+      ->type_name("COL");
+}
+
+data::PreparedDataset ReadData(const DataArguments& arguments) {
+  data::PreparedDataset prepared =
+      data::MakeDataset(data::ReadCsv(arguments.file), arguments.selection);
+  if (!arguments.quiet) {
+    for (const std::string& remark : prepared.remarks) Say(remark);
+    for (const std::string& line : report::FaultLines(
+             prepared, arguments.selection.faults, report::FaultUse::kFit)) {
+      Say(line);
+    }
+  }
+  return prepared;
+}
+
+study_file::GivenError ErrorOfFlag(const char* flag,
+                                   const std::optional<std::string>& text,
+                                   bool may_be_zero) {
+  if (!text) return {};
+  try {
+    return study_file::ParseGivenError(*text, may_be_zero);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("{} {}", flag, error.what()));
+  }
+}
+
+std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
+    const std::string& spec) {
+  try {
+    return models::MakeRecipe(spec);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
+void Say(const std::string& line) { WriteMessage(line); }
+
+void SayUnless(bool quiet, const std::vector<std::string>& lines) {
+  if (quiet) return;
+  for (const std::string& line : lines) Say(line);
+}
+
+std::function<void(const std::string&)> Sayer(bool quiet) {
+  if (quiet) return {};
+  return Say;
+}
+
+void AddKeepPathsFlag(CLI::App* command) {
+  command->add_flag_callback(
+      "--keep-paths",
+      [] { data::KeepPaths(); },
+      "Write absolute paths into reports, maps and journals; without it, the "
+      "files' names only");
+}
+
+void AddForceFlag(CLI::App* command, bool* force) {
+  command->add_flag("--force",
+                    *force,
+                    "Replace files in the folder that errmap did not write, or "
+                    "that were changed since; never one that is read");
+}
+
+void AddSeedOption(CLI::App* command,
+                   std::uint64_t* seed,
+                   const std::string& what) {
+  command->add_option("--seed", *seed, what)
+      ->check([](const std::string& text) {
+        // CLI11 would take -1 and 2^64 for the largest number there is.
+        std::uint64_t number = 0;
+        const char* const end = text.data() + text.size();
+        const auto [rest, error] = std::from_chars(text.data(), end, number);
+        return error == std::errc() && rest == end
+                   ? ""
+                   : "give a whole number from 0 to 18446744073709551615";
+      })
+      ->capture_default_str()
+      ->type_name("N");
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/measurements/dataset.h"
+#include "models/error_model.h"
+#include "models/history/map_log.h"
+#include "models/study_file/given_error.h"
+
+namespace CLI {
+class App;
+}
+
+namespace errmap::cli {
+
+/// What a command is told about the data file.
+struct DataArguments {
+  std::string file;
+  data::DatasetSelection selection;
+  bool quiet = false;
+};
+
+/// Adds DATA.csv and its options to a command.
+void AddDataArguments(CLI::App* command, DataArguments* arguments);
+
+/// Reads the file and picks its columns; remarks go to stderr unless quiet.
+data::PreparedDataset ReadData(const DataArguments& arguments);
+
+/// --missing and --faults, as commands that read measurements have them.
+void AddRowOptions(CLI::App* command,
+                   data::MissingPolicy* missing,
+                   data::FaultPolicy* faults);
+
+/// Adds --after, --time and --session to a command.
+void AddMapLogArguments(CLI::App* command, models::MapLogArguments* arguments);
+
+/// "2um" or "0.002" of a flag that was given; throws UsageError naming `flag`.
+study_file::GivenError ErrorOfFlag(const char* flag,
+                                   const std::optional<std::string>& text,
+                                   bool may_be_zero);
+
+/// Recipe of a SPEC; throws UsageError where it is wrong.
+std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
+    const std::string& spec);
+
+/// Says something about the run on stderr: "errmap: ...".
+void Say(const std::string& line);
+/// Each of `lines`, unless `quiet`.
+void SayUnless(bool quiet, const std::vector<std::string>& lines);
+/// Say, or nothing where `quiet`.
+std::function<void(const std::string&)> Sayer(bool quiet);
+
+/// --keep-paths, which the program looks for before any command does.
+void AddKeepPathsFlag(CLI::App* command);
+
+/// --force, which lets a command replace files that errmap did not write.
+void AddForceFlag(CLI::App* command, bool* force);
+
+/// --seed N, a whole number from 0.
+void AddSeedOption(CLI::App* command,
+                   std::uint64_t* seed,
+                   const std::string& what = "Seed of all random choices");
+
+}  // namespace errmap::cli

@@ -1,0 +1,107 @@
+#include "cli/commands/studies/study_plan_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "data/text.h"
+#include "models/report/number_text.h"
+#include "models/report/words/data_words.h"
+#include "models/report/wrap_text.h"
+#include "models/study_file/plan/rough_time.h"
+
+namespace errmap::cli {
+namespace {
+
+std::string Shown(const std::string& text) {
+  return data::Printable(text, text.size());
+}
+
+std::string InUnit(double value, const data::Unit& unit) {
+  return fmt::format("{:g}{}{}",
+                     value * unit.display_scale,
+                     unit.display_symbol.empty() ? "" : " ",
+                     unit.display_symbol);
+}
+
+// "every:3 (1 fold), groups:5 (5 folds)"
+std::string HoldoutList(const std::vector<models::Holdout>& holdouts) {
+  std::vector<std::string> parts;
+  for (const models::Holdout& holdout : holdouts) {
+    parts.push_back(fmt::format(
+        "{} ({})",
+        Shown(holdout.name),
+        report::Count(static_cast<long long>(holdout.folds.size()), "fold")));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string ComponentText(const models::ComponentPlan& component,
+                          const study_file::ComponentConfig& config) {
+  constexpr std::size_t kWidth = 78;
+  const data::Dataset& dataset = component.comparison.data.dataset;
+  std::vector<std::string> models;
+  for (const auto& recipe : component.recipes) {
+    models.push_back(Shown(recipe->name()));
+  }
+  std::string text = fmt::format("component {}\n", Shown(config.name));
+  text += "  data      " + Shown(config.data);
+  for (const data::ColumnFilter& filter : config.selection.where) {
+    text += fmt::format(
+        " where {} = {}", Shown(filter.column), Shown(ValueText(filter)));
+  }
+  text += fmt::format("\n  rows      {}{}\n",
+                      report::Count(dataset.num_rows(), "row"),
+                      Shown(report::UnitsWords(dataset)));
+  text += fmt::format("  target    {}\n", Shown(report::TargetWords(dataset)));
+  text += fmt::format("  inputs    {}\n", dataset.num_inputs());
+  if (std::isfinite(component.comparison.goal)) {
+    text +=
+        fmt::format("  goal      {}\n",
+                    InUnit(component.comparison.goal, dataset.target().unit));
+  }
+  text += fmt::format("  hold-outs {}\n",
+                      HoldoutList(component.comparison.holdouts));
+  std::string list =
+      report::WrapText(fmt::format("{}", fmt::join(models, ", ")), kWidth - 12);
+  for (std::size_t at = 0; (at = list.find('\n', at)) != list.npos; ++at) {
+    list.insert(at + 1, "            ");
+  }
+  text += fmt::format("  models    {}\n", list);
+  text += fmt::format("  fits      {}\n", component.num_fits());
+  return text;
+}
+
+}  // namespace
+
+std::string PlanText(const study_file::StudyPlan& plan,
+                     int jobs,
+                     const std::string& out) {
+  std::string text;
+  double seconds = 0.0;
+  for (std::size_t i = 0; i < plan.components.size(); ++i) {
+    text += ComponentText(plan.components[i], plan.config.components[i]) + "\n";
+    seconds += study_file::RoughSeconds(plan.components[i], jobs);
+  }
+  text += fmt::format("{} in all, seed {}; roughly {} on {}\n",
+                      report::Count(plan.num_fits(), "fit"),
+                      plan.config.seed,
+                      study_file::RoughTimeText(seconds),
+                      report::Count(jobs, "job"));
+  if (out.empty()) {
+    text += "no files (give --out DIR for them)\n";
+  } else {
+    text += fmt::format("files in {}: {}\n",
+                        Shown(out),
+                        plan.components.size() > 1
+                            ? "results.json, residuals/COMPONENT.csv, "
+                              "models/COMPONENT/MODEL.json"
+                            : "results.json, residuals.csv, models/MODEL.json");
+  }
+  return text + "Nothing was fitted or written (--dry-run).\n";
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,174 @@
+#include "models/history/map_log.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "data/argument_name.h"
+#include "data/input_error.h"
+#include "data/measurements/column_checks.h"
+#include "data/measurements/column_match.h"
+#include "data/text.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+
+data::DatasetSelection SelectionFor(const History& history,
+                                    const data::CsvTable& table,
+                                    const MapLogArguments& arguments) {
+  data::DatasetSelection selection;
+  selection.time = history.time_unit == "rows" ? "none" : arguments.time;
+  selection.session = arguments.session;
+  if (selection.session.empty()) {
+    selection.session = history.session.empty() ? "none" : history.session;
+    if (!history.session.empty() && table.Find(history.session) < 0) {
+      throw data::InputError(fmt::format(
+          "{}: no column {}, which tells the map's memory where a session "
+          "begins; add it, or name another with {}",
+          data::PrintablePath(table.file),
+          data::QuotedName(history.session),
+          data::ArgumentName("session")));
+    }
+  }
+  return selection;
+}
+
+data::FoundSessions FindAll(const History& history,
+                            const data::CsvTable& table,
+                            const data::DatasetSelection& selection) {
+  std::vector<Index> rows(table.num_rows);
+  std::iota(rows.begin(), rows.end(), Index{0});
+  data::FoundSessions found = data::FindSessions(table, selection, rows);
+  if (history.time_unit == "s" && found.time_column < 0) {
+    throw data::InputError(fmt::format(
+        "{}: no column of times, which the map's filters need; add one (time_s "
+        "or dates and times), or name it with {}{}",
+        data::PrintablePath(table.file),
+        data::ArgumentName("time"),
+        found.remarks.size() < 2 ? "" : " (" + found.remarks.front() + ")"));
+  }
+  return found;
+}
+
+void WarnOfSessions(const History& history,
+                    const data::CsvTable& table,
+                    const MapLogArguments& arguments,
+                    MapLog* map) {
+  const data::SessionLog& log = *map->log;
+  map->begin_inside = BeginInside(log, history);
+  std::vector<bool> goes_on(log.sessions.labels.size());
+  std::vector<bool> is_here(goes_on.size());
+  for (std::size_t row = 0; row < log.sessions.codes.size(); ++row) {
+    const auto session = static_cast<std::size_t>(log.sessions.codes[row]);
+    if (static_cast<Index>(row) < map->first_row) {
+      goes_on[session] = true;
+    } else {
+      is_here[session] = true;
+    }
+  }
+  bool any_goes_on = false;
+  for (std::size_t s = 0; s < goes_on.size(); ++s) {
+    if (!is_here[s]) continue;
+    any_goes_on = any_goes_on || goes_on[s];
+    if (!map->begin_inside[s]) continue;
+    map->warnings.push_back(fmt::format(
+        "warning: session {} begins inside: its first row is at {:.6g} s, "
+        "those of training had begun by {:.6g} s; give its earlier rows with "
+        "{} (inside = 0)",
+        data::QuotedText(log.sessions.labels[s]),
+        log.time[log.first_rows[s]],
+        history.latest_start,
+        data::ArgumentName("after")));
+  }
+  if (!arguments.after.empty() && !any_goes_on) {
+    map->warnings.push_back(
+        fmt::format("warning: no session of {} goes on in {}, so {} "
+                    "changes nothing",
+                    data::PrintablePath(arguments.after),
+                    data::PrintablePath(table.file),
+                    data::ArgumentName("after")));
+  }
+}
+
+}  // namespace
+
+data::FoundSessions FindSessionsFor(const History& history,
+                                    const data::CsvTable& table,
+                                    const MapLogArguments& arguments) {
+  return FindAll(history, table, SelectionFor(history, table, arguments));
+}
+
+Eigen::MatrixXd ReadingsOf(const FittedModel& fitted,
+                           const data::CsvTable& table) {
+  std::vector<Index> rows(table.num_rows);
+  std::iota(rows.begin(), rows.end(), Index{0});
+  Eigen::MatrixXd readings(static_cast<Index>(rows.size()),
+                           static_cast<Index>(fitted.inputs.size()));
+  Index column = 0;
+  for (const TrainedInput& input : fitted.inputs) {
+    const std::size_t at =
+        data::RequireColumn(table, input.column.name, "an input of the map");
+    readings.col(column++) = data::ValuesOfRows(table.columns[at], rows);
+  }
+  return readings;
+}
+
+MapLog MakeMapLog(const FittedModel& fitted,
+                  const data::CsvTable& table,
+                  const MapLogArguments& arguments) {
+  MapLog map;
+  if (fitted.history == nullptr || !fitted.history->needs_sessions()) {
+    if (!arguments.after.empty()) {
+      map.warnings.push_back("warning: the map has no memory, so " +
+                             data::ArgumentName("after") + " changes nothing");
+    }
+    return map;
+  }
+  const History& history = *fitted.history;
+  data::DatasetSelection selection = SelectionFor(history, table, arguments);
+  data::FoundSessions found = FindAll(history, table, selection);
+  data::CsvTable joined;
+  if (!arguments.after.empty()) {
+    // Each by itself first, so that what is wrong is said of its file.
+    std::vector<std::string> columns;
+    std::vector<data::ColumnInfo> of_map;
+    for (const TrainedInput& input : fitted.inputs) {
+      columns.push_back(input.column.name);
+      of_map.push_back(input.column);
+    }
+    const data::TableForMap read =
+        data::InMapUnits(data::ReadCsv(arguments.after), of_map);
+    const data::CsvTable& earlier = read.table;
+    map.warnings = read.remarks;
+    FindAll(history, earlier, selection);
+    const auto add = [&](const std::string& name) {
+      if (std::ranges::find(columns, name) == columns.end()) {
+        columns.push_back(name);
+      }
+    };
+    if (!found.sessions.column.empty()) add(found.sessions.column);
+    if (found.time_column >= 0) {
+      selection.time = table.At(found.time_column).name;
+      add(selection.time);
+    }
+    joined = data::AppendedTable(earlier, table, columns);
+    found = FindAll(history, joined, selection);
+    map.first_row = static_cast<Index>(earlier.num_rows);
+  }
+  const data::CsvTable& all = arguments.after.empty() ? table : joined;
+  auto log = std::make_shared<data::SessionLog>();
+  log->input_values = ReadingsOf(fitted, all);
+  log->first_rows = data::FirstRows(found.sessions, log->input_values);
+  log->sessions = std::move(found.sessions);
+  log->time = std::move(found.time);
+  log->time_unit = std::move(found.time_unit);
+  map.log = std::move(log);
+  WarnOfSessions(history, table, arguments, &map);
+  return map;
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,147 @@
+#include "models/promise/map_rows.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "data/measurements/sessions.h"
+#include "models/history/history.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+
+data::DatasetSelection SelectionFor(const FittedModel& fitted,
+                                    const MapRowsOptions& options) {
+  data::DatasetSelection selection{
+      .target = fitted.target.name,
+      .inputs = {},
+      .exclude = {},
+      .group = "",
+      .time = options.log.time,
+      .session = options.log.session,
+      .weight = "",
+      .align = fitted.align,
+      .missing = options.missing,
+      .faults = options.faults,
+      .keep_dead = true,
+      .only_to_judge = true,
+      .with_log = fitted.align != data::Alignment::kNone};
+  for (const TrainedInput& input : fitted.inputs) {
+    selection.inputs.push_back(input.column.name);
+  }
+  return selection;
+}
+
+data::Dataset WithMapLog(const data::Dataset& dataset, const MapLog& map) {
+  if (map.log == nullptr) return dataset;
+  std::vector<Index> log_rows;
+  for (const Index row : dataset.rows()) {
+    log_rows.push_back(map.first_row + row);
+  }
+  return dataset.WithLog(map.log, std::move(log_rows));
+}
+
+}  // namespace
+
+data::TableForMap ReadForMap(const FittedModel& fitted,
+                             const std::string& file,
+                             MapColumns columns) {
+  std::vector<data::ColumnInfo> of_map;
+  for (const TrainedInput& input : fitted.inputs) {
+    of_map.push_back(input.column);
+  }
+  if (columns == MapColumns::kInputsAndTarget) of_map.push_back(fitted.target);
+  return data::InMapUnits(data::ReadCsv(file), of_map);
+}
+
+Eigen::MatrixXd InputsOf(const FittedModel& fitted,
+                         const data::CsvTable& table) {
+  Eigen::MatrixXd inputs(static_cast<Index>(table.num_rows),
+                         static_cast<Index>(fitted.inputs.size()));
+  Index column = 0;
+  for (const TrainedInput& input : fitted.inputs) {
+    inputs.col(column++) = data::NumericColumn(
+        table, input.column.name, data::MissingPolicy::kError, nullptr);
+  }
+  return inputs;
+}
+
+std::vector<Moment> MomentsOf(const FittedModel& fitted,
+                              const data::CsvTable& table,
+                              const std::vector<Index>& rows,
+                              const MapLogArguments& arguments) {
+  data::DatasetSelection selection;
+  selection.time = arguments.time;
+  selection.session = arguments.session;
+  if (selection.session.empty() && fitted.history != nullptr &&
+      table.Find(fitted.history->session) >= 0) {
+    selection.session = fitted.history->session;
+  }
+  const data::FoundSessions found = data::FindSessions(table, selection, rows);
+  const bool has_times = found.time_column >= 0;
+  std::vector<Moment> moments;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto session = static_cast<std::size_t>(found.sessions.codes[i]);
+    moments.push_back(
+        {.session = found.sessions.labels[session],
+         .time = has_times ? found.time[static_cast<Index>(i)] : 0.0});
+  }
+  return moments;
+}
+
+Eigen::VectorXd ElapsedSinceStart(const FittedModel& fitted,
+                                  const MapRows& rows,
+                                  const MapLogArguments& arguments) {
+  std::vector<Index> all(rows.table.num_rows);
+  std::iota(all.begin(), all.end(), Index{0});
+  const std::vector<Moment> moments =
+      MomentsOf(fitted, rows.table, all, arguments);
+  std::map<std::string, double> start;
+  const auto begin = [&](const std::string& session, double time) {
+    const auto [at, is_new] = start.try_emplace(session, time);
+    if (!is_new) at->second = std::min(at->second, time);
+  };
+  for (const Moment& moment : moments) {
+    begin(moment.session, moment.time);
+  }
+  // The log of a map with a memory holds the rows before these, too.
+  if (const data::SessionLog* log = rows.dataset.log().get();
+      log != nullptr && log->time_unit == "s") {
+    for (std::size_t row = 0; row < log->sessions.codes.size(); ++row) {
+      const auto session = static_cast<std::size_t>(log->sessions.codes[row]);
+      begin(log->sessions.labels[session], log->time[static_cast<Index>(row)]);
+    }
+  }
+  Eigen::VectorXd elapsed(rows.dataset.num_rows());
+  for (Index i = 0; i < elapsed.size(); ++i) {
+    const Index row = rows.dataset.rows()[static_cast<std::size_t>(i)];
+    const Moment& moment = moments[static_cast<std::size_t>(row)];
+    elapsed[i] = moment.time - start.at(moment.session);
+  }
+  return elapsed;
+}
+
+MapRows MakeMapRows(const FittedModel& fitted,
+                    data::CsvTable table,
+                    const MapRowsOptions& options) {
+  data::PreparedDataset prepared =
+      data::MakeDataset(table, SelectionFor(fitted, options));
+  MapLog map =
+      options.with_memory ? MakeMapLog(fitted, table, options.log) : MapLog{};
+  data::Dataset dataset = WithMapLog(prepared.dataset, map);
+  const bool begins_inside =
+      map.log != nullptr &&
+      std::ranges::any_of(dataset.session_codes(), [&](Index session) {
+        return map.begin_inside[static_cast<std::size_t>(session)];
+      });
+  return {.table = std::move(table),
+          .prepared = std::move(prepared),
+          .dataset = std::move(dataset),
+          .begins_inside = begins_inside,
+          .warnings = std::move(map.warnings)};
+}
+
+}  // namespace errmap::models

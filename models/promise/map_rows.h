@@ -1,0 +1,68 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/csv.h"
+#include "data/measurements/column_match.h"
+#include "data/measurements/dataset.h"
+#include "models/error_model.h"
+#include "models/history/map_log.h"
+#include "models/promise/session_offset.h"
+
+namespace errmap::models {
+
+enum class MapColumns { kInputs, kInputsAndTarget };
+
+/// Reads a file in the names and units of the map (data::InMapUnits).
+data::TableForMap ReadForMap(const FittedModel& fitted,
+                             const std::string& file,
+                             MapColumns columns);
+
+/// The map's inputs in every row of such a table (rows x inputs). Throws
+/// data::InputError where a column is missing or a cell is no number.
+Eigen::MatrixXd InputsOf(const FittedModel& fitted,
+                         const data::CsvTable& table);
+
+/// Which measured rows of a table a map is held against.
+struct MapRowsOptions {
+  data::MissingPolicy missing = data::MissingPolicy::kError;
+  data::FaultPolicy faults = data::FaultPolicy::kKeep;
+  MapLogArguments log = {};
+  /// False where the caller knows the rows between: no filters are run.
+  bool with_memory = true;
+};
+
+/// Rows with the map's inputs and target, in its names and units.
+struct MapRows {
+  data::CsvTable table;
+  data::PreparedDataset prepared;
+  /// The rows with what the map's filters run through.
+  data::Dataset dataset;
+  /// Whether the first rows of a session with measured rows are missing.
+  bool begins_inside = false;
+  std::vector<std::string> warnings;  // of the map's memory, one line each
+};
+
+/// Of a table that ReadForMap gave. Throws data::InputError as MakeDataset and
+/// MakeMapLog do.
+MapRows MakeMapRows(const FittedModel& fitted,
+                    data::CsvTable table,
+                    const MapRowsOptions& options);
+
+/// Session and time of these rows of a table, as far as it tells; one session
+/// and time 0 where it does not.
+std::vector<Moment> MomentsOf(const FittedModel& fitted,
+                              const data::CsvTable& table,
+                              const std::vector<Eigen::Index>& rows,
+                              const MapLogArguments& arguments);
+
+/// (rows of the data set) Time since the first row of the session in the
+/// table, or in the rows before it; 0 where there are no times.
+Eigen::VectorXd ElapsedSinceStart(const FittedModel& fitted,
+                                  const MapRows& rows,
+                                  const MapLogArguments& arguments);
+
+}  // namespace errmap::models

@@ -1,0 +1,69 @@
+#include "models/promise/probe_correction.h"
+
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+
+// Rows before all others go on into the probes by themselves.
+bool RunsBetweenProbes(const FittedModel& fitted, const MapLogArguments& log) {
+  return fitted.history != nullptr && fitted.history->needs_sessions() &&
+         log.after.empty();
+}
+
+// The measured rows, and a memory that runs through all that is known of their
+// sessions.
+data::Dataset WithRowsBetween(const FittedModel& fitted,
+                              const MapRows& measured,
+                              const RowsForMap& today,
+                              const MapLogArguments& log) {
+  const Eigen::MatrixXd inputs = ReadingsOf(fitted, measured.table);
+  const PointLog merged =
+      MakePointLog(*fitted.history, {measured.table, inputs}, &today, log);
+  std::vector<Index> log_rows;
+  for (const Index row : measured.dataset.rows()) {
+    log_rows.push_back(merged.rows[static_cast<std::size_t>(row)]);
+  }
+  return measured.dataset.WithLog(merged.log, std::move(log_rows));
+}
+
+}  // namespace
+
+MapRowsOptions ProbeRowsOptions(const FittedModel& fitted,
+                                const MapLogArguments& log) {
+  return {.missing = data::MissingPolicy::kDropRows,
+          .log = log,
+          .with_memory = !RunsBetweenProbes(fitted, log)};
+}
+
+ProbeCorrection CorrectByProbes(const FittedModel& fitted,
+                                const MapRows& probes,
+                                const RowsForMap& today,
+                                const MapLogArguments& log) {
+  const Eigen::VectorXd predicted =
+      fitted.Predict(RunsBetweenProbes(fitted, log)
+                         ? WithRowsBetween(fitted, probes, today, log)
+                         : probes.dataset);
+  std::vector<Index> rows(today.table.num_rows);
+  std::iota(rows.begin(), rows.end(), Index{0});
+  ProbeCorrection correction{.num_probes = predicted.size(),
+                             .model = FitOffset(*fitted.held_out),
+                             .track = {},
+                             .narrowing = {}};
+  correction.track =
+      TrackOffset(correction.model,
+                  MomentsOf(fitted, probes.table, probes.dataset.rows(), log),
+                  probes.dataset.target_values() - predicted,
+                  MomentsOf(fitted, today.table, rows, log));
+  correction.narrowing = correction.track.variance;
+  for (double& value : correction.narrowing) {
+    value = correction.model.Narrowing(value);
+  }
+  return correction;
+}
+
+}  // namespace errmap::models
