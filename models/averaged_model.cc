@@ -91,4 +91,15 @@ double AveragedModel::DoPredictRow(const double* inputs) const {
   return mean;
 }
 
+PredictionCost CostOf(const BlendForm& form) {
+  PredictionCost sum;
+  for (const BlendForm::Member& member : form.members) {
+    const PredictionCost cost = std::visit(
+        [](const auto& known) { return CostOf(known); }, member.form);
+    sum.multiplications += cost.multiplications + 1;  // by its weight
+    sum.exponentials += cost.exponentials;
+  }
+  return sum;
+}
+
 }  // namespace errmap::models

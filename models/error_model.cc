@@ -1,6 +1,5 @@
 #include "models/error_model.h"
 
-#include <numeric>
 #include <stdexcept>
 
 #include "stats/summary.h"
@@ -43,30 +42,6 @@ std::string_view ToString(InnerHoldout inner) {
       return "forward";
   }
   return "";
-}
-
-PredictionCost CostOf(const PolynomialForm& form) {
-  PredictionCost cost;
-  for (const PolynomialTerm& term : form.terms) {
-    cost.multiplications += std::accumulate(
-        term.powers.begin(), term.powers.end(), Eigen::Index{0});
-  }
-  return cost;
-}
-
-PredictionCost CostOf(const NetForm& form) {
-  return {form.w1.size() + form.w2.size(), form.w1.rows() + form.w2.rows()};
-}
-
-PredictionCost CostOf(const BlendForm& form) {
-  PredictionCost sum;
-  for (const BlendForm::Member& member : form.members) {
-    const PredictionCost cost = std::visit(
-        [](const auto& known) { return CostOf(known); }, member.form);
-    sum.multiplications += cost.multiplications + 1;  // by its weight
-    sum.exponentials += cost.exponentials;
-  }
-  return sum;
 }
 
 PredictionCost CostOf(const OpaqueForm& form) { return form.cost; }

@@ -42,11 +42,11 @@ TrainedInput ReadInput(const Node& node) {
 
 ModelKind ReadKind(const Node& node) {
   const std::string kind = node.Text();
-  for (const ModelKind known : {ModelKind::kBaseline,
-                                ModelKind::kPolynomial,
-                                ModelKind::kNet,
-                                ModelKind::kBlend}) {
-    if (kind == ToString(known)) return known;
+  // All that have a name, but for those made elsewhere.
+  for (int i = 0;; ++i) {
+    const auto known = static_cast<ModelKind>(i);
+    if (ToString(known).empty()) break;
+    if (kind == ToString(known) && known != ModelKind::kFile) return known;
   }
   node.Refuse("unknown kind of model '" + kind + "'");
 }

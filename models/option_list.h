@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -282,13 +283,39 @@ void AddWithin(const OptionList<Part>& parts, At at, OptionList<Options>* all) {
   }
 }
 
+/// A list that is built where it is first asked for.
+template <typename Options>
+class LazyOptionList {
+ public:
+  LazyOptionList() : LazyOptionList([] { return OptionList<Options>(); }) {}
+  template <std::invocable Build>
+  requires(!std::same_as<std::decay_t<Build>, LazyOptionList>)
+      LazyOptionList(Build build)
+      : made_(std::make_shared<Made>()) {
+    made_->build = std::move(build);
+  }
+
+  const OptionList<Options>& operator()() const {
+    std::call_once(made_->once, [this] { made_->list = made_->build(); });
+    return made_->list;
+  }
+
+ private:
+  struct Made {
+    std::function<OptionList<Options>()> build;
+    std::once_flag once;
+    OptionList<Options> list;
+  };
+  std::shared_ptr<Made> made_;
+};
+
 /// A model of a family, as a SPEC names it.
 template <typename Options>
 struct ListedModel {
   std::string name;
   std::string about;
   Options defaults;
-  OptionList<Options> options;
+  LazyOptionList<Options> options;
   /// What of these, each allowed, contradicts; "" where nothing does.
   std::string (*contradiction)(const Options&) = nullptr;
   /// Makes a SPEC say what it implies, where it does.
@@ -330,7 +357,7 @@ Options ReadOptions(ModelSpec spec) {
   const auto& model = ListedModelNamed<Options>(spec.text, spec.type);
   if (model.complete != nullptr) model.complete(&spec);
   Options taken = model.defaults;
-  for (const Option<Options>& option : model.options) {
+  for (const Option<Options>& option : model.options()) {
     for (const auto& [key, value] : spec.options) {
       if (key != option.name) continue;
       bool is_allowed = false;
@@ -342,7 +369,7 @@ Options ReadOptions(ModelSpec spec) {
       if (!is_allowed) RefuseValue(spec.text, option, value);
     }
   }
-  RefuseOthers(spec, InfoOf(model.options));
+  RefuseOthers(spec, InfoOf(model.options()));
   if (model.contradiction != nullptr) {
     const std::string why = model.contradiction(taken);
     if (!why.empty()) RefuseSpec(spec.text, why);
@@ -359,7 +386,7 @@ template <typename Options>
 std::string SpecOf(const Options& options) {
   const auto& model = ListedModelNamed<Options>("", options.type());
   std::string spec = model.name;
-  for (const Option<Options>& option : model.options) {
+  for (const Option<Options>& option : model.options()) {
     if (!option.always_in_spec && !option.is_set(options, model.defaults)) {
       continue;
     }
@@ -374,7 +401,7 @@ std::string SpecOf(const Options& options) {
 template <typename Options>
 void ValidateOptions(const Options& options) {
   const auto& model = ListedModelNamed<Options>("", options.type());
-  for (const Option<Options>& option : model.options) {
+  for (const Option<Options>& option : model.options()) {
     if (option.allows(options)) continue;
     RefuseValue(SpecOf(options), option, TextOf(*option.write(options)));
   }
@@ -397,7 +424,7 @@ template <typename Options>
 std::vector<EffectiveOption> InEffect(const Options& options) {
   const auto& model = ListedModelNamed<Options>("", options.type());
   std::vector<EffectiveOption> all;
-  for (const Option<Options>& option : model.options) {
+  for (const Option<Options>& option : model.options()) {
     const bool shown = option.is_shown ? option.is_shown(options)
                                        : option.is_set(options, model.defaults);
     if (!shown) continue;
@@ -412,7 +439,7 @@ std::vector<EffectiveOption> InEffect(const Options& options) {
 struct ModelType {
   std::string name;
   std::string about;
-  std::vector<OptionInfo> options;
+  std::function<std::vector<OptionInfo>()> options;
   bool is_compared;
   std::unique_ptr<ModelRecipe> (*make)(const ModelSpec& spec);
   /// The SPEC as its options write it.
@@ -425,7 +452,7 @@ std::vector<ModelType> TypesOf() {
   for (const ListedModel<Options>& model : ListedModels<Options>()) {
     types.push_back({model.name,
                      model.about,
-                     InfoOf(model.options),
+                     [&model] { return InfoOf(model.options()); },
                      model.is_compared,
                      [](const ModelSpec& spec) -> std::unique_ptr<ModelRecipe> {
                        return MakeRecipe(ReadOptions<Options>(spec), spec.text);

@@ -95,7 +95,7 @@ std::vector<ModelOption> OptionsOfModel(std::string_view type) {
   std::vector<ModelOption> options;
   const ModelType& model = TypeOf(spec);
   const std::vector<EffectiveOption> in_effect = model.make(spec)->options();
-  for (const OptionInfo& info : model.options) {
+  for (const OptionInfo& info : model.options()) {
     options.push_back({info.name, info.about, info.values, ""});
     for (const EffectiveOption& effective : in_effect) {
       if (effective.key == info.name) {

@@ -324,7 +324,7 @@ const std::vector<ListedModel<BlendOptions>>& ListedModels() {
       {.name = "blend",
        .about = "an average of maps that see the inputs differently",
        .defaults = {},
-       .options = List(),
+       .options = List,
        .complete = NameTheViewOf}};
   return models;
 }

@@ -91,4 +91,8 @@ Eigen::MatrixXd SecondLayer(const NetShape& shape, const Eigen::VectorXd& w) {
       w.data() + shape.num_weights1(), shape.outputs, shape.hidden + 1);
 }
 
+PredictionCost CostOf(const NetForm& form) {
+  return {form.w1.size() + form.w2.size(), form.w1.rows() + form.w2.rows()};
+}
+
 }  // namespace errmap::models

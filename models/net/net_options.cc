@@ -234,12 +234,15 @@ OptionList<NloptTraining> ListOf(const NloptTraining& /*method*/) {
 
 template <typename Training>
 ListedModel<NetOptions> ModelOf(std::string name, std::string about) {
-  OptionList<NetOptions> options = CommonList();
-  AddWithin(ListOf(Training()), kOf<Training>, &options);
+  const auto list = [] {
+    OptionList<NetOptions> options = CommonList();
+    AddWithin(ListOf(Training()), kOf<Training>, &options);
+    return options;
+  };
   return {.name = std::move(name),
           .about = std::move(about),
           .defaults = {.method = Training()},
-          .options = std::move(options),
+          .options = list,
           .contradiction = Contradiction,
           .complete = NameTheViewOf,
           .is_compared = std::is_same_v<Training, ScgTraining>};

@@ -198,7 +198,7 @@ const std::vector<ListedModel<BestSubsetOptions>>& ListedModels() {
       {.name = "poly:best",
        .about = "the best subset of the terms",
        .defaults = {},
-       .options = List(),
+       .options = List,
        .is_compared = false}};
   return models;
 }

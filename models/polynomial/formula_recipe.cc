@@ -134,7 +134,7 @@ const std::vector<ListedModel<FormulaOptions>>& ListedModels() {
       {.name = "poly",
        .about = "the terms as written",
        .defaults = {},
-       .options = List(),
+       .options = List,
        .contradiction = Contradiction,
        .complete = [](ModelSpec* spec) { NameTheView(spec, false); },
        .is_compared = false}};

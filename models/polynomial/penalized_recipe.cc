@@ -199,13 +199,13 @@ const std::vector<ListedModel<PenalizedOptions>>& ListedModels() {
       {.name = "poly:ridge",
        .about = "all terms, large coefficients penalised",
        .defaults = {},
-       .options = List(),
+       .options = List,
        .contradiction = Contradiction,
        .complete = NameTheViewOf},
       {.name = "poly:lasso",
        .about = "few terms, by a penalty that drops them",
        .defaults = {.family = Penalty::kLasso},
-       .options = List(),
+       .options = List,
        .contradiction = Contradiction,
        .complete = NameTheViewOf}};
   return models;

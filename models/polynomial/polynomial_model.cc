@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -80,6 +81,15 @@ double PolynomialModel::DoPredictRow(const double* inputs) const {
     sum += product;
   }
   return sum;
+}
+
+PredictionCost CostOf(const PolynomialForm& form) {
+  PredictionCost cost;
+  for (const PolynomialTerm& term : form.terms) {
+    cost.multiplications += std::accumulate(
+        term.powers.begin(), term.powers.end(), Eigen::Index{0});
+  }
+  return cost;
 }
 
 }  // namespace errmap::models

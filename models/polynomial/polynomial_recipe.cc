@@ -227,20 +227,23 @@ const std::vector<ListedModel<PositionTemperatureOptions>>& ListedModels() {
   static const auto models = [] {
     std::vector<ListedModel<Options>> all;
     for (const TermsOfForm& form : Forms()) {
-      OptionList<Options> options;
-      if (form.uses_position) {
-        options.push_back(
-            OptionFor("position", "its column", &Options::position, Words()));
-      }
-      if (form.uses_temperature) {
-        options.push_back(
-            OptionFor("T", "the column of T", &Options::temperature, Words()));
-      }
+      const auto list = [&form] {
+        OptionList<Options> options;
+        if (form.uses_position) {
+          options.push_back(
+              OptionFor("position", "its column", &Options::position, Words()));
+        }
+        if (form.uses_temperature) {
+          options.push_back(OptionFor(
+              "T", "the column of T", &Options::temperature, Words()));
+        }
+        return options;
+      };
       all.push_back({.name = std::string(form.type),
                      .about = std::string(form.about),
                      .defaults = {.form = static_cast<PositionTemperatureForm>(
                                       &form - Forms().data())},
-                     .options = std::move(options)});
+                     .options = list});
     }
     return all;
   }();
@@ -250,19 +253,21 @@ const std::vector<ListedModel<PositionTemperatureOptions>>& ListedModels() {
 template <>
 const std::vector<ListedModel<FullOptions>>& ListedModels() {
   constexpr std::int64_t kMostDegree = 12;
-  static const auto models = [] {
-    Option<FullOptions> degree = OptionFor("degree",
-                                           "the highest power of a term",
-                                           &FullOptions::degree,
-                                           Whole{1, kMostDegree})
-                                     .Always();
-    degree.always_in_spec = true;
-    return std::vector<ListedModel<FullOptions>>{
-        {.name = "poly:full",
-         .about = "every product of the inputs up to a degree",
-         .defaults = {},
-         .options = {std::move(degree)}}};
-  }();
+  const auto list = [] {
+    OptionList<FullOptions> options;
+    options.push_back(OptionFor("degree",
+                                "the highest power of a term",
+                                &FullOptions::degree,
+                                Whole{1, kMostDegree})
+                          .Always());
+    options.front().always_in_spec = true;
+    return options;
+  };
+  static const std::vector<ListedModel<FullOptions>> models = {
+      {.name = "poly:full",
+       .about = "every product of the inputs up to a degree",
+       .defaults = {},
+       .options = list}};
   return models;
 }
 

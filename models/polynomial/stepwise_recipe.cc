@@ -414,7 +414,7 @@ const std::vector<ListedModel<StepwiseOptions>>& ListedModels() {
       {.name = "poly:stepwise",
        .about = "terms that come and go by a criterion",
        .defaults = {},
-       .options = List(),
+       .options = List,
        .contradiction = Contradiction,
        .complete = NameTheViewOf}};
   return models;

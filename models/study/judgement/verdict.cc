@@ -377,10 +377,9 @@ Choice ChoiceOf(const ModelResult& model) {
       return Choice::kNeural;
     case ModelKind::kBlend:
       return Choice::kBlend;
-    case ModelKind::kFile:
+    default:  // it speaks for no class that verdicts tell apart
       return Choice::kGiven;
   }
-  return Choice::kGiven;
 }
 
 Judgement JudgeStudy(const data::Dataset& dataset,
