@@ -197,10 +197,9 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
       violation("<" name "> belongs in cli/*.cc")
       next
     }
-    # How records and models become JSON; no public header includes them, nor
-    # are they installed.
-    if (FILENAME == "models/study/record/record_json.h") next
-    if (FILENAME == "models/model_json.h") next
+    # How records, models and findings become JSON; no public header includes
+    # them, nor are they installed.
+    if (FILENAME ~ /^models\/.*_json\.h$/) next
     if (name ~ /^nlohmann\// && FILENAME !~ /^(models\/.*\.cc|cli\/.*)$/) {
       violation("<" name "> belongs in models/*.cc and cli/")
       next

@@ -5,11 +5,12 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/commands/certify_json.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
+#include "cli/json_blocks.h"
 #include "cli/shell/standard_streams.h"
 #include "models/certification/certification.h"
+#include "models/certification/certification_json.h"
 #include "models/report/number_text.h"
 #include "models/report/words/certify_text.h"
 #include "models/study_file/provenance.h"
@@ -44,7 +45,7 @@ int RunCertify(const CertifyArguments& arguments,
   }
   models::JudgeFloors(floors, &certification);
   if (arguments.format == "json") {
-    Json document = CertificationJson(certification, floors);
+    Json document = models::CertificationJson(certification, floors);
     document["provenance"] =
         ProvenanceJson(command_line, {{"part", arguments.part}}, {});
     PrintResult(DumpJson(document));

@@ -9,13 +9,14 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
-#include "cli/commands/netcg_json.h"
+#include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
 #include "data/prepare_folder.h"
 #include "data/text.h"
 #include "models/netcg/netcg_files.h"
+#include "models/netcg/netcg_json.h"
 #include "models/netcg/report_study.h"
 #include "models/report/number_text.h"
 #include "models/study_file/provenance.h"
@@ -97,7 +98,7 @@ int RunFile(const NetcgArguments& arguments, const std::string& command_line) {
                         data::Printable(run.title, kTitle)));
       });
   WriteFiles(records, arguments, {arguments.file});
-  Print(as_json ? NetcgJson(arguments.file, records, options) : Json(),
+  Print(as_json ? models::NetcgJson(arguments.file, records, options) : Json(),
         as_json ? "" : models::NetcgText(records, options),
         as_json,
         command_line);
@@ -128,7 +129,10 @@ int RunStudy(const NetcgArguments& arguments, const std::string& command_line) {
                       data::PrintablePath(out)));
     }
   }
-  Print(as_json ? NetcgStudyJson(study) : Json(), text, as_json, command_line);
+  Print(as_json ? models::NetcgStudyJson(study) : Json(),
+        text,
+        as_json,
+        command_line);
   return kDone;
 }
 

@@ -7,12 +7,12 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/commands/control/measured_cost.h"
 #include "cli/json_blocks.h"
 #include "cli/shell/standard_streams.h"
 #include "data/input_error.h"
 #include "data/text.h"
 #include "models/export/export_map.h"
+#include "models/export/measured_cost.h"
 #include "models/export/program_cost.h"
 #include "models/model_file.h"
 
@@ -39,7 +39,7 @@ models::MapExport Prepare(const CostArguments& arguments) {
 
 Json CostJson(const models::MapExport& map,
               const models::ProgramCost& counted,
-              const std::optional<MeasuredCost>& measured) {
+              const std::optional<models::MeasuredCost>& measured) {
   const auto known = [&](auto member) {
     return measured ? Json((*measured).*member) : Json(nullptr);
   };
@@ -57,17 +57,17 @@ Json CostJson(const models::MapExport& map,
             {"comparisons", counted.comparisons},
             {"copies", counted.copies}}},
           {"bytes",
-           {{"code", known(&MeasuredCost::code_bytes)},
-            {"constants", known(&MeasuredCost::constant_bytes)},
+           {{"code", known(&models::MeasuredCost::code_bytes)},
+            {"constants", known(&models::MeasuredCost::constant_bytes)},
             {"state", counted.state_bytes}}},
-          {"compiler", kCostCompiler},
-          {"median_ns", known(&MeasuredCost::median_ns)},
-          {"worst_ns", known(&MeasuredCost::worst_ns)}};
+          {"compiler", models::kCostCompiler},
+          {"median_ns", known(&models::MeasuredCost::median_ns)},
+          {"worst_ns", known(&models::MeasuredCost::worst_ns)}};
 }
 
 std::string CostText(const models::MapExport& map,
                      const models::ProgramCost& counted,
-                     const std::optional<MeasuredCost>& measured,
+                     const std::optional<models::MeasuredCost>& measured,
                      const std::string& why) {
   std::string text = fmt::format(
       "{}: one step of the exported C\n"
@@ -100,14 +100,15 @@ std::string CostText(const models::MapExport& map,
                     measured->constant_bytes,
                     measured->median_ns,
                     measured->worst_ns,
-                    kCostCompiler);
+                    models::kCostCompiler);
 }
 
 int RunCost(const CostArguments& arguments) {
   const models::MapExport map = Prepare(arguments);
   const models::ProgramCost counted = models::CostOf(map.program);
   std::string why;
-  const std::optional<MeasuredCost> measured = MeasureCost(map, &why);
+  const std::optional<models::MeasuredCost> measured =
+      models::MeasureCost(map, &why);
   PrintResult(arguments.format == "json"
                   ? DumpJson(CostJson(map, counted, measured))
                   : CostText(map, counted, measured, why));

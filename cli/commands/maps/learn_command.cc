@@ -11,7 +11,6 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
-#include "cli/commands/maps/learning_text.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/commands/progress.h"
 #include "cli/json_blocks.h"
@@ -31,6 +30,7 @@
 #include "models/report/figures/learning_figures.h"
 #include "models/report/figures/svg.h"
 #include "models/report/shell_word.h"
+#include "models/report/words/learning_text.h"
 #include "models/report/words/next_steps.h"
 #include "models/study/journal/fit_journal_file.h"
 #include "models/study/journal/fit_label.h"
@@ -197,7 +197,8 @@ void LearnCurves(const LearnArguments& arguments,
       curves,
       [](const models::LearningCurve& curve) { return curve.points.empty(); });
   learned->record.curves = models::MakeRecord(plan, curves, goal);
-  learned->text += CurvesText(*learned->record.curves, dataset.target().unit);
+  learned->text +=
+      report::CurvesText(*learned->record.curves, dataset.target().unit);
 }
 
 // Names as --inputs takes them.
@@ -261,7 +262,8 @@ void LearnBySensors(const LearnArguments& arguments,
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("--by sensors: {}", error.what()));
   }
-  learned->text += SensorsText(*learned->record.sensors, dataset.target().unit);
+  learned->text +=
+      report::SensorsText(*learned->record.sensors, dataset.target().unit);
   learned->text += ComparisonOfChosen(
       *learned->record.sensors, arguments, dataset, command_line);
 }
@@ -276,7 +278,7 @@ void LearnNext(const LearnArguments& arguments,
   const std::vector<models::NextState> chosen = models::ChooseNext(
       dataset, candidates, arguments.next, kRowsPerCandidate);
   learned->record.next = models::MakeRecord(chosen);
-  learned->text += NextText(*learned->record.next);
+  learned->text += report::NextText(*learned->record.next);
 }
 
 // In the target's unit.

@@ -1,4 +1,4 @@
-#include "cli/commands/control/measured_cost.h"
+#include "models/export/measured_cost.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -12,7 +12,7 @@
 #include "models/export/c_code.h"
 #include "models/export/safe_names.h"
 
-namespace errmap::cli {
+namespace errmap::models {
 namespace {
 
 namespace fs = std::filesystem;
@@ -121,15 +121,15 @@ int main(void) {{
 }}
 )";
 
-std::string TimerText(const models::MapExport& map) {
+std::string TimerText(const MapExport& map) {
   std::string rows;
   // Within the trained range, where a controller is.
   std::size_t count = 0;
-  for (const models::SelfTestRow& row : map.rows) {
-    if ((row.status & models::kMapOutside) != 0) continue;
+  for (const SelfTestRow& row : map.rows) {
+    if ((row.status & kMapOutside) != 0) continue;
     std::string numbers;
     for (const double reading : row.readings) {
-      numbers += models::RealText(reading) + ", ";
+      numbers += RealText(reading) + ", ";
     }
     rows += "  {" + numbers + "0.0},\n";
     ++count;
@@ -171,11 +171,11 @@ std::int64_t SectionBytes(const std::string& listing,
 
 }  // namespace
 
-std::optional<MeasuredCost> MeasureCost(const models::MapExport& map,
+std::optional<MeasuredCost> MeasureCost(const MapExport& map,
                                         std::string* why) {
   const TemporaryFolder folder;
-  for (const models::ExportedFile& file : models::CCode(
-           map.program, map.name, map.precision, map.rows, map.tolerance())) {
+  for (const ExportedFile& file :
+       CCode(map.program, map.name, map.precision, map.rows, map.tolerance())) {
     data::WriteFileAtomically((folder / file.name).string(), file.content);
   }
   data::WriteFileAtomically((folder / "timer_main.c").string(), TimerText(map));
@@ -203,4 +203,4 @@ std::optional<MeasuredCost> MeasureCost(const models::MapExport& map,
   return cost;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::models

@@ -1,12 +1,14 @@
-#include "cli/commands/certify_json.h"
+#include "models/certification/certification_json.h"
 
 #include "models/version.h"
 
-namespace errmap::cli {
+namespace errmap::models {
 namespace {
 
-Json FloorsJson(const models::CertificationFloors& floors) {
-  return {{"nonlinear_solver", models::kDefaultSolver},
+using Json = nlohmann::ordered_json;
+
+Json FloorsJson(const CertificationFloors& floors) {
+  return {{"nonlinear_solver", kDefaultSolver},
           {"nonlinear_solved", floors.nonlinear_solved},
           {"nonlinear_lre_parameters", floors.nonlinear_parameters},
           {"nonlinear_mean_lre_parameters", floors.nonlinear_mean_parameters},
@@ -24,9 +26,9 @@ Json FloorsJson(const models::CertificationFloors& floors) {
           {"agreement_prediction_difference", floors.agreement_predictions}};
 }
 
-Json EstimatesJson(const std::vector<models::CertifiedEstimate>& estimates) {
+Json EstimatesJson(const std::vector<CertifiedEstimate>& estimates) {
   Json rows = Json::array();
-  for (const models::CertifiedEstimate& row : estimates) {
+  for (const CertifiedEstimate& row : estimates) {
     rows.push_back({{"name", row.name},
                     {"estimate", row.estimate},
                     {"standard_deviation", row.standard_deviation}});
@@ -34,7 +36,7 @@ Json EstimatesJson(const std::vector<models::CertifiedEstimate>& estimates) {
   return rows;
 }
 
-Json NonlinearJson(const models::Certification& certification) {
+Json NonlinearJson(const Certification& certification) {
   Json rows = Json::array();
   for (const auto& row : certification.nonlinear) {
     rows.push_back({{"problem", row.problem},
@@ -52,10 +54,10 @@ Json NonlinearJson(const models::Certification& certification) {
   return rows;
 }
 
-Json SummaryJson(const models::Certification& certification) {
+Json SummaryJson(const Certification& certification) {
   Json rows = Json::array();
   for (const auto& row : certification.nonlinear_summary) {
-    const std::string fits = models::ModelsFittedBy(row.solver);
+    const std::string fits = ModelsFittedBy(row.solver);
     rows.push_back({{"solver", row.solver},
                     {"fits", fits.empty() ? Json() : Json(fits)},
                     {"runs", row.runs},
@@ -67,7 +69,7 @@ Json SummaryJson(const models::Certification& certification) {
   return rows;
 }
 
-Json LinearJson(const models::Certification& certification) {
+Json LinearJson(const Certification& certification) {
   Json rows = Json::array();
   for (const auto& row : certification.linear) {
     rows.push_back({{"problem", row.problem},
@@ -83,7 +85,7 @@ Json LinearJson(const models::Certification& certification) {
   return rows;
 }
 
-Json UnivariateJson(const models::Certification& certification) {
+Json UnivariateJson(const Certification& certification) {
   Json rows = Json::array();
   for (const auto& row : certification.univariate) {
     rows.push_back(
@@ -105,8 +107,8 @@ Json UnivariateJson(const models::Certification& certification) {
 
 }  // namespace
 
-Json CertificationJson(const models::Certification& certification,
-                       const models::CertificationFloors& floors) {
+Json CertificationJson(const Certification& certification,
+                       const CertificationFloors& floors) {
   Json gradients = Json::array();
   for (const auto& row : certification.gradients) {
     gradients.push_back({{"objective", row.objective},
@@ -123,7 +125,7 @@ Json CertificationJson(const models::Certification& certification,
                          {"judged", row.judged}});
   }
   return {{"schema", "errmap-certify-1"},
-          {"version", models::Version()},
+          {"version", Version()},
           {"passed", certification.passed()},
           {"missed", certification.missed},
           {"nonlinear", NonlinearJson(certification)},
@@ -135,4 +137,4 @@ Json CertificationJson(const models::Certification& certification,
           {"floors", FloorsJson(floors)}};
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::models

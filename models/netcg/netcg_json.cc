@@ -1,16 +1,11 @@
-#include "cli/commands/netcg_json.h"
+#include "models/netcg/netcg_json.h"
 
 #include <cmath>
 
-namespace errmap::cli {
+namespace errmap::models {
 namespace {
 
-using models::NetcgFigures;
-using models::NetcgOptions;
-using models::NetcgPrecision;
-using models::NetcgRecord;
-using models::NetcgResult;
-using models::NetcgSpecification;
+using Json = nlohmann::ordered_json;
 
 Json NumberOrNull(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -44,24 +39,24 @@ const char* WordOf(NetcgPrecision precision) {
 Json RunJson(const NetcgRecord& record) {
   const NetcgSpecification& run = record.specification;
   const NetcgResult& result = record.result;
-  Json json = {{"title", run.title},
-               {"kind", run.is_training() ? "training" : "testing"},
-               {"nodes", {run.inputs, run.hidden, run.outputs}},
-               {"patterns", run.patterns},
-               {"weights", run.num_weights()},
-               {"iterations", result.iterations},
-               {"ierr", run.is_training() ? Json(result.ierr) : Json(nullptr)},
-               {"function_calls", result.function_calls},
-               {"error", NumberOrNull(result.error)},
-               {"rms_error", NumberOrNull(std::sqrt(2.0 * result.error))},
-               {"gradient_ratio", NumberOrNull(result.gradient_ratio)},
-               {"weight_change", NumberOrNull(result.weight_change)},
-               {"as_printed", FiguresJson(result.printed)},
-               {"corrected", FiguresJson(result.corrected)},
-               {"corrected_scaling",
-                result.corrected_scaling == models::NetcgScaling::kTraining
-                    ? "training"
-                    : "test file"}};
+  Json json = {
+      {"title", run.title},
+      {"kind", run.is_training() ? "training" : "testing"},
+      {"nodes", {run.inputs, run.hidden, run.outputs}},
+      {"patterns", run.patterns},
+      {"weights", run.num_weights()},
+      {"iterations", result.iterations},
+      {"ierr", run.is_training() ? Json(result.ierr) : Json(nullptr)},
+      {"function_calls", result.function_calls},
+      {"error", NumberOrNull(result.error)},
+      {"rms_error", NumberOrNull(std::sqrt(2.0 * result.error))},
+      {"gradient_ratio", NumberOrNull(result.gradient_ratio)},
+      {"weight_change", NumberOrNull(result.weight_change)},
+      {"as_printed", FiguresJson(result.printed)},
+      {"corrected", FiguresJson(result.corrected)},
+      {"corrected_scaling",
+       result.corrected_scaling == NetcgScaling::kTraining ? "training"
+                                                           : "test file"}};
   if (run.is_training()) {
     json["seconds"] = result.summary.seconds;
     json["mean_iteration_seconds"] =
@@ -95,14 +90,14 @@ Json NetcgJson(const std::string& file,
   return document;
 }
 
-Json NetcgStudyJson(const models::NetcgStudy& study) {
+Json NetcgStudyJson(const NetcgStudy& study) {
   Json document = {{"schema", "errmap-netcg-study-1"},
                    {"folder", study.folder},
                    {"precision", WordOf(study.options.netcg.precision)},
                    {"seconds", study.seconds}};
   Json& runs = document["runs"] = Json::array();
-  for (const models::NetcgStudyRun& experiment : study.runs) {
-    const models::ReportRun& report = experiment.report;
+  for (const NetcgStudyRun& experiment : study.runs) {
+    const ReportRun& report = experiment.report;
     Json run = {{"number", report.number},
                 {"direction", report.down ? "down" : "up"},
                 {"selection", report.selection},
@@ -127,4 +122,4 @@ Json NetcgStudyJson(const models::NetcgStudy& study) {
   return document;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::models

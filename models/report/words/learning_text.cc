@@ -1,4 +1,4 @@
-#include "cli/commands/maps/learning_text.h"
+#include "models/report/words/learning_text.h"
 
 #include <algorithm>
 #include <string_view>
@@ -8,7 +8,7 @@
 #include "data/text.h"
 #include "models/report/learning_words.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 namespace {
 
 constexpr double kPercent = 100.0;
@@ -24,7 +24,7 @@ std::string_view ViewWords(const std::string& view) {
 
 std::string CurveText(const models::LearningCurvesRecord& curves,
                       const models::LearningModelRecord& model,
-                      const report::ErrorText& error) {
+                      const ErrorText& error) {
   std::string text = data::Printable(model.model, model.model.size()) + "\n";
   if (model.points.empty()) {
     return text + "  failed: " + model.why_failed.value_or("") + "\n";
@@ -36,7 +36,7 @@ std::string CurveText(const models::LearningCurvesRecord& curves,
                         error(point.low),
                         error(point.high));
   }
-  const std::string words = report::LawWords(curves, model, error);
+  const std::string words = LawWords(curves, model, error);
   return words.empty() ? text : text + "  " + words + "\n";
 }
 
@@ -44,7 +44,7 @@ std::string CurveText(const models::LearningCurvesRecord& curves,
 
 std::string CurvesText(const models::LearningCurvesRecord& curves,
                        const data::Unit& unit) {
-  const report::ErrorText error = report::ErrorTextOf(curves, unit);
+  const ErrorText error = ErrorTextOf(curves, unit);
   std::string text = fmt::format(
       "RMSE ({}) on an unseen {} against the number learnt from, of {} in "
       "all; 90 % interval over them\n",
@@ -60,7 +60,7 @@ std::string CurvesText(const models::LearningCurvesRecord& curves,
 std::string SensorsText(const models::SensorCurveRecord& curve,
                         const data::Unit& unit) {
   constexpr std::size_t kMostSubstitutes = 4;
-  const report::ErrorText error = report::ErrorTextOf(curve, unit);
+  const ErrorText error = ErrorTextOf(curve, unit);
   std::string text =
       fmt::format("RMSE ({}) held out ({}) against the number of sensors, {}\n",
                   error.symbol(),
@@ -112,4 +112,4 @@ std::string NextText(const std::vector<models::NextStateRecord>& chosen) {
   return text;
 }
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -5,7 +5,7 @@
 #include "data/units.h"
 #include "models/promise/learning_record.h"
 
-namespace errmap::cli {
+namespace errmap::report {
 
 // What `errmap learn` found, as tables with words.
 
@@ -15,4 +15,4 @@ std::string SensorsText(const models::SensorCurveRecord& curve,
                         const data::Unit& unit);
 std::string NextText(const std::vector<models::NextStateRecord>& chosen);
 
-}  // namespace errmap::cli
+}  // namespace errmap::report

@@ -6,7 +6,7 @@
 
 #include "models/export/export_map.h"
 
-namespace errmap::cli {
+namespace errmap::models {
 
 /// What this machine's compiler and processor make of an exported map.
 struct MeasuredCost {
@@ -24,7 +24,6 @@ inline constexpr const char* kCostCompiler = "cc -std=c99 -O2";
 
 /// Compiles the map's C and runs it. Nothing, with the reason in `why`, where
 /// there is no compiler.
-std::optional<MeasuredCost> MeasureCost(const models::MapExport& map,
-                                        std::string* why);
+std::optional<MeasuredCost> MeasureCost(const MapExport& map, std::string* why);
 
-}  // namespace errmap::cli
+}  // namespace errmap::models
