@@ -117,6 +117,18 @@ Eigen::MatrixXd ReadingsOf(const FittedModel& fitted,
   return readings;
 }
 
+Eigen::MatrixXd InputsOf(const FittedModel& fitted,
+                         const data::CsvTable& table) {
+  Eigen::MatrixXd inputs(static_cast<Index>(table.num_rows),
+                         static_cast<Index>(fitted.inputs.size()));
+  Index column = 0;
+  for (const TrainedInput& input : fitted.inputs) {
+    inputs.col(column++) = data::NumericColumn(
+        table, input.column.name, data::MissingPolicy::kError, nullptr);
+  }
+  return inputs;
+}
+
 MapLog MakeMapLog(const FittedModel& fitted,
                   const data::CsvTable& table,
                   const MapLogArguments& arguments) {

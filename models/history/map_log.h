@@ -40,6 +40,10 @@ struct MapLog {
 Eigen::MatrixXd ReadingsOf(const FittedModel& fitted,
                            const data::CsvTable& table);
 
+/// The same where every cell must be a number; else data::InputError.
+Eigen::MatrixXd InputsOf(const FittedModel& fitted,
+                         const data::CsvTable& table);
+
 /// Of every row of the table, whether it has a target or not. Throws
 /// data::InputError where the tables lack the column of sessions or times that
 /// the map needs, or where those will not do (data/measurements/sessions.h).

@@ -57,18 +57,6 @@ data::TableForMap ReadForMap(const FittedModel& fitted,
   return data::InMapUnits(data::ReadCsv(file), of_map);
 }
 
-Eigen::MatrixXd InputsOf(const FittedModel& fitted,
-                         const data::CsvTable& table) {
-  Eigen::MatrixXd inputs(static_cast<Index>(table.num_rows),
-                         static_cast<Index>(fitted.inputs.size()));
-  Index column = 0;
-  for (const TrainedInput& input : fitted.inputs) {
-    inputs.col(column++) = data::NumericColumn(
-        table, input.column.name, data::MissingPolicy::kError, nullptr);
-  }
-  return inputs;
-}
-
 std::vector<Moment> MomentsOf(const FittedModel& fitted,
                               const data::CsvTable& table,
                               const std::vector<Index>& rows,

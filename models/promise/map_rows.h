@@ -21,11 +21,6 @@ data::TableForMap ReadForMap(const FittedModel& fitted,
                              const std::string& file,
                              MapColumns columns);
 
-/// The map's inputs in every row of such a table (rows x inputs). Throws
-/// data::InputError where a column is missing or a cell is no number.
-Eigen::MatrixXd InputsOf(const FittedModel& fitted,
-                         const data::CsvTable& table);
-
 /// Which measured rows of a table a map is held against.
 struct MapRowsOptions {
   data::MissingPolicy missing = data::MissingPolicy::kError;
