@@ -107,6 +107,45 @@ study_file::StudyFile ReadChanged(const CompareArguments& arguments) {
   }
 }
 
+// A flag that says something of components, and takes its word to them.
+struct ComponentFlag {
+  const char* name;
+  bool of_one;  // what it says is true of one component only
+  void (*copy)(const study_file::ComponentConfig& from,
+               study_file::ComponentConfig* to);
+};
+
+template <auto kMember>
+void Copy(const study_file::ComponentConfig& from,
+          study_file::ComponentConfig* to) {
+  if constexpr (requires { to->*kMember; }) {
+    to->*kMember = from.*kMember;
+  } else {
+    to->selection.*kMember = from.selection.*kMember;
+  }
+}
+
+const std::vector<ComponentFlag>& ComponentFlags() {
+  using study_file::ComponentConfig;
+  using Selection = data::DatasetSelection;
+  static const std::vector<ComponentFlag> flags = {
+      {"--target", true, Copy<&Selection::target>},
+      {"--inputs", true, Copy<&Selection::inputs>},
+      {"--exclude", true, Copy<&Selection::exclude>},
+      {"--group", true, Copy<&Selection::group>},
+      {"--time", true, Copy<&Selection::time>},
+      {"--session", true, Copy<&Selection::session>},
+      {"--weight", true, Copy<&Selection::weight>},
+      {"--split", true, Copy<&ComponentConfig::split>},
+      {"--save-split", true, Copy<&ComponentConfig::save_split>},
+      {"--predictions", true, Copy<&ComponentConfig::predictions>},
+      {"--align", false, Copy<&Selection::align>},
+      {"--missing", false, Copy<&Selection::missing>},
+      {"--faults", false, Copy<&Selection::faults>},
+      {"--keep-dead", false, Copy<&Selection::keep_dead>}};
+  return flags;
+}
+
 }  // namespace
 
 study_file::StudyFile ConfigOfFile(const CompareArguments& arguments) {
@@ -136,43 +175,19 @@ study_file::StudyFile ConfigOfFile(const CompareArguments& arguments) {
   if (given("--holdout")) config.holdouts = flags.holdouts;
   if (given("--models") || given("--model")) config.models = flags.models;
   const study_file::ComponentConfig& from = flags.components.front();
-  for (const char* flag : {"--target",
-                           "--inputs",
-                           "--exclude",
-                           "--group",
-                           "--time",
-                           "--session",
-                           "--weight",
-                           "--split",
-                           "--save-split",
-                           "--predictions"}) {
-    if (!given(flag) || config.components.size() == 1) continue;
-    throw UsageError(
-        fmt::format("{} is for one component, and {} has {}; write --set "
-                    "component.0.KEY=VALUE",
-                    flag,
-                    data::PrintablePath(arguments.config),
-                    config.components.size()));
-  }
-  for (study_file::ComponentConfig& component : config.components) {
-    if (given("--target")) component.selection.target = from.selection.target;
-    if (given("--inputs")) component.selection.inputs = from.selection.inputs;
-    if (given("--exclude"))
-      component.selection.exclude = from.selection.exclude;
-    if (given("--group")) component.selection.group = from.selection.group;
-    if (given("--time")) component.selection.time = from.selection.time;
-    if (given("--session"))
-      component.selection.session = from.selection.session;
-    if (given("--align")) component.selection.align = from.selection.align;
-    if (given("--weight")) component.selection.weight = from.selection.weight;
-    if (given("--missing"))
-      component.selection.missing = from.selection.missing;
-    if (given("--faults")) component.selection.faults = from.selection.faults;
-    if (given("--keep-dead"))
-      component.selection.keep_dead = from.selection.keep_dead;
-    if (given("--split")) component.split = from.split;
-    if (given("--save-split")) component.save_split = from.save_split;
-    if (given("--predictions")) component.predictions = from.predictions;
+  for (const ComponentFlag& flag : ComponentFlags()) {
+    if (!given(flag.name)) continue;
+    if (flag.of_one && config.components.size() != 1) {
+      throw UsageError(
+          fmt::format("{} is for one component, and {} has {}; write --set "
+                      "component.0.KEY=VALUE",
+                      flag.name,
+                      data::PrintablePath(arguments.config),
+                      config.components.size()));
+    }
+    for (study_file::ComponentConfig& component : config.components) {
+      flag.copy(from, &component);
+    }
   }
   return file;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -122,14 +123,19 @@ class StudyFileReader {
     keys.TakeText("group", &component.selection.group);
     keys.TakeText("time", &component.selection.time);
     keys.TakeText("session", &component.selection.session);
-    component.selection.align = ReadAlign(keys);
+    TakeChoice(keys,
+               "align",
+               {data::Alignment::kFirst, data::Alignment::kNone},
+               &component.selection.align);
     keys.TakeText("weight", &component.selection.weight);
-    component.selection.missing = ReadChoice(keys, "missing", "error")
-                                      ? data::MissingPolicy::kError
-                                      : data::MissingPolicy::kDropRows;
-    component.selection.faults = ReadChoice(keys, "faults", "keep")
-                                     ? data::FaultPolicy::kKeep
-                                     : data::FaultPolicy::kDropRows;
+    TakeChoice(keys,
+               "missing",
+               {data::MissingPolicy::kError, data::MissingPolicy::kDropRows},
+               &component.selection.missing);
+    TakeChoice(keys,
+               "faults",
+               {data::FaultPolicy::kKeep, data::FaultPolicy::kDropRows},
+               &component.selection.faults);
     keys.TakeFlag("keep_dead", &component.selection.keep_dead);
     keys.TakeError("goal", false, &component.goal);
     keys.TakeError("indifference", true, &component.indifference);
@@ -162,28 +168,24 @@ class StudyFileReader {
     component->data = is_absolute ? "/" : folder_.string();
   }
 
-  static data::Alignment ReadAlign(const Keys& keys) {
-    std::string align = "none";
-    keys.TakeText("align", &align);
-    if (align == "first") return data::Alignment::kFirst;
-    if (align != "none") {
-      keys.RefuseType("align", *keys.Find("align"), "\"first\" or \"none\"");
-    }
-    return data::Alignment::kNone;
-  }
-
-  // Whether the key is absent or has its default, not "drop-rows".
-  static bool ReadChoice(const Keys& keys,
+  // One of `values`, by the words that ToString has for them.
+  template <typename Value>
+  static void TakeChoice(const Keys& keys,
                          std::string_view key,
-                         std::string_view otherwise) {
-    std::string choice(otherwise);
-    keys.TakeText(key, &choice);
-    if (choice != "drop-rows" && choice != otherwise) {
-      keys.RefuseType(key,
-                      *keys.Find(key),
-                      fmt::format("\"{}\" or \"drop-rows\"", otherwise));
+                         std::initializer_list<Value> values,
+                         Value* chosen) {
+    std::string word(ToString(*chosen));
+    keys.TakeText(key, &word);
+    std::vector<std::string> words;
+    for (const Value value : values) {
+      if (word == ToString(value)) {
+        *chosen = value;
+        return;
+      }
+      words.push_back(fmt::format("\"{}\"", ToString(value)));
     }
-    return choice == otherwise;
+    keys.RefuseType(
+        key, *keys.Find(key), fmt::format("{}", fmt::join(words, " or ")));
   }
 
   std::vector<data::ColumnFilter> ReadWhere(const Keys& keys) const {
