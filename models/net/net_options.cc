@@ -283,7 +283,7 @@ NetOptions NetOptions::Resolved() const {
       all.wfactor = kDefaultWfactor;
     }
   }
-  if (!path) all.path = all.tunes_wfactor();
+  if (!path) all.path = all.tunes_wfactor() && view.has_value();
   if (!iterations) {
     const std::int64_t usual = DefaultRules(method).iterations;
     all.iterations = view ? std::min(usual, kFewSteps) : usual;

@@ -112,7 +112,7 @@ struct NetOptions {
   /// In place of a wfactor: the largest whose RMS residual on the training rows
   /// is at most this, above 0, in the target's unit (Eq. 126-135).
   std::optional<double> discrepancy = {};
-  /// Goes down WfactorPath to its wfactor; empty: where that is chosen.
+  /// Goes down WfactorPath to its wfactor; empty: where a view's is chosen.
   std::optional<bool> path = {};
   /// Limits of a fit, its path included; 1 .. 1e9. Empty: 1500, of net:lm 200,
   /// in a view at most 750.

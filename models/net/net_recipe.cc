@@ -44,14 +44,28 @@ std::string WithUnit(double value, const data::Dataset& dataset) {
                       : fmt::format("{:.4g} {}", value, unit);
 }
 
-// The iterations of a fit along the path are shared by its steps.
-std::unique_ptr<NetTrainer> TrainerOfAFit(const NetOptions& options) {
+std::int64_t Share(std::int64_t iterations, std::int64_t parts) {
+  return (iterations + parts - 1) / parts;
+}
+
+NetTrainers TrainersOf(const NetOptions& options) {
+  // Brief enough to try all wfactors, and as good a guide as fits five times as
+  // long (README.md).
+  constexpr std::int64_t kBriefFits = 5;
   fitting::StoppingRules rules = options.stopping();
-  if (*options.path) {
-    const auto steps = static_cast<std::int64_t>(WfactorPath().size());
-    rules.iterations = (rules.iterations + steps - 1) / steps;
+  NetTrainers trainers;
+  if (*options.path) {  // the steps of a path share the iterations of a fit
+    rules.iterations = Share(rules.iterations,
+                             static_cast<std::int64_t>(WfactorPath().size()));
   }
-  return MakeNetTrainer(options.method, rules);
+  trainers.full_iterations = rules.iterations;
+  trainers.full = MakeNetTrainer(options.method, rules);
+  if (options.tunes_wfactor() && !*options.path && rules.iterations > 1) {
+    rules.iterations = Share(rules.iterations, kBriefFits);
+    trainers.brief_iterations = rules.iterations;
+    trainers.brief = MakeNetTrainer(options.method, rules);
+  }
+  return trainers;
 }
 
 // A one-hidden-layer net; how it is trained is its trainer's business.
@@ -61,7 +75,7 @@ class OneLayerRecipe final : public NetRecipe {
       : name_(CheckedName(options, std::move(name))),
         options_(options.Resolved()),
         design_(options_.design()),
-        trainer_(TrainerOfAFit(options_)) {}
+        trainers_(TrainersOf(options_)) {}
 
   std::string name() const override { return name_; }
   ModelKind kind() const override { return ModelKind::kNet; }
@@ -202,6 +216,8 @@ class OneLayerRecipe final : public NetRecipe {
         fixed.hidden = std::get<std::int64_t>(choice.value);
       } else if (choice.key == "wfactor") {
         fixed.wfactor = std::get<double>(choice.value);
+      } else if (choice.key == "iterations") {
+        fixed.iterations = std::get<std::int64_t>(choice.value);
       } else if (choice.key == "view") {
         fixed.view->view = ViewOf(std::get<std::string>(choice.value));
       } else if (choice.key == "angles") {
@@ -226,21 +242,24 @@ class OneLayerRecipe final : public NetRecipe {
     DescribeTuning(tuned, training, &fitted);
     const NetRows rows = ScaleRows(design, training);
     if (*options_.members > 1) {
-      AverageStarts(rows, tuned.wfactor, context, &fitted);
+      AverageStarts(rows, tuned, context, &fitted);
       return fitted;
     }
     fitting::Minimum minimum =
         options_.discrepancy
             ? FitToDiscrepancy(training, rows, context, &fitted)
-            : FitStarts(
-                  training, design, rows, tuned.wfactor, context, &fitted);
+            : FitStarts(training, design, rows, tuned, context, &fitted);
     fitted.model = std::make_shared<FeedforwardNet>(rows.FormOf(minimum.x));
     fitted.summary = std::move(minimum.summary);
     return fitted;
   }
 
+  const NetTrainer& TrainerOf(const TunedNet& tuned) const {
+    return tuned.is_brief ? *trainers_.brief : *trainers_.full;
+  }
+
   void AverageStarts(const NetRows& rows,
-                     double wfactor,
+                     const TunedNet& tuned,
                      const FitContext& context,
                      FittedModel* fitted) const {
     const std::vector<Index> columns = AllColumns(rows.training.shape.inputs);
@@ -248,8 +267,8 @@ class OneLayerRecipe final : public NetRecipe {
     for (std::int64_t k = 0; k < *options_.members; ++k) {
       seeds.push_back(SeedOfStart(context.seed, k));
     }
-    std::vector<fitting::Minimum> minima =
-        TrainFromStarts(rows, *trainer_, Wfactors(wfactor), &seeds, context);
+    std::vector<fitting::Minimum> minima = TrainFromStarts(
+        rows, TrainerOf(tuned), Wfactors(tuned.wfactor), &seeds, context);
     fitted->starts = DescribeStarts(seeds, minima);
     std::vector<AveragedMember> members;
     for (std::size_t i = 0; i < minima.size(); ++i) {
@@ -278,7 +297,7 @@ class OneLayerRecipe final : public NetRecipe {
                               .fixed_wfactor = options_.given_wfactor(),
                               .along_path = *options_.path};
     if (tuning.hidden || tuning.wfactor) {
-      return TuneNet(design_, tuning, *trainer_, training, context);
+      return TuneNet(design_, tuning, trainers_, training, context);
     }
     TunedNet fixed;
     fixed.hidden = design_.hidden;
@@ -287,9 +306,10 @@ class OneLayerRecipe final : public NetRecipe {
       const InnerFolds inner = MakeInnerFolds(training, context);
       const NetTrial trial = {
           fixed.hidden, Wfactors(fixed.wfactor), context.seed};
-      fixed.rmse = InnerHoldoutRmse(
-                       design_, *trainer_, training, inner, {trial}, context)
-                       .front();
+      fixed.rmse =
+          InnerHoldoutRmse(
+              design_, *trainers_.full, training, inner, {trial}, context)
+              .front();
     }
     return fixed;
   }
@@ -303,12 +323,10 @@ class OneLayerRecipe final : public NetRecipe {
                              FittedModel* fitted) {
     for (const TunedValue& value : tuned.chosen) {
       fitted->inner_rmse = value.rmse;
-      const bool is_hidden = value.choice.key == "hidden";
       fitted->choices.push_back(value.choice);
       fitted->remarks.push_back(fmt::format(
           "{} by cross-validation over {}: RMSE {} held out (tried {})",
-          is_hidden ? fmt::format("{} hidden nodes", tuned.hidden)
-                    : fmt::format("wfactor {:.4g}", tuned.wfactor),
+          value.text,
           tuned.folds,
           WithUnit(value.rmse, training),
           value.scores));
@@ -320,7 +338,7 @@ class OneLayerRecipe final : public NetRecipe {
                                     const FitContext& context,
                                     FittedModel* fitted) const {
     fitting::DiscrepancyChoice choice = ChooseWfactorByDiscrepancy(
-        rows, *trainer_, *options_.discrepancy, context);
+        rows, *trainers_.full, *options_.discrepancy, context);
     fitted->choices.push_back({"wfactor", choice.alpha});
     fitted->choices.push_back(
         {"discrepancy_reached", std::string(choice.reached ? "yes" : "no")});
@@ -338,15 +356,15 @@ class OneLayerRecipe final : public NetRecipe {
   fitting::Minimum FitStarts(const Dataset& training,
                              const NetDesign& design,
                              const NetRows& rows,
-                             double wfactor,
+                             const TunedNet& tuned,
                              const FitContext& context,
                              FittedModel* fitted) const {
     std::vector<std::uint64_t> seeds;
     for (std::int64_t k = 0; k < *options_.starts; ++k) {
       seeds.push_back(SeedOfStart(context.seed, k));
     }
-    std::vector<fitting::Minimum> minima =
-        TrainFromStarts(rows, *trainer_, Wfactors(wfactor), &seeds, context);
+    std::vector<fitting::Minimum> minima = TrainFromStarts(
+        rows, TrainerOf(tuned), Wfactors(tuned.wfactor), &seeds, context);
     if (*options_.starts == 1) return std::move(minima.front());
     std::vector<double> costs;
     for (const fitting::Minimum& minimum : minima) {
@@ -358,7 +376,7 @@ class OneLayerRecipe final : public NetRecipe {
         (context.explain && training.num_rows() > 1)) {
       const InnerFolds inner = MakeInnerFolds(training, context);
       const std::vector<double> rmse =
-          JudgeStarts(training, design, wfactor, seeds, inner, context);
+          JudgeStarts(training, design, tuned, seeds, inner, context);
       for (std::size_t i = 0; i < rmse.size(); ++i) {
         fitted->starts[i].holdout_rmse = rmse[i];
       }
@@ -398,16 +416,16 @@ class OneLayerRecipe final : public NetRecipe {
 
   std::vector<double> JudgeStarts(const Dataset& training,
                                   const NetDesign& design,
-                                  double wfactor,
+                                  const TunedNet& tuned,
                                   const std::vector<std::uint64_t>& seeds,
                                   const InnerFolds& inner,
                                   const FitContext& context) const {
     std::vector<NetTrial> trials;
     for (const std::uint64_t seed : seeds) {
-      trials.push_back({design.hidden, Wfactors(wfactor), seed});
+      trials.push_back({design.hidden, Wfactors(tuned.wfactor), seed});
     }
     return InnerHoldoutRmse(
-        design, *trainer_, training, inner, trials, context);
+        design, TrainerOf(tuned), training, inner, trials, context);
   }
 
   static std::vector<StartResult> DescribeStarts(
@@ -427,7 +445,7 @@ class OneLayerRecipe final : public NetRecipe {
   std::string name_;
   NetOptions options_;  // resolved
   NetDesign design_;
-  std::shared_ptr<const NetTrainer> trainer_;
+  NetTrainers trainers_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -62,11 +63,13 @@ class Tuner {
  public:
   Tuner(const NetDesign& design,
         const NetTuning& tuning,
-        const NetTrainer& trainer,
+        const NetTrainers& trainers,
         const data::Dataset& training,
         const FitContext& context)
       : design_(design),
-        trainer_(trainer),
+        trainers_(trainers),
+        compares_(tuning.wfactor && trainers.brief ? *trainers.brief
+                                                   : *trainers.full),
         training_(training),
         context_(context),
         inner_(MakeInnerFolds(training, context)),
@@ -99,7 +102,7 @@ class Tuner {
           {hidden, WfactorsOf(wfactor_, along_path_), context_.seed});
     }
     const std::vector<double> rmse = InnerHoldoutRmse(
-        design_, trainer_, training_, inner_, trials, context_);
+        design_, compares_, training_, inner_, trials, context_);
     by_hidden_.clear();
     for (std::size_t i = 0; i < trials.size(); ++i) {
       by_hidden_.emplace_back(trials[i].hidden, rmse[i]);
@@ -108,25 +111,41 @@ class Tuner {
   }
 
   void ChooseWfactor() {
-    constexpr int kPatience = 4;
+    constexpr std::size_t kPatience = 4;  // places on the path
     NetDesign design = design_;
     design.hidden = hidden_;
     WfactorWalk walk(design,
-                     trainer_,
+                     compares_,
                      training_,
                      inner_,
                      context_.seed,
                      along_path_,
                      context_);
+    const std::vector<double>& path = WfactorPath();
+    std::map<std::size_t, double> tried;  // by place on the path
+    // The place of the least error.
+    const auto go_down_by = [&](std::size_t stride) {
+      double least = std::numeric_limits<double>::infinity();
+      std::size_t best = 0;
+      for (std::size_t i = 0; i < path.size() && i < best + kPatience + stride;
+           i += stride) {
+        tried[i] = walk.Step(path[i]);
+        if (!(tried[i] < least)) continue;
+        least = tried[i];
+        best = i;
+      }
+      return best;
+    };
+    if (along_path_) {
+      go_down_by(1);
+    } else {
+      const std::size_t best = go_down_by(2);
+      if (best > 0) tried[best - 1] = walk.Step(path[best - 1]);
+      if (best + 1 < path.size()) tried[best + 1] = walk.Step(path[best + 1]);
+    }
     by_wfactor_.clear();
-    double least = std::numeric_limits<double>::infinity();
-    int in_vain = 0;
-    for (const double wfactor : WfactorPath()) {
-      const double rmse = walk.Step(wfactor);
-      by_wfactor_.emplace_back(wfactor, rmse);
-      in_vain = rmse < least ? 0 : in_vain + 1;
-      least = std::fmin(least, rmse);
-      if (in_vain == kPatience) break;
+    for (const auto& [place, rmse] : tried) {
+      by_wfactor_.emplace_back(path[place], rmse);
     }
     const auto best = Lowest(by_wfactor_);
     if (best == by_wfactor_.end()) {
@@ -136,28 +155,55 @@ class Tuner {
     std::tie(wfactor_, wfactor_rmse_) = *best;
   }
 
+  // Whether the brief fits by which the wfactor was chosen are long enough.
+  void ChooseIterations() {
+    const std::vector<double> full = InnerHoldoutRmse(
+        design_,
+        *trainers_.full,
+        training_,
+        inner_,
+        {{hidden_, WfactorsOf(wfactor_, along_path_), context_.seed}},
+        context_);
+    by_iterations_ = {{trainers_.brief_iterations, wfactor_rmse_},
+                      {trainers_.full_iterations, full.front()}};
+    const auto best = Lowest(by_iterations_);
+    is_brief_ = best == by_iterations_.begin();
+    std::tie(iterations_, iterations_rmse_) = *best;
+  }
+
   TunedNet Result(const NetTuning& tuning) const {
     TunedNet tuned{.hidden = hidden_,
                    .wfactor = wfactor_,
-                   .rmse = tuning.wfactor ? wfactor_rmse_ : hidden_rmse_,
+                   .is_brief = is_brief_,
+                   .rmse = 0.0,
                    .folds = inner_.text,
                    .chosen = {}};
     if (tuning.hidden) {
       tuned.chosen.push_back({{"hidden", hidden_},
+                              fmt::format("{} hidden nodes", hidden_),
                               hidden_rmse_,
                               ListOf(by_hidden_, "{}: {:.4g}")});
     }
     if (tuning.wfactor) {
       tuned.chosen.push_back({{"wfactor", wfactor_},
+                              fmt::format("wfactor {:.4g}", wfactor_),
                               wfactor_rmse_,
                               ListOf(by_wfactor_, "{:.2g}: {:.4g}")});
     }
+    if (!by_iterations_.empty()) {
+      tuned.chosen.push_back({{"iterations", iterations_},
+                              fmt::format("{} iterations", iterations_),
+                              iterations_rmse_,
+                              ListOf(by_iterations_, "{}: {:.4g}")});
+    }
+    tuned.rmse = tuned.chosen.back().rmse;
     return tuned;
   }
 
  private:
   const NetDesign& design_;
-  const NetTrainer& trainer_;
+  const NetTrainers& trainers_;
+  const NetTrainer& compares_;
   const data::Dataset& training_;
   const FitContext& context_;
   const InnerFolds inner_;
@@ -169,6 +215,11 @@ class Tuner {
   double wfactor_rmse_ = std::numeric_limits<double>::quiet_NaN();
   Scores<std::int64_t> by_hidden_;
   Scores<double> by_wfactor_;  // with hidden_ nodes
+  // Of the wfactor chosen by brief fits.
+  std::int64_t iterations_ = 0;
+  double iterations_rmse_ = std::numeric_limits<double>::quiet_NaN();
+  bool is_brief_ = false;
+  Scores<std::int64_t> by_iterations_;
 };
 
 }  // namespace
@@ -188,10 +239,10 @@ std::vector<double> WfactorsOf(double wfactor, bool along_path) {
 
 TunedNet TuneNet(const NetDesign& design,
                  const NetTuning& tuning,
-                 const NetTrainer& trainer,
+                 const NetTrainers& trainers,
                  const data::Dataset& training,
                  const FitContext& context) {
-  Tuner tuner(design, tuning, trainer, training, context);
+  Tuner tuner(design, tuning, trainers, training, context);
   if (tuning.hidden && tuning.wfactor) {
     tuner.ChooseBoth();
   } else if (tuning.hidden) {
@@ -199,6 +250,7 @@ TunedNet TuneNet(const NetDesign& design,
   } else if (tuning.wfactor) {
     tuner.ChooseWfactor();
   }
+  if (tuning.wfactor && trainers.brief) tuner.ChooseIterations();
   return tuner.Result(tuning);
 }
 

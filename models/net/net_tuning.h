@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,9 +18,20 @@ struct NetTuning {
   bool along_path = false;  // each fit as TrainAlong WfactorPathTo its wfactor
 };
 
+/// The trainers of a recipe's fits.
+struct NetTrainers {
+  std::shared_ptr<const NetTrainer> full;
+  /// Of a tuned net that takes no path: compares wfactors, and may be all that
+  /// its fit needs; else null.
+  std::shared_ptr<const NetTrainer> brief;
+  std::int64_t full_iterations = 0;
+  std::int64_t brief_iterations = 0;
+};
+
 /// One thing that was chosen.
 struct TunedValue {
   EffectiveOption choice;  // {"wfactor", 1e-3}
+  std::string text;        // "wfactor 0.001"
   double rmse = 0.0;       // held out, in the target's unit
   std::string scores;      // "1e-07: 0.00031, ...": all that were tried
 };
@@ -27,9 +39,10 @@ struct TunedValue {
 struct TunedNet {
   std::int64_t hidden = 0;
   double wfactor = 0.0;
+  bool is_brief = false;           // NetTrainers::brief does as well
   double rmse = 0.0;               // held out, of what was chosen
   std::string folds;               // "groups:5 of cycle"
-  std::vector<TunedValue> chosen;  // hidden before wfactor
+  std::vector<TunedValue> chosen;  // hidden, wfactor, iterations
 };
 
 /// Numbers of hidden nodes that hidden=cv tries for a fit of so many rows: 5,
@@ -46,17 +59,20 @@ std::pair<std::int64_t, double> FewestGoodNodes(
 /// Chooses by the pooled error on the inner hold-outs of MakeInnerFolds; every
 /// fit starts from the weights of context.seed.
 ///
-/// wfactor: down WfactorPath, until four steps in a row bring no lower error;
-/// of equal errors the larger wfactor. Along the path a fit goes on from the
-/// last, so that all of them cost little more than one. Hidden nodes: the
+/// wfactor: down WfactorPath, until two decades bring no lower error; of equal
+/// errors the larger wfactor. Along the path a fit goes on from the last, so
+/// that all of them cost little more than one. Else each starts anew and trains
+/// briefly, whole decades first, then the half ones beside the best; what was
+/// chosen then trains in full, too, and is taken with the iterations that err
+/// less (early stopping). Hidden nodes: the
 /// fewest of HiddenToTry whose error is at most 5 % above the least, which is
 /// what another start alone changes. Both: wfactor with the design's nodes (or
 /// the most below them that are tried), then the nodes with that wfactor, then,
-/// if their number changed, the wfactor again. Throws std::invalid_argument
-/// where none could be judged.
+/// if their number changed, the wfactor again; the iterations last. Throws
+/// std::invalid_argument where none could be judged.
 TunedNet TuneNet(const NetDesign& design,
                  const NetTuning& tuning,
-                 const NetTrainer& trainer,
+                 const NetTrainers& trainers,
                  const data::Dataset& training,
                  const FitContext& context);
 

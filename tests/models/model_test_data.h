@@ -2,10 +2,14 @@
 
 #include <cmath>
 #include <string>
+#include <variant>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
+#include "models/error_model.h"
 #include "tests/places.h"
 
 namespace errmap::testing {
@@ -40,6 +44,19 @@ inline data::Dataset QuadraticData(Eigen::Index rows) {
         1e-3 + 2e-4 * x - 3e-6 * x * x + 5e-4 * t1 - 1e-5 * x * t1;
   }
   return data::Dataset(std::move(parts));
+}
+
+/// What inner hold-outs chose, as options of a SPEC: ":wfactor=0.001".
+inline std::string ChoicesAsOptions(const models::FittedModel& fitted) {
+  std::string options;
+  for (const models::EffectiveOption& choice : fitted.choices) {
+    std::visit(
+        [&](const auto& value) {
+          options += fmt::format(":{}={}", choice.key, value);
+        },
+        choice.value);
+  }
+  return options;
 }
 
 }  // namespace errmap::testing

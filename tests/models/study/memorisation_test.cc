@@ -9,7 +9,6 @@
 #include <variant>
 #include <vector>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,6 +20,7 @@ namespace errmap::models {
 namespace {
 
 using Eigen::Index;
+using errmap::testing::ChoicesAsOptions;
 using errmap::testing::QuadraticData;
 using errmap::testing::RandomMatrix;
 using errmap::testing::ShippedMeasurements;
@@ -123,19 +123,13 @@ TEST(Memorisation, ClassifiesByTheLargerShare) {
 // and the net judged not the one at hand.
 TEST(Memorisation, FixesWhatTheFitHasTuned) {
   const data::Dataset dataset = QuadraticData(60);
-  const std::string limits = ":iterations=40";
   const auto tuned =
-      MakeRecipe("net:scg:hidden=cv:wfactor=cv:starts=3" + limits);
+      MakeRecipe("net:scg:hidden=cv:wfactor=cv:starts=3:iterations=40");
   const FittedModel fitted =
       tuned->Fit(dataset, {.seed = 3, .inner_holdout = InnerHoldout::kRows});
   const Memorisation found =
       AssessMemorisation(*tuned, dataset, fitted, {.seed = 3});
-  const auto fixed = MakeRecipe(
-      "net:scg:hidden=" +
-      std::to_string(std::get<std::int64_t>(fitted.choices[0].value)) +
-      fmt::format(":path=yes:wfactor={}",
-                  std::get<double>(fitted.choices[1].value)) +
-      limits);
+  const auto fixed = MakeRecipe("net:scg" + ChoicesAsOptions(fitted));
   std::uint64_t seed = 0;
   for (const StartResult& start : fitted.starts) {
     if (start.chosen) seed = start.seed;
