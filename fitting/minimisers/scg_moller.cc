@@ -6,6 +6,7 @@
 #include "fitting/minimisers/cost_resolution.h"
 #include "fitting/minimisers/run_monitor.h"
 #include "fitting/minimisers/scg_variants.h"
+#include "fitting/minimisers/vector_passes.h"
 
 namespace errmap::fitting {
 namespace {
@@ -90,8 +91,9 @@ class MollerRun {
 
   void TakeDirection() {
     is_new_direction_ = false;
-    p_squared_ = static_cast<double>(p_.squaredNorm());
-    mu_ = static_cast<double>(p_.dot(r_));
+    const VectorSums<Scalar> sums = SquaresAndProduct(p_, r_);
+    p_squared_ = static_cast<double>(sums.squares);
+    mu_ = static_cast<double>(sums.product);
     if (!(mu_ > 0.0)) {  // rounding has taken the descent out of it
       p_ = r_;
       steps_since_restart_ = 0;
@@ -117,7 +119,8 @@ class MollerRun {
     path_->Accept(step);
     ++evaluations_;
     const Vector& gradient = path_->Gradient();
-    const auto r_squared = static_cast<double>(gradient.squaredNorm());
+    const VectorSums<Scalar> sums = SquaresAndProduct(gradient, r_);
+    const auto r_squared = static_cast<double>(sums.squares);
     const bool stands_still =
         trial_cost == cost_ && !(std::sqrt(r_squared) < r_norm_);
     if (!std::isfinite(r_squared) || stands_still) {
@@ -128,19 +131,19 @@ class MollerRun {
     report->accepted = true;
     is_anew_ = false;
     failures_ = 0;
-    w_ += step * p_;
+    const Scalar w_squared = MoveAndSquare(step, p_, &w_);
+    w_norm_ = static_cast<double>(std::sqrt(w_squared));
     cost_ = trial_cost;
     ++steps_since_check_;
     ++steps_since_restart_;
-    const auto overlap = -static_cast<double>(gradient.dot(r_));
-    r_ = -gradient;
+    const auto overlap = -static_cast<double>(sums.product);
     r_norm_ = std::sqrt(r_squared);
-    w_norm_ = static_cast<double>(w_.norm());
     if (steps_since_restart_ % w_.size() == 0) {
       report->restarted = true;
-      p_ = r_;
+      p_ = r_ = -gradient;
     } else {  // Eq. (109)
-      p_ = r_ + static_cast<Scalar>((r_squared - overlap) / mu_) * p_;
+      TurnDirection(
+          gradient, static_cast<Scalar>((r_squared - overlap) / mu_), &r_, &p_);
     }
     is_new_direction_ = true;
     monitor_.EndIteration(cost_, r_norm_, w_);

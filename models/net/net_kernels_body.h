@@ -73,6 +73,49 @@ void ForwardAlong(BlockSize size,
   ForwardTiles<Scalar, true>(size, s, t, a, w2, s_new, y, o);
 }
 
+// kWide columns share what is read of the weights.
+template <typename Scalar, int kWide>
+ERRMAP_INLINE void BendColumns(BlockSize size,
+                               std::ptrdiff_t column,
+                               const Scalar* y,
+                               const Scalar* t,
+                               const Scalar* w2,
+                               const Scalar* p2,
+                               Scalar* first,
+                               Scalar* second) {
+  const std::ptrdiff_t height = size.height;
+  const Vec<Scalar> one = Vec<Scalar>{} + Scalar(1);
+  const Scalar* values = y + column * height;
+  const Scalar* along = t + column * height;
+  for (std::ptrdiff_t j = 0; j < size.outputs; ++j) {
+    Group<Scalar, kWide> sum1 = {};
+    Group<Scalar, kWide> sum2 = {};
+    ForColumn<Scalar>(
+        height, [&](auto vector, std::ptrdiff_t h) ERRMAP_INLINED {
+          const Vec<Scalar> w = vector.Read(w2 + j * height + h);
+          const Vec<Scalar> p = vector.Read(p2 + j * height + h);
+          const Vec<Scalar> twice = p + p;
+#pragma GCC unroll 4
+          for (int i = 0; i < kWide; ++i) {
+            const Vec<Scalar> value = vector.Read(values + i * height + h);
+            const Vec<Scalar> step = vector.Read(along + i * height + h);
+            // y' = y (1 - y) t and y'' = y' (1 - 2 y) t.
+            const Vec<Scalar> slope = MultiplyAdd(-value, value, value) * step;
+            const Vec<Scalar> bend = (one - (value + value)) * step;
+            sum1.v[i] = MultiplyAdd(p, value, sum1.v[i]);
+            sum1.v[i] = MultiplyAdd(w, slope, sum1.v[i]);
+            sum2.v[i] =
+                MultiplyAdd(slope, MultiplyAdd(w, bend, twice), sum2.v[i]);
+          }
+        });
+#pragma GCC unroll 4
+    for (int i = 0; i < kWide; ++i) {
+      first[(column + i) * size.outputs + j] = Sum(sum1.v[i]);
+      second[(column + i) * size.outputs + j] = Sum(sum2.v[i]);
+    }
+  }
+}
+
 template <typename Scalar>
 void BendAlong(BlockSize size,
                const Scalar* y,
@@ -81,30 +124,13 @@ void BendAlong(BlockSize size,
                const Scalar* p2,
                Scalar* first,
                Scalar* second) {
-  const std::ptrdiff_t height = size.height;
-  const Vec<Scalar> one = Vec<Scalar>{} + Scalar(1);
-  for (std::ptrdiff_t column = 0; column < size.columns; ++column) {
-    const Scalar* values = y + column * height;
-    const Scalar* along = t + column * height;
-    for (std::ptrdiff_t j = 0; j < size.outputs; ++j) {
-      Vec<Scalar> sum1 = {};
-      Vec<Scalar> sum2 = {};
-      ForColumn<Scalar>(
-          height, [&](auto vector, std::ptrdiff_t h) ERRMAP_INLINED {
-            const Vec<Scalar> value = vector.Read(values + h);
-            const Vec<Scalar> step = vector.Read(along + h);
-            const Vec<Scalar> w = vector.Read(w2 + j * height + h);
-            const Vec<Scalar> p = vector.Read(p2 + j * height + h);
-            // y' = y (1 - y) t and y'' = y' (1 - 2 y) t.
-            const Vec<Scalar> slope = MultiplyAdd(-value, value, value) * step;
-            const Vec<Scalar> bend = (one - (value + value)) * step;
-            sum1 = MultiplyAdd(p, value, sum1);
-            sum1 = MultiplyAdd(w, slope, sum1);
-            sum2 = MultiplyAdd(slope, MultiplyAdd(w, bend, p + p), sum2);
-          });
-      first[column * size.outputs + j] = Sum(sum1);
-      second[column * size.outputs + j] = Sum(sum2);
-    }
+  constexpr int kTogether = 4;
+  std::ptrdiff_t column = 0;
+  for (; column + kTogether <= size.columns; column += kTogether) {
+    BendColumns<Scalar, kTogether>(size, column, y, t, w2, p2, first, second);
+  }
+  for (; column < size.columns; ++column) {
+    BendColumns<Scalar, 1>(size, column, y, t, w2, p2, first, second);
   }
 }
 

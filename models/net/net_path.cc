@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "fitting/minimisers/vector_passes.h"
+
 namespace errmap::models {
 
 using Eigen::Index;
@@ -99,8 +101,10 @@ const Scalar* NetPath<Scalar>::AlongDirection(Index begin, Index columns) {
 template <typename Scalar>
 void NetPath<Scalar>::SetDirection(const Vector& p) {
   p_ = p;
-  p_squared_ = static_cast<double>(p_.squaredNorm());
-  w_along_ = static_cast<double>(p_.dot(w_));
+  const fitting::VectorSums<Scalar> sums = fitting::SquaresAndProduct(p_, w_);
+  p_squared_ = static_cast<double>(sums.squares);
+  w_along_ = static_cast<double>(sums.product);
+  has_along_ = true;
   direction_.Pack(problem_.shape, p_);
   has_trial_ = false;
   has_t_ = false;
@@ -136,6 +140,10 @@ Scalar NetPath<Scalar>::Value(Scalar a) {
   trial_a_ = a;
   has_trial_ = true;
   trial_.Move(weights_, a, direction_);
+  if (!has_along_) {
+    w_along_ = static_cast<double>(p_.dot(w_));
+    has_along_ = true;
+  }
   double sum = 0.0;
   ForEachBlock([&](Index begin, Index columns) {
     Scalar* z = keeps_ ? trial_z_.column(begin) : z_.data();
@@ -166,11 +174,10 @@ void NetPath<Scalar>::Accept(Scalar a) {
   constexpr int kRenewal = 64;
   if (!has_trial_ || a != trial_a_) Value(a);
   has_trial_ = false;
-  w_ += a * p_;
+  w_squared_ = static_cast<double>(fitting::MoveAndSquare(a, p_, &w_));
   if (++accepted_ % kRenewal == 0) {
     Renew();
   } else {
-    w_squared_ = static_cast<double>(w_.squaredNorm());
     std::swap(weights_, trial_);
     if (keeps_) {
       std::swap(s_, trial_s_);
@@ -178,7 +185,7 @@ void NetPath<Scalar>::Accept(Scalar a) {
       std::swap(z_, trial_z_);
     }
   }
-  w_along_ = static_cast<double>(p_.dot(w_));
+  has_along_ = false;
 }
 
 template <typename Scalar>

@@ -51,11 +51,12 @@ class NetPath final : public fitting::Path<Scalar> {
   PackedWeights<Scalar> trial_;      // w + a p
   GradientSum<Scalar> gradient_sum_;
   double w_squared_ = 0.0;  // |w|^2
-  double w_along_ = 0.0;    // p'w
+  double w_along_ = 0.0;    // p'w, where it is found
   double p_squared_ = 0.0;  // |p|^2
   Scalar trial_a_ = 0;
   bool has_trial_ = false;
   bool has_t_ = false;
+  bool has_along_ = false;
   int accepted_ = 0;
   // (height x P) where kept, else of one block.
   AlignedMatrix<Scalar> s_;

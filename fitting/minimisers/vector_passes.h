@@ -1,0 +1,37 @@
+#pragma once
+
+#include "fitting/minimisers/objective.h"
+
+namespace errmap::fitting {
+
+// What scaled conjugate gradients do to whole vectors, several things at a
+// pass: a sum alone waits for each of its additions, and where the objective is
+// quick these waits are a tenth of an iteration. Sums are taken in as many
+// lanes on every machine, so the bits are the same on all. Sizes must agree.
+
+template <typename Scalar>
+struct VectorSums {
+  Scalar squares = 0;  // x'x
+  Scalar product = 0;  // x'y
+};
+
+VectorSums<double> SquaresAndProduct(const VectorOf<double>& x,
+                                     const VectorOf<double>& y);
+VectorSums<float> SquaresAndProduct(const VectorOf<float>& x,
+                                    const VectorOf<float>& y);
+
+/// w += a p; returns w'w.
+double MoveAndSquare(double a, const VectorOf<double>& p, VectorOf<double>* w);
+float MoveAndSquare(float a, const VectorOf<float>& p, VectorOf<float>* w);
+
+/// r = -gradient, then p = r + a p.
+void TurnDirection(const VectorOf<double>& gradient,
+                   double a,
+                   VectorOf<double>* r,
+                   VectorOf<double>* p);
+void TurnDirection(const VectorOf<float>& gradient,
+                   float a,
+                   VectorOf<float>* r,
+                   VectorOf<float>* p);
+
+}  // namespace errmap::fitting
