@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <sstream>
@@ -77,6 +78,7 @@ std::string SensitivityText(const models::Sensitivity& sensitivity,
 }
 
 Json FitJson(const models::FittedModel& fitted,
+             double fit_seconds,  // its choices and starts included
              const models::Sensitivity& sensitivity,
              const stats::ErrorMetrics& train,
              const data::Dataset& dataset,
@@ -95,7 +97,7 @@ Json FitJson(const models::FittedModel& fitted,
       {"parameters", fitted.model->num_parameters()},
       {"equation", fitted.equation.empty() ? Json() : Json(fitted.equation)},
       {"train", models::ToJson(models::MakeRecord(train))},
-      {"fit_seconds", fitted.summary.seconds},
+      {"fit_seconds", fit_seconds},
       {"remarks", fitted.remarks},
       {"sensitivity", SensitivityJson(sensitivity)}};
   json.update(models::ToJson(models::MakeRecord(fitted.summary)));
@@ -194,11 +196,13 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
   const double indifference =
       models::DefaultIndifference(prepared.dataset.target().unit);
   models::FittedModel fitted;
+  std::chrono::duration<double> fit_time{};
   const std::atomic<bool>& stop = InstallInterruptFlag();
   const int jobs =
       static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   try {
     const fitting::InterruptionScope interruptible(&stop);
+    const auto start = std::chrono::steady_clock::now();
     fitted = recipe->Fit(prepared.dataset,
                          {.seed = arguments.seed,
                           .stop = &stop,
@@ -206,6 +210,7 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
                           .threads = jobs,
                           .keep_trace = arguments.format == "json",
                           .indifference = indifference});
+    fit_time = std::chrono::steady_clock::now() - start;
   } catch (const std::invalid_argument& error) {
     if (stop.load()) {
       Say("interrupted before there was a map; nothing written");
@@ -251,8 +256,12 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
       models::MeasureSensitivity(fitted, prepared.dataset);
   const stats::ErrorMetrics train = models::Judge(prepared.dataset, predicted);
   if (arguments.format == "json") {
-    Json document =
-        FitJson(fitted, sensitivity, train, prepared.dataset, arguments);
+    Json document = FitJson(fitted,
+                            fit_time.count(),
+                            sensitivity,
+                            train,
+                            prepared.dataset,
+                            arguments);
     document["provenance"] =
         ProvenanceJson(command_line, configuration, {input});
     PrintResult(DumpJson(document));

@@ -57,6 +57,27 @@ TEST_F(CliFit, PrintsWhatAStatisticianExpects) {
   }
 }
 
+TEST_F(CliFit, TimesAllThatTheFitDoes) {
+  const auto fit = [&](const std::string& model) {
+    return RunJson({"fit",
+                    kDown,
+                    "--model",
+                    model,
+                    "-o",
+                    "m.json",
+                    "--no-interval",
+                    "--format",
+                    "json"});
+  };
+  // A regression has no iterations to be timed; a net's tuning is not in those
+  // of its last fit.
+  EXPECT_GT(fit("poly:eq8").at("fit_seconds"), 0.0);
+  const Json tuned = fit("net:scg:wfactor=cv");
+  const double last = tuned.at("iterations").get<double>() *
+                      tuned.at("mean_iteration_seconds").get<double>();
+  EXPECT_GT(tuned.at("fit_seconds"), last);
+}
+
 TEST_F(CliFit, GivesTheSameAsJson) {
   const Json json = RunJson({"fit",
                              kDown,
