@@ -27,6 +27,8 @@ using Eigen::VectorXd;
 using fitting::Criterion;
 
 constexpr std::int64_t kDefaultBootstrap = 200;
+// Rows times terms; that many repetitions take seconds there.
+constexpr Index kMostBootstrappedValues = 1'000'000;
 
 std::string Upper(std::string_view word) {
   std::string upper(word);
@@ -133,13 +135,16 @@ class StepwiseRecipe final : public PolynomialRecipe {
     if (rules_.Uses(Criterion::kCv)) {
       folds = MakeInnerFolds(training, context);
     }
-    // At many rows a bootstrap is made only where it is asked for, and then
-    // over whole groups, each of which is a triangle.
-    const std::int64_t repetitions =
-        !context.explain                             ? 0
-        : options_.bootstrap                         ? *options_.bootstrap
-        : by_triangle || !context.default_bootstraps ? 0
-                                                     : kDefaultBootstrap;
+    // At many rows a bootstrap is made only where it is asked for; by triangles
+    // it is one over whole groups, each of which is a triangle.
+    const bool is_large =
+        by_triangle || training.num_rows() * dictionary.design.num_terms() >
+                           kMostBootstrappedValues;
+    const std::int64_t repetitions = !context.explain     ? 0
+                                     : options_.bootstrap ? *options_.bootstrap
+                                     : is_large || !context.default_bootstraps
+                                         ? 0
+                                         : kDefaultBootstrap;
     const bool group_parts =
         by_triangle && repetitions > 0 && training.has_groups();
     const DictionaryRows rows = CollectDictionary(
@@ -177,7 +182,7 @@ class StepwiseRecipe final : public PolynomialRecipe {
             },
             context);
         ReportInclusion(dictionary, selection.chosen, shares, &report);
-      } else if (by_triangle) {
+      } else if (by_triangle || (is_large && !options_.bootstrap)) {
         report.notes.push_back(
             "no bootstrap at this size; bootstrap=N draws whole groups, where "
             "there are groups");

@@ -250,6 +250,21 @@ TEST(SelectionRecipe, BootstrapOverGroupTrianglesIsThatOverTheirRows) {
   }
 }
 
+TEST(SelectionRecipe, BootstrapsManyRowsOnlyWhereAsked) {
+  // Nine terms: just above a million values.
+  const auto report_of = [](const std::string& options, Eigen::Index rows) {
+    return *MakeRecipe("poly:stepwise:degree=2:max_terms=2" + options)
+                ->Fit(QuadraticData(rows), kExplain)
+                .regression;
+  };
+  const RegressionReport many = report_of("", 111'112);
+  EXPECT_EQ(many.bootstrap, 0);
+  EXPECT_THAT(many.notes, Contains(HasSubstr("no bootstrap at this size")));
+  EXPECT_EQ(report_of(":bootstrap=2", 111'112).bootstrap, 2);
+  EXPECT_THAT(report_of(":bootstrap=0", 111'112).notes,
+              Not(Contains(HasSubstr("no bootstrap"))));
+}
+
 TEST(SelectionRecipe, RefusesPressWhereTheRowsAreNotHeld) {
   FitContext reduced;
   reduced.most_design_values = 1000.0;
