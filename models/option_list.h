@@ -180,7 +180,7 @@ using OptionList = std::vector<Option<Options>>;
 /// std::optional of the kind's value, an empty one is always allowed.
 template <typename Options, typename At, typename Kind>
 requires std::invocable<At, Options&> Option<Options> OptionFor(
-    std::string name, std::string about, At at, Kind kind) {
+    const std::string& name, const std::string& about, At at, Kind kind) {
   using Value = typename Kind::Value;
   using Place = std::remove_pointer_t<std::invoke_result_t<At, Options&>>;
   constexpr bool kMayBeOpen = requires(Place place) { place.has_value(); }
@@ -196,8 +196,8 @@ requires std::invocable<At, Options&> Option<Options> OptionFor(
     }
   };
   Option<Options> option;
-  option.name = std::move(name);
-  option.about = std::move(about);
+  option.name = name;
+  option.about = about;
   option.values = kind.values();
   option.read = [at, kind](const std::string& text, Options* options) {
     const auto value = kind.Read(text);

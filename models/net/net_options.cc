@@ -233,14 +233,14 @@ OptionList<NloptTraining> ListOf(const NloptTraining& /*method*/) {
 }
 
 template <typename Training>
-ListedModel<NetOptions> ModelOf(std::string name, std::string about) {
+ListedModel<NetOptions> ModelOf(std::string_view name, std::string_view about) {
   const auto list = [] {
     OptionList<NetOptions> options = CommonList();
     AddWithin(ListOf(Training()), kOf<Training>, &options);
     return options;
   };
-  return {.name = std::move(name),
-          .about = std::move(about),
+  return {.name = std::string(name),
+          .about = std::string(about),
           .defaults = {.method = Training()},
           .options = list,
           .contradiction = Contradiction,
