@@ -41,12 +41,9 @@ std::string ScreenText(const models::StudyRecord& record, std::size_t columns) {
   return StudyTable(record, {.terminal = {.columns = columns}}).text;
 }
 
-std::string TableCsv(const models::StudyRecord& record) {
-  return CsvTable(LeaderboardRows(record));
-}
-
-std::string TableMarkdown(const models::StudyRecord& record) {
-  return MarkdownTable(LeaderboardRows(record));
+std::optional<std::string> TableText(const models::StudyRecord& record,
+                                     std::string_view format) {
+  return TableText(LeaderboardRows(record), format);
 }
 
 std::string ReportHtml(const models::StudyRecord& record) {

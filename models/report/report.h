@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "models/study/record/component_study.h"
@@ -36,10 +38,11 @@ std::string VerdictText(const models::ComponentRecord& component);
 std::string ScreenText(const models::StudyRecord& record,
                        std::size_t columns = 80);
 
-/// The table of what models achieved, a row per component, hold-out and model:
-/// as CSV with every figure, or in Markdown.
-std::string TableCsv(const models::StudyRecord& record);
-std::string TableMarkdown(const models::StudyRecord& record);
+/// The table of what models achieved, a row per component, hold-out and model,
+/// as "csv" with every figure, or as "md"; nothing where no format of tables
+/// (report/table.h) has this name.
+std::optional<std::string> TableText(const models::StudyRecord& record,
+                                     std::string_view format);
 
 /// report.html: one page with its figures, which needs no network. Of a study
 /// that is incomplete or failed it says what is not there.

@@ -305,4 +305,19 @@ std::string HtmlTable(const Table& whole) {
   return html + "<p class=\"soft small\">" + HtmlText(table.note) + "</p>\n";
 }
 
+const std::vector<TableFormat>& TableFormats() {
+  static const std::vector<TableFormat> formats{
+      {"csv", &CsvTable},
+      {"md", [](const Table& table) { return MarkdownTable(table); }}};
+  return formats;
+}
+
+std::optional<std::string> TableText(const Table& table,
+                                     std::string_view format) {
+  const auto& formats = TableFormats();
+  const auto found = std::ranges::find(formats, format, &TableFormat::name);
+  if (found == formats.end()) return std::nullopt;
+  return found->text(table);
+}
+
 }  // namespace errmap::report

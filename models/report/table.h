@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -126,5 +127,16 @@ std::string CsvTable(const Table& table);
 std::string MarkdownTable(const Table& whole, const std::string& level = "");
 /// "" for a table that says only what it misses.
 std::string HtmlTable(const Table& whole);
+
+/// A way to write tables for other programs.
+struct TableFormat {
+  std::string_view name;  // as --format has it: "csv"
+  std::string (*text)(const Table& table);
+};
+/// Whatever offers such formats offers these.
+const std::vector<TableFormat>& TableFormats();
+/// Nothing where no format has this name.
+std::optional<std::string> TableText(const Table& table,
+                                     std::string_view format);
 
 }  // namespace errmap::report

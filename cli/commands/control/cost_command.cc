@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/format_option.h"
 #include "cli/json_blocks.h"
 #include "cli/shell/standard_streams.h"
 #include "data/input_error.h"
@@ -126,9 +127,7 @@ void AddCostCommand(CLI::App* app, Run* run) {
       ->type_name("FILE.json");
   command->add_flag(
       "--float", arguments->single, "In single precision, but for the state");
-  command->add_option("--format", arguments->format, "table or json")
-      ->check(CLI::IsMember({"table", "json"}))
-      ->capture_default_str();
+  AddFormatOption(command, &arguments->format);
   command->footer(
       "Operations are counted from the program that errmap export writes; "
       "bytes "

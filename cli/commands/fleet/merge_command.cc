@@ -5,6 +5,7 @@
 
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/fleet/fleet_commands.h"
+#include "cli/commands/format_option.h"
 #include "cli/shell/standard_streams.h"
 #include "models/fleet/store/fleet_table.h"
 #include "models/fleet/store/merge.h"
@@ -37,13 +38,9 @@ void AddMergeCommand(CLI::App* app, Run* run) {
                    "Folder that errmap compare --shard wrote into")
       ->required()
       ->type_name("DIR");
-  command
-      ->add_option("--format",
-                   arguments->format,
-                   "What to print; csv and md have a row per component")
-      ->check(CLI::IsMember({"table", "json", "csv", "md"}))
-      ->type_name("table|json|csv|md")
-      ->capture_default_str();
+  AddTableFormatOption(command,
+                       "What to print; csv and md have a row per component",
+                       &arguments->format);
   command->footer(
       "Reads the components' summaries and writes errmap.sqlite and "
       "report.html there, whole or\nnot at all; others may read the database "

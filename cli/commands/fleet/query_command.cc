@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands/fleet/fleet_commands.h"
+#include "cli/commands/format_option.h"
 #include "cli/json_blocks.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
@@ -96,8 +97,8 @@ int RunQuery(const QueryArguments& arguments) {
       PrintResult(JsonText(&query));
     } else {
       const report::Table table = TableOf(&query);
-      PrintResult(arguments.format == "csv" ? report::CsvTable(table)
-                                            : report::TerminalTable(table));
+      const auto text = report::TableText(table, arguments.format);
+      PrintResult(text ? *text : report::TerminalTable(table));
     }
   } catch (const fleet::SqliteError& error) {
     if (InstallInterruptFlag()) return kInterrupted;
@@ -121,10 +122,7 @@ void AddQueryCommand(CLI::App* app, Run* run) {
   command->add_option("SQL", arguments->sql, "One SELECT, in quotes")
       ->required()
       ->type_name("TEXT");
-  command->add_option("--format", arguments->format, "What to print")
-      ->check(CLI::IsMember({"table", "csv", "json"}))
-      ->type_name("table|csv|json")
-      ->capture_default_str();
+  AddTableFormatOption(command, "What to print", &arguments->format);
   command->footer(
       "The view fleet has a line per component: name, status, choice, model, "
       "before and after\n(RMSE held out without and with the map), goal_"

@@ -10,6 +10,7 @@
 
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/fleet/fleet_commands.h"
+#include "cli/commands/format_option.h"
 #include "cli/json_blocks.h"
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
@@ -151,10 +152,10 @@ int RunWatch(const WatchArguments& arguments) {
                             fleet::WatchHtml(arguments.store, components));
   if (arguments.format == "json") {
     PrintResult(DumpJson(WatchJson(arguments.store, components)));
-  } else if (arguments.format == "csv") {
-    PrintResult(report::CsvTable(fleet::WatchTable(components)));
   } else {
-    PrintResult(WatchText(arguments.store, components));
+    const auto text =
+        report::TableText(fleet::WatchTable(components), arguments.format);
+    PrintResult(text ? *text : WatchText(arguments.store, components));
   }
   if (std::ranges::any_of(components,
                           [](const fleet::WatchedComponent& component) {
@@ -184,13 +185,9 @@ void AddWatchCommand(CLI::App* app, Run* run) {
                    "folders of such, or COMPONENT=FILE")
       ->required()
       ->type_name("FILE|DIR");
-  command
-      ->add_option("--format",
-                   arguments->format,
-                   "What to print; csv and json have every component")
-      ->check(CLI::IsMember({"table", "json", "csv"}))
-      ->type_name("table|json|csv")
-      ->capture_default_str();
+  AddTableFormatOption(command,
+                       "What to print; all but table have every component",
+                       &arguments->format);
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
   command->footer(
       "Each session's offset and RMS are held against the sessions held out "

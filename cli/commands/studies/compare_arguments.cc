@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/command.h"
+#include "cli/commands/format_option.h"
 #include "data/text.h"
 #include "models/recipe_catalog.h"
 #include "stats/holdout.h"
@@ -156,14 +157,10 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
   command->add_flag("--details",
                     arguments->details,
                     "Also print p values, gaps, times and every sentence");
-  command
-      ->add_option("--format",
-                   arguments->format,
-                   "What to print; csv and md have a row per component, "
-                   "hold-out and model")
-      ->check(CLI::IsMember({"table", "json", "csv", "md"}))
-      ->type_name("table|json|csv|md")
-      ->capture_default_str();
+  AddTableFormatOption(command,
+                       "What to print; csv and md have a row per component, "
+                       "hold-out and model",
+                       &arguments->format);
   AddJudgingOptions(command, arguments);
   command
       ->add_option("--machine",

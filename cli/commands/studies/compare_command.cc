@@ -141,8 +141,7 @@ report::Screen Formatted(const study_file::StudyRun& run,
                          const CompareArguments& arguments) {
   const std::string& format = arguments.format;
   if (format == "json") return {models::ToJsonText(record), {}};
-  if (format == "csv") return {report::TableCsv(record), {}};
-  if (format == "md") return {report::TableMarkdown(record), {}};
+  if (auto text = report::TableText(record, format)) return {*text, {}};
   report::Screen screen = report::StudyTable(record,
                                              {.all = arguments.all,
                                               .details = arguments.details,

@@ -84,8 +84,9 @@ report::Table FleetTable(const std::vector<ComponentSummary>& summaries) {
 
 std::string FormattedFleet(const std::vector<ComponentSummary>& summaries,
                            const std::string& format) {
-  if (format == "csv") return report::CsvTable(FleetTable(summaries));
-  if (format == "md") return report::MarkdownTable(FleetTable(summaries));
+  if (auto text = report::TableText(FleetTable(summaries), format)) {
+    return *std::move(text);
+  }
   if (format == "json") {
     models::RecordJson document = {{"schema", "errmap-fleet-results-1"},
                                    {"components", models::ToJson(summaries)}};

@@ -213,6 +213,8 @@ TEST_F(FleetQuery, PrintsTablesCsvAndJson) {
             "up\",4,5e-04\n");
   EXPECT_EQ(Rows("store", sql), Json::parse(R"([["m01/x, down", 4, 0.0005],
                             ["m01/x, up", 4, 0.0005]])"));
+  EXPECT_THAT(Run({"query", "store", sql, "--format", "md"}).out,
+              HasSubstr("| m01/x, down | 4 | 0.0005 |"));
   EXPECT_THAT(Run({"query", "store", sql}).out, HasSubstr("m01/x, up"));
 }
 

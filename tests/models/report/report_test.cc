@@ -32,8 +32,8 @@ TEST(Report, DrawsTheSameOfARecordThatWasReadAgain) {
   EXPECT_EQ(ReportHtml(again), ReportHtml(record));
   EXPECT_EQ(ReportMarkdown(again), ReportMarkdown(record));
   EXPECT_EQ(ScreenText(again, 100), ScreenText(record, 100));
-  EXPECT_EQ(TableCsv(again), TableCsv(record));
-  EXPECT_EQ(TableMarkdown(again), TableMarkdown(record));
+  EXPECT_EQ(TableText(again, "csv"), TableText(record, "csv"));
+  EXPECT_EQ(TableText(again, "md"), TableText(record, "md"));
 }
 
 TEST(Report, BeginsTheScreenWithTheVerdict) {
@@ -41,7 +41,7 @@ TEST(Report, BeginsTheScreenWithTheVerdict) {
   const std::string verdict = VerdictText(record.components[0]);
   EXPECT_THAT(verdict, HasSubstr("poly:"));
   EXPECT_THAT(ScreenText(record, 1000), StartsWith(verdict.substr(0, 60)));
-  EXPECT_THAT(TableCsv(record), HasSubstr("groups:5,poly:eq8"));
+  EXPECT_THAT(*TableText(record, "csv"), HasSubstr("groups:5,poly:eq8"));
 }
 
 TEST(Report, SaysWhyNothingIsRecommended) {

@@ -106,6 +106,16 @@ TEST(MarkdownTable, EscapesAndMarks) {
             "### What is it?\n\nThere is none.\n\n");
 }
 
+TEST(TableText, WritesEveryFormatThereIsAndNoOther) {
+  const Table table = EveryKind();
+  EXPECT_EQ(TableText(table, "csv"), CsvTable(table));
+  EXPECT_EQ(TableText(table, "md"), MarkdownTable(table));
+  for (const TableFormat& format : TableFormats()) {
+    EXPECT_THAT(TableText(table, format.name), Optional(HasSubstr("name")));
+  }
+  EXPECT_EQ(TableText(table, "table"), std::nullopt);
+}
+
 TEST(HtmlTable, EscapesAndMarks) {
   Table table = EveryKind();
   table.rows[0][0] = "<b>";
