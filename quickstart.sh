@@ -14,7 +14,7 @@ packages="g++ cmake ninja-build libeigen3-dev libopenblas-dev libceres-dev
   nlohmann-json3-dev libfmt-dev libtomlplusplus-dev libssl-dev libsqlite3-dev
   zlib1g-dev libgtest-dev
   libgmock-dev libbenchmark-dev"
-test_packages="clang-format-14 python3-jsonschema chromium gnuplot-nox"
+test_packages="clang-format-14 python3-jsonschema chromium gnuplot-nox patch"
 # Without these a few tests are skipped.
 optional_packages="clang linuxcnc-uspace linuxcnc-uspace-dev slurm-wlm munge
   openmpi-bin"
