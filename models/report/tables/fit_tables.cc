@@ -213,6 +213,8 @@ Table RunTable(const ReportView& view) {
     const models::SummaryRecord& fit = model->final->summary.value;
     const auto parameters = static_cast<double>(model->parameters.value_or(0));
     const double time = kMicroseconds * fit.mean_iteration_seconds;
+    // Equations solved at once have a sum of squares in the target's unit.
+    const bool is_scaled = fit.iterations > 0;
     if (model->name == view.recommended) table.marked = table.rows.size();
     table.rows.push_back(
         {model->name,
@@ -225,7 +227,7 @@ Table RunTable(const ReportView& view) {
          Number{parameters > 0.0 ? time / parameters : models::kNotKnown, 3},
          Number{model->final->fit_seconds, 3},
          Number{RootOfTwice(fit.initial_cost)},
-         Number{RootOfTwice(fit.final_cost)},
+         Number{is_scaled ? RootOfTwice(fit.final_cost) : models::kNotKnown},
          StopText(fit),
          fit.message});
   }
