@@ -31,7 +31,9 @@ struct BlockSize {
 
 /// The work of a net over a block of patterns. What is written must not overlap
 /// anything else, except that y may stand in the place of s. Each element of a
-/// product is summed in the order of the inner dimension.
+/// product is summed in the order of the inner dimension, and those over
+/// patterns in theirs, so that a block may be cut into strips and give the
+/// same.
 template <typename Scalar>
 struct NetKernels {
   std::string_view name;  // "plain", "baseline", "avx2" or "avx512"
@@ -43,11 +45,13 @@ struct NetKernels {
                    const Scalar* x,
                    Scalar* s);
 
-  /// d_w1 += delta x', of delta (height x columns) and the same x.
+  /// d_w1 += delta x', of delta (height x columns) and the same x; where
+  /// `anew`, d_w1 counts as 0 before.
   void (*add_products)(BlockSize size,
                        std::ptrdiff_t inner,
                        const Scalar* delta,
                        const Scalar* x,
+                       bool anew,
                        Scalar* d_w1);
 
   /// y = 1 / (1 + e^-s) of n numbers, Eq. 18; 0 and 1 in the limits, NaN for
@@ -59,15 +63,18 @@ struct NetKernels {
   void (*forward)(
       BlockSize size, const Scalar* s, const Scalar* w2, Scalar* y, Scalar* o);
 
-  /// The same a step along a line: s_new = s + a t, y = logistic(s_new).
+  /// The same a step along a line, y = logistic(s + a t): the very bits that
+  /// `forward` finds after `advance`.
   void (*forward_along)(BlockSize size,
                         const Scalar* s,
                         const Scalar* t,
                         Scalar a,
                         const Scalar* w2,
-                        Scalar* s_new,
                         Scalar* y,
                         Scalar* o);
+
+  /// That step taken: s += a t.
+  void (*advance)(BlockSize size, const Scalar* t, Scalar a, Scalar* s);
 
   /// First and second derivative by a, at 0, of
   /// o(a) = (w2 + a p2)' logistic(s + a t), where y = logistic(s).

@@ -24,7 +24,6 @@ ERRMAP_INLINE void ForwardTiles(BlockSize size,
                                 const Scalar* t,
                                 Scalar a,
                                 const Scalar* w2,
-                                Scalar* s_new,
                                 Scalar* y,
                                 Scalar* o) {
   constexpr std::ptrdiff_t kTile = 1024;
@@ -38,7 +37,6 @@ ERRMAP_INLINE void ForwardTiles(BlockSize size,
                                       s + first,
                                       kAlong ? t + first : nullptr,
                                       a,
-                                      kAlong ? s_new + first : nullptr,
                                       y + first);
     for (std::ptrdiff_t column = begin; column < end; ++column) {
       for (std::ptrdiff_t j = 0; j < size.outputs; ++j) {
@@ -58,7 +56,7 @@ ERRMAP_INLINE void ForwardTiles(BlockSize size,
 template <typename Scalar>
 void Forward(
     BlockSize size, const Scalar* s, const Scalar* w2, Scalar* y, Scalar* o) {
-  ForwardTiles<Scalar, false>(size, s, nullptr, Scalar(0), w2, nullptr, y, o);
+  ForwardTiles<Scalar, false>(size, s, nullptr, Scalar(0), w2, y, o);
 }
 
 template <typename Scalar>
@@ -67,10 +65,20 @@ void ForwardAlong(BlockSize size,
                   const Scalar* t,
                   Scalar a,
                   const Scalar* w2,
-                  Scalar* s_new,
                   Scalar* y,
                   Scalar* o) {
-  ForwardTiles<Scalar, true>(size, s, t, a, w2, s_new, y, o);
+  ForwardTiles<Scalar, true>(size, s, t, a, w2, y, o);
+}
+
+template <typename Scalar>
+void Advance(BlockSize size, const Scalar* t, Scalar a, Scalar* s) {
+  ForColumn<Scalar>(size.height * size.columns,
+                    [&](auto vector, std::ptrdiff_t i) ERRMAP_INLINED {
+                      vector.Write(MultiplyAdd(Vec<Scalar>{} + a,
+                                               vector.Read(t + i),
+                                               vector.Read(s + i)),
+                                   s + i);
+                    });
 }
 
 // kWide columns share what is read of the weights.
@@ -239,11 +247,15 @@ void AddProducts(BlockSize size,
                  std::ptrdiff_t inner,
                  const Scalar* delta,
                  const Scalar* x,
+                 bool anew,
                  Scalar* d_w1) {
-  MultiplyAll<Scalar, true>(
-      {size.columns, delta, size.height, x, inner, 1, d_w1, size.height},
-      size.height,
-      inner);
+  const Factors<Scalar> factors = {
+      size.columns, delta, size.height, x, inner, 1, d_w1, size.height};
+  if (anew) {
+    MultiplyAll<Scalar, false>(factors, size.height, inner);
+  } else {
+    MultiplyAll<Scalar, true>(factors, size.height, inner);
+  }
 }
 
 template <typename Scalar>
@@ -254,6 +266,7 @@ constexpr NetKernels<Scalar> MakeNetKernels(const char* name) {
           Logistic<Scalar>,
           Forward<Scalar>,
           ForwardAlong<Scalar>,
+          Advance<Scalar>,
           BendAlong<Scalar>,
           Backward<Scalar>};
 }

@@ -92,8 +92,10 @@ template <typename Scalar,
           bool kAlong,
           int kCount,
           typename Vector = WholeVector>
-ERRMAP_INLINE void LogisticGroup(
-    const Scalar* s, const Scalar* t, Scalar a, Scalar* s_new, Scalar* y) {
+ERRMAP_INLINE void LogisticGroup(const Scalar* s,
+                                 const Scalar* t,
+                                 Scalar a,
+                                 Scalar* y) {
   Group<Scalar, kCount> group;
 #pragma GCC unroll 4
   for (int i = 0; i < kCount; ++i) {
@@ -101,7 +103,6 @@ ERRMAP_INLINE void LogisticGroup(
     if constexpr (kAlong) {
       group.v[i] = MultiplyAdd(
           Vec<Scalar>{} + a, Vector::Read(t + i * kLanes<Scalar>), group.v[i]);
-      Vector::Write(group.v[i], s_new + i * kLanes<Scalar>);
     }
   }
   ApplyLogistic(&group);
@@ -112,49 +113,35 @@ ERRMAP_INLINE void LogisticGroup(
 }
 
 // n a multiple of the lanes, or of half of them where heights may be. Where
-// kAlong, s_new = s + a t comes first.
+// kAlong, it is that of s + a t.
 template <typename Scalar, bool kAlong>
-ERRMAP_INLINE void LogisticOfVectors(std::ptrdiff_t n,
-                                     const Scalar* s,
-                                     const Scalar* t,
-                                     Scalar a,
-                                     Scalar* s_new,
-                                     Scalar* y) {
+ERRMAP_INLINE void LogisticOfVectors(
+    std::ptrdiff_t n, const Scalar* s, const Scalar* t, Scalar a, Scalar* y) {
   constexpr int kTogether = 4;
   constexpr std::ptrdiff_t kStep = kTogether * kLanes<Scalar>;
   std::ptrdiff_t i = 0;
   for (; i + kStep <= n; i += kStep) {
-    LogisticGroup<Scalar, kAlong, kTogether>(s + i,
-                                             kAlong ? t + i : nullptr,
-                                             a,
-                                             kAlong ? s_new + i : nullptr,
-                                             y + i);
+    LogisticGroup<Scalar, kAlong, kTogether>(
+        s + i, kAlong ? t + i : nullptr, a, y + i);
   }
   for (; i + kLanes<Scalar> <= n; i += kLanes<Scalar>) {
-    LogisticGroup<Scalar, kAlong, 1>(s + i,
-                                     kAlong ? t + i : nullptr,
-                                     a,
-                                     kAlong ? s_new + i : nullptr,
-                                     y + i);
+    LogisticGroup<Scalar, kAlong, 1>(s + i, kAlong ? t + i : nullptr, a, y + i);
   }
   if constexpr (kHasHalves) {
     if (i == n) return;
-    LogisticGroup<Scalar, kAlong, 1, HalfVector>(s + i,
-                                                 kAlong ? t + i : nullptr,
-                                                 a,
-                                                 kAlong ? s_new + i : nullptr,
-                                                 y + i);
+    LogisticGroup<Scalar, kAlong, 1, HalfVector>(
+        s + i, kAlong ? t + i : nullptr, a, y + i);
   }
 }
 
 template <typename Scalar>
 void Logistic(std::ptrdiff_t n, const Scalar* s, Scalar* y) {
   const std::ptrdiff_t whole = n / kLanes<Scalar> * kLanes<Scalar>;
-  LogisticOfVectors<Scalar, false>(whole, s, nullptr, Scalar(0), nullptr, y);
+  LogisticOfVectors<Scalar, false>(whole, s, nullptr, Scalar(0), y);
   if (whole == n) return;
   Scalar rest[kLanes<Scalar>] = {};
   for (std::ptrdiff_t i = whole; i < n; ++i) rest[i - whole] = s[i];
-  LogisticGroup<Scalar, false, 1>(rest, nullptr, Scalar(0), nullptr, rest);
+  LogisticGroup<Scalar, false, 1>(rest, nullptr, Scalar(0), rest);
   for (std::ptrdiff_t i = whole; i < n; ++i) y[i] = rest[i - whole];
 }
 

@@ -30,10 +30,12 @@ void AddProducts(BlockSize size,
                  std::ptrdiff_t inner,
                  const Scalar* delta,
                  const Scalar* x,
+                 bool anew,
                  Scalar* d_w1) {
-  Eigen::Map<Matrix<Scalar>>(d_w1, size.height, inner).noalias() +=
-      ConstMap<Scalar>(delta, size.height, size.columns) *
-      ConstMap<Scalar>(x, inner, size.columns).transpose();
+  Eigen::Map<Matrix<Scalar>> sum(d_w1, size.height, inner);
+  if (anew) sum.setZero();
+  sum.noalias() += ConstMap<Scalar>(delta, size.height, size.columns) *
+                   ConstMap<Scalar>(x, inner, size.columns).transpose();
 }
 
 template <typename Scalar>
@@ -64,13 +66,19 @@ void ForwardAlong(BlockSize size,
                   const Scalar* t,
                   Scalar a,
                   const Scalar* w2,
-                  Scalar* s_new,
                   Scalar* y,
                   Scalar* o) {
   for (std::ptrdiff_t i = 0; i < size.height * size.columns; ++i) {
-    s_new[i] = s[i] + a * t[i];
+    y[i] = s[i] + a * t[i];
   }
-  Forward(size, s_new, w2, y, o);
+  Forward(size, y, w2, y, o);
+}
+
+template <typename Scalar>
+void Advance(BlockSize size, const Scalar* t, Scalar a, Scalar* s) {
+  for (std::ptrdiff_t i = 0; i < size.height * size.columns; ++i) {
+    s[i] = s[i] + a * t[i];
+  }
 }
 
 template <typename Scalar>
@@ -130,6 +138,7 @@ const NetKernels<Scalar>& Kernels() {
                                              Logistic<Scalar>,
                                              Forward<Scalar>,
                                              ForwardAlong<Scalar>,
+                                             Advance<Scalar>,
                                              BendAlong<Scalar>,
                                              Backward<Scalar>};
   return kernels;

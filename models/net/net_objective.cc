@@ -13,27 +13,47 @@ namespace {
 
 using Eigen::Index;
 
-// What a block reads and writes stays in the first-level cache, beside the
-// weights: its patterns and a hidden quantity.
+// What a block reads and writes stays in the second-level cache, what a strip
+// does in the first-level one: its patterns and a hidden quantity.
 constexpr Index kBlockBytes = Index{128} << 10;
+constexpr Index kStripBytes = Index{48} << 10;
 
 // Sums of the 1995 program's arithmetic go over more patterns at a time.
 constexpr Index kPlainBlockBytes = Index{256} << 10;
 
+// Patterns of height + inner numbers that `bytes` hold: a multiple of every
+// product's tile.
 template <typename Scalar>
-Index BlockFor(Index hidden, Index inner, NetArithmetic arithmetic) {
-  constexpr Index kTile = 12;  // a multiple of every product's tile
+Index PatternsWithin(Index bytes, Index height, Index inner) {
+  constexpr Index kTile = 12;
+  const Index tiles =
+      bytes / ((height + inner) * static_cast<Index>(sizeof(Scalar))) / kTile;
+  return std::max(tiles, Index{1}) * kTile;
+}
+
+template <typename Scalar>
+void SetBlockAndStrip(NetArithmetic arithmetic, NetProblem<Scalar>* problem) {
   constexpr Index kFewest = 16;
   constexpr auto kBytes = static_cast<Index>(sizeof(Scalar));
   // In whole vectors: sums over blocks have the order that they had when
   // heights were padded to these.
   constexpr Index kLanes = kVectorBytes / kBytes;
-  const Index height = (hidden + kLanes - 1) / kLanes * kLanes;
+  const Index height = (problem->shape.hidden + kLanes - 1) / kLanes * kLanes;
+  const Index inner = problem->patterns.rows();
+  const Index patterns = problem->num_patterns();
   if (arithmetic == NetArithmetic::kPlain) {
-    return std::max(kFewest, kPlainBlockBytes / (height * kBytes));
+    problem->block = std::max(kFewest, kPlainBlockBytes / (height * kBytes));
+    problem->strip = problem->block;
+  } else {
+    problem->block = PatternsWithin<Scalar>(kBlockBytes, height, inner);
+    // The sums that a strip adds to are read and written anew for each.
+    constexpr Index kFewestInStrip = 60;
+    problem->strip =
+        std::max(kFewestInStrip,
+                 PatternsWithin<Scalar>(kStripBytes, problem->height, inner));
   }
-  const Index tiles = kBlockBytes / ((height + inner) * kBytes) / kTile;
-  return std::max(tiles, Index{1}) * kTile;
+  problem->block = std::min(problem->block, patterns);
+  problem->strip = std::min(problem->strip, problem->block);
 }
 
 template <typename Scalar>
@@ -78,9 +98,7 @@ NetProblem<Scalar> MakeProblem(const NetShape& shape,
   problem.decay =
       static_cast<Scalar>(wfactor / static_cast<double>(shape.num_weights()));
   problem.height = PaddedHeight<Scalar>(shape.hidden);
-  problem.block =
-      std::min(BlockFor<Scalar>(shape.hidden, shape.inputs + 1, arithmetic),
-               num_patterns);
+  SetBlockAndStrip(arithmetic, &problem);
   problem.kernels = arithmetic == NetArithmetic::kPlain
                         ? &PlainNetKernels<Scalar>()
                         : &FastestNetKernels<Scalar>();

@@ -1,6 +1,7 @@
 #include "models/net/net_path.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -12,13 +13,13 @@ using Eigen::Index;
 
 namespace {
 
-// What is kept of all patterns may take this much, about a third-level cache.
-constexpr Index kMostKeptBytes = Index{32} << 20;
+// A hidden quantity of all patterns may take this much: all that is kept then
+// fits a third-level cache.
+constexpr Index kMostKeptBytes = (Index{32} << 20) / 5;
 
 template <typename Scalar>
 bool FitsTheCaches(const NetProblem<Scalar>& problem) {
-  constexpr Index kMatrices = 5;
-  return kMatrices * problem.height * problem.num_patterns() *
+  return problem.height * problem.num_patterns() *
              static_cast<Index>(sizeof(Scalar)) <=
          kMostKeptBytes;
 }
@@ -44,11 +45,6 @@ NetPath<Scalar>::NetPath(const NetProblem<Scalar>& problem, const Vector& w)
   t_ = AlignedMatrix<Scalar>(problem.height, columns);
   y_ = AlignedMatrix<Scalar>(problem.height, columns);
   z_ = AlignedMatrix<Scalar>(outputs, columns);
-  if (keeps_) {
-    trial_s_ = AlignedMatrix<Scalar>(problem.height, columns);
-    trial_y_ = AlignedMatrix<Scalar>(problem.height, columns);
-    trial_z_ = AlignedMatrix<Scalar>(outputs, columns);
-  }
   Renew();
 }
 
@@ -68,13 +64,28 @@ void NetPath<Scalar>::Renew() {
   if (!keeps_) return;
   ForEachBlock([&](Index begin, Index columns) {
     problem_.Activate(weights_.w1, begin, columns, s_.column(begin));
-    problem_.kernels->forward(problem_.Size(columns),
-                              s_.column(begin),
-                              weights_.w2.data(),
-                              y_.column(begin),
-                              z_.column(begin));
-    Outputs(problem_, begin, columns, weights_.bias, z_.column(begin));
+    Forward(begin, columns);
   });
+  is_taken_ = true;
+  is_at_point_ = true;
+}
+
+template <typename Scalar>
+void NetPath<Scalar>::ReturnToPoint() {
+  if (!keeps_ || is_at_point_) return;
+  assert(is_taken_);  // by the trial
+  ForEachBlock([&](Index begin, Index columns) { Forward(begin, columns); });
+  is_at_point_ = true;
+}
+
+template <typename Scalar>
+void NetPath<Scalar>::Forward(Index begin, Index columns) {
+  problem_.kernels->forward(problem_.Size(columns),
+                            s_.column(begin),
+                            weights_.w2.data(),
+                            y_.column(begin),
+                            z_.column(begin));
+  Outputs(problem_, begin, columns, weights_.bias, z_.column(begin));
 }
 
 template <typename Scalar>
@@ -92,10 +103,19 @@ typename NetPath<Scalar>::Block NetPath<Scalar>::At(Index begin,
 }
 
 template <typename Scalar>
-const Scalar* NetPath<Scalar>::AlongDirection(Index begin, Index columns) {
-  Scalar* t = keeps_ ? t_.column(begin) : t_.data();
+void NetPath<Scalar>::Prepare(Index begin, Index columns) {
+  Scalar* t = t_.column(begin);
+  if (!is_taken_) {
+    problem_.kernels->advance(
+        problem_.Size(columns), t, untaken_, s_.column(begin));
+  }
   if (!has_t_) problem_.Activate(direction_.w1, begin, columns, t);
-  return t;
+}
+
+template <typename Scalar>
+void NetPath<Scalar>::EndPreparation() {
+  is_taken_ = true;
+  has_t_ = true;
 }
 
 template <typename Scalar>
@@ -112,16 +132,27 @@ void NetPath<Scalar>::SetDirection(const Vector& p) {
 
 template <typename Scalar>
 Scalar NetPath<Scalar>::Curvature() {
+  ReturnToPoint();
   double sum = 0.0;
   ForEachBlock([&](Index begin, Index columns) {
     const Block block = At(begin, columns);
-    problem_.kernels->bend_along(problem_.Size(columns),
-                                 block.y,
-                                 AlongDirection(begin, columns),
-                                 weights_.w2.data(),
-                                 direction_.w2.data(),
-                                 first_.data(),
-                                 second_.data());
+    problem_.ForEachStrip(begin, columns, [&](Index from, Index count) {
+      const Index offset = from - begin;
+      Scalar* t = keeps_ ? t_.column(from) : t_.data();
+      if (keeps_) {
+        Prepare(from, count);
+      } else {
+        problem_.Activate(direction_.w1, from, count, t);
+      }
+      problem_.kernels->bend_along(
+          problem_.Size(count),
+          block.y + offset * problem_.height,
+          t,
+          weights_.w2.data(),
+          direction_.w2.data(),
+          first_.data() + offset * problem_.shape.outputs,
+          second_.data() + offset * problem_.shape.outputs);
+    });
     sum += OutputCurvature(problem_,
                            begin,
                            columns,
@@ -130,7 +161,7 @@ Scalar NetPath<Scalar>::Curvature() {
                            first_.data(),
                            second_.data());
   });
-  has_t_ = keeps_;
+  if (keeps_) EndPreparation();
   // Cost halves the sum of squares, whose second derivative is twice `sum`.
   return static_cast<Scalar>(Cost(problem_, 2.0 * sum, 2.0 * p_squared_));
 }
@@ -139,22 +170,26 @@ template <typename Scalar>
 Scalar NetPath<Scalar>::Value(Scalar a) {
   trial_a_ = a;
   has_trial_ = true;
-  trial_.Move(weights_, a, direction_);
+  if (keeps_) {
+    trial_.MoveSecond(weights_, a, direction_);
+  } else {
+    trial_.Move(weights_, a, direction_);
+  }
   if (!has_along_) {
     w_along_ = static_cast<double>(p_.dot(w_));
     has_along_ = true;
   }
   double sum = 0.0;
   ForEachBlock([&](Index begin, Index columns) {
-    Scalar* z = keeps_ ? trial_z_.column(begin) : z_.data();
+    Scalar* z = keeps_ ? z_.column(begin) : z_.data();
     if (keeps_) {
+      if (!is_taken_ || !has_t_) Prepare(begin, columns);
       problem_.kernels->forward_along(problem_.Size(columns),
                                       s_.column(begin),
-                                      AlongDirection(begin, columns),
+                                      t_.column(begin),
                                       a,
                                       trial_.w2.data(),
-                                      trial_s_.column(begin),
-                                      trial_y_.column(begin),
+                                      y_.column(begin),
                                       z);
     } else {
       problem_.Activate(trial_.w1, begin, columns, s_.data());
@@ -163,7 +198,8 @@ Scalar NetPath<Scalar>::Value(Scalar a) {
     }
     sum += Outputs(problem_, begin, columns, trial_.bias, z);
   });
-  has_t_ = keeps_;
+  if (keeps_) EndPreparation();
+  is_at_point_ = false;
   const auto step = static_cast<double>(a);
   return static_cast<Scalar>(Cost(
       problem_, sum, w_squared_ + step * (2.0 * w_along_ + step * p_squared_)));
@@ -172,24 +208,24 @@ Scalar NetPath<Scalar>::Value(Scalar a) {
 template <typename Scalar>
 void NetPath<Scalar>::Accept(Scalar a) {
   constexpr int kRenewal = 64;
-  if (!has_trial_ || a != trial_a_) Value(a);
+  const bool is_at_trial = has_trial_ && a == trial_a_ && !is_at_point_;
+  if (!is_at_trial) Value(a);
   has_trial_ = false;
   w_squared_ = static_cast<double>(fitting::MoveAndSquare(a, p_, &w_));
   if (++accepted_ % kRenewal == 0) {
     Renew();
   } else {
     std::swap(weights_, trial_);
-    if (keeps_) {
-      std::swap(s_, trial_s_);
-      std::swap(y_, trial_y_);
-      std::swap(z_, trial_z_);
-    }
+    untaken_ = a;
+    is_taken_ = false;
+    is_at_point_ = true;
   }
   has_along_ = false;
 }
 
 template <typename Scalar>
 const typename NetPath<Scalar>::Vector& NetPath<Scalar>::Gradient() {
+  ReturnToPoint();
   gradient_sum_.Clear();
   ForEachBlock([&](Index begin, Index columns) {
     const Block block = At(begin, columns);

@@ -14,6 +14,10 @@ namespace errmap::models {
 /// patterns they are made again block by block, which is then no slower and
 /// needs no memory beyond the patterns. What is kept is renewed from the
 /// weights now and then, before the roundings of the steps add up.
+///
+/// The caches are what this is short of: hidden outputs have one place, for
+/// trials too, and are made again where the point itself is asked for after
+/// one; S takes a step only when T is at hand anyway.
 template <typename Scalar>
 class NetPath final : public fitting::Path<Scalar> {
  public:
@@ -35,7 +39,12 @@ class NetPath final : public fitting::Path<Scalar> {
     const Scalar* z;
   };
   Block At(Eigen::Index begin, Eigen::Index columns);
-  const Scalar* AlongDirection(Eigen::Index begin, Eigen::Index columns);
+  // From S: hidden outputs and outputs at the point itself, where kept.
+  void ReturnToPoint();
+  void Forward(Eigen::Index begin, Eigen::Index columns);
+  // S at the point and T of a strip, where kept; then for all, it is done.
+  void Prepare(Eigen::Index begin, Eigen::Index columns);
+  void EndPreparation();
   // Everything that is kept, from the weights.
   void Renew();
   template <typename Work>
@@ -46,7 +55,7 @@ class NetPath final : public fitting::Path<Scalar> {
   Vector w_;
   Vector p_;
   Vector gradient_;
-  PackedWeights<Scalar> weights_;    // w
+  PackedWeights<Scalar> weights_;    // w; what is kept has no need of its w1
   PackedWeights<Scalar> direction_;  // p
   PackedWeights<Scalar> trial_;      // w + a p
   GradientSum<Scalar> gradient_sum_;
@@ -54,6 +63,9 @@ class NetPath final : public fitting::Path<Scalar> {
   double w_along_ = 0.0;    // p'w, where it is found
   double p_squared_ = 0.0;  // |p|^2
   Scalar trial_a_ = 0;
+  Scalar untaken_ = 0;  // S + this T is S at the point
+  bool is_taken_ = true;
+  bool is_at_point_ = false;  // y and z are, not at a trial
   bool has_trial_ = false;
   bool has_t_ = false;
   bool has_along_ = false;
@@ -62,11 +74,8 @@ class NetPath final : public fitting::Path<Scalar> {
   AlignedMatrix<Scalar> s_;
   AlignedMatrix<Scalar> t_;
   AlignedMatrix<Scalar> y_;
-  AlignedMatrix<Scalar> trial_s_;
-  AlignedMatrix<Scalar> trial_y_;
   AlignedMatrix<Scalar> z_;  // (J x P) or of one block
-  AlignedMatrix<Scalar> trial_z_;
-  Vector first_;  // (J * block)
+  Vector first_;             // (J * block)
   Vector second_;
 };
 

@@ -45,19 +45,19 @@ void PackedWeights<Scalar>::Unpack(const NetShape& shape,
 }
 
 template <typename Scalar>
-void PackedWeights<Scalar>::Move(const PackedWeights& base,
-                                 Scalar a,
-                                 const PackedWeights& direction) {
-  w1.all() = base.w1.all() + a * direction.w1.all();
+void PackedWeights<Scalar>::MoveSecond(const PackedWeights& base,
+                                       Scalar a,
+                                       const PackedWeights& direction) {
   w2.all() = base.w2.all() + a * direction.w2.all();
   bias = base.bias + a * direction.bias;
 }
 
 template <typename Scalar>
-void PackedWeights<Scalar>::SetZero() {
-  w1.all().setZero();
-  w2.all().setZero();
-  bias.setZero();
+void PackedWeights<Scalar>::Move(const PackedWeights& base,
+                                 Scalar a,
+                                 const PackedWeights& direction) {
+  w1.all() = base.w1.all() + a * direction.w1.all();
+  MoveSecond(base, a, direction);
 }
 
 namespace {
@@ -190,12 +190,14 @@ template <typename Scalar>
 GradientSum<Scalar>::GradientSum(const NetProblem<Scalar>& problem)
     : problem_(problem),
       sum_(problem),
-      delta_(problem.height, problem.block),
+      delta_(problem.height, problem.strip),
       d_output_(problem.shape.outputs * problem.block) {}
 
 template <typename Scalar>
 void GradientSum<Scalar>::Clear() {
-  sum_.SetZero();
+  sum_.w2.all().setZero();
+  sum_.bias.setZero();
+  is_empty_ = true;
 }
 
 template <typename Scalar>
@@ -205,23 +207,27 @@ void GradientSum<Scalar>::Add(Index begin,
                               const Scalar* z,
                               const PackedWeights<Scalar>& weights) {
   OutputSlopes(problem_, begin, columns, z, d_output_.data());
-  problem_.kernels->backward(problem_.Size(columns),
-                             y,
-                             weights.w2.data(),
-                             d_output_.data(),
-                             delta_.data(),
-                             sum_.w2.data());
   const Index outputs = problem_.shape.outputs;
   for (Index j = 0; j < outputs; ++j) {
     Scalar sum = sum_.bias[j];
     for (Index i = j; i < outputs * columns; i += outputs) sum += d_output_[i];
     sum_.bias[j] = sum;
   }
-  problem_.kernels->add_products(problem_.Size(columns),
-                                 problem_.patterns.rows(),
-                                 delta_.data(),
-                                 problem_.patterns.col(begin).data(),
-                                 sum_.w1.data());
+  problem_.ForEachStrip(begin, columns, [&](Index from, Index count) {
+    problem_.kernels->backward(problem_.Size(count),
+                               y + (from - begin) * problem_.height,
+                               weights.w2.data(),
+                               d_output_.data() + (from - begin) * outputs,
+                               delta_.data(),
+                               sum_.w2.data());
+    problem_.kernels->add_products(problem_.Size(count),
+                                   problem_.patterns.rows(),
+                                   delta_.data(),
+                                   problem_.patterns.col(from).data(),
+                                   is_empty_,
+                                   sum_.w1.data());
+    is_empty_ = false;
+  });
 }
 
 template <typename Scalar>

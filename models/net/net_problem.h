@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include <Eigen/Core>
 
 #include "fitting/minimisers/objective.h"
@@ -49,7 +51,8 @@ struct NetProblem {
   Vector weights;           // (P) of mean 1, or (0)
   Scalar decay = 0;         // wfactor / N
   Eigen::Index height = 0;  // H, padded
-  Eigen::Index block = 0;   // patterns worked on at a time
+  Eigen::Index block = 0;   // patterns whose sums are added at a time
+  Eigen::Index strip = 0;   // of these, worked on at a time
   const NetKernels<Scalar>* kernels = nullptr;
 
   Eigen::Index num_patterns() const { return patterns.cols(); }
@@ -61,6 +64,14 @@ struct NetProblem {
                 Eigen::Index begin,
                 Eigen::Index columns,
                 Scalar* s) const;
+  /// work(begin, columns) for each strip of the patterns from `begin` on.
+  template <typename Work>
+  void ForEachStrip(Eigen::Index begin, Eigen::Index columns, Work work) const {
+    const Eigen::Index end = begin + columns;
+    for (; begin < end; begin += strip) {
+      work(begin, std::min(strip, end - begin));
+    }
+  }
 };
 
 /// A weight vector as the kernels want it; zeros in the padding.
@@ -74,11 +85,13 @@ struct PackedWeights {
   /// From and to the vector w (N).
   void Pack(const NetShape& shape, const fitting::VectorOf<Scalar>& w);
   void Unpack(const NetShape& shape, fitting::VectorOf<Scalar>* w) const;
-  /// This = base + a direction.
+  /// This = base + a direction: what leads to the outputs, and all of it.
+  void MoveSecond(const PackedWeights& base,
+                  Scalar a,
+                  const PackedWeights& direction);
   void Move(const PackedWeights& base,
             Scalar a,
             const PackedWeights& direction);
-  void SetZero();
 };
 
 /// Adds the bias to o (J x columns), the sums into the output nodes of the
@@ -131,7 +144,8 @@ class GradientSum {
  private:
   const NetProblem<Scalar>& problem_;
   PackedWeights<Scalar> sum_;
-  AlignedMatrix<Scalar> delta_;         // (height x block)
+  bool is_empty_ = true;
+  AlignedMatrix<Scalar> delta_;         // (height x strip)
   fitting::VectorOf<Scalar> d_output_;  // (J * block)
 };
 

@@ -251,7 +251,14 @@ TYPED_TEST(NetKernelsIn, ProductsAreTheFormulasAndTheLatterAdds) {
         kernels.activate(size, inner, w1.data(), x.data(), s.data());
         std::vector<Scalar> d_w1 = before;
         kernels.add_products(
-            size, inner, block.s.data(), x.data(), d_w1.data());
+            size, inner, block.s.data(), x.data(), false, d_w1.data());
+        std::vector<Scalar> added(before.size());
+        kernels.add_products(
+            size, inner, block.s.data(), x.data(), false, added.data());
+        std::vector<Scalar> anew = before;
+        kernels.add_products(
+            size, inner, block.s.data(), x.data(), true, anew.data());
+        EXPECT_EQ(anew, added);
         double worst_s = 0.0;
         double worst_sum = 0.0;
         for (std::ptrdiff_t h = 0; h < size.height; ++h) {
@@ -292,7 +299,6 @@ TYPED_TEST(NetKernelsIn, ForwardIsTheFormula) {
                    << kernels.name << " " << size.height << " x "
                    << size.columns << " x " << size.outputs);
       std::vector<Scalar> y(block.s.size());
-      std::vector<Scalar> s_new(block.s.size());
       std::vector<Scalar> o(block.d_output.size());
       const auto expect = [&](Exact step) {
         double worst_y = 0.0;
@@ -328,14 +334,62 @@ TYPED_TEST(NetKernelsIn, ForwardIsTheFormula) {
                             block.t.data(),
                             a,
                             block.w2.data(),
-                            s_new.data(),
                             y.data(),
                             o.data());
       expect(a);
+      std::vector<Scalar> s_new = block.s;
+      kernels.advance(size, block.t.data(), a, s_new.data());
       for (std::size_t i = 0; i < s_new.size(); ++i) {
         ASSERT_NEAR(
             s_new[i], block.s[i] + a * block.t[i], Roundings<Scalar>(1, 1.0));
       }
+      std::vector<Scalar> y_there(y.size());
+      std::vector<Scalar> o_there(o.size());
+      kernels.forward(
+          size, s_new.data(), block.w2.data(), y_there.data(), o_there.data());
+      EXPECT_EQ(y, y_there);
+      EXPECT_EQ(o, o_there);
+    }
+  }
+}
+
+// Sums over patterns go on where those of the strip before have ended. The
+// plain products are Eigen's, which takes its own order.
+TYPED_TEST(NetKernelsIn, StripsGiveTheBitsOfTheWholeBlock) {
+  using Scalar = TypeParam;
+  constexpr std::ptrdiff_t kInner = 38;
+  constexpr std::ptrdiff_t kColumns = 50;
+  constexpr std::ptrdiff_t kStrip = 12;
+  for (std::ptrdiff_t height = PaddedHeight<Scalar>(1); height <= 72;
+       height += PaddedHeight<Scalar>(1)) {
+    const BlockSize whole{height, kColumns, 2};
+    Block<Scalar> block(whole, 9);
+    const auto x = block.Draw(static_cast<std::size_t>(kInner * kColumns), 1.0);
+    const auto y = block.Draw(block.s.size(), 1.0);
+    for (const auto& kernels : AvailableNetKernels<Scalar>()) {
+      const auto sums = [&](std::ptrdiff_t strip) {
+        std::vector<Scalar> d_w1(static_cast<std::size_t>(height * kInner));
+        std::vector<Scalar> d_w2 = block.d_w2;
+        std::vector<Scalar> delta(block.s.size());
+        for (std::ptrdiff_t begin = 0; begin < kColumns; begin += strip) {
+          const BlockSize size{
+              height, std::min(strip, kColumns - begin), whole.outputs};
+          kernels.backward(size,
+                           y.data() + begin * height,
+                           block.w2.data(),
+                           block.d_output.data() + begin * whole.outputs,
+                           delta.data(),
+                           d_w2.data());
+          kernels.add_products(size,
+                               kInner,
+                               delta.data(),
+                               x.data() + begin * kInner,
+                               begin == 0,
+                               d_w1.data());
+        }
+        return std::pair(d_w1, d_w2);
+      };
+      EXPECT_EQ(sums(kStrip), sums(kColumns)) << kernels.name << " " << height;
     }
   }
 }

@@ -138,6 +138,23 @@ TEST_P(NetPathOfShape, AcceptsAnotherStepThanTheLastOneTried) {
   EXPECT_NEAR(path->Curvature(), expected, 1e-9 * std::abs(expected));
 }
 
+TEST_P(NetPathOfShape, ComesBackFromATrialToTheSameBits) {
+  const auto objective = GetParam().Objective<double>();
+  const auto path = objective.NewPath(GetParam().Point());
+  path->SetDirection(GetParam().Direction());
+  for (const double a : {0.5, -0.25}) {
+    path->Accept(a);
+    const VectorXd gradient = path->Gradient();
+    const double cost = path->Value(0.0);
+    const double curvature = path->Curvature();
+    path->Value(2.0);
+    EXPECT_EQ(path->Curvature(), curvature);
+    path->Value(3.0);
+    EXPECT_EQ(VectorXd(path->Gradient()), gradient);
+    EXPECT_EQ(path->Value(0.0), cost);
+  }
+}
+
 TEST_P(NetPathOfShape, IsTheSameTwice) {
   const auto objective = GetParam().Objective<double>();
   const auto walk = [&] {
