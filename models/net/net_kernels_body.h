@@ -16,6 +16,33 @@
 namespace errmap::models {
 namespace {
 
+// kWide columns share what is read of the weights.
+template <typename Scalar, int kWide>
+ERRMAP_INLINE void OutputColumns(BlockSize size,
+                                 std::ptrdiff_t column,
+                                 const Scalar* w2,
+                                 const Scalar* y,
+                                 Scalar* o) {
+  const std::ptrdiff_t height = size.height;
+  const Scalar* values = y + column * height;
+  for (std::ptrdiff_t j = 0; j < size.outputs; ++j) {
+    Group<Scalar, kWide> sum = {};
+    ForColumn<Scalar>(
+        height, [&](auto vector, std::ptrdiff_t h) ERRMAP_INLINED {
+          const Vec<Scalar> w = vector.Read(w2 + j * height + h);
+#pragma GCC unroll 4
+          for (int i = 0; i < kWide; ++i) {
+            sum.v[i] =
+                MultiplyAdd(w, vector.Read(values + i * height + h), sum.v[i]);
+          }
+        });
+#pragma GCC unroll 4
+    for (int i = 0; i < kWide; ++i) {
+      o[(column + i) * size.outputs + j] = Sum(sum.v[i]);
+    }
+  }
+}
+
 // Some columns at a time, so that their y are still in the first-level cache
 // for the sums.
 template <typename Scalar, bool kAlong>
@@ -26,7 +53,7 @@ ERRMAP_INLINE void ForwardTiles(BlockSize size,
                                 const Scalar* w2,
                                 Scalar* y,
                                 Scalar* o) {
-  constexpr std::ptrdiff_t kTile = 1024;
+  constexpr std::ptrdiff_t kTile = 2048;
   const std::ptrdiff_t height = size.height;
   const std::ptrdiff_t tile = height < kTile ? kTile / height : 1;
   for (std::ptrdiff_t begin = 0; begin < size.columns; begin += tile) {
@@ -38,17 +65,13 @@ ERRMAP_INLINE void ForwardTiles(BlockSize size,
                                       kAlong ? t + first : nullptr,
                                       a,
                                       y + first);
-    for (std::ptrdiff_t column = begin; column < end; ++column) {
-      for (std::ptrdiff_t j = 0; j < size.outputs; ++j) {
-        Vec<Scalar> sum = {};
-        ForColumn<Scalar>(
-            height, [&](auto vector, std::ptrdiff_t h) ERRMAP_INLINED {
-              sum = MultiplyAdd(vector.Read(w2 + j * height + h),
-                                vector.Read(y + column * height + h),
-                                sum);
-            });
-        o[column * size.outputs + j] = Sum(sum);
-      }
+    constexpr int kTogether = 4;
+    std::ptrdiff_t column = begin;
+    for (; column + kTogether <= end; column += kTogether) {
+      OutputColumns<Scalar, kTogether>(size, column, w2, y, o);
+    }
+    for (; column < end; ++column) {
+      OutputColumns<Scalar, 1>(size, column, w2, y, o);
     }
   }
 }

@@ -48,8 +48,16 @@ struct PowerOfTwo<float> {
   static constexpr int kMantissa = 23;
 };
 
-// 1 / (1 + 2^u), u = -s log2(e) held where 2^u is a normal number. A
-// comparison with NaN is false, so that NaN goes through.
+// As many side by side as the registers hold: each waits for its own chain of
+// products.
+#if defined(__AVX512F__)
+constexpr int kLogistics = 6;
+#else
+constexpr int kLogistics = 4;
+#endif
+
+// 1 / (1 + 2^u), u = -s log2(e) held where 2^u is a normal number; NaN goes
+// through.
 template <typename Scalar, int kCount>
 ERRMAP_INLINE void ApplyLogistic(Group<Scalar, kCount>* s) {
   using Power = PowerOfTwo<Scalar>;
@@ -60,23 +68,23 @@ ERRMAP_INLINE void ApplyLogistic(Group<Scalar, kCount>* s) {
   Group<Scalar, kCount> shifted;
   Group<Scalar, kCount> r;
   Group<Scalar, kCount> q;
-#pragma GCC unroll 4
+#pragma GCC unroll 6
   for (int i = 0; i < kCount; ++i) {
     Vec<Scalar> u = s->v[i] * -kLog2E;
-    u = u < Power::kLeast ? zero + Power::kLeast : u;
-    u = u > Power::kMost ? zero + Power::kMost : u;
+    u = Larger(zero + Power::kLeast, u);
+    u = Smaller(zero + Power::kMost, u);
     shifted.v[i] = u + Power::kShift;
     r.v[i] = u - (shifted.v[i] - Power::kShift);
     q.v[i] = zero + Power::kQ[Power::kDegree];
   }
 #pragma GCC unroll 16
   for (int k = Power::kDegree - 1; k >= 0; --k) {
-#pragma GCC unroll 4
+#pragma GCC unroll 6
     for (int i = 0; i < kCount; ++i) {
       q.v[i] = MultiplyAdd(q.v[i], r.v[i], zero + Power::kQ[k]);
     }
   }
-#pragma GCC unroll 4
+#pragma GCC unroll 6
   for (int i = 0; i < kCount; ++i) {
     Bits exponent;
     __builtin_memcpy(&exponent, &shifted.v[i], sizeof exponent);
@@ -97,7 +105,7 @@ ERRMAP_INLINE void LogisticGroup(const Scalar* s,
                                  Scalar a,
                                  Scalar* y) {
   Group<Scalar, kCount> group;
-#pragma GCC unroll 4
+#pragma GCC unroll 6
   for (int i = 0; i < kCount; ++i) {
     group.v[i] = Vector::Read(s + i * kLanes<Scalar>);
     if constexpr (kAlong) {
@@ -106,7 +114,7 @@ ERRMAP_INLINE void LogisticGroup(const Scalar* s,
     }
   }
   ApplyLogistic(&group);
-#pragma GCC unroll 4
+#pragma GCC unroll 6
   for (int i = 0; i < kCount; ++i) {
     Vector::Write(group.v[i], y + i * kLanes<Scalar>);
   }
@@ -117,11 +125,10 @@ ERRMAP_INLINE void LogisticGroup(const Scalar* s,
 template <typename Scalar, bool kAlong>
 ERRMAP_INLINE void LogisticOfVectors(
     std::ptrdiff_t n, const Scalar* s, const Scalar* t, Scalar a, Scalar* y) {
-  constexpr int kTogether = 4;
-  constexpr std::ptrdiff_t kStep = kTogether * kLanes<Scalar>;
+  constexpr std::ptrdiff_t kStep = kLogistics * kLanes<Scalar>;
   std::ptrdiff_t i = 0;
   for (; i + kStep <= n; i += kStep) {
-    LogisticGroup<Scalar, kAlong, kTogether>(
+    LogisticGroup<Scalar, kAlong, kLogistics>(
         s + i, kAlong ? t + i : nullptr, a, y + i);
   }
   for (; i + kLanes<Scalar> <= n; i += kLanes<Scalar>) {

@@ -40,6 +40,45 @@ struct Factors {
   std::ptrdiff_t stride_c;
 };
 
+// The half vectors of kWide columns, two columns to a vector where there are
+// two; `value(j)` is what column j is multiplied by.
+template <typename Scalar, int kWide>
+struct HalfVectors {
+  static constexpr int kPairs = kHasHalves ? kWide / 2 : 0;
+  static constexpr bool kHasLast = kWide > 2 * kPairs;
+  Group<Scalar, (kPairs > 0 ? kPairs : 1)> pairs = {};
+  Half<Scalar> last = {};
+
+  ERRMAP_INLINE void Read(const Scalar* c, std::ptrdiff_t stride) {
+#pragma GCC unroll 6
+    for (int j = 0; j < kPairs; ++j) {
+      pairs.v[j] = Joined(LoadHalf(c + 2 * j * stride),
+                          LoadHalf(c + (2 * j + 1) * stride));
+    }
+    if constexpr (kHasLast) last = LoadHalf(c + 2 * kPairs * stride);
+  }
+  template <typename Value>
+  ERRMAP_INLINE void Add(const Half<Scalar>& left, Value value) {
+    const Vec<Scalar> twice = Twice(left);
+#pragma GCC unroll 6
+    for (int j = 0; j < kPairs; ++j) {
+      pairs.v[j] = MultiplyAdd(
+          twice, HalfOfEach(value(2 * j), value(2 * j + 1)), pairs.v[j]);
+    }
+    if constexpr (kHasLast) {
+      last = MultiplyAdd(left, FirstHalf(value(2 * kPairs)), last);
+    }
+  }
+  ERRMAP_INLINE void Write(Scalar* c, std::ptrdiff_t stride) const {
+#pragma GCC unroll 6
+    for (int j = 0; j < kPairs; ++j) {
+      StoreHalf<Scalar>(FirstHalf(pairs.v[j]), c + 2 * j * stride);
+      StoreHalf<Scalar>(SecondHalf(pairs.v[j]), c + (2 * j + 1) * stride);
+    }
+    if constexpr (kHasLast) StoreHalf<Scalar>(last, c + 2 * kPairs * stride);
+  }
+};
+
 // kTall vectors, and half a one below them where kHalf.
 template <typename Scalar, bool kAdd, int kTall, bool kHalf, int kWide>
 ERRMAP_INLINE void MultiplyTile(const Factors<Scalar>& f,
@@ -50,7 +89,7 @@ ERRMAP_INLINE void MultiplyTile(const Factors<Scalar>& f,
   const Scalar* b = f.b + column * f.column_b;
   Scalar* c = f.c + column * f.stride_c + row;
   Group<Scalar, (kTall > 0 ? kTall : 1)> sums[kWide];
-  Half<Scalar> halves[kWide];
+  HalfVectors<Scalar, kWide> halves;
 #pragma GCC unroll 12
   for (int j = 0; j < kWide; ++j) {
 #pragma GCC unroll 4
@@ -58,29 +97,28 @@ ERRMAP_INLINE void MultiplyTile(const Factors<Scalar>& f,
       sums[j].v[i] =
           kAdd ? Load(c + j * f.stride_c + i * kLanes<Scalar>) : Vec<Scalar>{};
     }
-    if constexpr (kHalf) {
-      halves[j] = kAdd ? LoadHalf(c + j * f.stride_c + kWhole) : Half<Scalar>{};
-    }
   }
+  if constexpr (kHalf && kAdd) halves.Read(c + kWhole, f.stride_c);
+#pragma GCC unroll 2
   for (std::ptrdiff_t k = 0; k < f.inner; ++k) {
     Group<Scalar, (kTall > 0 ? kTall : 1)> left;
-    Half<Scalar> left_half;
+    Group<Scalar, kWide> right;
 #pragma GCC unroll 4
     for (int i = 0; i < kTall; ++i) {
       left.v[i] = Load(a + k * f.stride_a + i * kLanes<Scalar>);
     }
-    if constexpr (kHalf) left_half = LoadHalf(a + k * f.stride_a + kWhole);
 #pragma GCC unroll 12
     for (int j = 0; j < kWide; ++j) {
       const Scalar value = b[k * f.inner_b + j * f.column_b];
-      const Vec<Scalar> right = Repeated<Vec<Scalar>>(value);
+      right.v[j] = Repeated<Vec<Scalar>>(value);
 #pragma GCC unroll 4
       for (int i = 0; i < kTall; ++i) {
-        sums[j].v[i] = MultiplyAdd(left.v[i], right, sums[j].v[i]);
+        sums[j].v[i] = MultiplyAdd(left.v[i], right.v[j], sums[j].v[i]);
       }
-      if constexpr (kHalf) {
-        halves[j] = MultiplyAdd(left_half, FirstHalf(right), halves[j]);
-      }
+    }
+    if constexpr (kHalf) {
+      halves.Add(LoadHalf(a + k * f.stride_a + kWhole),
+                 [&](int j) ERRMAP_INLINED { return right.v[j]; });
     }
   }
 #pragma GCC unroll 12
@@ -89,10 +127,8 @@ ERRMAP_INLINE void MultiplyTile(const Factors<Scalar>& f,
     for (int i = 0; i < kTall; ++i) {
       Store<Scalar>(sums[j].v[i], c + j * f.stride_c + i * kLanes<Scalar>);
     }
-    if constexpr (kHalf) {
-      StoreHalf<Scalar>(halves[j], c + j * f.stride_c + kWhole);
-    }
   }
+  if constexpr (kHalf) halves.Write(c + kWhole, f.stride_c);
 }
 
 // All tiles of kWide columns from *column on.

@@ -101,6 +101,46 @@ ERRMAP_INLINE Values MultiplyAdd(const Values& a,
 }
 #endif
 
+// Lane by lane the larger and the smaller one; b where it is NaN. Of a choice
+// the compiler would make a comparison and a blend. (Under a mask of all: the
+// unmasked ones begin with what GCC 12 calls uninitialised.)
+#if defined(__AVX512F__)
+ERRMAP_INLINE Vec<double> Larger(Vec<double> a, Vec<double> b) {
+  return _mm512_maskz_max_pd(0xFF, a, b);
+}
+ERRMAP_INLINE Vec<float> Larger(Vec<float> a, Vec<float> b) {
+  return _mm512_maskz_max_ps(0xFFFF, a, b);
+}
+ERRMAP_INLINE Vec<double> Smaller(Vec<double> a, Vec<double> b) {
+  return _mm512_maskz_min_pd(0xFF, a, b);
+}
+ERRMAP_INLINE Vec<float> Smaller(Vec<float> a, Vec<float> b) {
+  return _mm512_maskz_min_ps(0xFFFF, a, b);
+}
+#elif defined(__AVX2__)
+ERRMAP_INLINE Vec<double> Larger(Vec<double> a, Vec<double> b) {
+  return _mm256_max_pd(a, b);
+}
+ERRMAP_INLINE Vec<float> Larger(Vec<float> a, Vec<float> b) {
+  return _mm256_max_ps(a, b);
+}
+ERRMAP_INLINE Vec<double> Smaller(Vec<double> a, Vec<double> b) {
+  return _mm256_min_pd(a, b);
+}
+ERRMAP_INLINE Vec<float> Smaller(Vec<float> a, Vec<float> b) {
+  return _mm256_min_ps(a, b);
+}
+#else
+template <typename Values>
+ERRMAP_INLINE Values Larger(const Values& a, const Values& b) {
+  return a > b ? a : b;
+}
+template <typename Values>
+ERRMAP_INLINE Values Smaller(const Values& a, const Values& b) {
+  return a < b ? a : b;
+}
+#endif
+
 // Half a vector; a vector's first one; a vector of one and zeros.
 template <typename Scalar>
 using Half = Pack<Scalar, kLanes<Scalar> / 2>;
@@ -124,12 +164,44 @@ ERRMAP_INLINE Half<double> FirstHalf(const Vec<double>& v) {
 ERRMAP_INLINE Half<float> FirstHalf(const Vec<float>& v) {
   return __builtin_shufflevector(v, v, 0, 1, 2, 3, 4, 5, 6, 7);
 }
+ERRMAP_INLINE Half<double> SecondHalf(const Vec<double>& v) {
+  return __builtin_shufflevector(v, v, 4, 5, 6, 7);
+}
+ERRMAP_INLINE Half<float> SecondHalf(const Vec<float>& v) {
+  return __builtin_shufflevector(v, v, 8, 9, 10, 11, 12, 13, 14, 15);
+}
 ERRMAP_INLINE Vec<double> Widened(const Half<double>& v) {
   return __builtin_shufflevector(v, Half<double>{}, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 ERRMAP_INLINE Vec<float> Widened(const Half<float>& v) {
   return __builtin_shufflevector(
       v, Half<float>{}, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+// A vector of two halves; the first half of `first`, the second of `second`.
+// Both halves of a vector the same; two halves joined (under a mask of all,
+// where the unmasked ones would begin with what GCC 12 calls uninitialised).
+ERRMAP_INLINE Vec<double> Twice(const Half<double>& v) {
+  return _mm512_maskz_broadcast_f64x4(0xFF, v);
+}
+ERRMAP_INLINE Vec<float> Twice(const Half<float>& v) {
+  return _mm512_maskz_broadcast_f32x8(0xFFFF, v);
+}
+ERRMAP_INLINE Vec<double> Joined(const Half<double>& first,
+                                 const Half<double>& second) {
+  return _mm512_maskz_insertf64x4(0xFF, Widened(first), second, 1);
+}
+ERRMAP_INLINE Vec<float> Joined(const Half<float>& first,
+                                const Half<float>& second) {
+  return _mm512_maskz_insertf32x8(0xFFFF, Widened(first), second, 1);
+}
+// The first half of `first` beside the second of `second`.
+ERRMAP_INLINE Vec<double> HalfOfEach(const Vec<double>& first,
+                                     const Vec<double>& second) {
+  return _mm512_mask_blend_pd(0xF0, first, second);
+}
+ERRMAP_INLINE Vec<float> HalfOfEach(const Vec<float>& first,
+                                    const Vec<float>& second) {
+  return _mm512_mask_blend_ps(0xFF00, first, second);
 }
 #endif
 
