@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <type_traits>
 
 #include "fitting/minimisers/cost_resolution.h"
@@ -91,7 +92,9 @@ class MollerRun {
 
   void TakeDirection() {
     is_new_direction_ = false;
-    const VectorSums<Scalar> sums = SquaresAndProduct(p_, r_);
+    const VectorSums<Scalar> sums =
+        turned_ ? *turned_ : SquaresAndProduct(p_, r_);
+    turned_.reset();
     p_squared_ = static_cast<double>(sums.squares);
     mu_ = static_cast<double>(sums.product);
     if (!(mu_ > 0.0)) {  // rounding has taken the descent out of it
@@ -142,7 +145,7 @@ class MollerRun {
       report->restarted = true;
       p_ = r_ = -gradient;
     } else {  // Eq. (109)
-      TurnDirection(
+      turned_ = TurnDirection(
           gradient, static_cast<Scalar>((r_squared - overlap) / mu_), &r_, &p_);
     }
     is_new_direction_ = true;
@@ -205,6 +208,7 @@ class MollerRun {
     if (monitor_.StopAtGoal(cost_, r_norm_, w_norm_)) return;
     path_ = f_.NewPath(w_);
     p_ = r_;
+    turned_.reset();
     is_new_direction_ = true;
     steps_since_restart_ = 0;
   }
@@ -228,9 +232,10 @@ class MollerRun {
   RunMonitor monitor_;
   std::unique_ptr<Path<Scalar>> path_;
 
-  Vector w_;  // best point
-  Vector r_;  // steepest descent there
-  Vector p_;  // direction
+  Vector w_;                                  // best point
+  Vector r_;                                  // steepest descent there
+  Vector p_;                                  // direction
+  std::optional<VectorSums<Scalar>> turned_;  // of a p just turned, with r
   double cost_ = 0.0;
   double r_norm_ = 0.0;
   double w_norm_ = 0.0;

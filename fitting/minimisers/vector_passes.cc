@@ -104,12 +104,31 @@ ERRMAP_INLINE Scalar Moved(Index n, Scalar a, const Scalar* p, Scalar* w) {
 }
 
 template <typename Scalar>
-ERRMAP_INLINE void Turned(
+ERRMAP_INLINE VectorSums<Scalar> Turned(
     Index n, const Scalar* gradient, Scalar a, Scalar* r, Scalar* p) {
-  for (Index i = 0; i < n; ++i) {
-    r[i] = -gradient[i];
-    p[i] = r[i] + a * p[i];
+  Lanes<Scalar> squares = {};
+  Lanes<Scalar> products = {};
+  Index i = 0;
+  for (; i + kLanes<Scalar> <= n; i += kLanes<Scalar>) {
+    Lanes<Scalar> descent;
+    Lanes<Scalar> along;
+    Load(gradient + i, &descent);
+    Load(p + i, &along);
+    descent = -descent;
+    along = descent + a * along;
+    Store(descent, r + i);
+    Store(along, p + i);
+    squares += along * along;
+    products += along * descent;
   }
+  for (Index k = i; k < n; ++k) {
+    r[k] = -gradient[k];
+    p[k] = r[k] + a * p[k];
+  }
+  return {Total<Scalar>(
+              squares, n - i, [&](Index k) { return p[i + k] * p[i + k]; }),
+          Total<Scalar>(
+              products, n - i, [&](Index k) { return p[i + k] * r[i + k]; })};
 }
 
 }  // namespace
@@ -141,19 +160,19 @@ float MoveAndSquare(float a, const VectorOf<float>& p, VectorOf<float>* w) {
 }
 
 ERRMAP_MULTIVERSION
-void TurnDirection(const VectorOf<double>& gradient,
-                   double a,
-                   VectorOf<double>* r,
-                   VectorOf<double>* p) {
-  Turned(p->size(), gradient.data(), a, r->data(), p->data());
+VectorSums<double> TurnDirection(const VectorOf<double>& gradient,
+                                 double a,
+                                 VectorOf<double>* r,
+                                 VectorOf<double>* p) {
+  return Turned(p->size(), gradient.data(), a, r->data(), p->data());
 }
 
 ERRMAP_MULTIVERSION
-void TurnDirection(const VectorOf<float>& gradient,
-                   float a,
-                   VectorOf<float>* r,
-                   VectorOf<float>* p) {
-  Turned(p->size(), gradient.data(), a, r->data(), p->data());
+VectorSums<float> TurnDirection(const VectorOf<float>& gradient,
+                                float a,
+                                VectorOf<float>* r,
+                                VectorOf<float>* p) {
+  return Turned(p->size(), gradient.data(), a, r->data(), p->data());
 }
 
 }  // namespace errmap::fitting

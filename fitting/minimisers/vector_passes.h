@@ -24,14 +24,14 @@ VectorSums<float> SquaresAndProduct(const VectorOf<float>& x,
 double MoveAndSquare(double a, const VectorOf<double>& p, VectorOf<double>* w);
 float MoveAndSquare(float a, const VectorOf<float>& p, VectorOf<float>* w);
 
-/// r = -gradient, then p = r + a p.
-void TurnDirection(const VectorOf<double>& gradient,
-                   double a,
-                   VectorOf<double>* r,
-                   VectorOf<double>* p);
-void TurnDirection(const VectorOf<float>& gradient,
-                   float a,
-                   VectorOf<float>* r,
-                   VectorOf<float>* p);
+/// r = -gradient, then p = r + a p; returns p'p and p'r.
+VectorSums<double> TurnDirection(const VectorOf<double>& gradient,
+                                 double a,
+                                 VectorOf<double>* r,
+                                 VectorOf<double>* p);
+VectorSums<float> TurnDirection(const VectorOf<float>& gradient,
+                                float a,
+                                VectorOf<float>* r,
+                                VectorOf<float>* p);
 
 }  // namespace errmap::fitting

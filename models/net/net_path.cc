@@ -120,7 +120,7 @@ void NetPath<Scalar>::EndPreparation() {
 
 template <typename Scalar>
 void NetPath<Scalar>::SetDirection(const Vector& p) {
-  p_ = p;
+  std::copy_n(p.data(), p.size(), p_.data());
   const fitting::VectorSums<Scalar> sums = fitting::SquaresAndProduct(p_, w_);
   p_squared_ = static_cast<double>(sums.squares);
   w_along_ = static_cast<double>(sums.product);

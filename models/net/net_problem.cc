@@ -1,8 +1,61 @@
 #include "models/net/net_problem.h"
 
+#include <algorithm>
+
+#include "fitting/multiversion.h"
+
 namespace errmap::models {
 
 using Eigen::Index;
+
+namespace {
+
+// A matrix whose columns begin `stride` apart, or with the next number.
+struct Layout {
+  Index rows;
+  Index columns;
+  Index stride;
+
+  Layout AsOneColumn() const {
+    return stride == rows ? Layout{rows * columns, 1, rows * columns} : *this;
+  }
+};
+
+// To the layout, from columns without gaps.
+template <typename Scalar>
+void CopyFromDense(Layout layout, const Scalar* from, Scalar* to) {
+  const Layout runs = layout.AsOneColumn();
+  for (Index j = 0; j < runs.columns; ++j) {
+    std::copy_n(from + j * runs.rows, runs.rows, to + j * runs.stride);
+  }
+}
+
+// to = from + a x, `from` alone in the layout.
+template <typename Scalar>
+__attribute__((always_inline)) inline void AddToDense(
+    Layout layout, const Scalar* from, Scalar a, const Scalar* x, Scalar* to) {
+  const Layout runs = layout.AsOneColumn();
+  for (Index j = 0; j < runs.columns; ++j) {
+    const Index begin = j * runs.rows;
+    for (Index i = 0; i < runs.rows; ++i) {
+      to[begin + i] = from[j * runs.stride + i] + a * x[begin + i];
+    }
+  }
+}
+
+ERRMAP_MULTIVERSION
+void AddFromLayout(
+    Layout layout, const double* from, double a, const double* x, double* to) {
+  AddToDense(layout, from, a, x, to);
+}
+
+ERRMAP_MULTIVERSION
+void AddFromLayout(
+    Layout layout, const float* from, float a, const float* x, float* to) {
+  AddToDense(layout, from, a, x, to);
+}
+
+}  // namespace
 
 template <typename Scalar>
 void NetProblem<Scalar>::Activate(const AlignedMatrix<Scalar>& w1,
@@ -24,24 +77,29 @@ void PackedWeights<Scalar>::Pack(const NetShape& shape,
                                  const fitting::VectorOf<Scalar>& w) {
   using ConstMap = Eigen::Map<const typename AlignedMatrix<Scalar>::Matrix>;
   const Index hidden = shape.hidden;
-  const ConstMap from1(w.data(), hidden, shape.inputs + 1);
+  CopyFromDense({hidden, w1.cols(), w1.rows()}, w.data(), w1.data());
   const ConstMap from2(
       w.data() + shape.num_weights1(), shape.outputs, hidden + 1);
-  w1.all().topRows(hidden) = from1;
   w2.all().topRows(hidden) = from2.leftCols(hidden).transpose();
   bias = from2.col(hidden);
 }
 
 template <typename Scalar>
-void PackedWeights<Scalar>::Unpack(const NetShape& shape,
-                                   fitting::VectorOf<Scalar>* w) const {
-  using Map = Eigen::Map<typename AlignedMatrix<Scalar>::Matrix>;
+void PackedWeights<Scalar>::UnpackAndAdd(const NetShape& shape,
+                                         Scalar a,
+                                         const fitting::VectorOf<Scalar>& w,
+                                         fitting::VectorOf<Scalar>* sum) const {
+  using Matrix = typename AlignedMatrix<Scalar>::Matrix;
   const Index hidden = shape.hidden;
-  Map to1(w->data(), hidden, shape.inputs + 1);
-  Map to2(w->data() + shape.num_weights1(), shape.outputs, hidden + 1);
-  to1 = w1.all().topRows(hidden);
-  to2.leftCols(hidden) = w2.all().topRows(hidden).transpose();
-  to2.col(hidden) = bias;
+  const Index first = shape.num_weights1();
+  AddFromLayout(
+      {hidden, w1.cols(), w1.rows()}, w1.data(), a, w.data(), sum->data());
+  const Eigen::Map<const Matrix> added(
+      w.data() + first, shape.outputs, hidden + 1);
+  Eigen::Map<Matrix> to2(sum->data() + first, shape.outputs, hidden + 1);
+  to2.leftCols(hidden) =
+      w2.all().topRows(hidden).transpose() + a * added.leftCols(hidden);
+  to2.col(hidden) = bias + a * added.col(hidden);
 }
 
 template <typename Scalar>
@@ -234,8 +292,7 @@ template <typename Scalar>
 void GradientSum<Scalar>::Finish(const fitting::VectorOf<Scalar>& w,
                                  fitting::VectorOf<Scalar>* gradient) const {
   gradient->resize(w.size());
-  sum_.Unpack(problem_.shape, gradient);
-  *gradient += problem_.decay * w;
+  sum_.UnpackAndAdd(problem_.shape, problem_.decay, w, gradient);
 }
 
 template struct NetProblem<double>;

@@ -82,9 +82,13 @@ struct PackedWeights {
   fitting::VectorOf<Scalar> bias;  // (J)
 
   explicit PackedWeights(const NetProblem<Scalar>& problem);
-  /// From and to the vector w (N).
+  /// From the vector w (N).
   void Pack(const NetShape& shape, const fitting::VectorOf<Scalar>& w);
-  void Unpack(const NetShape& shape, fitting::VectorOf<Scalar>* w) const;
+  /// sum = this as such a vector + a w (N).
+  void UnpackAndAdd(const NetShape& shape,
+                    Scalar a,
+                    const fitting::VectorOf<Scalar>& w,
+                    fitting::VectorOf<Scalar>* sum) const;
   /// This = base + a direction: what leads to the outputs, and all of it.
   void MoveSecond(const PackedWeights& base,
                   Scalar a,

@@ -61,15 +61,20 @@ TYPED_TEST(VectorPasses, MovesAndSums) {
   }
 }
 
-TYPED_TEST(VectorPasses, TurnsADirection) {
+TYPED_TEST(VectorPasses, TurnsADirectionAndSums) {
   constexpr auto kShare = TypeParam(0.7);
-  const auto gradient = this->Random(19, 5);
-  auto p = this->Random(19, 6);
-  auto r = this->Random(19, 7);
-  const typename TestFixture::Vector turned = -gradient + kShare * p;
-  TurnDirection(gradient, kShare, &r, &p);
-  EXPECT_EQ(r, -gradient);
-  EXPECT_EQ(p, turned);
+  for (Index size = 0; size <= this->kMost; ++size) {
+    const auto gradient = this->Random(size, 5);
+    auto p = this->Random(size, 6);
+    auto r = this->Random(size, 7);
+    const typename TestFixture::Vector turned = -gradient + kShare * p;
+    const auto sums = TurnDirection(gradient, kShare, &r, &p);
+    EXPECT_EQ(r, -gradient) << size;
+    EXPECT_EQ(p, turned) << size;
+    const auto expected = SquaresAndProduct(p, r);
+    EXPECT_EQ(sums.squares, expected.squares) << size;
+    EXPECT_EQ(sums.product, expected.product) << size;
+  }
 }
 
 }  // namespace
