@@ -26,9 +26,10 @@ import json
 import math
 import os
 import statistics
-import subprocess
 import sys
 import tempfile
+
+from program_runs import read, run, seeds, simulate, write
 
 COMPETITORS = {
     "mean": "mean",
@@ -40,36 +41,15 @@ COMPETITORS = {
 SLOW = ("stepwise", "lasso")
 
 
-def run(*words):
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(words)}\n{done.stderr}")
-    return done.stdout
-
-
-def read(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        header, *rows = list(csv.reader(file))
-    return header, rows
-
-
-def write(path, header, rows):
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        csv.writer(file).writerows([header, *rows])
-
-
 def choices_of(given):
     """(name, header, training rows, later rows) of every choice."""
     if given.simulate:
-        first, last = given.simulate.split("-")
-        for seed in range(int(first), int(last) + 1):
+        for seed in given.simulate:
             with tempfile.TemporaryDirectory() as folder:
                 days = []
                 for options in ("", given.later):
-                    run(given.errmap, "simulate", "turning-centre", "--quiet",
-                        "-o", f"{folder}/{len(days)}", "--seed", str(seed),
-                        "--days", str(given.train + 2),
-                        "--dead", "3,4,16,19", *options.split())
+                    simulate(given.errmap, f"{folder}/{len(days)}", seed,
+                             given.train + 2, *options.split())
                     days.append(
                         read(f"{folder}/{len(days)}/{given.component}.csv"))
             header = days[0][0]
@@ -128,10 +108,6 @@ class Judge:
         return sum(s <= half for s in sizes) / len(sizes), half / least
 
 
-def geometric_mean(values):
-    return math.exp(sum(map(math.log, values)) / len(values))
-
-
 def spread(values):
     ordered = sorted(values)
     last = len(ordered) - 1
@@ -146,7 +122,7 @@ def main():
         formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("errmap")
     parser.add_argument("data", nargs="?")
-    parser.add_argument("--simulate", metavar="FIRST-LAST")
+    parser.add_argument("--simulate", type=seeds, metavar="FIRST-LAST")
     parser.add_argument("--later", default="")
     parser.add_argument("--component", default="x_displacement_down")
     parser.add_argument("--train", type=int)
@@ -199,8 +175,9 @@ def main():
                   f"| {found / simple[best]:.2f} "
                   f"| {covered:.2f} | {width:.2f} |", flush=True)
     of = {key: [line[key] for line in lines] for key in lines[0]}
-    print(f"\ngeometric mean of the ratios {geometric_mean(of['ratio']):.3f}, "
-          f"worst {max(of['ratio']):.2f}; found / error of the mean at most "
+    mean = statistics.geometric_mean(of["ratio"])
+    print(f"\ngeometric mean of the ratios {mean:.3f}, worst "
+          f"{max(of['ratio']):.2f}; found / error of the mean at most "
           f"{max(of['mean']):.2f}")
     print(f"found / promised: {spread(of['promise'])} (median, 90 %)")
     print(f"within 90 %: {statistics.fmean(of['covered']):.3f} on average, "

@@ -4,7 +4,6 @@
 //
 //   confidence_study [REPETITIONS [differences|baselines|intervals]]
 
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>

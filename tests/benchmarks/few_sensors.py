@@ -8,33 +8,25 @@ whole, in um, with 3 to 8 sensors chosen without them and with all, and the
 seconds that the search took; then the geometric means.
 """
 
-import argparse
 import json
 import os
 import statistics
-import subprocess
 import tempfile
 import time
 
+from program_runs import FILE, parser_of, run, simulate
+
 NUMBERS = range(3, 9)
-
-
-def run(*words):
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise SystemExit(f"{' '.join(words)}\n{done.stderr}")
-    return done.stdout
 
 
 def learn(errmap, seed, days):
     with tempfile.TemporaryDirectory() as folder:
         data = os.path.join(folder, "machine")
-        run(errmap, "simulate", "turning-centre", "--quiet", "-o", data,
-            "--seed", str(seed), "--days", str(days), "--dead", "3,4,16,19")
+        simulate(errmap, data, seed, days)
         start = time.monotonic()
         found = json.loads(run(
-            errmap, "learn", os.path.join(data, "x_displacement_down.csv"),
-            "--by", "sensors", "--format", "json", "--quiet"))["sensors"]
+            errmap, "learn", os.path.join(data, FILE), "--by", "sensors",
+            "--format", "json", "--quiet"))["sensors"]
         taken = time.monotonic() - start
     by_number = {point["sensors"]: point["rmse"] for point in found["points"]}
     return ([1000 * by_number[number] for number in NUMBERS] +
@@ -42,18 +34,13 @@ def learn(errmap, seed, days):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("errmap")
-    parser.add_argument("--seeds", default="1-10")
+    parser = parser_of(__doc__, "1-10")
     parser.add_argument("--days", type=int, default=6)
     given = parser.parse_args()
-    first, last = map(int, given.seeds.split("-"))
     print(f"| seed | {' | '.join(map(str, NUMBERS))} | all | s |")
     print("|---" * (len(NUMBERS) + 3) + "|")
     lines = []
-    for seed in range(first, last + 1):
+    for seed in given.seeds:
         lines.append(learn(given.errmap, seed, given.days))
         print(f"| {seed} | " + " | ".join(f"{v:.3f}" for v in lines[-1][:-1]) +
               f" | {lines[-1][-1]:.0f} |", flush=True)

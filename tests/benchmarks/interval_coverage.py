@@ -11,37 +11,21 @@ them (median), how often no interval was given, and the share of rows flagged
 (inside = 0).
 """
 
-import argparse
 import csv
 import io
 import math
 import os
 import statistics
-import subprocess
 import tempfile
 
-FILE = "x_displacement_down.csv"
+from program_runs import FILE, parser_of, read, run, simulate, write
+
 LATER = 4
 
 
-def run(*words):
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise SystemExit(f"{' '.join(words)}\n{done.stderr}")
-    return done.stdout
-
-
-def simulate(errmap, folder, seed, days, *options):
-    run(errmap, "simulate", "turning-centre", "--quiet", "-o", folder, "--seed",
-        str(seed), "--days", str(days), "--dead", "3,4,16,19", *options)
-    with open(os.path.join(folder, FILE), newline="", encoding="utf-8") as file:
-        header, *rows = list(csv.reader(file))
-    return header, rows
-
-
-def write(path, header, rows):
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        csv.writer(file).writerows([header, *rows])
+def simulated(errmap, folder, seed, days, *options):
+    simulate(errmap, folder, seed, days, *options)
+    return read(os.path.join(folder, FILE))
 
 
 def judge(errmap, folder, header, rows):
@@ -64,25 +48,20 @@ def judge(errmap, folder, header, rows):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("errmap")
-    parser.add_argument("--seeds", default="1-20")
+    parser = parser_of(__doc__, "1-20")
     parser.add_argument("--days", default="4,6,10")
     parser.add_argument("--model", default="poly:ridge")
     given = parser.parse_args()
-    first, last = map(int, given.seeds.split("-"))
     print("| days | duty | within 90 % | lowest | width | not given | flagged |")
     print("|---|---|---|---|---|---|---|")
     for days in map(int, given.days.split(",")):
         found = {"like": [], "harder": []}
-        for seed in range(first, last + 1):
+        for seed in given.seeds:
             with tempfile.TemporaryDirectory() as folder:
-                header, rows = simulate(
+                header, rows = simulated(
                     given.errmap, os.path.join(folder, "like"), seed,
                     days + LATER)
-                _, harder = simulate(
+                _, harder = simulated(
                     given.errmap, os.path.join(folder, "hard"), seed,
                     days + LATER, "--duty", "1.7", "--speed", "1.5")
                 day = header.index("day")

@@ -17,32 +17,21 @@ the last point 90 and 94 %. Judged on fresh seeds: 501-520 56 of 60, 53 of 60, 5
 60; 601-620 --days 6 56, 53, 57 of 60. High over low is 2.0 in the median.
 """
 
-import argparse
-import csv
 import json
 import math
 import pathlib
 import statistics
-import subprocess
 import sys
 import tempfile
 
-FILE = "x_displacement_down.csv"
+from program_runs import FILE, parser_of, read, run, simulate, write
+
 LATER = 16
 KINDS = ("16 later days", "4 later days", "last point")
 
 
-def run(*words):
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, words))}\n{done.stderr}")
-    return done.stdout
-
-
-def write(path, header, rows, first, last):
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        csv.writer(file, lineterminator="\n").writerows(
-            [header, *(row for row in rows if first <= int(row[1]) <= last)])
+def days_of(path, header, rows, first, last):
+    write(path, header, [row for row in rows if first <= int(row[1]) <= last])
     return path
 
 
@@ -60,14 +49,13 @@ def rmse_of(given, model, path):
 def judge(given, seed, days, folder):
     """Of each model: the law's interval, and what was found."""
     cycles = ["--cycles", given.cycles] if given.cycles else []
-    run(given.errmap, "simulate", "turning-centre", "--quiet", "--force", "-o", folder / "all",
-        "--seed", seed, "--days", 2 * days + LATER, "--dead", "3,4,16,19", "--points", 0, *cycles)
-    with open(folder / "all" / FILE, newline="", encoding="utf-8") as file:
-        header, *rows = csv.reader(file)
-    half = write(folder / "half.csv", header, rows, 1, days)
-    full = write(folder / "full.csv", header, rows, 1, 2 * days)
-    later = write(folder / "later.csv", header, rows, 2 * days + 1, 2 * days + LATER)
-    four = write(folder / "four.csv", header, rows, 2 * days + 1, 2 * days + 4)
+    simulate(given.errmap, folder / "all", seed, 2 * days + LATER, "--force", "--points", 0,
+             *cycles)
+    header, rows = read(folder / "all" / FILE)
+    half = days_of(folder / "half.csv", header, rows, 1, days)
+    full = days_of(folder / "full.csv", header, rows, 1, 2 * days)
+    later = days_of(folder / "later.csv", header, rows, 2 * days + 1, 2 * days + LATER)
+    four = days_of(folder / "four.csv", header, rows, 2 * days + 1, 2 * days + 4)
     of_half, of_full = curves(given, half), curves(given, full)
     for name, curve in of_half.items():
         if not curve["law"]:
@@ -80,19 +68,16 @@ def judge(given, seed, days, folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("errmap")
-    parser.add_argument("--seeds", default="501-520")
+    parser = parser_of(__doc__, "501-520")
     parser.add_argument("--days", default="4,6,10")
     parser.add_argument("--cycles", type=int)
     parser.add_argument("--models",
                         default="poly:temperature,poly:full:degree=1,poly:ridge:view=raw")
     given = parser.parse_args()
-    first, last = (int(x) for x in given.seeds.split("-"))
     days = [int(x) for x in given.days.split(",")]
     held = {}
     widths = []
-    for seed in range(first, last + 1):
+    for seed in given.seeds:
         with tempfile.TemporaryDirectory() as folder:
             for name, (low, _, high), found in judge(given, seed, days[seed % len(days)],
                                                      pathlib.Path(folder)):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Do tuned nets err less than untuned ones, and at what cost?
 
-    net_tuning.py ERRMAP [--seeds 1-3] [SPEC ...]
+    net_tuning.py ERRMAP [SPEC ...] [--seeds 1-3]
 
 Four functions of 2 to 10 inputs, each at 300 random places with noise of 0.002,
 0.05 and 0.3 times its standard deviation: every SPEC is fitted to these rows
@@ -10,16 +10,15 @@ standard deviations of the function; then their geometric means and the time of
 the processor, over those of the first SPEC.
 """
 
-import argparse
-import csv
 import json
 import math
 import os
 import random
 import resource
 import statistics
-import subprocess
 import tempfile
+
+from program_runs import parser_of, run, write
 
 SPECS = ["net:scg", "net:scg:wfactor=cv:path=yes", "net:scg:wfactor=cv",
          "net:scg:wfactor=1e-3"]
@@ -50,13 +49,6 @@ FUNCTIONS = {"friedman": (friedman, 10), "impedance": (impedance, 4),
              "decay": (decay, 3), "cubic": (cubic, 2)}
 
 
-def write(path, rows, values):
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file)
-        table.writerow(["error", *(f"x{i}" for i in range(len(rows[0])))])
-        table.writerows([value, *row] for row, value in zip(rows, values))
-
-
 def make_case(folder, name, noise, seed):
     """Writes train.csv and further.csv; errors are in the function's sd."""
     function, inputs = FUNCTIONS[name]
@@ -70,9 +62,9 @@ def make_case(folder, name, noise, seed):
             centre, spread = statistics.fmean(values), statistics.pstdev(values)
         amount = noise if part == "train" else 0.0
         paths.append(os.path.join(folder, part + ".csv"))
-        write(paths[-1], rows, [(value - centre) / spread
-                                + amount * draw.gauss(0, 1)
-                                for value in values])
+        write(paths[-1], ["error", *(f"x{i}" for i in range(inputs))],
+              [[(value - centre) / spread + amount * draw.gauss(0, 1), *row]
+               for row, value in zip(rows, values)])
     return paths
 
 
@@ -84,31 +76,24 @@ def judge(errmap, spec, folder, train, further):
     """(RMSE at the further places, seconds of the fit)"""
     model = os.path.join(folder, "map.json")
     before = child_seconds()
-    subprocess.run([errmap, "fit", train, "--model", spec, "-o", model,
-                    "--no-interval", "--quiet"],
-                   check=True, stdout=subprocess.DEVNULL)
+    run(errmap, "fit", train, "--model", spec, "-o", model, "--no-interval",
+        "--quiet")
     seconds = child_seconds() - before
-    found = subprocess.run([errmap, "evaluate", model, further, "--quiet",
-                            "--format", "json"],
-                           check=True, stdout=subprocess.PIPE, text=True)
-    return json.loads(found.stdout)["summary"]["rmse"], seconds
+    found = run(errmap, "evaluate", model, further, "--quiet", "--format",
+                "json")
+    return json.loads(found)["summary"]["rmse"], seconds
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("errmap")
+    parser = parser_of(__doc__, "1-3")
     parser.add_argument("specs", nargs="*", default=SPECS, metavar="SPEC")
-    parser.add_argument("--seeds", default="1-3", metavar="FIRST-LAST")
     given = parser.parse_args()
-    first, last = map(int, given.seeds.split("-"))
 
     print("case", *given.specs)
     logarithms = {spec: [] for spec in given.specs}
     seconds = dict.fromkeys(given.specs, 0.0)
     with tempfile.TemporaryDirectory() as folder:
-        for seed in range(first, last + 1):
+        for seed in given.seeds:
             for name in FUNCTIONS:
                 for noise in NOISES:
                     case = make_case(folder, name, noise, seed)

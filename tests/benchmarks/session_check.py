@@ -13,33 +13,22 @@ how often offset and shape are told apart among those caught (offset: the sd
 about the session's mean is within 1.5 times the promise).
 """
 
-import argparse
 import collections
-import csv
 import json
 import math
 import os
 import random
 import statistics
-import subprocess
 import tempfile
 
-DEAD = "3,4,16,19"
-FILE = "x_displacement_down.csv"
+from program_runs import FILE, parser_of, read, run, simulate, write
+
 HOUR = 3600.0
-
-
-def run(*words, statuses=(0,)):
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
-    if done.returncode not in statuses:
-        raise SystemExit(f"{' '.join(words)}\n{done.stderr}")
-    return done.stdout
 
 
 class Table:
     def __init__(self, path):
-        with open(path, newline="", encoding="utf-8") as file:
-            self.header, *rows = list(csv.reader(file))
+        self.header, rows = read(path)
         self.rows = [[float(cell) for cell in row] for row in rows]
 
     def at(self, name):
@@ -50,13 +39,11 @@ class Table:
         return [list(row) for row in self.rows if row[column] == day]
 
     def write(self, path, rows):
-        with open(path, "w", newline="", encoding="utf-8") as file:
-            csv.writer(file).writerows([self.header, *rows])
+        write(path, self.header, rows)
 
 
-def simulate(errmap, folder, seed, days, *options):
-    run(errmap, "simulate", "turning-centre", "--quiet", "-o", folder, "--seed",
-        str(seed), "--days", str(days), "--dead", DEAD, *options)
+def simulated(errmap, folder, seed, days, *options):
+    simulate(errmap, folder, seed, days, *options)
     return Table(os.path.join(folder, FILE))
 
 
@@ -92,25 +79,20 @@ def probes_of(rows, time, where, draw):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("errmap")
-    parser.add_argument("--seeds", default="1-10")
+    parser = parser_of(__doc__, "1-10")
     parser.add_argument("--train", type=int, default=8)
     parser.add_argument("--model", default="poly:ridge")
     given = parser.parse_args()
-    first, last = map(int, given.seeds.split("-"))
     kinds = ["well"] * 14 + ["sensors", "offset", "duty"] * 2
     found = collections.defaultdict(list)
-    for seed in range(first, last + 1):
+    for seed in given.seeds:
         draw = random.Random(seed)
         with tempfile.TemporaryDirectory() as folder:
             path = lambda name: os.path.join(folder, name)
             days = given.train + len(kinds)
-            table = simulate(given.errmap, path("as"), seed, days)
-            harder = simulate(given.errmap, path("hard"), seed, days,
-                              "--duty", "1.7", "--speed", "1.5")
+            table = simulated(given.errmap, path("as"), seed, days)
+            harder = simulated(given.errmap, path("hard"), seed, days,
+                               "--duty", "1.7", "--speed", "1.5")
             column = table.at("day")
             table.write(path("train.csv"),
                         [r for r in table.rows if r[column] <= given.train])

@@ -7,7 +7,6 @@
 // call; that of BM_CombineErrors counts points of a chain of 13 errors, the
 // exact form, the first-order form and uncertainties without draws.
 
-#include <memory>
 #include <vector>
 
 #include <Eigen/Core>

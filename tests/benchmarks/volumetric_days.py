@@ -20,32 +20,17 @@ its arm is the largest.
 poly:ridge") per line, and its figures for the recommended maps.
 """
 
-import argparse
 import csv
 import json
 import math
 import os
-import re
-import shutil
 import statistics
-import subprocess
 import sys
 import tempfile
 
+from program_runs import parser_of, read, run, simulate, write
+
 NOT_MAPPED = ("tool_tip.csv", "diagonals.csv", "temperatures.csv")
-
-
-def run(*words):
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(words)}\n{done.stderr}")
-    return done.stdout
-
-
-def read(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        header, *rows = list(csv.reader(file))
-    return header, rows
 
 
 def split(folder, name, days):
@@ -57,8 +42,7 @@ def split(folder, name, days):
             ("training", [r for r in rows if int(r[day]) <= days]),
             ("later", [r for r in rows if int(r[day]) > days])):
         paths.append(os.path.join(folder, part, name))
-        with open(paths[-1], "w", newline="", encoding="utf-8") as file:
-            csv.writer(file).writerows([header, *chosen])
+        write(paths[-1], header, chosen)
     return paths
 
 
@@ -97,9 +81,7 @@ def judge_machine(given, folder):
 
 
 def judge(given, seed, days, folder):
-    run(given.errmap, "simulate", "turning-centre", "--quiet", "-o", folder,
-        "--seed", str(seed), "--days", str(days + 1), "--dead", "3,4,16,19",
-        "--points", str(given.points))
+    simulate(given.errmap, folder, seed, days + 1, "--points", given.points)
     if given.machine is not None:
         return judge_machine(given, folder)
     for part in ("training", "later"):
@@ -158,11 +140,7 @@ def summary(truth, predicted, own):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("errmap", type=shutil.which)
-    parser.add_argument("--seeds", default="1-20")
+    parser = parser_of(__doc__, "1-20")
     parser.add_argument("--train", default="2,4,6")
     parser.add_argument("--points", type=int, default=300)
     parser.add_argument("--model")
@@ -170,19 +148,14 @@ def main():
     parser.add_argument("--machine", nargs="?", const="")
     parser.add_argument("--no-log", action="store_true")
     given = parser.parse_args()
-    if given.errmap is None:
-        parser.error("name the program errmap")
     if given.model is None and given.compare is None and given.machine is None:
         given.model = "poly:ridge"
-    if not re.fullmatch(r"\d+-\d+", given.seeds):
-        parser.error("--seeds FIRST-LAST")
-    first, last = map(int, given.seeds.split("-"))
     print("| days | seed | before, um | after, um | ratio | within 90 %: X | Y "
           "| Z | worst component, um at the tool |")
     print("|---|---|---|---|---|---|---|---|---|")
     for days in map(int, given.train.split(",")):
         found = []
-        for seed in range(first, last + 1):
+        for seed in given.seeds:
             with tempfile.TemporaryDirectory() as folder:
                 line = judge(given, seed, days, folder)
             found.append(line)
