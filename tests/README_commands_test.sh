@@ -25,7 +25,8 @@ build=$(CDPATH='' cd -- "$2" && pwd)
 # In this order, since later commands read what earlier ones wrote.
 pages="README.md models/study_file/README.md models/README.md
   models/polynomial/README.md models/net/README.md models/history/README.md
-  models/study/README.md models/promise/README.md models/export/README.md
+  models/study/README.md models/promise/README.md models/promise/measured.md
+  models/export/README.md
   models/certification/README.md models/netcg/README.md
   data/sets/nistir5367_xdisp_down.md data/sets/turning_centre/README.md
   data/sets/nistir5367_appendix_b.md data/sets/machines/README.md"
