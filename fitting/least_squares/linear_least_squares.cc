@@ -300,9 +300,8 @@ double PivotRatio(MatrixXd triangle) {
   return std::abs(qr.matrixR()(0, 0)) / std::abs(qr.matrixR()(last, last));
 }
 
-// A design of up to this many values is refined, and one of up to this many
-// products solved in 106 bits: about half a second each.
-constexpr double kMostValues = 2e6;
+// A design of up to this many products is solved in 106 bits: about half a
+// second.
 constexpr double kMostProducts = 2e7;
 
 // Some hundredths of a second in 106 bits.
@@ -427,7 +426,7 @@ void AddDigits(Problem* problem,
   const double values = static_cast<double>(problem->y().size()) * rank;
   const bool few = values * rank <= kMostProducts;
   const bool must = !fit->nearly_aliased.empty();
-  if (!must && values > kMostValues) return;
+  if (!must && values > kMostRefinedValues) return;
   std::optional<Refined> refined = Refine(problem, parts, fit->condition);
   std::optional<ExtendedLeastSquaresFit> solved;
   if (refined ? options.with_deviations && few : must || few) {

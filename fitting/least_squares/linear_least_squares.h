@@ -33,6 +33,10 @@ struct ExtendedSystem {
   ExtendedVector response;
 };
 
+/// Rows times rank; a larger design, about half a second in 106 bits, is not
+/// asked for further digits, unless a column all but follows from others.
+inline constexpr double kMostRefinedValues = 2e6;
+
 struct LeastSquaresOptions {
   /// A column is aliased where those before it leave at most this share of its
   /// length, in double (the rule of R's lm, and its value) ...

@@ -212,6 +212,19 @@ bool NeedsTriangle(Index rows, Index terms, double most_values) {
          rows > 2 * (terms + 2);
 }
 
+FitContext PreferTriangle(const PolynomialDesign& design,
+                          double most_values,
+                          const FitContext& context) {
+  // The triangle takes a time that grows with their square.
+  constexpr Index kMostTerms = 64;
+  FitContext preferring = context;
+  if (design.num_terms() <= kMostTerms) {
+    preferring.most_design_values =
+        std::min(context.most_design_values, most_values);
+  }
+  return preferring;
+}
+
 DesignRows CollectRows(const PolynomialDesign& design,
                        const std::vector<Index>& parts,
                        double most_values,

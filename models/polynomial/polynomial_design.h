@@ -102,4 +102,11 @@ DesignRows CollectRows(const PolynomialDesign& design,
 /// True where CollectRows makes triangles of such a design.
 bool NeedsTriangle(Eigen::Index rows, Eigen::Index terms, double most_values);
 
+/// `context`, but with a triangle where the design has more than `most_values`
+/// numbers and few columns: one pass then costs less than the many that least
+/// squares would make over rows that no cache holds.
+FitContext PreferTriangle(const PolynomialDesign& design,
+                          double most_values,
+                          const FitContext& context);
+
 }  // namespace errmap::models

@@ -80,6 +80,69 @@ fitting::RowDiagnostics JudgeRows(const PolynomialDesign& design,
   return judged;
 }
 
+fitting::RegressionProblem ProblemOf(const DesignRows& rows) {
+  return {rows.terms,
+          rows.response,
+          rows.weights,
+          rows.intercept,
+          rows.observations};
+}
+
+struct Solved {
+  DesignRows rows;
+  fitting::LeastSquaresFit solution;
+};
+
+Solved SolveRows(const PolynomialDesign& design,
+                 const FormOptions& form_options,
+                 const FitContext& context) {
+  Solved solved{CollectRows(design, {}, context), {}};
+  DesignRows& rows = solved.rows;
+  const bool are_observations = rows.are_observations();
+  if (!form_options.intercept) rows.intercept.setZero(rows.response.size());
+  // Whether they are read or not: the same rows give the same bits.
+  constexpr double kDigits = 13.0;
+  fitting::LeastSquaresOptions options;
+  if (are_observations) {
+    options.digits = kDigits;
+    options.with_deviations = context.explain;
+    options.exact = [&] { return design.Exact(); };
+  }
+  options.noise = [&](const VectorXd& combination) {
+    const double noise = design.Noise(combination);
+    if (are_observations) return noise;
+    // A triangle's entries are rounded by its reduction, too.
+    constexpr double kReduction = 16.0 * std::numeric_limits<double>::epsilon();
+    const VectorXd parts =
+        combination.tail(rows.terms.cols())
+            .cwiseProduct(rows.terms.colwise().norm().transpose());
+    return noise + kReduction * parts.norm();
+  };
+  solved.solution = fitting::SolveRegression(ProblemOf(rows), options);
+  return solved;
+}
+
+// By a triangle where the rows are so many that they would not be asked for
+// further digits; but what follows from other terms is told by the rows.
+Solved Solve(const PolynomialDesign& design,
+             const FormOptions& form_options,
+             const FitContext& context) {
+  const auto terms = static_cast<double>(design.num_terms());
+  const double rank = terms + (form_options.intercept ? 1.0 : 0.0);
+  const FitContext preferring = PreferTriangle(
+      design, fitting::kMostRefinedValues * terms / rank, context);
+  Solved solved = SolveRows(design, form_options, preferring);
+  // An intercept that is not there follows from anything.
+  const std::size_t no_terms = form_options.intercept ? 0 : 1;
+  const bool all_clear = solved.solution.aliased.size() <= no_terms &&
+                         solved.solution.nearly_aliased.empty();
+  if (all_clear ||
+      preferring.most_design_values == context.most_design_values) {
+    return solved;
+  }
+  return SolveRows(design, form_options, context);
+}
+
 FittedModel NewMap(const std::string& name, const Dataset& training) {
   FittedModel fitted;
   fitted.name = name;
@@ -146,34 +209,9 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
       inputs,
       PolynomialScaling(training, inputs, terms, form_options.centring),
       terms);
-  DesignRows rows = CollectRows(design, {}, context);
-  const bool are_observations = rows.are_observations();
-  if (!form_options.intercept) rows.intercept.setZero(rows.response.size());
-  const fitting::RegressionProblem problem{rows.terms,
-                                           rows.response,
-                                           rows.weights,
-                                           rows.intercept,
-                                           rows.observations};
-  // Whether they are read or not: the same rows give the same bits.
-  constexpr double kDigits = 13.0;
-  fitting::LeastSquaresOptions options;
-  if (are_observations) {
-    options.digits = kDigits;
-    options.with_deviations = context.explain;
-    options.exact = [&] { return design.Exact(); };
-  }
-  options.noise = [&](const VectorXd& combination) {
-    const double noise = design.Noise(combination);
-    if (are_observations) return noise;
-    // A triangle's entries are rounded by its reduction, too.
-    constexpr double kReduction = 16.0 * std::numeric_limits<double>::epsilon();
-    const VectorXd parts =
-        combination.tail(rows.terms.cols())
-            .cwiseProduct(rows.terms.colwise().norm().transpose());
-    return noise + kReduction * parts.norm();
-  };
-  const fitting::LeastSquaresFit solution =
-      fitting::SolveRegression(problem, options);
+  const Solved solved = Solve(design, form_options, context);
+  const DesignRows& rows = solved.rows;
+  const fitting::LeastSquaresFit& solution = solved.solution;
 
   FittedModel fitted = NewModel(training);
   fitted.inputs = DescribeInputs(training, inputs);
@@ -238,7 +276,7 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
     auto complete = std::make_shared<RegressionReport>();
     if (report != nullptr) *complete = std::move(*report);
     if (complete->method.empty()) complete->method = "least squares";
-    complete->fit = fitting::Diagnose(problem, solution);
+    complete->fit = fitting::Diagnose(ProblemOf(rows), solution);
     complete->rows = JudgeRows(design, complete->fit);
     complete->weighted = training.weights().size() != 0;
     FillCoefficientTable(design, complete.get());

@@ -27,7 +27,8 @@ using Eigen::VectorXd;
 using fitting::Criterion;
 
 constexpr std::int64_t kDefaultBootstrap = 200;
-// Rows times terms; that many repetitions take seconds there.
+// Rows times terms; that many repetitions take seconds there, and beyond it the
+// rows leave the caches.
 constexpr Index kMostBootstrappedValues = 1'000'000;
 
 std::string Upper(std::string_view word) {
@@ -150,7 +151,10 @@ class StepwiseRecipe final : public PolynomialRecipe {
     const DictionaryRows rows = CollectDictionary(
         dictionary,
         group_parts ? training.groups().codes : folds.folds.codes,
-        context);
+        rules_.Uses(Criterion::kPress) || repetitions > 0
+            ? context
+            : PreferTriangle(
+                  dictionary.design, kMostBootstrappedValues, context));
     fitting::TermRules rules{dictionary.include,
                              dictionary.excluded,
                              {},

@@ -40,16 +40,15 @@ std::string RefusalOfSpec(const std::string& spec) {
   return RefusalOf([&] { MakeRecipe(spec); });
 }
 
-// 2000 rows of six inputs in 12 groups, with weights where asked for.
-data::Dataset ManyRows(bool weighted) {
-  constexpr Index kRows = 2000;
+// Rows of six inputs in 12 groups, with weights where asked for.
+data::Dataset ManyRows(bool weighted, Index rows = 2000) {
   data::Dataset::Parts parts;
   parts.source = "many";
   for (const char* name :
        {"position_mm", "t1_degC", "t2_degC", "t3_degC", "t4_degC", "t5_degC"}) {
     parts.inputs.push_back({name, data::UnitOfColumn(name)});
   }
-  parts.input_values = errmap::testing::UniformMatrix(kRows, 6, 1);
+  parts.input_values = errmap::testing::UniformMatrix(rows, 6, 1);
   parts.input_values.col(0) *= 200.0;
   for (Index j = 1; j < 6; ++j) parts.input_values.col(j).array() += 22.0;
   parts.target = {"error_mm", data::UnitOfColumn("error_mm")};
@@ -58,15 +57,15 @@ data::Dataset ManyRows(bool weighted) {
       1e-4 * x.col(0).array() + 2e-3 * x.col(1).array() +
       1e-5 * x.col(0).array() * x.col(3).array() +
       1e-3 * x.col(2).array().square() +
-      1e-3 * errmap::testing::UniformMatrix(kRows, 1, 2).array();
+      1e-3 * errmap::testing::UniformMatrix(rows, 1, 2).array();
   if (weighted) {
-    parts.weights = 1.5 + errmap::testing::UniformMatrix(kRows, 1, 3).array();
+    parts.weights = 1.5 + errmap::testing::UniformMatrix(rows, 1, 3).array();
   }
   parts.groups.column = "cycle";
   for (int group = 0; group < 12; ++group) {
     parts.groups.labels.push_back(std::to_string(group));
   }
-  for (Index i = 0; i < kRows; ++i) parts.groups.codes.push_back(i % 12);
+  for (Index i = 0; i < rows; ++i) parts.groups.codes.push_back(i % 12);
   return data::Dataset(std::move(parts));
 }
 
@@ -263,6 +262,69 @@ TEST(SelectionRecipe, BootstrapsManyRowsOnlyWhereAsked) {
   EXPECT_EQ(report_of(":bootstrap=2", 111'112).bootstrap, 2);
   EXPECT_THAT(report_of(":bootstrap=0", 111'112).notes,
               Not(Contains(HasSubstr("no bootstrap"))));
+}
+
+// Bootstraps and PRESS need the rows; without them one triangle is quicker.
+TEST(SelectionRecipe, TermsOfMoreValuesThanCachesHoldAreChosenFromATriangle) {
+  constexpr double kRelative = 1e-9;
+  constexpr Index kRows = 37'100;  // of 27 terms: just above a million values
+  for (const bool weighted : {false, true}) {
+    const data::Dataset dataset = ManyRows(weighted, kRows);
+    const auto report_of = [&](const std::string& options) {
+      return *MakeRecipe("poly:stepwise:degree=2" + options)
+                  ->Fit(dataset, kExplain)
+                  .regression;
+    };
+    const RegressionReport by_triangle = report_of("");
+    const RegressionReport by_rows = report_of(":bootstrap=1");
+    EXPECT_EQ(by_triangle.ended, by_rows.ended);
+    EXPECT_EQ(by_triangle.chosen_step, by_rows.chosen_step);
+    ASSERT_EQ(by_triangle.steps.size(), by_rows.steps.size());
+    for (std::size_t i = 0; i < by_rows.steps.size(); ++i) {
+      EXPECT_EQ(by_triangle.steps[i].term, by_rows.steps[i].term);
+    }
+    ASSERT_EQ(by_triangle.excluded.size(), by_rows.excluded.size());
+    for (std::size_t i = 0; i < by_rows.excluded.size(); ++i) {
+      EXPECT_EQ(by_triangle.excluded[i].name, by_rows.excluded[i].name);
+      EXPECT_NEAR(by_triangle.excluded[i].f, by_rows.excluded[i].f, kRelative);
+    }
+    EXPECT_NE(by_triangle.excluded.front().f, by_rows.excluded.front().f)
+        << "the roundings of two ways";
+    EXPECT_FALSE(report_of(":criterion=press").steps.empty());
+  }
+}
+
+// More values than are asked for further digits: by a triangle, unless terms
+// depend on each other.
+TEST(SelectionRecipe, FitsOfMoreValuesThanAreRefinedKeepTheirDigits) {
+  constexpr Index kRows = 74'100;  // of 27 terms: just above two millions
+  constexpr double kRelative = 1e-11;
+  const data::Dataset dataset = ManyRows(false, kRows);
+  FitContext reduced = kExplain;
+  reduced.most_design_values = 1000.0;
+  const auto recipe = MakeRecipe("poly:full:degree=2");
+  const FittedModel fitted = recipe->Fit(dataset, kExplain);
+  EXPECT_EQ(fitted.Predict(dataset),
+            recipe->Fit(dataset, reduced).Predict(dataset));
+  const auto form = std::get<PolynomialForm>(fitted.model->Describe());
+  Eigen::MatrixXd scaled = dataset.input_values();
+  for (Index j = 0; j < scaled.cols(); ++j) {
+    scaled.col(j) =
+        (scaled.col(j).array() - form.input_offset[j]) * form.input_scale[j];
+  }
+  std::vector<TermPowers> powers;
+  for (const PolynomialTerm& term : form.terms) powers.push_back(term.powers);
+  const Eigen::MatrixXd terms = TermMatrix(scaled, powers);
+  const Eigen::VectorXd equal;
+  const fitting::LeastSquaresFit expected =
+      fitting::SolveRegression({terms, dataset.target_values(), equal});
+  const double largest = expected.coefficients.cwiseAbs().maxCoeff();
+  EXPECT_NEAR(form.intercept, expected.coefficients[0], kRelative * largest);
+  for (std::size_t i = 0; i < form.terms.size(); ++i) {
+    EXPECT_NEAR(form.terms[i].coefficient,
+                expected.coefficients[static_cast<Index>(i) + 1],
+                kRelative * largest);
+  }
 }
 
 TEST(SelectionRecipe, RefusesPressWhereTheRowsAreNotHeld) {
