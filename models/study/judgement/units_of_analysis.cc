@@ -71,15 +71,19 @@ std::vector<Index> UnitCodes(const Holdout& holdout,
     return codes;
   }
   units->name = kBlockOfRows;
-  const std::set<Index> ordered(held.rows.begin(), held.rows.end());
+  std::vector<Index> ordered = held.rows;
+  std::ranges::sort(ordered);
+  const auto repeated = std::ranges::unique(ordered);
+  ordered.erase(repeated.begin(), repeated.end());
   const std::vector<Index> blocks =
       stats::BlocksInOrder(static_cast<Index>(ordered.size()));
-  std::map<Index, Index> block_of;
+  std::vector<Index> block_of(
+      static_cast<std::size_t>(ordered.empty() ? 0 : ordered.back() + 1));
   std::vector<std::pair<Index, Index>> ends;  // data rows of each block
   std::size_t at = 0;
   for (const Index row : ordered) {
     const Index block = blocks[at++];
-    block_of[row] = block;
+    block_of[static_cast<std::size_t>(row)] = block;
     const Index data_row = held.source->rows()[static_cast<std::size_t>(row)];
     if (block == static_cast<Index>(ends.size())) {
       ends.emplace_back(data_row, data_row);
@@ -89,7 +93,9 @@ std::vector<Index> UnitCodes(const Holdout& holdout,
   for (const auto& [first, last] : ends) {
     units->labels.push_back(fmt::format("rows {}-{}", first, last));
   }
-  for (const Index row : held.rows) codes.push_back(block_of[row]);
+  for (const Index row : held.rows) {
+    codes.push_back(block_of[static_cast<std::size_t>(row)]);
+  }
   return codes;
 }
 
