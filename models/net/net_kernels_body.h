@@ -165,9 +165,29 @@ void BendAlong(BlockSize size,
   }
 }
 
-// kCount vectors from row h on of all columns, of one output: their sums stay
-// in registers.
-template <typename Scalar, int kCount, typename Vector = WholeVector>
+// One output: a vector or half a one of all its columns' rows, whose sum stays
+// in a register.
+template <typename Scalar, typename Vector>
+struct BackwardVector {
+  Vec<Scalar> w;
+  Vec<Scalar> sum;
+
+  ERRMAP_INLINE void Begin(const Scalar* w2, const Scalar* d_w2) {
+    w = Vector::Read(w2);
+    sum = Vector::Read(d_w2);
+  }
+  ERRMAP_INLINE void Add(const Scalar* y,
+                         const Vec<Scalar>& by_output,
+                         Scalar* delta) {
+    const Vec<Scalar> value = Vector::Read(y);
+    sum = MultiplyAdd(value, by_output, sum);
+    Vector::Write(w * by_output * MultiplyAdd(-value, value, value), delta);
+  }
+};
+
+// kCount vectors from row h on of all columns, and half a one below them where
+// kHalf: side by side, since each sum waits for itself.
+template <typename Scalar, int kCount, bool kHalf>
 ERRMAP_INLINE void BackwardRows(BlockSize size,
                                 std::ptrdiff_t h,
                                 const Scalar* y,
@@ -175,27 +195,57 @@ ERRMAP_INLINE void BackwardRows(BlockSize size,
                                 const Scalar* d_output,
                                 Scalar* delta,
                                 Scalar* d_w2) {
-  Group<Scalar, kCount> w;
-  Group<Scalar, kCount> sum;
+  constexpr std::ptrdiff_t kWhole = kCount * kLanes<Scalar>;
+  BackwardVector<Scalar, WholeVector> rows[kCount > 0 ? kCount : 1];
+  BackwardVector<Scalar, HalfVector> half;
 #pragma GCC unroll 4
   for (int i = 0; i < kCount; ++i) {
-    w.v[i] = Vector::Read(w2 + h + i * kLanes<Scalar>);
-    sum.v[i] = Vector::Read(d_w2 + h + i * kLanes<Scalar>);
+    rows[i].Begin(w2 + h + i * kLanes<Scalar>, d_w2 + h + i * kLanes<Scalar>);
   }
+  if constexpr (kHalf) half.Begin(w2 + h + kWhole, d_w2 + h + kWhole);
   for (std::ptrdiff_t column = 0; column < size.columns; ++column) {
     const std::ptrdiff_t begin = column * size.height + h;
     const Vec<Scalar> by_output = Repeated<Vec<Scalar>>(d_output[column]);
 #pragma GCC unroll 4
     for (int i = 0; i < kCount; ++i) {
-      const Vec<Scalar> value = Vector::Read(y + begin + i * kLanes<Scalar>);
-      sum.v[i] = MultiplyAdd(value, by_output, sum.v[i]);
-      Vector::Write(w.v[i] * by_output * MultiplyAdd(-value, value, value),
-                    delta + begin + i * kLanes<Scalar>);
+      rows[i].Add(y + begin + i * kLanes<Scalar>,
+                  by_output,
+                  delta + begin + i * kLanes<Scalar>);
+    }
+    if constexpr (kHalf) {
+      half.Add(y + begin + kWhole, by_output, delta + begin + kWhole);
     }
   }
 #pragma GCC unroll 4
   for (int i = 0; i < kCount; ++i) {
-    Vector::Write(sum.v[i], d_w2 + h + i * kLanes<Scalar>);
+    WholeVector::Write(rows[i].sum, d_w2 + h + i * kLanes<Scalar>);
+  }
+  if constexpr (kHalf) HalfVector::Write(half.sum, d_w2 + h + kWhole);
+}
+
+// The rows from h on, fewer than four vectors, with half a one or without.
+template <typename Scalar, bool kHalf>
+ERRMAP_INLINE void BackwardRest(BlockSize size,
+                                std::ptrdiff_t h,
+                                const Scalar* y,
+                                const Scalar* w2,
+                                const Scalar* d_output,
+                                Scalar* delta,
+                                Scalar* d_w2) {
+  switch ((size.height - h) / kLanes<Scalar>) {
+    case 3:
+      BackwardRows<Scalar, 3, kHalf>(size, h, y, w2, d_output, delta, d_w2);
+      return;
+    case 2:
+      BackwardRows<Scalar, 2, kHalf>(size, h, y, w2, d_output, delta, d_w2);
+      return;
+    case 1:
+      BackwardRows<Scalar, 1, kHalf>(size, h, y, w2, d_output, delta, d_w2);
+      return;
+    default:
+      if constexpr (kHalf) {
+        BackwardRows<Scalar, 0, true>(size, h, y, w2, d_output, delta, d_w2);
+      }
   }
 }
 
@@ -210,15 +260,16 @@ void BackwardOfOne(BlockSize size,
   constexpr std::ptrdiff_t kStep = kTogether * kLanes<Scalar>;
   std::ptrdiff_t h = 0;
   for (; h + kStep <= size.height; h += kStep) {
-    BackwardRows<Scalar, kTogether>(size, h, y, w2, d_output, delta, d_w2);
-  }
-  for (; h + kLanes<Scalar> <= size.height; h += kLanes<Scalar>) {
-    BackwardRows<Scalar, 1>(size, h, y, w2, d_output, delta, d_w2);
+    BackwardRows<Scalar, kTogether, false>(
+        size, h, y, w2, d_output, delta, d_w2);
   }
   if constexpr (kHasHalves) {
-    if (h == size.height) return;
-    BackwardRows<Scalar, 1, HalfVector>(size, h, y, w2, d_output, delta, d_w2);
+    if (size.height % kLanes<Scalar> != 0) {
+      BackwardRest<Scalar, true>(size, h, y, w2, d_output, delta, d_w2);
+      return;
+    }
   }
+  BackwardRest<Scalar, false>(size, h, y, w2, d_output, delta, d_w2);
 }
 
 template <typename Scalar>
