@@ -255,7 +255,9 @@ class OneLayerRecipe final : public NetRecipe {
   }
 
   const NetTrainer& TrainerOf(const TunedNet& tuned) const {
-    return tuned.is_brief ? *trainers_.brief : *trainers_.full;
+    const bool brief =
+        trainers_.brief && tuned.iterations == trainers_.brief_iterations;
+    return brief ? *trainers_.brief : *trainers_.full;
   }
 
   void AverageStarts(const NetRows& rows,

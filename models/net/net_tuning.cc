@@ -157,24 +157,22 @@ class Tuner {
 
   // Whether the brief fits by which the wfactor was chosen are long enough.
   void ChooseIterations() {
-    const std::vector<double> full = InnerHoldoutRmse(
-        design_,
-        *trainers_.full,
-        training_,
-        inner_,
-        {{hidden_, WfactorsOf(wfactor_, along_path_), context_.seed}},
-        context_);
+    const std::vector<double> full =
+        InnerHoldoutRmse(design_,
+                         *trainers_.full,
+                         training_,
+                         inner_,
+                         {{hidden_, {wfactor_}, context_.seed}},
+                         context_);
     by_iterations_ = {{trainers_.brief_iterations, wfactor_rmse_},
                       {trainers_.full_iterations, full.front()}};
-    const auto best = Lowest(by_iterations_);
-    is_brief_ = best == by_iterations_.begin();
-    std::tie(iterations_, iterations_rmse_) = *best;
+    std::tie(iterations_, iterations_rmse_) = *Lowest(by_iterations_);
   }
 
   TunedNet Result(const NetTuning& tuning) const {
     TunedNet tuned{.hidden = hidden_,
                    .wfactor = wfactor_,
-                   .is_brief = is_brief_,
+                   .iterations = iterations_,
                    .rmse = 0.0,
                    .folds = inner_.text,
                    .chosen = {}};
@@ -216,9 +214,8 @@ class Tuner {
   Scores<std::int64_t> by_hidden_;
   Scores<double> by_wfactor_;  // with hidden_ nodes
   // Of the wfactor chosen by brief fits.
-  std::int64_t iterations_ = 0;
+  std::int64_t iterations_ = 0;  // 0: nothing to choose
   double iterations_rmse_ = std::numeric_limits<double>::quiet_NaN();
-  bool is_brief_ = false;
   Scores<std::int64_t> by_iterations_;
 };
 

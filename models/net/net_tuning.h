@@ -39,7 +39,7 @@ struct TunedValue {
 struct TunedNet {
   std::int64_t hidden = 0;
   double wfactor = 0.0;
-  bool is_brief = false;           // NetTrainers::brief does as well
+  std::int64_t iterations = 0;     // of one of NetTrainers; 0: of `full`
   double rmse = 0.0;               // held out, of what was chosen
   std::string folds;               // "groups:5 of cycle"
   std::vector<TunedValue> chosen;  // hidden, wfactor, iterations
