@@ -36,12 +36,6 @@ ColumnScaling IdentityScaling(Eigen::Index num_columns) {
           Eigen::VectorXd::Ones(num_columns)};
 }
 
-ColumnScaling CentredRangeScaling(const Eigen::MatrixXd& values) {
-  return ScaleColumns(values, [](const stats::SampleSummary& column) {
-    return std::pair(column.min + 0.5 * column.range, 0.5 * column.range);
-  });
-}
-
 ColumnScaling UnitRangeScaling(const Eigen::MatrixXd& values) {
   return ScaleColumns(values, [](const stats::SampleSummary& column) {
     return std::pair(column.min, column.range);

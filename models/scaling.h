@@ -19,9 +19,6 @@ struct ColumnScaling {
 /// Leaves every value as it is.
 ColumnScaling IdentityScaling(Eigen::Index num_columns);
 
-/// Maps the range of each column to [-1, 1]; a constant column to 0.
-ColumnScaling CentredRangeScaling(const Eigen::MatrixXd& values);
-
 /// Maps the range of each column to [0, 1]; a constant column to 0.
 ColumnScaling UnitRangeScaling(const Eigen::MatrixXd& values);
 

@@ -30,30 +30,9 @@ bool IsSet(const char* name) {
   return text != nullptr && *text != '\0';
 }
 
-}  // namespace
-
-report::Terminal OutputTerminal() {
-  constexpr long kFewestRows = 5;
-  report::Terminal terminal;
-  winsize size{};
-  if (isatty(STDOUT_FILENO) == 1) {
-    const char* const kind = std::getenv("TERM");
-    terminal.colour = !IsSet("NO_COLOR") && kind != nullptr &&
-                      std::string_view(kind) != "dumb";
-    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0) {
-      if (size.ws_col >= kFewestColumns) terminal.columns = size.ws_col;
-      if (size.ws_row >= kFewestRows) terminal.rows = size.ws_row;
-    }
-  }
-  if (const std::size_t columns = Wanted("COLUMNS", kFewestColumns)) {
-    terminal.columns = columns;
-  }
-  if (const std::size_t rows = Wanted("LINES", kFewestRows)) {
-    terminal.rows = rows;
-  }
-  return terminal;
-}
-
+// `text` with its lines of more than `width` columns broken at blanks; what
+// goes on stands below what it goes on with, in the second column of a list of
+// options.
 std::string FitLines(std::string_view text, std::size_t width) {
   constexpr std::size_t kSecondColumn = 30;  // of CLI11's help
   constexpr std::size_t kNarrowest = 20;
@@ -81,6 +60,30 @@ std::string FitLines(std::string_view text, std::size_t width) {
     }
   }
   return fitted;
+}
+
+}  // namespace
+
+report::Terminal OutputTerminal() {
+  constexpr long kFewestRows = 5;
+  report::Terminal terminal;
+  winsize size{};
+  if (isatty(STDOUT_FILENO) == 1) {
+    const char* const kind = std::getenv("TERM");
+    terminal.colour = !IsSet("NO_COLOR") && kind != nullptr &&
+                      std::string_view(kind) != "dumb";
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0) {
+      if (size.ws_col >= kFewestColumns) terminal.columns = size.ws_col;
+      if (size.ws_row >= kFewestRows) terminal.rows = size.ws_row;
+    }
+  }
+  if (const std::size_t columns = Wanted("COLUMNS", kFewestColumns)) {
+    terminal.columns = columns;
+  }
+  if (const std::size_t rows = Wanted("LINES", kFewestRows)) {
+    terminal.rows = rows;
+  }
+  return terminal;
 }
 
 void PrintFitted(std::string_view text) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <string>
 #include <string_view>
 
 #include "models/report/screen.h"
@@ -14,11 +12,6 @@ report::Terminal OutputTerminal();
 
 /// PrintResult, the strong lines bold where standard output has colours.
 void PrintScreen(const report::Screen& screen);
-
-/// `text` with its lines of more than `width` columns broken at blanks; what
-/// goes on stands below what it goes on with, in the second column of a list
-/// of options.
-std::string FitLines(std::string_view text, std::size_t width);
 
 /// PrintResult of text that is read; where standard output is a terminal, or
 /// COLUMNS says how wide it is, no line is wider.

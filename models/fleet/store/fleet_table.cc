@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "models/report/table.h"
 #include "models/study/record/record_json.h"
 
 namespace errmap::fleet {
@@ -50,8 +51,7 @@ std::string Headline(const std::vector<ComponentSummary>& summaries) {
       failed);
 }
 
-}  // namespace
-
+// A row per component: what is recommended and how it does.
 report::Table FleetTable(const std::vector<ComponentSummary>& summaries) {
   report::Table table;
   table.columns = {{.name = "component", .is_number = false},
@@ -81,6 +81,8 @@ report::Table FleetTable(const std::vector<ComponentSummary>& summaries) {
   }
   return table;
 }
+
+}  // namespace
 
 std::string FormattedFleet(const std::vector<ComponentSummary>& summaries,
                            const std::string& format) {

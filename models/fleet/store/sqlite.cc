@@ -1,6 +1,5 @@
 #include "models/fleet/store/sqlite.h"
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -155,10 +154,6 @@ std::int64_t Statement::Whole(int column) const {
   return sqlite3_column_int64(statement_.get(), column);
 }
 
-bool Statement::IsReadOnly() const {
-  return sqlite3_stmt_readonly(statement_.get()) != 0;
-}
-
 void Database::Close::operator()(sqlite3* database) const {
   sqlite3_close(database);
 }
@@ -213,7 +208,5 @@ void Database::CopyFrom(Database* from) {
   sqlite3_backup_step(backup, -1);
   if (sqlite3_backup_finish(backup) != SQLITE_OK) Throw(handle_.get());
 }
-
-std::string SqliteVersion() { return sqlite3_libversion(); }
 
 }  // namespace errmap::fleet

@@ -8,7 +8,6 @@
 #include <string>
 #include <string_view>
 #include <variant>
-#include <vector>
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -50,7 +49,6 @@ class Statement {
   std::string Text(int column) const;
   double Number(int column) const;  // NaN where it is NULL
   std::int64_t Whole(int column) const;
-  bool IsReadOnly() const;
 
  private:
   void Reset();
@@ -112,8 +110,5 @@ class Database {
   };
   std::unique_ptr<sqlite3, Close> handle_;
 };
-
-/// Version of the library in use.
-std::string SqliteVersion();
 
 }  // namespace errmap::fleet
