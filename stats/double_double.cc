@@ -177,8 +177,7 @@ DoubleDouble DecimalOf(double x) {
   // Most data have few decimals. Of decimals with at most 15 digits no two
   // round to the same double, so one that rounds to x is the shortest.
   constexpr double kMost = 1e15;
-  constexpr double kMostPower = 1e6;
-  for (double power = 1.0; power <= kMostPower; power *= 10.0) {
+  for (const double power : {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
     const double digits = std::nearbyint(x * power);
     if (std::abs(digits) < kMost && digits / power == x) {
       return DoubleDouble(digits) / power;

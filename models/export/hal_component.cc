@@ -29,7 +29,7 @@ std::vector<std::string> PinIdentifiers(const MapProgram& program,
   }
   names = SafeIdentifiers(
       names, kLongestHalName - component.size() - 1 - prefix.size());
-  for (std::string& name : names) name = prefix + name;
+  for (std::string& name : names) name.insert(0, prefix);
   const int position = PositionOf(program);
   if (position >= 0) names[static_cast<std::size_t>(position)] = "position";
   return names;

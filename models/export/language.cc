@@ -90,9 +90,9 @@ Lines Language::WriteOne(const MapProgram& program,
 
 std::string Language::ValueText(const Instruction& it, bool single) const {
   const std::string to = Place(it.to);
-  const std::string a = Place(it.a);
+  std::string a = Place(it.a);
   const std::string b = Place(it.b);
-  const std::string c = Number(it.c, single);
+  std::string c = Number(it.c, single);
   switch (it.op) {
     case Op::kSet:
       return c;

@@ -73,8 +73,8 @@ class Nesting {
   Instructions Take() { return std::move(instructions_); }
 
  private:
-  void Add(Instruction instruction) {
-    instructions_.push_back(std::move(instruction));
+  void Add(const Instruction& instruction) {
+    instructions_.push_back(instruction);
   }
 
   Instructions instructions_;

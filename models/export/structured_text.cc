@@ -110,7 +110,7 @@ std::vector<std::string> InputNames(const MapProgram& program) {
   }
   names = SafeIdentifiers(names, kLongest);
   // No word of the language, nor of the block, begins so.
-  for (std::string& name : names) name = "In_" + name;
+  for (std::string& name : names) name.insert(0, "In_");
   return names;
 }
 

@@ -56,7 +56,6 @@ KeptPromise HoldToPromise(const FittedModel& fitted,
   }
   const VectorXd residuals = targets - predicted;
   KeptPromise kept;
-  kept.promised = fitted.held_out != nullptr ? fitted.held_out->rmse : kNaN;
   kept.found = stats::RootMeanSquare(residuals);
   kept.within_90 = ShareWithin(fitted, 0, residuals);
   kept.within_95 = ShareWithin(fitted, 1, residuals);
@@ -65,7 +64,8 @@ KeptPromise HoldToPromise(const FittedModel& fitted,
   kept.mean = residuals.mean();
   kept.offset_share =
       kept.found > 0.0 ? std::pow(kept.mean / kept.found, 2) : 0.0;
-  if (fitted.held_out != nullptr) {
+  if (fitted.held_out) {
+    kept.promised = fitted.held_out->rmse;
     kept.shape =
         ShapeOf(kept, stats::RootMeanSquare(residuals.array() - kept.mean));
   }

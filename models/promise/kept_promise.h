@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -21,8 +22,9 @@ std::string_view ToString(ErrorShape shape);
 /// A map on measured rows, held against what it promised and against doing
 /// without it. Target's unit; NaN where the map promises nothing.
 struct KeptPromise {
-  double promised = 0.0;   // RMSE on unseen units
-  double found = 0.0;      // RMSE here
+  double promised =
+      std::numeric_limits<double>::quiet_NaN();  // on unseen units
+  double found = 0.0;                            // RMSE here
   double within_90 = 0.0;  // share of the rows within the promised interval
   double within_95 = 0.0;
   double uncompensated = 0.0;  // RMS of the target: no map at all

@@ -26,12 +26,12 @@ Products ProductsOf(const HeldOutErrors& errors) {
   Products products;
   for (const HeldOutErrors::Unit& unit : errors.units) {
     const Index size = unit.residuals.size();
-    const auto pairs = static_cast<double>(size * (size - 1) / 2);
+    const Index pairs = size * (size - 1) / 2;
     for (Index i = 0; i < size; ++i) {
       for (Index j = 0; j < i; ++j) {
         products.lag.push_back(std::abs(unit.elapsed[i] - unit.elapsed[j]));
         products.product.push_back(unit.residuals[i] * unit.residuals[j]);
-        products.weight.push_back(1.0 / pairs);
+        products.weight.push_back(1.0 / static_cast<double>(pairs));
       }
     }
   }
