@@ -154,6 +154,71 @@ FittedModel NewMap(const std::string& name, const Dataset& training) {
   return fitted;
 }
 
+// What a fit makes of its terms.
+struct FittedTerms {
+  PolynomialForm form;               // of those that are not aliased
+  std::vector<std::string> aliased;  // left out: they follow from others
+  std::vector<std::string> nearly;   // kept, though they all but do
+};
+
+FittedTerms TermsOf(const PolynomialDesign& design,
+                    const std::vector<TermPowers>& terms,
+                    const fitting::LeastSquaresFit& solution) {
+  const std::vector<std::string> names = design.TermNames();
+  FittedTerms kept;
+  kept.form = {design.scaling().offset,
+               design.scaling().scale,
+               solution.coefficients[0],
+               {}};
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const Index column = static_cast<Index>(i) + 1;
+    const auto is_among = [&](const std::vector<Index>& columns) {
+      return std::binary_search(columns.begin(), columns.end(), column);
+    };
+    if (is_among(solution.aliased)) {
+      kept.aliased.push_back(names[i]);
+    } else {
+      kept.form.terms.push_back({terms[i], solution.coefficients[column]});
+      if (is_among(solution.nearly_aliased)) kept.nearly.push_back(names[i]);
+    }
+  }
+  return kept;
+}
+
+void RemarkOnTerms(const FittedTerms& kept,
+                   std::size_t num_terms,
+                   const fitting::LeastSquaresFit& solution,
+                   const DesignRows& rows,
+                   FittedModel* fitted) {
+  constexpr double kFewRowsToSpare = 10.0;
+  const double to_spare =
+      rows.observations - static_cast<double>(solution.rank);
+  if (to_spare < kFewRowsToSpare) {
+    fitted->remarks.push_back(fmt::format(
+        "{} coefficients leave only {} of {} rows to tell the error: what they "
+        "fit says little about other rows",
+        solution.rank,
+        to_spare,
+        rows.observations));
+  }
+  if (!kept.aliased.empty()) {
+    fitted->remarks.push_back(fmt::format(
+        "{} of {} terms follow from the others in the training rows and "
+        "are left out: {}",
+        kept.aliased.size(),
+        num_terms,
+        FirstOf(kept.aliased)));
+  }
+  if (!kept.nearly.empty()) {
+    fitted->remarks.push_back(
+        fmt::format("{} of {} terms all but follow from the others and were "
+                    "told apart in 106 bits: {}",
+                    kept.nearly.size(),
+                    num_terms,
+                    FirstOf(kept.nearly)));
+  }
+}
+
 }  // namespace
 
 std::vector<Index> AllColumns(const Dataset& dataset) {
@@ -215,52 +280,9 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
 
   FittedModel fitted = NewModel(training);
   fitted.inputs = DescribeInputs(training, inputs);
-  const std::vector<std::string> names = design.TermNames();
-  PolynomialForm form{design.scaling().offset,
-                      design.scaling().scale,
-                      solution.coefficients[0],
-                      {}};
-  std::vector<std::string> aliased;
-  std::vector<std::string> nearly;
-  for (std::size_t i = 0; i < terms.size(); ++i) {
-    const Index column = static_cast<Index>(i) + 1;
-    const auto is_among = [&](const std::vector<Index>& columns) {
-      return std::binary_search(columns.begin(), columns.end(), column);
-    };
-    if (is_among(solution.aliased)) {
-      aliased.push_back(names[i]);
-    } else {
-      form.terms.push_back({terms[i], solution.coefficients[column]});
-      if (is_among(solution.nearly_aliased)) nearly.push_back(names[i]);
-    }
-  }
-  constexpr double kFewRowsToSpare = 10.0;
-  const double to_spare =
-      rows.observations - static_cast<double>(solution.rank);
-  if (to_spare < kFewRowsToSpare) {
-    fitted.remarks.push_back(fmt::format(
-        "{} coefficients leave only {} of {} rows to tell the error: what they "
-        "fit says little about other rows",
-        solution.rank,
-        to_spare,
-        rows.observations));
-  }
-  if (!aliased.empty()) {
-    fitted.remarks.push_back(fmt::format(
-        "{} of {} terms follow from the others in the training rows and "
-        "are left out: {}",
-        aliased.size(),
-        terms.size(),
-        FirstOf(aliased)));
-  }
-  if (!nearly.empty()) {
-    fitted.remarks.push_back(
-        fmt::format("{} of {} terms all but follow from the others and were "
-                    "told apart in 106 bits: {}",
-                    nearly.size(),
-                    terms.size(),
-                    FirstOf(nearly)));
-  }
+  FittedTerms kept = TermsOf(design, terms, solution);
+  PolynomialForm& form = kept.form;
+  RemarkOnTerms(kept, terms.size(), solution, rows, &fitted);
   fitted.summary.message =
       fmt::format("solved by QR in {} bits", solution.bits);
   fitted.summary.final_cost = 0.5 * solution.residual_sum_of_squares;
@@ -280,7 +302,7 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
     complete->rows = JudgeRows(design, complete->fit);
     complete->weighted = training.weights().size() != 0;
     FillCoefficientTable(design, complete.get());
-    for (AliasReport& alias : NameAliased(names, rows, solution)) {
+    for (AliasReport& alias : NameAliased(design.TermNames(), rows, solution)) {
       complete->aliased.push_back(std::move(alias));
     }
     constexpr double kWorthSaying = 1e8;

@@ -188,6 +188,31 @@ void RequireUnits(const stats::HoldoutSpec& spec,
   }
 }
 
+// What a model achieved: `outcomes` by hold-out and fold, and its fit to all
+// rows.
+ModelResult PoolModel(const ModelRecipe& recipe,
+                      const Dataset& dataset,
+                      const std::vector<Holdout>& holdouts,
+                      std::vector<std::vector<FoldOutcome>> outcomes,
+                      FitOutcome final_outcome) {
+  ModelResult judged;
+  judged.name = recipe.name();
+  judged.kind = recipe.kind();
+  judged.baseline = IsBaseline(judged.name);
+  judged.options = recipe.options();
+  for (std::size_t h = 0; h < holdouts.size(); ++h) {
+    judged.holdouts.push_back(
+        PoolFolds(dataset, holdouts[h], std::move(outcomes[h])));
+  }
+  judged.final_fit = std::move(final_outcome.fitted);
+  judged.final_why_failed = std::move(final_outcome.why_failed);
+  judged.memorisation = final_outcome.memorisation;
+  judged.final_fit_seconds = final_outcome.seconds;
+  judged.predict_ns =
+      judged.final_fit ? MeasurePrediction(*judged.final_fit, dataset) : kNaN;
+  return judged;
+}
+
 }  // namespace
 
 bool ModelResult::ok() const { return why().empty(); }
@@ -373,22 +398,11 @@ StudyResult RunStudy(const Dataset& dataset,
 
   StudyResult result;
   for (std::size_t model = 0; model < recipes.size(); ++model) {
-    ModelResult judged;
-    judged.name = recipes[model]->name();
-    judged.kind = recipes[model]->kind();
-    judged.baseline = IsBaseline(judged.name);
-    judged.options = recipes[model]->options();
-    for (std::size_t h = 0; h < holdouts.size(); ++h) {
-      judged.holdouts.push_back(
-          PoolFolds(dataset, holdouts[h], std::move(outcomes[model][h])));
-    }
-    judged.final_fit = std::move(final_outcomes[model].fitted);
-    judged.final_why_failed = final_outcomes[model].why_failed;
-    judged.memorisation = final_outcomes[model].memorisation;
-    judged.final_fit_seconds = final_outcomes[model].seconds;
-    judged.predict_ns =
-        judged.final_fit ? MeasurePrediction(*judged.final_fit, dataset) : kNaN;
-    result.models.push_back(std::move(judged));
+    result.models.push_back(PoolModel(*recipes[model],
+                                      dataset,
+                                      holdouts,
+                                      std::move(outcomes[model]),
+                                      std::move(final_outcomes[model])));
   }
   result.interrupted = options.stop != nullptr && options.stop->load();
   result.short_of_memory = short_of_memory;
