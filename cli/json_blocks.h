@@ -11,7 +11,7 @@ namespace errmap::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// A document as every command prints it.
+/// A document as every command prints it; numbers that are not finite are null.
 std::string DumpJson(const Json& document);
 
 /// The block "provenance" of every document: {"version", "command_line",

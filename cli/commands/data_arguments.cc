@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <stdexcept>
 #include <system_error>
+#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -171,13 +172,10 @@ void AddMapLogArguments(CLI::App* command, models::MapLogArguments* arguments) {
 data::PreparedDataset ReadData(const DataArguments& arguments) {
   data::PreparedDataset prepared =
       data::MakeDataset(data::ReadCsv(arguments.file), arguments.selection);
-  if (!arguments.quiet) {
-    for (const std::string& remark : prepared.remarks) Say(remark);
-    for (const std::string& line : report::FaultLines(
-             prepared, arguments.selection.faults, report::FaultUse::kFit)) {
-      Say(line);
-    }
-  }
+  SayUnless(arguments.quiet, prepared.remarks);
+  SayUnless(arguments.quiet,
+            report::FaultLines(
+                prepared, arguments.selection.faults, report::FaultUse::kFit));
   return prepared;
 }
 
@@ -190,6 +188,11 @@ study_file::GivenError ErrorOfFlag(const char* flag,
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("{} {}", flag, error.what()));
   }
+}
+
+int JobsOf(int jobs) {
+  if (jobs > 0) return jobs;
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
 std::unique_ptr<models::ModelRecipe> RecipeFromArgument(

@@ -44,6 +44,9 @@ study_file::GivenError ErrorOfFlag(const char* flag,
                                    const std::optional<std::string>& text,
                                    bool may_be_zero);
 
+/// --jobs, or where it is 0 the processors of the machine.
+int JobsOf(int jobs);
+
 /// Recipe of a SPEC; throws UsageError where it is wrong.
 std::unique_ptr<models::ModelRecipe> RecipeFromArgument(
     const std::string& spec);

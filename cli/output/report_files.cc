@@ -1,24 +1,28 @@
 #include "cli/output/report_files.h"
 
+#include <exception>
 #include <filesystem>
+#include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
 #include "data/text.h"
+#include "models/promise/learning_record.h"
 #include "models/report/documents/report_html.h"
 #include "models/report/figures/learning_figures.h"
 #include "models/report/report.h"
 
 namespace errmap::cli {
+namespace {
 
 std::vector<models::LearningRecord> ReadLearning(const std::string& folder) {
   std::vector<models::LearningRecord> found;
-  for (const char* by : {"sessions", "cycles", "sensors"}) {
+  for (const std::string_view by : models::kLearntBy) {
     const std::string path =
-        (std::filesystem::path(folder) / fmt::format("learn-{}.json", by))
-            .string();
+        (std::filesystem::path(folder) / (LearningStem(by) + ".json")).string();
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) continue;
     try {
@@ -30,6 +34,12 @@ std::vector<models::LearningRecord> ReadLearning(const std::string& folder) {
     }
   }
   return found;
+}
+
+}  // namespace
+
+std::string LearningStem(std::string_view by) {
+  return fmt::format("learn-{}", by);
 }
 
 report::FigureSet FiguresInFolder(const models::StudyRecord& record,

@@ -1,10 +1,9 @@
 #pragma once
 
 #include <string>
-#include <vector>
+#include <string_view>
 
 #include "cli/output/claimed_folder.h"
-#include "models/promise/learning_record.h"
 #include "models/report/figures/figures.h"
 #include "models/study/record/study_record.h"
 
@@ -14,11 +13,12 @@ namespace errmap::cli {
 inline constexpr const char* kReportPage = "report.html";
 inline constexpr const char* kReportText = "report.md";
 
-/// What errmap learn --out left in the folder of a study. A file that cannot be
-/// read is named on stderr and passed over.
-std::vector<models::LearningRecord> ReadLearning(const std::string& folder);
+/// "learn-sessions": the files of `errmap learn --by sessions` less their ends.
+std::string LearningStem(std::string_view by);
 
-/// All figures of a study in its folder, those of ReadLearning among them.
+/// All figures of a study in its folder, those of what errmap learn --out left
+/// there among them; a file of it that cannot be read is named on stderr and
+/// passed over.
 report::FigureSet FiguresInFolder(const models::StudyRecord& record,
                                   const std::string& folder,
                                   bool everything = false);

@@ -7,25 +7,21 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json NumberOrNull(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json FiguresJson(const NetcgFigures& figures) {
-  return {{"mean", NumberOrNull(figures.mean)},
-          {"sd", NumberOrNull(figures.sd)},
-          {"min", NumberOrNull(figures.min)},
-          {"max", NumberOrNull(figures.max)},
-          {"r2", NumberOrNull(figures.r2)},
-          {"ks_d", NumberOrNull(figures.ks_d)},
-          {"ks_p", NumberOrNull(figures.ks_p)}};
+  return {{"mean", figures.mean},
+          {"sd", figures.sd},
+          {"min", figures.min},
+          {"max", figures.max},
+          {"r2", figures.r2},
+          {"ks_d", figures.ks_d},
+          {"ks_p", figures.ks_p}};
 }
 
 Json MatrixJson(const Eigen::MatrixXd& values) {
   Json rows = Json::array();
   for (Eigen::Index i = 0; i < values.rows(); ++i) {
     Json row = Json::array();
-    for (const double value : values.row(i)) row.push_back(NumberOrNull(value));
+    for (const double value : values.row(i)) row.push_back(value);
     rows.push_back(row);
   }
   return rows;
@@ -48,10 +44,10 @@ Json RunJson(const NetcgRecord& record) {
       {"iterations", result.iterations},
       {"ierr", run.is_training() ? Json(result.ierr) : Json(nullptr)},
       {"function_calls", result.function_calls},
-      {"error", NumberOrNull(result.error)},
-      {"rms_error", NumberOrNull(std::sqrt(2.0 * result.error))},
-      {"gradient_ratio", NumberOrNull(result.gradient_ratio)},
-      {"weight_change", NumberOrNull(result.weight_change)},
+      {"error", result.error},
+      {"rms_error", std::sqrt(2.0 * result.error)},
+      {"gradient_ratio", result.gradient_ratio},
+      {"weight_change", result.weight_change},
       {"as_printed", FiguresJson(result.printed)},
       {"corrected", FiguresJson(result.corrected)},
       {"corrected_scaling",
@@ -59,10 +55,8 @@ Json RunJson(const NetcgRecord& record) {
                                                            : "test file"}};
   if (run.is_training()) {
     json["seconds"] = result.summary.seconds;
-    json["mean_iteration_seconds"] =
-        NumberOrNull(result.summary.mean_iteration_seconds);
-    json["sd_iteration_seconds"] =
-        NumberOrNull(result.summary.sd_iteration_seconds);
+    json["mean_iteration_seconds"] = result.summary.mean_iteration_seconds;
+    json["sd_iteration_seconds"] = result.summary.sd_iteration_seconds;
   }
   return json;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +12,11 @@
 #include "models/study/study.h"
 
 namespace errmap::models {
+
+/// The models whose curves are drawn where none are named: one family each of
+/// what is simple, linear and chosen.
+inline constexpr const char* kLearningModels =
+    "mean,poly:temperature,poly:full:degree=1,poly:ridge";
 
 /// What is learnt from, one after another.
 enum class LearnBy { kSessions, kGroups };

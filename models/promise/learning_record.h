@@ -97,12 +97,16 @@ ERRMAP_RECORD(LearningSourceRecord, inputs)
 
 inline constexpr std::string_view kLearningSchema = "errmap-learn-1";
 
+/// What LearningRecord::by may be: a curve of units learnt from, or of sensors.
+inline constexpr std::array<std::string_view, 3> kLearntBy = {
+    "sessions", "cycles", "sensors"};
+
 struct LearningRecord {
   std::string schema = std::string(kLearningSchema);
   std::string file;
   std::string target;
   std::string unit;
-  std::optional<std::string> by;  // sessions, cycles, sensors
+  std::optional<std::string> by;  // one of kLearntBy
   std::optional<LearningCurvesRecord> curves;
   std::optional<SensorCurveRecord> sensors;
   std::optional<std::vector<NextStateRecord>> next;

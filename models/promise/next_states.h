@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -24,11 +23,12 @@ struct NextState {
 /// all rows becomes least (I-optimality; Atkinson, Donev & Tobias 2007, Section
 /// 10.6). The map is one in whitened inputs: quadratic in the position, linear
 /// in the leading directions of the other inputs, and their products with the
-/// position. Each candidate counts as `rows_per_candidate` measured rows.
+/// position. Each candidate counts as `rows_per_candidate` measured rows: it is
+/// visited as long as a state of the data is, some rows of it.
 /// Throws std::invalid_argument where the inputs differ in number.
 std::vector<NextState> ChooseNext(const data::Dataset& measured,
                                   const Eigen::MatrixXd& candidates,
                                   Eigen::Index most,
-                                  double rows_per_candidate);
+                                  double rows_per_candidate = 10.0);
 
 }  // namespace errmap::models

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
 #include <string>
@@ -66,10 +65,6 @@ fleet::WatchedFiles FilesOf(const WatchArguments& arguments,
   return files;
 }
 
-Json NumberOrNull(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
-
 Json WatchJson(const std::string& store,
                const std::vector<fleet::WatchedComponent>& components) {
   Json list = Json::array();
@@ -79,10 +74,10 @@ Json WatchJson(const std::string& store,
                  {"since", component.deployment.since},
                  {"model", component.deployment.model},
                  {"sessions", component.checks.size()},
-                 {"found", NumberOrNull(component.found)},
-                 {"promised", NumberOrNull(component.deployment.promised)},
-                 {"p_map", NumberOrNull(component.p_map)},
-                 {"false_discovery_rate_map", NumberOrNull(component.rate_map)},
+                 {"found", component.found},
+                 {"promised", component.deployment.promised},
+                 {"p_map", component.p_map},
+                 {"false_discovery_rate_map", component.rate_map},
                  {"proposal", component.Proposal(store)}};
     if (component.examined) {
       const models::WatchedSession& newest = component.checks.back().session;
@@ -90,9 +85,9 @@ Json WatchJson(const std::string& store,
       json["offset"] = newest.offset;
       json["outside_share"] = newest.outside_share;
       json["sensor"] = newest.sensor;
-      json["sensor_shift"] = NumberOrNull(newest.sensor_shift);
-      json["p_sensor"] = NumberOrNull(newest.p_sensor);
-      json["false_discovery_rate_sensor"] = NumberOrNull(component.rate_sensor);
+      json["sensor_shift"] = newest.sensor_shift;
+      json["p_sensor"] = newest.p_sensor;
+      json["false_discovery_rate_sensor"] = component.rate_sensor;
     }
     list.push_back(std::move(json));
   }

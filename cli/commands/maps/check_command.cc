@@ -1,4 +1,3 @@
-#include <cmath>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -15,17 +14,14 @@
 #include "data/shown_path.h"
 #include "data/text.h"
 #include "models/model_file.h"
-#include "models/promise/applicability.h"
 #include "models/promise/map_rows.h"
 #include "models/promise/session_check.h"
 #include "models/report/number_text.h"
+#include "models/report/words/check_text.h"
 #include "models/study_file/provenance.h"
 
 namespace errmap::cli {
 namespace {
-
-constexpr double kSecondsPerMinute = 60.0;
-constexpr double kPercent = 100.0;
 
 struct CheckArguments {
   std::string model;
@@ -36,18 +32,14 @@ struct CheckArguments {
   bool quiet = false;
 };
 
-Json NumberOrNull(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
-
 Json SitesJson(const std::vector<models::ProbeSite>& sites) {
   Json json = Json::array();
   for (const models::ProbeSite& site : sites) {
     json.push_back({{"from", site.from},
                     {"until", site.until},
-                    {"position_from", NumberOrNull(site.position_from)},
-                    {"position_until", NumberOrNull(site.position_until)},
-                    {"factor", NumberOrNull(site.factor)}});
+                    {"position_from", site.position_from},
+                    {"position_until", site.position_until},
+                    {"factor", site.factor}});
   }
   return json;
 }
@@ -56,7 +48,7 @@ Json CheckJson(const models::SessionCheck& check) {
   return {
       {"begins_inside", check.begins_inside},
       {"status", ToString(check.status)},
-      {"off_probability", NumberOrNull(check.off_probability)},
+      {"off_probability", check.off_probability},
       {"remedy", ToString(check.remedy)},
       {"more_probes", check.more_probes ? Json(*check.more_probes) : Json()},
       {"promised", check.promised},
@@ -64,110 +56,10 @@ Json CheckJson(const models::SessionCheck& check) {
        {{"n", check.probes},
         {"rms", check.probe_rms},
         {"mean", check.probe_mean},
-        {"scatter", NumberOrNull(check.probe_scatter)},
-        {"off_above", NumberOrNull(check.off_above)},
-        {"holds_to", NumberOrNull(check.holds_to)}}},
-      {"session_rmse_80",
-       {NumberOrNull(check.session_low), NumberOrNull(check.session_high)}}};
-}
-
-std::string TimesText(const models::HeldOutErrors& errors,
-                      const Eigen::VectorXd& elapsed) {
-  if (errors.time_unit != "s") return "";
-  return fmt::format(", {:.0f} to {:.0f} min after the session began",
-                     elapsed.minCoeff() / kSecondsPerMinute,
-                     elapsed.maxCoeff() / kSecondsPerMinute);
-}
-
-std::string StatusText(const models::SessionCheck& check,
-                       const report::ErrorText& error) {
-  if (check.begins_inside) {
-    return "Not known whether the map holds: it has a memory, and the first "
-           "rows of the session are missing. Give all rows since its start, "
-           "those without a probe with an empty error, or the earlier ones "
-           "with --after.\n";
-  }
-  const std::string range =
-      fmt::format("its error is {} to {} RMSE with 80 % confidence",
-                  error(check.session_low),
-                  error.WithUnit(check.session_high));
-  switch (check.status) {
-    case models::SessionStatus::kHolds:
-      return fmt::format(
-          "The map holds in this session: {}, and the probability that it is "
-          "above {} is {:.0f} %.\n",
-          range,
-          error.WithUnit(models::kOffRatio * check.promised),
-          kPercent * check.off_probability);
-    case models::SessionStatus::kOff:
-      return fmt::format(
-          "The map does not hold in this session: {}, above {} with a "
-          "probability of {:.0f} %.\n",
-          range,
-          error.WithUnit(models::kOffRatio * check.promised),
-          kPercent * check.off_probability);
-    case models::SessionStatus::kUnknown:
-      return fmt::format(
-          "Not yet known whether the map holds: {}; above {} with a "
-          "probability of {:.0f} %. {}\n",
-          range,
-          error.WithUnit(models::kOffRatio * check.promised),
-          kPercent * check.off_probability,
-          check.more_probes
-              ? fmt::format("{} like these would settle it.",
-                            report::Count(*check.more_probes, "more probe"))
-              : "More probes like these would not settle it; take them later "
-                "or elsewhere.");
-  }
-  return "";
-}
-
-std::string RemedyText(const models::SessionCheck& check,
-                       const report::ErrorText& error) {
-  switch (check.remedy) {
-    case models::Remedy::kNone:
-      return "";
-    case models::Remedy::kRezero:
-      return fmt::format(
-          "An offset explains it: re-zero by {} (errmap predict --probes).\n",
-          error.WithUnit(check.probe_mean));
-    case models::Remedy::kRefit:
-      return "An offset does not explain it: the shape is wrong; measure this "
-             "state and fit again (errmap update).\n";
-    case models::Remedy::kUnknown:
-      return "One probe cannot tell an offset from a wrong shape: take a "
-             "second one elsewhere.\n";
-  }
-  return "";
-}
-
-std::string SiteText(const models::HeldOutErrors& errors,
-                     const models::ProbeSite& site) {
-  std::string text;
-  if (errors.time_unit == "s") {
-    text += fmt::format("{:.0f} to {:.0f} min after the start",
-                        site.from / kSecondsPerMinute,
-                        site.until / kSecondsPerMinute);
-  }
-  if (std::isfinite(site.position_from)) {
-    text +=
-        fmt::format("{}{} {:.4g} to {:.4g}",
-                    text.empty() ? "" : ", ",
-                    data::Printable(errors.position, errors.position.size()),
-                    site.position_from,
-                    site.position_until);
-  }
-  return text;
-}
-
-std::string SitesText(const models::HeldOutErrors& errors,
-                      const std::vector<models::ProbeSite>& sites) {
-  if (sites.size() < 2 || !std::isfinite(sites.front().factor)) return "";
-  return fmt::format(
-      "Probes tell most at {}: half of them are within a factor of {:.2g} of "
-      "the session's error.\n",
-      SiteText(errors, sites.front()),
-      sites.front().factor);
+        {"scatter", check.probe_scatter},
+        {"off_above", check.off_above},
+        {"holds_to", check.holds_to}}},
+      {"session_rmse_80", {check.session_low, check.session_high}}};
 }
 
 int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
@@ -211,21 +103,13 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
                         study_file::HashInput(arguments.file)});
     PrintResult(DumpJson(document));
   } else {
-    const report::ErrorText error(fitted.target.unit, check.promised);
     PrintFitted(fmt::format(
-        "{} ({}) on {} of {}{}: RMS {}, mean {}; promised {} RMSE\n",
+        "{} ({}) on {} of {}{}",
         arguments.model,
         fitted.name,
         report::Count(check.probes, "probe"),
         arguments.file,
-        TimesText(errors, elapsed),
-        error.WithUnit(check.probe_rms),
-        error.WithUnit(check.probe_mean),
-        error.WithUnit(check.promised)));
-    PrintFitted(fmt::format("{}{}{}",
-                            StatusText(check, error),
-                            RemedyText(check, error),
-                            SitesText(errors, sites)));
+        report::CheckText(check, errors, sites, elapsed, fitted.target.unit)));
   }
   return check.status == models::SessionStatus::kOff ? kEveryFitFailed : kDone;
 }

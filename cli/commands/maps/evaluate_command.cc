@@ -1,4 +1,3 @@
-#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -20,6 +19,7 @@
 #include "models/report/documents/summary_text.h"
 #include "models/report/number_text.h"
 #include "models/report/words/data_words.h"
+#include "models/report/words/kept_promise_text.h"
 #include "models/study/fold_pool.h"
 #include "models/study/record/fit_blocks.h"
 #include "models/study/record/make_residual_record.h"
@@ -65,15 +65,11 @@ Json OutsideJson(const std::vector<models::TrainedInput>& trained,
   return {{"rows", rows}, {"inputs", std::move(inputs)}};
 }
 
-Json NumberOrNull(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
-
 Json PromiseJson(const models::KeptPromise& kept) {
-  return {{"promised", NumberOrNull(kept.promised)},
+  return {{"promised", kept.promised},
           {"found", kept.found},
-          {"within_90", NumberOrNull(kept.within_90)},
-          {"within_95", NumberOrNull(kept.within_95)},
+          {"within_90", kept.within_90},
+          {"within_95", kept.within_95},
           {"uncompensated", kept.uncompensated},
           {"constant", kept.constant},
           {"mean", kept.mean},
@@ -106,7 +102,7 @@ Json UnlikeJson(const std::vector<models::RowFlag>& flags,
         {"value", flag.value},
         {"low", flag.low},
         {"high", flag.high},
-        {"severity", NumberOrNull(flag.severity)}};
+        {"severity", flag.severity}};
   }
   return json;
 }
@@ -116,65 +112,6 @@ Json ChangeJson(const std::optional<models::RelationChange>& change) {
   return {{"column", change->column.name},
           {"shift", change->shift},
           {"rows", change->num_rows}};
-}
-
-std::string BaselineText(const models::KeptPromise& kept,
-                         const report::ErrorText& error) {
-  if (!kept.better_than_nothing()) {
-    return fmt::format(
-        "it is worse than no compensation, {}: do not use it here",
-        error.WithUnit(kept.uncompensated));
-  }
-  if (!kept.better_than_constant()) {
-    return fmt::format("no compensation {}; a constant would do better, {}",
-                       error.WithUnit(kept.uncompensated),
-                       error.WithUnit(kept.constant));
-  }
-  return fmt::format(
-      "better than no compensation ({}) and than any constant "
-      "({})",
-      error.WithUnit(kept.uncompensated),
-      error.WithUnit(kept.constant));
-}
-
-std::string ChangeText(const models::RelationChange& change) {
-  const std::string& symbol = change.column.unit.symbol;
-  return fmt::format(
-      "{} reads {:.3g}{} {} the other inputs tell, in {}: moved, loose or "
-      "mixed up?\n",
-      data::Printable(change.column.name, change.column.name.size()),
-      std::abs(change.shift),
-      symbol.empty() ? "" : " " + symbol,
-      change.shift > 0.0 ? "above what" : "below what",
-      report::Count(change.num_rows, "row"));
-}
-
-// What a user wants to know of it, in words.
-std::string PromiseText(const models::KeptPromise& kept,
-                        const report::ErrorText& error) {
-  constexpr double kPercent = 100.0;
-  std::string text;
-  if (std::isfinite(kept.promised)) {
-    text += fmt::format("found {} RMSE, promised {}",
-                        error.WithUnit(kept.found),
-                        error.WithUnit(kept.promised));
-    if (std::isfinite(kept.within_90)) {
-      text += fmt::format("; {:.0f} % of the errors within the 90 % interval",
-                          kPercent * kept.within_90);
-    }
-    text += "\n";
-  }
-  text += BaselineText(kept, error) + "\n";
-  if (kept.shape == models::ErrorShape::kOffset) {
-    text += fmt::format(
-        "an offset of {} is {:.0f} % of its mean square: re-zero, the map's "
-        "shape holds\n",
-        error.WithUnit(kept.mean),
-        kPercent * kept.offset_share);
-  } else if (kept.shape == models::ErrorShape::kShape) {
-    text += "no offset explains what it errs by: measure here and fit again\n";
-  }
-  return text;
 }
 
 int RunEvaluate(const EvaluateArguments& arguments,
@@ -237,15 +174,15 @@ int RunEvaluate(const EvaluateArguments& arguments,
                           study_file::HashInput(arguments.file)})}}));
     return kDone;
   }
-  PrintFitted(fmt::format(
-      "{} ({}) on {}: target - predicted of {}\n{}{}{}",
-      arguments.model,
-      fitted.name,
-      arguments.file,
-      report::TargetWords(dataset),
-      report::SummaryText(metrics, fitted.target.unit, ks_d, ks_p),
-      PromiseText(kept, report::ErrorText(fitted.target.unit, kept.found)),
-      change ? ChangeText(*change) : ""));
+  PrintFitted(
+      fmt::format("{} ({}) on {}: target - predicted of {}\n{}{}{}",
+                  arguments.model,
+                  fitted.name,
+                  arguments.file,
+                  report::TargetWords(dataset),
+                  report::SummaryText(metrics, fitted.target.unit, ks_d, ks_p),
+                  report::KeptPromiseText(kept, fitted.target.unit),
+                  change ? report::RelationText(*change) : ""));
   return kDone;
 }
 

@@ -3,10 +3,12 @@
 #include <memory>
 #include <new>
 #include <optional>
-#include <thread>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
@@ -15,6 +17,7 @@
 #include "cli/commands/progress.h"
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
+#include "cli/output/report_files.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
@@ -43,14 +46,10 @@ namespace {
 
 using Eigen::Index;
 
-// One family each of what is simple, linear and chosen.
-constexpr const char* kDefaultModels =
-    "mean,poly:temperature,poly:full:degree=1,poly:ridge";
-
 struct LearnArguments {
   DataArguments data;
   std::string by;
-  std::string model_list = kDefaultModels;
+  std::string model_list = models::kLearningModels;
   std::string candidates;
   int repeats = 2;
   int sensors = 8;
@@ -104,11 +103,6 @@ std::unique_ptr<models::JournalFile> OpenJournal(
   return journal;
 }
 
-int JobsOf(const LearnArguments& arguments) {
-  if (arguments.jobs > 0) return arguments.jobs;
-  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-}
-
 // Fits of the curve, resumed from those of an earlier run where there are any.
 models::StudyResult RunLearning(
     const LearnArguments& arguments,
@@ -118,7 +112,7 @@ models::StudyResult RunLearning(
   Progress progress(!arguments.data.quiet);
   models::StudyOptions options{
       .seed = arguments.seed,
-      .jobs = JobsOf(arguments),
+      .jobs = JobsOf(arguments.jobs),
       .stop = &InstallInterruptFlag(),
       .indifference = models::DefaultIndifference(dataset.target().unit),
       .fit_all_rows = false,
@@ -251,7 +245,7 @@ void LearnBySensors(const LearnArguments& arguments,
     learned->record.sensors = models::MakeRecord(
         models::LearnSensors(dataset,
                              {.most_sensors = arguments.sensors,
-                              .jobs = JobsOf(arguments),
+                              .jobs = JobsOf(arguments.jobs),
                               .stop = &InstallInterruptFlag(),
                               .progress = [&](int done, int all) {
                                 progress.Show({.done = done, .all = all});
@@ -271,12 +265,10 @@ void LearnBySensors(const LearnArguments& arguments,
 void LearnNext(const LearnArguments& arguments,
                const data::Dataset& dataset,
                Learned* learned) {
-  // A candidate is visited as long as a state of the data: some rows of it.
-  constexpr double kRowsPerCandidate = 10.0;
   const Eigen::MatrixXd candidates =
       ReadCandidates(arguments.candidates, dataset, arguments.data.quiet);
-  const std::vector<models::NextState> chosen = models::ChooseNext(
-      dataset, candidates, arguments.next, kRowsPerCandidate);
+  const std::vector<models::NextState> chosen =
+      models::ChooseNext(dataset, candidates, arguments.next);
   learned->record.next = models::MakeRecord(chosen);
   learned->text += report::NextText(*learned->record.next);
 }
@@ -294,7 +286,7 @@ double GoalOf(const LearnArguments& arguments, const data::Unit& target) {
 }
 
 std::string Stem(const LearnArguments& arguments) {
-  return arguments.by.empty() ? "learn-next" : "learn-" + arguments.by;
+  return arguments.by.empty() ? "learn-next" : LearningStem(arguments.by);
 }
 
 int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
@@ -365,8 +357,9 @@ void AddLearnCommand(CLI::App* app, Run* run) {
                    arguments->by,
                    "What is learnt from one after another: sessions, cycles "
                    "(the groups) or sensors")
-      ->check(CLI::IsMember({"sessions", "cycles", "sensors"}))
-      ->type_name("sessions|cycles|sensors");
+      ->check(CLI::IsMember(std::vector<std::string>(models::kLearntBy.begin(),
+                                                     models::kLearntBy.end())))
+      ->type_name(fmt::format("{}", fmt::join(models::kLearntBy, "|")));
   command
       ->add_option("--models",
                    arguments->model_list,

@@ -32,13 +32,11 @@ models::MapRows ReadMapRows(const models::FittedModel& fitted,
       fitted,
       ReadForMap(fitted, file, models::MapColumns::kInputsAndTarget, quiet),
       options);
-  if (!quiet) {
-    SayUnless(false, rows.prepared.remarks);
-    SayUnless(false,
-              report::FaultLines(
-                  rows.prepared, options.faults, report::FaultUse::kJudge));
-    SayUnless(false, rows.warnings);
-  }
+  SayUnless(quiet, rows.prepared.remarks);
+  SayUnless(quiet,
+            report::FaultLines(
+                rows.prepared, options.faults, report::FaultUse::kJudge));
+  SayUnless(quiet, rows.warnings);
   return rows;
 }
 
@@ -49,17 +47,17 @@ RowsJudged JudgeMapRows(const models::FittedModel& fitted,
                     .flags = {}};
   const Eigen::MatrixXd& inputs = rows.dataset.input_values();
   judged.flags = models::FlagRows(fitted, inputs, judged.form_inputs);
-  if (!quiet)
-    SayOutside(fitted.inputs, inputs, judged.flags, rows.dataset.rows());
+  SayOutside(fitted.inputs, inputs, judged.flags, rows.dataset.rows(), quiet);
   return judged;
 }
 
 void SayOutside(const std::vector<models::TrainedInput>& trained,
                 const Eigen::MatrixXd& inputs,
                 const std::vector<models::RowFlag>& flags,
-                const std::vector<Index>& rows) {
-  SayUnless(false, report::OutsideLines(trained, inputs));
-  SayUnless(false, report::UnlikeLines(flags, rows));
+                const std::vector<Index>& rows,
+                bool quiet) {
+  SayUnless(quiet, report::OutsideLines(trained, inputs));
+  SayUnless(quiet, report::UnlikeLines(flags, rows));
 }
 
 bool SayNotFinite(const Eigen::VectorXd& predicted,

@@ -25,24 +25,24 @@ models::MapRows ReadMapRows(const models::FittedModel& fitted,
                             const models::MapRowsOptions& options,
                             bool quiet);
 
-/// Says where `rows` are unlike training, unless quiet.
 struct RowsJudged {
   Eigen::MatrixXd form_inputs;  // (rows x inputs of the form)
   std::vector<models::RowFlag> flags;
 };
+
+/// Says where `rows` are unlike training, unless quiet.
 RowsJudged JudgeMapRows(const models::FittedModel& fitted,
                         const models::MapRows& rows,
                         bool quiet);
 
-/// Says on stderr which inputs (m x p) leave their trained range and which rows
-/// are unlike training; `rows` (m) are the data rows of the file.
+/// Says on stderr, unless quiet, which inputs (m x p) leave their trained range
+/// and which rows are unlike training; `rows` (m) are the data rows of the
+/// file.
 void SayOutside(const std::vector<models::TrainedInput>& trained,
                 const Eigen::MatrixXd& inputs,
                 const std::vector<models::RowFlag>& flags,
-                const std::vector<Eigen::Index>& rows);
-
-/// "t12_degC is 38.2 degC, the other inputs tell 33.1 to 33.7".
-std::string FlagText(const models::RowFlag& flag);
+                const std::vector<Eigen::Index>& rows,
+                bool quiet);
 
 /// Says how many of `predicted` (m) are not finite and where, `rows` (m) being
 /// the data rows of `file`; false, and nothing said, where all are finite.

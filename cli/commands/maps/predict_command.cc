@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -24,6 +23,7 @@
 #include "models/promise/probe_correction.h"
 #include "models/report/number_text.h"
 #include "models/report/words/interval_text.h"
+#include "models/report/words/kept_promise_text.h"
 #include "models/trained_range.h"
 
 namespace errmap::cli {
@@ -38,8 +38,7 @@ struct PredictArguments {
   bool quiet = false;
 };
 
-// The model's inputs out of a table, every row; the target need not be there.
-// The rows as a data set whose target is not known, and so 0.
+// Every row, in a data set whose target is not known, and so 0.
 data::Dataset RowsToPredict(const models::FittedModel& fitted,
                             const data::CsvTable& table,
                             Eigen::MatrixXd inputs,
@@ -76,24 +75,6 @@ models::ProbeCorrection Correct(const models::FittedModel& fitted,
   return models::CorrectByProbes(fitted, probes, today, arguments.log);
 }
 
-std::string OffsetText(const models::FittedModel& fitted,
-                       const models::ProbeCorrection& correction) {
-  const models::OffsetTrack& track = correction.track;
-  const auto corrected = std::ranges::count_if(
-      track.used, [](Eigen::Index used) { return used > 0; });
-  const Eigen::Index last = track.offset.size() - 1;
-  const double known = std::sqrt(track.variance[last]);
-  const report::ErrorText error(fitted.target.unit,
-                                std::sqrt(correction.model.noise));
-  return fmt::format(
-      "{} move {} of {}; the offset in the last is {}, known to {}",
-      report::Count(correction.num_probes, "probe"),
-      corrected,
-      report::Count(track.offset.size(), "row"),
-      error.WithUnit(track.offset[last]),
-      error.WithUnit(known));
-}
-
 // Of the interval of one row; NaN without one.
 double HalfWidth(const models::FittedModel& fitted,
                  std::size_t level,
@@ -113,6 +94,98 @@ std::string_view WhyOutside(const models::RowFlag& flag,
   return whole ? "" : "start";
 }
 
+// What is known of the rows of a file.
+struct Predicted {
+  const models::FittedModel& fitted;
+  const data::CsvTable& table;
+  const models::MapLog& map;
+  models::Prediction prediction;
+  std::optional<models::ProbeCorrection> probes;
+  std::vector<models::RowFlag> flags;
+  std::vector<Eigen::Index> sessions;  // codes of the rows
+
+  /// Whether the first rows of a row's session are known.
+  bool IsWhole(std::size_t row) const {
+    return map.log == nullptr ||
+           !map.begin_inside[static_cast<std::size_t>(sessions[row])];
+  }
+};
+
+// ",LOWER,UPPER" at each coverage; empty cells without an interval.
+std::string IntervalCells(const Predicted& found, Eigen::Index row) {
+  const double predicted = found.prediction.errors[row];
+  std::string cells;
+  for (std::size_t i = 0; i < models::PredictionInterval::kCoverages.size();
+       ++i) {
+    const double half_width = HalfWidth(found.fitted, i, found.probes, row);
+    cells += std::isfinite(predicted) && std::isfinite(half_width)
+                 ? fmt::format(",{},{}",
+                               data::CsvNumber(predicted - half_width),
+                               data::CsvNumber(predicted + half_width))
+                 : ",,";
+  }
+  return cells;
+}
+
+std::string PredictionsCsv(const Predicted& found) {
+  // The columns that tell a row apart, where the file has them.
+  std::vector<const data::CsvColumn*> ids;
+  std::string text;
+  for (const char* name : {"record", "cycle"}) {
+    const std::ptrdiff_t index = found.table.Find(name);
+    if (index < 0) continue;
+    ids.push_back(&found.table.At(index));
+    text += data::CsvField(name) + ",";
+  }
+  text += "predicted,lower_90,upper_90,lower_95,upper_95,inside,why,offender\n";
+  for (Eigen::Index row = 0; row < found.prediction.errors.size(); ++row) {
+    const auto at = static_cast<std::size_t>(row);
+    for (const data::CsvColumn* id : ids) {
+      text += data::CsvField(found.table.CellText(*id, at)) + ",";
+    }
+    const double predicted = found.prediction.errors[row];
+    const bool whole = found.IsWhole(at);
+    const bool is_finite = std::isfinite(predicted);
+    const models::RowFlag& flag = found.flags[at];
+    const bool inside = whole && is_finite && !flag.outside();
+    text += is_finite ? data::CsvNumber(predicted) : "";
+    text += IntervalCells(found, row);
+    text += fmt::format(",{},{},{}\n",
+                        inside ? 1 : 0,
+                        WhyOutside(flag, whole, is_finite),
+                        data::CsvField(flag.column.name));
+  }
+  return data::MarkedCsv(std::move(text));
+}
+
+void SayWhatIsPredicted(const Predicted& found) {
+  const models::FittedModel& fitted = found.fitted;
+  const std::string& unit = fitted.target.unit.symbol;
+  const bool aligned = fitted.align == data::Alignment::kFirst;
+  Say(fmt::format("{} predicted as {}{}{}; compensate by minus that",
+                  report::Count(found.prediction.errors.size(), "row"),
+                  fitted.target.name,
+                  unit.empty() ? "" : " in " + unit,
+                  aligned ? " since the session's first row" : ""));
+  if (fitted.interval) {
+    Say(report::IntervalLine(
+        models::MakeRecord(*fitted.interval),
+        report::ErrorText(fitted.target.unit,
+                          fitted.interval->levels[0].half_width)));
+  }
+  if (found.probes) Say(report::OffsetLine(*found.probes, fitted.target.unit));
+  SayUnless(false, found.map.warnings);
+}
+
+void SayClipped(const models::Prediction& prediction) {
+  const Eigen::Index clipped = prediction.clipped.count();
+  if (clipped == 0) return;
+  Say(
+      fmt::format("warning: {} clipped by the map's guards, since an input "
+                  "or the error went far beyond its trained range",
+                  report::Count(clipped, "row")));
+}
+
 int RunPredict(const PredictArguments& arguments) {
   RefuseInputAsOutput(
       "-o",
@@ -122,92 +195,37 @@ int RunPredict(const PredictArguments& arguments) {
   const data::CsvTable table = ReadForMap(
       fitted, arguments.file, models::MapColumns::kInputs, arguments.quiet);
   const Eigen::MatrixXd inputs = models::InputsOf(fitted, table);
-  std::vector<Eigen::Index> all_rows(table.num_rows);
-  std::iota(all_rows.begin(), all_rows.end(), Eigen::Index{0});
   const models::MapLog map = models::MakeMapLog(fitted, table, arguments.log);
   const data::Dataset rows = RowsToPredict(fitted, table, inputs, map);
   const Eigen::MatrixXd form_inputs = fitted.FormInputs(rows);
-  models::Prediction prediction = fitted.PredictForm(form_inputs);
-  std::optional<models::ProbeCorrection> probes;
+  Predicted found{.fitted = fitted,
+                  .table = table,
+                  .map = map,
+                  .prediction = fitted.PredictForm(form_inputs),
+                  .probes = {},
+                  .flags = {},
+                  .sessions = rows.session_codes()};
   if (!arguments.probes.empty()) {
-    probes = Correct(fitted, {table, inputs}, arguments);
-    prediction.errors += probes->track.offset;
+    found.probes = Correct(fitted, {table, inputs}, arguments);
+    found.prediction.errors += found.probes->track.offset;
   }
-  const std::vector<models::RowFlag> flags =
-      models::FlagRows(fitted, inputs, form_inputs);
-  const Eigen::VectorXd& predicted = prediction.errors;
-  const std::vector<Eigen::Index> sessions = rows.session_codes();
-
-  // The columns that tell a row apart, where the file has them.
-  std::vector<const data::CsvColumn*> ids;
-  std::string text;
-  for (const char* name : {"record", "cycle"}) {
-    const std::ptrdiff_t index = table.Find(name);
-    if (index < 0) continue;
-    ids.push_back(&table.At(index));
-    text += data::CsvField(name) + ",";
-  }
-  text += "predicted,lower_90,upper_90,lower_95,upper_95,inside,why,offender\n";
-  for (Eigen::Index row = 0; row < predicted.size(); ++row) {
-    for (const data::CsvColumn* id : ids) {
-      text +=
-          data::CsvField(table.CellText(*id, static_cast<std::size_t>(row))) +
-          ",";
-    }
-    const auto at = static_cast<std::size_t>(row);
-    const bool whole =
-        map.log == nullptr ||
-        !map.begin_inside[static_cast<std::size_t>(sessions[at])];
-    const bool is_finite = std::isfinite(predicted[row]);
-    const models::RowFlag& flag = flags[at];
-    const bool inside = whole && is_finite && !flag.outside();
-    text += is_finite ? data::CsvNumber(predicted[row]) : "";
-    for (std::size_t i = 0; i < models::PredictionInterval::kCoverages.size();
-         ++i) {
-      const double half_width = HalfWidth(fitted, i, probes, row);
-      text += is_finite && std::isfinite(half_width)
-                  ? fmt::format(",{},{}",
-                                data::CsvNumber(predicted[row] - half_width),
-                                data::CsvNumber(predicted[row] + half_width))
-                  : ",,";
-    }
-    text += fmt::format(",{},{},{}\n",
-                        inside ? 1 : 0,
-                        WhyOutside(flag, whole, is_finite),
-                        data::CsvField(flag.column.name));
-  }
-  text = data::MarkedCsv(std::move(text));
+  found.flags = models::FlagRows(fitted, inputs, form_inputs);
+  const std::string text = PredictionsCsv(found);
   if (arguments.out.empty()) {
     PrintResult(text);
   } else {
     data::WriteFileAtomically(arguments.out, text);
   }
+  std::vector<Eigen::Index> all_rows(table.num_rows);
+  std::iota(all_rows.begin(), all_rows.end(), Eigen::Index{0});
   if (!arguments.quiet) {
-    const std::string& unit = fitted.target.unit.symbol;
-    const bool aligned = fitted.align == data::Alignment::kFirst;
-    Say(fmt::format("{} predicted as {}{}{}; compensate by minus that",
-                    report::Count(predicted.size(), "row"),
-                    fitted.target.name,
-                    unit.empty() ? "" : " in " + unit,
-                    aligned ? " since the session's first row" : ""));
-    if (fitted.interval) {
-      Say(report::IntervalLine(
-          models::MakeRecord(*fitted.interval),
-          report::ErrorText(fitted.target.unit,
-                            fitted.interval->levels[0].half_width)));
-    }
-    if (probes) Say(OffsetText(fitted, *probes));
-    for (const std::string& warning : map.warnings) Say(warning);
-    SayOutside(fitted.inputs, inputs, flags, all_rows);
-    if (const Eigen::Index clipped = prediction.clipped.count(); clipped > 0) {
-      Say(
-          fmt::format("warning: {} clipped by the map's guards, since an input "
-                      "or the error went far beyond its trained range",
-                      report::Count(clipped, "row")));
-    }
+    SayWhatIsPredicted(found);
+    SayOutside(fitted.inputs, inputs, found.flags, all_rows, false);
+    SayClipped(found.prediction);
   }
-  return SayNotFinite(predicted, all_rows, arguments.file) ? kEveryFitFailed
-                                                           : kDone;
+  return SayNotFinite(found.prediction.errors, all_rows, arguments.file)
+             ? kEveryFitFailed
+             : kDone;
 }
 
 }  // namespace

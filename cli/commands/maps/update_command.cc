@@ -1,8 +1,6 @@
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -21,7 +19,7 @@
 #include "models/model_file.h"
 #include "models/promise/map_update.h"
 #include "models/promise/promise.h"
-#include "models/report/number_text.h"
+#include "models/report/words/kept_promise_text.h"
 #include "models/study/study_defaults.h"
 #include "models/study_file/provenance.h"
 
@@ -61,9 +59,7 @@ data::Dataset ReadRows(const models::FittedModel& map,
       ReadForMap(
           map, file, models::MapColumns::kInputsAndTarget, arguments.quiet),
       selection);
-  if (!arguments.quiet) {
-    for (const std::string& remark : prepared.remarks) Say(remark);
-  }
+  SayUnless(arguments.quiet, prepared.remarks);
   return std::move(prepared.dataset);
 }
 
@@ -96,24 +92,6 @@ Json TrialJson(const models::UpdateTrial& trial) {
   return sessions;
 }
 
-std::string TrialText(const models::UpdateTrial& trial,
-                      const data::Unit& unit) {
-  const report::ErrorText error(unit, std::min(trial.old_rmse, trial.new_rmse));
-  std::string text =
-      fmt::format("RMSE ({}) on new sessions, each unseen\n", error.symbol());
-  text += fmt::format("  {:<12}  {:>9}  {:>9}\n", "session", "old", "new");
-  for (const auto& session : trial.sessions) {
-    text += fmt::format("  {:<12}  {:>9}  {:>9}\n",
-                        data::Printable(session.label, session.label.size()),
-                        error(session.old_rmse),
-                        error(session.new_rmse));
-  }
-  return text + fmt::format("  {:<12}  {:>9}  {:>9}\n",
-                            "all",
-                            error(trial.old_rmse),
-                            error(trial.new_rmse));
-}
-
 int RunUpdate(const UpdateArguments& arguments,
               const std::string& command_line) {
   RefuseInputAsOutput("-o", arguments.out, {arguments.file, arguments.known});
@@ -126,8 +104,7 @@ int RunUpdate(const UpdateArguments& arguments,
   if (!known_file.empty()) known = ReadRows(old_map, known_file, arguments);
   const double indifference = models::DefaultIndifference(old_map.target.unit);
   const std::atomic<bool>& stop = InstallInterruptFlag();
-  const int jobs =
-      static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int jobs = JobsOf(0);
   const models::FitContext context{.seed = arguments.seed,
                                    .stop = &stop,
                                    .threads = jobs,
@@ -194,7 +171,7 @@ int RunUpdate(const UpdateArguments& arguments,
   } else {
     PrintResult(fmt::format(
         "{}{}\n",
-        TrialText(trial, old_map.target.unit),
+        report::TrialText(trial, old_map.target.unit),
         better ? "the new map is better and stands in " + arguments.out
                : "the new map is no better: " + arguments.out +
                      " is the old one"));

@@ -1,15 +1,11 @@
 #include "cli/commands/studies/compare_arguments.h"
 
-#include <algorithm>
-#include <thread>
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "cli/command.h"
 #include "cli/commands/format_option.h"
-#include "data/text.h"
 #include "models/recipe_catalog.h"
 #include "stats/holdout.h"
 
@@ -183,11 +179,6 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
                     "finished there are not repeated");
   AddKeepPathsFlag(command);
   AddForceFlag(command, &arguments->force);
-}
-
-int JobsOf(const CompareArguments& arguments) {
-  if (arguments.jobs > 0) return arguments.jobs;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 }  // namespace errmap::cli

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/studies/probe_table.h"
+#include "cli/commands/studies/probes.h"
 #include "models/study_file/study_config.h"
 
 namespace CLI {
@@ -49,8 +49,5 @@ struct CompareArguments {
 
 /// Adds all options of the command and DATA.
 void AddCompareOptions(CLI::App* command, CompareArguments* arguments);
-
-/// --jobs, or the processor's cores.
-int JobsOf(const CompareArguments& arguments);
 
 }  // namespace errmap::cli

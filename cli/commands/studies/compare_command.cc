@@ -10,7 +10,7 @@
 #include "cli/commands/studies/compare_arguments.h"
 #include "cli/commands/studies/compare_fleet.h"
 #include "cli/commands/studies/compare_plan.h"
-#include "cli/commands/studies/probe_table.h"
+#include "cli/commands/studies/probes.h"
 #include "cli/commands/studies/study_plan_text.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/output/output_folder.h"
@@ -22,6 +22,7 @@
 #include "models/fleet/store/store_folder.h"
 #include "models/report/documents/study_table.h"
 #include "models/report/report.h"
+#include "models/report/words/check_text.h"
 #include "models/study/journal/fit_journal_file.h"
 #include "models/study/split_file.h"
 #include "models/study_file/machine/machine_judge.h"
@@ -122,7 +123,7 @@ std::optional<int> RunIfFleet(const CompareArguments& arguments) {
                           .shard = arguments.shard,
                           .command_line = arguments.command_line,
                           .format = arguments.format,
-                          .jobs = JobsOf(arguments),
+                          .jobs = JobsOf(arguments.jobs),
                           .dry_run = arguments.dry_run,
                           .force = arguments.force,
                           .quiet = arguments.data.quiet});
@@ -149,7 +150,7 @@ report::Screen Formatted(const study_file::StudyRun& run,
                                               .data = DataForFit(run),
                                               .terminal = OutputTerminal()});
   for (const models::ComponentRecord& component : record.components) {
-    screen.Add(ProbesText(component));
+    screen.Add(report::ProbesText(component, OutputTerminal().text_columns()));
   }
   return screen;
 }
@@ -161,7 +162,7 @@ int RunCompare(const CompareArguments& arguments) {
   const std::optional<study_file::MachineStudy> machine = MachineOf(arguments);
   if (const std::optional<int> status = RunIfFleet(arguments)) return *status;
   study_file::StudyPlan plan = PlanOf(arguments, machine);
-  const int jobs = JobsOf(arguments);
+  const int jobs = JobsOf(arguments.jobs);
   if (arguments.dry_run) {
     PrintResult(PlanText(plan, jobs, arguments.out));
     return kDone;
@@ -211,8 +212,9 @@ int RunCompare(const CompareArguments& arguments) {
   }
   SayShortOfMemory(run);
   models::StudyRecord record = study_file::RecordOf(run, jobs);
-  if (machine && !run.interrupted)
+  if (machine && !run.interrupted) {
     record.machine = study_file::JudgeMachine(*machine, run);
+  }
   AddProbes(run, arguments.probes, &record);
   if (folder) study_file::NameMaps(run, &record);
   // Before the files: a full disk must not cost the answer.
@@ -234,11 +236,10 @@ void AddCompareCommand(CLI::App* app, Run* run) {
   command->footer(
       "Exit status: 0 done, 2 wrong command line, 3 unusable input, 4 every "
       "fit failed, 130 interrupted.\n"
-      "Where a component's data in a study file are a pattern, \"{machine}/"
-      "{component}.csv\", --out is a\nstore of the components of all files "
-      "that "
-      "match, each studied by itself: one that fails stops\nno other, and the "
-      "same command goes on where it was broken off.\n"
+      "Where a component's data in a study file are a pattern, "
+      "\"{machine}/{component}.csv\", --out is a\nstore of the components of "
+      "all files that match, each studied by itself: one that fails stops\nno "
+      "other, and the same command goes on where it was broken off.\n"
       "Example: errmap compare xdown.csv --models mean,poly:eq8,net:scg "
       "--out study");
   command->callback([arguments, run, command] {

@@ -1,9 +1,6 @@
-#include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <memory>
 #include <sstream>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -16,7 +13,6 @@
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
-#include "data/atomic_file.h"
 #include "data/shown_path.h"
 #include "data/text.h"
 #include "fitting/interruption.h"
@@ -28,6 +24,7 @@
 #include "models/report/number_text.h"
 #include "models/report/words/fit_summary.h"
 #include "models/report/words/interval_text.h"
+#include "models/report/words/kept_promise_text.h"
 #include "models/report/words/regression_text.h"
 #include "models/report/wrap_text.h"
 #include "models/study/fold_pool.h"
@@ -58,23 +55,6 @@ Json SensitivityJson(const models::Sensitivity& sensitivity) {
           {"jump_of",
            sensitivity.jump_of.empty() ? Json() : Json(sensitivity.jump_of)},
           {"rezero_jump", sensitivity.rezero_jump}};
-}
-
-std::string SensitivityText(const models::Sensitivity& sensitivity,
-                            const report::ErrorText& error) {
-  if (sensitivity.jump_of.empty()) return "";
-  std::string text = fmt::format(
-      "{:g} degC of noise in each thermometer moves it by {} (RMS), one that "
-      "fails to 0 by up to {} ({})",
-      models::Sensitivity::kNoise,
-      error.WithUnit(sensitivity.per_noise),
-      error.WithUnit(sensitivity.largest_jump),
-      data::Printable(sensitivity.jump_of, sensitivity.jump_of.size()));
-  if (sensitivity.rezero_jump > 0.0) {
-    text += fmt::format(", a zero taken anew by up to {}",
-                        error.WithUnit(sensitivity.rezero_jump));
-  }
-  return text;
 }
 
 Json FitJson(const models::FittedModel& fitted,
@@ -175,7 +155,7 @@ std::string FitText(const models::FittedModel& fitted,
   if (fitted.interval) {
     say(report::IntervalLine(models::MakeRecord(*fitted.interval), error));
   }
-  say(SensitivityText(sensitivity, error));
+  say(report::SensitivityLine(sensitivity, error));
   say(fmt::format(
       "written to {}; it predicts {}, compensate by minus that",
       arguments.out,
@@ -198,8 +178,7 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
   models::FittedModel fitted;
   std::chrono::duration<double> fit_time{};
   const std::atomic<bool>& stop = InstallInterruptFlag();
-  const int jobs =
-      static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int jobs = JobsOf(0);
   try {
     const fitting::InterruptionScope interruptible(&stop);
     const auto start = std::chrono::steady_clock::now();

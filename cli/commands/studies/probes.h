@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -22,8 +21,5 @@ struct ProbeArguments {
 void AddProbes(const study_file::StudyRun& run,
                const ProbeArguments& arguments,
                models::StudyRecord* record);
-
-/// As a table for a terminal; "" where there is nothing.
-std::string ProbesText(const models::ComponentRecord& component);
 
 }  // namespace errmap::cli

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "data/units.h"
+#include "models/promise/held_out_errors.h"
+#include "models/promise/session_check.h"
+#include "models/study/record/study_record.h"
+
+namespace errmap::report {
+
+/// What probes tell of a session, to go on behind "2 probes of FILE": when they
+/// were taken (`elapsed`, (n) seconds since it began), what they found, whether
+/// the map holds, the remedy where it does not, and where probes tell most.
+std::string CheckText(const models::SessionCheck& check,
+                      const models::HeldOutErrors& errors,
+                      const std::vector<models::ProbeSite>& sites,
+                      const Eigen::VectorXd& elapsed,
+                      const data::Unit& unit);
+
+/// What probes of each session would make of every model, as a table; "" where
+/// it was not asked for. `width`: columns of the words above it.
+std::string ProbesText(const models::ComponentRecord& component,
+                       std::size_t width);
+
+}  // namespace errmap::report
