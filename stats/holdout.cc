@@ -98,8 +98,9 @@ class Units {
 
   std::vector<bool> RowsOf(const std::vector<Index>& units) const {
     std::vector<bool> chosen(static_cast<std::size_t>(count_), false);
-    for (const Index unit : units)
+    for (const Index unit : units) {
       chosen[static_cast<std::size_t>(unit)] = true;
+    }
     std::vector<bool> rows(static_cast<std::size_t>(num_rows_));
     for (std::size_t row = 0; row < rows.size(); ++row) {
       rows[row] = chosen[static_cast<std::size_t>(codes_[row])];

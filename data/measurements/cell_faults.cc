@@ -158,8 +158,9 @@ std::vector<bool> Jumps(const Thermometer& t, const std::vector<double>& v) {
   }
   // At the ends there is one neighbour only.
   const double least_at_end = kFarFromEnd * least;
-  if (std::abs(v[0] - v[1]) > least_at_end && std::abs(v[1] - v[2]) < least)
+  if (std::abs(v[0] - v[1]) > least_at_end && std::abs(v[1] - v[2]) < least) {
     is_jump.front() = true;
+  }
   const std::size_t last = v.size() - 1;
   if (std::abs(v[last] - v[last - 1]) > least_at_end &&
       std::abs(v[last - 1] - v[last - 2]) < least)

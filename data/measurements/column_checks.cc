@@ -354,8 +354,9 @@ KeptRows CheckCells(const CsvTable& table,
       static_cast<std::size_t>(std::count(passes.begin(), passes.end(), true));
   kept.rows.reserve(num_passed - num_dropped);
   for (std::size_t row = 0; row < table.num_rows; ++row) {
-    if (passes[row] && !is_dropped[row])
+    if (passes[row] && !is_dropped[row]) {
       kept.rows.push_back(static_cast<Eigen::Index>(row));
+    }
   }
   if (kept.rows.empty()) {
     throw InputError(PrintablePath(table.file) +

@@ -274,8 +274,9 @@ class InputChooser {
       had_candidates_ = true;
       Drop(static_cast<std::size_t>(found_.time_column), "is the time");
     }
-    if (chosen_.inputs.empty() && had_candidates_)
+    if (chosen_.inputs.empty() && had_candidates_) {
       ThrowNoInputs(table_, chosen_.dropped);
+    }
   }
 
   const CsvTable& table_;

@@ -263,8 +263,9 @@ class DatasetBuilder {
     parts_.rows = std::move(rows);
     parts_.target_values = parts_.target_values(kept).eval();
     parts_.input_values = parts_.input_values(kept, Eigen::all).eval();
-    if (parts_.weights.size() != 0)
+    if (parts_.weights.size() != 0) {
       parts_.weights = parts_.weights(kept).eval();
+    }
   }
 
   void ReportDead(std::size_t input, const std::string& how) {

@@ -115,8 +115,9 @@ class ThermometerFaultFinder {
       if (steps.empty()) height = change;
       steps.push_back(rows[i]);
     }
-    if (!steps.empty())
+    if (!steps.empty()) {
       Add(FaultKind::kStep, t.input, steps, height, {0.0, 0.0});
+    }
   }
 
   // Range over the sound rows within the bounds, or outside of them.

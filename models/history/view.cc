@@ -173,8 +173,9 @@ std::vector<double> MakeTimeConstants(const Dataset& training) {
   };
   constexpr std::array<double, 3> kShares = {100.0, 30.0, 10.0};
   std::vector<double> constants;
-  for (const double share : kShares)
+  for (const double share : kShares) {
     constants.push_back(rounded(*middle / share));
+  }
   return constants;
 }
 

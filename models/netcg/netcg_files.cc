@@ -323,8 +323,7 @@ std::string NetcgText(const std::vector<NetcgRecord>& records,
     if (number > 0) text += "\n";
     text += fmt::format(
         "run {} of {}: {}\n  {} on {}: {} patterns, {}-{}-{} nodes, {} "
-        "weights, "
-        "{} precision\n",
+        "weights, {} precision\n",
         ++number,
         records.size(),
         data::Printable(run.title, kTitleLimit),

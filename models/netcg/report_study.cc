@@ -273,8 +273,7 @@ void AddNotes(const Direction& down, const Direction& up, NetcgStudy* study) {
     if (run.starts > 1) {
       notes.push_back(
           fmt::format("run {}: from seed {} the program gives up before the "
-                      "last iteration; "
-                      "shown is seed {} of {} tried",
+                      "last iteration; shown is seed {} of {} tried",
                       report.number,
                       kSeed,
                       run.record.specification.seed,

@@ -42,8 +42,9 @@ models::ComponentConfigurationRecord ComponentOf(
   record.group = Text(component.selection.group);
   record.time = Text(component.selection.time);
   record.session = Text(component.selection.session);
-  if (component.selection.align != data::Alignment::kNone)
+  if (component.selection.align != data::Alignment::kNone) {
     record.align = component.selection.align;
+  }
   record.weight = Text(component.selection.weight);
   record.missing = component.selection.missing;
   record.faults = component.selection.faults;

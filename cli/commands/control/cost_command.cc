@@ -130,10 +130,9 @@ void AddCostCommand(CLI::App* app, Run* run) {
   AddFormatOption(command, &arguments->format);
   command->footer(
       "Operations are counted from the program that errmap export writes; "
-      "bytes "
-      "and times are\nmeasured on its C, compiled here. A polynomial of 10 "
-      "terms takes some 10 ns, a net with\n37 inputs and 10 hidden nodes some "
-      "200 ns: both fit a servo period of 1 ms.\n"
+      "bytes and times are\nmeasured on its C, compiled here. A polynomial of "
+      "10 terms takes some 10 ns, a net with\n37 inputs and 10 hidden nodes "
+      "some 200 ns: both fit a servo period of 1 ms.\n"
       "Example: errmap cost map.json");
   command->callback([arguments, run] { run->status = RunCost(*arguments); });
 }

@@ -340,8 +340,9 @@ int RunVolumetric(const VolumetricArguments& arguments) {
                             errors,
                             SensitiveLengths(file.machine, errors.exact)};
   std::optional<MatrixX3d> truth;
-  if (study_file::HasTrueErrors(points))
+  if (study_file::HasTrueErrors(points)) {
     truth = study_file::TrueErrors(points, file.machine);
+  }
   const std::vector<std::string> diagonals = DiagonalLines(synthesis, truth);
   const std::string text = OutputTable(synthesis).Text();
   if (arguments.out.empty()) {
@@ -401,19 +402,19 @@ void AddVolumetricCommand(CLI::App* app, Run* run) {
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
   command->footer(
       "Columns, in the machine's unit of length: error_x ... error_z, tool "
-      "less "
-      "work in the base frame\n(the product of the matrices), error_sensitive "
-      "(its length in the machine's sensitive directions),\nfirst_order_*, "
-      "half_width_90_* (first order), lower_90_*, upper_90_* (draws; empty "
-      "without intervals),\ninside and outside (maps that extrapolate), and "
-      "what each error adds. A map's position is the\ncoordinate of its link; "
-      "a pair { forward, reverse } takes x_direction for x_mm. --after: the "
-      "log of\ntemperatures through which filters run. Components are taken as "
-      "independent. Where the points\nhave error_x_mm ... error_z_mm, it is "
-      "said what compensation leaves of them; where they have diagonal\n(ppn, "
-      "p0n: the signs of X, Y and Z along it) and diagonal_direction, the "
-      "deviations of ISO 230-6. Exit\nstatus 4 where an error is not finite. "
-      "Examples: data/sets/machines/README.md.");
+      "less work in the base frame\n(the product of the matrices), "
+      "error_sensitive (its length in the machine's sensitive "
+      "directions),\nfirst_order_*, half_width_90_* (first order), lower_90_*, "
+      "upper_90_* (draws; empty without intervals),\ninside and outside (maps "
+      "that extrapolate), and what each error adds. A map's position is "
+      "the\ncoordinate of its link; a pair { forward, reverse } takes "
+      "x_direction for x_mm. --after: the log of\ntemperatures through which "
+      "filters run. Components are taken as independent. Where the "
+      "points\nhave error_x_mm ... error_z_mm, it is said what compensation "
+      "leaves of them; where they have diagonal\n(ppn, p0n: the signs of X, Y "
+      "and Z along it) and diagonal_direction, the deviations of ISO 230-6. "
+      "Exit\nstatus 4 where an error is not finite. Examples: "
+      "data/sets/machines/README.md.");
   command->callback(
       [arguments, run] { run->status = RunVolumetric(*arguments); });
 }

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "cli/commands/fleet/fleet_commands.h"
-#include "cli/output/claimed_folder.h"
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
@@ -18,7 +17,6 @@
 #include "models/fleet/store/deployments.h"
 #include "models/fleet/store/gzip.h"
 #include "models/fleet/store/store.h"
-#include "models/map_experience.h"
 #include "models/model_file.h"
 #include "models/report/number_text.h"
 
@@ -169,8 +167,7 @@ void AddDeployCommand(CLI::App* app, Run* run) {
       "The map is kept in the store's maps/ with what it promised, and errmap "
       "watch holds new\nmeasurements against it. What the component had before "
       "is ended.\nExit status: 0 done, 2 no such component, 3 no map, no "
-      "store, "
-      "or one of a newer errmap.\nExample: errmap deploy fleet \"m01/x, "
+      "store, or one of a newer errmap.\nExample: errmap deploy fleet \"m01/x, "
       "down\"");
   command->callback([arguments, run] { run->status = RunDeploy(*arguments); });
 }

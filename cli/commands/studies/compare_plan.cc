@@ -1,7 +1,6 @@
 #include "cli/commands/studies/compare_plan.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <string>
 #include <utility>

@@ -154,8 +154,9 @@ int RunReport(const ReportArguments& arguments) {
                        names,
                        {ResultsPath(arguments.folder)},
                        arguments.force);
-  for (const report::ReportFile& file : figures)
+  for (const report::ReportFile& file : figures) {
     folder.Write(file.name, file.text);
+  }
   folder.Finish();
   Say(fmt::format(
       "{} figures as svg in {}; gnuplot *.gp there draws them as {}",

@@ -29,9 +29,8 @@ std::vector<Deployment> DeploymentsInUse(Database* store,
   Statement rows = store->Prepare(
       "SELECT id, component, data, since, map, model, relations, promised, "
       "within_95, shown_unit, shown_scale, sha256 FROM deployments JOIN "
-      "components "
-      "ON name = component WHERE until IS NULL AND (?1 = '' OR ?1 = component) "
-      "ORDER BY component");
+      "components ON name = component WHERE until IS NULL AND (?1 = '' OR ?1 = "
+      "component) ORDER BY component");
   rows.With(component);
   std::vector<Deployment> found;
   while (rows.Next()) {

@@ -1,7 +1,6 @@
 #include "models/report/documents/report_html.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -241,11 +240,10 @@ std::string Page::Index(const std::vector<ReportView>& views) const {
     html += "</tr>\n";
   }
   return html +
-         "</tbody></table></div><p class=\"soft small\">Left of the error: "
-         "the dot between 0 and the error without a map, its bar the 95 % "
+         "</tbody></table></div><p class=\"soft small\">Left of the error: the "
+         "dot between 0 and the error without a map, its bar the 95 % "
          "interval. Unit by unit: the error on each cycle, day or block held "
-         "out "
-         "whole, from 0 to the largest. Proven: better than the best "
+         "out whole, from 0 to the largest. Proven: better than the best "
          "baseline." +
          (figures_.IsBrief()
               ? " Of each there is what matters most; <code>errmap "

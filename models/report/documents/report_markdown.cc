@@ -17,8 +17,9 @@ std::string Paragraph(const std::string& text) {
 
 std::string List(const std::vector<std::string>& lines) {
   std::string text;
-  for (const std::string& line : lines)
+  for (const std::string& line : lines) {
     text += "- " + MarkdownText(line) + "\n";
+  }
   return text.empty() ? text : text + "\n";
 }
 

@@ -172,8 +172,9 @@ void ComponentScreen::Leaderboard() {
   }
   Paragraph(fmt::format("{}", fmt::join(legend, " ")));
   for (const ModelRecord& model : record_.models) {
-    if (model.why)
+    if (model.why) {
       Paragraph(fmt::format("{} failed, {}", model.name, *model.why));
+    }
   }
 }
 

@@ -214,7 +214,8 @@ std::vector<Figure> TrainingFigures(const ReportView& view,
     figure.note =
         "The fit to all rows; sqrt(2 E) of the scaled target, penalty "
         "included, as the report's Figures 10 to 24.";
-    figure.plot.name = fmt::format("{}training-{}", prefix, 1 + first / 6);
+    figure.plot.name =
+        fmt::format("{}training-{}", prefix, 1 + first / kLineColours.size());
     figure.plot.x = {.quantity = "iteration", .unit = "count"};
     figure.plot.y.quantity = "sqrt(2 E), scaled";
     figure.plot.y.logarithmic = true;

@@ -96,8 +96,7 @@ Figure NormalPlotFigure(const ResidualContext& context) {
   const std::vector<double> x = ListOf(medians);
   figure.note =
       "Figure 7 of the report of 1995: normal residuals lie on the line (same "
-      "mean and "
-      "sd).";
+      "mean and sd).";
   figure.plot.x = {.quantity = "normal order statistic median",
                    .unit = "standard deviations"};
   figure.plot.y = {.quantity = "ordered residual",
@@ -124,8 +123,7 @@ Figure PpccFigure(const ResidualContext& context) {
   const stats::TukeyPpcc curve = stats::TukeyPlot(sorted.size()).Curve(sorted);
   figure.note = fmt::format(
       "Figure 8 of the report of 1995: highest at lambda {:.2f} (r {:.4f}); a "
-      "normal "
-      "sample is highest near 0.14.",
+      "normal sample is highest near 0.14.",
       curve.best_lambda,
       curve.best_r);
   figure.plot.x.quantity = "Tukey's lambda";

@@ -15,8 +15,9 @@ namespace {
 std::string ValueText(const models::RecordJson& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_null()) return "-";
-  if (value.is_number_float())
+  if (value.is_number_float()) {
     return fmt::format("{:.6g}", value.get<double>());
+  }
   return value.dump(
       -1, ' ', false, models::RecordJson::error_handler_t::replace);
 }
@@ -304,10 +305,9 @@ Table MemorisationTable(const ReportView& view) {
   table.columns = {{"model", false},
                    {"R2 on shuffled targets"},
                    {"R2 on the targets"},
-                   {"rows per weight", true},
+                   {"weights per row"},
                    {"effective parameters"},
                    {"in words", false}};
-  table.columns[3].name = "weights per row";
   for (const ModelRecord* model : view.models) {
     if (!model->memorisation) continue;
     const models::MemorisationRecord& check = *model->memorisation;

@@ -29,8 +29,7 @@ std::string SolversText(const Certification& certification,
                         const CertificationFloors& floors) {
   std::string text =
       "NIST StRD, nonlinear: 27 problems from both starts; digits (LRE, at "
-      "most "
-      "11)\n";
+      "most 11)\n";
   text += fmt::format("{:<30}{:>7}{:>7}{:>7}{:>7}  {}\n",
                       "solver",
                       "solved",

@@ -89,8 +89,9 @@ std::string SerialLine(const models::ResidualReport& report,
     return SerialCells(test, shown);
   };
   const TestResult& whole = report.whole.*member;
-  if (!whole.ok())
+  if (!whole.ok()) {
     return fmt::format("  {:<20} n/a: {}\n", name, whole.why_not);
+  }
   return fmt::format("  {:<20}{}{}\n",
                      name,
                      cells(report.whole),
@@ -112,8 +113,9 @@ std::string ShuffledLine(const char* where,
 std::string BiasLine(const models::NamedBias& named) {
   const TestResult& anova = named.bias.anova;
   const std::string name = "by " + named.column;
-  if (!anova.ok())
+  if (!anova.ok()) {
     return fmt::format("  {:<20} n/a: {}\n", name, anova.why_not);
+  }
   return fmt::format(
       "  {:<20}{:>11} {:>9}  {:.0f} % explained; normal, one sd\n",
       name,

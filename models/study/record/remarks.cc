@@ -92,8 +92,9 @@ class Remarks {
     RemarkRecord& remark = remarks_.emplace_back();
     remark.kind = kind;
     const auto* const place = std::ranges::find(kToldFirst, kind);
-    if (place != kToldFirst.end())
+    if (place != kToldFirst.end()) {
       remark.rank = 1 + (place - kToldFirst.begin());
+    }
     return remark;
   }
   RemarkRecord& Add(RemarkKind kind, std::size_t of_model) {

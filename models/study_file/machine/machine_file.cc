@@ -311,8 +311,7 @@ class MachineFileReader {
     if (std::abs(size) <= (is_angle ? kMostRad : kMostMm)) return;
     warnings_.push_back(
         fmt::format("{}warning: {} = {} {} is no error of a machine tool; the "
-                    "file's {} are "
-                    "in {}",
+                    "file's {} are in {}",
                     Place(file_, node.source()),
                     name,
                     NumberOf(node),

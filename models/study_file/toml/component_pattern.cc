@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -274,8 +273,9 @@ void ExpandPatterns(StudyConfig* config,
     std::vector<Sourced> files = ExpandOne(component, source);
     for (Sourced& file : files) {
       auto& rows = taken[file.config.data];
-      if (std::ranges::find(rows, file.config.selection.where) != rows.end())
+      if (std::ranges::find(rows, file.config.selection.where) != rows.end()) {
         continue;
+      }
       rows.push_back(file.config.selection.where);
       add(std::move(file.config), std::move(file.source));
     }
