@@ -106,10 +106,17 @@ study_file::StudyFile ReadChanged(const CompareArguments& arguments) {
   }
 }
 
+// Of how many components the word of a flag may be true.
+enum class Reach {
+  kOne,
+  kMachine,  // one, or all of a machine
+  kAll,
+};
+
 // A flag that says something of components, and takes its word to them.
 struct ComponentFlag {
   const char* name;
-  bool of_one;  // what it says is true of one component only
+  Reach reach;
   void (*copy)(const study_file::ComponentConfig& from,
                study_file::ComponentConfig* to);
 };
@@ -128,20 +135,20 @@ const std::vector<ComponentFlag>& ComponentFlags() {
   using study_file::ComponentConfig;
   using Selection = data::DatasetSelection;
   static const std::vector<ComponentFlag> flags = {
-      {"--target", true, Copy<&Selection::target>},
-      {"--inputs", true, Copy<&Selection::inputs>},
-      {"--exclude", true, Copy<&Selection::exclude>},
-      {"--group", true, Copy<&Selection::group>},
-      {"--time", true, Copy<&Selection::time>},
-      {"--session", true, Copy<&Selection::session>},
-      {"--weight", true, Copy<&Selection::weight>},
-      {"--split", true, Copy<&ComponentConfig::split>},
-      {"--save-split", true, Copy<&ComponentConfig::save_split>},
-      {"--predictions", true, Copy<&ComponentConfig::predictions>},
-      {"--align", false, Copy<&Selection::align>},
-      {"--missing", false, Copy<&Selection::missing>},
-      {"--faults", false, Copy<&Selection::faults>},
-      {"--keep-dead", false, Copy<&Selection::keep_dead>}};
+      {"--target", Reach::kOne, Copy<&Selection::target>},
+      {"--inputs", Reach::kOne, Copy<&Selection::inputs>},
+      {"--exclude", Reach::kMachine, Copy<&Selection::exclude>},
+      {"--group", Reach::kMachine, Copy<&Selection::group>},
+      {"--time", Reach::kMachine, Copy<&Selection::time>},
+      {"--session", Reach::kMachine, Copy<&Selection::session>},
+      {"--weight", Reach::kOne, Copy<&Selection::weight>},
+      {"--split", Reach::kOne, Copy<&ComponentConfig::split>},
+      {"--save-split", Reach::kOne, Copy<&ComponentConfig::save_split>},
+      {"--predictions", Reach::kOne, Copy<&ComponentConfig::predictions>},
+      {"--align", Reach::kAll, Copy<&Selection::align>},
+      {"--missing", Reach::kAll, Copy<&Selection::missing>},
+      {"--faults", Reach::kAll, Copy<&Selection::faults>},
+      {"--keep-dead", Reach::kAll, Copy<&Selection::keep_dead>}};
   return flags;
 }
 
@@ -176,7 +183,7 @@ study_file::StudyFile ConfigOfFile(const CompareArguments& arguments) {
   const study_file::ComponentConfig& from = flags.components.front();
   for (const ComponentFlag& flag : ComponentFlags()) {
     if (!given(flag.name)) continue;
-    if (flag.of_one && config.components.size() != 1) {
+    if (flag.reach != Reach::kAll && config.components.size() != 1) {
       throw UsageError(
           fmt::format("{} is for one component, and {} has {}; write --set "
                       "component.0.KEY=VALUE",
@@ -199,13 +206,11 @@ std::optional<study_file::MachineStudy> MachineOf(
     }
     return std::nullopt;
   }
-  for (const char* flag : {"--config",
-                           "--target",
-                           "--inputs",
-                           "--weight",
-                           "--split",
-                           "--save-split",
-                           "--predictions"}) {
+  std::vector<const char*> of_one = {"--config"};
+  for (const ComponentFlag& flag : ComponentFlags()) {
+    if (flag.reach == Reach::kOne) of_one.push_back(flag.name);
+  }
+  for (const char* flag : of_one) {
     if (arguments.given.contains(flag)) {
       throw UsageError(fmt::format(
           "{} is for one component, and --machine has several", flag));
