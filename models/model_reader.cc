@@ -1,8 +1,5 @@
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <memory>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <cstdlib>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>

@@ -18,7 +18,6 @@
 #include "models/netcg/netcg_files.h"
 #include "models/netcg/netcg_json.h"
 #include "models/netcg/report_study.h"
-#include "models/report/number_text.h"
 #include "models/study_file/provenance.h"
 
 namespace errmap::cli {

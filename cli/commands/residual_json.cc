@@ -5,6 +5,7 @@
 #include "stats/summary.h"
 
 namespace errmap::cli {
+
 Json PlotsJson(const models::ResidualReport& report,
                const Eigen::VectorXd& values,
                Eigen::Index bins) {

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/output/claimed_folder.h"
 #include "data/prepare_folder.h"
 #include "data/text.h"
 

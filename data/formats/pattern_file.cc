@@ -1,7 +1,6 @@
 #include "data/formats/pattern_file.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <set>
 #include <stdexcept>
 

@@ -11,7 +11,6 @@
 
 #include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
-#include "data/text.h"
 
 namespace errmap::data {
 namespace {

@@ -1,10 +1,8 @@
 #include "data/measurements/sessions.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <string_view>
 

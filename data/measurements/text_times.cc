@@ -1,6 +1,5 @@
 #include "data/measurements/text_times.h"
 
-#include <cmath>
 #include <cstddef>
 
 #include "data/measurements/column_checks.h"

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include <oneapi/tbb/parallel_for.h>
@@ -6,6 +5,7 @@
 #include "models/certification/certification.h"
 #include "models/certification/net_example.h"
 #include "models/certification/solvers.h"
+#include "models/net/feedforward_net.h"
 
 namespace errmap::models {
 namespace {

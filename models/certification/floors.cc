@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include "models/certification/certification.h"
-#include "stats/lre.h"
 
 namespace errmap::models {
 namespace {

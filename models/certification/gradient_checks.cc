@@ -9,6 +9,7 @@
 #include "models/certification/certification.h"
 #include "models/certification/net_example.h"
 #include "models/certification/strd_functions.h"
+#include "models/net/feedforward_net.h"
 
 namespace errmap::models {
 namespace {

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "models/net/feedforward_net.h"
 #include "models/net/net_objective.h"
 
 namespace errmap::models {

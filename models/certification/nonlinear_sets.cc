@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <map>
 
 #include <oneapi/tbb/parallel_for.h>
 

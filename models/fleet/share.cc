@@ -1,7 +1,5 @@
 #include "models/fleet/share.h"
 
-#include <string>
-
 #include "data/sha256.h"
 
 namespace errmap::models {

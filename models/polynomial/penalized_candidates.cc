@@ -1,10 +1,7 @@
 #include "models/polynomial/penalized_candidates.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <map>
-#include <stdexcept>
-#include <utility>
 
 #include <fmt/format.h>
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <set>
-#include <stdexcept>
 #include <utility>
 
 #include "fitting/interruption.h"

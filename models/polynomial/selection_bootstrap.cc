@@ -1,6 +1,5 @@
 #include "models/polynomial/selection_bootstrap.h"
 
-#include <algorithm>
 #include <limits>
 #include <map>
 #include <mutex>

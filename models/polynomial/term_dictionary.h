@@ -13,7 +13,6 @@
 #include "models/polynomial/formula.h"
 #include "models/polynomial/polynomial_design.h"
 #include "models/polynomial/polynomial_options.h"
-#include "models/polynomial/term_set.h"
 
 namespace errmap::models {
 

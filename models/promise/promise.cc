@@ -1,7 +1,6 @@
 #include "models/promise/promise.h"
 
 #include <new>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "models/study/study_defaults.h"
 
 namespace errmap::models {
+
 void AddApplicability(const data::Dataset& dataset, FittedModel* fitted) {
   if (auto trained = MakeApplicability(*fitted, dataset)) {
     fitted->applicability =

@@ -1,6 +1,5 @@
 #include "models/promise/sensitivity.h"
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>

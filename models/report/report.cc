@@ -1,7 +1,5 @@
 #include "models/report/report.h"
 
-#include <algorithm>
-
 #include "models/report/documents/report_html.h"
 #include "models/report/documents/study_table.h"
 #include "models/report/tables/result_table.h"

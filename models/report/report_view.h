@@ -1,11 +1,9 @@
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "models/report/number_text.h"
-#include "models/report/plot.h"
 #include "models/study/record/study_record.h"
 
 namespace errmap::report {

@@ -1,6 +1,5 @@
 #include "models/study/memorisation.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>

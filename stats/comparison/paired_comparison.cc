@@ -1,7 +1,6 @@
 #include "stats/comparison/paired_comparison.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 

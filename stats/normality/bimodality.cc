@@ -1,7 +1,6 @@
 #include "stats/normality/bimodality.h"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "stats/normality/simulated_quantiles.h"

@@ -3,7 +3,6 @@
 //
 //   fuzz_replay CORPUS_FOLDER [CHANGES_PER_FILE]
 
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>

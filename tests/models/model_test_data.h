@@ -3,7 +3,6 @@
 #include <cmath>
 #include <string>
 #include <variant>
-#include <vector>
 
 #include <fmt/format.h>
 

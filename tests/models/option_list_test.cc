@@ -1,12 +1,10 @@
 #include "models/option_list.h"
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <functional>
 #include <map>
 #include <regex>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -19,7 +17,6 @@
 #include "models/net/net_options.h"
 #include "models/polynomial/polynomial_options.h"
 #include "models/recipe_catalog.h"
-#include "models/study/study_defaults.h"
 #include "tests/models/model_test_data.h"
 #include "tests/places.h"
 

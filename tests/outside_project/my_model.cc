@@ -1,5 +1,4 @@
 // A model of one's own, k nearest neighbours, in a study beside the others.
-#include <cmath>
 #include <iostream>
 
 #include <errmap/errmap.h>

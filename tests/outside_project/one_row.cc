@@ -1,7 +1,6 @@
 // Predictions in a loop, row by row: no memory is asked for.
 #include <cstdlib>
 #include <iostream>
-#include <new>
 
 #include <errmap/errmap.h>
 

@@ -1,7 +1,6 @@
 #include "stats/double_double.h"
 
 #include <string>
-#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,6 @@
 #include "cli/commands/control/export_tables.h"
 
-#include <algorithm>
-#include <optional>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>

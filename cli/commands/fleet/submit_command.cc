@@ -15,7 +15,6 @@
 #include "cli/commands/fleet/fleet_commands.h"
 #include "cli/fleet/claim_store.h"
 #include "cli/fleet/slurm_scripts.h"
-#include "cli/output/claimed_folder.h"
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
 #include "data/prepare_folder.h"

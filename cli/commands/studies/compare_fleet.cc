@@ -14,7 +14,6 @@
 #include "cli/fleet/launcher.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
-#include "data/text.h"
 #include "models/fleet/run/fleet_plan.h"
 #include "models/fleet/run/fleet_run.h"
 #include "models/fleet/store/fleet_table.h"

@@ -1,6 +1,5 @@
 #include "cli/commands/studies/study_plan_text.h"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <mutex>
 #include <new>
-#include <optional>
 #include <system_error>
 #include <thread>
 #include <utility>

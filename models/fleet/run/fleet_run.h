@@ -1,12 +1,9 @@
 #pragma once
 
 #include <atomic>
-#include <cstdint>
 #include <functional>
 #include <string>
-#include <vector>
 
-#include "models/fleet/component_summary.h"
 #include "models/fleet/share.h"
 #include "models/fleet/store/store_folder.h"
 #include "models/study_file/plan/study_plan.h"

@@ -1,6 +1,5 @@
 #include "models/fleet/store/merge.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -13,6 +12,7 @@
 #include "models/fleet/store/store.h"
 
 namespace errmap::fleet {
+
 std::string MissingWords(const FleetSummaries& found) {
   if (found.missing.empty()) return "";
   constexpr std::size_t kMostNamed = 5;

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "models/fleet/store/store.h"
 #include "models/fleet/store/store_folder.h"
 #include "models/fleet/store/watch_report.h"
 #include "models/fleet/store/watched_files.h"

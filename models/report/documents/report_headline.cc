@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "models/report/tables/report_tables.h"
 #include "models/report/tables/result_table.h"
 #include "models/report/words/remark_text.h"
 #include "models/report/words/verdict_text.h"

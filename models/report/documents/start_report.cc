@@ -7,6 +7,7 @@
 #include "models/study/record/fit_blocks.h"
 
 namespace errmap::report {
+
 std::string StartsText(const std::vector<models::StartResult>& starts,
                        const ErrorText& error) {
   if (starts.empty()) return "";

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "models/report/figures/figures.h"
+#include "models/report/report_view.h"
 
 namespace errmap::report {
 

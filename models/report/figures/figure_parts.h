@@ -7,6 +7,7 @@
 
 #include "models/report/figures/figures.h"
 #include "models/report/figures/held_out_rows.h"
+#include "models/report/report_view.h"
 
 namespace errmap::report {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "models/report/figures/gnuplot.h"
-#include "models/report/report_view.h"
+#include "models/study/record/study_record.h"
 
 namespace errmap::report {
 

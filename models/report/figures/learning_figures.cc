@@ -1,7 +1,6 @@
 #include "models/report/figures/learning_figures.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>

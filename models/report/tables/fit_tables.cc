@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "models/report/plot.h"
 #include "models/study/record/record_json.h"
 #include "stats/holdout.h"
 

@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "models/report/tables/report_tables.h"
+#include "models/report/report_view.h"
+#include "models/report/table.h"
 
 namespace errmap::report {
 

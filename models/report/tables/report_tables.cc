@@ -1,10 +1,8 @@
 #include "models/report/tables/report_tables.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
-#include "models/report/words/verdict_text.h"
+#include "models/report/plot.h"
 
 namespace errmap::report {
 namespace {

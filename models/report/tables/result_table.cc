@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "data/text.h"
+#include "models/report/plot.h"
 #include "models/report/words/verdict_text.h"
 #include "models/report/wrap_text.h"
 

@@ -5,6 +5,7 @@
 #include "data/units.h"
 #include "models/study/judgement/residual_assessment.h"
 #include "stats/error_metrics.h"
+#include "stats/report_1995.h"
 
 namespace errmap::report {
 

@@ -1,6 +1,5 @@
 #include "models/report/words/residual_words.h"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 

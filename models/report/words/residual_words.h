@@ -4,6 +4,7 @@
 
 #include "data/units.h"
 #include "models/study/judgement/residual_assessment.h"
+#include "stats/report_1995.h"
 
 namespace errmap::report {
 

@@ -1,8 +1,6 @@
 #include "models/study/journal/fit_label.h"
 
 #include <array>
-#include <tuple>
-#include <type_traits>
 #include <variant>
 
 #include <fmt/format.h>

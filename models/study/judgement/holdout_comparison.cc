@@ -1,8 +1,6 @@
 #include "models/study/judgement/holdout_comparison.h"
 
 #include <algorithm>
-#include <map>
-#include <set>
 
 #include <fmt/format.h>
 

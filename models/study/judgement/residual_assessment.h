@@ -8,10 +8,8 @@
 #include <Eigen/Core>
 
 #include "stats/bias.h"
-#include "stats/error_metrics.h"
 #include "stats/normality/normality.h"
 #include "stats/randomness.h"
-#include "stats/report_1995.h"
 
 namespace errmap::models {
 

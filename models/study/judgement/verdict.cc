@@ -1,7 +1,6 @@
 #include "models/study/judgement/verdict.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <tuple>
 

@@ -13,10 +13,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "data/input_error.h"
 #include "data/measurements/dataset.h"
 #include "data/shown_path.h"
-#include "data/text.h"
 #include "models/comparison/compare.h"
 #include "models/kinematics/iso230.h"
 #include "models/kinematics/plane_cells.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,7 +12,6 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/dataset.h"
 #include "data/text.h"
-#include "models/kinematics/volumetric.h"
 #include "models/study_file/machine/machine_points.h"
 #include "models/study_file/machine/true_poses.h"
 #include "models/study_file/provenance.h"

@@ -1,11 +1,7 @@
 #include "models/study_file/toml/study_file.h"
 
-#include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
-#include <memory>
-#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <utility>

@@ -1,7 +1,6 @@
 // The figures and files of the program.
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <string>
 #include <vector>

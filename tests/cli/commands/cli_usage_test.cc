@@ -1,9 +1,6 @@
 // The program in the hands of a user: arguments, failures, interrupts, odd
 // data.
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <string>
 #include <vector>
 

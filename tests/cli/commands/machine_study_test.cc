@@ -1,6 +1,5 @@
 // errmap compare --machine, as a user runs it.
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>

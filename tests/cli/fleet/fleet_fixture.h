@@ -2,7 +2,6 @@
 
 // A small fleet: two machines, components that are good, and a broken one.
 
-#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>

@@ -1,7 +1,5 @@
 #include "data/formats/pattern_file.h"
 
-#include <stdexcept>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

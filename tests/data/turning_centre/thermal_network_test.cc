@@ -1,10 +1,8 @@
 #include "data/turning_centre/thermal_network.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include <gmock/gmock.h>

@@ -1,10 +1,8 @@
 #include "data/turning_centre/thermocouples.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>

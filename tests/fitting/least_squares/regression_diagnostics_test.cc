@@ -1,7 +1,6 @@
 #include "fitting/least_squares/regression_diagnostics.h"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include <gmock/gmock.h>

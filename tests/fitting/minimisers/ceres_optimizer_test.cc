@@ -1,9 +1,7 @@
 #include "fitting/minimisers/ceres_optimizer.h"
 
 #include <cmath>
-#include <memory>
 #include <stdexcept>
-#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

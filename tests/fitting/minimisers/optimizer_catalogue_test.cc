@@ -2,11 +2,9 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <thread>
 #include <tuple>
-#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

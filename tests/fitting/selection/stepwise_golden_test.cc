@@ -2,7 +2,6 @@
 // summary(lm): tests/golden/stepwise/make_golden.R.
 #include <cmath>
 #include <fstream>
-#include <memory>
 #include <string>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 #include "models/certification/certification.h"
 
 #include <cmath>
-#include <memory>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +9,7 @@
 #include "models/certification/net_example.h"
 #include "models/certification/solvers.h"
 #include "models/certification/strd_functions.h"
+#include "models/net/feedforward_net.h"
 
 namespace errmap::models {
 namespace {

@@ -1,7 +1,5 @@
 #include "models/export/safe_names.h"
 
-#include <limits>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,7 +1,5 @@
 #include "models/kinematics/kinematic_chain.h"
 
-#include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>

@@ -2,9 +2,6 @@
 
 // The simulated turning centre as a chain, and its true component errors.
 
-#include <utility>
-#include <vector>
-
 #include <Eigen/Core>
 
 #include "data/turning_centre/component_errors.h"

@@ -1,6 +1,5 @@
 #include "models/kinematics/plane_cells.h"
 
-#include <array>
 #include <cmath>
 #include <stdexcept>
 

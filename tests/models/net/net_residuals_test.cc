@@ -1,7 +1,6 @@
 #include "models/net/net_residuals.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
 #include "models/polynomial/formula.h"
 
-#include <functional>
 #include <stdexcept>
 
 #include <gmock/gmock.h>

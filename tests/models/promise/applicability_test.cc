@@ -1,7 +1,6 @@
 #include "models/promise/applicability.h"
 
 #include <algorithm>
-#include <memory>
 #include <string>
 #include <vector>
 

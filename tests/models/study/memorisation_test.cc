@@ -4,10 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <string>
-#include <variant>
-#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,9 +2,7 @@
 // there depends on rows held out, and noise is not made to look like skill.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,7 +11,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "models/inner_folds.h"
 #include "models/recipe_catalog.h"
 #include "models/study/study.h"
 #include "stats/random.h"

@@ -1,6 +1,5 @@
 #include "stats/comparison/holm.h"
 
-#include <cmath>
 #include <limits>
 
 #include <gmock/gmock.h>

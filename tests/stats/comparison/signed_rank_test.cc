@@ -1,6 +1,5 @@
 #include "stats/comparison/signed_rank.h"
 
-#include <cmath>
 #include <limits>
 
 #include <gmock/gmock.h>

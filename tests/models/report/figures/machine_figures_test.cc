@@ -1,6 +1,5 @@
 #include "models/report/figures/machine_figures.h"
 
-#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>

@@ -1,7 +1,5 @@
 #include "models/report/figures/row_pictures.h"
 
-#include <cmath>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 #include "models/study/journal/fit_record.h"
 
 #include <bit>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>

@@ -11,7 +11,6 @@
 #include "models/study/given_predictions.h"
 #include "tests/models/model_test_data.h"
 #include "tests/models/study/study_test_tools.h"
-#include "tests/random_matrix.h"
 
 namespace errmap::models {
 namespace {
