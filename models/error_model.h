@@ -207,6 +207,8 @@ struct FittedModel {
   /// The errors behind the interval, or null.
   std::shared_ptr<const HeldOutErrors> held_out;
 
+  /// How many of the rows that it was given: a net draws some of very many.
+  Eigen::Index RowsLearntFrom(const data::Dataset& training) const;
   /// (m x inputs of the form) of every row; `inputs` are found by name. Throws
   /// std::invalid_argument naming an input not there, or where the sessions
   /// and times that the history needs are not known.

@@ -1,5 +1,6 @@
 // FittedModel of models/error_model.h: derive, clip, predict, clip.
 
+#include <algorithm>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -63,6 +64,12 @@ Guards MakeGuards(const std::vector<TrainedInput>& form_inputs,
   guards.error_min = targets.minCoeff();
   guards.error_max = targets.maxCoeff();
   return guards;
+}
+
+Index FittedModel::RowsLearntFrom(const data::Dataset& training) const {
+  const auto drawn = std::ranges::find(choices, "rows", &EffectiveOption::key);
+  return drawn == choices.end() ? training.num_rows()
+                                : std::get<std::int64_t>(drawn->value);
 }
 
 MatrixXd FittedModel::FormInputs(const data::Dataset& dataset) const {

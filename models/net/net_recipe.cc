@@ -178,6 +178,7 @@ class OneLayerRecipe final : public NetRecipe {
       fitted.inputs = DescribeAllInputs(training);
     }
     if (!takes_all) {
+      fitted.choices.push_back({"rows", viewed.rows->num_rows()});
       fitted.remarks.push_back(
           fmt::format("trained on {} of {} rows, drawn from all over them "
                       "(rows=all takes all)",

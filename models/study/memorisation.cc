@@ -58,7 +58,7 @@ void Assess(const ModelRecipe& recipe,
             const FittedModel& fitted,
             const FitContext& context,
             Memorisation* found) {
-  const auto rows = static_cast<double>(training.num_rows());
+  const auto rows = static_cast<double>(fitted.RowsLearntFrom(training));
   found->weights_per_row =
       static_cast<double>(fitted.model->num_parameters()) / rows;
   found->train_r2 = Judge(training, fitted.Predict(training)).r2;

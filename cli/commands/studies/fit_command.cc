@@ -133,11 +133,16 @@ std::string FitText(const models::FittedModel& fitted,
   const auto say = [&](const std::string& words) {
     if (!words.empty()) text += report::WrapText(words, width) + "\n";
   };
-  say(fmt::format("{}: {} fitted to {}, RMSE {} on these rows (not held out)",
+  const Eigen::Index learnt_from = fitted.RowsLearntFrom(dataset);
+  say(fmt::format("{}: {} fitted to {}{}, RMSE {} on {} rows (not held out)",
                   fitted.name,
                   report::Count(fitted.model->num_parameters(), "parameter"),
+                  learnt_from < dataset.num_rows()
+                      ? fmt::format("{} of ", learnt_from)
+                      : "",
                   report::Count(train.residuals.n, "row"),
-                  error.WithUnit(train.rmse)));
+                  error.WithUnit(train.rmse),
+                  learnt_from < dataset.num_rows() ? "all" : "these"));
   constexpr Eigen::Index kMostTerms = 12;
   if (arguments.details || fitted.model->num_parameters() <= kMostTerms + 1) {
     say(data::Printable(fitted.equation, fitted.equation.size()));

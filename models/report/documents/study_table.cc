@@ -163,6 +163,9 @@ void ComponentScreen::Leaderboard() {
                          record_.display.unit);
   }
   legend.push_back(where + ".");
+  if (std::string drawn = DrawnRowsWords(view_); !drawn.empty()) {
+    legend.push_back(std::move(drawn));
+  }
   if (!options_.all && view_.models.size() > kMostRows) {
     legend.push_back(
         fmt::format("{} more with --all.", view_.models.size() - kMostRows));

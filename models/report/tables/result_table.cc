@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "data/text.h"
 #include "models/report/plot.h"
@@ -354,6 +355,24 @@ std::string UnseenWords(const ReportView& view) {
   return holdout->another_file ? "another file" : "held-out rows";
 }
 
+std::string DrawnRowsWords(const ReportView& view) {
+  std::vector<std::string> names;
+  std::int64_t most = 0;
+  for (const ModelRecord* model : view.models) {
+    if (!model->final || !model->final->choices) continue;
+    for (const auto& [option, value] : *model->final->choices) {
+      if (option != "rows") continue;
+      names.push_back(model->name);
+      most = std::max(most, std::get<std::int64_t>(value));
+    }
+  }
+  if (names.empty()) return "";
+  return fmt::format("{} learnt from {} of {} rows (all by rows=all).",
+                     fmt::join(names, ", "),
+                     most,
+                     view.component->data.rows);
+}
+
 Table TerminalLeaderboard(const ReportView& view, std::size_t most_rows) {
   const ComponentRecord& component = *view.component;
   std::vector<Slot> slots = SlotsOf({"model"});
@@ -510,6 +529,9 @@ Table PageLeaderboard(const ReportView& view) {
     AddRow(*view.component, *model, slots, "", &table);
     if (!model->why) continue;
     table.note += fmt::format("{} failed: {}. ", model->name, *model->why);
+  }
+  if (const std::string drawn = DrawnRowsWords(view); !drawn.empty()) {
+    table.note += drawn + " ";
   }
   table.note += fmt::format("{}.", kIntervalCoverage);
   if (table.rows.empty()) table.missing = "No model was fitted.";

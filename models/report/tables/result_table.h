@@ -30,6 +30,10 @@ inline constexpr std::size_t kProvenColumn = 4;
 /// "unseen cycle", "another file", "held-out rows": what decides.
 std::string UnseenWords(const ReportView& view);
 
+/// Which models learnt from a part of the rows, and how to have all; "" where
+/// none did.
+std::string DrawnRowsWords(const ReportView& view);
+
 /// A row per model under the hold-outs, the decisive one first: errors,
 /// significance, goal, cost.
 Table PageLeaderboard(const ReportView& view);

@@ -406,6 +406,9 @@ TEST(NetRecipe, TrainsOnAShareOfManyRows) {
       FitSpec("net:scg:rows=100:iterations=5:hidden=2", dataset);
   EXPECT_THAT(some.remarks,
               ::testing::Contains(HasSubstr("trained on 100 of 397 rows")));
+  ASSERT_THAT(some.choices, ::testing::SizeIs(1));
+  EXPECT_EQ(some.choices[0].key, "rows");
+  EXPECT_EQ(std::get<std::int64_t>(some.choices[0].value), 100);
   // What it was trained for is the range of all rows.
   const FittedModel all =
       FitSpec("net:scg:rows=all:iterations=5:hidden=2", dataset);

@@ -90,6 +90,13 @@ TEST(Memorisation, TellsANetThatLearnsNoiseFromOneThatCannot) {
   EXPECT_EQ(bound.why_not, "");
 }
 
+TEST(Memorisation, CountsTheRowsThatWereLearntFrom) {
+  const Memorisation found =
+      Assess("net:scg:rows=100:iterations=5:hidden=2", ShippedMeasurements());
+  // 2 inputs: 2 * 3 + 3 weights.
+  EXPECT_DOUBLE_EQ(found.weights_per_row, 9.0 / 100.0);
+}
+
 TEST(Memorisation, ClassifiesByTheLargerShare) {
   struct Case {
     double shuffled_r2;

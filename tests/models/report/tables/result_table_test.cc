@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "models/report/report.h"
 #include "tests/models/report/report_document.h"
 
 namespace errmap::report {
@@ -50,6 +51,20 @@ TEST(TerminalLeaderboard, AlwaysHoldsTheRecommended) {
   const Table table = TerminalLeaderboard(ViewOf(record.components[0]), 1);
   EXPECT_EQ(table.rows.size(), 1U);
   EXPECT_EQ(table.marked, 0U);
+}
+
+TEST(DrawnRowsWords, NameWhatLearntFromAPart) {
+  models::StudyRecord record = Recorded(MakeReportDocument());
+  models::ComponentRecord& component = record.components[0];
+  EXPECT_EQ(DrawnRowsWords(ViewOf(component)), "");
+  component.data.rows = 28560;
+  component.models[2].final->choices =
+      models::ByName<models::OptionValue>{{"rows", std::int64_t{19992}}};
+  const std::string words =
+      "net:scg learnt from 19992 of 28560 rows (all by rows=all).";
+  EXPECT_EQ(DrawnRowsWords(ViewOf(component)), words);
+  EXPECT_THAT(ScreenText(record, 1000), HasSubstr(words));
+  EXPECT_THAT(PageLeaderboard(ViewOf(component)).note, StartsWith(words));
 }
 
 // What the same model is said to have in each of the three tables.
