@@ -125,8 +125,7 @@ class Dataset {
 
  private:
   bool reads_log() const {
-    return parts_.input_values.cols() == 0 && num_inputs() > 0 &&
-           parts_.log != nullptr;
+    return parts_.log && parts_.input_values.cols() == 0 && num_inputs() > 0;
   }
 
   Parts parts_;

@@ -16,7 +16,7 @@ struct PredictionsFile {
 };
 
 /// One error component to be mapped, as the user asks for it: empty texts and
-/// NaN leave the choice to the defaults of the command line.
+/// NaN leave the choice to the defaults (models/study/study_defaults.h).
 struct ComponentConfig {
   std::string name;  // default: the data file's name without its ending
   std::string data;  // path as it can be opened

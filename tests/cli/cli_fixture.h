@@ -2,8 +2,6 @@
 
 // What the suites of the program share: fixture, tables, expected statuses.
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <string>
 #include <vector>

@@ -20,17 +20,6 @@ std::string_view ToString(GoalStanding standing) {
   return "";
 }
 
-std::optional<GoalStanding> GoalStandingFromString(std::string_view word) {
-  for (const GoalStanding standing : {GoalStanding::kNone,
-                                      GoalStanding::kNotJudged,
-                                      GoalStanding::kMet,
-                                      GoalStanding::kMetAfterRezeroing,
-                                      GoalStanding::kMissed}) {
-    if (ToString(standing) == word) return standing;
-  }
-  return std::nullopt;
-}
-
 GoalJudgement JudgeGoal(double goal,
                         const stats::ErrorMetrics& test,
                         bool complete) {

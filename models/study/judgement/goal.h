@@ -1,7 +1,6 @@
 #pragma once
 
 #include <limits>
-#include <optional>
 #include <string_view>
 
 #include "stats/error_metrics.h"
@@ -19,8 +18,6 @@ enum class GoalStanding {
 
 /// "no goal", "not judged", "met", "met after re-zeroing", "not met".
 std::string_view ToString(GoalStanding standing);
-/// Its inverse; nothing for other words.
-std::optional<GoalStanding> GoalStandingFromString(std::string_view word);
 
 /// A goal with what was held against it, in the target's unit.
 struct GoalJudgement {

@@ -46,16 +46,5 @@ TEST(Goal, IsNotJudgedWithoutOneOrOnAnIncompleteStudy) {
             GoalStanding::kNotJudged);
 }
 
-TEST(Goal, ReadsItsOwnWords) {
-  for (const GoalStanding standing : {GoalStanding::kNone,
-                                      GoalStanding::kNotJudged,
-                                      GoalStanding::kMet,
-                                      GoalStanding::kMetAfterRezeroing,
-                                      GoalStanding::kMissed}) {
-    EXPECT_EQ(GoalStandingFromString(ToString(standing)), standing);
-  }
-  EXPECT_FALSE(GoalStandingFromString("perhaps"));
-}
-
 }  // namespace
 }  // namespace errmap::models
