@@ -22,6 +22,10 @@ inline constexpr int kInterrupted = 130;
 inline constexpr double kUmPerMm = 1000.0;
 
 inline const std::string kDown = SetPath("nistir5367_xdisp_down.csv");
+// A net that trains on `kDown` for minutes on any machine: fewer nodes are soon
+// at the floor of rounding and end by themselves.
+inline const std::string kEndlessNet =
+    "net:scg:hidden=600:iterations=100000000";
 inline const std::string kAppendixB = SetPath("nistir5367_appendix_b.csv");
 
 class Cli : public CliTest {

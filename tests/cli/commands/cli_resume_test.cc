@@ -211,7 +211,7 @@ TEST_F(Resume, RefusesAFolderThatAnotherRunIsUsing) {
                 {"compare",
                  kDown,
                  "--model",
-                 "net:scg:hidden=60:iterations=100000000",
+                 kEndlessNet,
                  "--out",
                  "study"});
   ASSERT_TRUE(first.WaitUntilInterruptible());

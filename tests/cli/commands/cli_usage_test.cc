@@ -145,12 +145,11 @@ void WaitForWork(const Process& process, double seconds) {
 }
 
 TEST_F(Cli, InterruptedRunShowsAndWritesWhatItHas) {
-  const std::string endless = "net:scg:iterations=100000000";
   Process process(scratch_.path(),
                   {"compare",
                    kDown,
                    "--models",
-                   endless,
+                   kEndlessNet,
                    "--holdout",
                    "every:3",
                    "--goal",
@@ -164,7 +163,7 @@ TEST_F(Cli, InterruptedRunShowsAndWritesWhatItHas) {
   process.Interrupt();
   const Outcome outcome = process.Wait();
   EXPECT_EQ(outcome.status, kInterrupted);
-  EXPECT_THAT(outcome.out, HasSubstr(endless));
+  EXPECT_THAT(outcome.out, HasSubstr(kEndlessNet));
   EXPECT_THAT(outcome.err, HasSubstr("errmap: interrupted"));
   const Json results = Json::parse(Read("o/results.json"));
   EXPECT_EQ(results["interrupted"], true);
@@ -181,12 +180,7 @@ TEST_F(Cli, InterruptedRunShowsAndWritesWhatItHas) {
 
 TEST_F(Cli, InterruptedFitWritesTheBestMapSoFar) {
   Process process(scratch_.path(),
-                  {"fit",
-                   kDown,
-                   "--model",
-                   "net:scg:iterations=100000000",
-                   "-o",
-                   "m.json"});
+                  {"fit", kDown, "--model", kEndlessNet, "-o", "m.json"});
   ASSERT_TRUE(process.WaitUntilInterruptible());
   WaitForWork(process, 0.3);
   process.Interrupt();
