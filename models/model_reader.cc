@@ -58,6 +58,16 @@ Filter ReadFilter(const Node& node) {
               "'");
 }
 
+// The first maps held the later reading and do not say so.
+Between ReadBetween(const std::optional<Node>& node) {
+  if (!node) return Between::kHeld;
+  const std::string between = node->Text();
+  for (const Between known : {Between::kLinear, Between::kHeld}) {
+    if (between == ToString(known)) return known;
+  }
+  node->Refuse("must be 'linear' or 'held', found '" + between + "'");
+}
+
 History ReadHistory(const Node& node, const std::vector<TrainedInput>& inputs) {
   History history;
   history.time_unit = node.At("time_unit").Text();
@@ -73,7 +83,10 @@ History ReadHistory(const Node& node, const std::vector<TrainedInput>& inputs) {
     input.column = ReadColumn(element);
     input.of = element.At("of").Text();
     input.filter = ReadFilter(element.At("filter"));
-    if (input.filter == Filter::kEma) input.tau = element.At("tau").Number();
+    if (input.filter == Filter::kEma) {
+      input.tau = element.At("tau").Number();
+      input.between = ReadBetween(element.Find("between"));
+    }
     history.derived.push_back(std::move(input));
   }
   for (const Node& name : node.At("form_inputs").Elements()) {

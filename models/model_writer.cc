@@ -25,7 +25,10 @@ Json ToJson(const History& history) {
                   {"unit", input.column.unit.symbol},
                   {"of", input.of},
                   {"filter", ToString(input.filter)}};
-    if (input.filter == Filter::kEma) entry["tau"] = input.tau;
+    if (input.filter == Filter::kEma) {
+      entry["tau"] = input.tau;
+      entry["between"] = ToString(input.between);
+    }
     derived.push_back(std::move(entry));
   }
   return {{"time_unit", history.time_unit},

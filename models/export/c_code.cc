@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "models/export/safe_names.h"
+#include "models/history/lag.h"
 
 namespace errmap::models {
 namespace {
@@ -35,8 +36,8 @@ class CLanguage final : public Language {
                    bool single) const override {
     const char* end = single ? "f" : "";
     switch (function) {
-      case Function::kGain:
-        return fmt::format("{}_gain({})", name_, argument);
+      case Function::kMeanDecay:
+        return fmt::format("{}_mean_decay({})", name_, argument);
       case Function::kSine:
         return fmt::format("sin{}({})", end, argument);
       case Function::kCosine:
@@ -287,18 +288,18 @@ std::string CWriter::Tables() const {
 
 std::string CWriter::Helpers() const {
   std::string text;
-  if (program_.Uses(Op::kGain)) {
+  if (program_.Uses(Op::kMeanDecay)) {
     text += fmt::format(R"(
-/* 1 - exp(-u); of a short step by its series, since the difference would keep
- * no digits. */
-static double {0}_gain(double u) {{
-  if (u >= {1}) return 1.0 - exp(-u);
+/* (1 - exp(-u)) / u; of a short step by its series, since the difference would
+ * keep no digits. */
+static double {0}_mean_decay(double u) {{
+  if (u >= {1}) return (1.0 - exp(-u)) / u;
   return {2};
 }}
 )",
                         name_,
-                        RealText(kGainSeriesBelow),
-                        GainSeries("u"));
+                        RealText(kMeanDecaySeriesBelow),
+                        MeanDecaySeries("u"));
   }
   if (program_.Uses(Op::kSigmoid)) {
     const bool single = precision_ == Precision::kSingle;

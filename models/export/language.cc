@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "models/export/safe_names.h"
+#include "models/history/lag.h"
 #include "models/version.h"
 
 namespace errmap::models {
@@ -114,10 +115,14 @@ std::string Language::ValueText(const Instruction& it, bool single) const {
       return a + " * " + c + Plus(it.d, single);
     case Op::kAccumulate:
       return to + " + " + a + " * " + c;
+    case Op::kMeanDecay:
+      return Call(Function::kMeanDecay, Place(it.a) + " / " + c, false);
     case Op::kGain:
-      return Call(Function::kGain, Place(it.a) + " / " + c, false);
+      return a + " / " + c + " * " + b;
     case Op::kLag:
       return to + " + " + a + " * (" + b + " - " + to + ")";
+    case Op::kAddProduct:
+      return to + " + " + a + " * " + b;
     case Op::kSine:
       return Call(Function::kSine, a + " * " + c, single);
     case Op::kCosine:
@@ -179,12 +184,12 @@ Lines AboutMap(const MapProgram& program,
   return lines;
 }
 
-std::string GainSeries(const std::string& u) {
+std::string MeanDecaySeries(const std::string& u) {
   std::string text = "1.0";
-  for (int k = kGainSeriesTerms; k >= 2; --k) {
+  for (int k = kMeanDecaySeriesTerms; k >= 2; --k) {
     text = fmt::format("(1.0 - {} / {}.0 * {})", u, k, text);
   }
-  return u + " * " + text;
+  return text;
 }
 
 Lines Wrapped(const std::vector<std::string>& items,

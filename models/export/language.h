@@ -27,7 +27,7 @@ class Language {
               const Instructions& instructions) const;
 
  protected:
-  enum class Function { kGain, kSine, kCosine, kSigmoid };
+  enum class Function { kMeanDecay, kSine, kCosine, kSigmoid };
 
   /// Arrays named as in C: "x[2]", "dt_s", "s[0]", "e".
   virtual std::string Place(Operand operand) const;
@@ -74,8 +74,8 @@ Lines AboutMap(const MapProgram& program,
                const std::string& name,
                Precision precision);
 
-/// The series of FilterGain in `u`, nested, for languages without expm1.
-std::string GainSeries(const std::string& u);
+/// The series of MeanDecay in `u`, nested, for languages without expm1.
+std::string MeanDecaySeries(const std::string& u);
 
 /// `items` with commas between them, in lines of at most 78 characters, each
 /// after `indent`.

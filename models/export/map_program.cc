@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -30,14 +31,26 @@ Bounds Widened(double min, double max, double margin) {
 
 // ---- From readings to what the form reads ----
 
+// What linear filters need of the input that they lag.
+struct Course {
+  Operand source = {};
+  Operand last = {};             // state: the input a step before
+  Operand change = {};           // by this step
+  bool source_has_zero = false;  // which leaps where a zero is taken
+};
+
 // A derived input with the places of its numbers.
 struct Derivation {
   Filter filter = Filter::kEma;
   Operand source = {};
   Operand state = {};  // of kEma and kZero
   Operand value = {};  // kEma: the state itself
-  Operand gain = {};   // of kEma
+  Operand decay = {};  // of kEma
+  /// Of kEma with Between::kLinear.
+  std::optional<std::size_t> course = std::nullopt;
   double radians = 1.0;
+
+  Operand ramp() const { return {Space::kGain, decay.index + 1}; }
 };
 
 // The history of a map laid out in spaces.
@@ -61,6 +74,7 @@ class Layout {
   }
 
   const std::vector<Derivation>& derivations() const { return derivations_; }
+  const std::vector<Course>& courses() const { return courses_; }
   const std::vector<double>& taus() const { return taus_; }
   // What the form reads, before any guard.
   const std::vector<Operand>& form() const { return form_; }
@@ -78,7 +92,10 @@ class Layout {
       case Filter::kEma:
         derivation.state = {Space::kState, num_states_++};
         derivation.value = derivation.state;
-        derivation.gain = {Space::kGain, GainOf(input.tau)};
+        derivation.decay = DecayOf(input.tau);
+        if (input.between == Between::kLinear) {
+          derivation.course = CourseOf(source.place);
+        }
         break;
       case Filter::kZero:
         derivation.state = {Space::kState, num_states_++};
@@ -94,14 +111,33 @@ class Layout {
     derivations_.push_back(derivation);
   }
 
-  int GainOf(double tau) {
-    const auto found = std::ranges::find(taus_, tau);
-    if (found == taus_.end()) taus_.push_back(tau);
-    return static_cast<int>(std::ranges::find(taus_, tau) - taus_.begin());
+  Operand DecayOf(double tau) {
+    auto found = std::ranges::find(taus_, tau);
+    if (found == taus_.end()) found = taus_.insert(taus_.end(), tau);
+    return {Space::kGain, 2 * static_cast<int>(found - taus_.begin())};
+  }
+
+  std::size_t CourseOf(Operand source) {
+    auto found = std::ranges::find(courses_, source, &Course::source);
+    if (found == courses_.end()) {
+      found = courses_.insert(courses_.end(),
+                              {.source = source,
+                               .last = {Space::kState, num_states_++},
+                               .change = {Space::kDerived, num_values_++},
+                               .source_has_zero = HasZero(source)});
+    }
+    return static_cast<std::size_t>(found - courses_.begin());
+  }
+
+  bool HasZero(Operand value) const {
+    const auto found =
+        std::ranges::find(derivations_, value, &Derivation::value);
+    return found != derivations_.end() && found->filter == Filter::kZero;
   }
 
   std::map<std::string, Known> known_;
   std::vector<Derivation> derivations_;
+  std::vector<Course> courses_;
   std::vector<double> taus_;
   std::vector<Operand> form_;
   int num_states_ = 0;
@@ -110,23 +146,34 @@ class Layout {
 
 enum class Moment { kBegin, kAdvance, kZero, kEvaluate };
 
-std::optional<Instruction> StateUpdate(const Derivation& derivation,
-                                       Moment moment) {
+// As in models/history/lag.h.
+Instructions Lag(const Layout& layout, const Derivation& derivation) {
+  Instruction decay{.op = Op::kLag,
+                    .to = derivation.state,
+                    .a = derivation.decay,
+                    .b = derivation.source};
+  if (!derivation.course) return {decay};
+  const Course& course = layout.courses()[*derivation.course];
+  decay.b = course.last;
+  return {decay,
+          {.op = Op::kAddProduct,
+           .to = derivation.state,
+           .a = derivation.ramp(),
+           .b = course.change}};
+}
+
+Instructions StateUpdate(const Layout& layout,
+                         const Derivation& derivation,
+                         Moment moment) {
   const bool is_filter = derivation.filter == Filter::kEma;
-  if (!is_filter && derivation.filter != Filter::kZero) return std::nullopt;
-  if (is_filter && moment == Moment::kAdvance) {
-    return Instruction{.op = Op::kLag,
-                       .to = derivation.state,
-                       .a = derivation.gain,
-                       .b = derivation.source};
-  }
+  if (!is_filter && derivation.filter != Filter::kZero) return {};
+  if (is_filter && moment == Moment::kAdvance) return Lag(layout, derivation);
   // The first reading is the filter's steady state; a zero is where it is
   // taken.
   if (moment == Moment::kBegin || (!is_filter && moment == Moment::kZero)) {
-    return Instruction{
-        .op = Op::kCopy, .to = derivation.state, .a = derivation.source};
+    return {{.op = Op::kCopy, .to = derivation.state, .a = derivation.source}};
   }
-  return std::nullopt;
+  return {};
 }
 
 std::optional<Instruction> ValueOf(const Derivation& derivation) {
@@ -149,12 +196,13 @@ std::optional<Instruction> ValueOf(const Derivation& derivation) {
       .c = derivation.radians};
 }
 
-// Derived values that neither the state nor the form (`read`) needs go.
+// Derived values and gains that neither the state nor the form (`read`) needs
+// go.
 Instructions WithoutUnread(const Instructions& instructions,
                            std::vector<Operand> read) {
   Instructions kept;
   for (auto it = instructions.rbegin(); it != instructions.rend(); ++it) {
-    if (it->to.space == Space::kDerived &&
+    if ((it->to.space == Space::kDerived || it->to.space == Space::kGain) &&
         std::ranges::find(read, it->to) == read.end()) {
       continue;
     }
@@ -166,21 +214,48 @@ Instructions WithoutUnread(const Instructions& instructions,
   return kept;
 }
 
+// As in models/history/lag.h.
+void AddGains(const std::vector<double>& taus, Instructions* instructions) {
+  constexpr Operand kTime{Space::kTime, 0};
+  int index = 0;
+  for (const double tau : taus) {
+    const Operand decay{Space::kGain, index++};
+    const Operand ramp{Space::kGain, index++};
+    instructions->push_back(
+        {.op = Op::kMeanDecay, .to = ramp, .a = kTime, .c = tau});
+    instructions->push_back(
+        {.op = Op::kGain, .to = decay, .a = kTime, .b = ramp, .c = tau});
+    instructions->push_back(
+        {.op = Op::kLinear, .to = ramp, .a = ramp, .c = -1.0, .d = 1.0});
+  }
+}
+
 Instructions Derive(const Layout& layout, Moment moment) {
   Instructions instructions;
   if (moment == Moment::kAdvance) {
-    for (std::size_t i = 0; i < layout.taus().size(); ++i) {
-      instructions.push_back({.op = Op::kGain,
-                              .to = {Space::kGain, AsInt(i)},
-                              .a = {Space::kTime, 0},
-                              .c = layout.taus()[i]});
-    }
+    AddGains(layout.taus(), &instructions);
   }
+  std::vector<bool> is_followed(layout.courses().size());
   for (const Derivation& derivation : layout.derivations()) {
-    if (const auto update = StateUpdate(derivation, moment)) {
-      instructions.push_back(*update);
+    if (moment == Moment::kAdvance && derivation.course &&
+        !is_followed[*derivation.course]) {
+      is_followed[*derivation.course] = true;
+      const Course& course = layout.courses()[*derivation.course];
+      instructions.push_back({.op = Op::kSubtract,
+                              .to = course.change,
+                              .a = course.source,
+                              .b = course.last});
     }
+    std::ranges::copy(StateUpdate(layout, derivation, moment),
+                      std::back_inserter(instructions));
     if (const auto value = ValueOf(derivation)) instructions.push_back(*value);
+  }
+  for (const Course& course : layout.courses()) {
+    const bool leaps = moment == Moment::kZero && course.source_has_zero;
+    if (moment == Moment::kBegin || moment == Moment::kAdvance || leaps) {
+      instructions.push_back(
+          {.op = Op::kCopy, .to = course.last, .a = course.source});
+    }
   }
   return WithoutUnread(
       instructions,

@@ -16,7 +16,7 @@ enum class Space {
   kReading,  // an input as the sensor gives it
   kTime,     // seconds since the step before
   kState,    // kept from step to step: filters and zeros
-  kGain,     // of the filters of one time constant, in this step
+  kGain,     // of the filters of one time constant, in this step: two each
   kDerived,  // computed from readings and state
   kForm,     // an input of the form, clipped
   kScaled,   // the same, scaled for a member
@@ -52,8 +52,10 @@ enum class Op {
   kTimesPlusTerm,  // to = a * b + (the kTerm after `to`)
   kLinear,         // to = c * a + d
   kAccumulate,     // to = to + c * a
-  kGain,           // to = 1 - exp(-a / c)
+  kMeanDecay,      // to = (1 - exp(-a / c)) / (a / c), 1 where a = 0
+  kGain,           // to = a / c * b
   kLag,            // to = to + a * (b - to)
+  kAddProduct,     // to = to + a * b
   kSine,           // to = sin(c * a)
   kCosine,         // to = cos(c * a)
   kFloor,          // where to < c: to = c, and clipped if `guards`

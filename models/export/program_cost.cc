@@ -26,10 +26,18 @@ void Count(const MapProgram& program,
       ++cost->additions;
       ++cost->multiplications;
       return;
-    case Op::kGain:
-      ++cost->divisions;
+    case Op::kMeanDecay:
+      cost->divisions += 2;
       ++cost->exponentials;
       ++cost->additions;
+      return;
+    case Op::kGain:
+      ++cost->divisions;
+      ++cost->multiplications;
+      return;
+    case Op::kAddProduct:
+      ++cost->additions;
+      ++cost->multiplications;
       return;
     case Op::kLag:
       cost->additions += 2;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "models/export/safe_names.h"
+#include "models/history/lag.h"
 
 namespace errmap::models {
 namespace {
@@ -27,8 +28,8 @@ class PythonLanguage final : public Language {
                    const std::string& argument,
                    bool /*single*/) const override {
     switch (function) {
-      case Function::kGain:
-        return "_gain(" + argument + ")";
+      case Function::kMeanDecay:
+        return "_mean_decay(" + argument + ")";
       case Function::kSine:
         return "math.sin(" + argument + ")";
       case Function::kCosine:
@@ -127,17 +128,17 @@ std::string PythonWriter::Tables() const {
 
 std::string PythonWriter::Helpers() const {
   std::string text;
-  if (program_.Uses(Op::kGain)) {
+  if (program_.Uses(Op::kMeanDecay)) {
     text += fmt::format(R"(
 
-def _gain(u):
-    """1 - exp(-u); of a short step by its series."""
+def _mean_decay(u):
+    """(1 - exp(-u)) / u; of a short step by its series."""
     if u >= {}:
-        return 1.0 - math.exp(-u)
+        return (1.0 - math.exp(-u)) / u
     return {}
 )",
-                        RealText(kGainSeriesBelow),
-                        GainSeries("u"));
+                        RealText(kMeanDecaySeriesBelow),
+                        MeanDecaySeries("u"));
   }
   if (program_.Uses(Op::kSigmoid)) {
     text += R"(

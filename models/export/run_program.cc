@@ -2,16 +2,11 @@
 
 #include <cmath>
 
+#include "models/history/lag.h"
+
 namespace errmap::models {
 
 using Eigen::Index;
-
-double FilterGain(double u) {
-  if (u >= kGainSeriesBelow) return 1.0 - std::exp(-u);
-  double sum = 1.0;
-  for (int k = kGainSeriesTerms; k >= 2; --k) sum = 1.0 - u / k * sum;
-  return u * sum;
-}
 
 int StatusOfReadings(const MapProgram& program,
                      const Eigen::VectorXd& readings) {
@@ -118,10 +113,14 @@ void ProgramRun::Apply(const Instruction& it) {
       return set(r(r(it.c) * At(it.a)) + r(it.d));
     case Op::kAccumulate:
       return set(At(it.to) + r(r(it.c) * At(it.a)));
+    case Op::kMeanDecay:
+      return set(MeanDecay(At(it.a) / it.c));
     case Op::kGain:
-      return set(FilterGain(At(it.a) / it.c));
+      return set(At(it.a) / it.c * At(it.b));
     case Op::kLag:
       return set(At(it.to) + At(it.a) * (At(it.b) - At(it.to)));
+    case Op::kAddProduct:
+      return set(At(it.to) + At(it.a) * At(it.b));
     case Op::kSine:
       return set(std::sin(it.c * At(it.a)));
     case Op::kCosine:

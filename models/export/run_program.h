@@ -53,13 +53,4 @@ class ProgramRun {
   bool clipped_ = false;
 };
 
-/// 1 - exp(-u) for u >= 0, to a few ulp: of a step that is short against the
-/// time constant the difference would keep no digits. C, structured text and
-/// Python write the same series, since IEC 61131-3 has no expm1.
-double FilterGain(double u);
-/// Below this the series serves: its first term left out is 1e-17 of the gain.
-inline constexpr double kGainSeriesBelow = 0.0625;
-/// u (1 - u/2 (1 - u/3 (... (1 - u/kGainSeriesTerms)))).
-inline constexpr int kGainSeriesTerms = 9;
-
 }  // namespace errmap::models

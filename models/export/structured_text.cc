@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "models/export/safe_names.h"
+#include "models/history/lag.h"
 
 namespace errmap::models {
 namespace {
@@ -41,8 +42,8 @@ class StructuredTextLanguage final : public Language {
                    const std::string& argument,
                    bool /*single*/) const override {
     switch (function) {
-      case Function::kGain:
-        return fmt::format("{}_gain(U := {})", name_, argument);
+      case Function::kMeanDecay:
+        return fmt::format("{}_mean_decay(U := {})", name_, argument);
       case Function::kSine:
         return "SIN(" + argument + ")";
       case Function::kCosine:
@@ -120,24 +121,24 @@ std::string Comment(const Lines& lines) {
 
 std::string Functions(const MapProgram& program, const std::string& name) {
   std::string text;
-  if (program.Uses(Op::kGain)) {
+  if (program.Uses(Op::kMeanDecay)) {
     text += fmt::format(R"(
-FUNCTION {0}_gain : LREAL
-(* 1 - exp(-U); of a short step by its series, since the difference would
+FUNCTION {0}_mean_decay : LREAL
+(* (1 - exp(-U)) / U; of a short step by its series, since the difference would
    keep no digits. *)
 VAR_INPUT
   U : LREAL;
 END_VAR
 IF U >= {1} THEN
-  {0}_gain := 1.0 - EXP(-U);
+  {0}_mean_decay := (1.0 - EXP(-U)) / U;
 ELSE
-  {0}_gain := {2};
+  {0}_mean_decay := {2};
 END_IF;
 END_FUNCTION
 )",
                         name,
-                        RealText(kGainSeriesBelow),
-                        GainSeries("U"));
+                        RealText(kMeanDecaySeriesBelow),
+                        MeanDecaySeries("U"));
   }
   if (program.Uses(Op::kSigmoid)) {
     text += fmt::format(R"(

@@ -189,6 +189,10 @@ std::string_view ToString(Filter filter) {
   return "";
 }
 
+std::string_view ToString(Between between) {
+  return between == Between::kLinear ? "linear" : "held";
+}
+
 bool History::needs_time() const {
   return std::ranges::find(derived, Filter::kEma, &DerivedInput::filter) !=
          derived.end();

@@ -13,8 +13,8 @@ namespace errmap::models {
 
 /// What is made of an input within a session.
 enum class Filter {
-  kEma,   // y += (1 - exp(-dt / tau)) (x - y), begun at y = x: a first-order
-          // lag in steady state, exact for steps of any length
+  kEma,   // a first-order lag, dy/dt = (x - y) / tau, begun in its steady
+          // state y = x (models/history/lag.h)
   kZero,  // less its value where the session's zero is taken
   kSine,  // of an angle
   kCosine,
@@ -23,13 +23,23 @@ enum class Filter {
 /// "ema", "zero", "sine", "cosine".
 std::string_view ToString(Filter filter);
 
+/// How an input is taken to go from one reading to the next.
+enum class Between {
+  kLinear,  // straight: lags do not depend on how often readings are taken
+  kHeld,    // at once to the later one, as in files that do not say it
+};
+
+/// "linear", "held".
+std::string_view ToString(Between between);
+
 /// An input that is computed from another: a causal function of input and time
 /// within a session, the same whichever rows are held out.
 struct DerivedInput {
   data::ColumnInfo column;  // ema(t12_degC,1800s), zeroed(t12_degC)
   std::string of;           // a column of the data, or an earlier derived input
   Filter filter = Filter::kEma;
-  double tau = 0.0;  // of kEma: above 0, in the unit of time
+  double tau = 0.0;                    // of kEma: above 0, in the unit of time
+  Between between = Between::kLinear;  // of kEma
 };
 
 /// The derived inputs of a map, and what its form reads.

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "models/history/lag.h"
+
 namespace errmap::models {
 namespace {
 
@@ -47,9 +49,10 @@ HistoryState::HistoryState(const History& history,
                              input.column.name,
                              input.tau));
         }
-        node.gain = static_cast<std::size_t>(
+        node.tau = static_cast<std::size_t>(
             std::ranges::find(taus_, input.tau) - taus_.begin());
-        if (node.gain == taus_.size()) taus_.push_back(input.tau);
+        if (node.tau == taus_.size()) taus_.push_back(input.tau);
+        node.between = input.between;
         break;
       case Filter::kZero:
         break;
@@ -77,20 +80,22 @@ void HistoryState::Start(const Eigen::Ref<const Eigen::VectorXd>& readings) {
   values_.setConstant(kNaN);
   memory_.setConstant(kNaN);
   SetReadings(readings);
-  std::ranges::fill(gains_, 0.0);
   started_ = true;
-  Update();
+  Update(false);
 }
 
 void HistoryState::Step(double dt,
                         const Eigen::Ref<const Eigen::VectorXd>& readings) {
   if (!started_) Refuse("Step before Start");
   if (!(dt >= 0.0)) Refuse(fmt::format("a step of {}; time goes on", dt));
+  previous_ = values_;
   SetReadings(readings);
   for (std::size_t i = 0; i < taus_.size(); ++i) {
-    gains_[i] = -std::expm1(-dt / taus_[i]);
+    const double u = dt / taus_[i];
+    const double mean_decay = MeanDecay(u);
+    gains_[i] = {.decay = u * mean_decay, .ramp = 1.0 - mean_decay};
   }
-  Update();
+  Update(true);
 }
 
 void HistoryState::TakeZero() {
@@ -99,8 +104,7 @@ void HistoryState::TakeZero() {
       memory_[static_cast<Index>(i)] = kNaN;
     }
   }
-  std::ranges::fill(gains_, 0.0);
-  Update();
+  Update(false);
 }
 
 void HistoryState::SetReadings(
@@ -114,7 +118,7 @@ void HistoryState::SetReadings(
   }
 }
 
-void HistoryState::Update() {
+void HistoryState::Update(bool passes) {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];
     const double x = values_[node.source];
@@ -122,9 +126,14 @@ void HistoryState::Update() {
     double& value = values_[num_columns_ + static_cast<Index>(i)];
     switch (node.filter) {
       case Filter::kEma:
-        // The first number begins the filter in its steady state.
-        memory =
-            std::isnan(memory) ? x : memory + gains_[node.gain] * (x - memory);
+        if (std::isnan(memory)) {
+          memory = x;  // the first number: in its steady state
+        } else if (passes) {
+          const Gains& gains = gains_[node.tau];
+          const double from =
+              node.between == Between::kLinear ? previous_[node.source] : x;
+          memory += gains.decay * (from - memory) + gains.ramp * (x - from);
+        }
         value = memory;
         break;
       case Filter::kZero:
@@ -159,9 +168,8 @@ void HistoryState::set_state(const Eigen::VectorXd& state) {
   }
   values_.head(num_columns_) = state.head(num_columns_);
   memory_ = state.tail(memory_.size());
-  std::ranges::fill(gains_, 0.0);
   started_ = true;
-  Update();
+  Update(false);
 }
 
 }  // namespace errmap::models

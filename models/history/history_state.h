@@ -52,22 +52,31 @@ class HistoryState {
   struct Node {
     Filter filter = Filter::kEma;
     Eigen::Index source = 0;  // into values_
-    std::size_t gain = 0;     // of kEma: into taus_
-    double factor = 1.0;      // of sine and cosine: radians per unit
+    std::size_t tau = 0;      // of kEma: into taus_
+    Between between = Between::kLinear;
+    double factor = 1.0;  // of sine and cosine: radians per unit
   };
 
   void SetReadings(const Eigen::Ref<const Eigen::VectorXd>& readings);
-  void Update();  // everything that the memory says
+  /// Everything that the memory says, which goes on by gains_ where time
+  /// `passes`.
+  void Update(bool passes);
 
   Eigen::Index num_columns_ = 0;
   std::vector<Node> nodes_;
-  std::vector<double> taus_;   // distinct
-  std::vector<double> gains_;  // of the step at hand
+  /// Of the step at hand, as in models/history/lag.h.
+  struct Gains {
+    double decay = 0.0;  // u m
+    double ramp = 0.0;   // 1 - m
+  };
+  std::vector<double> taus_;  // distinct
+  std::vector<Gains> gains_;
   std::vector<Eigen::Index> form_sources_;
   std::vector<data::ColumnInfo> form_columns_;
   bool started_ = false;
-  Eigen::VectorXd values_;  // (columns + derived inputs)
-  Eigen::VectorXd memory_;  // (derived inputs) filter or zero
+  Eigen::VectorXd values_;    // (columns + derived inputs)
+  Eigen::VectorXd previous_;  // the same before the step at hand
+  Eigen::VectorXd memory_;    // (derived inputs) filter or zero
   Eigen::VectorXd form_inputs_;
 };
 

@@ -166,7 +166,7 @@ ERRMAP_MEMBERS(RegressionReport,
                mean_squared_errors,
                standard_errors,
                notes)
-ERRMAP_MEMBERS(DerivedInput, column, of, filter, tau)
+ERRMAP_MEMBERS(DerivedInput, column, of, filter, tau, between)
 ERRMAP_MEMBERS(History, time_unit, session, derived, form_inputs, latest_start)
 ERRMAP_MEMBERS(Guards,
                input_margin,

@@ -36,8 +36,14 @@ std::string Days(int days, int first_row = 0, int end_row = kRowsPerDay) {
     double t1 = lagged;
     for (int row = 0; row < kRowsPerDay; ++row) {
       if (row > 0) {
+        const double before = t1;
         t1 += 0.3 * std::sin(0.3 * row + day);
-        lagged += (1.0 - std::exp(-60.0 / 600.0)) * (t1 - lagged);
+        // Of a ramp, exactly.
+        constexpr double kTau = 600.0;
+        constexpr double kStep = 60.0;
+        const double behind = kTau * (t1 - before) / kStep;
+        lagged =
+            t1 - behind + std::exp(-kStep / kTau) * (lagged - before + behind);
       }
       if (row < first_row || row >= end_row) continue;
       text += std::to_string(day) + "," + std::to_string(60 * row) + "," +

@@ -208,12 +208,7 @@ TEST_F(Resume, NeedsAFolder) {
 
 TEST_F(Resume, RefusesAFolderThatAnotherRunIsUsing) {
   Process first(scratch_.path(),
-                {"compare",
-                 kDown,
-                 "--model",
-                 kEndlessNet,
-                 "--out",
-                 "study"});
+                {"compare", kDown, "--model", kEndlessNet, "--out", "study"});
   ASSERT_TRUE(first.WaitUntilInterruptible());
   for (int poll = 0; poll < 3000 && !Exists("study/journal.jsonl"); ++poll) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

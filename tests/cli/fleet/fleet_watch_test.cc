@@ -27,6 +27,8 @@ class Watch : public FleetTest {
                                    "8",
                                    "--points",
                                    "0",
+                                   "--seed",
+                                   "3",
                                    "--quiet"};
     words.insert(words.end(), more.begin(), more.end());
     ASSERT_EQ(Run(words).status, 0);

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "models/history/history_state.h"
+#include "models/history/lag.h"
 #include "models/history/with_history.h"
 #include "models/recipe_catalog.h"
 #include "tests/models/history/history_data.h"
@@ -76,19 +77,57 @@ TEST(History, NamesWhatItDerives) {
   EXPECT_EQ(CosineOf(ColumnNamed("c_deg")).column.unit.symbol, "");
 }
 
-// Of a step at t = 0 the filter has 1 - exp(-t / tau) at t, however time is
-// cut into steps.
-TEST(History, FollowsAStepExactlyAtIrregularTimes) {
-  VectorXd time(6);
-  time << 0.0, 10.0, 11.0, 40.0, 400.0, 400.5;
-  VectorXd values = VectorXd::Ones(6);
-  values[0] = 0.0;
-  constexpr double kTau = 100.0;
-  const MatrixXd derived =
-      DeriveInputs(OneColumn("t1_degC", values, time),
-                   Of({Ema(ColumnNamed("t1_degC"), kTau, "s")}));
-  for (Index row = 0; row < time.size(); ++row) {
-    EXPECT_NEAR(derived(row, 0), 1.0 - std::exp(-time[row] / kTau), kRoundOff);
+// A filter of one column at rows with these times.
+VectorXd Filtered(const VectorXd& values,
+                  const VectorXd& time,
+                  double tau,
+                  Between between = Between::kLinear) {
+  DerivedInput filter = Ema(ColumnNamed("t1_degC"), tau, "s");
+  filter.between = between;
+  return DeriveInputs(OneColumn("t1_degC", values, time), Of({filter}));
+}
+
+constexpr double kTau = 100.0;
+
+// Of a step at t = 0 the filter has 1 - exp(-t / tau) at t, of a ramp
+// t - tau (1 - exp(-t / tau)), however time is cut into steps.
+TEST(History, FollowsAStepAndARampExactlyAtIrregularTimes) {
+  VectorXd time(7);
+  time << 0.0, 0.0, 10.0, 11.0, 40.0, 400.0, 400.5;
+  VectorXd step = VectorXd::Ones(7);
+  step[0] = 0.0;
+  const Eigen::ArrayXd response = 1.0 - (-time.array() / kTau).exp();
+  EXPECT_LT((Filtered(step, time, kTau).array() - response).abs().maxCoeff(),
+            kRoundOff);
+  EXPECT_LT(
+      (Filtered(time, time, kTau).array() - (time.array() - kTau * response))
+          .abs()
+          .maxCoeff(),
+      1e3 * kRoundOff);
+}
+
+// What a map learns from readings every tau / 2 holds in a control that takes
+// them every tau / 100. Where a reading is taken to hold since the one before,
+// as in the first maps, the filter is then late by up to a quarter of tau.
+TEST(History, HardlyDependsOnHowOftenReadingsAreTaken) {
+  constexpr Index kEvery = 50;
+  const VectorXd time = VectorXd::LinSpaced(2001, 0.0, 20.0 * kTau);
+  const VectorXd values = (time.array() / (2.0 * kTau)).sin();
+  const auto few = Eigen::seqN(0, 2000 / kEvery + 1, kEvery);
+  const auto difference = [&](Between between) {
+    const VectorXd often = Filtered(values, time, kTau, between);
+    const VectorXd seldom = Filtered(values(few), time(few), kTau, between);
+    return (often(few) - seldom).cwiseAbs().maxCoeff();
+  };
+  EXPECT_LT(difference(Between::kLinear), 0.006);
+  EXPECT_GT(difference(Between::kHeld), 0.1);
+}
+
+TEST(MeanDecay, KeepsItsDigitsInShortSteps) {
+  EXPECT_EQ(MeanDecay(0.0), 1.0);
+  for (double u = 1e-12; u < 100.0; u *= 1.7) {
+    const double mean = -std::expm1(-u) / u;
+    EXPECT_NEAR(MeanDecay(u), mean, 2e-15 * mean) << u;
   }
 }
 
@@ -187,7 +226,8 @@ TEST(History, HoldsTheLastReadingWhereOneIsMissing) {
                    Of({Ema(ColumnNamed("t1_degC"), 1.0, "s"),
                        Zeroed(ColumnNamed("t1_degC"))}));
   EXPECT_EQ(derived.row(0), Eigen::RowVector2d(20.0, 0.0));
-  EXPECT_NEAR(derived(1, 0), 22.0 - 2.0 * std::exp(-1.0), kRoundOff);
+  // From the reading held at t = 2 on a ramp up to t = 3.
+  EXPECT_NEAR(derived(1, 0), 20.0 + 2.0 * std::exp(-1.0), kRoundOff);
   EXPECT_EQ(derived(1, 1), 2.0);
 }
 
