@@ -78,6 +78,9 @@ History ReadHistory(const Node& node, const std::vector<TrainedInput>& inputs) {
   if (const auto start = node.Find("latest_start")) {
     history.latest_start = start->Number();
   }
+  if (const auto step = node.Find("longest_step")) {
+    history.longest_step = step->Number();
+  }
   for (const Node& element : node.At("derived").Elements()) {
     DerivedInput input;
     input.column = ReadColumn(element);

@@ -36,6 +36,9 @@ Json ToJson(const History& history) {
           {"latest_start",
            std::isfinite(history.latest_start) ? Json(history.latest_start)
                                                : Json()},
+          {"longest_step",
+           std::isfinite(history.longest_step) ? Json(history.longest_step)
+                                               : Json()},
           {"derived", std::move(derived)},
           {"form_inputs", history.form_inputs}};
 }

@@ -368,12 +368,10 @@ KeptRows CheckCells(const CsvTable& table,
                      "); fill them in, or leave such columns out with " +
                      ArgumentName("exclude"));
   }
+  kept.num_passed = num_passed;
   if (num_dropped > 0) {
-    kept.remark = std::to_string(num_dropped) + " of " +
-                  std::to_string(num_passed) +
-                  (num_dropped == 1 ? " rows is" : " rows are") +
-                  " dropped for missing cells; the first: " +
-                  table.Where(first_missing->row, first_missing->column->name);
+    kept.first_missing =
+        table.Where(first_missing->row, first_missing->column->name);
   }
   return kept;
 }

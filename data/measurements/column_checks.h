@@ -50,7 +50,8 @@ void RefuseMixedDecimals(const CsvTable& table,
 
 struct KeptRows {
   std::vector<Eigen::Index> rows;  // ascending, never empty
-  std::string remark;              // on the rows dropped, "" where none
+  std::size_t num_passed = 0;      // of which they are kept
+  std::string first_missing;       // where; "" where all that pass are kept
 };
 
 /// Whether each row of the table passes all `filters`. Throws InputError where

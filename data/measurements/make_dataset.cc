@@ -138,7 +138,15 @@ class DatasetBuilder {
     }
     RefuseMixedDecimals(table_, columns);
     KeptRows kept = CheckCells(table_, columns, passes_, selection_.missing);
-    if (!kept.remark.empty()) remarks_.push_back(kept.remark);
+    if (!kept.first_missing.empty()) {
+      const std::size_t dropped = kept.num_passed - kept.rows.size();
+      // Readings without a target still run through a map's filters.
+      remarks_.push_back(
+          std::to_string(dropped) + " of " + std::to_string(kept.num_passed) +
+          (dropped == 1 ? " rows is " : " rows are ") +
+          (selection_.only_to_judge ? "not judged" : "dropped") +
+          " for missing cells; the first: " + kept.first_missing);
+    }
     parts_.rows = std::move(kept.rows);
   }
 

@@ -1,6 +1,7 @@
 #include "models/history/history.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -193,6 +194,20 @@ std::string_view ToString(Between between) {
   return between == Between::kLinear ? "linear" : "held";
 }
 
+double History::longest_bridged() const {
+  constexpr double kStepsOfTraining = 2.0;
+  constexpr double kTimeConstants = 3.0;
+  double shortest_tau = std::numeric_limits<double>::infinity();
+  for (const DerivedInput& input : derived) {
+    if (input.filter == Filter::kEma) {
+      shortest_tau = std::min(shortest_tau, input.tau);
+    }
+  }
+  return std::isfinite(longest_step) ? std::max(kStepsOfTraining * longest_step,
+                                                kTimeConstants * shortest_tau)
+                                     : std::numeric_limits<double>::infinity();
+}
+
 bool History::needs_time() const {
   return std::ranges::find(derived, Filter::kEma, &DerivedInput::filter) !=
          derived.end();
@@ -280,13 +295,44 @@ double LatestStart(const data::Dataset& training) {
              : kUnknown;
 }
 
-std::vector<bool> BeginInside(const data::SessionLog& log,
-                              const History& history) {
-  std::vector<bool> inside;
-  for (const double start : StartsOf(log)) {
-    inside.push_back(start > history.latest_start);
+double LongestStep(const data::Dataset& training) {
+  if (training.log() == nullptr)
+    return std::numeric_limits<double>::quiet_NaN();
+  const data::SessionLog& log = *training.log();
+  const std::vector<std::vector<Index>> sessions = RowsOfSessions(log);
+  double longest = 0.0;
+  for (const Index code : training.session_codes()) {
+    const std::vector<Index>& rows = sessions[static_cast<std::size_t>(code)];
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      longest = std::max(longest, log.time[rows[i]] - log.time[rows[i - 1]]);
+    }
   }
-  return inside;
+  return longest;
+}
+
+std::vector<Missing> FindMissing(const data::SessionLog& log,
+                                 const History& history) {
+  const double longest = history.longest_bridged();
+  std::vector<Missing> missing(log.sessions.codes.size(), Missing::kNothing);
+  for (const std::vector<Index>& rows : RowsOfSessions(log)) {
+    if (rows.empty()) continue;
+    const bool begins_inside = log.time[rows.front()] > history.latest_start;
+    double known_again = log.time[rows.front()];
+    double before = known_again;
+    for (const Index row : rows) {
+      const double now = log.time[row];
+      const double step = now - before;
+      if (step > longest) known_again = now + step;
+      before = now;
+      Missing& here = missing[static_cast<std::size_t>(row)];
+      if (begins_inside) {
+        here = Missing::kStart;
+      } else if (now < known_again) {
+        here = Missing::kReadings;
+      }
+    }
+  }
+  return missing;
 }
 
 MatrixXd DeriveInputs(const data::Dataset& dataset, const History& history) {

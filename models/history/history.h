@@ -52,7 +52,15 @@ struct History {
   /// steps more, where all began within kLeapSteps of another; NaN where clocks
   /// tell nothing.
   double latest_start = std::numeric_limits<double>::quiet_NaN();
+  /// Longest step from reading to reading within the sessions of training; NaN
+  /// where nothing is known.
+  double longest_step = std::numeric_limits<double>::quiet_NaN();
 
+  /// Longest step from reading to reading over which the filters know enough:
+  /// twice the longest of training, or three of the shortest time constant
+  /// where that is more (models/history/README.md); infinity where nothing is
+  /// known or nothing is filtered.
+  double longest_bridged() const;
   /// Whether any filter runs in time.
   bool needs_time() const;
   /// Whether any derived input depends on where sessions begin.
@@ -77,10 +85,22 @@ double RadiansPer(const data::ColumnInfo& angle);
 /// latest_start of the sessions of these rows.
 double LatestStart(const data::Dataset& training);
 
-/// For each session of a log, whether it begins later than `history` knows
-/// sessions to begin: its earlier rows are missing. Never in rows for time.
-std::vector<bool> BeginInside(const data::SessionLog& log,
-                              const History& history);
+/// longest_step of the sessions of these rows.
+double LongestStep(const data::Dataset& training);
+
+/// What is missing before a row, so that what a map remembers there is not what
+/// it would in use.
+enum class Missing {
+  kNothing,
+  kStart,     // the first rows of its session, which begins later than
+              // latest_start
+  kReadings,  // those of a step above longest_bridged; until as much time has
+              // passed again
+};
+
+/// For each row of a log. Nothing is known to miss where time is rows.
+std::vector<Missing> FindMissing(const data::SessionLog& log,
+                                 const History& history);
 
 /// What the form reads, per row of `dataset` (m x form_inputs). Filters run
 /// through all rows of its log, so a selection of rows gets what all rows get.

@@ -59,22 +59,26 @@ void WarnOfSessions(const History& history,
                     const MapLogArguments& arguments,
                     MapLog* map) {
   const data::SessionLog& log = *map->log;
-  map->begin_inside = BeginInside(log, history);
+  map->missing = FindMissing(log, history);
   std::vector<bool> goes_on(log.sessions.labels.size());
   std::vector<bool> is_here(goes_on.size());
+  std::vector<bool> begins_inside(goes_on.size());
+  std::size_t after_gaps = 0;
   for (std::size_t row = 0; row < log.sessions.codes.size(); ++row) {
     const auto session = static_cast<std::size_t>(log.sessions.codes[row]);
     if (static_cast<Index>(row) < map->first_row) {
       goes_on[session] = true;
-    } else {
-      is_here[session] = true;
+      continue;
     }
+    is_here[session] = true;
+    if (map->missing[row] == Missing::kStart) begins_inside[session] = true;
+    if (map->missing[row] == Missing::kReadings) ++after_gaps;
   }
   bool any_goes_on = false;
   for (std::size_t s = 0; s < goes_on.size(); ++s) {
     if (!is_here[s]) continue;
     any_goes_on = any_goes_on || goes_on[s];
-    if (!map->begin_inside[s]) continue;
+    if (!begins_inside[s]) continue;
     map->warnings.push_back(fmt::format(
         "warning: session {} begins inside: its first row is at {:.6g} s, "
         "those of training had begun by {:.6g} s; give its earlier rows with "
@@ -83,6 +87,15 @@ void WarnOfSessions(const History& history,
         log.time[log.first_rows[s]],
         history.latest_start,
         data::ArgumentName("after")));
+  }
+  if (after_gaps > 0) {
+    map->warnings.push_back(fmt::format(
+        "warning: {} of {} rows come after a gap in the readings: the map's "
+        "filters know enough over steps of up to {:.6g} s; give the readings "
+        "between (inside = 0)",
+        after_gaps,
+        table.num_rows,
+        history.longest_bridged()));
   }
   if (!arguments.after.empty() && !any_goes_on) {
     map->warnings.push_back(

@@ -31,8 +31,8 @@ data::FoundSessions FindSessionsFor(const History& history,
 struct MapLog {
   std::shared_ptr<const data::SessionLog> log;  // null: the map has no memory
   Eigen::Index first_row = 0;                   // of the file, in the log
-  std::vector<bool> begin_inside;     // (sessions) their first rows are missing
-  std::vector<std::string> warnings;  // one line each
+  std::vector<Missing> missing;                 // (rows of the log)
+  std::vector<std::string> warnings;            // one line each
 };
 
 /// The map's inputs in every row of a table (rows x inputs); NaN where a cell

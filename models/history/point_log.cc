@@ -145,10 +145,9 @@ PointLog MakePointLog(const History& history,
     if (row.is_point) result.rows[static_cast<std::size_t>(row.index)] = i;
   }
   merged->first_rows = data::FirstRows(merged->sessions, merged->input_values);
-  const std::vector<bool> inside = BeginInside(*merged, history);
+  const std::vector<Missing> missing = FindMissing(*merged, history);
   for (const Index row : result.rows) {
-    const Index session = merged->sessions.codes[static_cast<std::size_t>(row)];
-    result.begins_inside.push_back(inside[static_cast<std::size_t>(session)]);
+    result.missing.push_back(missing[static_cast<std::size_t>(row)]);
   }
   result.log = std::move(merged);
   return result;

@@ -23,8 +23,8 @@ struct RowsForMap {
 /// have the same time.
 struct PointLog {
   std::shared_ptr<const data::SessionLog> log;
-  std::vector<Eigen::Index> rows;   // (points) in the log
-  std::vector<bool> begins_inside;  // (points) first rows are missing
+  std::vector<Eigen::Index> rows;  // (points) in the log
+  std::vector<Missing> missing;    // (points)
 };
 
 /// `log` may be null. Sessions of the log without a point are left out. The

@@ -15,6 +15,7 @@ FittedModel WithHistory(FittedModel fitted,
   read->time_unit = history.time_unit;
   read->session = history.session;
   read->latest_start = LatestStart(training);
+  read->longest_step = LongestStep(training);
   std::set<std::string> needed;
   for (const TrainedInput& input : fitted.inputs) {
     read->form_inputs.push_back(input.column.name);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "data/measurements/sessions.h"
-#include "models/history/history.h"
 
 namespace errmap::models {
 namespace {
@@ -120,15 +119,19 @@ MapRows MakeMapRows(const FittedModel& fitted,
   MapLog map =
       options.with_memory ? MakeMapLog(fitted, table, options.log) : MapLog{};
   data::Dataset dataset = WithMapLog(prepared.dataset, map);
-  const bool begins_inside =
-      map.log != nullptr &&
-      std::ranges::any_of(dataset.session_codes(), [&](Index session) {
-        return map.begin_inside[static_cast<std::size_t>(session)];
-      });
+  Missing missing = Missing::kNothing;
+  if (map.log != nullptr) {
+    for (const Index row : dataset.log_rows()) {
+      const Missing here = map.missing[static_cast<std::size_t>(row)];
+      if (here == Missing::kStart || missing == Missing::kNothing) {
+        missing = here;
+      }
+    }
+  }
   return {.table = std::move(table),
           .prepared = std::move(prepared),
           .dataset = std::move(dataset),
-          .begins_inside = begins_inside,
+          .missing = missing,
           .warnings = std::move(map.warnings)};
 }
 

@@ -9,6 +9,7 @@
 #include "data/measurements/column_match.h"
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
+#include "models/history/history.h"
 #include "models/history/map_log.h"
 #include "models/promise/session_offset.h"
 
@@ -36,8 +37,8 @@ struct MapRows {
   data::PreparedDataset prepared;
   /// The rows with what the map's filters run through.
   data::Dataset dataset;
-  /// Whether the first rows of a session with measured rows are missing.
-  bool begins_inside = false;
+  /// Before any measured row; the start of a session sooner than readings.
+  Missing missing = Missing::kNothing;
   std::vector<std::string> warnings;  // of the map's memory, one line each
 };
 

@@ -166,12 +166,13 @@ std::string_view ToString(Remedy remedy) {
 SessionCheck CheckSession(const HeldOutErrors& errors,
                           const VectorXd& elapsed,
                           const VectorXd& residuals,
-                          bool begins_inside) {
+                          Missing missing) {
   RequireProbes(elapsed, residuals);
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   constexpr double kTail = 0.1;  // on each side of 80 %
   SessionCheck check;
-  check.begins_inside = begins_inside;
+  check.missing = missing;
+  const bool remembers = missing == Missing::kNothing;
   check.probes = residuals.size();
   check.promised = errors.rmse;
   check.probe_rms = stats::RootMeanSquare(residuals);
@@ -191,7 +192,7 @@ SessionCheck CheckSession(const HeldOutErrors& errors,
   const Limits limits = LimitsOf(ratios, errors.rmse);
   check.off_above = limits.off_above;
   check.holds_to = limits.holds_to;
-  if (!begins_inside) check.status = StatusOf(check.probe_rms, limits);
+  if (remembers) check.status = StatusOf(check.probe_rms, limits);
   const double at_limit = check.probe_rms / (kOffRatio * errors.rmse);
   check.off_probability =
       static_cast<double>(std::ranges::lower_bound(ratios, at_limit) -
@@ -200,7 +201,7 @@ SessionCheck CheckSession(const HeldOutErrors& errors,
   check.session_low = check.probe_rms / Quantile(ratios, 1.0 - kTail);
   check.session_high = check.probe_rms / Quantile(ratios, kTail);
   check.remedy = RemedyOf(check);
-  if (check.status == SessionStatus::kUnknown && !begins_inside) {
+  if (check.status == SessionStatus::kUnknown && remembers) {
     check.more_probes = ProbesToSettle(errors, elapsed, check.probe_rms);
   }
   return check;

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "models/history/history.h"
 #include "models/map_experience.h"
 
 namespace errmap::models {
@@ -29,9 +30,9 @@ std::string_view ToString(Remedy remedy);
 inline constexpr double kOffRatio = 1.5;
 
 struct SessionCheck {
-  /// The map has a memory, and the first rows of the session are missing: what
-  /// it says here is not what it says in use, so nothing is known.
-  bool begins_inside = false;
+  /// What the map's memory lacks before a probe: what it says here is not what
+  /// it says in use, so nothing is known.
+  Missing missing = Missing::kNothing;
   SessionStatus status = SessionStatus::kUnknown;
   Remedy remedy = Remedy::kNone;
   Eigen::Index probes = 0;
@@ -58,13 +59,13 @@ struct SessionCheck {
 /// of each one's errors near those times, drawn again and again, give the
 /// distribution of q = RMS of probes / RMSE of the unit. Each q then says what
 /// the session's RMSE may be, RMS of the probes / q; the share of them above
-/// kOffRatio * promised is the probability that it is off. `begins_inside`:
-/// see SessionCheck. Throws
-/// std::invalid_argument on no probes, other sizes, or what is not finite.
+/// kOffRatio * promised is the probability that it is off. `missing`: see
+/// SessionCheck. Throws std::invalid_argument on no probes, other sizes, or
+/// what is not finite.
 SessionCheck CheckSession(const HeldOutErrors& errors,
                           const Eigen::VectorXd& elapsed,
                           const Eigen::VectorXd& residuals,
-                          bool begins_inside = false);
+                          Missing missing = Missing::kNothing);
 
 /// How well one probe at some time and place tells a unit's RMSE.
 struct ProbeSite {

@@ -46,7 +46,8 @@ Json SitesJson(const std::vector<models::ProbeSite>& sites) {
 
 Json CheckJson(const models::SessionCheck& check) {
   return {
-      {"begins_inside", check.begins_inside},
+      {"begins_inside", check.missing == models::Missing::kStart},
+      {"readings_missing", check.missing == models::Missing::kReadings},
       {"status", ToString(check.status)},
       {"off_probability", check.off_probability},
       {"remedy", ToString(check.remedy)},
@@ -81,11 +82,8 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
   }
   const Eigen::VectorXd elapsed =
       models::ElapsedSinceStart(fitted, rows, arguments.rows.log);
-  const models::SessionCheck check =
-      models::CheckSession(errors,
-                           elapsed,
-                           rows.dataset.target_values() - predicted,
-                           rows.begins_inside);
+  const models::SessionCheck check = models::CheckSession(
+      errors, elapsed, rows.dataset.target_values() - predicted, rows.missing);
   const std::vector<models::ProbeSite> sites = models::RankProbeSites(errors);
   if (arguments.format == "json") {
     Json document = {{"schema", "errmap-check-1"},

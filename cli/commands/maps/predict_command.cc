@@ -85,13 +85,20 @@ double HalfWidth(const models::FittedModel& fitted,
          (probes ? probes->narrowing[row] : 1.0);
 }
 
-// `whole`: whether the session's first rows are known.
 std::string_view WhyOutside(const models::RowFlag& flag,
-                            bool whole,
+                            models::Missing missing,
                             bool is_finite) {
   if (flag.outside()) return models::ToString(flag.why);
   if (!is_finite) return "not finite";
-  return whole ? "" : "start";
+  switch (missing) {
+    case models::Missing::kNothing:
+      return "";
+    case models::Missing::kStart:
+      return "start";
+    case models::Missing::kReadings:
+      return "gap";
+  }
+  return "";
 }
 
 // What is known of the rows of a file.
@@ -102,12 +109,11 @@ struct Predicted {
   models::Prediction prediction;
   std::optional<models::ProbeCorrection> probes;
   std::vector<models::RowFlag> flags;
-  std::vector<Eigen::Index> sessions;  // codes of the rows
 
-  /// Whether the first rows of a row's session are known.
-  bool IsWhole(std::size_t row) const {
-    return map.log == nullptr ||
-           !map.begin_inside[static_cast<std::size_t>(sessions[row])];
+  models::Missing MissingBefore(std::size_t row) const {
+    return map.log == nullptr
+               ? models::Missing::kNothing
+               : map.missing[static_cast<std::size_t>(map.first_row) + row];
   }
 };
 
@@ -144,15 +150,15 @@ std::string PredictionsCsv(const Predicted& found) {
       text += data::CsvField(found.table.CellText(*id, at)) + ",";
     }
     const double predicted = found.prediction.errors[row];
-    const bool whole = found.IsWhole(at);
+    const models::Missing missing = found.MissingBefore(at);
     const bool is_finite = std::isfinite(predicted);
     const models::RowFlag& flag = found.flags[at];
-    const bool inside = whole && is_finite && !flag.outside();
+    const std::string_view why = WhyOutside(flag, missing, is_finite);
     text += is_finite ? data::CsvNumber(predicted) : "";
     text += IntervalCells(found, row);
     text += fmt::format(",{},{},{}\n",
-                        inside ? 1 : 0,
-                        WhyOutside(flag, whole, is_finite),
+                        why.empty() ? 1 : 0,
+                        why,
                         data::CsvField(flag.column.name));
   }
   return data::MarkedCsv(std::move(text));
@@ -203,8 +209,7 @@ int RunPredict(const PredictArguments& arguments) {
                   .map = map,
                   .prediction = fitted.PredictForm(form_inputs),
                   .probes = {},
-                  .flags = {},
-                  .sessions = rows.session_codes()};
+                  .flags = {}};
   if (!arguments.probes.empty()) {
     found.probes = Correct(fitted, {table, inputs}, arguments);
     found.prediction.errors += found.probes->track.offset;
@@ -259,9 +264,11 @@ void AddPredictCommand(CLI::App* app, Run* run) {
       "inside (1 as in training, 0 not),\nwhy not (range: a column leaves its "
       "trained range; relation: it does not go with\nthe others as it did "
       "there; distance, leverage: an unlike thermal state; start:\na session's "
-      "first rows are missing) and offender (that column). Columns in\nanother "
-      "unit are converted. Exit status 4 where a prediction is not finite: "
-      "its\ncell stays empty.");
+      "first rows are missing; gap: readings are missing before, which the\n"
+      "map's memory needs) and offender (that column). Columns in another unit "
+      "are\nconverted. Exit status 4 where a prediction is not finite: its "
+      "cell "
+      "stays empty.");
   command->callback([arguments, run] { run->status = RunPredict(*arguments); });
 }
 

@@ -26,11 +26,14 @@ std::string TimesText(const models::HeldOutErrors& errors,
 
 std::string StatusText(const models::SessionCheck& check,
                        const ErrorText& error) {
-  if (check.begins_inside) {
-    return "Not known whether the map holds: it has a memory, and the first "
-           "rows of the session are missing. Give all rows since its start, "
-           "those without a probe with an empty error, or the earlier ones "
-           "with --after.\n";
+  if (check.missing != models::Missing::kNothing) {
+    return fmt::format(
+        "Not known whether the map holds: it has a memory, and {} are missing. "
+        "Give all rows since its start, those without a probe with an empty "
+        "error, or the earlier ones with --after.\n",
+        check.missing == models::Missing::kStart
+            ? "the first rows of the session"
+            : "the readings between the probes of the session");
   }
   const std::string range =
       fmt::format("its error is {} to {} RMSE with 80 % confidence",

@@ -167,7 +167,13 @@ ERRMAP_MEMBERS(RegressionReport,
                standard_errors,
                notes)
 ERRMAP_MEMBERS(DerivedInput, column, of, filter, tau, between)
-ERRMAP_MEMBERS(History, time_unit, session, derived, form_inputs, latest_start)
+ERRMAP_MEMBERS(History,
+               time_unit,
+               session,
+               derived,
+               form_inputs,
+               latest_start,
+               longest_step)
 ERRMAP_MEMBERS(Guards,
                input_margin,
                error_margin,

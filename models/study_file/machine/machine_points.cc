@@ -232,10 +232,10 @@ class MachineEvaluator {
     MapAtPoints at{.values = factor * prediction.errors, .outside = {}};
     SetHalfWidth(source, factor, &at);
     for (Index row = 0; row < inputs.rows(); ++row) {
-      const bool begins_inside =
-          log.log != nullptr &&
-          log.begins_inside[static_cast<std::size_t>(row)];
-      at.outside.push_back(begins_inside ||
+      const bool forgets =
+          log.log != nullptr && log.missing[static_cast<std::size_t>(row)] !=
+                                    models::Missing::kNothing;
+      at.outside.push_back(forgets ||
                            !models::IsInside(map.inputs, inputs, row));
     }
     return at;

@@ -19,6 +19,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::Each;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -178,6 +179,42 @@ TEST_F(CliPromise, CheckAndProbesKnowWhereTheSessionBegan) {
   EXPECT_EQ(by_all.status, 0) << by_all.err;
   EXPECT_EQ(by_only.out, by_all.out);
   EXPECT_THAT(by_only.err, Not(HasSubstr("begins inside")));
+}
+
+// A filter that has seen nothing between two probes says something else than in
+// use: no alarm, and no all-clear, comes of it.
+TEST_F(CliPromise, CheckKnowsNothingWhereReadingsBetweenProbesAreMissing) {
+  ASSERT_EQ(Run({"fit",
+                 "train.csv",
+                 "--model",
+                 "poly:ridge:view=history:history=120",
+                 "-o",
+                 "lag.json"})
+                .status,
+            0);
+  const std::string day = Days(11, 11);
+  const std::vector<std::size_t> rows = {0, 12, 20, 33};
+  Write("all.csv", ProbesOf(day, rows, true));
+  Write("only.csv", ProbesOf(day, rows, false));
+  const Json all =
+      RunJson({"check", "lag.json", "all.csv", "--format", "json"});
+  EXPECT_FALSE(all["readings_missing"].get<bool>());
+  const Json only =
+      RunJson({"check", "lag.json", "only.csv", "--format", "json"});
+  EXPECT_TRUE(only["readings_missing"].get<bool>());
+  EXPECT_EQ(only["status"], "unknown");
+  const Outcome text = Run({"check", "lag.json", "only.csv"});
+  EXPECT_EQ(text.status, 0);
+  EXPECT_THAT(text.out, HasSubstr("the readings between the probes"));
+  EXPECT_THAT(
+      text.err,
+      HasSubstr("warning: 3 of 4 rows come after a gap in the readings"));
+  std::vector<std::string> why;
+  for (const auto& row :
+       Records(Run({"predict", "lag.json", "only.csv"}).out)) {
+    why.push_back(row.at("why"));
+  }
+  EXPECT_THAT(why, ElementsAre("", "gap", "gap", "gap"));
 }
 
 TEST_F(CliPromise, CheckNeedsHeldOutErrors) {

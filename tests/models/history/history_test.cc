@@ -304,15 +304,47 @@ TEST(History, TellsASessionWhoseFirstRowsAreMissing) {
   History history = Everything();
   history.latest_start = LatestStart(data(0.0, 5.0));
   EXPECT_EQ(history.latest_start, 55.0);  // five steps of 10 later
-  EXPECT_THAT(BeginInside(*data(0.0, 55.0).log(), history),
-              ElementsAre(false, false));
-  EXPECT_THAT(BeginInside(*data(0.0, 56.0).log(), history),
-              ElementsAre(false, true));
+  const std::vector<Missing> nothing(6, Missing::kNothing);
+  EXPECT_EQ(FindMissing(*data(0.0, 55.0).log(), history), nothing);
+  constexpr Missing kHere = Missing::kNothing;
+  constexpr Missing kStart = Missing::kStart;
+  EXPECT_THAT(FindMissing(*data(0.0, 56.0).log(), history),
+              ElementsAre(kHere, kHere, kHere, kStart, kStart, kStart));
   // Sessions by the clock on the wall: the start of a session tells nothing.
   history.latest_start = LatestStart(data(0.0, 86400.0));
   EXPECT_TRUE(std::isnan(history.latest_start));
-  EXPECT_THAT(BeginInside(*data(1e6, 2e6).log(), history),
-              ElementsAre(false, false));
+  EXPECT_EQ(FindMissing(*data(1e6, 2e6).log(), history), nothing);
+}
+
+// Over steps of training, or of three time constants, filters know enough; of
+// a longer one they know the end, and what lay before fades.
+TEST(History, TellsRowsWhoseReadingsBeforeAreMissing) {
+  VectorXd time(7);
+  time << 0.0, 20.0, 40.0, 150.0, 200.0, 259.0, 260.0;
+  const auto log = OneColumn("t1_degC", VectorXd::Ones(7), time).log();
+  History history = Of({Ema(ColumnNamed("t1_degC"), 30.0, "s")});
+  const std::vector<Missing> nothing(7, Missing::kNothing);
+  EXPECT_EQ(FindMissing(*log, history), nothing);  // of training no step known
+  history.longest_step = 20.0;
+  EXPECT_EQ(history.longest_bridged(), 90.0);
+  constexpr Missing kHere = Missing::kNothing;
+  constexpr Missing kGap = Missing::kReadings;
+  EXPECT_THAT(FindMissing(*log, history),
+              ElementsAre(kHere, kHere, kHere, kGap, kGap, kGap, kHere));
+  history.longest_step = 55.0;
+  EXPECT_EQ(FindMissing(*log, history), nothing);
+  history = Of({Zeroed(ColumnNamed("t1_degC"))});
+  history.longest_step = 20.0;
+  EXPECT_EQ(FindMissing(*log, history), nothing);  // nothing is filtered
+}
+
+TEST(History, LearnsTheLongestStepOfTheTrainingSessions) {
+  const Dataset dataset = WithLog({ColumnNamed("t1_degC")},
+                                  VectorXd::Ones(5),
+                                  (VectorXd(5) << 0, 5, 20, 0, 40).finished(),
+                                  {0, 0, 0, 1, 1});
+  EXPECT_EQ(LongestStep(dataset), 40.0);
+  EXPECT_EQ(LongestStep(dataset.SelectRows({0, 1})), 15.0);
 }
 
 TEST(WithHistory, MakesAMapOfTheColumnsThatItReads) {

@@ -109,7 +109,8 @@ TEST(CheckSession, KnowsNothingWhereTheSessionBeginsInside) {
   const VectorXd times{{600.0, 4000.0, 8000.0}};
   const VectorXd large = VectorXd::Constant(3, 9.0);
   EXPECT_EQ(CheckSession(errors, times, large).status, SessionStatus::kOff);
-  const SessionCheck check = CheckSession(errors, times, large, true);
+  const SessionCheck check =
+      CheckSession(errors, times, large, Missing::kStart);
   EXPECT_EQ(check.status, SessionStatus::kUnknown);
   EXPECT_EQ(check.remedy, Remedy::kNone);
   EXPECT_FALSE(check.more_probes.has_value());
