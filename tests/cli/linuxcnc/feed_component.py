@@ -107,6 +107,7 @@ def zero(component, case, result):
     """The zero taken anew where nothing moves: a session that begins there."""
     rows = case["rows"]
     component.row(1.0, rows[0][1:])
+    component.row(1.0, rows[-1][1:])
     component.row(1e9, rows[-1][1:])  # all filters have arrived
     component.set("zero", 1)
     component.periods()
