@@ -75,6 +75,96 @@ void FindCondition(const MatrixXd& centred,
       (singular.array() > size * kEpsilon * singular[0]).count();
 }
 
+// The columns of a problem, weighted, centred and of length 1.
+struct CentredProblem {
+  VectorXd intercept;  // weighted
+  double share = 0.0;  // 1 / its squared length; 0 without one
+  double mean = 0.0;   // of the response
+  VectorXd response;
+  MatrixXd columns;
+  VectorXd spread;  // lengths of the columns before
+};
+
+CentredProblem Centre(const RegressionProblem& problem,
+                      RegressionDiagnostics* fit) {
+  CentredProblem centred;
+  const Index rows = problem.response.size();
+  const VectorXd& intercept = centred.intercept = Weighted(
+      problem.intercept.size() != 0 ? problem.intercept : VectorXd::Ones(rows),
+      problem.weights);
+  const VectorXd y = Weighted(problem.response, problem.weights);
+  fit->sum_of_weights = intercept.squaredNorm();
+  fit->has_intercept = fit->sum_of_weights > 0.0;
+  centred.share = fit->has_intercept ? 1.0 / fit->sum_of_weights : 0.0;
+  centred.mean = intercept.dot(y) * centred.share;
+  centred.response = y - centred.mean * intercept;
+  fit->total_sum_of_squares = centred.response.squaredNorm();
+
+  const Index terms = problem.terms.cols();
+  centred.columns.resize(rows, terms);
+  centred.spread.resize(terms);
+  fit->means.resize(terms);
+  for (Index j = 0; j < terms; ++j) {
+    VectorXd column = Weighted(problem.terms.col(j), problem.weights);
+    fit->means[j] = intercept.dot(column) * centred.share;
+    column -= fit->means[j] * intercept;
+    centred.spread[j] = column.norm();
+    if (centred.spread[j] > 0.0) column /= centred.spread[j];
+    centred.columns.col(j) = column;
+  }
+  return centred;
+}
+
+// Of the columns that are kept, k of them.
+struct CentredSolution {
+  VectorXd scaled;   // (k) coefficients
+  MatrixXd inverse;  // (k x k) of the triangle
+};
+
+CentredSolution SolveKept(const MatrixXd& kept,
+                          const VectorXd& response,
+                          const VectorXd& spread,
+                          RegressionDiagnostics* fit) {
+  const Index k = kept.cols();
+  CentredSolution solution{.scaled = VectorXd::Zero(k),
+                           .inverse = MatrixXd(k, k)};
+  if (k == 0) return solution;
+  const Eigen::HouseholderQR<MatrixXd> qr(kept);
+  solution.scaled = qr.solve(response);
+  // One step of refinement: the residual holds what rounding left out.
+  const VectorXd left = response - kept * solution.scaled;
+  solution.scaled += qr.solve(left);
+  const MatrixXd triangle =
+      qr.matrixQR().topRows(k).triangularView<Eigen::Upper>();
+  solution.inverse =
+      triangle.triangularView<Eigen::Upper>().solve(MatrixXd::Identity(k, k));
+  fit->triangle = triangle * spread.asDiagonal();
+  return solution;
+}
+
+// From the sums of squares to s, R2 and F; gives s^2.
+double AnalyseVariance(RegressionDiagnostics* fit, Index num_kept) {
+  const double freedom = fit->observations - static_cast<double>(fit->rank);
+  fit->residual_degrees_of_freedom = freedom;
+  const double variance = freedom > 0.0
+                              ? fit->residual_sum_of_squares / freedom
+                              : std::numeric_limits<double>::quiet_NaN();
+  fit->s = std::sqrt(variance);
+  if (fit->total_sum_of_squares > 0.0) {
+    fit->r2 = 1.0 - fit->residual_sum_of_squares / fit->total_sum_of_squares;
+    if (freedom > 0.0) {
+      fit->adjusted_r2 = 1.0 - variance / (fit->total_sum_of_squares /
+                                           fit->total_degrees_of_freedom());
+    }
+  }
+  if (num_kept > 0 && freedom > 0.0) {
+    const auto k = static_cast<double>(num_kept);
+    fit->f = fit->regression_sum_of_squares / k / variance;
+    fit->f_p = stats::FTestPValue(fit->f, k, freedom);
+  }
+  return variance;
+}
+
 }  // namespace
 
 LeastSquaresFit SolveRegression(const RegressionProblem& problem,
@@ -95,87 +185,40 @@ RegressionDiagnostics Diagnose(const RegressionProblem& problem) {
 RegressionDiagnostics Diagnose(const RegressionProblem& problem,
                                const LeastSquaresFit& solution) {
   CheckShapes(problem);
-  if (solution.coefficients.size() != problem.terms.cols() + 1) {
-    throw std::invalid_argument(
-        "Diagnose: the solution has " +
-        std::to_string(solution.coefficients.size()) + " coefficients for " +
-        std::to_string(problem.terms.cols()) + " terms and an intercept");
+  const Index terms = problem.terms.cols();
+  if (solution.coefficients.size() != terms + 1) {
+    throw std::invalid_argument("Diagnose: the solution has " +
+                                std::to_string(solution.coefficients.size()) +
+                                " coefficients for " + std::to_string(terms) +
+                                " terms and an intercept");
   }
-  const Index rows = problem.response.size();
-  const VectorXd intercept = Weighted(
-      problem.intercept.size() != 0 ? problem.intercept : VectorXd::Ones(rows),
-      problem.weights);
-  const VectorXd y = Weighted(problem.response, problem.weights);
   RegressionDiagnostics fit;
-  fit.observations = problem.observations > 0.0 ? problem.observations
-                                                : static_cast<double>(rows);
-  fit.sum_of_weights = intercept.squaredNorm();
-  fit.has_intercept = fit.sum_of_weights > 0.0;
-  const double share = fit.has_intercept ? 1.0 / fit.sum_of_weights : 0.0;
-  const double mean = intercept.dot(y) * share;
-  const VectorXd centred_y = y - mean * intercept;
-  fit.total_sum_of_squares = centred_y.squaredNorm();
-
-  MatrixXd centred(rows, problem.terms.cols());
-  fit.means.resize(problem.terms.cols());
-  VectorXd spread(problem.terms.cols());  // lengths of the centred columns
-  for (Index j = 0; j < centred.cols(); ++j) {
-    VectorXd column = Weighted(problem.terms.col(j), problem.weights);
-    fit.means[j] = intercept.dot(column) * share;
-    column -= fit.means[j] * intercept;
-    spread[j] = column.norm();
-    if (spread[j] > 0.0) column /= spread[j];
-    centred.col(j) = column;
-    if (std::binary_search(
-            solution.aliased.begin(), solution.aliased.end(), j + 1)) {
-      fit.aliased.push_back(j);
-    } else {
-      fit.kept.push_back(j);
-    }
+  fit.observations = problem.observations > 0.0
+                         ? problem.observations
+                         : static_cast<double>(problem.response.size());
+  const CentredProblem centred = Centre(problem, &fit);
+  for (Index j = 0; j < terms; ++j) {
+    const bool is_aliased = std::binary_search(
+        solution.aliased.begin(), solution.aliased.end(), j + 1);
+    (is_aliased ? fit.aliased : fit.kept).push_back(j);
   }
   fit.bits = solution.bits;
   const bool is_extended = solution.bits > stats::kDoubleBits;
-  const MatrixXd kept = centred(Eigen::all, fit.kept);
+  const MatrixXd kept = centred.columns(Eigen::all, fit.kept);
+  const VectorXd spread = centred.spread(fit.kept);
   const Index k = kept.cols();
   fit.rank = k + (fit.has_intercept ? 1 : 0);
-  fit.coefficients.resize(static_cast<std::size_t>(centred.cols()));
-
-  VectorXd scaled = VectorXd::Zero(k);
-  MatrixXd inverse(k, k);
-  if (k > 0) {
-    const Eigen::HouseholderQR<MatrixXd> qr(kept);
-    scaled = qr.solve(centred_y);
-    // One step of refinement: the residual holds what rounding left out.
-    const VectorXd left = centred_y - kept * scaled;
-    scaled += qr.solve(left);
-    const MatrixXd triangle =
-        qr.matrixQR().topRows(k).triangularView<Eigen::Upper>();
-    inverse =
-        triangle.triangularView<Eigen::Upper>().solve(MatrixXd::Identity(k, k));
-    fit.triangle = triangle * spread(fit.kept).asDiagonal();
-  }
+  fit.coefficients.resize(static_cast<std::size_t>(terms));
+  const auto [scaled, inverse] =
+      SolveKept(kept, centred.response, spread, &fit);
   const VectorXd fitted = kept * scaled;
   fit.residual_sum_of_squares = is_extended
                                     ? solution.residual_sum_of_squares
-                                    : (centred_y - fitted).squaredNorm();
+                                    : (centred.response - fitted).squaredNorm();
   fit.regression_sum_of_squares = fitted.squaredNorm();
-  const double freedom = fit.observations - static_cast<double>(fit.rank);
-  fit.residual_degrees_of_freedom = freedom;
-  const double variance = freedom > 0.0
-                              ? fit.residual_sum_of_squares / freedom
-                              : std::numeric_limits<double>::quiet_NaN();
-  fit.s = std::sqrt(variance);
-  if (fit.total_sum_of_squares > 0.0) {
-    fit.r2 = 1.0 - fit.residual_sum_of_squares / fit.total_sum_of_squares;
-    if (freedom > 0.0) {
-      fit.adjusted_r2 = 1.0 - variance / (fit.total_sum_of_squares /
-                                          fit.total_degrees_of_freedom());
-    }
-  }
-  if (k > 0 && freedom > 0.0) {
-    fit.f = fit.regression_sum_of_squares / static_cast<double>(k) / variance;
-    fit.f_p = stats::FTestPValue(fit.f, static_cast<double>(k), freedom);
-  }
+  const double variance = AnalyseVariance(&fit, k);
+
+  const double freedom = fit.residual_degrees_of_freedom;
   const double quantile = stats::StudentTwoSidedQuantile(kConfidence, freedom);
   const auto complete =
       [&](double unscaled_variance, Index column, CoefficientEstimate* line) {
@@ -196,19 +239,19 @@ RegressionDiagnostics Diagnose(const RegressionProblem& problem,
   for (Index i = 0; i < k; ++i) {
     const Index j = fit.kept[static_cast<std::size_t>(i)];
     CoefficientEstimate& line = fit.coefficients[static_cast<std::size_t>(j)];
-    line.estimate = scaled[i] / spread[j];
+    line.estimate = scaled[i] / spread[i];
     line.vif = inverse.row(i).squaredNorm();
-    complete(line.vif / (spread[j] * spread[j]), j + 1, &line);
+    complete(line.vif / (spread[i] * spread[i]), j + 1, &line);
     if (spread_y > 0.0) line.standardised = scaled[i] / spread_y;
-    kept_means[i] = fit.means[j] / spread[j];
+    kept_means[i] = fit.means[j] / spread[i];
   }
   if (fit.has_intercept) {
-    fit.intercept.estimate = mean - kept_means.dot(scaled);
-    complete(share + (inverse.transpose() * kept_means).squaredNorm(),
+    fit.intercept.estimate = centred.mean - kept_means.dot(scaled);
+    complete(centred.share + (inverse.transpose() * kept_means).squaredNorm(),
              0,
              &fit.intercept);
   }
-  FindCondition(kept, kept_means, intercept, &fit);
+  FindCondition(kept, kept_means, centred.intercept, &fit);
   return fit;
 }
 

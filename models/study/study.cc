@@ -213,6 +213,148 @@ ModelResult PoolModel(const ModelRecipe& recipe,
   return judged;
 }
 
+// The fits of a study, side by side, and what becomes of them.
+class StudyRun {
+ public:
+  StudyRun(const Dataset& dataset,
+           const std::vector<Holdout>& holdouts,
+           const std::vector<std::unique_ptr<ModelRecipe>>& recipes,
+           const StudyOptions& options)
+      : dataset_(dataset),
+        holdouts_(holdouts),
+        recipes_(recipes),
+        options_(options),
+        tasks_(StudyTasks(holdouts, recipes)),
+        final_outcomes_(recipes.size()),
+        outcomes_(recipes.size()),
+        held_out_(recipes.size(), holdouts) {
+    if (!options.fit_all_rows) {
+      std::erase_if(tasks_, [](const StudyTask& t) { return t.holdout < 0; });
+    }
+    for (auto& of_model : outcomes_) {
+      for (const Holdout& holdout : holdouts) {
+        of_model.emplace_back(holdout.folds.size());
+      }
+    }
+    of_all_rows_.every_penalty = std::ranges::any_of(
+        recipes,
+        [](const auto& recipe) { return recipe->kind() == ModelKind::kBlend; });
+    for (const StudyTask& task : tasks_) {
+      if (task.holdout < 0) continue;
+      of_folds_[{task.holdout, task.fold}].every_penalty =
+          of_all_rows_.every_penalty;
+    }
+  }
+
+  StudyResult Run() {
+    // Each worker takes the next task, so that they start in their order.
+    std::atomic<std::size_t> next{0};
+    const oneapi::tbb::global_control allow_jobs(
+        oneapi::tbb::global_control::max_allowed_parallelism,
+        static_cast<std::size_t>(options_.jobs));
+    oneapi::tbb::task_arena arena(options_.jobs);
+    arena.execute([&] {
+      oneapi::tbb::parallel_for(0, options_.jobs, [&](int /*worker*/) {
+        for (std::size_t i = next++; i < tasks_.size(); i = next++) {
+          RunTask(tasks_[i]);
+        }
+      });
+    });
+    StudyResult result;
+    for (std::size_t model = 0; model < recipes_.size(); ++model) {
+      result.models.push_back(PoolModel(*recipes_[model],
+                                        dataset_,
+                                        holdouts_,
+                                        std::move(outcomes_[model]),
+                                        std::move(final_outcomes_[model])));
+    }
+    result.interrupted = is_stopped();
+    result.short_of_memory = short_of_memory_;
+    return result;
+  }
+
+ private:
+  bool is_stopped() const {
+    return options_.stop != nullptr && options_.stop->load();
+  }
+
+  const Holdout& HoldoutOf(const StudyTask& task) const {
+    return holdouts_[static_cast<std::size_t>(task.holdout)];
+  }
+
+  void RunTask(const StudyTask& task) {
+    FitProgress progress{.all = static_cast<int>(tasks_.size()), .task = task};
+    const auto start = Clock::now();
+    FitOutcome outcome = FindOrFit(task);
+    if (outcome.try_again) ++short_of_memory_;
+    // What an earlier run has found took its time there.
+    progress.seconds = std::max(outcome.seconds, SecondsSince(start));
+    if (task.holdout < 0) {
+      final_outcomes_[task.model] = std::move(outcome);
+    } else {
+      if (options_.progress) progress.holdout_rmse = RmseSoFar(task, outcome);
+      outcomes_[task.model][static_cast<std::size_t>(task.holdout)][task.fold] =
+          JudgeFold(dataset_, HoldoutOf(task), task.fold, std::move(outcome));
+    }
+    progress.done = ++done_;
+    if (options_.progress) options_.progress(progress);
+  }
+
+  FitOutcome FindOrFit(const StudyTask& task) {
+    if (options_.journal == nullptr) return Fit(task);
+    if (auto found = options_.journal->Find(task)) return std::move(*found);
+    FitOutcome outcome = Fit(task);
+    if (!is_stopped() && !outcome.try_again) {
+      options_.journal->Record(task, outcome);
+    }
+    return outcome;
+  }
+
+  FitOutcome Fit(const StudyTask& task) {
+    const fitting::InterruptionScope interruptible(options_.stop);
+    const ModelRecipe& recipe = *recipes_[task.model];
+    FitContext context = ContextOfTask(task, holdouts_, options_);
+    if (task.holdout < 0) {
+      context.shared = &of_all_rows_;
+      return FitAllRows(recipe, dataset_, context);
+    }
+    context.shared = &of_folds_.at({task.holdout, task.fold});
+    if (is_stopped()) {
+      FitOutcome outcome;
+      outcome.why_failed = kNotBegun;
+      return outcome;
+    }
+    const PreparedFold fold = PrepareFold(dataset_, HoldoutOf(task), task.fold);
+    return FitOnce(recipe, fold.training, fold.test.get(), context);
+  }
+
+  double RmseSoFar(const StudyTask& task, const FitOutcome& outcome) {
+    const Holdout& holdout = HoldoutOf(task);
+    return held_out_.Add(
+        task,
+        holdout.folds.size(),
+        holdout.test_data != nullptr
+            ? holdout.test_data->target_values()
+            : VectorXd(dataset_.target_values()(holdout.folds[task.fold].test)),
+        outcome.test_predictions);
+  }
+
+  const Dataset& dataset_;
+  const std::vector<Holdout>& holdouts_;
+  const std::vector<std::unique_ptr<ModelRecipe>>& recipes_;
+  const StudyOptions& options_;
+  std::vector<StudyTask> tasks_;
+  std::vector<FitOutcome> final_outcomes_;  // (models)
+  // (models, hold-outs, folds)
+  std::vector<std::vector<std::vector<FoldOutcome>>> outcomes_;
+  // What the recipes share of the same rows: all rows, then fold by fold.
+  SharedWork of_all_rows_;
+  std::map<std::pair<std::ptrdiff_t, std::size_t>, SharedWork> of_folds_;
+  HeldOutSoFar held_out_;
+  std::atomic<int> done_{0};
+  std::atomic<int> short_of_memory_{0};
+};
+
 }  // namespace
 
 bool ModelResult::ok() const { return why().empty(); }
@@ -307,106 +449,7 @@ StudyResult RunStudy(const Dataset& dataset,
     throw std::invalid_argument(
         "RunStudy: needs at least one model, one hold-out and one job");
   }
-  std::vector<StudyTask> tasks = StudyTasks(holdouts, recipes);
-  if (!options.fit_all_rows) {
-    std::erase_if(tasks, [](const StudyTask& t) { return t.holdout < 0; });
-  }
-  std::vector<FitOutcome> final_outcomes(recipes.size());
-  std::vector<std::vector<std::vector<FoldOutcome>>> outcomes(recipes.size());
-  for (auto& of_model : outcomes) {
-    for (const Holdout& holdout : holdouts) {
-      of_model.emplace_back(holdout.folds.size());
-    }
-  }
-  // What the recipes share of the same rows: all rows, then fold by fold.
-  SharedWork of_all_rows;
-  std::map<std::pair<std::ptrdiff_t, std::size_t>, SharedWork> of_folds;
-  of_all_rows.every_penalty = std::ranges::any_of(
-      recipes,
-      [](const auto& recipe) { return recipe->kind() == ModelKind::kBlend; });
-  for (const StudyTask& task : tasks) {
-    if (task.holdout < 0) continue;
-    of_folds[{task.holdout, task.fold}].every_penalty =
-        of_all_rows.every_penalty;
-  }
-  const auto fit = [&](const StudyTask& task) {
-    const fitting::InterruptionScope interruptible(options.stop);
-    const ModelRecipe& recipe = *recipes[task.model];
-    FitContext context = ContextOfTask(task, holdouts, options);
-    context.shared = task.holdout < 0 ? &of_all_rows
-                                      : &of_folds.at({task.holdout, task.fold});
-    if (task.holdout < 0) return FitAllRows(recipe, dataset, context);
-    if (context.stop != nullptr && context.stop->load()) {
-      FitOutcome outcome;
-      outcome.why_failed = kNotBegun;
-      return outcome;
-    }
-    const PreparedFold fold = PrepareFold(
-        dataset, holdouts[static_cast<std::size_t>(task.holdout)], task.fold);
-    return FitOnce(recipe, fold.training, fold.test.get(), context);
-  };
-  const auto find_or_fit = [&](const StudyTask& task) {
-    if (options.journal == nullptr) return fit(task);
-    if (auto found = options.journal->Find(task)) return std::move(*found);
-    FitOutcome outcome = fit(task);
-    const bool stopped = options.stop != nullptr && options.stop->load();
-    if (!stopped && !outcome.try_again) options.journal->Record(task, outcome);
-    return outcome;
-  };
-  std::atomic<int> done{0};
-  std::atomic<int> short_of_memory{0};
-  HeldOutSoFar held_out(recipes.size(), holdouts);
-  const auto run = [&](std::size_t index) {
-    const StudyTask& task = tasks[index];
-    FitProgress progress{.all = static_cast<int>(tasks.size()), .task = task};
-    const auto start = Clock::now();
-    FitOutcome outcome = find_or_fit(task);
-    if (outcome.try_again) ++short_of_memory;
-    // What an earlier run has found took its time there.
-    progress.seconds = std::max(outcome.seconds, SecondsSince(start));
-    if (task.holdout < 0) {
-      final_outcomes[task.model] = std::move(outcome);
-    } else {
-      const auto h = static_cast<std::size_t>(task.holdout);
-      const Holdout& holdout = holdouts[h];
-      if (options.progress) {
-        progress.holdout_rmse = held_out.Add(
-            task,
-            holdout.folds.size(),
-            holdout.test_data != nullptr ? holdout.test_data->target_values()
-                                         : VectorXd(dataset.target_values()(
-                                               holdout.folds[task.fold].test)),
-            outcome.test_predictions);
-      }
-      outcomes[task.model][h][task.fold] =
-          JudgeFold(dataset, holdout, task.fold, std::move(outcome));
-    }
-    progress.done = ++done;
-    if (options.progress) options.progress(progress);
-  };
-  // Each worker takes the next task, so that they start in the order above.
-  std::atomic<std::size_t> next{0};
-  const oneapi::tbb::global_control allow_jobs(
-      oneapi::tbb::global_control::max_allowed_parallelism,
-      static_cast<std::size_t>(options.jobs));
-  oneapi::tbb::task_arena arena(options.jobs);
-  arena.execute([&] {
-    oneapi::tbb::parallel_for(0, options.jobs, [&](int /*worker*/) {
-      for (std::size_t i = next++; i < tasks.size(); i = next++) run(i);
-    });
-  });
-
-  StudyResult result;
-  for (std::size_t model = 0; model < recipes.size(); ++model) {
-    result.models.push_back(PoolModel(*recipes[model],
-                                      dataset,
-                                      holdouts,
-                                      std::move(outcomes[model]),
-                                      std::move(final_outcomes[model])));
-  }
-  result.interrupted = options.stop != nullptr && options.stop->load();
-  result.short_of_memory = short_of_memory;
-  return result;
+  return StudyRun(dataset, holdouts, recipes, options).Run();
 }
 
 }  // namespace errmap::models
