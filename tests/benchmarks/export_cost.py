@@ -57,7 +57,7 @@ def net(count, hidden):
 
 def filtered(count, taus):
     names = [f"t{i}_degC" for i in range(count)]
-    derived = [{"name": f"f{i}", "unit": "degC", "of": name, "filter": "ema",
+    derived = [{"name": f"f{i}", "unit": "degC", "of": name, "filter": "ema", "between": "linear",
                 "tau": taus[i % len(taus)]} for i, name in enumerate(names)]
     terms = [[int(i == j) for j in range(count)] for i in range(count)]
     history = {"time_unit": "s", "session": "day", "latest_start": None,
