@@ -68,6 +68,35 @@ Between ReadBetween(const std::optional<Node>& node) {
   node->Refuse("must be 'linear' or 'held', found '" + between + "'");
 }
 
+double ReadPositive(const Node& node) {
+  const double value = node.Number();
+  if (!(value > 0.0)) node.Refuse("must be above 0");
+  return value;
+}
+
+// Of readings that stand in the order of the history's columns.
+std::vector<RowChange> ReadRowChanges(
+    const Node& node,
+    const History& history,
+    const std::vector<data::ColumnInfo>& columns) {
+  std::vector<RowChange> changes;
+  const std::vector<std::string> names = history.columns();
+  for (const Node& element : node.Elements()) {
+    const Node name = element.At("column");
+    const auto found = std::ranges::find(names, name.Text());
+    const auto at = static_cast<std::size_t>(found - names.begin());
+    if (found == names.end() || columns[at].name != *found) {
+      name.Refuse(
+          "must be a column of the history, and the inputs must stand "
+          "in its order");
+    }
+    changes.push_back({*found,
+                       ReadPositive(element.At("largest")),
+                       ReadPositive(element.At("mean"))});
+  }
+  return changes;
+}
+
 History ReadHistory(const Node& node, const std::vector<TrainedInput>& inputs) {
   History history;
   history.time_unit = node.At("time_unit").Text();
@@ -102,6 +131,9 @@ History ReadHistory(const Node& node, const std::vector<TrainedInput>& inputs) {
   } catch (const std::invalid_argument& error) {
     node.Refuse(error.what());
   }
+  if (const auto changes = node.Find("row_changes")) {
+    history.row_changes = ReadRowChanges(*changes, history, columns);
+  }
   return history;
 }
 
@@ -127,12 +159,6 @@ Eigen::VectorXd ReadVector(const Node& node, Index size) {
     node.Refuse(fmt::format("needs {} numbers, has {}", size, values.size()));
   }
   return values;
-}
-
-double ReadPositive(const Node& node) {
-  const double value = node.Number();
-  if (!(value > 0.0)) node.Refuse("must be above 0");
-  return value;
 }
 
 Eigen::VectorXd ReadPositive(const Node& node, Index size) {

@@ -31,11 +31,18 @@ Json ToJson(const History& history) {
     }
     derived.push_back(std::move(entry));
   }
+  Json row_changes = Json::array();
+  for (const RowChange& change : history.row_changes) {
+    row_changes.push_back({{"column", change.column},
+                           {"largest", change.largest},
+                           {"mean", change.mean}});
+  }
   return {{"time_unit", history.time_unit},
           {"session", history.session},
           {"latest_start",
            std::isfinite(history.latest_start) ? Json(history.latest_start)
                                                : Json()},
+          {"row_changes", std::move(row_changes)},
           {"longest_step",
            std::isfinite(history.longest_step) ? Json(history.longest_step)
                                                : Json()},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -165,6 +166,46 @@ Derived Derive(const data::Dataset& dataset, const History& history) {
              : DeriveRows(dataset, columns, std::move(state));
 }
 
+// How far readings lie apart, as far as filters mind; 0 where they do not.
+class StepsApart {
+ public:
+  StepsApart(const data::SessionLog& log, const History& history)
+      : log_(log),
+        changes_(history.row_changes),
+        longest_(history.longest_bridged()),
+        in_rows_(history.time_unit == "rows") {
+    const std::vector<std::string> names = history.columns();
+    for (const RowChange& change : changes_) {
+      columns_.push_back(std::ranges::find(names, change.column) -
+                         names.begin());
+    }
+  }
+
+  double Between(Index before, Index row) const {
+    if (!in_rows_) {
+      const double step = log_.time[row] - log_.time[before];
+      return step > longest_ ? step : 0.0;
+    }
+    constexpr double kLeap = 2.0;
+    double most = 0.0;
+    for (std::size_t i = 0; i < changes_.size(); ++i) {
+      const double change = std::fabs(log_.input_values(row, columns_[i]) -
+                                      log_.input_values(before, columns_[i]));
+      if (change > kLeap * changes_[i].largest) {
+        most = std::max(most, change / changes_[i].mean);
+      }
+    }
+    return most;
+  }
+
+ private:
+  const data::SessionLog& log_;
+  const std::vector<RowChange>& changes_;
+  std::vector<Index> columns_;
+  double longest_ = 0.0;
+  bool in_rows_ = false;
+};
+
 DerivedInput Unitless(const data::ColumnInfo& of,
                       const char* name,
                       Filter filter) {
@@ -295,6 +336,41 @@ double LatestStart(const data::Dataset& training) {
              : kUnknown;
 }
 
+std::vector<RowChange> RowChanges(const data::Dataset& training,
+                                  const History& history) {
+  std::vector<RowChange> changes;
+  if (history.time_unit != "rows" || training.log() == nullptr) return changes;
+  const data::SessionLog& log = *training.log();
+  const std::vector<std::vector<Index>> sessions = RowsOfSessions(log);
+  const std::vector<Index> codes = training.session_codes();
+  const std::set<Index> seen(codes.begin(), codes.end());
+  for (const std::string& name : history.columns()) {
+    const bool is_filtered =
+        std::ranges::any_of(history.derived, [&](const DerivedInput& input) {
+          return input.filter == Filter::kEma && input.of == name;
+        });
+    if (!is_filtered) continue;
+    const auto column = log.input_values.col(training.FindInput(name));
+    double largest = 0.0;
+    double sum = 0.0;
+    Index steps = 0;
+    for (const Index code : seen) {
+      const std::vector<Index>& rows = sessions[static_cast<std::size_t>(code)];
+      for (std::size_t i = 1; i < rows.size(); ++i) {
+        const double change = std::fabs(column[rows[i]] - column[rows[i - 1]]);
+        if (std::isnan(change)) continue;
+        largest = std::max(largest, change);
+        sum += change;
+        ++steps;
+      }
+    }
+    if (largest > 0.0) {
+      changes.push_back({name, largest, sum / static_cast<double>(steps)});
+    }
+  }
+  return changes;
+}
+
 double LongestStep(const data::Dataset& training) {
   if (training.log() == nullptr)
     return std::numeric_limits<double>::quiet_NaN();
@@ -312,18 +388,18 @@ double LongestStep(const data::Dataset& training) {
 
 std::vector<Missing> FindMissing(const data::SessionLog& log,
                                  const History& history) {
-  const double longest = history.longest_bridged();
+  const StepsApart steps(log, history);
   std::vector<Missing> missing(log.sessions.codes.size(), Missing::kNothing);
   for (const std::vector<Index>& rows : RowsOfSessions(log)) {
     if (rows.empty()) continue;
     const bool begins_inside = log.time[rows.front()] > history.latest_start;
     double known_again = log.time[rows.front()];
-    double before = known_again;
+    Index before = rows.front();
     for (const Index row : rows) {
       const double now = log.time[row];
-      const double step = now - before;
-      if (step > longest) known_again = now + step;
-      before = now;
+      const double apart = steps.Between(before, row);
+      if (apart > 0.0) known_again = now + apart;
+      before = row;
       Missing& here = missing[static_cast<std::size_t>(row)];
       if (begins_inside) {
         here = Missing::kStart;

@@ -42,6 +42,13 @@ struct DerivedInput {
   Between between = Between::kLinear;  // of kEma
 };
 
+/// How a column that is filtered changed from row to row of training.
+struct RowChange {
+  std::string column;
+  double largest = 0.0;  // its unit; above 0
+  double mean = 0.0;     // likewise
+};
+
 /// The derived inputs of a map, and what its form reads.
 struct History {
   std::string time_unit;  // "s" or "rows"
@@ -55,6 +62,8 @@ struct History {
   /// Longest step from reading to reading within the sessions of training; NaN
   /// where nothing is known.
   double longest_step = std::numeric_limits<double>::quiet_NaN();
+  /// Where time is rows, which cannot tell that some are missing.
+  std::vector<RowChange> row_changes = {};
 
   /// Longest step from reading to reading over which the filters know enough:
   /// twice the longest of training, or three of the shortest time constant
@@ -88,17 +97,23 @@ double LatestStart(const data::Dataset& training);
 /// longest_step of the sessions of these rows.
 double LongestStep(const data::Dataset& training);
 
+/// row_changes of the columns of `history` in the sessions of these rows; none
+/// where its time is not rows.
+std::vector<RowChange> RowChanges(const data::Dataset& training,
+                                  const History& history);
+
 /// What is missing before a row, so that what a map remembers there is not what
 /// it would in use.
 enum class Missing {
   kNothing,
   kStart,     // the first rows of its session, which begins later than
               // latest_start
-  kReadings,  // those of a step above longest_bridged; until as much time has
-              // passed again
+  kReadings,  // those of a step above longest_bridged, or where time is rows
+              // of a leap above twice the largest of row_changes, which counts
+              // as so many mean ones; until as much time has passed again
 };
 
-/// For each row of a log. Nothing is known to miss where time is rows.
+/// For each row of a log whose inputs are columns() of the history.
 std::vector<Missing> FindMissing(const data::SessionLog& log,
                                  const History& history);
 

@@ -90,12 +90,15 @@ void WarnOfSessions(const History& history,
   }
   if (after_gaps > 0) {
     map->warnings.push_back(fmt::format(
-        "warning: {} of {} rows come after a gap in the readings: the map's "
-        "filters know enough over steps of up to {:.6g} s; give the readings "
+        "warning: {} of {} rows come after a gap in the readings{}; give those "
         "between (inside = 0)",
         after_gaps,
         table.num_rows,
-        history.longest_bridged()));
+        history.time_unit == "rows"
+            ? ", by the leaps of the filtered inputs"
+            : fmt::format(": the map's filters know enough over steps of up to "
+                          "{:.6g} s",
+                          history.longest_bridged())));
   }
   if (!arguments.after.empty() && !any_goes_on) {
     map->warnings.push_back(

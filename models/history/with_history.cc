@@ -28,6 +28,7 @@ FittedModel WithHistory(FittedModel fitted,
     needed.insert(input->of);
     read->derived.insert(read->derived.begin(), *input);
   }
+  read->row_changes = RowChanges(training, *read);
   std::vector<Eigen::Index> columns;
   for (const std::string& name : read->columns()) {
     columns.push_back(training.FindInput(name));

@@ -167,13 +167,15 @@ ERRMAP_MEMBERS(RegressionReport,
                standard_errors,
                notes)
 ERRMAP_MEMBERS(DerivedInput, column, of, filter, tau, between)
+ERRMAP_MEMBERS(RowChange, column, largest, mean)
 ERRMAP_MEMBERS(History,
                time_unit,
                session,
                derived,
                form_inputs,
                latest_start,
-               longest_step)
+               longest_step,
+               row_changes)
 ERRMAP_MEMBERS(Guards,
                input_margin,
                error_margin,

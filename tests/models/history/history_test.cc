@@ -338,6 +338,34 @@ TEST(History, TellsRowsWhoseReadingsBeforeAreMissing) {
   EXPECT_EQ(FindMissing(*log, history), nothing);  // nothing is filtered
 }
 
+// Rows cannot tell that some are missing; what is filtered can.
+TEST(History, TellsMissingRowsByLeapsOfWhatIsFiltered) {
+  VectorXd row = VectorXd::LinSpaced(6, 0.0, 5.0);
+  VectorXd training(6);
+  training << 20.0, 20.5, 21.5, 21.5, 22.0, 22.5;
+  const auto in_rows = [&](const VectorXd& values) {
+    Dataset dataset = OneColumn("t1_degC", values, row);
+    auto log = std::make_shared<data::SessionLog>(*dataset.log());
+    log->time_unit = "rows";
+    return dataset.WithLog(log, dataset.log_rows());
+  };
+  History history = Of({Ema(ColumnNamed("t1_degC"), 5.0, "rows")});
+  EXPECT_TRUE(RowChanges(in_rows(training), history).empty());
+  history.time_unit = "rows";
+  history.row_changes = RowChanges(in_rows(training), history);
+  ASSERT_EQ(history.row_changes.size(), 1U);
+  EXPECT_EQ(history.row_changes[0].column, "t1_degC");
+  EXPECT_EQ(history.row_changes[0].largest, 1.0);
+  EXPECT_DOUBLE_EQ(history.row_changes[0].mean, 0.5);
+  VectorXd probes(6);
+  probes << 20.0, 22.0, 23.05, 25.1, 25.2, 25.3;
+  constexpr Missing kHere = Missing::kNothing;
+  constexpr Missing kGap = Missing::kReadings;
+  // A leap of 2.05 counts as 4.1 rows.
+  EXPECT_THAT(FindMissing(*in_rows(probes).log(), history),
+              ElementsAre(kHere, kHere, kHere, kGap, kGap, kGap));
+}
+
 TEST(History, LearnsTheLongestStepOfTheTrainingSessions) {
   const Dataset dataset = WithLog({ColumnNamed("t1_degC")},
                                   VectorXd::Ones(5),
