@@ -380,7 +380,8 @@ TEST(SelectionRecipe, SameSeedAndAnyThreadsGiveTheSameReport) {
     FitContext context = kExplain;
     context.seed = seed;
     context.threads = threads;
-    for (const auto& term : recipe->Fit(dataset, context).regression->terms) {
+    const FittedModel fitted = recipe->Fit(dataset, context);
+    for (const ReportTerm& term : fitted.regression->terms) {
       shares.push_back(term.inclusion);
     }
     return shares;
