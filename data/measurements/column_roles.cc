@@ -47,6 +47,52 @@ bool IsAllMissing(const CsvColumn& column) {
          std::all_of(column.texts.begin(), column.texts.end(), IsMissingText);
 }
 
+// Whether two names differ in nothing but the letter of an axis: "disp_x" and
+// "disp_z", yet not "x" and "z", which may be positions.
+bool DifferInAxis(std::string_view a, std::string_view b) {
+  constexpr std::string_view kAxes = "xyzabcuvwXYZABCUVW";
+  if (a.size() != b.size() || a.size() < 2) return false;
+  std::size_t differing = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (EqualsIgnoringCase(a.substr(i, 1), b.substr(i, 1))) continue;
+    if (kAxes.find(a[i]) == kAxes.npos || kAxes.find(b[i]) == kAxes.npos) {
+      return false;
+    }
+    ++differing;
+  }
+  return differing == 1;
+}
+
+// Units in which errors are stated and, but for an axis of one letter, nothing
+// that a map is made from.
+bool IsUnitOfErrors(const Header& header) {
+  constexpr auto kSmall =
+      std::to_array<std::string_view>({"nm", "um", "uin", "arcsec", "urad"});
+  return header.base.size() > 1 &&
+         std::find(kSmall.begin(), kSmall.end(), header.unit.symbol) !=
+             kSmall.end();
+}
+
+// Why a column is no default input beside this target, or "" where it may be
+// one: other channels of a measurement are not at hand when the map is used,
+// and tell the target all too well.
+std::string_view WhyMeasuredBeside(std::string_view target,
+                                   std::string_view name) {
+  if (NamesPosition(name)) return "";
+  if (StemOfColumn(name) == StemOfColumn(target)) {
+    return "measures the target's quantity";
+  }
+  const Header here = ReadHeader(name);
+  const Header there = ReadHeader(target);
+  if (StartsWithIgnoringCase(name, "error") || IsUnitOfErrors(here) ||
+      (here.unit == there.unit &&
+       here.unit_text.empty() == there.unit_text.empty() &&
+       DifferInAxis(StemOfColumn(name), StemOfColumn(target)))) {
+    return "measures an error, as the target does";
+  }
+  return "";
+}
+
 bool Is(std::ptrdiff_t role, std::size_t index) {
   return role == static_cast<std::ptrdiff_t>(index);
 }
@@ -226,8 +272,8 @@ class InputChooser {
 
   void ChooseDefaultInputs() {
     const std::unordered_set<std::string> excluded = ExcludedNames();
-    const std::string target_stem = StemOfColumn(Name(roles_.target));
     std::vector<std::string> texts;
+    std::vector<std::string> beside;
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       if (i == roles_.target || Is(roles_.group, i) || Is(roles_.weight, i) ||
           Is(found_.time_column, i) || Name(i) == found_.sessions.column ||
@@ -253,16 +299,24 @@ class InputChooser {
       } else if (table_.At(i).is_text()) {
         RefuseNumbersAsText(table_, table_.At(i));
         texts.push_back(Name(i));
-      } else if (StemOfColumn(Name(i)) == target_stem) {
+      } else if (const std::string_view why =
+                     WhyMeasuredBeside(Name(roles_.target), Name(i));
+                 !why.empty()) {
         had_candidates_ = true;
-        Drop(i, "measures the target's quantity");
-        chosen_.remarks.push_back(
-            "column " + name +
-            " measures the target's quantity and is left out; name it in " +
-            ArgumentName("inputs") + " to use it");
+        Drop(i, std::string(why));
+        beside.push_back(Name(i));
       } else {
         chosen_.inputs.push_back(i);
       }
+    }
+    if (!beside.empty()) {
+      const bool one = beside.size() == 1;
+      chosen_.remarks.push_back(
+          (one ? "column " : "columns ") + ListOfNames(beside) +
+          (one ? " measures an error as" : " measure errors as") +
+          " the target does and " + (one ? "is" : "are") + " left out; name " +
+          (one ? "it" : "them") + " in " + ArgumentName("inputs") + " to use " +
+          (one ? "it" : "them"));
     }
     if (!texts.empty()) {
       chosen_.remarks.push_back(

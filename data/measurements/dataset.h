@@ -200,9 +200,11 @@ struct PreparedDataset {
 ///
 /// Default inputs are the numeric columns other than target, group, weight,
 /// time, session, `cycle`, `session`, `day`, `run`, `segment`, `record`,
-/// `index`, `row`, `id`, `sample` and names starting with `time` or `truth`; a
-/// column of the target's stem
-/// (StemOfColumn) is left out with a remark unless named in `inputs`. Dead
+/// `index`, `row`, `id`, `sample` and names starting with `time` or `truth`.
+/// Errors measured beside the target are left out with a remark unless named in
+/// `inputs`: columns of its stem (StemOfColumn), of its unit and of a name that
+/// differs in the letter of an axis alone, named `error*`, or in nm, um, uin,
+/// arcsec or urad, positions and axes of one letter apart. Dead
 /// inputs (all zero, constant, or one value in at least 90 % of the rows) are
 /// dropped with a remark unless `keep_dead`; an input that repeats another
 /// value for value is named in a remark and kept. Columns of `where`, and those

@@ -145,8 +145,9 @@ TEST(MakeDataset, LeavesOutColumnsOfTheTargetsQuantity) {
   const PreparedDataset prepared = Make(kText, {.target = "disp_ch1_um"});
   EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("t1_degC"));
   EXPECT_THAT(prepared.remarks,
-              ElementsAre("column disp_ch2_um measures the target's quantity "
-                          "and is left out; name it in inputs to use it"));
+              ElementsAre("column 'disp_ch2_um' measures an error as the "
+                          "target does and is left out; name it in inputs to "
+                          "use it"));
   ASSERT_THAT(DroppedNames(prepared), ElementsAre("disp_ch2_um"));
   EXPECT_EQ(prepared.dropped[0].why, "measures the target's quantity");
 
@@ -154,6 +155,29 @@ TEST(MakeDataset, LeavesOutColumnsOfTheTargetsQuantity) {
       Make(kText, {.target = "disp_ch1_um", .inputs = {"disp_ch2_um"}});
   EXPECT_THAT(InputNames(named.dataset), ElementsAre("disp_ch2_um"));
   EXPECT_THAT(named.remarks, IsEmpty());
+}
+
+// Other channels of one measurement: they tell the target all too well, and no
+// control has them.
+TEST(MakeDataset, LeavesOutErrorsMeasuredBesideTheTarget) {
+  const auto inputs = [](std::string_view header, std::string_view target) {
+    return InputNames(Make(std::string(header) + "\n1,2,3,4\n2,3,5,9\n",
+                           {.target = std::string(target)})
+                          .dataset);
+  };
+  EXPECT_THAT(
+      inputs("t1_degC,error_x_mm,error_z_mm,error_yaw_arcsec", "error_z_mm"),
+      ElementsAre("t1_degC"));
+  EXPECT_THAT(inputs("rpm,X-Verlagerung [µm],Kippung [µrad],Z-Verlagerung [µm]",
+                     "Z-Verlagerung [µm]"),
+              ElementsAre("rpm"));
+  EXPECT_THAT(inputs("T_x_degC,dx,dy,dz", "dz"), ElementsAre("T_x_degC"));
+  // Positions stay, whatever their unit, and so do axes of one letter.
+  EXPECT_THAT(inputs("position_um,x_um,y_mm,error_um", "error_um"),
+              ElementsAre("position_um", "x_um", "y_mm"));
+  EXPECT_THAT(inputs("x1,x2,ya,yz", "yz"), ElementsAre("x1", "x2"));
+  EXPECT_THAT(inputs("T_x_degC,T_y_degC,speed,growth_z_mm", "growth_z_mm"),
+              ElementsAre("T_x_degC", "T_y_degC", "speed"));
 }
 
 TEST(MakeDataset, FindsTargetAndGroupInAnyCase) {
