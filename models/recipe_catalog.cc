@@ -60,6 +60,12 @@ const ModelType& TypeOf(const ModelSpec& spec) {
                   fmt::join(ModelTypes(), ", ")));
 }
 
+// Types that cannot be fitted for want of one thing.
+struct LackingTypes {
+  std::string what;
+  std::vector<std::string> types;
+};
+
 }  // namespace
 
 const std::vector<std::string>& ModelTypes() {
@@ -112,6 +118,7 @@ DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
   constexpr Eigen::Index kRowsPerCoefficient = 5;
   constexpr double kMostProducts = 5e10;  // some seconds
   DefaultRecipes defaults;
+  std::vector<LackingTypes> lacking;
   for (const ModelType& listed : AllTypes()) {
     if (!listed.is_compared) continue;
     const std::string& type = listed.name;
@@ -144,11 +151,22 @@ DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
                   : type == "poly:lasso" ? penalized(fitting::Penalty::kLasso)
                                          : MakeRecipe(type);
     if (const auto missing = recipe->WhatIsMissing(dataset)) {
-      defaults.left_out.push_back(
-          fmt::format("{} is left out: the data lack {}", type, *missing));
+      const auto known =
+          std::ranges::find(lacking, *missing, &LackingTypes::what);
+      if (known == lacking.end()) {
+        lacking.push_back({*missing, {type}});
+      } else {
+        known->types.push_back(type);
+      }
     } else {
       defaults.recipes.push_back(std::move(recipe));
     }
+  }
+  for (const auto& [what, types] : lacking) {
+    defaults.left_out.push_back(fmt::format("{} {} left out: the data lack {}",
+                                            fmt::join(types, ", "),
+                                            types.size() == 1 ? "is" : "are",
+                                            what));
   }
   return defaults;
 }

@@ -39,7 +39,7 @@ std::string RewrittenSpec(std::string_view spec);
 
 struct DefaultRecipes {
   std::vector<std::unique_ptr<ModelRecipe>> recipes;
-  std::vector<std::string> left_out;  // one line each: which and why
+  std::vector<std::string> left_out;  // a line for all that lack one thing
 };
 
 /// The models compared when none are named: every kind that the data allow,
