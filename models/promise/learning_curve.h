@@ -14,9 +14,9 @@
 namespace errmap::models {
 
 /// The models whose curves are drawn where none are named: one family each of
-/// what is simple, linear and chosen.
+/// what is simple and linear, and the quickest of those that are recommended.
 inline constexpr const char* kLearningModels =
-    "mean,poly:temperature,poly:full:degree=1,poly:ridge";
+    "mean,poly:temperature,poly:full:degree=1,poly:ridge:view=auto";
 
 /// What is learnt from, one after another.
 enum class LearnBy { kSessions, kGroups };
