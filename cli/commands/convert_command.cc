@@ -22,7 +22,7 @@ struct ConvertArguments {
 };
 
 int RunConvert(const ConvertArguments& arguments) {
-  RefuseInputAsOutput("OUT", arguments.out, {arguments.in});
+  CheckOutputName("OUT", arguments.out, {arguments.in});
   const data::PatternTable table = data::ReadPatterns(arguments.in);
   data::WriteFileAtomically(
       arguments.out,

@@ -26,9 +26,14 @@ constexpr const char* kSchema = "errmap-files-1";
 
 }  // namespace
 
-void RefuseInputAsOutput(const std::string& flag,
-                         const std::string& output,
-                         const std::vector<std::string>& inputs) {
+void CheckOutputName(const std::string& flag,
+                     const std::string& output,
+                     const std::vector<std::string>& inputs) {
+  if (output == "-") {
+    throw UsageError(flag +
+                     ": - names no file; name one (./- is one of that "
+                     "name)");
+  }
   for (const std::string& input : inputs) {
     if (!data::IsSameFile(output, input)) continue;
     throw UsageError(
@@ -67,7 +72,7 @@ ClaimedFolder::ClaimedFolder(std::string path,
                              bool force)
     : path_(std::move(path)), names_(names) {
   for (const std::string& name : names_) {
-    RefuseInputAsOutput("output folder", PathOf(name), inputs);
+    CheckOutputName("output folder", PathOf(name), inputs);
   }
   ReadList(force);
   for (const std::string& name : names_) {

@@ -9,10 +9,11 @@
 namespace errmap::cli {
 
 /// Refuses to write `output`, which the user named by `flag`, where it is the
-/// same file as one of `inputs`, links followed. Throws UsageError naming both.
-void RefuseInputAsOutput(const std::string& flag,
-                         const std::string& output,
-                         const std::vector<std::string>& inputs);
+/// same file as one of `inputs`, links followed, or "-", by which others mean
+/// standard output. Throws UsageError naming both.
+void CheckOutputName(const std::string& flag,
+                     const std::string& output,
+                     const std::vector<std::string>& inputs);
 
 /// Refuses what would be found out only after the work: `output`, a file named
 /// by the user, is a folder, or lies in one that is not there or cannot be

@@ -127,7 +127,7 @@ void ExportLinuxcnc(const std::string& model,
         "export --linuxcnc: name --increasing FILE.json and --decreasing "
         "FILE.json, the directions of motion");
   }
-  RefuseInputAsOutput(
+  CheckOutputName(
       "-o",
       out,
       {model, arguments.increasing, arguments.decreasing, arguments.log});

@@ -326,7 +326,7 @@ int RunVolumetric(const VolumetricArguments& arguments) {
   }
   const study_file::MachineFile file =
       study_file::ReadMachineFile(arguments.machine);
-  RefuseInputAsOutput("-o", arguments.out, InputsOf(arguments, file.machine));
+  CheckOutputName("-o", arguments.out, InputsOf(arguments, file.machine));
   const data::CsvTable points = data::ReadCsv(arguments.points);
   std::optional<data::CsvTable> log;
   if (!arguments.log.after.empty()) log = data::ReadCsv(arguments.log.after);

@@ -193,7 +193,7 @@ void SayClipped(const models::Prediction& prediction) {
 }
 
 int RunPredict(const PredictArguments& arguments) {
-  RefuseInputAsOutput(
+  CheckOutputName(
       "-o",
       arguments.out,
       {arguments.model, arguments.file, arguments.log.after, arguments.probes});

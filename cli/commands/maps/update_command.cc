@@ -94,7 +94,7 @@ Json TrialJson(const models::UpdateTrial& trial) {
 
 int RunUpdate(const UpdateArguments& arguments,
               const std::string& command_line) {
-  RefuseInputAsOutput("-o", arguments.out, {arguments.file, arguments.known});
+  CheckOutputName("-o", arguments.out, {arguments.file, arguments.known});
   RequirePlaceFor(arguments.out);
   const models::FittedModel old_map = models::LoadModel(arguments.model);
   const auto recipe = RecipeFromArgument(old_map.name);

@@ -170,10 +170,10 @@ int RunCompare(const CompareArguments& arguments) {
   // Better now than after minutes of fitting.
   const std::vector<std::string> inputs = plan.InputPaths();
   for (const study_file::ComponentConfig& component : plan.config.components) {
-    RefuseInputAsOutput("--save-split", component.save_split, inputs);
+    CheckOutputName("--save-split", component.save_split, inputs);
     RequirePlaceFor(component.save_split);
   }
-  RefuseInputAsOutput("-o", arguments.page, inputs);
+  CheckOutputName("-o", arguments.page, inputs);
   RequirePlaceFor(arguments.page);
   std::optional<ClaimedFolder> folder;
   if (!arguments.out.empty()) {

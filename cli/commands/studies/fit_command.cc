@@ -171,10 +171,9 @@ std::string FitText(const models::FittedModel& fitted,
 }
 
 int RunFit(const FitArguments& arguments, const std::string& command_line) {
-  RefuseInputAsOutput(
-      "-o",
-      arguments.out,
-      {arguments.data.file, models::FileOfSpec(arguments.model)});
+  CheckOutputName("-o",
+                  arguments.out,
+                  {arguments.data.file, models::FileOfSpec(arguments.model)});
   RequirePlaceFor(arguments.out);
   auto recipe = RecipeFromArgument(arguments.model);
   const data::PreparedDataset prepared = ReadData(arguments.data);

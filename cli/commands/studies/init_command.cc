@@ -60,7 +60,7 @@ int RunInitFleet(const InitArguments& arguments) {
 }
 
 int RunInit(const InitArguments& arguments) {
-  RefuseInputAsOutput("-o", arguments.out, {arguments.data});
+  CheckOutputName("-o", arguments.out, {arguments.data});
   if (!arguments.force && std::filesystem::exists(arguments.out)) {
     throw UsageError(fmt::format(
         "{} is there already; write another with -o, or replace it with "

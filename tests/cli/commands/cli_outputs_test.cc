@@ -68,6 +68,22 @@ TEST_F(CliOutputs, OutputsThatAreInputsAreRefusedBeforeAnyWork) {
             0);
 }
 
+TEST_F(CliOutputs, ADashNamesNoFile) {
+  Fit("mean", "m.json");
+  const std::vector<std::vector<std::string>> commands = {
+      {"compare", kDown, "--models", "mean", "-o", "-"},
+      {"compare", kDown, "--models", "mean", "--save-split", "-"},
+      {"fit", kDown, "--model", "mean", "-o", "-"},
+      {"predict", "m.json", kDown, "-o", "-"},
+      {"init", kDown, "-o", "-"}};
+  for (const std::vector<std::string>& words : commands) {
+    SCOPED_TRACE(::testing::PrintToString(words));
+    EXPECT_THAT(RefusalOf(Run(words), kWrongCommandLine),
+                HasSubstr(": - names no file; name one"));
+  }
+  EXPECT_FALSE(Exists("-"));
+}
+
 // Found out after hours of fits it would cost the page.
 TEST_F(CliOutputs, PlacesThatCannotBeWrittenToAreRefusedBeforeAnyWork) {
   std::filesystem::create_directory(scratch_ / "folder");
