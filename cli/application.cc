@@ -322,6 +322,7 @@ bool HasRoomForProducts() {
 
 // "keep_dead" is "--keep-dead" here.
 std::string FlagOf(std::string_view member, std::string_view value) {
+  if (member == "where") return "errmap init writes a study of them";
   std::string flag = "--" + std::string(member);
   std::ranges::replace(flag, '_', '-');
   if (!value.empty()) flag.append(" ").append(value);

@@ -273,6 +273,7 @@ class InputChooser {
   void ChooseDefaultInputs() {
     const std::unordered_set<std::string> excluded = ExcludedNames();
     std::vector<std::string> texts;
+    std::vector<std::string> parting;  // of these
     std::vector<std::string> beside;
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       if (i == roles_.target || Is(roles_.group, i) || Is(roles_.weight, i) ||
@@ -299,6 +300,7 @@ class InputChooser {
       } else if (table_.At(i).is_text()) {
         RefuseNumbersAsText(table_, table_.At(i));
         texts.push_back(Name(i));
+        if (PartsComponents(table_, table_.At(i))) parting.push_back(Name(i));
       } else if (const std::string_view why =
                      WhyMeasuredBeside(Name(roles_.target), Name(i));
                  !why.empty()) {
@@ -324,6 +326,11 @@ class InputChooser {
           (texts.size() == 1 ? " holds text and is" : " hold text and are") +
           " left out of the inputs");
     }
+    if (!parting.empty()) {
+      chosen_.remarks.push_back(
+          "rows that differ in " + ListOfNames(parting) +
+          " may need a map each: " + ArgumentName("where"));
+    }
     if (chosen_.inputs.empty() && found_.time_column >= 0) {
       had_candidates_ = true;
       Drop(static_cast<std::size_t>(found_.time_column), "is the time");
@@ -342,6 +349,34 @@ class InputChooser {
 };
 
 }  // namespace
+
+bool PartsComponents(const CsvTable& table, const CsvColumn& column) {
+  constexpr auto kNames = std::to_array<std::string_view>({"direction",
+                                                           "dir",
+                                                           "approach",
+                                                           "motion",
+                                                           "side",
+                                                           "axis",
+                                                           "slide",
+                                                           "component"});
+  constexpr std::size_t kMostValues = 24;
+  const bool is_named =
+      std::any_of(kNames.begin(), kNames.end(), [&](std::string_view name) {
+        return EqualsIgnoringCase(column.name, name);
+      });
+  if (!is_named) return false;
+  std::vector<std::string> values;
+  for (std::size_t row = 0; row < table.num_rows; ++row) {
+    std::string value = table.CellText(column, row);
+    if (value.empty()) return false;
+    if (std::find(values.begin(), values.end(), value) != values.end()) {
+      continue;
+    }
+    values.push_back(std::move(value));
+    if (values.size() > kMostValues) return false;
+  }
+  return values.size() >= 2;
+}
 
 ColumnRoles ChooseRoles(const CsvTable& table,
                         const DatasetSelection& selection) {

@@ -41,6 +41,11 @@ ChosenInputs ChooseInputs(const CsvTable& table,
                           const ColumnRoles& roles,
                           const FoundSessions& found);
 
+/// Whether the values of a column make errors of their own, as up and down
+/// motion differ by hysteresis: named direction, axis or alike, with 2 to 24
+/// values and no empty cell.
+bool PartsComponents(const CsvTable& table, const CsvColumn& column);
+
 /// Throws InputError with the first reasons why no input is left.
 [[noreturn]] void ThrowNoInputs(const CsvTable& table,
                                 const std::vector<DroppedColumn>& dropped);

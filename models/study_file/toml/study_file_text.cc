@@ -1,7 +1,6 @@
 #include "models/study_file/toml/study_file_text.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -9,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "data/measurements/column_roles.h"
 #include "data/text.h"
 #include "models/report/number_text.h"
 #include "models/report/words/data_words.h"
@@ -23,34 +23,6 @@ using Filters = std::vector<data::ColumnFilter>;
 
 std::string Shown(const std::string& text) {
   return data::Printable(text, text.size());
-}
-
-// Columns whose values make errors of their own: up and down motion differ by
-// hysteresis.
-bool PartsComponents(const data::CsvTable& table,
-                     const data::CsvColumn& column) {
-  constexpr auto kNames = std::to_array<std::string_view>({"direction",
-                                                           "dir",
-                                                           "approach",
-                                                           "motion",
-                                                           "side",
-                                                           "axis",
-                                                           "slide",
-                                                           "component"});
-  constexpr std::size_t kMostValues = 24;
-  const bool is_named = std::ranges::any_of(kNames, [&](std::string_view name) {
-    return data::EqualsIgnoringCase(column.name, name);
-  });
-  if (!is_named) return false;
-  std::vector<std::string> values;
-  for (std::size_t row = 0; row < table.num_rows; ++row) {
-    std::string value = table.CellText(column, row);
-    if (value.empty()) return false;
-    if (std::ranges::find(values, value) != values.end()) continue;
-    values.push_back(std::move(value));
-    if (values.size() > kMostValues) return false;
-  }
-  return values.size() >= 2;
 }
 
 // The distinct combinations of values of these columns, as they appear.
@@ -220,7 +192,7 @@ StudyConfig ProposeStudy(const data::CsvTable& table) {
   constexpr std::size_t kMostComponents = 100;
   std::vector<const data::CsvColumn*> parting;
   for (const data::CsvColumn& column : table.columns) {
-    if (PartsComponents(table, column)) parting.push_back(&column);
+    if (data::PartsComponents(table, column)) parting.push_back(&column);
   }
   std::vector<Filters> combinations = Combinations(table, parting);
   if (combinations.size() > kMostComponents) combinations = {Filters{}};

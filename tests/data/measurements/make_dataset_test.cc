@@ -474,6 +474,18 @@ TEST(MakeDatasetWhere, KeepsTheRowsOfOneTextUnderTheirNumbersInTheFile) {
   EXPECT_THAT(prepared.remarks, ElementsAre(HasSubstr("2 sessions by 'day'")));
 }
 
+TEST(MakeDatasetWhere, IsNamedWhereTextTellsDirectionsApart) {
+  constexpr std::string_view kRows =
+      "x,error_mm,Direction\n1,1,+\n2,3,-\n3,4,+\n";
+  EXPECT_THAT(Make(kRows).remarks,
+              Contains("rows that differ in 'Direction' may need a map each: "
+                       "where"));
+  EXPECT_THAT(Make(kRows, {.where = {{"Direction", "+"}}}).remarks,
+              Not(Contains(HasSubstr("map each"))));
+  EXPECT_THAT(Make("x,error_mm,note\n1,1,+\n2,3,-\n").remarks,
+              Not(Contains(HasSubstr("map each"))));
+}
+
 TEST(MakeDatasetWhere, TakesNumbersAndSeveralColumnsAtOnce) {
   const auto prepared =
       Make(kBothWays, {.where = {{"direction", "down"}, {"day", 2.0}}});
