@@ -197,6 +197,16 @@ LeftOut<StepCostRecord> StepCostOf(const FittedModel& map) {
   }
 }
 
+// Of one prediction: as a controller runs it, filters and all, or by its
+// formula where none could.
+CostRecord CostOfOne(const FittedModel& map) {
+  if (const LeftOut<StepCostRecord> step = StepCostOf(map)) {
+    return {step->multiplications, step->exponentials};
+  }
+  const PredictionCost cost = CostOf(map.model->Describe());
+  return {cost.multiplications, cost.exponentials};
+}
+
 ModelRecord MakeModel(const ComponentStudy& study, std::size_t index) {
   const ModelResult& model = study.study.models[index];
   ModelRecord record;
@@ -497,9 +507,7 @@ std::optional<RecommendationRecord> JudgementRecord::Advice() const {
   record.meets_goal = MeetsGoal(record.goal_standing);
   record.extrapolated_share = advice->extrapolated_share;
   record.removed_share = RemovedShare(advice->holdout, result);
-  const PredictionCost cost = CostOf(model.final_fit->model->Describe());
-  record.cost = {.multiplications = cost.multiplications,
-                 .exponentials = cost.exponentials};
+  record.cost = CostOfOne(*model.final_fit);
   if (model.final_fit->history != nullptr) {
     record.memory = MemoryOf(*model.final_fit->history);
   }
