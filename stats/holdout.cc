@@ -1,6 +1,7 @@
 #include "stats/holdout.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <numeric>
 #include <set>
@@ -180,15 +181,199 @@ Fold RandomFold(const HoldoutSpec& spec, Index num_rows, std::uint64_t seed) {
   return FoldOf(is_test);
 }
 
-void RequireUnits(const HoldoutSpec& spec,
-                  Index found,
-                  Index needed,
-                  const std::string& what,
-                  const std::string& instead) {
-  if (found >= needed) return;
-  Refuse(spec.text,
-         "needs at least " + std::to_string(needed) + " " + what + ", found " +
-             std::to_string(found) + "; " + instead);
+Fold EveryFold(const HoldoutSpec& spec, Index num_rows) {
+  std::vector<bool> is_test(static_cast<std::size_t>(num_rows));
+  for (Index row = 0; row < num_rows; ++row) {
+    is_test[static_cast<std::size_t>(row)] = row % spec.k == spec.k - 1;
+  }
+  return FoldOf(is_test);
+}
+
+std::vector<Fold> ShuffledFolds(const HoldoutSpec& spec,
+                                const Units& rows,
+                                std::uint64_t seed) {
+  std::vector<Index> order = Range(rows.count());
+  Random random(seed);
+  random.Shuffle(order);
+  return HoldOutRuns(rows, order, spec.k);
+}
+
+// The folds of one hold-out, or why these rows do not allow it.
+class FoldMaker {
+ public:
+  FoldMaker(const HoldoutSpec& spec,
+            Index num_rows,
+            const std::vector<Index>& group_codes,
+            std::uint64_t seed)
+      : spec_(spec),
+        num_rows_(num_rows),
+        has_groups_(!group_codes.empty()),
+        groups_(num_rows, group_codes),
+        seed_(seed) {}
+
+  std::vector<Fold> Make() const {
+    switch (spec_.kind) {
+      case HoldoutKind::kEvery:
+        RequireRows();
+        return {EveryFold(spec_, num_rows_)};
+      case HoldoutKind::kGroups:
+        RequireGroups(spec_.k);
+        return GroupFolds(spec_, groups_, seed_);
+      case HoldoutKind::kSessions:
+        RequireSessions();
+        return GroupFolds(spec_, groups_, seed_);
+      case HoldoutKind::kBlocks:
+        RequireRows();
+        return HoldOutRuns(Units(num_rows_, {}), Range(num_rows_), spec_.k);
+      case HoldoutKind::kLeaveOneGroupOut:
+        RequireGroups(2);
+        return HoldOutRuns(groups_, Range(groups_.count()), groups_.count());
+      case HoldoutKind::kKFold:
+        RequireRows();
+        return ShuffledFolds(spec_, Units(num_rows_, {}), seed_);
+      case HoldoutKind::kForward:
+        Require(groups_.count(),
+                spec_.k + 1,
+                has_groups_ ? "groups" : "rows",
+                kFewerParts);
+        return ForwardFolds(spec_, groups_);
+      case HoldoutKind::kRandom:
+        return {RandomFold(spec_, num_rows_, seed_)};
+      case HoldoutKind::kFile:
+        return {{Range(num_rows_), {}}};
+    }
+    throw std::invalid_argument("MakeFolds: no such kind of hold-out");
+  }
+
+ private:
+  static constexpr const char* kFewerParts = "measure more, or use a smaller K";
+
+  void Require(Index found,
+               Index needed,
+               const std::string& what,
+               const std::string& instead) const {
+    if (found >= needed) return;
+    Refuse(spec_.text,
+           "needs at least " + std::to_string(needed) + " " + what +
+               ", found " + std::to_string(found) + "; " + instead);
+  }
+
+  void RequireRows() const { Require(num_rows_, spec_.k, "rows", kFewerParts); }
+
+  void RequireGroups(Index needed) const {
+    if (!has_groups_) {
+      Refuse(spec_.text,
+             "there are no groups; give the code of each row's, or hold out "
+             "rows (every:3, kfold:5)");
+    }
+    Require(groups_.count(),
+            needed,
+            "groups",
+            groups_.count() >= 2
+                ? "groups:" + std::to_string(groups_.count()) +
+                      " or leave-one-group-out is possible"
+                : "with one group only rows can be held out (every:3, "
+                  "kfold:5), which says nothing about another day");
+  }
+
+  void RequireSessions() const {
+    Require(has_groups_ ? groups_.count() : 0,
+            spec_.k,
+            "sessions",
+            !has_groups_
+                ? "give the code of each row's, or hold out rows (blocks:5)"
+            : groups_.count() >= 2
+                ? "sessions:" + std::to_string(groups_.count()) + " is possible"
+                : "of one run only groups or rows can be held out "
+                  "(groups:5, blocks:5), which says nothing about "
+                  "another day");
+  }
+
+  const HoldoutSpec& spec_;
+  Index num_rows_;
+  bool has_groups_;
+  Units groups_;
+  std::uint64_t seed_;
+};
+
+// Kinds that are written NAME:K or NAME:K:OPTION=N.
+struct CountedKind {
+  std::string_view name;
+  HoldoutKind kind;
+  Index least;  // of K
+  std::string_view option = "";
+  Index HoldoutSpec::*of_option = nullptr;
+  Index least_of_option = 0;
+};
+
+constexpr auto kCountedKinds = std::to_array<CountedKind>({
+    {"every", HoldoutKind::kEvery, 2},
+    {"groups", HoldoutKind::kGroups, 2, "repeats", &HoldoutSpec::repeats, 1},
+    {"sessions",
+     HoldoutKind::kSessions,
+     2,
+     "repeats",
+     &HoldoutSpec::repeats,
+     1},
+    {"blocks", HoldoutKind::kBlocks, 2},
+    {"kfold", HoldoutKind::kKFold, 2},
+    {"forward", HoldoutKind::kForward, 1, "gap", &HoldoutSpec::gap, 0},
+});
+
+// "forward:4:gap=1" taken apart at its colons.
+struct SpecParts {
+  std::string_view kind;
+  std::string_view rest;  // all behind the first colon
+  std::string_view value;
+  std::string_view option;
+  bool has_rest = false;
+  bool has_option = false;
+};
+
+SpecParts PartsOf(std::string_view text) {
+  SpecParts parts;
+  const std::size_t colon = text.find(':');
+  parts.kind = text.substr(0, colon);
+  if (colon == text.npos) return parts;
+  parts.has_rest = true;
+  parts.rest = text.substr(colon + 1);
+  const std::size_t second = parts.rest.find(':');
+  parts.value = parts.rest.substr(0, second);
+  if (second == text.npos) return parts;
+  parts.has_option = true;
+  parts.option = parts.rest.substr(second + 1);
+  return parts;
+}
+
+void RefuseOption(std::string_view text, const SpecParts& parts) {
+  if (!parts.has_option) return;
+  Refuse(text, "takes no option '" + std::string(parts.option) + "'");
+}
+
+void TakeCounts(const CountedKind& counted,
+                const SpecParts& parts,
+                HoldoutSpec* spec) {
+  spec->kind = counted.kind;
+  spec->k = ParseCount(spec->text, "K", parts.value, counted.least);
+  if (counted.of_option == nullptr) RefuseOption(spec->text, parts);
+  if (!parts.has_option) return;
+  const std::string prefix = std::string(counted.option) + "=";
+  if (!parts.option.starts_with(prefix)) {
+    Refuse(spec->text,
+           "the only option is " + prefix + "N, found '" +
+               std::string(parts.option) + "'");
+  }
+  spec->*counted.of_option = ParseCount(spec->text,
+                                        counted.option,
+                                        parts.option.substr(prefix.size()),
+                                        counted.least_of_option);
+  // Every fold has its rows in memory, and adds little to what is known.
+  constexpr Index kMostRepeats = 1000;
+  if (spec->repeats > kMostRepeats) {
+    Refuse(spec->text,
+           "repeats must be at most " + std::to_string(kMostRepeats) +
+               ", found " + std::to_string(spec->repeats));
+  }
 }
 
 }  // namespace
@@ -242,72 +427,22 @@ std::string_view HoldoutMeaning(std::string_view name) {
 HoldoutSpec ParseHoldout(std::string_view text) {
   HoldoutSpec spec;
   spec.text = std::string(text);
-  const std::size_t colon = text.find(':');
-  const std::string_view kind = text.substr(0, colon);
-  std::string_view rest =
-      colon == std::string_view::npos ? "" : text.substr(colon + 1);
-  if (kind == "file") {  // the path may hold colons
-    if (rest.empty()) Refuse(text, "names no file; use file:TEST.csv");
-    spec.kind = HoldoutKind::kFile;
-    spec.file = std::string(rest);
-    return spec;
-  }
-  const std::size_t second = rest.find(':');
-  const std::string_view value = rest.substr(0, second);
-  std::string_view option =
-      second == std::string_view::npos ? "" : rest.substr(second + 1);
-  const bool has_option = second != std::string_view::npos;
-  const auto take_option = [&](std::string_view key, Index least) -> Index {
-    if (!has_option) return 0;
-    const std::string prefix = std::string(key) + "=";
-    if (!option.starts_with(prefix)) {
-      Refuse(text,
-             "the only option is " + prefix + "N, found '" +
-                 std::string(option) + "'");
-    }
-    option.remove_prefix(prefix.size());
-    return ParseCount(text, key, option, least);
-  };
-  const auto refuse_option = [&] {
-    if (has_option) {
-      Refuse(text, "takes no option '" + std::string(option) + "'");
-    }
-  };
-  if (kind == "every") {
-    spec.kind = HoldoutKind::kEvery;
-    spec.k = ParseCount(text, "K", value, 2);
-    refuse_option();
-  } else if (kind == "groups" || kind == "sessions") {
-    spec.kind =
-        kind == "groups" ? HoldoutKind::kGroups : HoldoutKind::kSessions;
-    spec.k = ParseCount(text, "K", value, 2);
-    spec.repeats = take_option("repeats", 1);
-    // Every fold has its rows in memory, and adds little to what is known.
-    constexpr Index kMostRepeats = 1000;
-    if (spec.repeats > kMostRepeats) {
-      Refuse(text,
-             "repeats must be at most " + std::to_string(kMostRepeats) +
-                 ", found " + std::to_string(spec.repeats));
-    }
-  } else if (kind == "blocks") {
-    spec.kind = HoldoutKind::kBlocks;
-    spec.k = ParseCount(text, "K", value, 2);
-    refuse_option();
-  } else if (kind == "leave-one-group-out") {
+  const SpecParts parts = PartsOf(text);
+  const auto counted =
+      std::ranges::find(kCountedKinds, parts.kind, &CountedKind::name);
+  if (counted != kCountedKinds.end()) {
+    TakeCounts(*counted, parts, &spec);
+  } else if (parts.kind == "leave-one-group-out") {
     spec.kind = HoldoutKind::kLeaveOneGroupOut;
-    if (colon != std::string_view::npos) Refuse(text, "takes no options");
-  } else if (kind == "kfold") {
-    spec.kind = HoldoutKind::kKFold;
-    spec.k = ParseCount(text, "K", value, 2);
-    refuse_option();
-  } else if (kind == "forward") {
-    spec.kind = HoldoutKind::kForward;
-    spec.k = ParseCount(text, "K", value, 1);
-    spec.gap = take_option("gap", 0);
-  } else if (kind == "random") {
+    if (parts.has_rest) Refuse(text, "takes no options");
+  } else if (parts.kind == "random") {
     spec.kind = HoldoutKind::kRandom;
-    spec.share = ParseShare(text, value);
-    refuse_option();
+    spec.share = ParseShare(text, parts.value);
+    RefuseOption(text, parts);
+  } else if (parts.kind == "file") {
+    spec.kind = HoldoutKind::kFile;
+    spec.file = std::string(parts.rest);  // which may hold colons
+    if (spec.file.empty()) Refuse(text, "names no file; use file:TEST.csv");
   } else {
     Refuse(text, "unknown; use " + HoldoutFormsText());
   }
@@ -324,87 +459,7 @@ std::vector<Fold> MakeFolds(const HoldoutSpec& spec,
         "MakeFolds: " + std::to_string(group_codes.size()) +
         " group codes for " + std::to_string(num_rows) + " rows");
   }
-  const Units groups(num_rows, group_codes);
-  const auto require_groups = [&](Index needed) {
-    if (group_codes.empty()) {
-      Refuse(spec.text,
-             "there are no groups; give the code of each row's, or hold out "
-             "rows (every:3, kfold:5)");
-    }
-    RequireUnits(spec,
-                 groups.count(),
-                 needed,
-                 "groups",
-                 groups.count() >= 2
-                     ? "groups:" + std::to_string(groups.count()) +
-                           " or leave-one-group-out is possible"
-                     : "with one group only rows can be held out (every:3, "
-                       "kfold:5), which says nothing about another day");
-  };
-  std::vector<Fold> folds;
-  switch (spec.kind) {
-    case HoldoutKind::kEvery: {
-      RequireUnits(
-          spec, num_rows, spec.k, "rows", "measure more, or use a smaller K");
-      std::vector<bool> is_test(static_cast<std::size_t>(num_rows));
-      for (Index row = 0; row < num_rows; ++row) {
-        is_test[static_cast<std::size_t>(row)] = row % spec.k == spec.k - 1;
-      }
-      folds.push_back(FoldOf(is_test));
-      break;
-    }
-    case HoldoutKind::kGroups:
-      require_groups(spec.k);
-      folds = GroupFolds(spec, groups, seed);
-      break;
-    case HoldoutKind::kSessions:
-      RequireUnits(
-          spec,
-          group_codes.empty() ? 0 : groups.count(),
-          spec.k,
-          "sessions",
-          group_codes.empty()
-              ? "give the code of each row's, or hold out rows (blocks:5)"
-          : groups.count() >= 2
-              ? "sessions:" + std::to_string(groups.count()) + " is possible"
-              : "of one run only groups or rows can be held out "
-                "(groups:5, blocks:5), which says nothing about "
-                "another day");
-      folds = GroupFolds(spec, groups, seed);
-      break;
-    case HoldoutKind::kBlocks:
-      RequireUnits(
-          spec, num_rows, spec.k, "rows", "measure more, or use a smaller K");
-      folds = HoldOutRuns(Units(num_rows, {}), Range(num_rows), spec.k);
-      break;
-    case HoldoutKind::kLeaveOneGroupOut:
-      require_groups(2);
-      folds = HoldOutRuns(groups, Range(groups.count()), groups.count());
-      break;
-    case HoldoutKind::kKFold: {
-      RequireUnits(
-          spec, num_rows, spec.k, "rows", "measure more, or use a smaller K");
-      std::vector<Index> order = Range(num_rows);
-      Random random(seed);
-      random.Shuffle(order);
-      folds = HoldOutRuns(Units(num_rows, {}), order, spec.k);
-      break;
-    }
-    case HoldoutKind::kForward:
-      RequireUnits(spec,
-                   groups.count(),
-                   spec.k + 1,
-                   group_codes.empty() ? "rows" : "groups",
-                   "measure more, or use a smaller K");
-      folds = ForwardFolds(spec, groups);
-      break;
-    case HoldoutKind::kRandom:
-      folds.push_back(RandomFold(spec, num_rows, seed));
-      break;
-    case HoldoutKind::kFile:
-      folds.push_back({Range(num_rows), {}});
-      break;
-  }
+  std::vector<Fold> folds = FoldMaker(spec, num_rows, group_codes, seed).Make();
   for (const Fold& fold : folds) {
     const bool tests_here = spec.kind != HoldoutKind::kFile;
     if (fold.train.empty() || (tests_here && fold.test.empty())) {
