@@ -97,11 +97,11 @@ bool UpdateTrial::better(double indifference) const {
   if (!why_failed.empty() || !(new_rmse < old_rmse - indifference)) {
     return false;
   }
-  std::size_t won = 0;
+  double log_ratios = 0.0;
   for (const Session& session : sessions) {
-    won += session.new_rmse < session.old_rmse ? 1 : 0;
+    log_ratios += std::log(session.new_rmse / session.old_rmse);
   }
-  return 2 * won > sessions.size();
+  return log_ratios < 0.0;
 }
 
 UpdateTrial TryUpdate(const FittedModel& old_map,

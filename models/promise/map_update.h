@@ -27,7 +27,9 @@ struct UpdateTrial {
   double new_rmse = 0.0;
   std::string why_failed;  // of the successor; "": it could be fitted
 
-  /// Lower by more than `indifference`, and in more than half of the sessions.
+  /// Lower by more than `indifference`, and in the geometric mean over the
+  /// sessions: one long session alone does not decide, nor does one that is a
+  /// little worse stand against one that was far off.
   bool better(double indifference) const;
 };
 

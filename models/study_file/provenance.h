@@ -25,9 +25,14 @@ models::ProvenanceRecord MakeProvenance(const std::string& command_line,
 
 /// The same for a model file, whose provenance is plain texts: "command_line",
 /// "data", "data_sha256", "rows", "seed", "compiler", "libraries", "platform".
+/// What was learnt from further files is named after the first: "data_2",
+/// "data_2_sha256", ...
 models::Provenance ModelProvenance(const std::string& command_line,
-                                   const InputFile& data,
+                                   const std::vector<InputFile>& data,
                                    long long rows,
                                    unsigned long long seed);
+
+/// The files that ModelProvenance named, in their order.
+std::vector<InputFile> DataOf(const models::Provenance& provenance);
 
 }  // namespace errmap::study_file

@@ -1,6 +1,8 @@
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -14,6 +16,7 @@
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
+#include "data/measurements/column_checks.h"
 #include "data/shown_path.h"
 #include "data/text.h"
 #include "models/model_file.h"
@@ -29,7 +32,7 @@ namespace {
 struct UpdateArguments {
   std::string model;
   std::string file;
-  std::string known;  // rows that the map was fitted to; "": as it says itself
+  std::vector<std::string> known;  // what the map learnt from; none: as it says
   std::string time;
   std::string session;
   data::MissingPolicy missing = data::MissingPolicy::kError;
@@ -63,23 +66,40 @@ data::Dataset ReadRows(const models::FittedModel& map,
   return std::move(prepared.dataset);
 }
 
-// The file that the map was fitted to, where it is still there as it was.
-std::string KnownFile(const UpdateArguments& arguments) {
+// The files that the map learnt from, where they are still there as they were.
+std::vector<std::string> KnownFiles(const UpdateArguments& arguments) {
   if (!arguments.known.empty()) return arguments.known;
   const Json document = Json::parse(data::ReadFile(arguments.model));
-  const Json provenance = document.value("provenance", Json::object());
-  const std::string file = provenance.value("data", "");
-  const std::string sha256 = provenance.value("data_sha256", "");
-  if (!file.empty() && std::filesystem::exists(file) &&
-      study_file::HashInput(file).sha256 == sha256) {
-    return file;
+  const auto texts = document.value("provenance", Json::object())
+                         .get<std::map<std::string, std::string>>();
+  std::vector<std::string> known;
+  std::vector<std::string> lost;
+  for (const auto& [file, sha256] :
+       study_file::DataOf({texts.begin(), texts.end()})) {
+    const bool is_there = std::filesystem::exists(file) &&
+                          study_file::HashInput(file).sha256 == sha256;
+    (is_there ? known : lost).push_back(file);
   }
-  Say(fmt::format(
-      "warning: {} is not at hand as it was, so the new map would learn from "
-      "the new sessions alone; name it with --known",
-      file.empty() ? "the file that the map was fitted to"
-                   : data::PrintablePath(file)));
-  return "";
+  if (!lost.empty() || known.empty()) {
+    Say(fmt::format(
+        "warning: {} not at hand as it was, so the new map would not learn "
+        "from it; name all that it was fitted to with --known",
+        lost.empty() ? "what the map was fitted to is"
+                     : data::ListOfNames(lost) + " is"));
+  }
+  return known;
+}
+
+// The rows of some files, one after the other; none: none.
+std::optional<data::Dataset> ReadKnown(const models::FittedModel& map,
+                                       const std::vector<std::string>& files,
+                                       const UpdateArguments& arguments) {
+  std::optional<data::Dataset> known;
+  for (const std::string& file : files) {
+    data::Dataset rows = ReadRows(map, file, arguments);
+    known = known ? models::Joined(*known, rows) : std::move(rows);
+  }
+  return known;
 }
 
 Json TrialJson(const models::UpdateTrial& trial) {
@@ -92,28 +112,64 @@ Json TrialJson(const models::UpdateTrial& trial) {
   return sessions;
 }
 
+Json UpdateJson(const UpdateArguments& arguments,
+                const models::FittedModel& old_map,
+                const models::UpdateTrial& trial,
+                bool better,
+                const Json& provenance) {
+  return {{"schema", "errmap-update-1"},
+          {"model", old_map.name},
+          {"file", data::ShownPath(arguments.out)},
+          {"target", old_map.target.name},
+          {"unit", old_map.target.unit.symbol},
+          {"updated", better},
+          {"old_rmse", trial.old_rmse},
+          {"new_rmse", trial.new_rmse},
+          {"sessions", TrialJson(trial)},
+          {"provenance", provenance}};
+}
+
+// The successor, of all rows, with its promise.
+models::FittedModel FitSuccessor(const models::FittedModel& old_map,
+                                 const data::Dataset& all,
+                                 const models::FitContext& context) {
+  models::FittedModel fitted =
+      RecipeFromArgument(old_map.name)->Fit(all, context);
+  models::AddApplicability(all, &fitted);
+  models::AddPromise(all,
+                     RecipeFromArgument(old_map.name),
+                     {.seed = context.seed,
+                      .jobs = context.threads,
+                      .stop = context.stop,
+                      .indifference = context.indifference},
+                     &fitted);
+  return fitted;
+}
+
 int RunUpdate(const UpdateArguments& arguments,
               const std::string& command_line) {
-  CheckOutputName("-o", arguments.out, {arguments.file, arguments.known});
+  std::vector<std::string> read = arguments.known;
+  read.push_back(arguments.file);
+  CheckOutputName("-o", arguments.out, read);
   RequirePlaceFor(arguments.out);
   const models::FittedModel old_map = models::LoadModel(arguments.model);
-  const auto recipe = RecipeFromArgument(old_map.name);
   const data::Dataset fresh = ReadRows(old_map, arguments.file, arguments);
-  std::optional<data::Dataset> known;
-  const std::string known_file = KnownFile(arguments);
-  if (!known_file.empty()) known = ReadRows(old_map, known_file, arguments);
+  const std::vector<std::string> known_files = KnownFiles(arguments);
   const double indifference = models::DefaultIndifference(old_map.target.unit);
   const std::atomic<bool>& stop = InstallInterruptFlag();
-  const int jobs = JobsOf(0);
   const models::FitContext context{.seed = arguments.seed,
                                    .stop = &stop,
-                                   .threads = jobs,
+                                   .threads = JobsOf(0),
                                    .indifference = indifference};
   models::UpdateTrial trial;
   std::optional<data::Dataset> all;
   try {
-    trial = models::TryUpdate(
-        old_map, known ? &*known : nullptr, fresh, *recipe, context);
+    const auto known = ReadKnown(old_map, known_files, arguments);
+    trial = models::TryUpdate(old_map,
+                              known ? &*known : nullptr,
+                              fresh,
+                              *RecipeFromArgument(old_map.name),
+                              context);
     all = known ? models::Joined(*known, fresh) : fresh;
   } catch (const std::invalid_argument& error) {
     throw data::InputError(fmt::format(
@@ -125,49 +181,34 @@ int RunUpdate(const UpdateArguments& arguments,
         "{} failed: {}; the old map stays", old_map.name, trial.why_failed));
     return kEveryFitFailed;
   }
+  std::vector<study_file::InputFile> learnt_from;
+  for (const std::string& file : known_files) {
+    learnt_from.push_back(study_file::HashInput(file));
+  }
+  learnt_from.push_back(study_file::HashInput(arguments.file));
   const bool better = trial.better(indifference);
   if (better) {
-    models::FittedModel fitted = recipe->Fit(*all, context);
-    models::AddApplicability(*all, &fitted);
-    models::AddPromise(*all,
-                       RecipeFromArgument(old_map.name),
-                       {.seed = arguments.seed,
-                        .jobs = jobs,
-                        .stop = &stop,
-                        .indifference = indifference},
-                       &fitted);
+    const models::FittedModel fitted = FitSuccessor(old_map, *all, context);
     if (stop.load()) return kInterrupted;
     models::SaveModel(
         fitted,
-        study_file::ModelProvenance(command_line,
-                                    study_file::HashInput(arguments.file),
-                                    all->num_rows(),
-                                    arguments.seed),
+        study_file::ModelProvenance(
+            command_line, learnt_from, all->num_rows(), arguments.seed),
         arguments.out);
   } else {
     data::WriteFileAtomically(arguments.out, data::ReadFile(arguments.model));
   }
   if (arguments.format == "json") {
-    std::vector<study_file::InputFile> inputs = {
-        study_file::HashInput(arguments.model),
-        study_file::HashInput(arguments.file)};
-    if (known) inputs.push_back(study_file::HashInput(known_file));
+    learnt_from.insert(learnt_from.begin(),
+                       study_file::HashInput(arguments.model));
+    const Json provenance =
+        ProvenanceJson(command_line,
+                       {{"missing", ToString(arguments.missing)},
+                        {"faults", ToString(arguments.faults)},
+                        {"seed", arguments.seed}},
+                       learnt_from);
     PrintResult(
-        DumpJson({{"schema", "errmap-update-1"},
-                  {"model", old_map.name},
-                  {"file", data::ShownPath(arguments.out)},
-                  {"target", old_map.target.name},
-                  {"unit", old_map.target.unit.symbol},
-                  {"updated", better},
-                  {"old_rmse", trial.old_rmse},
-                  {"new_rmse", trial.new_rmse},
-                  {"sessions", TrialJson(trial)},
-                  {"provenance",
-                   ProvenanceJson(command_line,
-                                  {{"missing", ToString(arguments.missing)},
-                                   {"faults", ToString(arguments.faults)},
-                                   {"seed", arguments.seed}},
-                                  inputs)}}));
+        DumpJson(UpdateJson(arguments, old_map, trial, better, provenance)));
   } else {
     PrintResult(fmt::format(
         "{}{}\n",
@@ -200,9 +241,10 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
   command
       ->add_option("--known",
                    arguments->known,
-                   "Rows that the map was fitted to (default: the file that it "
-                   "names, if unchanged)")
-      ->type_name("DATA.csv");
+                   "Rows that the map was fitted to, may be repeated (default: "
+                   "the files that it names, if unchanged)")
+      ->type_name("DATA.csv")
+      ->allow_extra_args(false);
   command->add_option("--time", arguments->time, "Column of times")
       ->type_name("COL");
   command->add_option("--session", arguments->session, "Column of sessions")
@@ -215,8 +257,8 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
       "The same type of model is fitted to old and new sessions, with the "
       "map's own inputs. Each new session is\npredicted by the old map and by "
       "one that has not seen it; the new one is taken where its RMSE is lower "
-      "by\nmore than makes a difference, and in more than half of the "
-      "sessions. Else FILE.json is the old map.");
+      "by\nmore than makes a difference, and lower in the geometric mean over "
+      "the sessions. Else FILE.json is the old map.");
   command->callback([arguments, run] {
     run->status = RunUpdate(*arguments, run->command_line);
   });

@@ -233,7 +233,7 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
   models::SaveModel(
       fitted,
       study_file::ModelProvenance(
-          command_line, input, prepared.dataset.num_rows(), arguments.seed),
+          command_line, {input}, prepared.dataset.num_rows(), arguments.seed),
       arguments.out);
   const models::Sensitivity sensitivity =
       models::MeasureSensitivity(fitted, prepared.dataset);

@@ -143,7 +143,7 @@ std::string MapOf(const StudyRun& run) {
   return models::ModelToJson(
       *model.final_fit,
       study_file::ModelProvenance(run.command_line,
-                                  {component.file, component.sha256},
+                                  {{component.file, component.sha256}},
                                   component.data.dataset.num_rows(),
                                   run.seed));
 }

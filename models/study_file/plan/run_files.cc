@@ -80,7 +80,7 @@ void WriteModels(const StudyRun& run,
                  const WriteFile& write) {
   const models::Provenance provenance =
       ModelProvenance(run.command_line,
-                      {component.file, component.sha256},
+                      {{component.file, component.sha256}},
                       component.data.dataset.num_rows(),
                       run.seed);
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -383,6 +383,47 @@ TEST_F(CliPromise, UpdatesAMapThatNewSessionsMakeBetter) {
   EXPECT_LT(judged["summary"]["rmse"].get<double>(), 2.0);
 }
 
+// What an updated map learnt from is not forgotten by its next update.
+TEST_F(CliPromise, UpdatesOnceMoreFromAllThatWasLearnt) {
+  const auto update = [this](const std::string& map, const std::string& data) {
+    return RunJson(
+        {"update", map, data, "-o", "newer.json", "--format", "json"});
+  };
+  const auto files = [](const Json& updated) {
+    std::vector<std::string> names;
+    for (const Json& input : updated["provenance"]["inputs"]) {
+      names.push_back(input["file"]);
+    }
+    return names;
+  };
+  Write("new.csv", Days(11, 14, 9.0));
+  Write("newer.csv", Days(15, 16, 30.0));
+  const Json once = update("map.json", "new.csv");
+  ASSERT_EQ(once["updated"], true);
+  EXPECT_THAT(files(once), ElementsAre("map.json", "train.csv", "new.csv"));
+  Write("once.json", Read("newer.json"));
+  EXPECT_THAT(files(update("once.json", "newer.csv")),
+              ElementsAre("once.json", "train.csv", "new.csv", "newer.csv"));
+  // A file that changed is named, and the rest still serves.
+  Write("train.csv", Days(1, 9));
+  const Outcome lost =
+      Run({"update", "once.json", "newer.csv", "-o", "newer.json"});
+  EXPECT_EQ(lost.status, 0) << lost.err;
+  EXPECT_THAT(lost.err,
+              HasSubstr("warning: 'train.csv' is not at hand as it was"));
+  EXPECT_THAT(Run({"update",
+                   "once.json",
+                   "newer.csv",
+                   "-o",
+                   "newer.json",
+                   "--known",
+                   "train.csv",
+                   "--known",
+                   "new.csv"})
+                  .err,
+              Not(HasSubstr("warning")));
+}
+
 TEST_F(CliPromise, KeepsTheOldMapUnlessTheNewOneIsBetter) {
   // Days of the same kind: what ten days know, two more hardly better.
   Write("same.csv", Days(1, 2));

@@ -10,7 +10,9 @@ namespace errmap {
 namespace {
 
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::MatchesRegex;
 
 class Provenance : public Cli {};
@@ -62,9 +64,14 @@ TEST_F(Provenance, RefusesAnInputThatIsNotThere) {
 }
 
 TEST_F(Provenance, OfAModelFileIsPlainTexts) {
-  const models::Provenance provenance =
-      study_file::ModelProvenance("errmap fit a.csv", {"a.csv", "5a"}, 397, 12);
+  const models::Provenance provenance = study_file::ModelProvenance(
+      "errmap fit a.csv", {{"a.csv", "5a"}, {"b.csv", "6b"}}, 397, 12);
   EXPECT_THAT(provenance, Contains(std::pair("data_sha256", "5a")));
+  EXPECT_THAT(provenance, Contains(std::pair("data_2", "b.csv")));
+  EXPECT_THAT(study_file::DataOf(provenance),
+              ElementsAre(study_file::InputFile{"a.csv", "5a"},
+                          study_file::InputFile{"b.csv", "6b"}));
+  EXPECT_THAT(study_file::DataOf({{"seed", "1"}}), IsEmpty());
   EXPECT_THAT(provenance, Contains(std::pair("rows", "397")));
   EXPECT_THAT(provenance, Contains(std::pair("seed", "12")));
   for (const auto& [key, text] : provenance) EXPECT_NE(text, "") << key;
