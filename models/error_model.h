@@ -180,6 +180,8 @@ struct FittedModel {
   ModelKind kind = ModelKind::kPolynomial;
   data::ColumnInfo target;
   data::Alignment align = data::Alignment::kNone;  // of the target
+  /// Rows that it is made for, such as those of one direction; none: all.
+  std::vector<data::ColumnFilter> where;
   /// Columns that the map reads, in the order of the form, which reads the
   /// inputs derived from them where there is a history.
   std::vector<TrainedInput> inputs;

@@ -282,6 +282,16 @@ Json ParseUniqueKeys(const std::string& text) {
                          " twice in one object");
 }
 
+data::ColumnFilter ReadColumnFilter(const Node& node) {
+  data::ColumnFilter filter{.column = node.At("column").Text(), .value = {}};
+  if (const auto number = node.Find("number")) {
+    filter.value = number->Number();
+  } else {
+    filter.value = node.At("text").Text();
+  }
+  return filter;
+}
+
 FittedModel ReadModel(const Node& root) {
   const std::string schema = root.At("schema").Text();
   if (schema != kModelSchema) {
@@ -298,6 +308,11 @@ FittedModel ReadModel(const Node& root) {
       align->Refuse("must be 'first' or null");
     }
     fitted.align = data::Alignment::kFirst;
+  }
+  if (const auto where = root.Find("where")) {
+    for (const Node& element : where->Elements()) {
+      fitted.where.push_back(ReadColumnFilter(element));
+    }
   }
   for (const Node& element : root.At("inputs").Elements()) {
     fitted.inputs.push_back(ReadInput(element));

@@ -130,6 +130,19 @@ Json ToJson(const HeldOutErrors& errors) {
           {"units", std::move(units)}};
 }
 
+Json ToJson(const std::vector<data::ColumnFilter>& where) {
+  Json filters = Json::array();
+  for (const data::ColumnFilter& filter : where) {
+    Json& json = filters.emplace_back(Json{{"column", filter.column}});
+    if (const auto* const number = std::get_if<double>(&filter.value)) {
+      json["number"] = *number;
+    } else {
+      json["text"] = std::get<std::string>(filter.value);
+    }
+  }
+  return filters;
+}
+
 }  // namespace
 
 std::string ModelToJson(const FittedModel& fitted,
@@ -156,6 +169,7 @@ std::string ModelToJson(const FittedModel& fitted,
   if (fitted.align != data::Alignment::kNone) {
     document["target"]["align"] = data::ToString(fitted.align);
   }
+  if (!fitted.where.empty()) document["where"] = ToJson(fitted.where);
   document["history"] =
       fitted.history != nullptr ? ToJson(*fitted.history) : Json();
   document["guards"] = fitted.guards ? ToJson(*fitted.guards) : Json();

@@ -188,9 +188,10 @@ struct DroppedColumn {
 /// A data set and what was decided on the way to it.
 struct PreparedDataset {
   Dataset dataset;
-  std::vector<DroppedColumn> dropped;  // would-be inputs left out, and why
-  std::vector<std::string> remarks;    // one line each, for people
-  std::string time_column = {};        // "": the numbers of the rows
+  std::vector<DroppedColumn> dropped;    // would-be inputs left out, and why
+  std::vector<std::string> remarks;      // one line each, for people
+  std::string time_column = {};          // "": the numbers of the rows
+  std::vector<ColumnFilter> where = {};  // that its rows pass
   /// What was found in the columns in use, rows left out for it included.
   std::vector<ColumnFault> faults;
 };

@@ -50,6 +50,7 @@ class DatasetBuilder {
             .dropped = std::move(dropped_),
             .remarks = std::move(remarks_),
             .time_column = time_column,
+            .where = selection_.where,
             .faults = std::move(faults_)};
   }
 

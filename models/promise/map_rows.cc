@@ -5,6 +5,9 @@
 #include <numeric>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "data/measurements/column_checks.h"
 #include "data/measurements/sessions.h"
 
 namespace errmap::models {
@@ -13,6 +16,7 @@ namespace {
 using Eigen::Index;
 
 data::DatasetSelection SelectionFor(const FittedModel& fitted,
+                                    const data::CsvTable& table,
                                     const MapRowsOptions& options) {
   data::DatasetSelection selection{
       .target = fitted.target.name,
@@ -26,6 +30,7 @@ data::DatasetSelection SelectionFor(const FittedModel& fitted,
       .missing = options.missing,
       .faults = options.faults,
       .keep_dead = true,
+      .where = FiltersFor(fitted, table),
       .only_to_judge = true,
       .with_log = fitted.align != data::Alignment::kNone};
   for (const TrainedInput& input : fitted.inputs) {
@@ -44,6 +49,32 @@ data::Dataset WithMapLog(const data::Dataset& dataset, const MapLog& map) {
 }
 
 }  // namespace
+
+std::vector<data::ColumnFilter> FiltersFor(const FittedModel& fitted,
+                                           const data::CsvTable& table) {
+  std::vector<data::ColumnFilter> filters;
+  for (const data::ColumnFilter& filter : fitted.where) {
+    if (table.Find(filter.column) >= 0) filters.push_back(filter);
+  }
+  return filters;
+}
+
+std::string RowsMadeFor(const FittedModel& fitted,
+                        const data::CsvTable& table) {
+  const std::vector<data::ColumnFilter> filters = FiltersFor(fitted, table);
+  const std::vector<bool> passes = data::RowsThatPass(table, filters);
+  const auto made_for = std::ranges::count(passes, true);
+  if (made_for == std::ssize(passes)) return "";
+  std::string what;
+  for (const data::ColumnFilter& filter : filters) {
+    what += (what.empty() ? "" : " and ") + data::NameInRemark(filter.column) +
+            " " + data::NameInRemark(ValueText(filter));
+  }
+  return fmt::format("{} of {} rows have {}, for which the map is made",
+                     made_for,
+                     passes.size(),
+                     what);
+}
 
 data::TableForMap ReadForMap(const FittedModel& fitted,
                              const std::string& file,
@@ -115,7 +146,10 @@ MapRows MakeMapRows(const FittedModel& fitted,
                     data::CsvTable table,
                     const MapRowsOptions& options) {
   data::PreparedDataset prepared =
-      data::MakeDataset(table, SelectionFor(fitted, options));
+      data::MakeDataset(table, SelectionFor(fitted, table, options));
+  if (std::string made_for = RowsMadeFor(fitted, table); !made_for.empty()) {
+    prepared.remarks.push_back(std::move(made_for));
+  }
   MapLog map =
       options.with_memory ? MakeMapLog(fitted, table, options.log) : MapLog{};
   data::Dataset dataset = WithMapLog(prepared.dataset, map);

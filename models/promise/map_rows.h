@@ -15,6 +15,14 @@
 
 namespace errmap::models {
 
+/// Of the rows that the map is made for, what this table can tell.
+std::vector<data::ColumnFilter> FiltersFor(const FittedModel& fitted,
+                                           const data::CsvTable& table);
+
+/// "850 of 1700 rows have direction +, for which the map is made"; "" where all
+/// have, or the table cannot tell.
+std::string RowsMadeFor(const FittedModel& fitted, const data::CsvTable& table);
+
 enum class MapColumns { kInputs, kInputsAndTarget };
 
 /// Reads a file in the names and units of the map (data::InMapUnits).
@@ -22,7 +30,8 @@ data::TableForMap ReadForMap(const FittedModel& fitted,
                              const std::string& file,
                              MapColumns columns);
 
-/// Which measured rows of a table a map is held against.
+/// Which measured rows of a table a map is held against: of those that it is
+/// made for.
 struct MapRowsOptions {
   data::MissingPolicy missing = data::MissingPolicy::kError;
   data::FaultPolicy faults = data::FaultPolicy::kKeep;

@@ -227,6 +227,10 @@ int RunPredict(const PredictArguments& arguments) {
     SayWhatIsPredicted(found);
     SayOutside(fitted.inputs, inputs, found.flags, all_rows, false);
     SayClipped(found.prediction);
+    if (const std::string made_for = models::RowsMadeFor(fitted, table);
+        !made_for.empty()) {
+      Say("warning: " + made_for);
+    }
   }
   return SayNotFinite(found.prediction.errors, all_rows, arguments.file)
              ? kEveryFitFailed

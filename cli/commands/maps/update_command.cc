@@ -58,10 +58,10 @@ data::Dataset ReadRows(const models::FittedModel& map,
   for (const models::TrainedInput& input : map.inputs) {
     selection.inputs.push_back(input.column.name);
   }
-  data::PreparedDataset prepared = data::MakeDataset(
-      ReadForMap(
-          map, file, models::MapColumns::kInputsAndTarget, arguments.quiet),
-      selection);
+  const data::CsvTable table = ReadForMap(
+      map, file, models::MapColumns::kInputsAndTarget, arguments.quiet);
+  selection.where = models::FiltersFor(map, table);
+  data::PreparedDataset prepared = data::MakeDataset(table, selection);
   SayUnless(arguments.quiet, prepared.remarks);
   return std::move(prepared.dataset);
 }
@@ -135,6 +135,7 @@ models::FittedModel FitSuccessor(const models::FittedModel& old_map,
                                  const models::FitContext& context) {
   models::FittedModel fitted =
       RecipeFromArgument(old_map.name)->Fit(all, context);
+  fitted.where = old_map.where;
   models::AddApplicability(all, &fitted);
   models::AddPromise(all,
                      RecipeFromArgument(old_map.name),

@@ -20,10 +20,10 @@
 #include "models/file_recipe.h"
 #include "models/fleet/store/gzip.h"
 #include "models/fleet/watch.h"
-#include "models/model_file.h"
 #include "models/study/record/record_json.h"
 #include "models/study_file/configuration_record.h"
 #include "models/study_file/plan/component_names.h"
+#include "models/study_file/plan/run_files.h"
 #include "models/study_file/plan/run_record.h"
 #include "models/study_file/plan/study_plan.h"
 #include "models/study_file/plan/study_run.h"
@@ -140,12 +140,7 @@ std::string MapOf(const StudyRun& run) {
   const auto& model =
       component.study.models[component.judgement.recommendation->model];
   if (!model.final_fit) return "";
-  return models::ModelToJson(
-      *model.final_fit,
-      study_file::ModelProvenance(run.command_line,
-                                  {{component.file, component.sha256}},
-                                  component.data.dataset.num_rows(),
-                                  run.seed));
+  return study_file::MapFileText(run, component, model);
 }
 
 class FleetRunner {

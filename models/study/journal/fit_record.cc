@@ -44,6 +44,7 @@ using Json = nlohmann::json;
 
 ERRMAP_MEMBERS(data::Unit, symbol, quantity, display_scale, display_symbol)
 ERRMAP_MEMBERS(data::ColumnInfo, name, unit)
+ERRMAP_MEMBERS(data::ColumnFilter, column, value)
 ERRMAP_MEMBERS(TrainedInput, column, min, max, mean, sd)
 ERRMAP_MEMBERS(PolynomialTerm, powers, coefficient)
 ERRMAP_MEMBERS(PolynomialForm, input_offset, input_scale, intercept, terms)
@@ -205,6 +206,7 @@ ERRMAP_MEMBERS(FittedModel,
                kind,
                target,
                align,
+               where,
                inputs,
                model,
                summary,

@@ -78,19 +78,27 @@ void WriteModels(const StudyRun& run,
                  const models::ComponentStudy& component,
                  const std::vector<std::string>& names,
                  const WriteFile& write) {
-  const models::Provenance provenance =
-      ModelProvenance(run.command_line,
-                      {{component.file, component.sha256}},
-                      component.data.dataset.num_rows(),
-                      run.seed);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const models::ModelResult& model = component.study.models[i];
     if (!model.final_fit) continue;
-    write(names[i], models::ModelToJson(*model.final_fit, provenance));
+    write(names[i], MapFileText(run, component, model));
   }
 }
 
 }  // namespace
+
+std::string MapFileText(const StudyRun& run,
+                        const models::ComponentStudy& component,
+                        const models::ModelResult& model) {
+  models::FittedModel map = *model.final_fit;
+  map.where = component.data.where;
+  return models::ModelToJson(
+      map,
+      ModelProvenance(run.command_line,
+                      {{component.file, component.sha256}},
+                      component.data.dataset.num_rows(),
+                      run.seed));
+}
 
 std::vector<std::string> RunFileNames(const StudyPlan& plan) {
   std::vector<std::string> names;

@@ -134,6 +134,37 @@ TEST_F(CliStudy, ProvenanceHoldsConfigurationAndHashesOfEveryFile) {
   EXPECT_EQ(configuration["component"][1]["goal"], 0.0005);
 }
 
+// A map of one direction is held against the rows of that direction.
+TEST_F(CliStudy, AMapKnowsTheRowsThatItIsMadeFor) {
+  WriteStudy();
+  RunStudy({"--out", "o"});
+  const std::string map = "o/models/x__up/poly_full_degree=2.json";
+  ASSERT_TRUE(Exists(map));
+  EXPECT_EQ(Json::parse(Read(map))["where"],
+            Json::parse(R"([{"column": "direction", "text": "up"}])"));
+  const Json judged =
+      RunJson({"evaluate", map, "both.csv", "--format", "json"});
+  EXPECT_EQ(judged["summary"]["n"], 60);
+  EXPECT_LT(judged["summary"]["rmse"].get<double>(), 1e-3);
+  const Outcome text = Run({"evaluate", map, "both.csv"});
+  EXPECT_THAT(text.err,
+              HasSubstr("60 of 120 rows have direction up, for which the map "
+                        "is made"));
+  // Predictions have a row for each of the file's.
+  const Outcome predicted = Run({"predict", map, "both.csv"});
+  EXPECT_EQ(SplitLines(predicted.out).size(), 121U);
+  EXPECT_THAT(predicted.err, HasSubstr("warning: 60 of 120 rows have"));
+  // A file of one direction, or without the column, is taken whole.
+  Write("up.csv", "position_mm,error_mm\n0,0.002\n10,0.003\n20,0.004\n");
+  const Outcome whole = Run({"evaluate", map, "up.csv"});
+  EXPECT_EQ(whole.status, 0) << whole.err;
+  EXPECT_THAT(whole.err, Not(HasSubstr("is made")));
+  Write("down.csv",
+        "direction,position_mm,error_mm\ndown,0,0.002\ndown,10,0.003\n");
+  EXPECT_THAT(RefusalOf(Run({"evaluate", map, "down.csv"}), kUnusable),
+              HasSubstr("no row is left where 'direction' is 'up'"));
+}
+
 TEST_F(CliStudy, TableNamesTheComponentsAndCsvHasARowPerModel) {
   WriteStudy();
   const Outcome table = Run({"compare", "--config", "study.toml"});

@@ -15,6 +15,7 @@ namespace {
 
 using errmap::testing::QuadraticData;
 using errmap::testing::ShippedMeasurements;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 FittedModel FitSpec(const std::string& spec, const data::Dataset& dataset) {
@@ -125,7 +126,9 @@ TEST(PolynomialRecipe, SaysThatAPositionIsMissing) {
   EXPECT_EQ(MakeRecipe("poly:temperature")->WhatIsMissing(dataset),
             std::nullopt);
   const DefaultRecipes defaults = MakeDefaultRecipes(dataset, 20);
-  EXPECT_EQ(defaults.left_out.size(), 4U);  // position, eq7, eq8, eq9
+  EXPECT_THAT(defaults.left_out,
+              ElementsAre(HasSubstr("poly:position, poly:eq7, poly:eq8, "
+                                    "poly:eq9 are left out")));
 }
 
 TEST(PolynomialRecipe, CountsARowOfWeightThreeAsThreeRows) {
