@@ -135,6 +135,52 @@ const std::pair<std::size_t, std::uint32_t>* FindException(
                    "; the column has " + ListOfNames(values));
 }
 
+// Cells of columns in use that hold no finite number, in rows that pass.
+struct BadCells {
+  std::optional<BadCell> first_missing;
+  std::optional<BadCell> first_wrong;
+  std::size_t num_missing = 0;
+  std::vector<bool> is_dropped;         // by row: with a missing cell
+  const CsvColumn* emptiest = nullptr;  // null: nothing is missing
+  std::size_t most_missing = 0;         // in that column
+};
+
+BadCells FindBadCells(const CsvTable& table,
+                      const std::vector<ColumnInUse>& columns,
+                      const std::vector<bool>& passes) {
+  BadCells bad;
+  bad.is_dropped.assign(table.num_rows, false);
+  for (const ColumnInUse& used : columns) {
+    const CsvColumn& column = table.columns[used.index];
+    std::vector<bool> text_is_missing(column.texts.size());
+    std::transform(column.texts.begin(),
+                   column.texts.end(),
+                   text_is_missing.begin(),
+                   IsMissingText);
+    std::size_t missing_here = 0;
+    for (const auto& [row, text] : column.exceptions) {
+      if (!passes[row]) continue;
+      const bool is_missing = text_is_missing[text];
+      if (!is_missing && used.use == ColumnUse::kGroup) continue;
+      std::optional<BadCell>& first =
+          is_missing ? bad.first_missing : bad.first_wrong;
+      if (!first.has_value() || row < first->row) {
+        first = BadCell{row, &column, used.use, text};
+      }
+      if (is_missing) {
+        ++missing_here;
+        bad.is_dropped[row] = true;
+      }
+    }
+    bad.num_missing += missing_here;
+    if (missing_here > bad.most_missing) {
+      bad.most_missing = missing_here;
+      bad.emptiest = &column;
+    }
+  }
+  return bad;
+}
+
 }  // namespace
 
 bool IsMissingText(std::string_view text) {
@@ -305,56 +351,23 @@ KeptRows CheckCells(const CsvTable& table,
                     const std::vector<ColumnInUse>& columns,
                     const std::vector<bool>& passes,
                     MissingPolicy missing) {
-  std::vector<bool> is_dropped(table.num_rows, false);
-  std::optional<BadCell> first_missing;
-  std::optional<BadCell> first_wrong;
-  std::size_t num_missing = 0;
-  const CsvColumn* emptiest = nullptr;
-  std::size_t most_missing = 0;
-  for (const ColumnInUse& used : columns) {
-    const CsvColumn& column = table.columns[used.index];
-    std::vector<bool> text_is_missing(column.texts.size());
-    std::transform(column.texts.begin(),
-                   column.texts.end(),
-                   text_is_missing.begin(),
-                   IsMissingText);
-    std::size_t missing_here = 0;
-    for (const auto& [row, text] : column.exceptions) {
-      if (!passes[row]) continue;
-      const bool is_missing = text_is_missing[text];
-      if (!is_missing && used.use == ColumnUse::kGroup) continue;
-      std::optional<BadCell>& first = is_missing ? first_missing : first_wrong;
-      if (!first.has_value() || row < first->row) {
-        first = BadCell{row, &column, used.use, text};
-      }
-      if (is_missing) {
-        ++missing_here;
-        is_dropped[row] = true;
-      }
-    }
-    num_missing += missing_here;
-    if (missing_here > most_missing) {
-      most_missing = missing_here;
-      emptiest = &column;
-    }
-  }
-
+  const BadCells bad = FindBadCells(table, columns, passes);
   const bool missing_comes_first =
-      first_missing.has_value() &&
-      (!first_wrong.has_value() || first_missing->row < first_wrong->row);
+      bad.first_missing.has_value() &&
+      (!bad.first_wrong.has_value() ||
+       bad.first_missing->row < bad.first_wrong->row);
   if (missing == MissingPolicy::kError && missing_comes_first) {
-    ThrowBadCell(table, *first_missing, num_missing);
+    ThrowBadCell(table, *bad.first_missing, bad.num_missing);
   }
-  if (first_wrong.has_value()) ThrowBadCell(table, *first_wrong, num_missing);
-
+  if (bad.first_wrong.has_value()) {
+    ThrowBadCell(table, *bad.first_wrong, bad.num_missing);
+  }
   KeptRows kept;
-  const auto num_dropped = static_cast<std::size_t>(
-      std::count(is_dropped.begin(), is_dropped.end(), true));
-  const auto num_passed =
+  kept.num_passed =
       static_cast<std::size_t>(std::count(passes.begin(), passes.end(), true));
-  kept.rows.reserve(num_passed - num_dropped);
+  kept.rows.reserve(kept.num_passed);
   for (std::size_t row = 0; row < table.num_rows; ++row) {
-    if (passes[row] && !is_dropped[row]) {
+    if (passes[row] && !bad.is_dropped[row]) {
       kept.rows.push_back(static_cast<Eigen::Index>(row));
     }
   }
@@ -362,16 +375,15 @@ KeptRows CheckCells(const CsvTable& table,
     throw InputError(PrintablePath(table.file) +
                      ": no row is left: each has a missing cell in the "
                      "columns in use (" +
-                     QuotedName(emptiest->name) + " lacks " +
-                     std::to_string(most_missing) + " of " +
-                     std::to_string(num_passed) +
+                     QuotedName(bad.emptiest->name) + " lacks " +
+                     std::to_string(bad.most_missing) + " of " +
+                     std::to_string(kept.num_passed) +
                      "); fill them in, or leave such columns out with " +
                      ArgumentName("exclude"));
   }
-  kept.num_passed = num_passed;
-  if (num_dropped > 0) {
+  if (kept.rows.size() < kept.num_passed) {
     kept.first_missing =
-        table.Where(first_missing->row, first_missing->column->name);
+        table.Where(bad.first_missing->row, bad.first_missing->column->name);
   }
   return kept;
 }

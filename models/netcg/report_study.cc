@@ -287,6 +287,116 @@ void AddNotes(const Direction& down, const Direction& up, NetcgStudy* study) {
       "the report's data were measured on its machine; these are simulated");
 }
 
+constexpr double kUm = 1e3;  // from mm
+
+// How large the nets are, here and in Tables 3 and 4.
+std::string SizesText(const NetcgStudy& study) {
+  std::string text =
+      "                        patterns    thermocouples    input nodes   "
+      "weights\n"
+      "run motion hid. inputs   here 1995  here print impl. here print impl. "
+      "here 1995\n";
+  for (const NetcgStudyRun& run : study.runs) {
+    const ReportRun& report = run.report;
+    const NetcgSpecification& s = run.record.specification;
+    text += fmt::format(
+        "{:3} {:6} {:4} {:9}{:4} {:4}  {:4} {:5} {:5} {:4} {:5} {:5} {:4} "
+        "{:4}\n",
+        report.number,
+        report.down ? "down" : "up",
+        report.hidden,
+        report.selection,
+        s.patterns,
+        report.patterns,
+        run.thermocouples.size(),
+        report.thermocouples,
+        report.implied_thermocouples(),
+        s.inputs,
+        report.input_nodes,
+        report.implied_thermocouples() + 1,
+        s.num_weights(),
+        report.weights);
+  }
+  return text;
+}
+
+// Means and standard deviations of the residual errors.
+std::string ErrorsText(const NetcgStudy& study) {
+  std::string text =
+      "\nResidual error, as the program prints it and right (here), or the "
+      "printed sd\ntimes sqrt(2) and mean times 2 (1995):\n"
+      "       sd here        sd 1995      mean here       mean 1995\n"
+      "run print  right   print  right  print   right   print   right\n";
+  for (const NetcgStudyRun& run : study.runs) {
+    const NetcgResult& result = run.record.result;
+    text += fmt::format(
+        "{:3} {:5.3f}  {:5.3f}   {:5.3f}  {:5.3f} {:7.4f} {:7.4f} {:7.4f} "
+        "{:7.4f}\n",
+        run.report.number,
+        kUm * result.printed.sd,
+        kUm * result.corrected.sd,
+        kUm * run.report.sd,
+        kUm * run.report.sd * std::numbers::sqrt2,
+        kUm * result.printed.mean,
+        kUm * result.corrected.mean,
+        kUm * run.report.mean,
+        kUm * run.report.mean * 2.0);
+  }
+  return text;
+}
+
+// Their extremes, and how the runs ended.
+std::string ExtremesText(const NetcgStudy& study) {
+  std::string text =
+      "\n      minimum        maximum     iterations           rms of scaled\n"
+      "run  here   1995    here   1995  here  1995  ending   error, here\n";
+  for (const NetcgStudyRun& run : study.runs) {
+    const NetcgResult& result = run.record.result;
+    text += fmt::format(
+        "{:3} {:6.2f} {:6.2f} {:6.2f} {:6.2f} {:5} {:5}  ierr {}  {:.5f}\n",
+        run.report.number,
+        kUm * result.printed.min,
+        kUm * run.report.min,
+        kUm * result.printed.max,
+        kUm * run.report.max,
+        result.iterations,
+        1500,
+        result.ierr,
+        std::sqrt(2.0 * result.error));
+  }
+  return text;
+}
+
+// What the runs cost, here and in 1995.
+std::string TimesText(const NetcgStudy& study) {
+  std::string text = fmt::format(
+      "\nTimes; 1995 on a CONVEX C3820. All nine here together: {:.1f} s.\n"
+      "      of an iteration, mean and sd      elapsed, s      of an "
+      "iteration\n"
+      "       here, ms          1995, s                      per weight, us\n"
+      "run   mean      sd     mean     sd     here   1995     here   1995\n",
+      study.seconds);
+  for (const NetcgStudyRun& run : study.runs) {
+    const fitting::FitSummary& summary = run.record.result.summary;
+    constexpr double kMs = 1e3;
+    constexpr double kUs = 1e6;
+    text += fmt::format(
+        "{:3}{} {}    {:5.2f}  {:5.3f}  {:7.2f} {:6.1f}  {} {:6.0f}\n",
+        run.report.number,
+        Milli(kMs * summary.mean_iteration_seconds),
+        Milli(kMs * summary.sd_iteration_seconds),
+        run.report.iteration_seconds,
+        run.report.iteration_seconds_sd,
+        summary.seconds,
+        run.report.elapsed_seconds,
+        Milli(kUs * summary.mean_iteration_seconds /
+              static_cast<double>(run.record.specification.num_weights())),
+        kUs * run.report.iteration_seconds /
+            static_cast<double>(run.report.weights));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::span<const ReportRun> ReportRuns() { return kRuns; }
@@ -354,7 +464,6 @@ NetcgStudy RunReportStudy(const std::string& folder,
 }
 
 std::string StudyText(const NetcgStudy& study) {
-  constexpr double kUm = 1e3;
   std::string text = fmt::format(
       "The nine experiments of NISTIR 5367 (Tables 3 and 4) on {}, day 1:\n"
       "{} iterations, {} precision, seed 12345. Errors in um.\n\n",
@@ -362,94 +471,8 @@ std::string StudyText(const NetcgStudy& study) {
       study.options.iterations,
       study.options.netcg.precision == NetcgPrecision::kSingle ? "single"
                                                                : "double");
-  text +=
-      "                        patterns    thermocouples    input nodes   "
-      "weights\n"
-      "run motion hid. inputs   here 1995  here print impl. here print impl. "
-      "here 1995\n";
-  for (const NetcgStudyRun& run : study.runs) {
-    const ReportRun& report = run.report;
-    const NetcgSpecification& s = run.record.specification;
-    text += fmt::format(
-        "{:3} {:6} {:4} {:9}{:4} {:4}  {:4} {:5} {:5} {:4} {:5} {:5} {:4} "
-        "{:4}\n",
-        report.number,
-        report.down ? "down" : "up",
-        report.hidden,
-        report.selection,
-        s.patterns,
-        report.patterns,
-        run.thermocouples.size(),
-        report.thermocouples,
-        report.implied_thermocouples(),
-        s.inputs,
-        report.input_nodes,
-        report.implied_thermocouples() + 1,
-        s.num_weights(),
-        report.weights);
-  }
-  text +=
-      "\nResidual error, as the program prints it and right (here), or the "
-      "printed sd\ntimes sqrt(2) and mean times 2 (1995):\n"
-      "       sd here        sd 1995      mean here       mean 1995\n"
-      "run print  right   print  right  print   right   print   right\n";
-  for (const NetcgStudyRun& run : study.runs) {
-    const NetcgResult& result = run.record.result;
-    text += fmt::format(
-        "{:3} {:5.3f}  {:5.3f}   {:5.3f}  {:5.3f} {:7.4f} {:7.4f} {:7.4f} "
-        "{:7.4f}\n",
-        run.report.number,
-        kUm * result.printed.sd,
-        kUm * result.corrected.sd,
-        kUm * run.report.sd,
-        kUm * run.report.sd * std::numbers::sqrt2,
-        kUm * result.printed.mean,
-        kUm * result.corrected.mean,
-        kUm * run.report.mean,
-        kUm * run.report.mean * 2.0);
-  }
-  text +=
-      "\n      minimum        maximum     iterations           rms of scaled\n"
-      "run  here   1995    here   1995  here  1995  ending   error, here\n";
-  for (const NetcgStudyRun& run : study.runs) {
-    const NetcgResult& result = run.record.result;
-    text += fmt::format(
-        "{:3} {:6.2f} {:6.2f} {:6.2f} {:6.2f} {:5} {:5}  ierr {}  {:.5f}\n",
-        run.report.number,
-        kUm * result.printed.min,
-        kUm * run.report.min,
-        kUm * result.printed.max,
-        kUm * run.report.max,
-        result.iterations,
-        1500,
-        result.ierr,
-        std::sqrt(2.0 * result.error));
-  }
-  text += fmt::format(
-      "\nTimes; 1995 on a CONVEX C3820. All nine here together: {:.1f} s.\n"
-      "      of an iteration, mean and sd      elapsed, s      of an "
-      "iteration\n"
-      "       here, ms          1995, s                      per weight, us\n"
-      "run   mean      sd     mean     sd     here   1995     here   1995\n",
-      study.seconds);
-  for (const NetcgStudyRun& run : study.runs) {
-    const fitting::FitSummary& summary = run.record.result.summary;
-    constexpr double kMs = 1e3;
-    constexpr double kUs = 1e6;
-    text += fmt::format(
-        "{:3}{} {}    {:5.2f}  {:5.3f}  {:7.2f} {:6.1f}  {} {:6.0f}\n",
-        run.report.number,
-        Milli(kMs * summary.mean_iteration_seconds),
-        Milli(kMs * summary.sd_iteration_seconds),
-        run.report.iteration_seconds,
-        run.report.iteration_seconds_sd,
-        summary.seconds,
-        run.report.elapsed_seconds,
-        Milli(kUs * summary.mean_iteration_seconds /
-              static_cast<double>(run.record.specification.num_weights())),
-        kUs * run.report.iteration_seconds /
-            static_cast<double>(run.report.weights));
-  }
+  text += SizesText(study) + ErrorsText(study) + ExtremesText(study) +
+          TimesText(study);
   text += "\nDifferences:\n";
   for (const std::string& note : study.notes) text += "- " + note + "\n";
   return text;

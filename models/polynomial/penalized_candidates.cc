@@ -38,6 +38,99 @@ std::vector<TermSet> ServingTerms(const std::vector<bool>& is_position,
   return sets;
 }
 
+// Fits penalized maps to views of some rows, shared with other recipes where
+// they want the same.
+class BasisJudge {
+ public:
+  BasisJudge(const BasisOptions& options,
+             const PenaltyRule& rule,
+             const InnerFolds& folds,
+             const FitContext& context)
+      : options_(options), rule_(rule), folds_(folds), context_(context) {}
+
+  std::vector<TermSet> SetsFor(const ViewedRows& viewed) const {
+    if (options_.terms) return {*options_.terms};
+    if (options_.view) return ServingTerms(viewed.is_position, options_.degree);
+    return {TermSet::kFull};
+  }
+
+  BasisCandidate Judge(const std::shared_ptr<const ViewedRows>& viewed,
+                       TermSet set,
+                       Penalty penalty) const {
+    const PenalizedBasis basis{
+        .terms = set,
+        .degree = options_.degree.value_or(DefaultDegreeOf(
+            set, static_cast<Index>(viewed->is_position.size()))),
+        .centring = options_.centring,
+        .exclude = options_.exclude,
+        .guarded = options_.guarded()};
+    return {.viewed = viewed,
+            .fit = FitOf(viewed, basis, penalty),
+            .terms = set,
+            .degree = basis.degree,
+            .num_excluded = static_cast<Index>(options_.exclude.size()),
+            .guarded = basis.guarded,
+            .label = fmt::format("{}, {}, {}",
+                                 fitting::ToString(penalty),
+                                 viewed->label(),
+                                 ToString(set))};
+  }
+
+ private:
+  // What others may want as well depends on the words of its key alone.
+  bool is_shareable() const {
+    return context_.shared != nullptr && options_.exclude.empty() &&
+           !rule_.strength && !rule_.one_standard_error;
+  }
+
+  // One pass over the rows serves all that are wanted.
+  std::shared_ptr<FitsByPenalty> FitsOf(
+      const std::shared_ptr<const ViewedRows>& viewed,
+      const PenalizedBasis& basis,
+      const std::vector<Penalty>& wanted) const {
+    const auto sums =
+        SumBasis(viewed, basis, rule_.strength ? nullptr : &folds_, context_);
+    auto fits = std::make_shared<FitsByPenalty>();
+    for (const Penalty penalty : wanted) {
+      fits->emplace(penalty,
+                    FitPenalty(sums, penalty, rule_, context_.indifference));
+    }
+    return fits;
+  }
+
+  FitsByPenalty::mapped_type FitOf(
+      const std::shared_ptr<const ViewedRows>& viewed,
+      const PenalizedBasis& basis,
+      Penalty penalty) const {
+    if (!is_shareable()) return FitsOf(viewed, basis, {penalty})->at(penalty);
+    const bool all = context_.shared->every_penalty;
+    const std::string key =
+        fmt::format("{} view={} {} terms={} degree={} centring={} guarded={}",
+                    all ? "penalized" : fitting::ToString(penalty),
+                    viewed->label(),
+                    KeyOf(options_.view),
+                    ToString(basis.terms),
+                    basis.degree,
+                    static_cast<int>(basis.centring),
+                    basis.guarded);
+    return context_.shared
+        ->Get<FitsByPenalty>(
+            key,
+            [&] {
+              return FitsOf(viewed,
+                            basis,
+                            all ? std::vector{Penalty::kRidge, Penalty::kLasso}
+                                : std::vector{penalty});
+            })
+        ->at(penalty);
+  }
+
+  const BasisOptions& options_;
+  const PenaltyRule& rule_;
+  const InnerFolds& folds_;
+  const FitContext& context_;
+};
+
 }  // namespace
 
 OptionList<BasisOptions> BasisOptionList() {
@@ -73,72 +166,15 @@ std::vector<BasisCandidate> JudgeBases(const Dataset& training,
                                        const std::vector<Penalty>& penalties,
                                        const InnerFolds& folds,
                                        const FitContext& context) {
-  const std::string of_views = KeyOf(options.view);
-  // What others may want as well depends on the words of its key alone.
-  const bool shareable = context.shared != nullptr && options.exclude.empty() &&
-                         !rule.strength && !rule.one_standard_error;
   std::vector<BasisCandidate> judged;
+  const BasisJudge judge(options, rule, folds, context);
   const auto views = SharedViews(training, options.view, context);
   for (const ViewedRows& made : *views) {
     // Holds all of them.
     const std::shared_ptr<const ViewedRows> viewed(views, &made);
-    std::vector<TermSet> sets;
-    if (options.terms) {
-      sets = {*options.terms};
-    } else if (options.view) {
-      sets = ServingTerms(viewed->is_position, options.degree);
-    } else {
-      sets = {TermSet::kFull};
-    }
-    for (const TermSet set : sets) {
-      const int degree = options.degree.value_or(
-          DefaultDegreeOf(set, static_cast<Index>(viewed->is_position.size())));
-      const PenalizedBasis basis{.terms = set,
-                                 .degree = degree,
-                                 .centring = options.centring,
-                                 .exclude = options.exclude,
-                                 .guarded = options.guarded()};
-      const std::string of_basis =
-          fmt::format("view={} {} terms={} degree={} centring={} guarded={}",
-                      viewed->label(),
-                      of_views,
-                      ToString(set),
-                      degree,
-                      static_cast<int>(options.centring),
-                      basis.guarded);
-      // One pass over the rows serves all that will be asked for.
-      const auto make = [&](const std::vector<Penalty>& wanted) {
-        const auto sums =
-            SumBasis(viewed, basis, rule.strength ? nullptr : &folds, context);
-        auto fits_of = std::make_shared<FitsByPenalty>();
-        for (const Penalty penalty : wanted) {
-          fits_of->emplace(
-              penalty, FitPenalty(sums, penalty, rule, context.indifference));
-        }
-        return fits_of;
-      };
+    for (const TermSet set : judge.SetsFor(*viewed)) {
       for (const Penalty penalty : penalties) {
-        const bool all = shareable && context.shared->every_penalty;
-        const std::vector<Penalty> wanted =
-            all ? std::vector{Penalty::kRidge, Penalty::kLasso}
-                : std::vector{penalty};
-        const std::string key = fmt::format(
-            "{} {}", all ? "penalized" : fitting::ToString(penalty), of_basis);
-        const auto fit = (shareable ? *context.shared->Get<FitsByPenalty>(
-                                          key, [&] { return make(wanted); })
-                                    : *make(wanted))
-                             .at(penalty);
-        judged.push_back(
-            {.viewed = viewed,
-             .fit = fit,
-             .terms = set,
-             .degree = degree,
-             .num_excluded = static_cast<Index>(options.exclude.size()),
-             .guarded = basis.guarded,
-             .label = fmt::format("{}, {}, {}",
-                                  fitting::ToString(penalty),
-                                  viewed->label(),
-                                  ToString(set))});
+        judged.push_back(judge.Judge(viewed, set, penalty));
       }
     }
   }

@@ -114,6 +114,68 @@ Json ChangeJson(const std::optional<models::RelationChange>& change) {
           {"rows", change->num_rows}};
 }
 
+// What was found of a map on the rows of a file.
+struct Evaluation {
+  const models::FittedModel& fitted;
+  const models::MapRows& rows;
+  const RowsJudged& judged;
+  Eigen::Index clipped;  // rows
+  std::optional<models::RelationChange> change;
+  models::KeptPromise kept;
+  Eigen::VectorXd residuals;
+  stats::ErrorMetrics metrics;
+};
+
+Json EvaluationJson(const Evaluation& found,
+                    const EvaluateArguments& arguments,
+                    const std::string& command_line) {
+  const models::FittedModel& fitted = found.fitted;
+  const data::Dataset& dataset = found.rows.dataset;
+  return {
+      {"schema", "errmap-evaluate-1"},
+      {"model", fitted.name},
+      {"file", data::ShownPath(arguments.file)},
+      {"target", fitted.target.name},
+      {"unit", fitted.target.unit.symbol},
+      {"align", data::ToString(fitted.align)},
+      {"clipped", found.clipped},
+      {"summary", models::ToJson(models::MakeRecord(found.metrics))},
+      {"promise", PromiseJson(found.kept)},
+      {"outside", OutsideJson(fitted.inputs, dataset.input_values())},
+      {"unlike", UnlikeJson(found.judged.flags, dataset.rows())},
+      {"changed_relation", ChangeJson(found.change)},
+      {"faults", models::ToJson(models::MakeFaultRecords(found.rows.prepared))},
+      {"normality",
+       models::ToJson(models::MakeRecord(
+           stats::AssessNormality(stats::OrderedSample(found.residuals)), {}))},
+      {"provenance",
+       ProvenanceJson(command_line,
+                      {{"missing", ToString(arguments.rows.missing)},
+                       {"faults", ToString(arguments.rows.faults)}},
+                      {study_file::HashInput(arguments.model),
+                       study_file::HashInput(arguments.file)})}};
+}
+
+std::string EvaluationText(const Evaluation& found,
+                           const EvaluateArguments& arguments) {
+  const data::Unit& unit = found.fitted.target.unit;
+  const double ks_d = stats::KsDistanceFromNormal(found.residuals,
+                                                  found.metrics.residuals.mean,
+                                                  found.metrics.residuals.sd);
+  return fmt::format("{} ({}) on {}: target - predicted of {}\n{}{}{}",
+                     arguments.model,
+                     found.fitted.name,
+                     arguments.file,
+                     report::TargetWords(found.rows.dataset),
+                     report::SummaryText(found.metrics,
+                                         unit,
+                                         ks_d,
+                                         stats::KsProbabilityMeanSdGiven(
+                                             ks_d, found.residuals.size())),
+                     report::KeptPromiseText(found.kept, unit),
+                     found.change ? report::RelationText(*found.change) : "");
+}
+
 int RunEvaluate(const EvaluateArguments& arguments,
                 const std::string& command_line) {
   const models::FittedModel fitted = models::LoadModel(arguments.model);
@@ -126,63 +188,32 @@ int RunEvaluate(const EvaluateArguments& arguments,
   if (SayNotFinite(predicted, dataset.rows(), arguments.file)) {
     return kEveryFitFailed;
   }
-  const Eigen::Index clipped = prediction.clipped.count();
-  if (clipped > 0 && !arguments.quiet) {
+  const Evaluation found{
+      .fitted = fitted,
+      .rows = rows,
+      .judged = judged,
+      .clipped = prediction.clipped.count(),
+      .change = models::ChangedRelation(fitted, dataset.input_values()),
+      .kept = models::HoldToPromise(fitted, dataset.target_values(), predicted),
+      .residuals = dataset.target_values() - predicted,
+      .metrics = models::Judge(dataset, predicted)};
+  if (found.clipped > 0 && !arguments.quiet) {
     Say(fmt::format("warning: {} clipped by the map's guards",
-                    report::Count(clipped, "row")));
+                    report::Count(found.clipped, "row")));
   }
-  const std::optional<models::RelationChange> change =
-      models::ChangedRelation(fitted, dataset.input_values());
-  const models::KeptPromise kept =
-      models::HoldToPromise(fitted, dataset.target_values(), predicted);
-  const Eigen::VectorXd residuals = dataset.target_values() - predicted;
-  const stats::ErrorMetrics metrics = models::Judge(dataset, predicted);
-  if (!(metrics.rmse <= models::kLargestRmse)) {
+  if (!(found.metrics.rmse <= models::kLargestRmse)) {
     Say(
         fmt::format("{}: the predictions err by {:.3g} RMSE, too much to be "
                     "squared; the map does not serve there",
                     data::PrintablePath(arguments.file),
-                    metrics.rmse));
+                    found.metrics.rmse));
     return kEveryFitFailed;
   }
-  const double ks_d = stats::KsDistanceFromNormal(
-      residuals, metrics.residuals.mean, metrics.residuals.sd);
-  const double ks_p = stats::KsProbabilityMeanSdGiven(ks_d, residuals.size());
   if (arguments.format == "json") {
-    PrintResult(DumpJson(
-        {{"schema", "errmap-evaluate-1"},
-         {"model", fitted.name},
-         {"file", data::ShownPath(arguments.file)},
-         {"target", fitted.target.name},
-         {"unit", fitted.target.unit.symbol},
-         {"align", data::ToString(fitted.align)},
-         {"clipped", clipped},
-         {"summary", models::ToJson(models::MakeRecord(metrics))},
-         {"promise", PromiseJson(kept)},
-         {"outside", OutsideJson(fitted.inputs, dataset.input_values())},
-         {"unlike", UnlikeJson(judged.flags, dataset.rows())},
-         {"changed_relation", ChangeJson(change)},
-         {"faults", models::ToJson(models::MakeFaultRecords(rows.prepared))},
-         {"normality",
-          models::ToJson(models::MakeRecord(
-              stats::AssessNormality(stats::OrderedSample(residuals)), {}))},
-         {"provenance",
-          ProvenanceJson(command_line,
-                         {{"missing", ToString(arguments.rows.missing)},
-                          {"faults", ToString(arguments.rows.faults)}},
-                         {study_file::HashInput(arguments.model),
-                          study_file::HashInput(arguments.file)})}}));
-    return kDone;
+    PrintResult(DumpJson(EvaluationJson(found, arguments, command_line)));
+  } else {
+    PrintFitted(EvaluationText(found, arguments));
   }
-  PrintFitted(
-      fmt::format("{} ({}) on {}: target - predicted of {}\n{}{}{}",
-                  arguments.model,
-                  fitted.name,
-                  arguments.file,
-                  report::TargetWords(dataset),
-                  report::SummaryText(metrics, fitted.target.unit, ks_d, ks_p),
-                  report::KeptPromiseText(kept, fitted.target.unit),
-                  change ? report::RelationText(*change) : ""));
   return kDone;
 }
 

@@ -155,34 +155,23 @@ report::Screen Formatted(const study_file::StudyRun& run,
   return screen;
 }
 
-int RunCompare(const CompareArguments& arguments) {
-  if (arguments.resume && arguments.out.empty()) {
-    throw UsageError("--resume needs the folder of the earlier run: --out DIR");
-  }
-  const std::optional<study_file::MachineStudy> machine = MachineOf(arguments);
-  if (const std::optional<int> status = RunIfFleet(arguments)) return *status;
-  study_file::StudyPlan plan = PlanOf(arguments, machine);
-  const int jobs = JobsOf(arguments.jobs);
-  if (arguments.dry_run) {
-    PrintResult(PlanText(plan, jobs, arguments.out));
-    return kDone;
-  }
-  // Better now than after minutes of fitting.
-  const std::vector<std::string> inputs = plan.InputPaths();
+// Refuses places for single files that cannot be written to: better now than
+// after minutes of fitting.
+void CheckPlaces(const study_file::StudyPlan& plan,
+                 const CompareArguments& arguments,
+                 const std::vector<std::string>& inputs) {
   for (const study_file::ComponentConfig& component : plan.config.components) {
     CheckOutputName("--save-split", component.save_split, inputs);
     RequirePlaceFor(component.save_split);
   }
   CheckOutputName("-o", arguments.page, inputs);
   RequirePlaceFor(arguments.page);
-  std::optional<ClaimedFolder> folder;
-  if (!arguments.out.empty()) {
-    folder.emplace(arguments.out, OutputNames(plan), inputs, arguments.force);
-    models::JournalFile::RequireNoOther(arguments.out, arguments.force);
-  }
-  for (std::size_t i = 0; i < plan.components.size(); ++i) {
-    SaveSplit(plan.components[i].comparison, plan.config.components[i]);
-  }
+}
+
+study_file::StudyRun RunShowingProgress(study_file::StudyPlan plan,
+                                        const CompareArguments& arguments,
+                                        int jobs,
+                                        bool keep_fold_maps) {
   const std::unique_ptr<models::JournalFile> journal = OpenJournal(arguments);
   study_file::StudyRun run;
   {
@@ -195,7 +184,7 @@ int RunCompare(const CompareArguments& arguments) {
          .stop = &InstallInterruptFlag(),
          .journal = journal.get(),
          .journal_has = Sayer(!arguments.resume || arguments.data.quiet),
-         .keep_fold_maps = machine.has_value(),
+         .keep_fold_maps = keep_fold_maps,
          .progress = [&](std::size_t component,
                          const models::FitProgress& fit) {
            forecast.Note(component, fit);
@@ -210,6 +199,33 @@ int RunCompare(const CompareArguments& arguments) {
   if (journal != nullptr) {
     SayUnless(arguments.data.quiet, journal->WritingRemarks());
   }
+  return run;
+}
+
+int RunCompare(const CompareArguments& arguments) {
+  if (arguments.resume && arguments.out.empty()) {
+    throw UsageError("--resume needs the folder of the earlier run: --out DIR");
+  }
+  const std::optional<study_file::MachineStudy> machine = MachineOf(arguments);
+  if (const std::optional<int> status = RunIfFleet(arguments)) return *status;
+  study_file::StudyPlan plan = PlanOf(arguments, machine);
+  const int jobs = JobsOf(arguments.jobs);
+  if (arguments.dry_run) {
+    PrintResult(PlanText(plan, jobs, arguments.out));
+    return kDone;
+  }
+  const std::vector<std::string> inputs = plan.InputPaths();
+  CheckPlaces(plan, arguments, inputs);
+  std::optional<ClaimedFolder> folder;
+  if (!arguments.out.empty()) {
+    folder.emplace(arguments.out, OutputNames(plan), inputs, arguments.force);
+    models::JournalFile::RequireNoOther(arguments.out, arguments.force);
+  }
+  for (std::size_t i = 0; i < plan.components.size(); ++i) {
+    SaveSplit(plan.components[i].comparison, plan.config.components[i]);
+  }
+  const study_file::StudyRun run =
+      RunShowingProgress(std::move(plan), arguments, jobs, machine.has_value());
   SayShortOfMemory(run);
   models::StudyRecord record = study_file::RecordOf(run, jobs);
   if (machine && !run.interrupted) {

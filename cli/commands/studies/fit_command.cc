@@ -1,5 +1,6 @@
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
@@ -170,6 +171,50 @@ std::string FitText(const models::FittedModel& fitted,
   return text;
 }
 
+// A map of all rows and the seconds that it took, its choices and starts
+// included.
+struct TimedFit {
+  models::FittedModel map;
+  double seconds = 0.0;
+};
+
+TimedFit FitTimed(const models::ModelRecipe& recipe,
+                  const data::Dataset& dataset,
+                  const models::FitContext& context) {
+  const fitting::InterruptionScope interruptible(context.stop);
+  const auto start = std::chrono::steady_clock::now();
+  TimedFit fit{.map = recipe.Fit(dataset, context)};
+  const std::chrono::duration<double> taken =
+      std::chrono::steady_clock::now() - start;
+  fit.seconds = taken.count();
+  return fit;
+}
+
+// Why there is no map to write; nothing where there is one.
+std::optional<std::string> WhyFailed(const models::FittedModel& fitted,
+                                     const Eigen::VectorXd& predicted) {
+  if (!predicted.allFinite()) return "a prediction is not finite";
+  if (fitted.summary.termination != fitting::Termination::kFailed) return {};
+  return fitted.summary.message;
+}
+
+void AddInterval(const data::Dataset& dataset,
+                 std::unique_ptr<models::ModelRecipe> recipe,
+                 const models::FitContext& context,
+                 models::FittedModel* fitted) {
+  try {
+    models::AddPromise(dataset,
+                       std::move(recipe),
+                       {.seed = context.seed,
+                        .jobs = context.threads,
+                        .stop = context.stop,
+                        .indifference = context.indifference},
+                       fitted);
+  } catch (const std::invalid_argument& error) {
+    Say(fmt::format("no interval: {}", error.what()));
+  }
+}
+
 int RunFit(const FitArguments& arguments, const std::string& command_line) {
   CheckOutputName("-o",
                   arguments.out,
@@ -177,23 +222,18 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
   RequirePlaceFor(arguments.out);
   auto recipe = RecipeFromArgument(arguments.model);
   const data::PreparedDataset prepared = ReadData(arguments.data);
-  const double indifference =
-      models::DefaultIndifference(prepared.dataset.target().unit);
-  models::FittedModel fitted;
-  std::chrono::duration<double> fit_time{};
+  const data::Dataset& dataset = prepared.dataset;
   const std::atomic<bool>& stop = InstallInterruptFlag();
-  const int jobs = JobsOf(0);
+  const models::FitContext context{
+      .seed = arguments.seed,
+      .stop = &stop,
+      .explain = true,
+      .threads = JobsOf(0),
+      .keep_trace = arguments.format == "json",
+      .indifference = models::DefaultIndifference(dataset.target().unit)};
+  TimedFit fit;
   try {
-    const fitting::InterruptionScope interruptible(&stop);
-    const auto start = std::chrono::steady_clock::now();
-    fitted = recipe->Fit(prepared.dataset,
-                         {.seed = arguments.seed,
-                          .stop = &stop,
-                          .explain = true,
-                          .threads = jobs,
-                          .keep_trace = arguments.format == "json",
-                          .indifference = indifference});
-    fit_time = std::chrono::steady_clock::now() - start;
+    fit = FitTimed(*recipe, dataset, context);
   } catch (const std::invalid_argument& error) {
     if (stop.load()) {
       Say("interrupted before there was a map; nothing written");
@@ -202,55 +242,35 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
     Say(fmt::format("{} failed: {}", arguments.model, error.what()));
     return kEveryFitFailed;
   }
-  const Eigen::VectorXd predicted = fitted.Predict(prepared.dataset);
-  if (fitted.summary.termination == fitting::Termination::kFailed ||
-      !predicted.allFinite()) {
-    Say(fmt::format("{} failed: {}; nothing written",
-                    arguments.model,
-                    predicted.allFinite()
-                        ? fitted.summary.message
-                        : std::string("a prediction is not finite")));
+  models::FittedModel& fitted = fit.map;
+  const Eigen::VectorXd predicted = fitted.Predict(dataset);
+  if (const auto why = WhyFailed(fitted, predicted)) {
+    Say(fmt::format("{} failed: {}; nothing written", arguments.model, *why));
     return kEveryFitFailed;
   }
-  const Json configuration =
-      ConfigurationJson(*recipe, prepared.dataset, arguments);
-  models::AddApplicability(prepared.dataset, &fitted);
+  const Json configuration = ConfigurationJson(*recipe, dataset, arguments);
+  models::AddApplicability(dataset, &fitted);
   if (!arguments.no_interval && !stop.load()) {
-    try {
-      models::AddPromise(prepared.dataset,
-                         std::move(recipe),
-                         {.seed = arguments.seed,
-                          .jobs = jobs,
-                          .stop = &stop,
-                          .indifference = indifference},
-                         &fitted);
-    } catch (const std::invalid_argument& error) {
-      Say(fmt::format("no interval: {}", error.what()));
-    }
+    AddInterval(dataset, std::move(recipe), context, &fitted);
   }
   const study_file::InputFile input =
       study_file::HashInput(arguments.data.file);
   models::SaveModel(
       fitted,
       study_file::ModelProvenance(
-          command_line, {input}, prepared.dataset.num_rows(), arguments.seed),
+          command_line, {input}, dataset.num_rows(), arguments.seed),
       arguments.out);
   const models::Sensitivity sensitivity =
-      models::MeasureSensitivity(fitted, prepared.dataset);
-  const stats::ErrorMetrics train = models::Judge(prepared.dataset, predicted);
+      models::MeasureSensitivity(fitted, dataset);
+  const stats::ErrorMetrics train = models::Judge(dataset, predicted);
   if (arguments.format == "json") {
-    Json document = FitJson(fitted,
-                            fit_time.count(),
-                            sensitivity,
-                            train,
-                            prepared.dataset,
-                            arguments);
+    Json document =
+        FitJson(fitted, fit.seconds, sensitivity, train, dataset, arguments);
     document["provenance"] =
         ProvenanceJson(command_line, configuration, {input});
     PrintResult(DumpJson(document));
   } else {
-    PrintResult(
-        FitText(fitted, sensitivity, train, prepared.dataset, arguments));
+    PrintResult(FitText(fitted, sensitivity, train, dataset, arguments));
   }
   if (stop.load()) {
     Say("interrupted; the best map so far was written");

@@ -105,32 +105,25 @@ void MakeLogarithmic(double low, double high, Axis* axis) {
   axis->high = high * kMargin;
 }
 
-}  // namespace
+// What stands on an axis.
+struct Span {
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0.0;
 
-Figure GapFigure(const ReportView& view, const std::string& prefix) {
-  Figure figure;
-  figure.place = FigurePlace::kAnswer;
-  figure.title = "Error on rows never seen, by model";
-  figure.plot.name = prefix + "gap";
-  std::vector<const ModelRecord*> models;
-  for (const ModelRecord* model : view.models) {
-    for (const std::string& holdout : view.holdouts) {
-      if (!std::isfinite(TestRmse(*model, holdout))) continue;
-      models.push_back(model);
-      break;
-    }
+  void Take(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
   }
-  if (models.empty()) {
-    figure.missing = "No model has an error on held-out rows.";
-    return figure;
-  }
-  const std::vector<std::string> holdouts = ShownHoldouts(view);
+};
+
+// A mark per model and hold-out, with intervals for the first, which decides.
+std::vector<Series> HoldoutMarks(const ReportView& view,
+                                 const std::vector<const ModelRecord*>& models,
+                                 const std::vector<std::string>& holdouts,
+                                 Span* span) {
   constexpr std::array kShapes = {
       Shape::kDot, Shape::kCircle, Shape::kSquare, Shape::kDiamond};
   constexpr std::array kHoldoutColours = {kVermillion, kBlue, kGreen, kPurple};
-  Plot& plot = figure.plot;
-  double low = std::numeric_limits<double>::infinity();
-  double high = 0.0;
   std::vector<Series> marks;
   for (std::size_t h = 0; h < holdouts.size(); ++h) {
     Series points{.label = HoldoutLabel(view, holdouts[h]),
@@ -143,20 +136,27 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
       const double rmse = TestRmse(*models[i], holdouts[h]) * view.scale;
       points.columns[0].push_back(rmse > 0.0 ? rmse : kAutomatic);
       points.columns[1].push_back(static_cast<double>(i));
-      if (rmse > 0.0) {
-        low = std::min(low, rmse);
-        high = std::max(high, rmse);
-      }
+      if (rmse > 0.0) span->Take(rmse);
     }
     if (h == 0) {
       Series bars = Intervals(view, models, holdouts[h], kHoldoutColours[h]);
-      for (const double end : bars.columns[2]) low = std::min(low, end);
-      for (const double end : bars.columns[3]) high = std::max(high, end);
+      for (const double end : bars.columns[2]) {
+        span->low = std::min(span->low, end);
+      }
+      for (const double end : bars.columns[3]) {
+        span->high = std::max(span->high, end);
+      }
       marks.push_back(std::move(bars));
     }
     marks.push_back(std::move(points));
   }
-  // A thin line joins what belongs to one model.
+  return marks;
+}
+
+// A thin line joins what belongs to one model.
+Series LinksOf(const ReportView& view,
+               const std::vector<const ModelRecord*>& models,
+               const std::vector<std::string>& holdouts) {
   Series links{.mark = Mark::kLine, .columns = {{}, {}}, .colour = "#AAAAAA"};
   for (std::size_t i = 0; i < models.size(); ++i) {
     for (const std::string& holdout : holdouts) {
@@ -165,29 +165,60 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
     }
     links.columns[0].push_back(kAutomatic);
     links.columns[1].push_back(kAutomatic);
-    plot.y.names.emplace_back(Shortened(models[i]->name, kNameLength),
-                              static_cast<double>(i));
   }
-  plot.series.push_back(std::move(links));
+  return links;
+}
+
+// A row per model, the best on top.
+void NameRows(const std::vector<const ModelRecord*>& models, Plot* plot) {
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    plot->y.names.emplace_back(Shortened(models[i]->name, kNameLength),
+                               static_cast<double>(i));
+  }
+  plot->y.quantity = "model";
+  plot->y.low = static_cast<double>(models.size()) - 0.5;
+  plot->y.high = -0.5;
+  plot->width = 450;
+  constexpr int kFrame = 60;
+  constexpr int kRow = 19;
+  plot->height = kFrame + kRow * static_cast<int>(models.size());
+}
+
+}  // namespace
+
+Figure GapFigure(const ReportView& view, const std::string& prefix) {
+  Figure figure;
+  figure.place = FigurePlace::kAnswer;
+  figure.title = "Error on rows never seen, by model";
+  figure.plot.name = prefix + "gap";
+  std::vector<const ModelRecord*> models;
+  for (const ModelRecord* model : view.models) {
+    if (std::ranges::any_of(view.holdouts, [&](const std::string& holdout) {
+          return std::isfinite(TestRmse(*model, holdout));
+        })) {
+      models.push_back(model);
+    }
+  }
+  if (models.empty()) {
+    figure.missing = "No model has an error on held-out rows.";
+    return figure;
+  }
+  const std::vector<std::string> holdouts = ShownHoldouts(view);
+  Plot& plot = figure.plot;
+  Span span;
+  std::vector<Series> marks = HoldoutMarks(view, models, holdouts, &span);
+  plot.series.push_back(LinksOf(view, models, holdouts));
   for (Series& series : marks) plot.series.push_back(std::move(series));
   AddGoal(view, static_cast<double>(models.size()), &plot);
   plot.x = {.quantity = "RMSE on held-out rows", .unit = view.shown_unit};
-  if (SpansDecades(low, high)) {
+  if (SpansDecades(span.low, span.high)) {
     const double goal = view.component->goal * view.scale;
-    MakeLogarithmic(goal > 0.0 ? std::min(low, goal) : low,
-                    goal > 0.0 ? std::max(high, goal) : high,
-                    &plot.x);
+    if (goal > 0.0) span.Take(goal);
+    MakeLogarithmic(span.low, span.high, &plot.x);
   } else {
     plot.x.low = 0.0;
   }
-  plot.y.quantity = "model";
-  // The best stands on top.
-  plot.y.low = static_cast<double>(models.size()) - 0.5;
-  plot.y.high = -0.5;
-  plot.width = 450;
-  constexpr int kFrame = 60;
-  constexpr int kRow = 19;
-  plot.height = kFrame + kRow * static_cast<int>(models.size());
+  NameRows(models, &plot);
   figure.note =
       view.decisive_is_unseen
           ? "What counts is the filled dot; an open one far left of it was "

@@ -247,6 +247,86 @@ std::optional<std::size_t> BlendToUse(
   return blend;
 }
 
+// The first tier that holds a map: predictions alone cannot be run. Nothing is
+// left in advice->first_tier where there is none.
+void TakeFirstTier(const HoldoutComparison& comparison,
+                   const std::function<bool(std::size_t)>& is_map,
+                   double indifference,
+                   Recommendation* advice) {
+  for (const std::vector<Index>& tier : comparison.tests.tiers) {
+    for (const Index place : tier) {
+      const std::size_t model =
+          comparison.models[static_cast<std::size_t>(place)];
+      if (is_map(model)) {
+        advice->first_tier.push_back(model);
+      } else if (advice->first_tier.empty() && !advice->better_but_no_map) {
+        advice->better_but_no_map = model;
+      }
+    }
+    if (!advice->first_tier.empty()) break;
+  }
+  // One unit bounds no difference, so a tier is a model alone; what is near it
+  // by the margin may be better just as well, and simpler.
+  if (comparison.tests.num_units < 2 && !advice->first_tier.empty()) {
+    advice->first_tier =
+        NearTheBest(comparison,
+                    is_map,
+                    RmseOf(comparison, advice->first_tier.front()),
+                    indifference);
+  }
+}
+
+// Of a tier, its baselines if it has some: fewest sensors, then fewest
+// parameters, then the lowest error.
+std::size_t SimplestOf(const std::vector<std::size_t>& tier,
+                       const HoldoutComparison& comparison,
+                       const StudyResult& study) {
+  std::vector<std::size_t> candidates;
+  std::ranges::copy_if(
+      tier, std::back_inserter(candidates), [&](std::size_t model) {
+        return ChoiceOf(study.models[model]) == Choice::kBaseline;
+      });
+  if (candidates.empty()) candidates = tier;
+  return *std::ranges::min_element(candidates, {}, [&](std::size_t model) {
+    const FittedModel& map = *study.models[model].final_fit;
+    return std::tuple(SensorsOf(map).size(),
+                      map.model->num_parameters(),
+                      RmseOf(comparison, model));
+  });
+}
+
+// What the model is worth beside baselines and beside the best of its tier.
+void WeighAgainstOthers(const HoldoutComparison& comparison,
+                        const StudyResult& study,
+                        double indifference,
+                        Recommendation* advice) {
+  const auto best_baseline = BestOf(comparison, study, Choice::kBaseline);
+  advice->has_baseline = best_baseline.has_value();
+  advice->best_baseline = best_baseline.value_or(0);
+  advice->choice = ChoiceOf(study.models[advice->model]);
+  const double margin = MarginOf(comparison, indifference);
+  if (advice->choice == Choice::kBaseline) {
+    advice->against_baseline =
+        ThatNothingIsBetter(comparison, study, advice->model, margin);
+  } else if (best_baseline) {
+    advice->against_baseline =
+        comparison.ThatItIsBetter(advice->model, *best_baseline);
+  }
+  if (advice->model != advice->first_tier.front()) {
+    advice->within_tier = comparison.ThatItLosesAtMost(
+        margin, advice->model, advice->first_tier.front());
+  }
+  const auto in_tier = [&](Choice choice) {
+    return std::ranges::any_of(advice->first_tier, [&](std::size_t model) {
+      return ChoiceOf(study.models[model]) == choice;
+    });
+  };
+  if (advice->choice != Choice::kBaseline && in_tier(Choice::kPolynomial) &&
+      in_tier(Choice::kNeural)) {
+    advice->choice = Choice::kNoPracticalDifference;
+  }
+}
+
 std::optional<Recommendation> Recommend(
     const data::Dataset& dataset,
     const std::vector<Holdout>& holdouts,
@@ -261,44 +341,9 @@ std::optional<Recommendation> Recommend(
   };
   Recommendation advice;
   advice.holdout = *decisive;
-  // The first tier that holds a map: predictions alone cannot be run.
-  for (const std::vector<Index>& tier : comparison.tests.tiers) {
-    for (const Index place : tier) {
-      const std::size_t model =
-          comparison.models[static_cast<std::size_t>(place)];
-      if (is_map(model)) {
-        advice.first_tier.push_back(model);
-      } else if (advice.first_tier.empty() && !advice.better_but_no_map) {
-        advice.better_but_no_map = model;
-      }
-    }
-    if (!advice.first_tier.empty()) break;
-  }
+  TakeFirstTier(comparison, is_map, indifference, &advice);
   if (advice.first_tier.empty()) return std::nullopt;
-  // One unit bounds no difference, so a tier is a model alone; what is near it
-  // by the margin may be better just as well, and simpler.
-  if (comparison.tests.num_units < 2) {
-    advice.first_tier =
-        NearTheBest(comparison,
-                    is_map,
-                    RmseOf(comparison, advice.first_tier.front()),
-                    indifference);
-  }
-  std::vector<std::size_t> candidates;
-  std::ranges::copy_if(advice.first_tier,
-                       std::back_inserter(candidates),
-                       [&](std::size_t model) {
-                         return ChoiceOf(study.models[model]) ==
-                                Choice::kBaseline;
-                       });
-  if (candidates.empty()) candidates = advice.first_tier;
-  advice.model =
-      *std::ranges::min_element(candidates, {}, [&](std::size_t model) {
-        const FittedModel& map = *study.models[model].final_fit;
-        return std::tuple(SensorsOf(map).size(),
-                          map.model->num_parameters(),
-                          RmseOf(comparison, model));
-      });
+  advice.model = SimplestOf(advice.first_tier, comparison, study);
   if (const auto blend = BlendToUse(
           holdouts[*decisive], comparison, study, is_map, indifference)) {
     advice.single = advice.model;
@@ -310,31 +355,7 @@ std::optional<Recommendation> Recommend(
     }
     advice.model = *blend;
   }
-  const auto best_baseline = BestOf(comparison, study, Choice::kBaseline);
-  advice.has_baseline = best_baseline.has_value();
-  advice.best_baseline = best_baseline.value_or(0);
-  advice.choice = ChoiceOf(study.models[advice.model]);
-  const double margin = MarginOf(comparison, indifference);
-  if (advice.choice == Choice::kBaseline) {
-    advice.against_baseline =
-        ThatNothingIsBetter(comparison, study, advice.model, margin);
-  } else if (best_baseline) {
-    advice.against_baseline =
-        comparison.ThatItIsBetter(advice.model, *best_baseline);
-  }
-  if (advice.model != advice.first_tier.front()) {
-    advice.within_tier = comparison.ThatItLosesAtMost(
-        margin, advice.model, advice.first_tier.front());
-  }
-  const auto in_tier = [&](Choice choice) {
-    return std::ranges::any_of(advice.first_tier, [&](std::size_t model) {
-      return ChoiceOf(study.models[model]) == choice;
-    });
-  };
-  if (advice.choice != Choice::kBaseline && in_tier(Choice::kPolynomial) &&
-      in_tier(Choice::kNeural)) {
-    advice.choice = Choice::kNoPracticalDifference;
-  }
+  WeighAgainstOthers(comparison, study, indifference, &advice);
   advice.extrapolated_share = ExtrapolatedShare(
       dataset, holdouts[*decisive], *study.models[advice.model].final_fit);
   return advice;
