@@ -419,13 +419,8 @@ Table TerminalLeaderboard(const ReportView& view, std::size_t most_rows) {
 }
 
 Table TerminalDetails(const ReportView& view, const std::string& holdout) {
-  std::vector<Slot> slots = SlotsOf({"model",
-                                     "training",
-                                     "test_rmse",
-                                     "ci95",
-                                     "tier",
-                                     "p_recommended",
-                                     "established"});
+  std::vector<Slot> slots = SlotsOf(
+      {"model", "training", "test_rmse", "ci95", "tier", "p_recommended"});
   Table table;
   table.error = ErrorTextOf(*view.component);
   for (const Slot& slot : slots) {
@@ -433,7 +428,6 @@ Table TerminalDetails(const ReportView& view, const std::string& holdout) {
                              .is_number = slot.column->is_number,
                              .gap = slot.column->gap});
   }
-  table.columns.back().name = "established";
   for (const ModelRecord* model : view.models) {
     if (model->name == view.recommended) table.marked = table.rows.size();
     AddRow(*view.component, *model, slots, holdout, &table);
