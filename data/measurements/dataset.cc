@@ -11,6 +11,7 @@
 
 #include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/date_time.h"
 
 namespace errmap::data {
 namespace {
@@ -261,6 +262,16 @@ Dataset WithoutRows(const Dataset& dataset,
     }
   }
   return dataset.SelectRows(kept);
+}
+
+std::string WordFor(const Grouping& grouping) {
+  if (grouping.column.empty()) return "session";
+  const bool are_dates = std::all_of(
+      grouping.labels.begin(), grouping.labels.end(), [](const auto& label) {
+        const auto read = ParseDateTime(label);
+        return read && read->has_date && !read->has_time;
+      });
+  return are_dates && !grouping.labels.empty() ? "day" : grouping.column;
 }
 
 Grouping GroupByColumn(const CsvTable& table,

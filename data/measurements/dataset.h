@@ -31,6 +31,10 @@ struct Grouping {
   std::vector<Eigen::Index> codes;  // (rows) index into labels
 };
 
+/// What one of them is called: "day" where all labels are dates, "session"
+/// where the column is "", else by the column.
+std::string WordFor(const Grouping& grouping);
+
 /// Every row of the table as it was read, in file order, rows dropped or held
 /// out included: what filters of the inputs run through.
 struct SessionLog {

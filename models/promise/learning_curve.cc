@@ -41,7 +41,7 @@ Units UnitsOf(const data::Dataset& dataset, LearnBy by) {
   const data::Grouping& grouping =
       sessions ? dataset.log()->sessions : dataset.groups();
   Units units;
-  units.name = grouping.column.empty() ? "session" : grouping.column;
+  units.name = data::WordFor(grouping);
   units.codes = sessions ? dataset.session_codes() : dataset.groups().codes;
   std::map<Index, Index> place;
   for (const Index code :

@@ -132,9 +132,7 @@ ProbeStudy StudyProbes(const data::Dataset& dataset,
   const std::vector<Session> sessions =
       SessionsOf(codes, elapsed, std::ranges::max(numbers), spacing);
   ProbeStudy result{.holdout = holdout.name,
-                    .unit = source.log()->sessions.column.empty()
-                                ? "session"
-                                : source.log()->sessions.column,
+                    .unit = data::WordFor(source.log()->sessions),
                     .spacing = spacing,
                     .time_unit = source.log()->time_unit,
                     .numbers = std::move(numbers),

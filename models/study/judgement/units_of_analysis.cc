@@ -28,7 +28,7 @@ bool TakeUnits(const HeldOutRows& held,
   }
   const std::set<Index> present(found.begin(), found.end());
   if (present.size() < 2) return false;
-  units->name = grouping.column.empty() ? "session" : grouping.column;
+  units->name = data::WordFor(grouping);
   units->are_groups = true;
   for (const Index code : present) {
     units->labels.push_back(grouping.labels[static_cast<std::size_t>(code)]);

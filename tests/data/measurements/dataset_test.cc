@@ -251,6 +251,21 @@ TEST(GroupByColumn, SortsNumbersNumericallyWithTheirShortestText) {
   EXPECT_THAT(groups.codes, ElementsAre(2, 1, 2, 0, 1, 0));
 }
 
+TEST(GroupByColumn, GroupsHaveAWord) {
+  EXPECT_EQ(WordFor({.column = "", .labels = {"1", "2"}, .codes = {}}),
+            "session");
+  EXPECT_EQ(WordFor({.column = "cycle", .labels = {"1", "2"}, .codes = {}}),
+            "cycle");
+  EXPECT_EQ(WordFor({.column = "Datum",
+                     .labels = {"02.03.2026", "03.03.2026"},
+                     .codes = {}}),
+            "day");
+  EXPECT_EQ(WordFor({.column = "start",
+                     .labels = {"2026-03-02 07:00", "2026-03-03 07:00"},
+                     .codes = {}}),
+            "start");
+}
+
 TEST(GroupByColumn, KeepsTextsInOrderOfAppearance) {
   const CsvTable table = ParseCsv("g\nwarm\n3\ncold\n3.0\nwarm\n", "f.csv");
   const Grouping groups = GroupByColumn(table, "g", {0, 1, 2, 3, 4});
