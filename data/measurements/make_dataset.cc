@@ -2,6 +2,9 @@
 // column_roles.h chooses become values, checked and in their units.
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <span>
@@ -18,6 +21,18 @@
 
 namespace errmap::data {
 namespace {
+
+// To three digits.
+std::string Rounded(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(),
+                                 text.data() + text.size(),
+                                 value,
+                                 std::chars_format::general,
+                                 3)
+                       .ptr;
+  return {text.data(), end};
+}
 
 class DatasetBuilder {
  public:
@@ -156,6 +171,7 @@ class DatasetBuilder {
     parts_.target_values = ValuesOfRows(table_.At(roles_.target), parts_.rows);
     RequireSquares();
     if (selection_.only_to_judge) return;
+    SayIfUnlikely();
     const double first = parts_.target_values(0);
     if (!(parts_.target_values.array() == first).all()) return;
     ThrowUnusable(
@@ -167,6 +183,26 @@ class DatasetBuilder {
                        std::to_string(parts_.rows.size()) + " rows)") +
             ", so there is nothing to map; name another with " +
             ArgumentName("target"));
+  }
+
+  // A machine that errs by millimetres, or by less than most can measure, is
+  // one whose numbers are in another unit, more often than not.
+  void SayIfUnlikely() {
+    constexpr double kMost = 1000.0;  // um, RMS
+    constexpr double kLeast = 0.05;
+    const Unit& unit = parts_.target.unit;
+    const Unit um = UnitOfSymbol("um");
+    if (!AreConvertible(unit, um)) return;
+    const double rms =
+        parts_.target_values.norm() /
+        std::sqrt(static_cast<double>(parts_.target_values.size()));
+    const double size = Converted(rms, unit, um);
+    if (size == 0.0 || (size >= kLeast && size <= kMost)) return;
+    remarks_.push_back(
+        NameInRemark(parts_.target.name) + " is " + Rounded(rms) + " " +
+        unit.symbol + " RMS, " + (size > kMost ? "more" : "less") +
+        " than machine tools err by; if it is in another unit, write that into "
+        "its name: error_um, 'error [mm]'");
   }
 
   // Every figure of a target is a sum of squares.

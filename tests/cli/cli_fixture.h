@@ -47,7 +47,7 @@ class Cli : public CliTest {
 
   /// 60 rows of two inputs, none of them a position.
   void WriteWithoutPosition(const std::string& name, int rows = 60) const {
-    std::string text = "t1,t2,error_mm\n";
+    std::string text = "t1,t2,error_um\n";
     for (int i = 0; i < rows; ++i) {
       const int t2 = (i * 7) % 11;
       text += std::to_string(i) + "," + std::to_string(20 + t2) + "," +

@@ -213,7 +213,7 @@ TEST_F(Cli, UnwritableOutputGivesOneLineAndNoFile) {
 // ---- Hold-outs, groups and names.
 
 TEST_F(Cli, OneCycleOnlyRefusesGroupsAndSaysWhatIsPossible) {
-  std::string text = "cycle,position_mm,t1,error_mm\n";
+  std::string text = "cycle,position_mm,t1,error_um\n";
   for (int i = 0; i < 30; ++i) {
     text += "1," + std::to_string(i) + "," + std::to_string((i * 7) % 11) +
             "," + std::to_string(i * i) + "\n";

@@ -315,7 +315,7 @@ TEST(MakeDatasetError, LongAndStrangeCellsStayOnOneLine) {
 
 TEST(MakeDataset, DropsRowsWithMissingCellsWhereAsked) {
   const PreparedDataset prepared = Make(
-      "cycle,a,error_mm\n1,1,1\n1,NA,2\n2,3,\n2,4,4\n,5,5\n3,nAn,6\n3,7,8\n",
+      "cycle,a,error_um\n1,1,1\n1,NA,2\n2,3,\n2,4,4\n,5,5\n3,nAn,6\n3,7,8\n",
       {.missing = MissingPolicy::kDropRows});
   EXPECT_THAT(prepared.dataset.rows(), ElementsAre(0, 3, 6));
   EXPECT_THAT(Column(prepared.dataset, 0), ElementsAre(1, 4, 7));
@@ -343,7 +343,7 @@ TEST(MakeDatasetError, NoRowIsLeft) {
 }
 
 TEST(MakeDataset, LeavesOutChannelsThatWereNeverLogged) {
-  const PreparedDataset prepared = Make("a,t7,error_mm\n1,,1\n2,NaN,3\n");
+  const PreparedDataset prepared = Make("a,t7,error_um\n1,,1\n2,NaN,3\n");
   EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("a"));
   EXPECT_THAT(prepared.remarks,
               ElementsAre("input t7 has no number in any row and is left out"));
@@ -383,7 +383,7 @@ TEST(MakeDatasetError, DecimalCommasAndPointsAreNotMixed) {
 // ---- Dead and repeated inputs.
 
 TEST(MakeDataset, LeavesOutDeadInputsWithARemark) {
-  std::string text = "zero,constant,stuck,live,error_mm\n";
+  std::string text = "zero,constant,stuck,live,error_um\n";
   for (int i = 0; i < 10; ++i) {
     text += i == 4 ? "0,21.5,7," : "0,21.5,8,";
     text.append(std::to_string(i)).append(",");
@@ -401,7 +401,7 @@ TEST(MakeDataset, LeavesOutDeadInputsWithARemark) {
                   "out; keep_dead keeps it",
                   "input stuck is dead (8 in 9 of 10 rows) and is left out; "
                   "keep_dead keeps it",
-                  "input live repeats the target error_mm value for value; "
+                  "input live repeats the target error_um value for value; "
                   "exclude = live leaves it out"));
   EXPECT_THAT(DroppedNames(prepared), ElementsAre("zero", "constant", "stuck"));
   EXPECT_EQ(prepared.dropped[0].why, "is dead (0 in all 10 rows)");
@@ -409,7 +409,7 @@ TEST(MakeDataset, LeavesOutDeadInputsWithARemark) {
 
 TEST(MakeDataset, KeepsDeadInputsWhereAskedAndSaysSo) {
   const PreparedDataset prepared =
-      Make("zero,nought,a,error_mm\n0,0,1,1\n0,0,2,3\n", {.keep_dead = true});
+      Make("zero,nought,a,error_um\n0,0,1,1\n0,0,2,3\n", {.keep_dead = true});
   EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("zero", "nought", "a"));
   EXPECT_THAT(
       prepared.remarks,
@@ -419,7 +419,7 @@ TEST(MakeDataset, KeepsDeadInputsWhereAskedAndSaysSo) {
 }
 
 TEST(MakeDataset, KeepsInputsWithLessThanNineTenthsOfOneValue) {
-  std::string text = "a,error_mm\n";
+  std::string text = "a,error_um\n";
   for (int i = 0; i < 19; ++i) {  // 17 of 19 is 89.5 %
     text += (i < 2 ? "1," : "0,") + std::to_string(i) + "\n";
   }
@@ -434,7 +434,7 @@ TEST(MakeDataset, JudgesDeadInputsByTheRowsKept) {
 
 TEST(MakeDataset, NamesInputsThatRepeatOthersAndKeepsThem) {
   const PreparedDataset prepared =
-      Make("t3,t4,t5,t6,error_mm\n1,0,1.0,-0,1\n2,2,2,2,3\n");
+      Make("t3,t4,t5,t6,error_um\n1,0,1.0,-0,1\n2,2,2,2,3\n");
   EXPECT_EQ(prepared.dataset.num_inputs(), 4);
   EXPECT_THAT(
       prepared.remarks,
@@ -522,8 +522,27 @@ TEST(MakeDatasetWhere, MissingCellsAreCountedAmongTheRowsAskedFor) {
   EXPECT_THAT(prepared.remarks, Contains(HasSubstr("1 of 3 rows is dropped")));
 }
 
+TEST(MakeDataset, RemarksOnErrorsThatNoMachineHas) {
+  const auto remarks = [](const std::string& header, double scale) {
+    return Make("a," + header + "\n1," + std::to_string(3.0 * scale) + "\n2," +
+                std::to_string(4.0 * scale) + "\n")
+        .remarks;
+  };
+  EXPECT_THAT(
+      remarks("error_mm", 1.0),
+      ElementsAre("error_mm is 3.54 mm RMS, more than machine tools err "
+                  "by; if it is in another unit, write that into its "
+                  "name: error_um, 'error [mm]'"));
+  EXPECT_THAT(remarks("error_um", 1e-3),
+              ElementsAre(HasSubstr("0.00354 um RMS, less than")));
+  EXPECT_THAT(remarks("error_um", 1.0), IsEmpty());
+  EXPECT_THAT(remarks("error_um", 100.0), IsEmpty());
+  EXPECT_THAT(remarks("error_mm", 1e-3), IsEmpty());
+  EXPECT_THAT(remarks("error_arcsec", 1e5), IsEmpty());
+}
+
 TEST(MakeDataset, SaysWhichUnitOfTheTargetIsOnlyAssumed) {
-  EXPECT_THAT(Make("a,error_x\n1,2\n2,3\n").remarks,
+  EXPECT_THAT(Make("a,error_x\n1,0.02\n2,0.03\n").remarks,
               ElementsAre("error_x: no unit in its name, taken as mm"));
 }
 
@@ -543,22 +562,22 @@ TEST(MakeDataset, RefusesUnknownUnitsInBracketsAndOnTheTarget) {
 }
 
 TEST(MakeDataset, NamesInputsWhoseUnitIsNotRead) {
-  EXPECT_THAT(Make("t1_K,T_in,error_mm\n1,1,2\n2,0,3\n").remarks,
+  EXPECT_THAT(Make("t1_K,T_in,error_um\n1,1,2\n2,0,3\n").remarks,
               ElementsAre("no unit is read from 't1_K': 'K' counts as a unit "
                           "in brackets or parentheses only"));
 }
 
 TEST(MakeDataset, LeavesOutColumnsWithoutAName) {
   for (const std::string name : {"", "Unnamed: 0"}) {
-    const PreparedDataset prepared = Make(name + ",a,error_mm\n0,1,2\n1,4,3\n");
+    const PreparedDataset prepared = Make(name + ",a,error_um\n0,1,2\n1,4,3\n");
     EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("a"));
     EXPECT_THAT(prepared.remarks,
                 ElementsAre(HasSubstr("has no name in the header and is left "
                                       "out of the inputs")));
   }
-  EXPECT_THAT(ErrorOf(",error_mm\n0,1\n1,2\n"),
+  EXPECT_THAT(ErrorOf(",error_um\n0,1\n1,2\n"),
               HasSubstr("no input is left: 'column_1' has no name"));
-  EXPECT_EQ(Make(",error_mm\n0,1\n1,2\n", {.inputs = {"column_1"}})
+  EXPECT_EQ(Make(",error_um\n0,1\n1,2\n", {.inputs = {"column_1"}})
                 .dataset.num_inputs(),
             1);
 }
