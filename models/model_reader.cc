@@ -27,11 +27,11 @@ data::ColumnInfo ReadColumn(const Node& node) {
 }
 
 TrainedInput ReadInput(const Node& node) {
-  const TrainedInput input{ReadColumn(node),
-                           node.At("min").Number(),
-                           node.At("max").Number(),
-                           node.At("mean").Number(),
-                           node.At("sd").Number()};
+  TrainedInput input{ReadColumn(node),
+                     node.At("min").Number(),
+                     node.At("max").Number(),
+                     node.At("mean").Number(),
+                     node.At("sd").Number()};
   if (input.min > input.max) node.At("min").Refuse("is above max");
   if (input.sd < 0.0) node.At("sd").Refuse("must be at least 0");
   return input;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <numeric>
 #include <set>
 #include <stdexcept>
@@ -173,7 +174,7 @@ Fold RandomFold(const HoldoutSpec& spec, Index num_rows, std::uint64_t seed) {
   Random random(seed);
   random.Shuffle(order);
   const auto num_test = static_cast<std::size_t>(
-      spec.share * static_cast<double>(num_rows) + 0.5);
+      std::lround(spec.share * static_cast<double>(num_rows)));
   std::vector<bool> is_test(order.size(), false);
   for (std::size_t i = 0; i < std::min(num_test, order.size()); ++i) {
     is_test[static_cast<std::size_t>(order[i])] = true;

@@ -318,7 +318,8 @@ std::vector<Figure> StartFigures(const ReportView& view,
       // Side by side, so that equal ends do not hide each other.
       constexpr double kStep = 0.06;
       constexpr int kColumns = 7;
-      series.columns[0].push_back(at + kStep * (n % kColumns - kColumns / 2));
+      constexpr int kMiddle = kColumns / 2;
+      series.columns[0].push_back(at + kStep * (n % kColumns - kMiddle));
       series.columns[1].push_back(rms);
       ++n;
     }
