@@ -320,9 +320,9 @@ bool HasRoomForProducts() {
   return true;
 }
 
-// "keep_dead" is "--keep-dead" here.
+// "keep_dead" is "--keep-dead" here; what only a study can say is its key.
 std::string FlagOf(std::string_view member, std::string_view value) {
-  if (member == "where") return "errmap init writes a study of them";
+  if (member == "where") return "where in a study (errmap init writes one)";
   std::string flag = "--" + std::string(member);
   std::ranges::replace(flag, '_', '-');
   if (!value.empty()) flag.append(" ").append(value);

@@ -73,25 +73,32 @@ bool IsUnitOfErrors(const Header& header) {
              kSmall.end();
 }
 
-// Why a column is no default input beside this target, or "" where it may be
-// one: other channels of a measurement are not at hand when the map is used,
-// and tell the target all too well.
-std::string_view WhyMeasuredBeside(std::string_view target,
-                                   std::string_view name) {
-  if (NamesPosition(name)) return "";
-  if (StemOfColumn(name) == StemOfColumn(target)) {
-    return "measures the target's quantity";
+// Errors measured beside a target: not at hand when its map is used, and
+// telling it all too well.
+class MeasuredBeside {
+ public:
+  explicit MeasuredBeside(std::string_view target)
+      : stem_(StemOfColumn(target)), header_(ReadHeader(target)) {}
+
+  // Why a column is no default input; "" where it may be one.
+  std::string_view Why(std::string_view name) const {
+    if (NamesPosition(name)) return "";
+    const std::string stem = StemOfColumn(name);
+    if (stem == stem_) return "measures the target's quantity";
+    const Header header = ReadHeader(name);
+    const bool alike = header.unit == header_.unit &&
+                       header.unit_text.empty() == header_.unit_text.empty() &&
+                       DifferInAxis(stem, stem_);
+    return alike || StartsWithIgnoringCase(name, "error") ||
+                   IsUnitOfErrors(header)
+               ? "measures an error, as the target does"
+               : "";
   }
-  const Header here = ReadHeader(name);
-  const Header there = ReadHeader(target);
-  if (StartsWithIgnoringCase(name, "error") || IsUnitOfErrors(here) ||
-      (here.unit == there.unit &&
-       here.unit_text.empty() == there.unit_text.empty() &&
-       DifferInAxis(StemOfColumn(name), StemOfColumn(target)))) {
-    return "measures an error, as the target does";
-  }
-  return "";
-}
+
+ private:
+  std::string stem_;
+  Header header_;
+};
 
 bool Is(std::ptrdiff_t role, std::size_t index) {
   return role == static_cast<std::ptrdiff_t>(index);
@@ -272,6 +279,7 @@ class InputChooser {
 
   void ChooseDefaultInputs() {
     const std::unordered_set<std::string> excluded = ExcludedNames();
+    const MeasuredBeside measured(Name(roles_.target));
     std::vector<std::string> texts;
     std::vector<std::string> parting;  // of these
     std::vector<std::string> beside;
@@ -301,8 +309,7 @@ class InputChooser {
         RefuseNumbersAsText(table_, table_.At(i));
         texts.push_back(Name(i));
         if (PartsComponents(table_, table_.At(i))) parting.push_back(Name(i));
-      } else if (const std::string_view why =
-                     WhyMeasuredBeside(Name(roles_.target), Name(i));
+      } else if (const std::string_view why = measured.Why(Name(i));
                  !why.empty()) {
         had_candidates_ = true;
         Drop(i, std::string(why));
@@ -327,9 +334,9 @@ class InputChooser {
           " left out of the inputs");
     }
     if (!parting.empty()) {
-      chosen_.remarks.push_back(
-          "rows that differ in " + ListOfNames(parting) +
-          " may need a map each: " + ArgumentName("where"));
+      chosen_.remarks.push_back("rows that differ in " + ListOfNames(parting) +
+                                " may need a map each, by " +
+                                ArgumentName("where"));
     }
     if (chosen_.inputs.empty() && found_.time_column >= 0) {
       had_candidates_ = true;

@@ -1,0 +1,243 @@
+// Which column is what: data/measurements/column_roles.h by MakeDataset.
+
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/data/measurements/make_dataset_test_data.h"
+
+namespace errmap::data {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+constexpr std::string_view kTypical =
+    "record,cycle,position_mm,time_s,t1_degC,truth_um,note,error_um\n"
+    "1,2,10,0,20.5,1,cold,1.5\n"
+    "2,2,20,60,20.75,2,,2.5\n"
+    "3,1,30,120,21,3,warm,3.5\n";
+
+TEST(ColumnRoles, TakesTargetGroupAndInputsByDefault) {
+  const PreparedDataset prepared = Make(kTypical);
+  const Dataset& dataset = prepared.dataset;
+  EXPECT_EQ(dataset.source(), "f.csv");
+  EXPECT_EQ(dataset.target().name, "error_um");
+  EXPECT_EQ(dataset.target().unit.symbol, "um");
+  EXPECT_EQ(dataset.target_values(), Eigen::Vector3d(1.5, 2.5, 3.5));
+  EXPECT_THAT(InputNames(dataset), ElementsAre("position_mm", "t1_degC"));
+  EXPECT_THAT(Column(dataset, 1), ElementsAre(20.5, 20.75, 21));
+  EXPECT_EQ(dataset.groups().column, "cycle");
+  EXPECT_THAT(dataset.groups().labels, ElementsAre("1", "2"));
+  EXPECT_THAT(dataset.groups().codes, ElementsAre(1, 1, 0));
+  EXPECT_EQ(dataset.weights().size(), 0);
+  EXPECT_THAT(dataset.rows(), ElementsAre(0, 1, 2));
+  EXPECT_THAT(prepared.dropped, IsEmpty());
+  EXPECT_THAT(prepared.remarks,
+              ElementsAre(HasSubstr("time by 'time_s'"),
+                          "column 'note' holds text and is left out of the "
+                          "inputs"));
+}
+
+TEST(ColumnRoles, LeavesOutColumnsThatNumberOrDateTheRows) {
+  const PreparedDataset prepared = Make(
+      "cycle,day,segment,record,index,row,id,sample,time,timestamp,truth_a,"
+      "Time_s,ID,rowing,x,error\n"
+      "1,2,3,4,5,6,7,8,9,1,2,3,4,1,2,3\n2,3,4,5,6,7,8,9,1,2,3,4,5,3,3,4\n");
+  EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("rowing", "x"));
+}
+
+TEST(ColumnRoles, TakesNamedColumnsInTheirOrder) {
+  const PreparedDataset prepared = Make(kTypical,
+                                        {.target = "t1_degC",
+                                         .inputs = {"time_s", "position_mm"},
+                                         .group = "note",
+                                         .weight = "record",
+                                         .missing = MissingPolicy::kDropRows});
+  const Dataset& dataset = prepared.dataset;
+  EXPECT_EQ(dataset.target().name, "t1_degC");
+  EXPECT_THAT(InputNames(dataset), ElementsAre("time_s", "position_mm"));
+  EXPECT_THAT(dataset.groups().labels, ElementsAre("cold", "warm"));
+  // 1 and 3: only their ratio means something.
+  EXPECT_EQ(dataset.weights(), Eigen::Vector2d(0.5, 1.5));
+}
+
+TEST(ColumnRoles, LeavesTheWeightAndExcludedColumnsOutOfTheInputs) {
+  const PreparedDataset prepared = Make("a,b,w,error\n1,2,3,4\n2,3,4,5\n",
+                                        {.exclude = {"b"}, .weight = "w"});
+  EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("a"));
+  EXPECT_THAT(prepared.dropped, IsEmpty());
+}
+
+TEST(ColumnRoles, LeavesOutColumnsOfTheTargetsQuantity) {
+  constexpr std::string_view kText =
+      "t1_degC,disp_ch1_um,disp_ch2_um\n1,2,3\n2,3,5\n";
+  const PreparedDataset prepared = Make(kText, {.target = "disp_ch1_um"});
+  EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("t1_degC"));
+  EXPECT_THAT(prepared.remarks,
+              ElementsAre("column 'disp_ch2_um' measures an error as the "
+                          "target does and is left out; name it in inputs to "
+                          "use it"));
+  ASSERT_THAT(DroppedNames(prepared), ElementsAre("disp_ch2_um"));
+  EXPECT_EQ(prepared.dropped[0].why, "measures the target's quantity");
+
+  const PreparedDataset named =
+      Make(kText, {.target = "disp_ch1_um", .inputs = {"disp_ch2_um"}});
+  EXPECT_THAT(InputNames(named.dataset), ElementsAre("disp_ch2_um"));
+  EXPECT_THAT(named.remarks, IsEmpty());
+}
+
+// Other channels of one measurement: they tell the target all too well, and no
+// control has them.
+TEST(ColumnRoles, LeavesOutErrorsMeasuredBesideTheTarget) {
+  const auto inputs = [](std::string_view header, std::string_view target) {
+    return InputNames(Make(std::string(header) + "\n1,2,3,4\n2,3,5,9\n",
+                           {.target = std::string(target)})
+                          .dataset);
+  };
+  EXPECT_THAT(
+      inputs("t1_degC,error_x_mm,error_z_mm,error_yaw_arcsec", "error_z_mm"),
+      ElementsAre("t1_degC"));
+  EXPECT_THAT(inputs("rpm,X-Verlagerung [µm],Kippung [µrad],Z-Verlagerung [µm]",
+                     "Z-Verlagerung [µm]"),
+              ElementsAre("rpm"));
+  EXPECT_THAT(inputs("T_x_degC,dx,dy,dz", "dz"), ElementsAre("T_x_degC"));
+  // Positions stay, whatever their unit, and so do axes of one letter.
+  EXPECT_THAT(inputs("position_um,x_um,y_mm,error_um", "error_um"),
+              ElementsAre("position_um", "x_um", "y_mm"));
+  EXPECT_THAT(inputs("x1,x2,ya,yz", "yz"), ElementsAre("x1", "x2"));
+  EXPECT_THAT(inputs("T_x_degC,T_y_degC,speed,growth_z_mm", "growth_z_mm"),
+              ElementsAre("T_x_degC", "T_y_degC", "speed"));
+}
+
+TEST(ColumnRoles, FindsTargetAndGroupInAnyCase) {
+  const PreparedDataset prepared = Make("Cycle,x,Error_mm\n1,2,3\n2,3,4\n");
+  EXPECT_EQ(prepared.dataset.target().name, "Error_mm");
+  EXPECT_EQ(prepared.dataset.groups().column, "Cycle");
+}
+
+TEST(ColumnRoles, AllowsNoInputsWhereThereIsNothingElse) {
+  const PreparedDataset prepared = Make("record,error\n1,3\n2,4\n");
+  EXPECT_EQ(prepared.dataset.num_inputs(), 0);
+  EXPECT_EQ(prepared.dataset.input_values().rows(), 2);
+}
+
+TEST(ColumnRoles, ReadsAnythingInColumnsNotInUse) {
+  EXPECT_EQ(Make("time,x,error\ninf,1,2\n,2,3\n1,3,5\n").dataset.num_rows(), 3);
+}
+
+TEST(ColumnRoles, UnknownColumnsAreNamedWithTheKnownOnes) {
+  constexpr std::string_view kText = "cycle,t1_degC,error\n1,2,3\n2,3,4\n";
+  EXPECT_EQ(ErrorOf(kText, {.group = "cycel"}),
+            "f.csv: no column 'cycel' (group); did you mean 'cycle'? the "
+            "columns are 'cycle', 't1_degC', 'error'");
+  EXPECT_EQ(ErrorOf(kText, {.target = "displacement"}),
+            "f.csv: no column 'displacement' (target); the columns are "
+            "'cycle', 't1_degC', 'error'");
+  EXPECT_THAT(ErrorOf(kText, {.inputs = {"T1_degc"}}),
+              HasSubstr("(inputs); did you mean 't1_degC'?"));
+  EXPECT_THAT(ErrorOf(kText, {.exclude = {"nothing"}}),
+              HasSubstr("no column 'nothing' (exclude)"));
+  EXPECT_THAT(ErrorOf(kText, {.inputs = {"t1_degC"}, .exclude = {"nothing"}}),
+              HasSubstr("no column 'nothing' (exclude)"));
+  EXPECT_THAT(ErrorOf(kText, {.weight = "w"}),
+              HasSubstr("no column 'w' (weight)"));
+}
+
+TEST(ColumnRoles, VeryManyKnownColumnsAreCutShort) {
+  std::string header = "error";
+  std::string row = "1";
+  for (int i = 0; i < 500; ++i) {
+    header += ",column" + std::to_string(i);
+    row += ",1";
+  }
+  const std::string error = ErrorOf(header + "\n" + row + "\n", {.group = "g"});
+  EXPECT_THAT(error, EndsWith("'column18' and 481 more"));
+}
+
+TEST(ColumnRoles, NoTargetOrSeveral) {
+  EXPECT_EQ(ErrorOf("a,b\n1,2\n"),
+            "f.csv: no column's name starts with 'error'; name the measured "
+            "error with target (columns of numbers: 'a', 'b')");
+  EXPECT_THAT(ErrorOf("a\nx\n"), HasSubstr("no column holds numbers"));
+  EXPECT_EQ(ErrorOf("error_x,a,error_y\n1,2,3\n"),
+            "f.csv: several columns could be the target; name one with "
+            "target: 'error_x', 'error_y'");
+}
+
+TEST(ColumnRoles, OneColumnCannotServeTwice) {
+  constexpr std::string_view kText = "a,b,error\n1,2,3\n2,3,4\n";
+  EXPECT_THAT(ErrorOf(kText, {.inputs = {"a", "error"}}),
+              HasSubstr("'error' is the target and cannot be an input"));
+  EXPECT_THAT(ErrorOf(kText, {.inputs = {"a", "b", "a"}}),
+              HasSubstr("inputs names 'a' twice"));
+  EXPECT_THAT(ErrorOf(kText, {.inputs = {"a"}, .exclude = {"a"}}),
+              HasSubstr("'a' is named in inputs and in exclude"));
+  EXPECT_THAT(ErrorOf(kText, {.target = "a", .weight = "a"}),
+              HasSubstr("both the target and the weight"));
+  EXPECT_THAT(ErrorOf(kText, {.target = "a", .group = "a"}),
+              HasSubstr("both the target and the group"));
+}
+
+TEST(ColumnRoles, NoInputIsLeft) {
+  EXPECT_EQ(ErrorOf("a,error\n0,1\n0,2\n"),
+            "f.csv: no input is left: 'a' is dead (0 in all 2 rows); name "
+            "inputs with inputs, or keep dead ones with keep_dead");
+  EXPECT_THAT(ErrorOf("a,error\n1,1\n2,2\n", {.exclude = {"a"}}),
+              HasSubstr("f.csv: no input is left; name inputs"));
+  EXPECT_THAT(ErrorOf("time_s,error_um\n0,1\n1,2\n"),
+              HasSubstr("no input is left: 'time_s' is the time; name"));
+  EXPECT_THAT(ErrorOf("d1,d2\n1,1\n2,3\n", {.target = "d1"}),
+              HasSubstr("'d2' measures the target's quantity"));
+}
+
+TEST(ColumnRoles, LeavesOutChannelsThatWereNeverLogged) {
+  const PreparedDataset prepared = Make("a,t7,error_um\n1,,1\n2,NaN,3\n");
+  EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("a"));
+  EXPECT_THAT(prepared.remarks,
+              ElementsAre("input t7 has no number in any row and is left out"));
+  EXPECT_THAT(DroppedNames(prepared), ElementsAre("t7"));
+}
+
+TEST(ColumnRoles, IsNamedWhereTextTellsDirectionsApart) {
+  constexpr std::string_view kRows =
+      "x,error_mm,Direction\n1,1,+\n2,3,-\n3,4,+\n";
+  EXPECT_THAT(
+      Make(kRows).remarks,
+      Contains("rows that differ in 'Direction' may need a map each, by "
+               "where"));
+  EXPECT_THAT(Make(kRows, {.where = {{"Direction", "+"}}}).remarks,
+              Not(Contains(HasSubstr("map each"))));
+  EXPECT_THAT(Make("x,error_mm,note\n1,1,+\n2,3,-\n").remarks,
+              Not(Contains(HasSubstr("map each"))));
+}
+
+TEST(ColumnRoles, ColumnOfNumbersIsNoInput) {
+  const std::string text = "side,x,error_mm\n1,1,0.1\n1,2,0.2\n2,3,0.4\n";
+  EXPECT_THAT(InputNames(Make(text, {.where = {{"side", 1.0}}}).dataset),
+              ElementsAre("x"));
+}
+
+TEST(ColumnRoles, LeavesOutColumnsWithoutAName) {
+  for (const std::string name : {"", "Unnamed: 0"}) {
+    const PreparedDataset prepared = Make(name + ",a,error_um\n0,1,2\n1,4,3\n");
+    EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("a"));
+    EXPECT_THAT(prepared.remarks,
+                ElementsAre(HasSubstr("has no name in the header and is left "
+                                      "out of the inputs")));
+  }
+  EXPECT_THAT(ErrorOf(",error_um\n0,1\n1,2\n"),
+              HasSubstr("no input is left: 'column_1' has no name"));
+  EXPECT_EQ(Make(",error_um\n0,1\n1,2\n", {.inputs = {"column_1"}})
+                .dataset.num_inputs(),
+            1);
+}
+
+}  // namespace
+}  // namespace errmap::data

@@ -1,0 +1,78 @@
+// Dead and repeated inputs: data/measurements/idle_inputs.h by MakeDataset.
+
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/data/measurements/make_dataset_test_data.h"
+
+namespace errmap::data {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+TEST(IdleInputs, LeavesOutDeadInputsWithARemark) {
+  std::string text = "zero,constant,stuck,live,error_um\n";
+  for (int i = 0; i < 10; ++i) {
+    text += i == 4 ? "0,21.5,7," : "0,21.5,8,";
+    text.append(std::to_string(i)).append(",");
+    text.append(std::to_string(i)).append("\n");
+  }
+  const PreparedDataset prepared = Make(text);
+  EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("live"));
+  EXPECT_THAT(Column(prepared.dataset, 0),
+              ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9));
+  EXPECT_THAT(
+      prepared.remarks,
+      ElementsAre("input zero is dead (0 in all 10 rows) and is left out; "
+                  "keep_dead keeps it",
+                  "input constant is dead (21.5 in all 10 rows) and is left "
+                  "out; keep_dead keeps it",
+                  "input stuck is dead (8 in 9 of 10 rows) and is left out; "
+                  "keep_dead keeps it",
+                  "input live repeats the target error_um value for value; "
+                  "exclude = live leaves it out"));
+  EXPECT_THAT(DroppedNames(prepared), ElementsAre("zero", "constant", "stuck"));
+  EXPECT_EQ(prepared.dropped[0].why, "is dead (0 in all 10 rows)");
+}
+
+TEST(IdleInputs, KeepsDeadInputsWhereAskedAndSaysSo) {
+  const PreparedDataset prepared =
+      Make("zero,nought,a,error_um\n0,0,1,1\n0,0,2,3\n", {.keep_dead = true});
+  EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("zero", "nought", "a"));
+  EXPECT_THAT(
+      prepared.remarks,
+      ElementsAre("input zero is dead (0 in all 2 rows) and is kept",
+                  "input nought is dead (0 in all 2 rows) and is kept"));
+  EXPECT_THAT(prepared.dropped, IsEmpty());
+}
+
+TEST(IdleInputs, KeepsInputsWithLessThanNineTenthsOfOneValue) {
+  std::string text = "a,error_um\n";
+  for (int i = 0; i < 19; ++i) {  // 17 of 19 is 89.5 %
+    text += (i < 2 ? "1," : "0,") + std::to_string(i) + "\n";
+  }
+  EXPECT_THAT(Make(text).remarks, IsEmpty());
+}
+
+TEST(IdleInputs, JudgesDeadInputsByTheRowsKept) {
+  const PreparedDataset prepared = Make("a,b,error\n5,1,1\n5,2,2\n6,,3\n",
+                                        {.missing = MissingPolicy::kDropRows});
+  EXPECT_THAT(DroppedNames(prepared), ElementsAre("a"));
+}
+
+TEST(IdleInputs, NamesInputsThatRepeatOthersAndKeepsThem) {
+  const PreparedDataset prepared =
+      Make("t3,t4,t5,t6,error_um\n1,0,1.0,-0,1\n2,2,2,2,3\n");
+  EXPECT_EQ(prepared.dataset.num_inputs(), 4);
+  EXPECT_THAT(
+      prepared.remarks,
+      ElementsAre("input t5 repeats t3 value for value; both are kept",
+                  "input t6 repeats t4 value for value; both are kept"));
+}
+
+}  // namespace
+}  // namespace errmap::data
