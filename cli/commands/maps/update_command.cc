@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -66,19 +65,34 @@ data::Dataset ReadRows(const models::FittedModel& map,
   return std::move(prepared.dataset);
 }
 
+// What a model file says of where it comes from.
+models::Provenance ProvenanceOf(const std::string& model) {
+  const Json document = Json::parse(data::ReadFile(model));
+  const Json texts = document.value("provenance", Json::object());
+  models::Provenance provenance;
+  for (const auto& [key, text] : texts.items()) {
+    if (text.is_string()) provenance.emplace_back(key, text);
+  }
+  return provenance;
+}
+
 // The files that the map learnt from, where they are still there as they were.
-std::vector<std::string> KnownFiles(const UpdateArguments& arguments) {
-  if (!arguments.known.empty()) return arguments.known;
-  const Json document = Json::parse(data::ReadFile(arguments.model));
-  const auto texts = document.value("provenance", Json::object())
-                         .get<std::map<std::string, std::string>>();
-  std::vector<std::string> known;
+std::vector<study_file::InputFile> KnownFiles(
+    const UpdateArguments& arguments) {
+  std::vector<study_file::InputFile> known;
+  for (const std::string& file : arguments.known) {
+    known.push_back(study_file::HashInput(file));
+  }
+  if (!known.empty()) return known;
   std::vector<std::string> lost;
-  for (const auto& [file, sha256] :
-       study_file::DataOf({texts.begin(), texts.end()})) {
-    const bool is_there = std::filesystem::exists(file) &&
-                          study_file::HashInput(file).sha256 == sha256;
-    (is_there ? known : lost).push_back(file);
+  for (const study_file::InputFile& named :
+       study_file::DataOf(ProvenanceOf(arguments.model))) {
+    if (std::filesystem::exists(named.file) &&
+        study_file::HashInput(named.file) == named) {
+      known.push_back(named);
+    } else {
+      lost.push_back(named.file);
+    }
   }
   if (!lost.empty() || known.empty()) {
     Say(fmt::format(
@@ -91,12 +105,13 @@ std::vector<std::string> KnownFiles(const UpdateArguments& arguments) {
 }
 
 // The rows of some files, one after the other; none: none.
-std::optional<data::Dataset> ReadKnown(const models::FittedModel& map,
-                                       const std::vector<std::string>& files,
-                                       const UpdateArguments& arguments) {
+std::optional<data::Dataset> ReadKnown(
+    const models::FittedModel& map,
+    const std::vector<study_file::InputFile>& files,
+    const UpdateArguments& arguments) {
   std::optional<data::Dataset> known;
-  for (const std::string& file : files) {
-    data::Dataset rows = ReadRows(map, file, arguments);
+  for (const study_file::InputFile& file : files) {
+    data::Dataset rows = ReadRows(map, file.file, arguments);
     known = known ? models::Joined(*known, rows) : std::move(rows);
   }
   return known;
@@ -155,7 +170,7 @@ int RunUpdate(const UpdateArguments& arguments,
   RequirePlaceFor(arguments.out);
   const models::FittedModel old_map = models::LoadModel(arguments.model);
   const data::Dataset fresh = ReadRows(old_map, arguments.file, arguments);
-  const std::vector<std::string> known_files = KnownFiles(arguments);
+  std::vector<study_file::InputFile> learnt_from = KnownFiles(arguments);
   const double indifference = models::DefaultIndifference(old_map.target.unit);
   const std::atomic<bool>& stop = InstallInterruptFlag();
   const models::FitContext context{.seed = arguments.seed,
@@ -165,7 +180,7 @@ int RunUpdate(const UpdateArguments& arguments,
   models::UpdateTrial trial;
   std::optional<data::Dataset> all;
   try {
-    const auto known = ReadKnown(old_map, known_files, arguments);
+    const auto known = ReadKnown(old_map, learnt_from, arguments);
     trial = models::TryUpdate(old_map,
                               known ? &*known : nullptr,
                               fresh,
@@ -181,10 +196,6 @@ int RunUpdate(const UpdateArguments& arguments,
     Say(fmt::format(
         "{} failed: {}; the old map stays", old_map.name, trial.why_failed));
     return kEveryFitFailed;
-  }
-  std::vector<study_file::InputFile> learnt_from;
-  for (const std::string& file : known_files) {
-    learnt_from.push_back(study_file::HashInput(file));
   }
   learnt_from.push_back(study_file::HashInput(arguments.file));
   const bool better = trial.better(indifference);
