@@ -171,8 +171,8 @@ void CheckPlaces(const study_file::StudyPlan& plan,
 study_file::StudyRun RunShowingProgress(study_file::StudyPlan plan,
                                         const CompareArguments& arguments,
                                         int jobs,
-                                        bool keep_fold_maps) {
-  const std::unique_ptr<models::JournalFile> journal = OpenJournal(arguments);
+                                        bool keep_fold_maps,
+                                        models::JournalFile* journal) {
   study_file::StudyRun run;
   {
     Progress progress(!arguments.data.quiet);
@@ -182,7 +182,7 @@ study_file::StudyRun RunShowingProgress(study_file::StudyPlan plan,
         arguments.command_line,
         {.jobs = jobs,
          .stop = &InstallInterruptFlag(),
-         .journal = journal.get(),
+         .journal = journal,
          .journal_has = Sayer(!arguments.resume || arguments.data.quiet),
          .keep_fold_maps = keep_fold_maps,
          .progress = [&](std::size_t component,
@@ -224,8 +224,10 @@ int RunCompare(const CompareArguments& arguments) {
   for (std::size_t i = 0; i < plan.components.size(); ++i) {
     SaveSplit(plan.components[i].comparison, plan.config.components[i]);
   }
-  const study_file::StudyRun run =
-      RunShowingProgress(std::move(plan), arguments, jobs, machine.has_value());
+  // Open, and so the folder taken, until all is written.
+  const std::unique_ptr<models::JournalFile> journal = OpenJournal(arguments);
+  const study_file::StudyRun run = RunShowingProgress(
+      std::move(plan), arguments, jobs, machine.has_value(), journal.get());
   SayShortOfMemory(run);
   models::StudyRecord record = study_file::RecordOf(run, jobs);
   if (machine && !run.interrupted) {
