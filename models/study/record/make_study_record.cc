@@ -197,12 +197,11 @@ LeftOut<StepCostRecord> StepCostOf(const FittedModel& map) {
   }
 }
 
-// Of one prediction: as a controller runs it, filters and all, or by its
-// formula where none could.
-CostRecord CostOfOne(const FittedModel& map) {
-  if (const LeftOut<StepCostRecord> step = StepCostOf(map)) {
-    return {step->multiplications, step->exponentials};
-  }
+// Of one prediction: as a controller runs it (`step`), filters and all, or by
+// its formula where none could.
+CostRecord CostOfOne(const FittedModel& map,
+                     const LeftOut<StepCostRecord>& step) {
+  if (step) return {step->multiplications, step->exponentials};
   const PredictionCost cost = CostOf(map.model->Describe());
   return {cost.multiplications, cost.exponentials};
 }
@@ -507,7 +506,6 @@ std::optional<RecommendationRecord> JudgementRecord::Advice() const {
   record.meets_goal = MeetsGoal(record.goal_standing);
   record.extrapolated_share = advice->extrapolated_share;
   record.removed_share = RemovedShare(advice->holdout, result);
-  record.cost = CostOfOne(*model.final_fit);
   if (model.final_fit->history != nullptr) {
     record.memory = MemoryOf(*model.final_fit->history);
   }
@@ -581,6 +579,9 @@ ComponentRecord MakeComponentRecord(const ComponentStudy& study, int jobs) {
   record.verdict = judgement.Verdicts();
   record.recommendation = judgement.Advice();
   if (record.recommendation) {
+    const std::size_t model = study.judgement.recommendation->model;
+    record.recommendation->cost = CostOfOne(
+        *study.study.models[model].final_fit, record.models[model].step_cost);
     record.recommendation->grounds = FindGrounds(study, record);
     record.recommendation->doubts = FindDoubts(study, record);
   }
