@@ -326,23 +326,31 @@ void RefuseMixedDecimals(const CsvTable& table,
       "; write all numbers one way, without thousands separators");
 }
 
+bool KeepPassing(const CsvTable& table,
+                 const ColumnFilter& filter,
+                 std::vector<bool>* passes) {
+  const CsvColumn& column = table.At(table.Find(filter.column));
+  const auto* const number = std::get_if<double>(&filter.value);
+  bool any = false;
+  for (std::size_t row = 0; row < table.num_rows; ++row) {
+    if (!(*passes)[row]) continue;
+    (*passes)[row] = number != nullptr
+                         ? column.values[row] == *number
+                         : table.CellText(column, row) ==
+                               std::get<std::string>(filter.value);
+    any = any || (*passes)[row];
+  }
+  return any;
+}
+
 std::vector<bool> RowsThatPass(const CsvTable& table,
                                const std::vector<ColumnFilter>& filters) {
   std::vector<bool> passes(table.num_rows, true);
   for (const ColumnFilter& filter : filters) {
-    const CsvColumn& column =
-        table.columns[RequireColumn(table, filter.column, "where")];
-    const auto* const number = std::get_if<double>(&filter.value);
-    bool any = false;
-    for (std::size_t row = 0; row < table.num_rows; ++row) {
-      passes[row] =
-          passes[row] &&
-          (number != nullptr ? column.values[row] == *number
-                             : table.CellText(column, row) ==
-                                   std::get<std::string>(filter.value));
-      any = any || passes[row];
+    const std::size_t column = RequireColumn(table, filter.column, "where");
+    if (!KeepPassing(table, filter, &passes)) {
+      ThrowNothingPasses(table, table.columns[column], filters, filter);
     }
-    if (!any) ThrowNothingPasses(table, column, filters, filter);
   }
   return passes;
 }

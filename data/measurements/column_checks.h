@@ -54,6 +54,12 @@ struct KeptRows {
   std::string first_missing;       // where; "" where all that pass are kept
 };
 
+/// Takes from `passes` (one flag per row of the table) the rows that do not
+/// pass `filter`, whose column must be there; false where none is left.
+bool KeepPassing(const CsvTable& table,
+                 const ColumnFilter& filter,
+                 std::vector<bool>* passes);
+
 /// Whether each row of the table passes all `filters`. Throws InputError where
 /// a column is unknown or no row is left, naming the values that there are.
 std::vector<bool> RowsThatPass(const CsvTable& table,

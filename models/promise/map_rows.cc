@@ -59,20 +59,28 @@ std::vector<data::ColumnFilter> FiltersFor(const FittedModel& fitted,
   return filters;
 }
 
-std::string RowsMadeFor(const FittedModel& fitted,
-                        const data::CsvTable& table) {
-  const std::vector<data::ColumnFilter> filters = FiltersFor(fitted, table);
-  const std::vector<bool> passes = data::RowsThatPass(table, filters);
-  const auto made_for = std::ranges::count(passes, true);
-  if (made_for == std::ssize(passes)) return "";
+std::vector<bool> RowsMadeFor(const FittedModel& fitted,
+                              const data::CsvTable& table) {
+  std::vector<bool> made_for(table.num_rows, true);
+  for (const data::ColumnFilter& filter : FiltersFor(fitted, table)) {
+    data::KeepPassing(table, filter, &made_for);
+  }
+  return made_for;
+}
+
+std::string MadeForText(const FittedModel& fitted,
+                        const data::CsvTable& table,
+                        const std::vector<bool>& made_for) {
+  const auto count = std::ranges::count(made_for, true);
+  if (count == std::ssize(made_for)) return "";
   std::string what;
-  for (const data::ColumnFilter& filter : filters) {
+  for (const data::ColumnFilter& filter : FiltersFor(fitted, table)) {
     what += (what.empty() ? "" : " and ") + data::NameInRemark(filter.column) +
             " " + data::NameInRemark(ValueText(filter));
   }
   return fmt::format("{} of {} rows have {}, for which the map is made",
-                     made_for,
-                     passes.size(),
+                     count,
+                     made_for.size(),
                      what);
 }
 
@@ -147,7 +155,9 @@ MapRows MakeMapRows(const FittedModel& fitted,
                     const MapRowsOptions& options) {
   data::PreparedDataset prepared =
       data::MakeDataset(table, SelectionFor(fitted, table, options));
-  if (std::string made_for = RowsMadeFor(fitted, table); !made_for.empty()) {
+  if (std::string made_for =
+          MadeForText(fitted, table, RowsMadeFor(fitted, table));
+      !made_for.empty()) {
     prepared.remarks.push_back(std::move(made_for));
   }
   MapLog map =

@@ -19,9 +19,15 @@ namespace errmap::models {
 std::vector<data::ColumnFilter> FiltersFor(const FittedModel& fitted,
                                            const data::CsvTable& table);
 
-/// "850 of 1700 rows have direction +, for which the map is made"; "" where all
-/// have, or the table cannot tell.
-std::string RowsMadeFor(const FittedModel& fitted, const data::CsvTable& table);
+/// Whether the map is made for each row of the table, as far as that can tell.
+std::vector<bool> RowsMadeFor(const FittedModel& fitted,
+                              const data::CsvTable& table);
+
+/// "850 of 1700 rows have direction +, for which the map is made"; "" where it
+/// is made for all of `made_for`.
+std::string MadeForText(const FittedModel& fitted,
+                        const data::CsvTable& table,
+                        const std::vector<bool>& made_for);
 
 enum class MapColumns { kInputs, kInputsAndTarget };
 

@@ -85,12 +85,32 @@ double HalfWidth(const models::FittedModel& fitted,
          (probes ? probes->narrowing[row] : 1.0);
 }
 
-std::string_view WhyOutside(const models::RowFlag& flag,
-                            models::Missing missing,
-                            bool is_finite) {
+// What is known of the rows of a file.
+struct Predicted {
+  const models::FittedModel& fitted;
+  const data::CsvTable& table;
+  const models::MapLog& map;
+  models::Prediction prediction;
+  std::optional<models::ProbeCorrection> probes;
+  std::vector<models::RowFlag> flags;
+  std::vector<bool> made_for;  // as models::RowsMadeFor
+
+  models::Missing MissingBefore(std::size_t row) const {
+    return map.log == nullptr
+               ? models::Missing::kNothing
+               : map.missing[static_cast<std::size_t>(map.first_row) + row];
+  }
+};
+
+// Why a row is unlike those of training; "" where it is not.
+std::string_view WhyOutside(const Predicted& found, std::size_t row) {
+  if (!found.made_for[row]) return "where";
+  const models::RowFlag& flag = found.flags[row];
   if (flag.outside()) return models::ToString(flag.why);
-  if (!is_finite) return "not finite";
-  switch (missing) {
+  if (!std::isfinite(found.prediction.errors[static_cast<Eigen::Index>(row)])) {
+    return "not finite";
+  }
+  switch (found.MissingBefore(row)) {
     case models::Missing::kNothing:
       return "";
     case models::Missing::kStart:
@@ -100,22 +120,6 @@ std::string_view WhyOutside(const models::RowFlag& flag,
   }
   return "";
 }
-
-// What is known of the rows of a file.
-struct Predicted {
-  const models::FittedModel& fitted;
-  const data::CsvTable& table;
-  const models::MapLog& map;
-  models::Prediction prediction;
-  std::optional<models::ProbeCorrection> probes;
-  std::vector<models::RowFlag> flags;
-
-  models::Missing MissingBefore(std::size_t row) const {
-    return map.log == nullptr
-               ? models::Missing::kNothing
-               : map.missing[static_cast<std::size_t>(map.first_row) + row];
-  }
-};
 
 // ",LOWER,UPPER" at each coverage; empty cells without an interval.
 std::string IntervalCells(const Predicted& found, Eigen::Index row) {
@@ -150,16 +154,13 @@ std::string PredictionsCsv(const Predicted& found) {
       text += data::CsvField(found.table.CellText(*id, at)) + ",";
     }
     const double predicted = found.prediction.errors[row];
-    const models::Missing missing = found.MissingBefore(at);
-    const bool is_finite = std::isfinite(predicted);
-    const models::RowFlag& flag = found.flags[at];
-    const std::string_view why = WhyOutside(flag, missing, is_finite);
-    text += is_finite ? data::CsvNumber(predicted) : "";
+    const std::string_view why = WhyOutside(found, at);
+    text += std::isfinite(predicted) ? data::CsvNumber(predicted) : "";
     text += IntervalCells(found, row);
     text += fmt::format(",{},{},{}\n",
                         why.empty() ? 1 : 0,
                         why,
-                        data::CsvField(flag.column.name));
+                        data::CsvField(found.flags[at].column.name));
   }
   return data::MarkedCsv(std::move(text));
 }
@@ -209,7 +210,8 @@ int RunPredict(const PredictArguments& arguments) {
                   .map = map,
                   .prediction = fitted.PredictForm(form_inputs),
                   .probes = {},
-                  .flags = {}};
+                  .flags = {},
+                  .made_for = models::RowsMadeFor(fitted, table)};
   if (!arguments.probes.empty()) {
     found.probes = Correct(fitted, {table, inputs}, arguments);
     found.prediction.errors += found.probes->track.offset;
@@ -227,7 +229,8 @@ int RunPredict(const PredictArguments& arguments) {
     SayWhatIsPredicted(found);
     SayOutside(fitted.inputs, inputs, found.flags, all_rows, false);
     SayClipped(found.prediction);
-    if (const std::string made_for = models::RowsMadeFor(fitted, table);
+    if (const std::string made_for =
+            models::MadeForText(fitted, table, found.made_for);
         !made_for.empty()) {
       Say("warning: " + made_for);
     }
@@ -269,7 +272,8 @@ void AddPredictCommand(CLI::App* app, Run* run) {
       "trained range; relation: it does not go with\nthe others as it did "
       "there; distance, leverage: an unlike thermal state; start:\na session's "
       "first rows are missing; gap: readings are missing before, which the\n"
-      "map's memory needs) and offender (that column). Columns in another unit "
+      "map's memory needs; where: the map is not made for such rows) and "
+      "offender (that column). Columns in another unit "
       "are\nconverted. Exit status 4 where a prediction is not finite: its "
       "cell "
       "stays empty.");

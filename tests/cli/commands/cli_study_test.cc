@@ -154,6 +154,8 @@ TEST_F(CliStudy, AMapKnowsTheRowsThatItIsMadeFor) {
   const Outcome predicted = Run({"predict", map, "both.csv"});
   EXPECT_EQ(SplitLines(predicted.out).size(), 121U);
   EXPECT_THAT(predicted.err, HasSubstr("warning: 60 of 120 rows have"));
+  EXPECT_THAT(SplitLines(predicted.out)[1], HasSubstr(",0,where,"));
+  EXPECT_THAT(SplitLines(predicted.out)[2], HasSubstr(",1,,"));
   // A file of one direction, or without the column, is taken whole.
   Write("up.csv", "position_mm,error_mm\n0,0.002\n10,0.003\n20,0.004\n");
   const Outcome whole = Run({"evaluate", map, "up.csv"});
@@ -161,6 +163,9 @@ TEST_F(CliStudy, AMapKnowsTheRowsThatItIsMadeFor) {
   EXPECT_THAT(whole.err, Not(HasSubstr("is made")));
   Write("down.csv",
         "direction,position_mm,error_mm\ndown,0,0.002\ndown,10,0.003\n");
+  const Outcome none = Run({"predict", map, "down.csv"});
+  EXPECT_EQ(none.status, 0) << none.err;
+  EXPECT_THAT(none.err, HasSubstr("warning: 0 of 2 rows have direction up"));
   EXPECT_THAT(RefusalOf(Run({"evaluate", map, "down.csv"}), kUnusable),
               HasSubstr("no row is left where 'direction' is 'up'"));
 }
