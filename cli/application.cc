@@ -22,6 +22,7 @@
 
 #include "cli/command.h"
 #include "cli/commands/fleet/fleet_commands.h"
+#include "cli/report/shell_word.h"
 #include "cli/shell/command_reference.h"
 #include "cli/shell/completion.h"
 #include "cli/shell/man_page.h"
@@ -31,7 +32,6 @@
 #include "data/input_error.h"
 #include "data/shown_path.h"
 #include "data/text.h"
-#include "models/report/shell_word.h"
 #include "models/study/record/make_provenance.h"
 #include "models/version.h"
 

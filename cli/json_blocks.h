@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "models/study_file/provenance.h"
+#include "cli/desk/provenance.h"
 
 namespace errmap::cli {
 
@@ -20,6 +20,6 @@ std::string DumpJson(const Json& document);
 /// included; null where there is none.
 Json ProvenanceJson(const std::string& command_line,
                     const Json& configuration,
-                    const std::vector<study_file::InputFile>& inputs);
+                    const std::vector<desk::InputFile>& inputs);
 
 }  // namespace errmap::cli

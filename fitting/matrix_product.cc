@@ -1,11 +1,14 @@
 #include "fitting/matrix_product.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cblas.h>
 #include <cstddef>
+#include <limits>
 #include <string_view>
+#include <vector>
 
-// LAPACK: Cholesky factorisation.
+// LAPACK: Cholesky factorisation, and singular values by divide and conquer.
 extern "C" {
 void dpotrf_(const char* uplo,
              const int* n,
@@ -13,6 +16,21 @@ void dpotrf_(const char* uplo,
              const int* lda,
              int* info,
              std::size_t uplo_length);
+void dgesdd_(const char* jobz,
+             const int* m,
+             const int* n,
+             double* a,
+             const int* lda,
+             double* s,
+             double* u,
+             const int* ldu,
+             double* vt,
+             const int* ldvt,
+             double* work,
+             const int* lwork,
+             int* iwork,
+             int* info,
+             std::size_t jobz_length);
 }
 
 namespace errmap::fitting {
@@ -170,6 +188,41 @@ void DivideByUpperTriangle(const MatrixView<double>& r,
               static_cast<int>(r.outerStride()),
               b.data(),
               static_cast<int>(b.outerStride()));
+}
+
+Eigen::VectorXd SingularValues(Eigen::MatrixXd a) {
+  UseOneThreadPerCall();
+  const char none = 'N';  // no vectors
+  const int rows = static_cast<int>(a.rows());
+  const int cols = static_cast<int>(a.cols());
+  const int one = 1;
+  Eigen::VectorXd values(std::min(rows, cols));
+  std::vector<int> integers(8 * static_cast<std::size_t>(values.size()));
+  double best_size = 0.0;
+  double unused = 0.0;
+  int info = 0;
+  const auto call = [&](double* work, int size) {
+    dgesdd_(&none,
+            &rows,
+            &cols,
+            a.data(),
+            &rows,
+            values.data(),
+            &unused,
+            &one,
+            &unused,
+            &one,
+            work,
+            &size,
+            integers.data(),
+            &info,
+            1);
+  };
+  call(&best_size, -1);
+  std::vector<double> work(static_cast<std::size_t>(best_size));
+  call(work.data(), static_cast<int>(work.size()));
+  if (info != 0) values.setConstant(std::numeric_limits<double>::quiet_NaN());
+  return values;
 }
 
 }  // namespace errmap::fitting

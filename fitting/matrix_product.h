@@ -73,4 +73,8 @@ void SolveCholesky(const MatrixView<double>& factor, Eigen::VectorXd* b);
 void DivideByUpperTriangle(const MatrixView<double>& r,
                            MutableMatrixView<double> b);
 
+/// The singular values of a (m x n, neither empty), largest first, min(m, n) of
+/// them; NaN throughout where they were not found.
+Eigen::VectorXd SingularValues(Eigen::MatrixXd a);
+
 }  // namespace errmap::fitting

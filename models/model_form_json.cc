@@ -18,7 +18,7 @@ using Eigen::Index;
 using Json = ModelJson;
 using Node = ModelJsonNode;
 
-Json ToJson(const PolynomialForm& form, const std::string& equation) {
+Json FormToJson(const PolynomialForm& form, const std::string& equation) {
   Json terms = Json::array();
   for (const PolynomialTerm& term : form.terms) {
     terms.push_back(
@@ -31,7 +31,7 @@ Json ToJson(const PolynomialForm& form, const std::string& equation) {
           {"equation", equation}};
 }
 
-Json ToJson(const NetForm& form) {
+Json FormToJson(const NetForm& form) {
   return {{"nodes", {form.w1.cols() - 1, form.w1.rows(), form.w2.rows()}},
           {"output", ToString(form.output)},
           {"input_offset", NumbersToJson(form.input_offset)},
@@ -47,7 +47,7 @@ Json BoundToJson(double bound) {
   return std::isfinite(bound) ? Json(bound) : Json(nullptr);
 }
 
-Json ToJson(const BlendForm& form) {
+Json FormToJson(const BlendForm& form) {
   Json members = Json::array();
   for (const BlendForm::Member& member : form.members) {
     Json json = {{"name", member.name},
@@ -57,9 +57,9 @@ Json ToJson(const BlendForm& form) {
                  {"highest", BoundToJson(member.highest)},
                  {"parameters", member.parameters}};
     if (const auto* polynomial = std::get_if<PolynomialForm>(&member.form)) {
-      json["polynomial"] = ToJson(*polynomial, "");
+      json["polynomial"] = FormToJson(*polynomial, "");
     } else {
-      json["net"] = ToJson(std::get<NetForm>(member.form));
+      json["net"] = FormToJson(std::get<NetForm>(member.form));
     }
     members.push_back(std::move(json));
   }
@@ -148,11 +148,11 @@ void WriteForm(const ErrorModel& model,
   const ModelDescription description = model.Describe();
   RequireFormula(description, "a model file");
   if (const auto* polynomial = std::get_if<PolynomialForm>(&description)) {
-    (*document)["polynomial"] = ToJson(*polynomial, equation);
+    (*document)["polynomial"] = FormToJson(*polynomial, equation);
   } else if (const auto* net = std::get_if<NetForm>(&description)) {
-    (*document)["net"] = ToJson(*net);
+    (*document)["net"] = FormToJson(*net);
   } else {
-    (*document)["blend"] = ToJson(std::get<BlendForm>(description));
+    (*document)["blend"] = FormToJson(std::get<BlendForm>(description));
   }
 }
 

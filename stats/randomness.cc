@@ -212,7 +212,7 @@ TestResult TestLjungBox(const Segments& deviations, Index num_lags) {
           .p = ChiSquaredUpperTail(q, static_cast<double>(used))};
 }
 
-SerialTests Refuse(const std::string& why) {
+SerialTests NotTested(const std::string& why) {
   SerialTests tests;
   tests.runs = tests.lag1 = tests.durbin_watson = tests.ljung_box =
       NotApplicable(why);
@@ -244,11 +244,12 @@ SerialTests TestSerially(const Segments& segments) {
   constexpr Index kFewest = 4;
   const VectorXd all = Pool(segments);
   if (all.size() < kFewest) {
-    return Refuse("needs at least 4 values, found " +
-                  std::to_string(all.size()));
+    return NotTested("needs at least 4 values, found " +
+                     std::to_string(all.size()));
   }
-  if (!all.allFinite()) return Refuse("values that are not finite");
-  if (all.minCoeff() == all.maxCoeff()) return Refuse("the values do not vary");
+  if (!all.allFinite()) return NotTested("values that are not finite");
+  if (all.minCoeff() == all.maxCoeff())
+    return NotTested("the values do not vary");
   SerialTests tests;
   TestRuns(segments, MedianOf(all), &tests);
   // Brought to size 1: squares of very large or small values would be lost.

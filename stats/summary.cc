@@ -11,7 +11,7 @@
 namespace errmap::stats {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 // Neumaier's running sum: the rounding error of each addition is collected.
 class RunningSum {
@@ -43,7 +43,7 @@ SampleSummary Summarize(const Eigen::Ref<const Eigen::VectorXd>& sample) {
   summary.n = sample.size();
   if (summary.n == 0) {
     summary.mean = summary.sd = summary.min = summary.max = summary.range =
-        kNaN;
+        kUndefined;
     return summary;
   }
   const double n = static_cast<double>(summary.n);
@@ -74,7 +74,7 @@ SampleSummary Summarize(const Eigen::Ref<const Eigen::VectorXd>& sample) {
   const double sum_of_squares =
       squares.value() - deviations.value() * mean_error;
   summary.sd = summary.n < 2
-                   ? kNaN
+                   ? kUndefined
                    : std::sqrt(std::max(0.0, sum_of_squares) / (n - 1.0));
   return summary;
 }
@@ -103,7 +103,7 @@ double Quantile(const Eigen::Ref<const Eigen::VectorXd>& ascending,
         std::to_string(probability));
   }
   const Eigen::Index n = ascending.size();
-  if (n == 0) return kNaN;
+  if (n == 0) return kUndefined;
   const double at = probability * static_cast<double>(n - 1);
   const auto below = static_cast<Eigen::Index>(at);
   const Eigen::Index above = std::min(below + 1, n - 1);

@@ -23,7 +23,7 @@ fi
 root=$(CDPATH='' cd -- "$1" && pwd)
 build=$(CDPATH='' cd -- "$2" && pwd)
 # In this order, since later commands read what earlier ones wrote.
-pages="README.md models/study_file/README.md models/README.md
+pages="README.md cli/desk/README.md models/README.md
   models/polynomial/README.md models/net/README.md models/history/README.md
   models/study/README.md models/promise/README.md models/promise/measured.md
   models/export/README.md

@@ -5,11 +5,11 @@
 
 Each patch of additions/ adds one, in as many files as the READMEs of the rooms
 say. All are applied to a copy of the sources and the program is built with
-them: the sources that they edit are compiled anew and linked before the
-libraries of BUILD_FOLDER, which is made by Ninja (else skipped, status 77; so
-where there is no patch(1)). Sources that only include an edited header are not:
-an enumerator or a declaration more at its end changes nothing in them. Then
-the program is run.
+them: the rooms whose sources they edit are compiled anew and linked before the
+libraries of BUILD_FOLDER, which is made by Ninja with its rooms together (else
+skipped, status 77; so where there is no patch(1)). Rooms that only include an
+edited header are not: an enumerator or a declaration more at its end changes
+nothing in them. Then the program is run.
 
 The problem is Michaelis-Menten on the treated cells of Bates & Watts (1988),
 table A1.3; its figures were made by Gauss-Newton steps in 60 digits and agree
@@ -71,21 +71,29 @@ def patched_copy(source, folder):
     return edited
 
 
+def room_of(unit, edited):
+    """Whether a room's one source, made by CMake, includes an edited file."""
+    included = re.findall(r'^#include "(.+)"', unit.read_text(), re.M)
+    return any(name.endswith(tuple(edited)) for name in included)
+
+
 def build_program(folder, build, cmake, edited):
-    """The program of the libraries of `build` and the edited sources."""
+    """The program of the libraries of `build` and the rooms that were edited."""
     anew = folder / "build"
     same = ["CMAKE_BUILD_TYPE", "CMAKE_CXX_COMPILER", "CMAKE_CXX_FLAGS",
             "CMAKE_CXX_COMPILER_LAUNCHER", "CMAKE_MAKE_PROGRAM"]
     run(cmake, "-S", folder, "-B", anew, "-G", "Ninja",
-        "-DERRMAP_BUILD_TESTS=OFF",
+        "-DERRMAP_BUILD_TESTS=OFF", "-DERRMAP_TOGETHER=ON",
         *(f"-D{name}={cached(build, name)}" for name in same))
     ninja = cached(build, "CMAKE_MAKE_PROGRAM")
     sources = {name for name in edited if name.endswith(".cc")}
-    targets = run(ninja, "-C", anew, "-t", "targets", "all")
-    objects = [target for target in re.findall(r"^(\S+\.o):", targets, re.M)
-               if re.sub(r"^CMakeFiles/\w+\.dir/|\.o$", "", target)
-               in sources | {"strd_texts.cc"}]
-    expect(len(objects) == len(sources) + 1, f"compiles {objects} of {sources}")
+    objects = [f"{unit.relative_to(anew)}.o"
+               for unit in sorted(anew.glob("*/CMakeFiles/*.dir/Unity/*.cxx"))
+               if room_of(unit, sources)]
+    objects += re.findall(r"^(\S+/strd_texts\.cc\.o):",
+                          run(ninja, "-C", anew, "-t", "targets", "all"), re.M)
+    expect(0 < len(objects) <= len(sources) + 1,
+           f"compiles {objects} of {sources}")
     run(ninja, "-C", anew, "-j2", *objects)
     program = folder / "errmap"
     link = run(ninja, "-C", build, "-t", "commands", "errmap").splitlines()[-1]
@@ -165,8 +173,10 @@ def check_problem(program):
 
 def main():
     source, build = (pathlib.Path(name).resolve() for name in sys.argv[1:3])
-    if not (build / "build.ninja").exists() or not shutil.which("patch"):
-        print("skipped: needs a build by Ninja and patch (apt-get install patch)")
+    if (not (build / "build.ninja").exists() or not shutil.which("patch")
+            or cached(build, "ERRMAP_TOGETHER") != "ON"):
+        print("skipped: needs a build by Ninja with ERRMAP_TOGETHER and patch "
+              "(apt-get install patch)")
         return SKIPPED
     table = source / "data/sets/nistir5367_xdisp_down.csv"
     with tempfile.TemporaryDirectory() as scratch:

@@ -24,8 +24,8 @@ fail() {
 good_tree() {
   rm -rf "$tree"
   mkdir -p "$tree/stats" "$tree/data" "$tree/fitting/minimisers" \
-    "$tree/models/study" "$tree/models/net" "$tree/models/report" \
-    "$tree/models/study_file" \
+    "$tree/models/study" "$tree/models/net" "$tree/cli/report" \
+    "$tree/cli/desk" \
     "$tree/cli/output" "$tree/tests/benchmarks"
   printf '%s\n' '#pragma once' '#include <vector>' '#include <Eigen/Core>' \
     >"$tree/stats/summary.h"
@@ -51,9 +51,9 @@ good_tree() {
     >"$tree/models/net/net.h"
   printf '%s\n' '#pragma once' >"$tree/models/kind.h"
   printf '%s\n' '#pragma once' '#include "models/study/study.h"' \
-    >"$tree/models/report/page.h"
-  printf '%s\n' '#pragma once' '#include "models/report/page.h"' \
-    >"$tree/models/study_file/config.h"
+    >"$tree/cli/report/page.h"
+  printf '%s\n' '#pragma once' '#include "cli/report/page.h"' \
+    >"$tree/cli/desk/config.h"
   printf '%s\n' '#pragma once' '#include "fitting/minimisers/optimizer.h"' \
     >"$tree/tests/test_problems.h"
   printf '%s\n' '#include <gtest/gtest.h>' '#include <nlohmann/json.hpp>' \
@@ -95,8 +95,8 @@ violation fitting/minimisers/optimizer.h '#include "models/study/study.h"'
 violation fitting/minimisers/ceres_optimizer.cc '#include "cli/output/report.h"'
 violation models/study/study.cc '#include "cli/output/report.h"'
 violation models/study/study.cc '  #  include "cli/output/report.h"  // indented'
-violation models/report/page.h '#include "cli/output/report.h"'
-violation models/study_file/config.h '#include "cli/output/report.h"'
+violation cli/report/page.h '#include "cli/output/report.h"'
+violation cli/desk/config.h '#include "cli/output/report.h"'
 # Flags in texts.
 violation data/csv.h 'const char* kAdvice = "name it with --target";'
 violation models/study/study.cc '  "a \"b\" with --keep-dead");'
@@ -104,13 +104,13 @@ cases=$((cases + 1))
 good_tree
 printf '%s\n' '// Where "--target" is not given.' '#define KEPT "a -- b"' \
   >>"$tree/data/csv.h"
-printf '%s\n' 'const char* kFlag = "--target";' >>"$tree/models/report/page.h"
+printf '%s\n' 'const char* kFlag = "--target";' >>"$tree/cli/report/page.h"
 check_includes || fail "check_includes refuses flags where they may be"
 # Between rooms: upwards, sideways, unknown, and from the root of a folder.
 violation models/net/net.h '#include "models/study/study.h"'
-violation models/study/study.cc '#include "models/report/page.h"'
-violation models/report/page.h '#include "models/study_file/config.h"'
-violation models/study_file/config.h '#include "models/study_file/toml/keys.h"'
+violation models/study/study.cc '#include "cli/report/page.h"'
+violation cli/report/page.h '#include "cli/desk/config.h"'
+violation cli/desk/config.h '#include "cli/desk/toml/keys.h"'
 violation models/kind.h '#include "models/net/net.h"'
 violation fitting/minimisers/optimizer.h '#include "fitting/nonlinear/fit.h"'
 cases=$((cases + 1))
@@ -153,7 +153,7 @@ violation fitting/minimisers/ceres_optimizer.cc '#include <boost/math/tools/root
 violation stats/summary.h '#include <boost/math/tools/roots.hpp>'
 violation models/study/study.cc '#include <CLI/CLI.hpp>'
 violation cli/output/report.cc '#include <toml++/toml.h>'
-violation models/study_file/config.h '#include <toml++/toml.h>'
+violation cli/desk/config.h '#include <toml++/toml.h>'
 violation cli/output/report.h '#include <CLI/App.hpp>'
 violation data/csv.h '#include <nlohmann/json.hpp>'
 violation models/study/study.h '#include <nlohmann/json_fwd.hpp>'

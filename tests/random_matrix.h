@@ -18,4 +18,8 @@ inline Eigen::MatrixXd RandomMatrix(Eigen::Index rows,
   return matrix;
 }
 
+inline Eigen::VectorXd RandomVector(Eigen::Index rows, std::uint64_t seed) {
+  return RandomMatrix(rows, 1, seed);
+}
+
 }  // namespace errmap::testing

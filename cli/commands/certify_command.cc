@@ -7,13 +7,13 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
+#include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
+#include "cli/report/number_text.h"
+#include "cli/report/words/certify_text.h"
 #include "cli/shell/standard_streams.h"
 #include "models/certification/certification.h"
 #include "models/certification/certification_json.h"
-#include "models/report/number_text.h"
-#include "models/report/words/certify_text.h"
-#include "models/study_file/provenance.h"
 
 namespace errmap::cli {
 namespace {

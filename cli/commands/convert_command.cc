@@ -7,10 +7,10 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/output/claimed_folder.h"
+#include "cli/report/number_text.h"
 #include "data/atomic_file.h"
 #include "data/formats/pattern_file.h"
 #include "data/text.h"
-#include "models/report/number_text.h"
 
 namespace errmap::cli {
 namespace {

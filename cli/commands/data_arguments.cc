@@ -13,11 +13,11 @@
 #include <fmt/ranges.h>
 
 #include "cli/command.h"
+#include "cli/report/words/fault_text.h"
 #include "cli/shell/standard_streams.h"
 #include "data/shown_path.h"
 #include "models/model_spec.h"
 #include "models/recipe_catalog.h"
-#include "models/report/words/fault_text.h"
 
 namespace errmap::cli {
 
@@ -179,12 +179,12 @@ data::PreparedDataset ReadData(const DataArguments& arguments) {
   return prepared;
 }
 
-study_file::GivenError ErrorOfFlag(const char* flag,
-                                   const std::optional<std::string>& text,
-                                   bool may_be_zero) {
+desk::GivenError ErrorOfFlag(const char* flag,
+                             const std::optional<std::string>& text,
+                             bool may_be_zero) {
   if (!text) return {};
   try {
-    return study_file::ParseGivenError(*text, may_be_zero);
+    return desk::ParseGivenError(*text, may_be_zero);
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("{} {}", flag, error.what()));
   }

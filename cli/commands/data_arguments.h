@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "cli/desk/given_error.h"
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/history/map_log.h"
-#include "models/study_file/given_error.h"
 
 namespace CLI {
 class App;
@@ -40,9 +40,9 @@ void AddRowOptions(CLI::App* command,
 void AddMapLogArguments(CLI::App* command, models::MapLogArguments* arguments);
 
 /// "2um" or "0.002" of a flag that was given; throws UsageError naming `flag`.
-study_file::GivenError ErrorOfFlag(const char* flag,
-                                   const std::optional<std::string>& text,
-                                   bool may_be_zero);
+desk::GivenError ErrorOfFlag(const char* flag,
+                             const std::optional<std::string>& text,
+                             bool may_be_zero);
 
 /// --jobs, or where it is 0 the processors of the machine.
 int JobsOf(int jobs);

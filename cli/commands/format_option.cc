@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "models/report/table.h"
+#include "cli/report/table.h"
 
 namespace errmap::cli {
 namespace {

@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/report/table.h"
+#include "cli/report/wrap_text.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "models/recipe_catalog.h"
-#include "models/report/table.h"
-#include "models/report/wrap_text.h"
 
 namespace errmap::cli {
 namespace {

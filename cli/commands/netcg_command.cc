@@ -9,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
+#include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/shell/standard_streams.h"
@@ -18,7 +19,6 @@
 #include "models/netcg/netcg_files.h"
 #include "models/netcg/netcg_json.h"
 #include "models/netcg/report_study.h"
-#include "models/study_file/provenance.h"
 
 namespace errmap::cli {
 namespace {

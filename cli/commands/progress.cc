@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "cli/desk/plan/rough_time.h"
+#include "cli/report/wrap_text.h"
 #include "cli/shell/standard_streams.h"
-#include "models/report/wrap_text.h"
-#include "models/study_file/plan/rough_time.h"
 
 namespace errmap::cli {
 
@@ -25,7 +25,7 @@ std::string ProgressText(const ProgressState& state, std::size_t width) {
   std::string left;
   if (std::isfinite(seconds_left) && state.done < state.all) {
     about = ", about ";
-    left = study_file::RoughTimeText(seconds_left) + " left";
+    left = desk::RoughTimeText(seconds_left) + " left";
   }
   const std::string best = ", best so far " + state.best;
   const std::string brief = left.empty() ? "" : ", " + left;

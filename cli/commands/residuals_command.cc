@@ -10,7 +10,12 @@
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
 #include "cli/commands/residual_json.h"
+#include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
+#include "cli/report/number_text.h"
+#include "cli/report/words/residual_text.h"
+#include "cli/report/words/residual_words.h"
+#include "cli/report/wrap_text.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/csv.h"
@@ -19,14 +24,9 @@
 #include "data/measurements/dataset.h"
 #include "data/shown_path.h"
 #include "data/text.h"
-#include "models/report/number_text.h"
-#include "models/report/words/residual_text.h"
-#include "models/report/words/residual_words.h"
-#include "models/report/wrap_text.h"
 #include "models/study/record/fit_blocks.h"
 #include "models/study/record/make_residual_record.h"
 #include "models/study/record/record_json.h"
-#include "models/study_file/provenance.h"
 #include "stats/error_metrics.h"
 #include "stats/report_1995.h"
 
@@ -264,7 +264,7 @@ int RunResiduals(const ResidualsArguments& arguments,
     document["provenance"] =
         ProvenanceJson(command_line,
                        ConfigurationJson(arguments, inputs),
-                       {study_file::HashInput(arguments.file)});
+                       {desk::HashInput(arguments.file)});
     PrintResult(DumpJson(document));
     return kDone;
   }

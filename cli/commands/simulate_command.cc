@@ -9,9 +9,9 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/output/claimed_folder.h"
+#include "cli/report/number_text.h"
 #include "data/turning_centre/simulation.h"
 #include "data/turning_centre/simulation_files.h"
-#include "models/report/number_text.h"
 
 namespace errmap::cli {
 namespace {

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <string_view>
 
+#include "cli/desk/plan/run_files.h"
 #include "cli/output/report_files.h"
 #include "data/atomic_file.h"
-#include "models/study_file/plan/run_files.h"
 
 namespace errmap::cli {
 
@@ -15,16 +15,16 @@ void RemoveAbandoned(const std::string& folder) {
       (std::filesystem::path(folder) / "models").string());
 }
 
-std::vector<std::string> OutputNames(const study_file::StudyPlan& plan) {
-  std::vector<std::string> names = study_file::RunFileNames(plan);
+std::vector<std::string> OutputNames(const desk::StudyPlan& plan) {
+  std::vector<std::string> names = desk::RunFileNames(plan);
   names.insert(names.begin() + 1, {kReportPage, kReportText});
   return names;
 }
 
-void WriteOutputs(const study_file::StudyRun& run,
+void WriteOutputs(const desk::StudyRun& run,
                   const models::StudyRecord& record,
                   ClaimedFolder* folder) {
-  study_file::WriteRunFiles(
+  desk::WriteRunFiles(
       run, record, [&](const std::string& name, std::string_view content) {
         folder->Write(name, content);
       });

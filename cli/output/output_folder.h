@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "cli/desk/plan/study_plan.h"
+#include "cli/desk/plan/study_run.h"
 #include "cli/output/claimed_folder.h"
 #include "models/study/record/study_record.h"
-#include "models/study_file/plan/study_plan.h"
-#include "models/study_file/plan/study_run.h"
 
 namespace errmap::cli {
 
@@ -14,11 +14,11 @@ namespace errmap::cli {
 void RemoveAbandoned(const std::string& folder);
 
 /// Names of all files that WriteOutputs may write of a study.
-std::vector<std::string> OutputNames(const study_file::StudyPlan& plan);
+std::vector<std::string> OutputNames(const desk::StudyPlan& plan);
 
-/// Writes the files of a run (study_file::WriteRunFiles) and the report.
+/// Writes the files of a run (desk::WriteRunFiles) and the report.
 /// Throws std::system_error naming the path that could not be written.
-void WriteOutputs(const study_file::StudyRun& run,
+void WriteOutputs(const desk::StudyRun& run,
                   const models::StudyRecord& record,
                   ClaimedFolder* folder);
 

@@ -7,13 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "cli/report/documents/report_html.h"
+#include "cli/report/figures/learning_figures.h"
+#include "cli/report/report.h"
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
 #include "data/text.h"
 #include "models/promise/learning_record.h"
-#include "models/report/documents/report_html.h"
-#include "models/report/figures/learning_figures.h"
-#include "models/report/report.h"
 
 namespace errmap::cli {
 namespace {

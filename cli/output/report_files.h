@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "cli/output/claimed_folder.h"
-#include "models/report/figures/figures.h"
+#include "cli/report/figures/figures.h"
 #include "models/study/record/study_record.h"
 
 namespace errmap::cli {

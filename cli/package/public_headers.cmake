@@ -61,7 +61,7 @@ set(ERRMAP_PUBLIC_HEADERS
   models/promise/session_offset.h
   models/recipe_catalog.h
   models/regression_report.h
-  models/report/report.h
+  cli/report/report.h
   models/scaling.h
   models/study/given_predictions.h
   models/study/judgement/verdict.h
@@ -69,15 +69,15 @@ set(ERRMAP_PUBLIC_HEADERS
   models/study/record/study_record.h
   models/study/study.h
   models/study/study_defaults.h
-  models/study_file/machine/machine_file.h
-  models/study_file/machine/machine_judge.h
-  models/study_file/machine/machine_study.h
-  models/study_file/plan/run_files.h
-  models/study_file/plan/run_record.h
-  models/study_file/plan/study_plan.h
-  models/study_file/plan/study_run.h
-  models/study_file/study_config.h
-  models/study_file/toml/study_file.h
+  cli/desk/machine/machine_file.h
+  cli/desk/machine/machine_judge.h
+  cli/desk/machine/machine_study.h
+  cli/desk/plan/run_files.h
+  cli/desk/plan/run_record.h
+  cli/desk/plan/study_plan.h
+  cli/desk/plan/study_run.h
+  cli/desk/study_config.h
+  cli/desk/toml/study_file.h
   models/version.h
   stats/bias.h
   stats/comparison/holm.h

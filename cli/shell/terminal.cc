@@ -6,8 +6,8 @@
 
 #include <sys/ioctl.h>
 
+#include "cli/report/wrap_text.h"
 #include "cli/shell/standard_streams.h"
-#include "models/report/wrap_text.h"
 
 namespace errmap::cli {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "models/report/screen.h"
+#include "cli/report/screen.h"
 
 namespace errmap::cli {
 

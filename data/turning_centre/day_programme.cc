@@ -9,8 +9,6 @@
 namespace errmap::data::turning_centre {
 namespace {
 
-constexpr int kSecondsPerHour = 3600;
-
 double Duty(double duty, const Workload& workload) {
   return std::min(1.0, workload.duty * duty);
 }

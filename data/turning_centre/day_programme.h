@@ -18,6 +18,7 @@ struct CyclePlan {
   double cutting_load = 0.0;  // of the exercise, share of the motor's power
 };
 
+inline constexpr int kSecondsPerHour = 3600;
 inline constexpr int kStopsPerSweep = 17;
 inline constexpr int kSecondsPerStop = 5;
 inline constexpr int kExerciseSeconds = 440;

@@ -6,13 +6,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "data/turning_centre/day_programme.h"
 #include "data/turning_centre/machine.h"
 #include "data/turning_centre/thermal_network.h"
 
 namespace errmap::data::turning_centre {
 namespace {
 
-constexpr int kSecondsPerHour = 3600;
 /// Share of rapid traverse while the slide goes from stop to stop.
 constexpr double kMeasuringDuty = 0.1;
 

@@ -10,14 +10,14 @@
 namespace errmap::data::turning_centre {
 namespace {
 
-[[noreturn]] void ThrowInvalid(const std::string& what) {
+[[noreturn]] void RefuseNetwork(const std::string& what) {
   throw std::invalid_argument("ThermalNetwork: " + what);
 }
 
 void CheckConductance(const std::string& where, double value) {
   if (std::isfinite(value) && value >= 0.0) return;
-  ThrowInvalid(where + ": conductance " + std::to_string(value) +
-               " W/K; it must be finite and not negative");
+  RefuseNetwork(where + ": conductance " + std::to_string(value) +
+                " W/K; it must be finite and not negative");
 }
 
 }  // namespace
@@ -25,12 +25,12 @@ void CheckConductance(const std::string& where, double value) {
 ThermalNetwork::ThermalNetwork(std::vector<ThermalBody> bodies,
                                std::vector<ThermalLink> links)
     : bodies_(std::move(bodies)), links_(std::move(links)) {
-  if (bodies_.empty()) ThrowInvalid("no bodies");
+  if (bodies_.empty()) RefuseNetwork("no bodies");
   for (const ThermalBody& body : bodies_) {
     if (!std::isfinite(body.heat_capacity) || body.heat_capacity <= 0.0) {
-      ThrowInvalid("body '" + body.name + "': heat capacity " +
-                   std::to_string(body.heat_capacity) +
-                   " J/K; it must be finite and positive");
+      RefuseNetwork("body '" + body.name + "': heat capacity " +
+                    std::to_string(body.heat_capacity) +
+                    " J/K; it must be finite and positive");
     }
     CheckConductance("body '" + body.name + "' to the air",
                      body.air_conductance);
@@ -40,9 +40,9 @@ ThermalNetwork::ThermalNetwork(std::vector<ThermalBody> bodies,
   for (const ThermalLink& link : links_) {
     if (link.a >= bodies_.size() || link.b >= bodies_.size() ||
         link.a == link.b) {
-      ThrowInvalid("link " + std::to_string(link.a) + " - " +
-                   std::to_string(link.b) + " does not join two of the " +
-                   std::to_string(bodies_.size()) + " bodies");
+      RefuseNetwork("link " + std::to_string(link.a) + " - " +
+                    std::to_string(link.b) + " does not join two of the " +
+                    std::to_string(bodies_.size()) + " bodies");
     }
     CheckConductance(
         "link '" + bodies_[link.a].name + "' - '" + bodies_[link.b].name + "'",
@@ -130,7 +130,7 @@ std::vector<double> ThermalNetwork::SteadyState(double air,
   }
   const Eigen::FullPivLU<Eigen::MatrixXd> lu(matrix);
   if (!lu.isInvertible()) {
-    ThrowInvalid("no steady state: some body has no heat path to the air");
+    RefuseNetwork("no steady state: some body has no heat path to the air");
   }
   const Eigen::VectorXd solution = lu.solve(inflow);
   return {solution.data(), solution.data() + solution.size()};

@@ -14,7 +14,8 @@ namespace {
 using Eigen::Index;
 using stats::DoubleDouble;
 
-void CheckShapes(const ExtendedMatrix& design, const ExtendedVector& response) {
+void CheckExtended(const ExtendedMatrix& design,
+                   const ExtendedVector& response) {
   const Index n = design.rows();
   const Index p = design.cols();
   if (p < 1 || n < p || response.size() != n) {
@@ -142,7 +143,7 @@ ExtendedLeastSquaresFit SolveExtendedLeastSquares(
     const ExtendedVector& response,
     const ExtendedLeastSquaresOptions& options) {
   options.Validate();
-  CheckShapes(design, response);
+  CheckExtended(design, response);
   const Eigen::VectorXd scales = ColumnScales(design);
   const ExtendedMatrix scaled = Scaled(design, scales);
   const ExtendedLeastSquaresFit fit =

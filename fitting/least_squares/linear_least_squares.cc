@@ -7,9 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include <Eigen/QR>
-
 #include "fitting/interruption.h"
+#include "fitting/least_squares/decompositions.h"
 #include "fitting/least_squares/orthogonal_basis.h"
 
 namespace errmap::fitting {
@@ -22,9 +21,9 @@ using stats::DoubleDouble;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-void CheckShapes(const MatrixXd& design,
-                 const VectorXd& response,
-                 const VectorXd& weights) {
+void CheckProblem(const MatrixXd& design,
+                  const VectorXd& response,
+                  const VectorXd& weights) {
   const auto size = [](Index n) { return std::to_string(n); };
   if (design.rows() < 1 || design.cols() < 1) {
     throw std::invalid_argument("SolveLeastSquares: empty design matrix (" +
@@ -470,7 +469,7 @@ LeastSquaresFit SolveLeastSquares(const MatrixXd& design,
                                   const VectorXd& weights,
                                   const LeastSquaresOptions& options) {
   options.Validate();
-  CheckShapes(design, response, weights);
+  CheckProblem(design, response, weights);
   Problem problem(design, response, weights, options);
   Decomposition parts = Decompose(&problem, false);
 
@@ -504,7 +503,7 @@ LeastSquaresFit SolveLeastSquares(const MatrixXd& design,
 MatrixXd OrthonormalColumns(const MatrixXd& design) {
   const VectorXd nothing = VectorXd::Zero(design.rows());
   const VectorXd equal;
-  CheckShapes(design, nothing, equal);
+  CheckProblem(design, nothing, equal);
   const LeastSquaresOptions options;
   Problem problem(design, nothing, equal, options);
   return Decompose(&problem, true).basis;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include <Eigen/Dense>
+#include "fitting/least_squares/decompositions.h"
 
 namespace errmap::fitting {
 

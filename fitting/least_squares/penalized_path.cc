@@ -5,8 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include <Eigen/Dense>
-
+#include "fitting/least_squares/decompositions.h"
 #include "fitting/matrix_product.h"
 #include "fitting/multiversion.h"
 

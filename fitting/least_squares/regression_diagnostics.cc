@@ -6,8 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <Eigen/Dense>
-
+#include "fitting/least_squares/decompositions.h"
 #include "fitting/matrix_product.h"
 #include "stats/f_test.h"
 
@@ -18,7 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kRounding = std::numeric_limits<double>::epsilon();
 constexpr double kConfidence = 0.95;
 // A leverage this near to 1 is 1.
 constexpr double kLeastSlack = 1e-9;
@@ -66,13 +65,12 @@ void FindCondition(const MatrixXd& centred,
     const double length = design.col(j).norm();
     if (length > 0.0) design.col(j) /= length;
   }
-  const VectorXd singular =
-      Eigen::BDCSVD<MatrixXd>(TriangleOf(design)).singularValues();
+  const VectorXd singular = SingularValues(TriangleOf(design));
   const double size =
       static_cast<double>(std::max(design.rows(), design.cols()));
   fit->condition = singular[0] / singular[singular.size() - 1];
   fit->effective_rank =
-      (singular.array() > size * kEpsilon * singular[0]).count();
+      (singular.array() > size * kRounding * singular[0]).count();
 }
 
 // The columns of a problem, weighted, centred and of length 1.
@@ -301,7 +299,7 @@ AliasRelation ExplainAlias(const VectorXd& column,
                            const VectorXd& intercept) {
   AliasRelation relation;
   const Index rows = column.size();
-  const double tiny = static_cast<double>(rows) * kEpsilon;
+  const double tiny = static_cast<double>(rows) * kRounding;
   const VectorXd unit =
       (intercept.size() != 0 ? intercept : VectorXd::Ones(rows)).normalized();
   const auto centre = [&](const VectorXd& values) {

@@ -83,7 +83,7 @@ double EvaluateForNlopt(unsigned size,
   return is_finite ? run.cost() : HUGE_VAL;
 }
 
-void Require(nlopt_result result, const char* what) {
+void RequireSuccess(nlopt_result result, const char* what) {
   if (result == NLOPT_OUT_OF_MEMORY) throw std::bad_alloc();
   if (result < 0) {
     throw std::invalid_argument(std::string("NloptOptimizer: NLopt refuses ") +
@@ -98,17 +98,20 @@ NloptProblem MakeProblem(const NloptOptions& options,
   NloptProblem problem(nlopt_create(AlgorithmOf(options.method), size));
   if (problem == nullptr) throw std::bad_alloc();
   callback->problem = problem.get();
-  Require(nlopt_set_min_objective(problem.get(), EvaluateForNlopt, callback),
-          "the objective");
+  RequireSuccess(
+      nlopt_set_min_objective(problem.get(), EvaluateForNlopt, callback),
+      "the objective");
   const auto memory =
       static_cast<unsigned>(std::min<Index>(options.memory, x0.size()));
-  Require(nlopt_set_vector_storage(problem.get(), memory), "the memory");
+  RequireSuccess(nlopt_set_vector_storage(problem.get(), memory), "the memory");
   if (options.method == NloptMethod::kCrs2Lm) {
     const VectorXd half_width = options.box * x0.cwiseAbs().cwiseMax(1.0);
     const VectorXd lower = x0 - half_width;
     const VectorXd upper = x0 + half_width;
-    Require(nlopt_set_lower_bounds(problem.get(), lower.data()), "the box");
-    Require(nlopt_set_upper_bounds(problem.get(), upper.data()), "the box");
+    RequireSuccess(nlopt_set_lower_bounds(problem.get(), lower.data()),
+                   "the box");
+    RequireSuccess(nlopt_set_upper_bounds(problem.get(), upper.data()),
+                   "the box");
     // The generator is each thread's own, so that runs in parallel repeat.
     nlopt_srand(static_cast<unsigned long>(options.seed));
   }

@@ -7,8 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <Eigen/Dense>
-
+#include "fitting/least_squares/decompositions.h"
 #include "fitting/least_squares/orthogonal_basis.h"
 
 namespace errmap::fitting {

@@ -17,8 +17,6 @@ using Eigen::VectorXd;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-std::size_t At(Index index) { return static_cast<std::size_t>(index); }
-
 }  // namespace
 
 void SelectionProblem::Validate(const char* caller) const {

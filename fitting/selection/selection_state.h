@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -8,6 +9,11 @@
 #include "fitting/selection/candidate_columns.h"
 
 namespace errmap::fitting {
+
+/// Where the element `index` of a std::vector stands.
+inline std::size_t At(Eigen::Index index) {
+  return static_cast<std::size_t>(index);
+}
 
 /// Rows and columns of a least-squares problem whose terms are being chosen.
 /// References must outlive what is built on them.

@@ -18,12 +18,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 // A leverage this near to 1 is 1: the row has a coefficient to itself.
 constexpr double kLeastSlack = 1e-9;
-
-std::size_t At(Index index) { return static_cast<std::size_t>(index); }
 
 [[noreturn]] void Refuse(const std::string& why) {
   throw std::invalid_argument("SelectStepwise: " + why);
@@ -31,7 +29,7 @@ std::size_t At(Index index) { return static_cast<std::size_t>(index); }
 
 double Press(const VectorXd& residual, const VectorXd& leverage) {
   const Eigen::ArrayXd slack = 1.0 - leverage.array();
-  if (!(slack.minCoeff() > kLeastSlack)) return kInfinity;
+  if (!(slack.minCoeff() > kLeastSlack)) return kNoLimit;
   return (residual.array() / slack).square().sum();
 }
 
@@ -302,7 +300,7 @@ class Selection {
   SelectionMove LowestOf(VectorXd values) {
     for (;;) {
       Index best = -1;
-      double lowest = kInfinity;
+      double lowest = kNoLimit;
       for (Index j = 0; j < values.size(); ++j) {
         if (values[j] < lowest) {
           lowest = values[j];
@@ -312,7 +310,7 @@ class Selection {
       if (best < 0) return {};
       SelectionMove move = state_.EntryOf(best);
       if (move.candidate >= 0) return move;
-      values[best] = kInfinity;  // determined by the terms after all
+      values[best] = kNoLimit;  // determined by the terms after all
     }
   }
 
@@ -320,7 +318,7 @@ class Selection {
     const bool by_rows = options_.select == Criterion::kPress ||
                          options_.select == Criterion::kCv;
     SelectionMove best;
-    double lowest = kInfinity;
+    double lowest = kNoLimit;
     for (SelectionMove& exit : state_.Exits(by_rows)) {
       if (!MayLeave(exit.candidate)) continue;
       const double value =
@@ -412,7 +410,7 @@ class Selection {
     result->chosen_step = models.size() - 1;
     if (options_.choose != Criterion::kPValue &&
         options_.choose != Criterion::kNone) {
-      double lowest = kInfinity;
+      double lowest = kNoLimit;
       for (std::size_t i = 0; i < models.size(); ++i) {
         const bool fits = static_cast<Index>(models[i].size()) <= most_terms_;
         const double value = result->steps[i].ValueOf(options_.choose);

@@ -14,11 +14,9 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr std::ptrdiff_t kLanes = 16;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 // A leverage this near to 1 is 1: the row has a coefficient to itself.
-constexpr double kLeastSlack = 1e-9;
-
-std::size_t At(Index index) { return static_cast<std::size_t>(index); }
+constexpr double kLeastRoom = 1e-9;
 
 ERRMAP_MULTIVERSION
 double Dot(const double* a, const double* b, std::ptrdiff_t n) {
@@ -45,12 +43,12 @@ void SubtractMultiple(const double* direction,
 
 // Sum of ((e - c z) / (slack - f z^2))^2; infinite where a slack is too small.
 ERRMAP_MULTIVERSION
-double Press(const double* error,
-             const double* slack,
-             const double* rest,
-             double coefficient,
-             double inverse_square,
-             std::ptrdiff_t n) {
+double PressOf(const double* error,
+               const double* slack,
+               const double* rest,
+               double coefficient,
+               double inverse_square,
+               std::ptrdiff_t n) {
   std::array<double, kLanes> sums{};
   std::array<double, kLanes> least;
   least.fill(1.0);
@@ -75,7 +73,7 @@ double Press(const double* error,
   }
   for (const double sum : sums) total += sum;
   for (const double value : least) smallest = std::min(smallest, value);
-  return smallest > kLeastSlack ? total : kInfinity;
+  return smallest > kLeastRoom ? total : kUnbounded;
 }
 
 }  // namespace
@@ -152,7 +150,7 @@ void SweptCandidates::Follow(const std::vector<Index>& chosen) {
 VectorXd SweptCandidates::PressAfterEntry(const VectorXd& leverage,
                                           const std::vector<bool>& open) const {
   const VectorXd slack = 1.0 - leverage.array();
-  VectorXd press = VectorXd::Constant(rest_.cols(), kInfinity);
+  VectorXd press = VectorXd::Constant(rest_.cols(), kUnbounded);
   const Index rows = rest_.rows();
   for (Index j = 0; j < rest_.cols(); ++j) {
     if (!open[At(j)]) continue;
@@ -160,7 +158,7 @@ VectorXd SweptCandidates::PressAfterEntry(const VectorXd& leverage,
     if (!(squared > least_[j])) continue;
     const double* rest = rest_.col(j).data();
     const double coefficient = Dot(rest, error_.data(), rows) / squared;
-    press[j] = Press(
+    press[j] = PressOf(
         error_.data(), slack.data(), rest, coefficient, 1.0 / squared, rows);
   }
   return press;
@@ -170,7 +168,7 @@ VectorXd SweptCandidates::HeldOutErrorAfterEntry(
     const std::vector<bool>& open) const {
   const VectorXd fitted_error = error_.cwiseProduct(fitted_);
   const double now = error_.cwiseAbs2().dot(held_out_);
-  VectorXd errors = VectorXd::Constant(rest_.cols(), kInfinity);
+  VectorXd errors = VectorXd::Constant(rest_.cols(), kUnbounded);
   for (Index j = 0; j < rest_.cols(); ++j) {
     if (!open[At(j)]) continue;
     const double squared = SquaredRest(j);

@@ -22,9 +22,9 @@ struct Case {
   const CertifiedSolver* solver;  // null: the default
 };
 
-void Judge(const data::StrdProblem& problem,
-           const RegressionStatistics& statistics,
-           NonlinearCertificate* row) {
+void JudgeRow(const data::StrdProblem& problem,
+              const RegressionStatistics& statistics,
+              NonlinearCertificate* row) {
   constexpr double kCap = stats::kLreCapNonlinear;
   row->lre_parameters = stats::SmallestLogRelativeError(
       statistics.parameters, CertifiedParameters(problem), kCap);
@@ -69,7 +69,7 @@ NonlinearCertificate RunCase(const Case& run) {
       statistics = fitting::AssessRegression(
           *function, minimum.x.cast<stats::DoubleDouble>());
     }
-    Judge(problem, statistics, &row);
+    JudgeRow(problem, statistics, &row);
     row.iterations = summary.iterations;
     row.stop = std::string(ToString(summary.termination));
     row.message = summary.message;

@@ -242,8 +242,8 @@ struct Roszman1 {
   }
 };
 
-using Maker = std::unique_ptr<fitting::RegressionFunction> (*)(ExtendedMatrix,
-                                                               ExtendedVector);
+using FunctionMaker = std::unique_ptr<fitting::RegressionFunction> (*)(
+    ExtendedMatrix, ExtendedVector);
 
 template <typename Formula>
 std::unique_ptr<fitting::RegressionFunction> Make(ExtendedMatrix predictors,
@@ -252,8 +252,8 @@ std::unique_ptr<fitting::RegressionFunction> Make(ExtendedMatrix predictors,
       std::move(predictors), std::move(target));
 }
 
-const std::map<std::string, Maker>& Makers() {
-  static const std::map<std::string, Maker> kMakers{
+const std::map<std::string, FunctionMaker>& Makers() {
+  static const std::map<std::string, FunctionMaker> kMakers{
       {"Bennett5", Make<Bennett5>},     {"BoxBOD", Make<BoxBod>},
       {"Chwirut1", Make<Chwirut>},      {"Chwirut2", Make<Chwirut>},
       {"DanWood", Make<DanWood>},       {"ENSO", Make<Enso>},

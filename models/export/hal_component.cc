@@ -35,7 +35,7 @@ std::vector<std::string> PinIdentifiers(const MapProgram& program,
   return names;
 }
 
-constexpr const char* kDeclarations = R"(component {0} "{1}";
+constexpr const char* kHalDeclarations = R"(component {0} "{1}";
 description """
 offset = compensation = -error, in {2}: the motor goes to the commanded position
 plus it. A reading that is not finite, or outside of its trained range by more
@@ -215,7 +215,7 @@ std::string HalWriter::Component() const {
   const double count = InMachine(1e-6, mm);
   const std::string map_name = SafeIdentifier(map_.name, kLongestMap);
   std::string text =
-      fmt::format(kDeclarations,
+      fmt::format(kHalDeclarations,
                   name_,
                   fmt::format("Minus the error that the map {} predicts",
                               CommentText(program.model)),

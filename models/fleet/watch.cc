@@ -4,11 +4,10 @@
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/Cholesky>
-
 #include "data/formats/nesting.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "fitting/least_squares/decompositions.h"
 #include "models/study/record/record_json.h"
 #include "stats/distributions.h"
 

@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixX3d;
 using Eigen::VectorXd;
 
-void Check(const std::vector<HeldOutToolTip>& sessions, double coverage) {
+void CheckSpread(const std::vector<HeldOutToolTip>& sessions, double coverage) {
   if (sessions.size() < 2 || !(coverage > 0.0 && coverage < 1.0)) {
     throw std::invalid_argument(
         "ToolTipHalfWidths: needs two sessions and a coverage between 0 and 1");
@@ -46,7 +46,7 @@ double Spread(const VectorXd& mean_squares, double coverage) {
 MatrixX3d ToolTipHalfWidths(const std::vector<HeldOutToolTip>& sessions,
                             const MatrixX3d& first_order,
                             double coverage) {
-  Check(sessions, coverage);
+  CheckSpread(sessions, coverage);
   MatrixX3d half_widths = MatrixX3d::Ones(first_order.rows(), 3);
   for (Index d = 0; d < 3; ++d) {
     const bool has_shape =

@@ -20,9 +20,9 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-[[noreturn]] void Refuse(const std::string& what) {
+[[noreturn]] void RefuseVolumetric(const std::string& what) {
   throw std::invalid_argument("CombineErrors: " + what);
 }
 
@@ -31,8 +31,8 @@ void CheckShapes(const KinematicChain& chain,
                  const std::vector<ComponentAtPoints>& components) {
   const auto check = [](const std::string& what, Index found, Index expected) {
     if (found == expected) return;
-    Refuse(std::to_string(found) + " " + what + ", expected " +
-           std::to_string(expected));
+    RefuseVolumetric(std::to_string(found) + " " + what + ", expected " +
+                     std::to_string(expected));
   };
   check("columns of coordinates", coordinates.cols(), chain.num_coordinates());
   check(
@@ -188,7 +188,7 @@ VolumetricErrors CombineErrors(const KinematicChain& chain,
        {&result.exact, &result.first_order, &result.half_widths}) {
     part->resize(m, 3);
   }
-  result.lower = MatrixX3d::Constant(m, 3, kNaN);
+  result.lower = MatrixX3d::Constant(m, 3, kUnknown);
   result.upper = result.lower;
   result.contributions.assign(components.size(), MatrixX3d(m, 3));
   for (Index row = 0; row < m; ++row) {

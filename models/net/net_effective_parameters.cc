@@ -5,8 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include <Eigen/Eigenvalues>
-
+#include "fitting/least_squares/decompositions.h"
 #include "fitting/matrix_product.h"
 #include "models/net/net_objective.h"
 

@@ -18,7 +18,7 @@ namespace {
 using data::Dataset;
 using Eigen::Index;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotYet = std::numeric_limits<double>::quiet_NaN();
 
 // Every job writes to a place of its own, so their order does not matter.
 template <typename Job>
@@ -85,7 +85,7 @@ double HeldOutSquares(const NetDesign& design,
                       const fitting::FoldCodes::Rows& fold,
                       const NetTrial& trial,
                       const FitContext& context) {
-  if (IsStopped(context)) return kNaN;
+  if (IsStopped(context)) return kNotYet;
   try {
     NetDesign tried = design;
     tried.hidden = trial.hidden;
@@ -97,11 +97,11 @@ double HeldOutSquares(const NetDesign& design,
                    trial.seed,
                    {.stop = context.stop, .keep_trace = false});
     if (minimum.summary.termination == fitting::Termination::kFailed) {
-      return kNaN;
+      return kNotYet;
     }
     return SquaresOn(all.SelectRows(fold.test), rows, minimum.x);
   } catch (const std::invalid_argument&) {
-    return kNaN;  // these rows cannot be fitted, such as a constant target
+    return kNotYet;  // these rows cannot be fitted, such as a constant target
   }
 }
 
@@ -285,8 +285,8 @@ std::vector<double> InnerHoldoutRmse(const NetDesign& design,
 struct WfactorWalk::Fold {
   std::optional<NetRows> rows;  // none where they cannot be fitted
   Dataset test;
-  Eigen::VectorXd weights;  // of the last step
-  double squares = kNaN;    // of the last step
+  Eigen::VectorXd weights;   // of the last step
+  double squares = kNotYet;  // of the last step
 };
 
 WfactorWalk::WfactorWalk(const NetDesign& design,
@@ -327,7 +327,7 @@ double WfactorWalk::Step(double wfactor) {
         trainer_.Train(training, {.stop = context_.stop, .keep_trace = false});
     if (minimum.summary.termination == fitting::Termination::kFailed) {
       fold.rows.reset();
-      fold.squares = kNaN;
+      fold.squares = kNotYet;
       return;
     }
     fold.squares = SquaresOn(fold.test, *fold.rows, minimum.x);

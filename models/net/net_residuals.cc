@@ -23,12 +23,12 @@ double RootShare(const NetProblem<double>& problem, Index pattern) {
 }
 
 // Hidden outputs y (height x columns) and outputs z (J x columns) of patterns.
-void Forward(const NetProblem<double>& problem,
-             const PackedWeights<double>& weights,
-             Index begin,
-             Index columns,
-             double* y,
-             double* z) {
+void ForwardBlock(const NetProblem<double>& problem,
+                  const PackedWeights<double>& weights,
+                  Index begin,
+                  Index columns,
+                  double* y,
+                  double* z) {
   problem.Activate(weights.w1, begin, columns, y);
   problem.kernels->forward(problem.Size(columns), y, weights.w2.data(), y, z);
   Outputs(problem, begin, columns, weights.bias, z);
@@ -70,12 +70,12 @@ class NetFactors {
     weights_.Pack(shape, w);
     for (Index begin = 0; begin < patterns; begin += problem_.block) {
       const Index columns = std::min(problem_.block, patterns - begin);
-      Forward(problem_,
-              weights_,
-              begin,
-              columns,
-              hidden_.column(begin),
-              outputs_.column(begin));
+      ForwardBlock(problem_,
+                   weights_,
+                   begin,
+                   columns,
+                   hidden_.column(begin),
+                   outputs_.column(begin));
     }
     residuals->resize(patterns * shape.outputs);
     FillResiduals(problem_, 0, patterns, outputs_.data(), residuals);
@@ -211,7 +211,7 @@ void NetResiduals::Evaluate(const VectorXd& w,
     residuals->resize(num_residuals());
     for (Index begin = 0; begin < patterns; begin += problem_.block) {
       const Index columns = std::min(problem_.block, patterns - begin);
-      Forward(
+      ForwardBlock(
           problem_, weights_, begin, columns, hidden_.data(), outputs_.data());
       FillResiduals(problem_, begin, columns, outputs_.data(), residuals);
     }

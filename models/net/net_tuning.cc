@@ -32,7 +32,7 @@ auto Lowest(const Scores<Value>& scores) {
 }
 
 template <typename Value>
-std::string ListOf(const Scores<Value>& scores, const char* form) {
+std::string ScoresText(const Scores<Value>& scores, const char* form) {
   std::string list;
   for (const auto& [value, rmse] : scores) {
     if (!list.empty()) list += ", ";
@@ -180,19 +180,19 @@ class Tuner {
       tuned.chosen.push_back({{"hidden", hidden_},
                               fmt::format("{} hidden nodes", hidden_),
                               hidden_rmse_,
-                              ListOf(by_hidden_, "{}: {:.4g}")});
+                              ScoresText(by_hidden_, "{}: {:.4g}")});
     }
     if (tuning.wfactor) {
       tuned.chosen.push_back({{"wfactor", wfactor_},
                               fmt::format("wfactor {:.4g}", wfactor_),
                               wfactor_rmse_,
-                              ListOf(by_wfactor_, "{:.2g}: {:.4g}")});
+                              ScoresText(by_wfactor_, "{:.2g}: {:.4g}")});
     }
     if (!by_iterations_.empty()) {
       tuned.chosen.push_back({{"iterations", iterations_},
                               fmt::format("{} iterations", iterations_),
                               iterations_rmse_,
-                              ListOf(by_iterations_, "{}: {:.4g}")});
+                              ScoresText(by_iterations_, "{}: {:.4g}")});
     }
     tuned.rmse = tuned.chosen.back().rmse;
     return tuned;

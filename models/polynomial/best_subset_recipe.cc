@@ -21,7 +21,7 @@ using Eigen::Index;
 using fitting::Criterion;
 
 constexpr Index kPracticalTerms = 40;
-constexpr Index kMostTerms = 48;
+constexpr Index kMostSubsetTerms = 48;
 
 // The best of all subsets.
 class BestSubsetRecipe final : public PolynomialRecipe {
@@ -54,7 +54,7 @@ class BestSubsetRecipe final : public PolynomialRecipe {
       terms.degree = DegreeFor(training.num_inputs());
     }
     const TermDictionary dictionary(training, terms);
-    if (dictionary.NumOpen() > kMostTerms) {
+    if (dictionary.NumOpen() > kMostSubsetTerms) {
       throw std::invalid_argument(fmt::format(
           "best subset is practical up to about {} candidate terms, and degree "
           "{} in {} inputs makes {}; use a lower degree, exclude=, fewer "
@@ -156,7 +156,7 @@ class BestSubsetRecipe final : public PolynomialRecipe {
   fitting::BestSubsetOptions rules_;
 };
 
-OptionList<BestSubsetOptions> List() {
+OptionList<BestSubsetOptions> BestSubsetList() {
   using Options = BestSubsetOptions;
   constexpr std::int64_t kMostRepetitions = 1'000'000;
   OptionList<Options> list;
@@ -172,7 +172,7 @@ OptionList<BestSubsetOptions> List() {
   list.push_back(OptionFor("max_terms",
                            "the most terms",
                            &Options::max_terms,
-                           Whole{0, kMostTerms}));
+                           Whole{0, kMostSubsetTerms}));
   list.push_back(OptionFor("sigma2",
                            "variance of the error, for cp",
                            &Options::sigma2,
@@ -197,7 +197,7 @@ const std::vector<ListedModel<BestSubsetOptions>>& ListedModels() {
       {.name = "poly:best",
        .about = "the best subset of the terms",
        .defaults = {},
-       .options = List,
+       .options = BestSubsetList,
        .is_compared = false}};
   return models;
 }

@@ -89,7 +89,7 @@ class FormulaRecipe final : public PolynomialRecipe {
   FormOptions form_;
 };
 
-std::string Contradiction(const FormulaOptions& options) {
+std::string FormulaContradiction(const FormulaOptions& options) {
   try {
     ParseTerms(options.formula, "formula");
   } catch (const std::invalid_argument& error) {
@@ -102,7 +102,7 @@ std::string Contradiction(const FormulaOptions& options) {
   return "";
 }
 
-OptionList<FormulaOptions> List() {
+OptionList<FormulaOptions> FormulaList() {
   OptionList<FormulaOptions> list;
   list.push_back(OptionFor("formula",
                            "its terms, such as x+x^2+x*t",
@@ -134,8 +134,8 @@ const std::vector<ListedModel<FormulaOptions>>& ListedModels() {
       {.name = "poly",
        .about = "the terms as written",
        .defaults = {},
-       .options = List,
-       .contradiction = Contradiction,
+       .options = FormulaList,
+       .contradiction = FormulaContradiction,
        .complete = [](ModelSpec* spec) { NameTheView(spec, false); },
        .is_compared = false}};
   return models;

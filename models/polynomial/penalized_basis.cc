@@ -99,16 +99,17 @@ std::vector<bool> ExcludedTerms(const PenalizedBasis& basis,
 
 PolynomialDesign MakeDesign(const ViewedRows& viewed,
                             const PenalizedBasis& basis) {
-  constexpr Index kMostTerms = 4000;  // 128 MB of products for each inner fold
+  constexpr Index kMostBasisTerms =
+      4000;  // 128 MB of products for each inner fold
   const auto count = CountTerms(basis.terms, viewed.is_position, basis.degree);
-  if (!count || *count > kMostTerms) {
+  if (!count || *count > kMostBasisTerms) {
     throw std::invalid_argument(fmt::format(
         "degree {} in {} inputs makes {} terms, at most {} can be held; use a "
         "lower degree, fewer inputs or terms=squares",
         basis.degree,
         viewed.is_position.size(),
         count ? std::to_string(*count) : "countless",
-        kMostTerms));
+        kMostBasisTerms));
   }
   const Dataset& rows = *viewed.rows;
   std::vector<TermPowers> terms =

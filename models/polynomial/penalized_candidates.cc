@@ -22,7 +22,7 @@ using FitsByPenalty = std::map<Penalty, std::shared_ptr<const PenalizedFit>>;
 std::vector<TermSet> ServingTerms(const std::vector<bool>& is_position,
                                   std::optional<int> degree) {
   // More terms than this are left to those who ask for them.
-  constexpr Index kMostTerms = 1500;
+  constexpr Index kMostCandidateTerms = 1500;
   constexpr std::size_t kFewInputs = 4;
   const bool has_position = std::ranges::count(is_position, true) > 0;
   const bool has_others = std::ranges::count(is_position, false) > 0;
@@ -33,7 +33,7 @@ std::vector<TermSet> ServingTerms(const std::vector<bool>& is_position,
     const int taken = degree.value_or(
         DefaultDegreeOf(set, static_cast<Index>(is_position.size())));
     const auto count = CountTerms(set, is_position, taken);
-    return set != TermSet::kLinear && (!count || *count > kMostTerms);
+    return set != TermSet::kLinear && (!count || *count > kMostCandidateTerms);
   });
   return sets;
 }

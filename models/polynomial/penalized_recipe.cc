@@ -157,7 +157,7 @@ class PenalizedRecipe final : public PolynomialRecipe {
   PenalizedOptions options_;
 };
 
-std::string Contradiction(const PenalizedOptions& options) {
+std::string PenalizedContradiction(const PenalizedOptions& options) {
   if (!options.penalty.strength) return "";
   if (options.penalty.one_standard_error) {
     return "rule= chooses the penalty, which penalty= fixes";
@@ -168,7 +168,7 @@ std::string Contradiction(const PenalizedOptions& options) {
   return "";
 }
 
-OptionList<PenalizedOptions> List() {
+OptionList<PenalizedOptions> PenalizedList() {
   using Options = PenalizedOptions;
   OptionList<Options> list;
   list.push_back(OptionFor<Options>(
@@ -198,14 +198,14 @@ const std::vector<ListedModel<PenalizedOptions>>& ListedModels() {
       {.name = "poly:ridge",
        .about = "all terms, large coefficients penalised",
        .defaults = {},
-       .options = List,
-       .contradiction = Contradiction,
+       .options = PenalizedList,
+       .contradiction = PenalizedContradiction,
        .complete = NameTheViewOf},
       {.name = "poly:lasso",
        .about = "few terms, by a penalty that drops them",
        .defaults = {.family = Penalty::kLasso},
-       .options = List,
-       .contradiction = Contradiction,
+       .options = PenalizedList,
+       .contradiction = PenalizedContradiction,
        .complete = NameTheViewOf}};
   return models;
 }

@@ -215,9 +215,9 @@ FitContext PreferTriangle(const PolynomialDesign& design,
                           double most_values,
                           const FitContext& context) {
   // The triangle takes a time that grows with their square.
-  constexpr Index kMostTerms = 64;
+  constexpr Index kMostRotatedTerms = 64;
   FitContext preferring = context;
-  if (design.num_terms() <= kMostTerms) {
+  if (design.num_terms() <= kMostRotatedTerms) {
     preferring.most_design_values =
         std::min(context.most_design_values, most_values);
   }

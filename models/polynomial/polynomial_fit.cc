@@ -20,7 +20,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kBlockRows = 4096;
+constexpr Index kRowsAtATime = 4096;
 
 // The terms that the solution left out, with a word on why for the first.
 std::vector<AliasReport> NameAliased(const std::vector<std::string>& names,
@@ -67,9 +67,9 @@ fitting::RowDiagnostics JudgeRows(const PolynomialDesign& design,
                                   const fitting::RegressionDiagnostics& fit) {
   fitting::RowDiagnostics judged;
   const Dataset& dataset = design.dataset();
-  for (Index first = 0; first < design.rows(); first += kBlockRows) {
+  for (Index first = 0; first < design.rows(); first += kRowsAtATime) {
     fitting::ThrowIfInterrupted();
-    const Index count = std::min(kBlockRows, design.rows() - first);
+    const Index count = std::min(kRowsAtATime, design.rows() - first);
     const bool weighted = dataset.weights().size() != 0;
     judged.Add(fit,
                design.Rows(first, count),

@@ -320,7 +320,7 @@ class StepwiseRecipe final : public PolynomialRecipe {
   fitting::StepwiseOptions rules_;
 };
 
-std::string Contradiction(const StepwiseOptions& options) {
+std::string StepwiseContradiction(const StepwiseOptions& options) {
   const fitting::StepwiseOptions rules = RulesOf(options);
   if ((options.enter || options.remove) && rules.select != Criterion::kPValue &&
       rules.stop != Criterion::kPValue) {
@@ -348,7 +348,7 @@ std::string Contradiction(const StepwiseOptions& options) {
   return "";
 }
 
-OptionList<StepwiseOptions> List() {
+OptionList<StepwiseOptions> StepwiseList() {
   using Options = StepwiseOptions;
   constexpr std::int64_t kMost = 1'000'000;
   const std::vector<std::string>& all = fitting::CriterionWords();
@@ -422,8 +422,8 @@ const std::vector<ListedModel<StepwiseOptions>>& ListedModels() {
       {.name = "poly:stepwise",
        .about = "terms that come and go by a criterion",
        .defaults = {},
-       .options = List,
-       .contradiction = Contradiction,
+       .options = StepwiseList,
+       .contradiction = StepwiseContradiction,
        .complete = NameTheViewOf}};
   return models;
 }

@@ -47,7 +47,7 @@ std::vector<std::string> InputNames(const Dataset& dataset) {
 std::vector<TermPowers> CheckedTerms(const Dataset& training,
                                      TermSet set,
                                      int degree) {
-  constexpr Index kMostTerms = 2'000'000;
+  constexpr Index kMostDictionaryTerms = 2'000'000;
   std::vector<bool> is_position;
   for (const data::ColumnInfo& input : training.inputs()) {
     is_position.push_back(IsPosition(input));
@@ -60,7 +60,7 @@ std::vector<TermPowers> CheckedTerms(const Dataset& training,
   const bool held = values <= kMostValues;
   const bool reduced =
       count && *count <= kMostTriangle && rows > 2 * (*count + 2);
-  if (!count || *count > kMostTerms || (!held && !reduced)) {
+  if (!count || *count > kMostDictionaryTerms || (!held && !reduced)) {
     throw std::invalid_argument(fmt::format(
         "degree {} in {} inputs makes {} candidate terms, too many to hold "
         "for {} rows; use a lower degree or fewer inputs",
@@ -94,10 +94,10 @@ std::vector<Index> Find(const std::vector<NamedTerm>& named,
   return found;
 }
 
-PolynomialDesign MakeDesign(const Dataset& training,
-                            TermSet set,
-                            int degree,
-                            Centring centring) {
+PolynomialDesign DesignOf(const Dataset& training,
+                          TermSet set,
+                          int degree,
+                          Centring centring) {
   std::vector<TermPowers> terms = CheckedTerms(training, set, degree);
   std::vector<Index> inputs = AllColumns(training);
   ColumnScaling scaling = PolynomialScaling(training, inputs, terms, centring);
@@ -152,7 +152,7 @@ TermDictionary::TermDictionary(const Dataset& training,
                                const TermOptions& options)
     : degree(options.degree.value_or(
           DefaultDegreeOf(options.set, training.num_inputs()))),
-      design(MakeDesign(training, options.set, degree, options.centring)),
+      design(DesignOf(training, options.set, degree, options.centring)),
       include(Find(options.include, design, degree, "include")),
       excluded(static_cast<std::size_t>(design.num_terms()), false) {
   for (const Index term : Find(options.exclude, design, degree, "exclude")) {

@@ -5,9 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
+#include "fitting/least_squares/decompositions.h"
 #include "models/history/history.h"
 #include "models/history/view.h"
 #include "models/inner_folds.h"
@@ -30,7 +28,7 @@ constexpr Index kMostDirections = 8;
 // States kept: enough to cover a day every quarter of an hour or so.
 constexpr Index kMostStates = 64;
 // The covariance of more rows is the same but for the time it takes.
-constexpr Index kMostRows = 4000;
+constexpr Index kMostRowsKept = 4000;
 // Of a unit held out, what may lie beyond: single readings fail.
 constexpr double kReached = 0.99;
 // Further days go somewhat beyond what the few seen ones reached.
@@ -301,7 +299,7 @@ std::optional<Applicability> MakeApplicability(const FittedModel& fitted,
   }
   if (columns.empty() || training.num_rows() < kFewestRows) return std::nullopt;
   const std::vector<Index> chosen =
-      stats::SpreadSample(training.num_rows(), kMostRows);
+      stats::SpreadSample(training.num_rows(), kMostRowsKept);
   const data::Dataset rows = training.SelectRows(chosen);
   const MatrixXd states = StatesOf(inputs(chosen, Eigen::all), columns);
   Applicability trained = FitStates(states, fitted.inputs, columns);

@@ -127,10 +127,10 @@ VectorXd UnitMeanSquares(const std::vector<Index>& codes,
 LearningCurve::Point PointOf(Index size,
                              const VectorXd& squares,
                              const VectorXd& residuals) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   constexpr double kUpper = 0.95;
   const auto units = static_cast<double>(squares.size());
-  LearningCurve::Point point{.size = size, .low = kNaN, .high = kNaN};
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  LearningCurve::Point point{.size = size, .low = kUnknown, .high = kUnknown};
   point.rmse = std::sqrt(residuals.squaredNorm() /
                          static_cast<double>(residuals.size()));
   if (squares.size() < 2) {

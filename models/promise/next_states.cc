@@ -4,9 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
+#include "fitting/least_squares/decompositions.h"
 #include "models/error_model.h"
 #include "models/history/view.h"
 
@@ -25,14 +23,14 @@ struct Whitened {
 
 Whitened Whiten(const MatrixXd& measured, const MatrixXd& candidates) {
   constexpr double kLeastShare = 1e-3;
-  constexpr Index kMostDirections = 6;
+  constexpr Index kMostStateDirections = 6;
   const Eigen::RowVectorXd mean = measured.colwise().mean();
   const MatrixXd centred = measured.rowwise() - mean;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
       centred.transpose() * centred / static_cast<double>(measured.rows()));
   const VectorXd& values = eigen.eigenvalues();
   Index count = 0;
-  while (count < std::min(kMostDirections, values.size()) &&
+  while (count < std::min(kMostStateDirections, values.size()) &&
          values[values.size() - 1 - count] >
              kLeastShare * std::max(values.maxCoeff(), 1e-12)) {
     ++count;

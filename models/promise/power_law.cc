@@ -5,8 +5,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
+
+#include "fitting/least_squares/decompositions.h"
 
 namespace errmap::models {
 namespace {

@@ -9,12 +9,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include <Eigen/Cholesky>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include "fitting/fold_codes.h"
 #include "fitting/interruption.h"
+#include "fitting/least_squares/decompositions.h"
 #include "models/error_model.h"
 #include "models/history/view.h"
 #include "models/inner_folds.h"
@@ -53,7 +53,8 @@ std::string SourceOf(const History* history, const std::string& column) {
 }
 
 // Columns less their mean, in spreads of their unit.
-MatrixXd Scaled(const data::Dataset& rows, const std::vector<Index>& columns) {
+MatrixXd Standardised(const data::Dataset& rows,
+                      const std::vector<Index>& columns) {
   MatrixXd scaled = rows.input_values()(Eigen::all, columns);
   std::vector<std::string> units;
   for (const Index column : columns) {
@@ -89,7 +90,7 @@ Design MakeDesign(const ViewedRows& viewed) {
   }
   design.sensors = rows.input_values()(Eigen::all, unfiltered);
   design.targets = rows.target_values();
-  const MatrixXd scaled = Scaled(rows, made);
+  const MatrixXd scaled = Standardised(rows, made);
   const Index position = FindPosition(rows, "");
   design.base = position < 0 ? 1 : 3;
   const Index per_column = position < 0 ? 1 : 2;

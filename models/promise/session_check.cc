@@ -14,6 +14,8 @@
 namespace errmap::models {
 namespace {
 
+constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
+
 using Eigen::Index;
 using Eigen::VectorXd;
 
@@ -168,7 +170,6 @@ SessionCheck CheckSession(const HeldOutErrors& errors,
                           const VectorXd& residuals,
                           Missing missing) {
   RequireProbes(elapsed, residuals);
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   constexpr double kTail = 0.1;  // on each side of 80 %
   SessionCheck check;
   check.missing = missing;
@@ -179,14 +180,14 @@ SessionCheck CheckSession(const HeldOutErrors& errors,
   check.probe_mean = residuals.mean();
   check.probe_scatter =
       residuals.size() < 2
-          ? kNaN
+          ? kNoFigure
           : std::sqrt((residuals.array() - check.probe_mean).square().sum() /
                       static_cast<double>(residuals.size() - 1));
   const std::vector<double> ratios = RatiosOfProbes(errors, elapsed);
   if (ratios.empty()) {  // held-out errors that are all 0 tell nothing
-    check.session_low = check.session_high = kNaN;
-    check.off_above = check.holds_to = kNaN;
-    check.off_probability = kNaN;
+    check.session_low = check.session_high = kNoFigure;
+    check.off_above = check.holds_to = kNoFigure;
+    check.off_probability = kNoFigure;
     return check;
   }
   const Limits limits = LimitsOf(ratios, errors.rmse);
@@ -211,7 +212,6 @@ std::vector<ProbeSite> RankProbeSites(const HeldOutErrors& errors) {
   constexpr int kTimes = 4;
   constexpr int kPlaces = 3;
   constexpr std::size_t kFewestProbes = 6;
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   const bool timed = errors.time_unit == "s";
   const bool placed = !errors.position.empty();
   double longest = 0.0;
@@ -247,8 +247,9 @@ std::vector<ProbeSite> RankProbeSites(const HeldOutErrors& errors) {
     sites.push_back(
         {.from = edge(0.0, longest, time, kTimes),
          .until = timed ? edge(0.0, longest, time + 1, kTimes) : longest,
-         .position_from = placed ? edge(low, high, place, kPlaces) : kNaN,
-         .position_until = placed ? edge(low, high, place + 1, kPlaces) : kNaN,
+         .position_from = placed ? edge(low, high, place, kPlaces) : kNoFigure,
+         .position_until =
+             placed ? edge(low, high, place + 1, kPlaces) : kNoFigure,
          .factor = std::exp(MedianOf(std::move(values)))});
   }
   std::ranges::stable_sort(sites, {}, &ProbeSite::factor);

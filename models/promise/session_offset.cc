@@ -12,7 +12,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 // Products of two errors of one unit, and how far apart in time they are; the
 // weight of each is one over the pairs of its unit.
@@ -87,7 +87,7 @@ OffsetModel FitOffset(const HeldOutErrors& errors) {
   constexpr double kShortest = 1.0 / 32.0;
   constexpr double kLongest = 8.0;
   const Products products = ProductsOf(errors);
-  Candidate best = FitVariance(products, kInfinity);
+  Candidate best = FitVariance(products, kUnbounded);
   const double longest = LongestUnit(errors);
   for (double share = kShortest; longest > 0.0 && share <= kLongest;
        share *= 2.0) {
@@ -126,7 +126,7 @@ void OffsetFilter::Update(double residual) {
   if (miss > kSurprise * (variance_ + model_.noise)) {
     variance_ = miss;
     model_.variance = std::max(model_.variance, miss);
-    model_.memory = kInfinity;
+    model_.memory = kUnbounded;
   }
   const double gain = variance_ / (variance_ + model_.noise);
   offset_ += gain * (residual - offset_);

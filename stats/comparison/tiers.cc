@@ -24,8 +24,8 @@ void Check(const Eigen::VectorXd& rmse, const Eigen::MatrixXd& bounds) {
 }
 
 bool IsEqual(double rmse, double best) {
-  constexpr double kRounding = 1e-12;
-  return rmse <= best * (1.0 + kRounding);
+  constexpr double kTieRounding = 1e-12;
+  return rmse <= best * (1.0 + kTieRounding);
 }
 
 }  // namespace

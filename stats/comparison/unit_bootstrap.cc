@@ -16,7 +16,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kFewestUnits = 2;
+constexpr Index kFewestForBootstrap = 2;
 
 // How often each unit is drawn in each resample (resamples x units). Not by
 // Random::Below: its divisions take most of the time, and 53 bits are fair to
@@ -108,14 +108,14 @@ UnitBootstrap::UnitBootstrap(const UnitLosses& losses,
         " resamples, found " + std::to_string(resamples));
   }
   losses.Validate();
-  if (units_ < kFewestUnits) return;
+  if (units_ < kFewestForBootstrap) return;
   rmse_ = PooledRmse(losses);
   influence_ = InfluenceOnRmse(losses, rmse_);
   resampled_ = Resample(losses, resamples, seed);
 }
 
 Bounds95 UnitBootstrap::OfRmse(Index model) const {
-  if (units_ < kFewestUnits) return {};
+  if (units_ < kFewestForBootstrap) return {};
   const double rmse = rmse_[model];
   if (rmse == 0.0) {
     return {.lower = 0.0, .upper = 0.0, .at_least = 0.0, .at_most = 0.0};
@@ -127,7 +127,7 @@ Bounds95 UnitBootstrap::OfRmse(Index model) const {
 }
 
 Bounds95 UnitBootstrap::OfDifference(Index a, Index b) const {
-  if (units_ < kFewestUnits) return {};
+  if (units_ < kFewestForBootstrap) return {};
   const double difference = rmse_[a] - rmse_[b];
   const double error = StandardError(influence_.col(a) - influence_.col(b));
   return Bound(units_, resampled_.col(a) - resampled_.col(b), [=](double t) {

@@ -16,7 +16,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 template <std::size_t kTerms>
-double Polynomial(const std::array<double, kTerms>& coefficients, double x) {
+double PolynomialOf(const std::array<double, kTerms>& coefficients, double x) {
   double value = 0.0;
   for (auto c = coefficients.rbegin(); c != coefficients.rend(); ++c) {
     value = value * x + *c;
@@ -53,15 +53,15 @@ double Probability(double one_minus_w, Index n) {
   double mean = 0.0;
   double sd = 0.0;
   if (n <= kLastSmall) {
-    const double limit = Polynomial(kSmallLimit, size);
+    const double limit = PolynomialOf(kSmallLimit, size);
     if (y >= limit) return 0.0;
     y = -std::log(limit - y);
-    mean = Polynomial(kSmallMean, size);
-    sd = std::exp(Polynomial(kSmallLogSd, size));
+    mean = PolynomialOf(kSmallMean, size);
+    sd = std::exp(PolynomialOf(kSmallLogSd, size));
   } else {
     const double log_size = std::log(size);
-    mean = Polynomial(kLargeMean, log_size);
-    sd = std::exp(Polynomial(kLargeLogSd, log_size));
+    mean = PolynomialOf(kLargeMean, log_size);
+    sd = std::exp(PolynomialOf(kLargeLogSd, log_size));
   }
   return NormalCdf((mean - y) / sd);
 }
@@ -86,7 +86,7 @@ ShapiroWilkTest::ShapiroWilkTest(Index n) : n_(n) {
   const double squares = 2.0 * m.squaredNorm();
   const double norm = std::sqrt(squares);
   const double inverse_root = 1.0 / std::sqrt(size);
-  const double first = Polynomial(kFirstWeight, inverse_root) + m[0] / norm;
+  const double first = PolynomialOf(kFirstWeight, inverse_root) + m[0] / norm;
   constexpr Index kLastWithOneFit = 5;
   if (n <= kLastWithOneFit) {
     const double scale =
@@ -95,7 +95,7 @@ ShapiroWilkTest::ShapiroWilkTest(Index n) : n_(n) {
     m[0] = first;
     return;
   }
-  const double second = Polynomial(kSecondWeight, inverse_root) + m[1] / norm;
+  const double second = PolynomialOf(kSecondWeight, inverse_root) + m[1] / norm;
   const double scale =
       std::sqrt((squares - 2.0 * (m[0] * m[0] + m[1] * m[1])) /
                 (1.0 - 2.0 * (first * first + second * second)));

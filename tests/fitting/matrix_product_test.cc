@@ -55,8 +55,8 @@ class MatrixProduct : public ::testing::Test {
   }
 };
 
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(MatrixProduct, Scalars);
+using ProductScalars = ::testing::Types<double, float>;
+TYPED_TEST_SUITE(MatrixProduct, ProductScalars);
 
 TYPED_TEST(MatrixProduct, IsTheProduct) {
   using Matrix = MatrixOf<TypeParam>;

@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "cli/command.h"
+#include "cli/desk/machine/machine_file.h"
+#include "cli/desk/toml/study_file.h"
 #include "cli/output/claimed_folder.h"
 #include "data/csv.h"
 #include "data/formats/pattern_file.h"
@@ -26,8 +28,6 @@
 #include "models/study/journal/fit_record.h"
 #include "models/study/record/study_record.h"
 #include "models/study/split_file.h"
-#include "models/study_file/machine/machine_file.h"
-#include "models/study_file/toml/study_file.h"
 #include "stats/holdout.h"
 #include "tests/fuzz/scratch_folder.h"
 
@@ -97,7 +97,7 @@ void ReadPredictions(std::string_view bytes) {
 
 void ReadMachine(std::string_view bytes) {
   static const ScratchFolder folder;
-  study_file::ReadMachineOutline(folder.Write("machine.toml", bytes));
+  desk::ReadMachineOutline(folder.Write("machine.toml", bytes));
 }
 
 // Sums are public, so a forger writes them: each line of the text is taken for
@@ -177,7 +177,7 @@ void ReadJournal(std::string_view bytes) {
 }
 
 void ReadStudy(std::string_view bytes) {
-  study_file::ParseStudyFile(std::string(bytes), "study.toml", {});
+  desk::ParseStudyFile(std::string(bytes), "study.toml", {});
 }
 
 void ReadNetcg(std::string_view bytes) {

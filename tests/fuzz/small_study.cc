@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/desk/plan/run_record.h"
+#include "cli/desk/plan/study_plan.h"
+#include "cli/desk/plan/study_run.h"
+#include "cli/report/documents/study_table.h"
 #include "data/csv.h"
 #include "data/input_error.h"
-#include "models/report/documents/study_table.h"
 #include "models/study/record/study_record.h"
-#include "models/study_file/plan/run_record.h"
-#include "models/study_file/plan/study_plan.h"
-#include "models/study_file/plan/study_run.h"
 #include "tests/fuzz/readers.h"
 #include "tests/fuzz/scratch_folder.h"
 
@@ -100,13 +100,12 @@ void Judge(const std::string& file, bool is_noise) {
       "poly:stepwise:degree=2",
       "poly:ridge:degree=2",
       "net:scg:hidden=2:iterations=5:wfactor=1e-3"};
-  study_file::StudyConfig config;
+  desk::StudyConfig config;
   config.holdouts = {"every:3", "groups:3", "leave-one-group-out"};
   config.models = models;
   config.components.emplace_back().data = file;
-  const study_file::StudyRun run =
-      study_file::RunPlan(study_file::PlanStudy(config));
-  const models::StudyRecord record = study_file::RecordOf(run);
+  const desk::StudyRun run = desk::RunPlan(desk::PlanStudy(config));
+  const models::StudyRecord record = desk::RecordOf(run);
   const std::string text = models::ToJsonText(record);
   Require(models::ToJsonText(models::FromJsonText(text)) == text);
   Require(!report::StudyTable(record, {}).text.empty());

@@ -116,7 +116,7 @@ TEST(ModelFile, RefusesWrongShapesMissingKeysAndNonFiniteNumbers) {
 }
 
 // A map with filters, a zero and guards.
-FittedModel MapWithMemory(const data::Dataset& dataset) {
+FittedModel MapWithMemoryInModelFile(const data::Dataset& dataset) {
   const History history{
       .time_unit = "s",
       .session = "day",
@@ -134,7 +134,7 @@ FittedModel MapWithMemory(const data::Dataset& dataset) {
 
 TEST(ModelFile, ReproducesAMapWithAMemory) {
   const data::Dataset dataset = errmap::testing::WanderingDays();
-  FittedModel fitted = MapWithMemory(dataset);
+  FittedModel fitted = MapWithMemoryInModelFile(dataset);
   fitted.align = data::Alignment::kFirst;
   const std::string text = ModelToJson(fitted, {});
   const FittedModel loaded = ModelFromJson(text, "saved.json");
@@ -180,8 +180,8 @@ TEST(ModelFile, ReadsFilesFromBeforeThereWereMemories) {
 }
 
 TEST(ModelFile, RefusesAHistoryThatCannotRun) {
-  const std::string text =
-      ModelToJson(MapWithMemory(errmap::testing::WanderingDays()), {});
+  const std::string text = ModelToJson(
+      MapWithMemoryInModelFile(errmap::testing::WanderingDays()), {});
   const auto refusal = [&](const std::function<void(Json*)>& damage) {
     Json document = Json::parse(text);
     damage(&document);

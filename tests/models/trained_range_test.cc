@@ -17,7 +17,7 @@ TrainedInput Trained(const char* name, double min, double max) {
 TEST(InputsOutside, IsEmptyWithinTheTrainedRangeBoundsIncluded) {
   const Eigen::MatrixXd values{{20.0}, {25.0}};
   EXPECT_THAT(InputsOutside({Trained("t1_degC", 20.0, 25.0)}, values),
-              testing::IsEmpty());
+              ::testing::IsEmpty());
   EXPECT_TRUE(IsInside({Trained("t1_degC", 20.0, 25.0)}, values, 1));
 }
 

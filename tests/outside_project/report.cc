@@ -2,7 +2,7 @@
 #include <fstream>
 #include <iterator>
 
-#include <errmap/models/report/report.h>
+#include <errmap/cli/report/report.h>
 
 int main(int argc, char** argv) {
   using namespace errmap;

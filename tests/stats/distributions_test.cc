@@ -6,10 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/numbers.h"
+
 namespace errmap::stats {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // R 4.2.2: sprintf("%.17g", pnorm(z, log.p = TRUE)).
 TEST(LogNormalCdf, AgreesWithRFarIntoTheTail) {

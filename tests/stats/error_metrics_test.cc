@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 // A few roundings of sums of some hundred terms of size one.
-constexpr double kRounding = 1e-14;
+constexpr double kErrorMetricsRounding = 1e-14;
 
 VectorXd RandomVector(Index size, std::uint64_t seed) {
   Random random(seed);
@@ -101,7 +101,7 @@ TEST(ErrorMetrics, SquaredRmseIsVariancePlusSquaredMean) {
   const SampleSummary& s = metrics.residuals;
   EXPECT_NEAR(metrics.rmse * metrics.rmse,
               s.mean * s.mean + s.sd * s.sd * 396.0 / 397.0,
-              kRounding);
+              kErrorMetricsRounding);
   EXPECT_LE(metrics.mae, metrics.rmse);
   EXPECT_LE(std::abs(s.mean), metrics.mae);
 }
@@ -116,20 +116,20 @@ TEST(ErrorMetrics, KeepTheirInvariances) {
 
   const ErrorMetrics scaled = ComputeErrorMetrics(
       kScale * targets, kScale * residuals, kScale * baseline);
-  EXPECT_NEAR(scaled.rmse, kScale * plain.rmse, kScale * kRounding);
-  EXPECT_NEAR(scaled.mae, kScale * plain.mae, kScale * kRounding);
-  EXPECT_NEAR(scaled.r2, plain.r2, kRounding);
+  EXPECT_NEAR(scaled.rmse, kScale * plain.rmse, kScale * kErrorMetricsRounding);
+  EXPECT_NEAR(scaled.mae, kScale * plain.mae, kScale * kErrorMetricsRounding);
+  EXPECT_NEAR(scaled.r2, plain.r2, kErrorMetricsRounding);
 
   const ErrorMetrics shifted = ComputeErrorMetrics(
       targets.array() + kShift, residuals, baseline.array() + kShift);
   EXPECT_EQ(shifted.rmse, plain.rmse);
-  EXPECT_NEAR(shifted.r2, plain.r2, kRounding);
+  EXPECT_NEAR(shifted.r2, plain.r2, kErrorMetricsRounding);
 
   const ErrorMetrics reversed = ComputeErrorMetrics(
       targets.reverse(), residuals.reverse(), baseline.reverse());
-  EXPECT_NEAR(reversed.rmse, plain.rmse, kRounding);
-  EXPECT_NEAR(reversed.mae, plain.mae, kRounding);
-  EXPECT_NEAR(reversed.r2, plain.r2, kRounding);
+  EXPECT_NEAR(reversed.rmse, plain.rmse, kErrorMetricsRounding);
+  EXPECT_NEAR(reversed.mae, plain.mae, kErrorMetricsRounding);
+  EXPECT_NEAR(reversed.r2, plain.r2, kErrorMetricsRounding);
 
   const ErrorMetrics negated =
       ComputeErrorMetrics(targets, -residuals, baseline);

@@ -9,13 +9,13 @@
 namespace errmap::stats {
 namespace {
 
-constexpr double kRelative = 1e-12;
+constexpr double kFTestRelative = 1e-12;
 
 // R 4.2.2: pf(4.5, 2, 10, lower.tail = FALSE), 2 * pt(-2.5, 12) and
 // qt(0.975, 7), printed with 17 digits.
 TEST(FTest, AgreesWithR) {
   const auto expect = [](double found, double expected) {
-    EXPECT_NEAR(found, expected, kRelative * expected);
+    EXPECT_NEAR(found, expected, kFTestRelative * expected);
   };
   expect(FTestPValue(4.5, 2.0, 10.0), 0.040386107340619301);
   expect(StudentTwoSidedP(-2.5, 12.0), 0.027915399571325213);
@@ -24,8 +24,9 @@ TEST(FTest, AgreesWithR) {
 
 TEST(FTest, IsTheSquareOfStudentsT) {
   for (const double t : {0.1, 1.0, 3.0, 12.0}) {
-    EXPECT_NEAR(
-        FTestPValue(t * t, 1.0, 17.0), StudentTwoSidedP(t, 17.0), kRelative);
+    EXPECT_NEAR(FTestPValue(t * t, 1.0, 17.0),
+                StudentTwoSidedP(t, 17.0),
+                kFTestRelative);
   }
 }
 

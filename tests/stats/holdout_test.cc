@@ -23,12 +23,12 @@ using ::testing::SizeIs;
 using ::testing::StartsWith;
 using ::testing::ThrowsMessage;
 
-constexpr std::uint64_t kSeed = 1;
+constexpr std::uint64_t kHoldoutSeed = 1;
 
 std::vector<Fold> Folds(const std::string& text,
                         Index num_rows,
                         const Rows& group_codes = {},
-                        std::uint64_t seed = kSeed) {
+                        std::uint64_t seed = kHoldoutSeed) {
   return MakeFolds(ParseHoldout(text), num_rows, group_codes, seed);
 }
 
@@ -51,7 +51,7 @@ Rows RangeOf(Index size) {
 }
 
 // `groups` groups of `length` rows each, one after the other.
-Rows EqualGroups(Index groups, Index length) {
+Rows EqualGroupsInHoldout(Index groups, Index length) {
   Rows codes;
   for (Index group = 0; group < groups; ++group) {
     codes.insert(codes.end(), static_cast<std::size_t>(length), group);
@@ -291,7 +291,7 @@ TEST(MakeFolds, GroupsCountsGroupsNotRows) {
 }
 
 TEST(MakeFolds, GroupsDoesNotDependOnTheSeed) {
-  const Rows codes = EqualGroups(10, 3);
+  const Rows codes = EqualGroupsInHoldout(10, 3);
   EXPECT_EQ(TestRows(Folds("groups:4", 30, codes, 1)),
             TestRows(Folds("groups:4", 30, codes, 2)));
 }
@@ -314,7 +314,7 @@ TEST(MakeFolds, CodesThatNoRowHasArePassedOver) {
 }
 
 TEST(MakeFolds, GroupsMayBeAsManyAsRuns) {
-  const Rows codes = EqualGroups(4, 2);
+  const Rows codes = EqualGroupsInHoldout(4, 2);
   EXPECT_EQ(TestRows(Folds("groups:4", 8, codes)),
             TestRows(Folds("leave-one-group-out", 8, codes)));
 }
@@ -341,7 +341,7 @@ TEST(MakeFolds, ShufflesAreTheSameWithEveryStandardLibrary) {
 TEST(MakeFolds, EachRepeatHoldsOutEveryGroupOnce) {
   constexpr std::size_t kRepeats = 6;
   constexpr std::size_t kRuns = 3;
-  const Rows codes = EqualGroups(8, 3);
+  const Rows codes = EqualGroupsInHoldout(8, 3);
   const auto folds = Folds("groups:3:repeats=6", 24, codes);
   ASSERT_THAT(folds, SizeIs(kRepeats * kRuns));
   ExpectSplitsAllRows(folds, 24);
@@ -375,7 +375,7 @@ TEST(MakeFolds, KFoldHoldsOutEachRowOnceInRunsOfEqualSize) {
 }
 
 TEST(MakeFolds, KFoldIsAboutRowsEvenWhereThereAreGroups) {
-  EXPECT_EQ(TestRows(Folds("kfold:3", 12, EqualGroups(2, 6))),
+  EXPECT_EQ(TestRows(Folds("kfold:3", 12, EqualGroupsInHoldout(2, 6))),
             TestRows(Folds("kfold:3", 12)));
 }
 
@@ -394,7 +394,7 @@ TEST(MakeFolds, RandomHoldsOutTheShareAskedFor) {
 }
 
 TEST(MakeFolds, SameSeedSameFoldsAnotherSeedOthers) {
-  const Rows codes = EqualGroups(20, 5);
+  const Rows codes = EqualGroupsInHoldout(20, 5);
   for (const std::string text :
        {"kfold:5", "random:0.3", "groups:4:repeats=2"}) {
     const auto first = Folds(text, 100, codes, 17);
@@ -416,7 +416,7 @@ TEST(MakeFolds, ForwardPredictsEachBlockFromAllBeforeIt) {
 }
 
 TEST(MakeFolds, ForwardLeavesTheLastGroupsBeforeTheTestOut) {
-  const Rows codes = EqualGroups(6, 2);
+  const Rows codes = EqualGroupsInHoldout(6, 2);
   const auto folds = Folds("forward:2:gap=1", 12, codes);
   EXPECT_THAT(TrainRows(folds),
               ElementsAre(Rows{0, 1}, Rows{0, 1, 2, 3, 4, 5}));
@@ -469,7 +469,7 @@ TEST(MakeFolds, RefusesGroupsWhereThereAreNone) {
 TEST(MakeFolds, RefusesMoreRunsThanGroupsAndSaysWhatIsPossible) {
   ExpectRefused("groups:5",
                 6,
-                EqualGroups(3, 2),
+                EqualGroupsInHoldout(3, 2),
                 "needs at least 5 groups, found 3; groups:3 or "
                 "leave-one-group-out is possible");
   // Codes without rows are no groups.
@@ -486,14 +486,14 @@ TEST(MakeFolds, RefusesMoreRunsThanGroupsAndSaysWhatIsPossible) {
 }
 
 TEST(MakeFolds, HoldsOutSessionsAsGroups) {
-  const Rows codes = EqualGroups(7, 3);
+  const Rows codes = EqualGroupsInHoldout(7, 3);
   EXPECT_EQ(TestRows(Folds("sessions:5", 21, codes)),
             TestRows(Folds("groups:5", 21, codes)));
   EXPECT_EQ(TestRows(Folds("sessions:3:repeats=4", 21, codes)),
             TestRows(Folds("groups:3:repeats=4", 21, codes)));
   ExpectRefused("sessions:5",
                 6,
-                EqualGroups(3, 2),
+                EqualGroupsInHoldout(3, 2),
                 "needs at least 5 sessions, found 3; sessions:3 is possible");
   ExpectRefused("sessions:2",
                 3,
@@ -524,7 +524,7 @@ TEST(MakeFolds, HoldsOutContiguousBlocksLongerFirst) {
 }
 
 TEST(KeepsWhole, SeesACodeOnBothSides) {
-  const Rows codes = EqualGroups(4, 2);
+  const Rows codes = EqualGroupsInHoldout(4, 2);
   EXPECT_TRUE(KeepsWhole(Folds("groups:2", 8, codes), codes));
   EXPECT_TRUE(KeepsWhole(Folds("blocks:4", 8), codes));
   EXPECT_FALSE(KeepsWhole(Folds("blocks:3", 8), codes));
@@ -550,7 +550,7 @@ TEST(MakeFolds, RefusesMoreFoldsThanRows) {
   ExpectRefused(
       "forward:3",
       6,
-      EqualGroups(3, 2),
+      EqualGroupsInHoldout(3, 2),
       "needs at least 4 groups, found 3; measure more, or use a smaller K");
 }
 

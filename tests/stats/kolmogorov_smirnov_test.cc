@@ -12,6 +12,7 @@
 #include "data/csv.h"
 #include "stats/random.h"
 #include "stats/summary.h"
+#include "tests/numbers.h"
 #include "tests/places.h"
 
 namespace errmap::stats {
@@ -19,8 +20,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 VectorXd ReadColumn(const std::string& path, const std::string& column) {
   const data::CsvTable table = data::ReadCsv(path);
@@ -39,7 +38,7 @@ VectorXd AppendixB() {
 // What scipy 1.10.1 gives for the samples of tests/golden, as it stands in
 // golden/normality.json under "python": mean, sd_ddof1, kstest_fitted_exact[0],
 // kstest_fitted_asymp[1], kstest_N01_exact[0].
-struct GoldenSample {
+struct GoldenKs {
   std::string name;
   double mean;
   double sd;
@@ -48,8 +47,8 @@ struct GoldenSample {
   double d_standard;  // from the normal with mean 0 and sd 1
 };
 
-const std::vector<GoldenSample>& GoldenSamples() {
-  static const std::vector<GoldenSample> samples = {
+const std::vector<GoldenKs>& GoldenSamples() {
+  static const std::vector<GoldenKs> samples = {
       {"appendix_b_residual",
        5.0686546599496165e-06,
        0.00024111894234620553,
@@ -117,7 +116,7 @@ VectorXd ReadSample(const std::string& name) {
 TEST(KsDistanceFromNormal, AgreesWithScipyOnEverySample) {
   // Two programs' roundings of mean and sd, and of the normal distribution.
   constexpr double kRounding = 1e-13;
-  for (const GoldenSample& golden : GoldenSamples()) {
+  for (const GoldenKs& golden : GoldenSamples()) {
     const VectorXd sample = ReadSample(golden.name);
     const SampleSummary summary = Summarize(sample);
     EXPECT_NEAR(summary.mean, golden.mean, kRounding * golden.sd)
@@ -137,7 +136,7 @@ TEST(KsProbabilityMeanSdGiven, AgreesWithScipyOnEverySample) {
   // Relative: the last sample's p is 2e-38, where d's last digit is worth
   // 4 n d = 1900 times itself.
   constexpr double kRelative = 1e-11;
-  for (const GoldenSample& golden : GoldenSamples()) {
+  for (const GoldenKs& golden : GoldenSamples()) {
     const Index n = ReadSample(golden.name).size();
     EXPECT_NEAR(
         KsProbabilityMeanSdGiven(golden.d, n), golden.p, kRelative * golden.p)

@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-VectorXd AppendixB() { return errmap::AppendixB("residual_mm"); }
+VectorXd AppendixBInReport1995() { return errmap::AppendixB("residual_mm"); }
 
 // NISTIR 5367, section 9 (the run without the dead thermocouples) and the run
 // results of Appendix B: mean 0.0025278 um, sd 0.1701827 um, minimum -0.67104
@@ -34,7 +34,8 @@ TEST(Report1995, PrintsWhatTheReportPrintsForAppendixB) {
   constexpr double kOfExtremes = 0.5e-4;
   constexpr double kOfDistance = 2e-5;
   constexpr double kOfProbability = 1e-5;
-  const Report1995Statistics printed = ComputeAsPrinted1995(AppendixB());
+  const Report1995Statistics printed =
+      ComputeAsPrinted1995(AppendixBInReport1995());
   EXPECT_EQ(printed.n, 397);
   EXPECT_NEAR(printed.mean / kMillimetresPerMicrometre, 0.0025278, kOfMean);
   EXPECT_NEAR(printed.sd / kMillimetresPerMicrometre, 0.1701827, kOfSd);
@@ -50,7 +51,8 @@ TEST(Report1995, KeepsItsOwnFiguresOfAppendixB) {
   constexpr double kSixDecimals = 0.5e-6;
   constexpr double kFiveDecimals = 0.5e-5;
   constexpr double kMillimetresPerMicrometre = 1e-3;
-  const Report1995Statistics printed = ComputeAsPrinted1995(AppendixB());
+  const Report1995Statistics printed =
+      ComputeAsPrinted1995(AppendixBInReport1995());
   EXPECT_NEAR(printed.mean / kMillimetresPerMicrometre, 0.002528, kSixDecimals);
   EXPECT_NEAR(printed.sd / kMillimetresPerMicrometre, 0.17018, kFiveDecimals);
   EXPECT_NEAR(printed.ks_d, 0.09154, kFiveDecimals);
@@ -58,7 +60,7 @@ TEST(Report1995, KeepsItsOwnFiguresOfAppendixB) {
 }
 
 TEST(Report1995, SaysNotNormalWhereTheCorrectArithmeticSaysNormal) {
-  const VectorXd residuals = AppendixB();
+  const VectorXd residuals = AppendixBInReport1995();
   const SampleSummary correct = Summarize(residuals);
   const Report1995Statistics printed = ComputeAsPrinted1995(residuals);
   const double d = KsDistanceFromNormal(residuals, correct.mean, correct.sd);
@@ -68,7 +70,7 @@ TEST(Report1995, SaysNotNormalWhereTheCorrectArithmeticSaysNormal) {
 
 TEST(Report1995, HalvesTheMeanAndTakesARootOfTwoFromTheSd) {
   constexpr double kSingle = 1e-5;  // 397 additions in single precision
-  const VectorXd residuals = AppendixB();
+  const VectorXd residuals = AppendixBInReport1995();
   const SampleSummary correct = Summarize(residuals);
   const Report1995Statistics printed = ComputeAsPrinted1995(residuals);
   // Exactly: divisor 2 (n + 1), and squares about the halved mean.
@@ -108,7 +110,7 @@ TEST(Report1995, KeepsItsInvariances) {
   // Row order only matters through single precision sums; powers of two and
   // the sign change no digit at all.
   constexpr double kSingle = 1e-5;
-  const VectorXd residuals = AppendixB();
+  const VectorXd residuals = AppendixBInReport1995();
   const Report1995Statistics plain = ComputeAsPrinted1995(residuals);
   const Report1995Statistics reversed =
       ComputeAsPrinted1995(residuals.reverse());
@@ -155,9 +157,10 @@ TEST(Report1995, PrintsTheRSquaredOfAppendixB) {
   const std::string path =
       tests::SourceDir() + "/data/sets/nistir5367_appendix_b.csv";
   const VectorXd predicted = ReadCsvColumn(path, "predicted_mm");
-  EXPECT_NEAR(RSquaredAsPrinted1995(predicted + AppendixB(), predicted),
-              0.9961917,
-              kOfFourDigits);
+  EXPECT_NEAR(
+      RSquaredAsPrinted1995(predicted + AppendixBInReport1995(), predicted),
+      0.9961917,
+      kOfFourDigits);
   EXPECT_THAT([&] { RSquaredAsPrinted1995(VectorXd(), VectorXd()); },
               ThrowsMessage<std::invalid_argument>(
                   HasSubstr("as many predictions as targets")));

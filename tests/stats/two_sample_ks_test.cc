@@ -19,19 +19,21 @@ using Eigen::VectorXd;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-constexpr double kRounding = 1e-12;
+constexpr double kTwoSampleKsRounding = 1e-12;
 
 TEST(TwoSampleKs, ReproducesRWithAndWithoutTies) {
   const VectorXd a{{0.61, 0.29, 0.06, 0.59, -1.73}};
   const VectorXd b{{-0.74, 0.51, -0.56, 0.39, 1.64, 0.05, -0.06, 0.64, -0.82}};
   const auto& plain = SerialReference("plain");
-  EXPECT_NEAR(ComputeTwoSampleKs(a, b).d, plain.at("d"), kRounding);
-  EXPECT_NEAR(ComputeTwoSampleKs(a, b).p_exact, plain.at("p"), kRounding);
+  EXPECT_NEAR(ComputeTwoSampleKs(a, b).d, plain.at("d"), kTwoSampleKsRounding);
+  EXPECT_NEAR(
+      ComputeTwoSampleKs(a, b).p_exact, plain.at("p"), kTwoSampleKsRounding);
   const VectorXd c{{1, 2, 2, 3, 3}};
   const VectorXd d{{1, 2, 3, 4, 4, 5, 5}};
   const auto& tied = SerialReference("tied");
-  EXPECT_NEAR(ComputeTwoSampleKs(c, d).d, tied.at("d"), kRounding);
-  EXPECT_NEAR(ComputeTwoSampleKs(c, d).p_exact, tied.at("p"), kRounding);
+  EXPECT_NEAR(ComputeTwoSampleKs(c, d).d, tied.at("d"), kTwoSampleKsRounding);
+  EXPECT_NEAR(
+      ComputeTwoSampleKs(c, d).p_exact, tied.at("p"), kTwoSampleKsRounding);
 }
 
 TEST(TwoSampleKs, CountsTheWaysByHand) {
@@ -54,7 +56,7 @@ TEST(TwoSampleKs, TakesTheSamplesInEitherOrder) {
   const TwoSampleKs one = ComputeTwoSampleKs(a, b);
   const TwoSampleKs two = ComputeTwoSampleKs(b, a.reverse());
   EXPECT_DOUBLE_EQ(one.d, two.d);
-  EXPECT_NEAR(one.p_exact, two.p_exact, kRounding);
+  EXPECT_NEAR(one.p_exact, two.p_exact, kTwoSampleKsRounding);
 }
 
 TEST(TwoSampleKs, TheTwoPApproachEachOther) {

@@ -26,7 +26,7 @@ struct CostArguments {
   std::string format = "table";
 };
 
-models::MapExport Prepare(const CostArguments& arguments) {
+models::MapExport PrepareToMeasure(const CostArguments& arguments) {
   try {
     return models::PrepareExport(models::LoadModel(arguments.model),
                                  "map",
@@ -105,7 +105,7 @@ std::string CostText(const models::MapExport& map,
 }
 
 int RunCost(const CostArguments& arguments) {
-  const models::MapExport map = Prepare(arguments);
+  const models::MapExport map = PrepareToMeasure(arguments);
   const models::ProgramCost counted = models::CostOf(map.program);
   std::string why;
   const std::optional<models::MeasuredCost> measured =

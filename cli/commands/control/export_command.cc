@@ -11,6 +11,7 @@
 #include "cli/commands/control/export_tables.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/output/claimed_folder.h"
+#include "cli/report/number_text.h"
 #include "data/input_error.h"
 #include "data/text.h"
 #include "models/export/c_code.h"
@@ -21,7 +22,6 @@
 #include "models/export/safe_names.h"
 #include "models/export/structured_text.h"
 #include "models/model_file.h"
-#include "models/report/number_text.h"
 
 namespace errmap::cli {
 namespace {

@@ -9,6 +9,7 @@
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/output/claimed_folder.h"
+#include "cli/report/number_text.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
@@ -16,7 +17,6 @@
 #include "models/export/error_curve.h"
 #include "models/export/thermal_state.h"
 #include "models/model_file.h"
-#include "models/report/number_text.h"
 
 namespace errmap::cli {
 namespace {

@@ -17,7 +17,11 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/maps/map_warnings.h"
+#include "cli/desk/machine/machine_file.h"
+#include "cli/desk/machine/machine_points.h"
+#include "cli/desk/machine/true_poses.h"
 #include "cli/output/claimed_folder.h"
+#include "cli/report/number_text.h"
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
 #include "data/csv.h"
@@ -26,10 +30,6 @@
 #include "models/history/map_log.h"
 #include "models/kinematics/machine.h"
 #include "models/kinematics/volumetric.h"
-#include "models/report/number_text.h"
-#include "models/study_file/machine/machine_file.h"
-#include "models/study_file/machine/machine_points.h"
-#include "models/study_file/machine/true_poses.h"
 #include "stats/summary.h"
 
 namespace errmap::cli {
@@ -56,7 +56,7 @@ struct VolumetricArguments {
 struct Synthesis {
   const Machine& machine;
   const data::CsvTable& points;
-  const study_file::MachinePoints& maps;
+  const desk::MachinePoints& maps;
   const VolumetricErrors& errors;
   VectorXd sensitive;  // (m) length of the error in the sensitive directions
 };
@@ -244,24 +244,23 @@ void SayRest(const Synthesis& s, const MatrixX3d& truth) {
 
 // "ppp 12.1, pnp 3.0 um"
 std::string DiagonalText(const Synthesis& s,
-                         const study_file::DiagonalRuns& runs,
+                         const desk::DiagonalRuns& runs,
                          const MatrixX3d& errors) {
   std::vector<Index> rows(s.points.num_rows);
   std::iota(rows.begin(), rows.end(), Index{0});
-  const std::vector<study_file::DiagonalFigures> all =
-      study_file::DiagonalFiguresOf(
-          s.points,
-          runs,
-          rows,
-          study_file::PlacesOf(s.machine.chain, s.maps.coordinates),
-          errors);
+  const std::vector<desk::DiagonalFigures> all = desk::DiagonalFiguresOf(
+      s.points,
+      runs,
+      rows,
+      desk::PlacesOf(s.machine.chain, s.maps.coordinates),
+      errors);
   double most = 0.0;
-  for (const study_file::DiagonalFigures& diagonal : all) {
+  for (const desk::DiagonalFigures& diagonal : all) {
     most = std::max(most, diagonal.figures.systematic);
   }
   const report::ErrorText text(s.machine.length, most);
   std::vector<std::string> parts;
-  for (const study_file::DiagonalFigures& diagonal : all) {
+  for (const desk::DiagonalFigures& diagonal : all) {
     parts.push_back(
         fmt::format("{} {}", diagonal.name, text(diagonal.figures.systematic)));
   }
@@ -271,8 +270,8 @@ std::string DiagonalText(const Synthesis& s,
 // ISO 230-6:2002, both ways together, where the points lie on diagonals.
 std::vector<std::string> DiagonalLines(const Synthesis& s,
                                        const std::optional<MatrixX3d>& truth) {
-  const std::optional<study_file::DiagonalRuns> runs =
-      study_file::ReadDiagonalRuns(s.points);
+  const std::optional<desk::DiagonalRuns> runs =
+      desk::ReadDiagonalRuns(s.points);
   if (!runs) return {};
   constexpr const char* kWhat = "systematic deviation E along diagonals";
   std::vector<std::string> lines = {
@@ -324,13 +323,12 @@ int RunVolumetric(const VolumetricArguments& arguments) {
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
-  const study_file::MachineFile file =
-      study_file::ReadMachineFile(arguments.machine);
+  const desk::MachineFile file = desk::ReadMachineFile(arguments.machine);
   CheckOutputName("-o", arguments.out, InputsOf(arguments, file.machine));
   const data::CsvTable points = data::ReadCsv(arguments.points);
   std::optional<data::CsvTable> log;
   if (!arguments.log.after.empty()) log = data::ReadCsv(arguments.log.after);
-  const study_file::MachinePoints maps = study_file::EvaluateAt(
+  const desk::MachinePoints maps = desk::EvaluateAt(
       file.machine, points, log ? &*log : nullptr, arguments.log);
   const VolumetricErrors errors = models::CombineErrors(
       file.machine.chain, maps.coordinates, maps.components, arguments.options);
@@ -340,8 +338,8 @@ int RunVolumetric(const VolumetricArguments& arguments) {
                             errors,
                             SensitiveLengths(file.machine, errors.exact)};
   std::optional<MatrixX3d> truth;
-  if (study_file::HasTrueErrors(points)) {
-    truth = study_file::TrueErrors(points, file.machine);
+  if (desk::HasTrueErrors(points)) {
+    truth = desk::TrueErrors(points, file.machine);
   }
   const std::vector<std::string> diagonals = DiagonalLines(synthesis, truth);
   const std::string text = OutputTable(synthesis).Text();

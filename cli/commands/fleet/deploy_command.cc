@@ -8,17 +8,17 @@
 #include <fmt/format.h>
 
 #include "cli/commands/fleet/fleet_commands.h"
+#include "cli/fleet/store/deployments.h"
+#include "cli/fleet/store/gzip.h"
+#include "cli/fleet/store/store.h"
+#include "cli/report/number_text.h"
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
 #include "data/prepare_folder.h"
 #include "data/sha256.h"
 #include "data/text.h"
-#include "models/fleet/store/deployments.h"
-#include "models/fleet/store/gzip.h"
-#include "models/fleet/store/store.h"
 #include "models/model_file.h"
-#include "models/report/number_text.h"
 
 namespace errmap::cli {
 namespace {

@@ -6,9 +6,9 @@
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/fleet/fleet_commands.h"
 #include "cli/commands/format_option.h"
+#include "cli/fleet/store/fleet_table.h"
+#include "cli/fleet/store/merge.h"
 #include "cli/shell/standard_streams.h"
-#include "models/fleet/store/fleet_table.h"
-#include "models/fleet/store/merge.h"
 
 namespace errmap::cli {
 namespace {

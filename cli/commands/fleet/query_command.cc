@@ -8,11 +8,11 @@
 
 #include "cli/commands/fleet/fleet_commands.h"
 #include "cli/commands/format_option.h"
+#include "cli/fleet/store/store.h"
 #include "cli/json_blocks.h"
+#include "cli/report/table.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
-#include "models/fleet/store/store.h"
-#include "models/report/table.h"
 
 namespace errmap::cli {
 namespace {

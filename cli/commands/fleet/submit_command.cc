@@ -12,15 +12,15 @@
 #include <sys/wait.h>
 
 #include "cli/commands/data_arguments.h"
+#include "cli/commands/fleet/claim_store.h"
 #include "cli/commands/fleet/fleet_commands.h"
-#include "cli/fleet/claim_store.h"
-#include "cli/fleet/slurm_scripts.h"
+#include "cli/commands/fleet/slurm_scripts.h"
+#include "cli/fleet/run/fleet_plan.h"
+#include "cli/fleet/run/fleet_run.h"
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
 #include "data/prepare_folder.h"
 #include "data/text.h"
-#include "models/fleet/run/fleet_plan.h"
-#include "models/fleet/run/fleet_run.h"
 
 extern char** environ;
 
@@ -57,8 +57,8 @@ int RunScript(const std::string& path) {
 
 int RunSubmit(const SubmitArguments& arguments,
               const std::string& command_line) {
-  const study_file::StudyFile study =
-      fleet::ExpandFleet(study_file::ReadStudyFile(arguments.config));
+  const desk::StudyFile study =
+      fleet::ExpandFleet(desk::ReadStudyFile(arguments.config));
   const fleet::StorePaths store{arguments.store};
   ClaimStore(store, arguments.force);
   const std::string folder = (fs::absolute(arguments.store) / "slurm").string();

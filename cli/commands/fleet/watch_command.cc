@@ -10,16 +10,16 @@
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/fleet/fleet_commands.h"
 #include "cli/commands/format_option.h"
+#include "cli/fleet/store/deployments.h"
+#include "cli/fleet/store/store.h"
+#include "cli/fleet/store/watch_report.h"
+#include "cli/fleet/store/watched_files.h"
+#include "cli/fleet/store/watched_maps.h"
 #include "cli/json_blocks.h"
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
-#include "models/fleet/store/deployments.h"
-#include "models/fleet/store/store.h"
-#include "models/fleet/store/watch_report.h"
-#include "models/fleet/store/watched_files.h"
-#include "models/fleet/store/watched_maps.h"
 
 namespace errmap::cli {
 namespace {

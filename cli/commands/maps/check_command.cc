@@ -7,7 +7,10 @@
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
 #include "cli/commands/maps/map_warnings.h"
+#include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
+#include "cli/report/number_text.h"
+#include "cli/report/words/check_text.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/input_error.h"
@@ -16,9 +19,6 @@
 #include "models/model_file.h"
 #include "models/promise/map_rows.h"
 #include "models/promise/session_check.h"
-#include "models/report/number_text.h"
-#include "models/report/words/check_text.h"
-#include "models/study_file/provenance.h"
 
 namespace errmap::cli {
 namespace {
@@ -93,12 +93,11 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
                      {"unit", fitted.target.unit.symbol}};
     document.update(CheckJson(check));
     document["sites"] = SitesJson(sites);
-    document["provenance"] =
-        ProvenanceJson(command_line,
-                       {{"missing", ToString(arguments.rows.missing)},
-                        {"faults", ToString(arguments.rows.faults)}},
-                       {study_file::HashInput(arguments.model),
-                        study_file::HashInput(arguments.file)});
+    document["provenance"] = ProvenanceJson(
+        command_line,
+        {{"missing", ToString(arguments.rows.missing)},
+         {"faults", ToString(arguments.rows.faults)}},
+        {desk::HashInput(arguments.model), desk::HashInput(arguments.file)});
     PrintResult(DumpJson(document));
   } else {
     PrintFitted(fmt::format(

@@ -8,7 +8,12 @@
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
 #include "cli/commands/maps/map_warnings.h"
+#include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
+#include "cli/report/documents/summary_text.h"
+#include "cli/report/number_text.h"
+#include "cli/report/words/data_words.h"
+#include "cli/report/words/kept_promise_text.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/shown_path.h"
@@ -16,16 +21,11 @@
 #include "models/model_file.h"
 #include "models/promise/kept_promise.h"
 #include "models/promise/map_rows.h"
-#include "models/report/documents/summary_text.h"
-#include "models/report/number_text.h"
-#include "models/report/words/data_words.h"
-#include "models/report/words/kept_promise_text.h"
 #include "models/study/fold_pool.h"
 #include "models/study/record/fit_blocks.h"
 #include "models/study/record/make_residual_record.h"
 #include "models/study/record/make_study_record.h"
 #include "models/study/record/record_json.h"
-#include "models/study_file/provenance.h"
 #include "models/trained_range.h"
 #include "stats/kolmogorov_smirnov.h"
 
@@ -152,8 +152,8 @@ Json EvaluationJson(const Evaluation& found,
        ProvenanceJson(command_line,
                       {{"missing", ToString(arguments.rows.missing)},
                        {"faults", ToString(arguments.rows.faults)}},
-                      {study_file::HashInput(arguments.model),
-                       study_file::HashInput(arguments.file)})}};
+                      {desk::HashInput(arguments.model),
+                       desk::HashInput(arguments.file)})}};
 }
 
 std::string EvaluationText(const Evaluation& found,

@@ -15,9 +15,15 @@
 #include "cli/commands/format_option.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/commands/progress.h"
+#include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/output/report_files.h"
+#include "cli/report/figures/learning_figures.h"
+#include "cli/report/figures/svg.h"
+#include "cli/report/shell_word.h"
+#include "cli/report/words/learning_text.h"
+#include "cli/report/words/next_steps.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
@@ -30,16 +36,10 @@
 #include "models/promise/learning_record.h"
 #include "models/promise/next_states.h"
 #include "models/promise/sensor_curve.h"
-#include "models/report/figures/learning_figures.h"
-#include "models/report/figures/svg.h"
-#include "models/report/shell_word.h"
-#include "models/report/words/learning_text.h"
-#include "models/report/words/next_steps.h"
 #include "models/study/journal/fit_journal_file.h"
 #include "models/study/journal/fit_label.h"
 #include "models/study/record/record_json.h"
 #include "models/study/study_defaults.h"
-#include "models/study_file/provenance.h"
 
 namespace errmap::cli {
 namespace {
@@ -275,11 +275,10 @@ void LearnNext(const LearnArguments& arguments,
 
 // In the target's unit.
 double GoalOf(const LearnArguments& arguments, const data::Unit& target) {
-  const study_file::GivenError given =
-      ErrorOfFlag("--goal", arguments.goal, false);
+  const desk::GivenError given = ErrorOfFlag("--goal", arguments.goal, false);
   if (!given.is_given()) return models::DefaultGoal(target);
   try {
-    return study_file::InUnitOf(target, given);
+    return desk::InUnitOf(target, given);
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("--goal {}", error.what()));
   }
@@ -327,7 +326,7 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
                       {"repeats", arguments.repeats},
                       {"sensors", arguments.sensors},
                       {"seed", arguments.seed}},
-                     {study_file::HashInput(arguments.data.file)});
+                     {desk::HashInput(arguments.data.file)});
   if (arguments.format == "json") {
     PrintResult(DumpJson(document));
   } else {

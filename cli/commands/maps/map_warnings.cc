@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "cli/commands/data_arguments.h"
+#include "cli/report/number_text.h"
+#include "cli/report/words/fault_text.h"
+#include "cli/report/words/outside_text.h"
 #include "data/text.h"
-#include "models/report/number_text.h"
-#include "models/report/words/fault_text.h"
-#include "models/report/words/outside_text.h"
 
 namespace errmap::cli {
 

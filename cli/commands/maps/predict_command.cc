@@ -12,6 +12,9 @@
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/output/claimed_folder.h"
+#include "cli/report/number_text.h"
+#include "cli/report/words/interval_text.h"
+#include "cli/report/words/kept_promise_text.h"
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
 #include "data/csv.h"
@@ -21,9 +24,6 @@
 #include "models/history/map_log.h"
 #include "models/model_file.h"
 #include "models/promise/probe_correction.h"
-#include "models/report/number_text.h"
-#include "models/report/words/interval_text.h"
-#include "models/report/words/kept_promise_text.h"
 #include "models/trained_range.h"
 
 namespace errmap::cli {

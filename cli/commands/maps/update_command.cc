@@ -10,8 +10,10 @@
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
 #include "cli/commands/maps/map_warnings.h"
+#include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
+#include "cli/report/words/kept_promise_text.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
@@ -21,9 +23,7 @@
 #include "models/model_file.h"
 #include "models/promise/map_update.h"
 #include "models/promise/promise.h"
-#include "models/report/words/kept_promise_text.h"
 #include "models/study/study_defaults.h"
-#include "models/study_file/provenance.h"
 
 namespace errmap::cli {
 namespace {
@@ -77,18 +77,17 @@ models::Provenance ProvenanceOf(const std::string& model) {
 }
 
 // The files that the map learnt from, where they are still there as they were.
-std::vector<study_file::InputFile> KnownFiles(
-    const UpdateArguments& arguments) {
-  std::vector<study_file::InputFile> known;
+std::vector<desk::InputFile> KnownFiles(const UpdateArguments& arguments) {
+  std::vector<desk::InputFile> known;
   for (const std::string& file : arguments.known) {
-    known.push_back(study_file::HashInput(file));
+    known.push_back(desk::HashInput(file));
   }
   if (!known.empty()) return known;
   std::vector<std::string> lost;
-  for (const study_file::InputFile& named :
-       study_file::DataOf(ProvenanceOf(arguments.model))) {
+  for (const desk::InputFile& named :
+       desk::DataOf(ProvenanceOf(arguments.model))) {
     if (std::filesystem::exists(named.file) &&
-        study_file::HashInput(named.file) == named) {
+        desk::HashInput(named.file) == named) {
       known.push_back(named);
     } else {
       lost.push_back(named.file);
@@ -107,10 +106,10 @@ std::vector<study_file::InputFile> KnownFiles(
 // The rows of some files, one after the other; none: none.
 std::optional<data::Dataset> ReadKnown(
     const models::FittedModel& map,
-    const std::vector<study_file::InputFile>& files,
+    const std::vector<desk::InputFile>& files,
     const UpdateArguments& arguments) {
   std::optional<data::Dataset> known;
-  for (const study_file::InputFile& file : files) {
+  for (const desk::InputFile& file : files) {
     data::Dataset rows = ReadRows(map, file.file, arguments);
     known = known ? models::Joined(*known, rows) : std::move(rows);
   }
@@ -170,7 +169,7 @@ int RunUpdate(const UpdateArguments& arguments,
   RequirePlaceFor(arguments.out);
   const models::FittedModel old_map = models::LoadModel(arguments.model);
   const data::Dataset fresh = ReadRows(old_map, arguments.file, arguments);
-  std::vector<study_file::InputFile> learnt_from = KnownFiles(arguments);
+  std::vector<desk::InputFile> learnt_from = KnownFiles(arguments);
   const double indifference = models::DefaultIndifference(old_map.target.unit);
   const std::atomic<bool>& stop = InstallInterruptFlag();
   const models::FitContext context{.seed = arguments.seed,
@@ -197,22 +196,21 @@ int RunUpdate(const UpdateArguments& arguments,
         "{} failed: {}; the old map stays", old_map.name, trial.why_failed));
     return kEveryFitFailed;
   }
-  learnt_from.push_back(study_file::HashInput(arguments.file));
+  learnt_from.push_back(desk::HashInput(arguments.file));
   const bool better = trial.better(indifference);
   if (better) {
     const models::FittedModel fitted = FitSuccessor(old_map, *all, context);
     if (stop.load()) return kInterrupted;
     models::SaveModel(
         fitted,
-        study_file::ModelProvenance(
+        desk::ModelProvenance(
             command_line, learnt_from, all->num_rows(), arguments.seed),
         arguments.out);
   } else {
     data::WriteFileAtomically(arguments.out, data::ReadFile(arguments.model));
   }
   if (arguments.format == "json") {
-    learnt_from.insert(learnt_from.begin(),
-                       study_file::HashInput(arguments.model));
+    learnt_from.insert(learnt_from.begin(), desk::HashInput(arguments.model));
     const Json provenance =
         ProvenanceJson(command_line,
                        {{"missing", ToString(arguments.missing)},

@@ -12,7 +12,7 @@
 namespace errmap::cli {
 namespace {
 
-study_file::PredictionsFile ParsePredictions(const std::string& pair) {
+desk::PredictionsFile ParsePredictions(const std::string& pair) {
   const std::size_t equals = pair.find('=');
   if (equals == 0 || equals == pair.npos || equals + 1 == pair.size()) {
     throw UsageError("--predictions must be NAME=FILE, found '" + pair + "'");

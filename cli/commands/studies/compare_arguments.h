@@ -8,7 +8,7 @@
 
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/studies/probes.h"
-#include "models/study_file/study_config.h"
+#include "cli/desk/study_config.h"
 
 namespace CLI {
 class App;
@@ -26,7 +26,7 @@ struct CompareArguments {
   std::optional<std::string> indifference = {};
   std::string split;
   std::string save_split;
-  std::vector<study_file::PredictionsFile> predictions;
+  std::vector<desk::PredictionsFile> predictions;
   bool resume = false;
   bool force = false;
   std::string config;

@@ -12,24 +12,24 @@
 #include "cli/commands/studies/compare_plan.h"
 #include "cli/commands/studies/probes.h"
 #include "cli/commands/studies/study_plan_text.h"
+#include "cli/desk/machine/machine_judge.h"
+#include "cli/desk/plan/run_files.h"
+#include "cli/desk/plan/run_record.h"
+#include "cli/desk/plan/study_forecast.h"
+#include "cli/desk/plan/study_run.h"
+#include "cli/fleet/store/store_folder.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/output/output_folder.h"
+#include "cli/report/documents/study_table.h"
+#include "cli/report/report.h"
+#include "cli/report/words/check_text.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/atomic_file.h"
 #include "data/text.h"
-#include "models/fleet/store/store_folder.h"
-#include "models/report/documents/study_table.h"
-#include "models/report/report.h"
-#include "models/report/words/check_text.h"
 #include "models/study/journal/fit_journal_file.h"
 #include "models/study/split_file.h"
-#include "models/study_file/machine/machine_judge.h"
-#include "models/study_file/plan/run_files.h"
-#include "models/study_file/plan/run_record.h"
-#include "models/study_file/plan/study_forecast.h"
-#include "models/study_file/plan/study_run.h"
 
 namespace errmap::cli {
 namespace {
@@ -48,7 +48,7 @@ bool AnyJudged(const models::ComponentStudy& component) {
   return false;
 }
 
-int StatusOf(const study_file::StudyRun& run) {
+int StatusOf(const desk::StudyRun& run) {
   if (run.interrupted) {
     Say("interrupted; what was finished is shown");
     return kInterrupted;
@@ -67,7 +67,7 @@ int StatusOf(const study_file::StudyRun& run) {
   return kEveryFitFailed;
 }
 
-void SayShortOfMemory(const study_file::StudyRun& run) {
+void SayShortOfMemory(const desk::StudyRun& run) {
   int fits = 0;
   for (const models::ComponentStudy& component : run.components) {
     fits += component.study.short_of_memory;
@@ -80,7 +80,7 @@ void SayShortOfMemory(const study_file::StudyRun& run) {
 }
 
 void SaveSplit(const models::ComponentStudy& comparison,
-               const study_file::ComponentConfig& config) {
+               const desk::ComponentConfig& config) {
   if (config.save_split.empty()) return;
   data::WriteFileAtomically(
       config.save_split,
@@ -113,7 +113,7 @@ std::optional<int> RunIfFleet(const CompareArguments& arguments) {
     }
     return std::nullopt;
   }
-  study_file::StudyFile study = ConfigOfFile(arguments);
+  desk::StudyFile study = ConfigOfFile(arguments);
   if (!study.has_patterns() && !arguments.shard &&
       (arguments.out.empty() || !fleet::IsStore(arguments.out))) {
     return std::nullopt;
@@ -130,14 +130,14 @@ std::optional<int> RunIfFleet(const CompareArguments& arguments) {
 }
 
 // The file, where fit can read the same rows of it.
-std::string DataForFit(const study_file::StudyRun& run) {
-  const study_file::ComponentConfig& component = run.config.components.front();
+std::string DataForFit(const desk::StudyRun& run) {
+  const desk::ComponentConfig& component = run.config.components.front();
   return component.selection.where.empty() && component.later.empty()
              ? component.data
              : "";
 }
 
-report::Screen Formatted(const study_file::StudyRun& run,
+report::Screen Formatted(const desk::StudyRun& run,
                          const models::StudyRecord& record,
                          const CompareArguments& arguments) {
   const std::string& format = arguments.format;
@@ -157,10 +157,10 @@ report::Screen Formatted(const study_file::StudyRun& run,
 
 // Refuses places for single files that cannot be written to: better now than
 // after minutes of fitting.
-void CheckPlaces(const study_file::StudyPlan& plan,
+void CheckPlaces(const desk::StudyPlan& plan,
                  const CompareArguments& arguments,
                  const std::vector<std::string>& inputs) {
-  for (const study_file::ComponentConfig& component : plan.config.components) {
+  for (const desk::ComponentConfig& component : plan.config.components) {
     CheckOutputName("--save-split", component.save_split, inputs);
     RequirePlaceFor(component.save_split);
   }
@@ -168,16 +168,16 @@ void CheckPlaces(const study_file::StudyPlan& plan,
   RequirePlaceFor(arguments.page);
 }
 
-study_file::StudyRun RunShowingProgress(study_file::StudyPlan plan,
-                                        const CompareArguments& arguments,
-                                        int jobs,
-                                        bool keep_fold_maps,
-                                        models::JournalFile* journal) {
-  study_file::StudyRun run;
+desk::StudyRun RunShowingProgress(desk::StudyPlan plan,
+                                  const CompareArguments& arguments,
+                                  int jobs,
+                                  bool keep_fold_maps,
+                                  models::JournalFile* journal) {
+  desk::StudyRun run;
   {
     Progress progress(!arguments.data.quiet);
-    study_file::StudyForecast forecast(plan, jobs);
-    run = study_file::RunPlan(
+    desk::StudyForecast forecast(plan, jobs);
+    run = desk::RunPlan(
         std::move(plan),
         arguments.command_line,
         {.jobs = jobs,
@@ -188,7 +188,7 @@ study_file::StudyRun RunShowingProgress(study_file::StudyPlan plan,
          .progress = [&](std::size_t component,
                          const models::FitProgress& fit) {
            forecast.Note(component, fit);
-           const study_file::StudyForecast::Best best = forecast.BestSoFar();
+           const desk::StudyForecast::Best best = forecast.BestSoFar();
            progress.Show({.done = fit.done,
                           .all = fit.all,
                           .left = forecast.SecondsLeft(),
@@ -206,9 +206,9 @@ int RunCompare(const CompareArguments& arguments) {
   if (arguments.resume && arguments.out.empty()) {
     throw UsageError("--resume needs the folder of the earlier run: --out DIR");
   }
-  const std::optional<study_file::MachineStudy> machine = MachineOf(arguments);
+  const std::optional<desk::MachineStudy> machine = MachineOf(arguments);
   if (const std::optional<int> status = RunIfFleet(arguments)) return *status;
-  study_file::StudyPlan plan = PlanOf(arguments, machine);
+  desk::StudyPlan plan = PlanOf(arguments, machine);
   const int jobs = JobsOf(arguments.jobs);
   if (arguments.dry_run) {
     PrintResult(PlanText(plan, jobs, arguments.out));
@@ -226,15 +226,15 @@ int RunCompare(const CompareArguments& arguments) {
   }
   // Open, and so the folder taken, until all is written.
   const std::unique_ptr<models::JournalFile> journal = OpenJournal(arguments);
-  const study_file::StudyRun run = RunShowingProgress(
+  const desk::StudyRun run = RunShowingProgress(
       std::move(plan), arguments, jobs, machine.has_value(), journal.get());
   SayShortOfMemory(run);
-  models::StudyRecord record = study_file::RecordOf(run, jobs);
+  models::StudyRecord record = desk::RecordOf(run, jobs);
   if (machine && !run.interrupted) {
-    record.machine = study_file::JudgeMachine(*machine, run);
+    record.machine = desk::JudgeMachine(*machine, run);
   }
   AddProbes(run, arguments.probes, &record);
-  if (folder) study_file::NameMaps(run, &record);
+  if (folder) desk::NameMaps(run, &record);
   // Before the files: a full disk must not cost the answer.
   PrintScreen(Formatted(run, record, arguments));
   if (!arguments.page.empty()) {

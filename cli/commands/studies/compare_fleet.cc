@@ -8,17 +8,17 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
+#include "cli/commands/fleet/claim_store.h"
+#include "cli/commands/fleet/fleet_plan_text.h"
+#include "cli/commands/fleet/launcher.h"
 #include "cli/commands/progress.h"
-#include "cli/fleet/claim_store.h"
-#include "cli/fleet/fleet_plan_text.h"
-#include "cli/fleet/launcher.h"
+#include "cli/fleet/run/fleet_plan.h"
+#include "cli/fleet/run/fleet_run.h"
+#include "cli/fleet/store/fleet_table.h"
+#include "cli/fleet/store/merge.h"
+#include "cli/report/number_text.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
-#include "models/fleet/run/fleet_plan.h"
-#include "models/fleet/run/fleet_run.h"
-#include "models/fleet/store/fleet_table.h"
-#include "models/fleet/store/merge.h"
-#include "models/report/number_text.h"
 
 namespace errmap::cli {
 namespace {
@@ -28,7 +28,7 @@ void CheckWords(const CompareFleetArguments& arguments) {
     throw UsageError(
         "a study of files by pattern, or a share of one, needs --out STORE");
   }
-  for (const study_file::ComponentConfig& component :
+  for (const desk::ComponentConfig& component :
        arguments.study.config.components) {
     if (component.save_split.empty() && component.split.empty() &&
         component.predictions.empty()) {
@@ -40,7 +40,7 @@ void CheckWords(const CompareFleetArguments& arguments) {
   }
 }
 
-int StatusOf(const fleet::FleetSummaries& found) {
+int StatusOfFleet(const fleet::FleetSummaries& found) {
   const bool any = std::ranges::any_of(
       found.summaries, [](const models::ComponentSummary& summary) {
         return summary.status == models::ModelStatus::kOk;
@@ -59,8 +59,7 @@ int RunCompareFleet(CompareFleetArguments arguments) {
     share = ShareOf(*arguments.shard,
                     [](const char* name) { return std::getenv(name); });
   }
-  const study_file::StudyFile study =
-      fleet::ExpandFleet(std::move(arguments.study));
+  const desk::StudyFile study = fleet::ExpandFleet(std::move(arguments.study));
   if (arguments.dry_run) {
     PrintResult(FleetPlanText(fleet::PlanFleet(study.config),
                               share.count,
@@ -103,7 +102,7 @@ int RunCompareFleet(CompareFleetArguments arguments) {
   const fleet::FleetSummaries found = fleet::MergeStore(store);
   if (!found.missing.empty()) Say(fleet::MissingWords(found));
   PrintResult(fleet::FormattedFleet(found.summaries, arguments.format));
-  return StatusOf(found);
+  return StatusOfFleet(found);
 }
 
 }  // namespace errmap::cli

@@ -3,12 +3,12 @@
 #include <optional>
 #include <string>
 
-#include "models/study_file/toml/study_file.h"
+#include "cli/desk/toml/study_file.h"
 
 namespace errmap::cli {
 
 struct CompareFleetArguments {
-  study_file::StudyFile study;
+  desk::StudyFile study;
   std::string out;
   /// None: all, and put together at the end.
   std::optional<std::string> shard;

@@ -67,25 +67,24 @@ std::vector<std::string> ModelSpecs(const CompareArguments& arguments) {
 }
 
 // Without a study file the command line asks for one component.
-study_file::StudyConfig ConfigOf(const CompareArguments& arguments) {
-  const study_file::GivenError goal =
-      ErrorOfFlag("--goal", arguments.goal, false);
-  const study_file::GivenError indifference =
+desk::StudyConfig ConfigOf(const CompareArguments& arguments) {
+  const desk::GivenError goal = ErrorOfFlag("--goal", arguments.goal, false);
+  const desk::GivenError indifference =
       ErrorOfFlag("--indifference", arguments.indifference, true);
   CheckHoldouts(arguments.holdouts);
   const DataArguments& data = arguments.data;
-  study_file::ComponentConfig component;
+  desk::ComponentConfig component;
   component.data = data.file;
   component.selection = data.selection;
   component.split = arguments.split;
   component.save_split = arguments.save_split;
   component.predictions = arguments.predictions;
   std::vector<std::string> specs = ModelSpecs(arguments);
-  for (const study_file::PredictionsFile& predictions : component.predictions) {
+  for (const desk::PredictionsFile& predictions : component.predictions) {
     if (std::ranges::find(specs, predictions.name) != specs.end() ||
         std::ranges::count(component.predictions,
                            predictions.name,
-                           &study_file::PredictionsFile::name) > 1) {
+                           &desk::PredictionsFile::name) > 1) {
       throw UsageError("two models are named " + predictions.name +
                        "; give the --predictions another name");
     }
@@ -98,9 +97,9 @@ study_file::StudyConfig ConfigOf(const CompareArguments& arguments) {
           .components = {std::move(component)}};
 }
 
-study_file::StudyFile ReadChanged(const CompareArguments& arguments) {
+desk::StudyFile ReadChanged(const CompareArguments& arguments) {
   try {
-    return study_file::ReadStudyFile(arguments.config, arguments.changes);
+    return desk::ReadStudyFile(arguments.config, arguments.changes);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
@@ -117,13 +116,11 @@ enum class Reach {
 struct ComponentFlag {
   const char* name;
   Reach reach;
-  void (*copy)(const study_file::ComponentConfig& from,
-               study_file::ComponentConfig* to);
+  void (*copy)(const desk::ComponentConfig& from, desk::ComponentConfig* to);
 };
 
 template <auto kMember>
-void Copy(const study_file::ComponentConfig& from,
-          study_file::ComponentConfig* to) {
+void Copy(const desk::ComponentConfig& from, desk::ComponentConfig* to) {
   if constexpr (requires { to->*kMember; }) {
     to->*kMember = from.*kMember;
   } else {
@@ -132,7 +129,7 @@ void Copy(const study_file::ComponentConfig& from,
 }
 
 const std::vector<ComponentFlag>& ComponentFlags() {
-  using study_file::ComponentConfig;
+  using desk::ComponentConfig;
   using Selection = data::DatasetSelection;
   static const std::vector<ComponentFlag> flags = {
       {"--target", Reach::kOne, Copy<&Selection::target>},
@@ -154,7 +151,7 @@ const std::vector<ComponentFlag>& ComponentFlags() {
 
 }  // namespace
 
-study_file::StudyFile ConfigOfFile(const CompareArguments& arguments) {
+desk::StudyFile ConfigOfFile(const CompareArguments& arguments) {
   const auto given = [&](const char* flag) {
     return arguments.given.contains(flag);
   };
@@ -162,25 +159,25 @@ study_file::StudyFile ConfigOfFile(const CompareArguments& arguments) {
     throw UsageError(
         "DATA and --config exclude each other; the study file names its data");
   }
-  study_file::StudyFile file = ReadChanged(arguments);
-  study_file::StudyConfig& config = file.config;
-  const study_file::StudyConfig flags = ConfigOf(arguments);
+  desk::StudyFile file = ReadChanged(arguments);
+  desk::StudyConfig& config = file.config;
+  const desk::StudyConfig flags = ConfigOf(arguments);
   if (given("--seed")) config.seed = flags.seed;
   if (given("--goal")) {
     config.goal = flags.goal;
-    for (study_file::ComponentConfig& component : config.components) {
+    for (desk::ComponentConfig& component : config.components) {
       component.goal = flags.goal;
     }
   }
   if (given("--indifference")) {
     config.indifference = flags.indifference;
-    for (study_file::ComponentConfig& component : config.components) {
+    for (desk::ComponentConfig& component : config.components) {
       component.indifference = flags.indifference;
     }
   }
   if (given("--holdout")) config.holdouts = flags.holdouts;
   if (given("--models") || given("--model")) config.models = flags.models;
-  const study_file::ComponentConfig& from = flags.components.front();
+  const desk::ComponentConfig& from = flags.components.front();
   for (const ComponentFlag& flag : ComponentFlags()) {
     if (!given(flag.name)) continue;
     if (flag.reach != Reach::kAll && config.components.size() != 1) {
@@ -191,15 +188,14 @@ study_file::StudyFile ConfigOfFile(const CompareArguments& arguments) {
                       data::PrintablePath(arguments.config),
                       config.components.size()));
     }
-    for (study_file::ComponentConfig& component : config.components) {
+    for (desk::ComponentConfig& component : config.components) {
       flag.copy(from, &component);
     }
   }
   return file;
 }
 
-std::optional<study_file::MachineStudy> MachineOf(
-    const CompareArguments& arguments) {
+std::optional<desk::MachineStudy> MachineOf(const CompareArguments& arguments) {
   if (arguments.machine.empty()) {
     if (arguments.given.contains("--later")) {
       throw UsageError("--later goes with --machine");
@@ -221,18 +217,17 @@ std::optional<study_file::MachineStudy> MachineOf(
         "--machine needs the folder of its components' data: errmap compare "
         "--machine machine.toml DIR");
   }
-  return study_file::ReadMachineStudy(arguments.machine,
-                                      arguments.data.file,
-                                      arguments.later,
-                                      arguments.data.selection.session);
+  return desk::ReadMachineStudy(arguments.machine,
+                                arguments.data.file,
+                                arguments.later,
+                                arguments.data.selection.session);
 }
 
-study_file::StudyPlan PlanOf(
-    const CompareArguments& arguments,
-    const std::optional<study_file::MachineStudy>& machine) {
-  const study_file::Remark remark = Sayer(arguments.data.quiet);
+desk::StudyPlan PlanOf(const CompareArguments& arguments,
+                       const std::optional<desk::MachineStudy>& machine) {
+  const desk::Remark remark = Sayer(arguments.data.quiet);
   if (machine) {
-    return study_file::PlanOfMachine(*machine, ConfigOf(arguments), remark);
+    return desk::PlanOfMachine(*machine, ConfigOf(arguments), remark);
   }
   if (arguments.config.empty()) {
     if (!arguments.given.contains("DATA")) {
@@ -241,9 +236,9 @@ study_file::StudyPlan PlanOf(
     if (!arguments.changes.empty()) {
       throw UsageError("--set changes a study file; name it with --config");
     }
-    return study_file::PlanStudy(ConfigOf(arguments), remark);
+    return desk::PlanStudy(ConfigOf(arguments), remark);
   }
-  return study_file::PlanStudy(ConfigOfFile(arguments), remark);
+  return desk::PlanStudy(ConfigOfFile(arguments), remark);
 }
 
 }  // namespace errmap::cli

@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "cli/commands/studies/compare_arguments.h"
-#include "models/study_file/machine/machine_study.h"
-#include "models/study_file/plan/study_plan.h"
-#include "models/study_file/toml/study_file.h"
+#include "cli/desk/machine/machine_study.h"
+#include "cli/desk/plan/study_plan.h"
+#include "cli/desk/toml/study_file.h"
 
 namespace errmap::cli {
 
@@ -13,16 +13,14 @@ namespace errmap::cli {
 
 /// The study file of --config with what the command line says in place of its
 /// words.
-study_file::StudyFile ConfigOfFile(const CompareArguments& arguments);
+desk::StudyFile ConfigOfFile(const CompareArguments& arguments);
 
 /// The machine of --machine, if there is one; DATA is then the folder of its
 /// components' data.
-std::optional<study_file::MachineStudy> MachineOf(
-    const CompareArguments& arguments);
+std::optional<desk::MachineStudy> MachineOf(const CompareArguments& arguments);
 
 /// What is to be fitted: of the machine, of the study file or of DATA.
-study_file::StudyPlan PlanOf(
-    const CompareArguments& arguments,
-    const std::optional<study_file::MachineStudy>& machine);
+desk::StudyPlan PlanOf(const CompareArguments& arguments,
+                       const std::optional<desk::MachineStudy>& machine);
 
 }  // namespace errmap::cli

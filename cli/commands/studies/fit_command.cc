@@ -9,8 +9,16 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
+#include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
+#include "cli/report/documents/start_report.h"
+#include "cli/report/number_text.h"
+#include "cli/report/words/fit_summary.h"
+#include "cli/report/words/interval_text.h"
+#include "cli/report/words/kept_promise_text.h"
+#include "cli/report/words/regression_text.h"
+#include "cli/report/wrap_text.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
@@ -21,19 +29,11 @@
 #include "models/model_file.h"
 #include "models/promise/promise.h"
 #include "models/promise/sensitivity.h"
-#include "models/report/documents/start_report.h"
-#include "models/report/number_text.h"
-#include "models/report/words/fit_summary.h"
-#include "models/report/words/interval_text.h"
-#include "models/report/words/kept_promise_text.h"
-#include "models/report/words/regression_text.h"
-#include "models/report/wrap_text.h"
 #include "models/study/fold_pool.h"
 #include "models/study/record/fit_blocks.h"
 #include "models/study/record/make_figure_record.h"
 #include "models/study/record/record_json.h"
 #include "models/study/study_defaults.h"
-#include "models/study_file/provenance.h"
 
 namespace errmap::cli {
 namespace {
@@ -253,11 +253,10 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
   if (!arguments.no_interval && !stop.load()) {
     AddInterval(dataset, std::move(recipe), context, &fitted);
   }
-  const study_file::InputFile input =
-      study_file::HashInput(arguments.data.file);
+  const desk::InputFile input = desk::HashInput(arguments.data.file);
   models::SaveModel(
       fitted,
-      study_file::ModelProvenance(
+      desk::ModelProvenance(
           command_line, {input}, dataset.num_rows(), arguments.seed),
       arguments.out);
   const models::Sensitivity sensitivity =

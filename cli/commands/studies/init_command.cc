@@ -7,15 +7,15 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
+#include "cli/desk/plan/study_plan.h"
+#include "cli/desk/toml/fleet_proposal.h"
+#include "cli/desk/toml/study_file_text.h"
 #include "cli/output/claimed_folder.h"
+#include "cli/report/number_text.h"
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
-#include "models/report/number_text.h"
-#include "models/study_file/plan/study_plan.h"
-#include "models/study_file/toml/fleet_proposal.h"
-#include "models/study_file/toml/study_file_text.h"
 
 namespace errmap::cli {
 namespace {
@@ -39,11 +39,11 @@ std::string PathFrom(const std::string& study_file, const std::string& data) {
 
 // For a folder: patterns of the files below it.
 int RunInitFleet(const InitArguments& arguments) {
-  const study_file::FleetProposal proposal =
-      study_file::ProposeFleet(arguments.data,
-                               PathFrom(arguments.out, arguments.data),
-                               arguments.target,
-                               "errmap compare --config THIS_FILE --out STORE");
+  const desk::FleetProposal proposal =
+      desk::ProposeFleet(arguments.data,
+                         PathFrom(arguments.out, arguments.data),
+                         arguments.target,
+                         "errmap compare --config THIS_FILE --out STORE");
   data::WriteFileAtomically(arguments.out, proposal.text);
   const std::string path = data::PrintablePath(arguments.out);
   PrintResult(fmt::format(
@@ -70,18 +70,16 @@ int RunInit(const InitArguments& arguments) {
   if (std::filesystem::is_directory(arguments.data)) {
     return RunInitFleet(arguments);
   }
-  study_file::StudyConfig config =
-      study_file::ProposeStudy(data::ReadCsv(arguments.data));
-  for (study_file::ComponentConfig& component : config.components) {
+  desk::StudyConfig config = desk::ProposeStudy(data::ReadCsv(arguments.data));
+  for (desk::ComponentConfig& component : config.components) {
     component.selection.target = arguments.target;
   }
-  const study_file::StudyPlan plan = study_file::PlanStudy(config);
+  const desk::StudyPlan plan = desk::PlanStudy(config);
   data::WriteFileAtomically(
       arguments.out,
-      study_file::StudyFileText(
-          plan,
-          PathFrom(arguments.out, arguments.data),
-          "errmap compare --config THIS_FILE [--out DIR]"));
+      desk::StudyFileText(plan,
+                          PathFrom(arguments.out, arguments.data),
+                          "errmap compare --config THIS_FILE [--out DIR]"));
   PrintResult(fmt::format(
       "{}: {} component{}; look it over, then errmap compare --config "
       "{}\n",

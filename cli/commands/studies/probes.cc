@@ -9,7 +9,7 @@
 
 namespace errmap::cli {
 
-void AddProbes(const study_file::StudyRun& run,
+void AddProbes(const desk::StudyRun& run,
                const ProbeArguments& arguments,
                models::StudyRecord* record) {
   if (arguments.numbers.empty()) return;

@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "cli/desk/plan/study_run.h"
 #include "models/study/record/study_record.h"
-#include "models/study_file/plan/study_run.h"
 
 namespace errmap::cli {
 
@@ -18,7 +18,7 @@ struct ProbeArguments {
 /// Puts into the record of each component with a recommendation what probes
 /// would make of its models under the hold-out that decides. Says on stderr
 /// where the data do not allow it.
-void AddProbes(const study_file::StudyRun& run,
+void AddProbes(const desk::StudyRun& run,
                const ProbeArguments& arguments,
                models::StudyRecord* record);
 

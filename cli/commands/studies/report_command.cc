@@ -7,17 +7,17 @@
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
+#include "cli/fleet/store/merge.h"
+#include "cli/fleet/store/store_folder.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/output/report_files.h"
+#include "cli/report/documents/report_html.h"
+#include "cli/report/figures/figures.h"
+#include "cli/report/report.h"
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
-#include "models/fleet/store/merge.h"
-#include "models/fleet/store/store_folder.h"
-#include "models/report/documents/report_html.h"
-#include "models/report/figures/figures.h"
-#include "models/report/report.h"
 #include "models/study/record/study_record.h"
 
 namespace errmap::cli {

@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/desk/plan/rough_time.h"
+#include "cli/report/number_text.h"
+#include "cli/report/words/data_words.h"
+#include "cli/report/wrap_text.h"
 #include "data/text.h"
-#include "models/report/number_text.h"
-#include "models/report/words/data_words.h"
-#include "models/report/wrap_text.h"
-#include "models/study_file/plan/rough_time.h"
 
 namespace errmap::cli {
 namespace {
@@ -39,7 +39,7 @@ std::string HoldoutList(const std::vector<models::Holdout>& holdouts) {
 }
 
 std::string ComponentText(const models::ComponentPlan& component,
-                          const study_file::ComponentConfig& config) {
+                          const desk::ComponentConfig& config) {
   constexpr std::size_t kWidth = 78;
   const data::Dataset& dataset = component.comparison.data.dataset;
   std::vector<std::string> models;
@@ -76,19 +76,19 @@ std::string ComponentText(const models::ComponentPlan& component,
 
 }  // namespace
 
-std::string PlanText(const study_file::StudyPlan& plan,
+std::string PlanText(const desk::StudyPlan& plan,
                      int jobs,
                      const std::string& out) {
   std::string text;
   double seconds = 0.0;
   for (std::size_t i = 0; i < plan.components.size(); ++i) {
     text += ComponentText(plan.components[i], plan.config.components[i]) + "\n";
-    seconds += study_file::RoughSeconds(plan.components[i], jobs);
+    seconds += desk::RoughSeconds(plan.components[i], jobs);
   }
   text += fmt::format("{} in all, seed {}; roughly {} on {}\n",
                       report::Count(plan.num_fits(), "fit"),
                       plan.config.seed,
-                      study_file::RoughTimeText(seconds),
+                      desk::RoughTimeText(seconds),
                       report::Count(jobs, "job"));
   if (out.empty()) {
     text += "no files (give --out DIR for them)\n";

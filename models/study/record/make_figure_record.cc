@@ -108,11 +108,11 @@ Eigen::VectorXd HeldOutPredictions(const Holdout& holdout,
   return predicted;
 }
 
-FigureHoldoutRecord MakeHoldout(const ComponentStudy& study,
-                                std::size_t index,
-                                std::size_t table,
-                                const std::vector<Eigen::Index>& rows,
-                                Eigen::Index num_rows) {
+FigureHoldoutRecord MakeFigureHoldout(const ComponentStudy& study,
+                                      std::size_t index,
+                                      std::size_t table,
+                                      const std::vector<Eigen::Index>& rows,
+                                      Eigen::Index num_rows) {
   FigureHoldoutRecord record{.name = study.holdouts[index].name,
                              .table = static_cast<std::int64_t>(table),
                              .predictions = {},
@@ -212,12 +212,12 @@ FiguresRecord MakeFiguresRecord(const ComponentStudy& study) {
     const auto& elsewhere = study.holdouts[h].test_data;
     if (elsewhere == nullptr) {
       record.holdouts.push_back(
-          MakeHoldout(study, h, 0, rows, dataset.num_rows()));
+          MakeFigureHoldout(study, h, 0, rows, dataset.num_rows()));
       continue;
     }
     const std::vector<Eigen::Index> its =
         stats::SpreadSample(elsewhere->num_rows(), kMostRows);
-    record.holdouts.push_back(MakeHoldout(
+    record.holdouts.push_back(MakeFigureHoldout(
         study, h, record.tables.size(), its, elsewhere->num_rows()));
     record.tables.push_back(MakeTable(*elsewhere, its, record.inputs));
   }

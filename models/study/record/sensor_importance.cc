@@ -6,8 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include <Eigen/Cholesky>
-
+#include "fitting/least_squares/decompositions.h"
 #include "models/history/history.h"
 #include "models/scaling.h"
 #include "models/study/fold_pool.h"
@@ -182,9 +181,9 @@ class FoldJudge {
 };
 
 // Every so-manieth row, so that all of it is some seconds' work.
-std::size_t StepOf(const Holdout& holdout,
-                   const FittedModel& fitted,
-                   std::size_t drops) {
+std::size_t StepOfHoldout(const Holdout& holdout,
+                          const FittedModel& fitted,
+                          std::size_t drops) {
   constexpr double kMostWork = 1e9;  // multiplications
   constexpr double kPerExponential = 20.0;
   double rows = 0.0;
@@ -241,7 +240,7 @@ std::optional<SensorImportance> ImportanceOfSensors(
   if (sensors.empty() || !has_maps) return std::nullopt;
   std::vector<SensorImportance::Without> plan = Plan(dataset, sensors);
   if (IsTooLong(dataset, holdout, fitted, plan.size())) return std::nullopt;
-  const std::size_t step = StepOf(holdout, fitted, plan.size());
+  const std::size_t step = StepOfHoldout(holdout, fitted, plan.size());
   SensorImportance found;
   for (std::size_t f = 0; f < holdout.folds.size(); ++f) {
     const PreparedFold fold = PrepareFold(dataset, holdout, f);

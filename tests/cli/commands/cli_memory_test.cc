@@ -24,7 +24,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr int kUnusable = cli::kUnusableInput;
+constexpr int kCliMemoryUnusable = cli::kUnusableInput;
 constexpr int kRowsPerDay = 30;
 
 // `days` days of 30 rows, a row a minute, each day's clock from 0; the error
@@ -142,10 +142,12 @@ TEST_F(CliMemory, RefusesDataWithoutSessionsOrTimes) {
   Write("no_day.csv", "time_s,t1_degC,error_um\n0,20,40\n60,21,41\n");
   Write("no_time.csv", "day,t1_degC,error_um\n1,20,40\n1,21,41\n");
   for (const char* command : {"predict", "evaluate"}) {
-    EXPECT_THAT(RefusalOf(Run({command, "map.json", "no_day.csv"}), kUnusable),
-                HasSubstr("no_day.csv: no column 'day', which tells the map's "
-                          "memory where a session begins"));
-    EXPECT_THAT(RefusalOf(Run({command, "map.json", "no_time.csv"}), kUnusable),
+    EXPECT_THAT(
+        RefusalOf(Run({command, "map.json", "no_day.csv"}), kCliMemoryUnusable),
+        HasSubstr("no_day.csv: no column 'day', which tells the map's "
+                  "memory where a session begins"));
+    EXPECT_THAT(RefusalOf(Run({command, "map.json", "no_time.csv"}),
+                          kCliMemoryUnusable),
                 HasSubstr("no_time.csv: no column of times, which the map's "
                           "filters need"));
   }
@@ -244,7 +246,7 @@ TEST_F(CliMemory, WritesRolesIntoTheStudyFile) {
 
 TEST_F(CliMemory, RefusesTimeThatGoesBack) {
   Write("back.csv", "day,time_s,t1_degC,error_um\n1,60,20,1\n1,0,21,2\n");
-  EXPECT_THAT(RefusalOf(Run({"compare", "back.csv"}), kUnusable),
+  EXPECT_THAT(RefusalOf(Run({"compare", "back.csv"}), kCliMemoryUnusable),
               HasSubstr("time goes back by 60 s within 'day' '1'"));
 }
 

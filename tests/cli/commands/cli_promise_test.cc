@@ -23,21 +23,21 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr int kRowsPerDay = 40;
+constexpr int kCliPromiseRowsPerDay = 40;
 
-// Days of three thermometers that warm together, each day in its own way, and
-// an error that is theirs and the position's and a little more; `offset` (um)
-// moves the errors, `raise` (degC) the second thermometer.
-std::string Days(int first,
-                 int last,
-                 double offset = 0.0,
-                 double raise = 0.0,
-                 int step = 1) {
+// DaysInCliPromise of three thermometers that warm together, each day in its
+// own way, and an error that is theirs and the position's and a little more;
+// `offset` (um) moves the errors, `raise` (degC) the second thermometer.
+std::string DaysInCliPromise(int first,
+                             int last,
+                             double offset = 0.0,
+                             double raise = 0.0,
+                             int step = 1) {
   std::string text =
       "day,time_s,position_mm,t1_degC,t2_degC,t3_degC,error_um\n";
   for (int day = first; day <= last; ++day) {
     const double pace = 8.0 + 3.0 * std::sin(2.3 * day);
-    for (int row = 0; row < kRowsPerDay; row += step) {
+    for (int row = 0; row < kCliPromiseRowsPerDay; row += step) {
       const double warm = 1.0 - std::exp(-row / pace);
       const double slow = 1.0 - std::exp(-row / (3.0 * pace));
       const double air = 20.0 + std::sin(1.7 * day);
@@ -61,7 +61,7 @@ std::string Days(int first,
 class CliPromise : public Cli {
  protected:
   void SetUp() override {
-    Write("train.csv", Days(1, 10));
+    Write("train.csv", DaysInCliPromise(1, 10));
     const Outcome outcome = Run({"fit",
                                  "train.csv",
                                  "--model",
@@ -73,8 +73,8 @@ class CliPromise : public Cli {
 };
 
 TEST_F(CliPromise, PredictNamesWhatPutsARowOutside) {
-  Write("well.csv", Days(3, 3));
-  Write("raised.csv", Days(3, 3, 0.0, 3.0));
+  Write("well.csv", DaysInCliPromise(3, 3));
+  Write("raised.csv", DaysInCliPromise(3, 3, 0.0, 3.0));
   const Outcome well = Run({"predict", "map.json", "well.csv"});
   for (const auto& row : Records(well.out)) {
     EXPECT_EQ(row.at("inside"), "1");
@@ -88,34 +88,34 @@ TEST_F(CliPromise, PredictNamesWhatPutsARowOutside) {
     EXPECT_EQ(row.at("inside"), "0");
     named += row.at("offender") == "t2_degC" ? 1 : 0;
   }
-  EXPECT_GE(named, kRowsPerDay / 2);
+  EXPECT_GE(named, kCliPromiseRowsPerDay / 2);
   EXPECT_THAT(raised.err, HasSubstr("warning: farthest outside is data row"));
 }
 
 TEST_F(CliPromise, EvaluateHoldsTheMapToItsPromise) {
-  Write("well.csv", Days(11, 12));
+  Write("well.csv", DaysInCliPromise(11, 12));
   const Json well =
       RunJson({"evaluate", "map.json", "well.csv", "--format", "json"});
   EXPECT_EQ(well["promise"]["shape"], "within");
   EXPECT_GT(well["promise"]["within_90"].get<double>(), 0.7);
   EXPECT_TRUE(well["changed_relation"].is_null());
-  Write("moved.csv", Days(11, 12, 9.0));
+  Write("moved.csv", DaysInCliPromise(11, 12, 9.0));
   const Outcome moved = Run({"evaluate", "map.json", "moved.csv"});
   EXPECT_THAT(moved.out,
               AllOf(HasSubstr("promised"),
                     HasSubstr("no compensation"),
                     HasSubstr("re-zero")));
-  Write("raised.csv", Days(11, 12, 0.0, 3.0));
+  Write("raised.csv", DaysInCliPromise(11, 12, 0.0, 3.0));
   EXPECT_THAT(Run({"evaluate", "map.json", "raised.csv"}).out,
               HasSubstr("what the other inputs tell"));
 }
 
 TEST_F(CliPromise, CheckTellsWhetherTheMapHolds) {
-  Write("well.csv", Days(11, 11, 0.0, 0.0, 13));
+  Write("well.csv", DaysInCliPromise(11, 11, 0.0, 0.0, 13));
   const Outcome well = Run({"check", "map.json", "well.csv"});
   EXPECT_EQ(well.status, 0) << well.out;
   EXPECT_THAT(well.out, HasSubstr("The map holds in this session"));
-  Write("moved.csv", Days(11, 11, 9.0, 0.0, 13));
+  Write("moved.csv", DaysInCliPromise(11, 11, 9.0, 0.0, 13));
   const Outcome moved = Run({"check", "map.json", "moved.csv"});
   EXPECT_EQ(moved.status, kEveryFitFailed);
   EXPECT_THAT(moved.out,
@@ -149,7 +149,7 @@ TEST_F(CliPromise, CheckAndProbesKnowWhereTheSessionBegan) {
   ASSERT_EQ(
       Run({"fit", "train.csv", "--model", memory, "-o", "zero.json"}).status,
       0);
-  const std::string day = Days(11, 11);
+  const std::string day = DaysInCliPromise(11, 11);
   const std::vector<std::size_t> rows = {12, 20, 33};
   Write("day.csv", day);
   Write("all.csv", ProbesOf(day, rows, true));
@@ -192,7 +192,7 @@ TEST_F(CliPromise, CheckKnowsNothingWhereReadingsBetweenProbesAreMissing) {
                  "lag.json"})
                 .status,
             0);
-  const std::string day = Days(11, 11);
+  const std::string day = DaysInCliPromise(11, 11);
   const std::vector<std::size_t> rows = {0, 12, 20, 33};
   Write("all.csv", ProbesOf(day, rows, true));
   Write("only.csv", ProbesOf(day, rows, false));
@@ -227,18 +227,18 @@ TEST_F(CliPromise, CheckNeedsHeldOutErrors) {
                  "--no-interval"})
                 .status,
             0);
-  Write("probes.csv", Days(11, 11, 0.0, 0.0, 13));
+  Write("probes.csv", DaysInCliPromise(11, 11, 0.0, 0.0, 13));
   EXPECT_THAT(RefusalOf(Run({"check", "bare.json", "probes.csv", "--quiet"}),
                         kUnusable),
               HasSubstr("without --no-interval"));
 }
 
 TEST_F(CliPromise, ProbesMoveLaterRowsAndNarrowTheInterval) {
-  const std::string all = Days(11, 11, 9.0);
+  const std::string all = DaysInCliPromise(11, 11, 9.0);
   const std::vector<std::string> lines = SplitLines(all);
   std::string probes = lines[0] + "\n";
   std::string later = lines[0] + "\n";
-  for (int row = 0; row < kRowsPerDay; ++row) {
+  for (int row = 0; row < kCliPromiseRowsPerDay; ++row) {
     (row < 8 ? probes : later) +=
         lines[static_cast<std::size_t>(row) + 1] + "\n";
   }
@@ -344,7 +344,7 @@ TEST_F(CliPromise, PutsWhatWasLearntOnThePageOfTheStudy) {
                     HasSubstr("with all 10:")));
   EXPECT_EQ(Run({"report", "study", "--format", "html"}).out, page);
   // Of other data it tells nothing.
-  Write("train.csv", Days(2, 11));
+  Write("train.csv", DaysInCliPromise(2, 11));
   ASSERT_EQ(Run(compare).status, 0);
   EXPECT_THAT(Read("study/report.html"),
               Not(HasSubstr("What fewer sensors would do")));
@@ -366,7 +366,7 @@ TEST_F(CliPromise, LearnsWhatToMeasureNext) {
 }
 
 TEST_F(CliPromise, UpdatesAMapThatNewSessionsMakeBetter) {
-  Write("new.csv", Days(11, 14, 9.0));
+  Write("new.csv", DaysInCliPromise(11, 14, 9.0));
   const Json moved = RunJson({"update",
                               "map.json",
                               "new.csv",
@@ -396,8 +396,8 @@ TEST_F(CliPromise, UpdatesOnceMoreFromAllThatWasLearnt) {
     }
     return names;
   };
-  Write("new.csv", Days(11, 14, 9.0));
-  Write("newer.csv", Days(15, 16, 30.0));
+  Write("new.csv", DaysInCliPromise(11, 14, 9.0));
+  Write("newer.csv", DaysInCliPromise(15, 16, 30.0));
   const Json once = update("map.json", "new.csv");
   ASSERT_EQ(once["updated"], true);
   EXPECT_THAT(files(once), ElementsAre("map.json", "train.csv", "new.csv"));
@@ -405,7 +405,7 @@ TEST_F(CliPromise, UpdatesOnceMoreFromAllThatWasLearnt) {
   EXPECT_THAT(files(update("once.json", "newer.csv")),
               ElementsAre("once.json", "train.csv", "new.csv", "newer.csv"));
   // A file that changed is named, and the rest still serves.
-  Write("train.csv", Days(1, 9));
+  Write("train.csv", DaysInCliPromise(1, 9));
   const Outcome lost =
       Run({"update", "once.json", "newer.csv", "-o", "newer.json"});
   EXPECT_EQ(lost.status, 0) << lost.err;
@@ -425,14 +425,15 @@ TEST_F(CliPromise, UpdatesOnceMoreFromAllThatWasLearnt) {
 }
 
 TEST_F(CliPromise, KeepsTheOldMapUnlessTheNewOneIsBetter) {
-  // Days of the same kind: what ten days know, two more hardly better.
-  Write("same.csv", Days(1, 2));
+  // DaysInCliPromise of the same kind: what ten days know, two more hardly
+  // better.
+  Write("same.csv", DaysInCliPromise(1, 2));
   const Outcome outcome =
       Run({"update", "map.json", "same.csv", "-o", "same.json"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("same.json is the old one"));
   EXPECT_EQ(Read("same.json"), Read("map.json"));
-  Write("one.csv", Days(11, 11));
+  Write("one.csv", DaysInCliPromise(11, 11));
   EXPECT_THAT(
       RefusalOf(
           Run({"update", "map.json", "one.csv", "-o", "one.json", "--quiet"}),

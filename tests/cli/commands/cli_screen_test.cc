@@ -5,7 +5,7 @@
 #include <regex>
 #include <set>
 
-#include "models/report/wrap_text.h"
+#include "cli/report/wrap_text.h"
 #include "tests/cli/cli_fixture.h"
 #include "tests/cli/one_line.h"
 

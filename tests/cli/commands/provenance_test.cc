@@ -1,4 +1,4 @@
-#include "models/study_file/provenance.h"
+#include "cli/desk/provenance.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ constexpr const char* kEmptySha256 =
     "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";
 
 TEST_F(Provenance, NamesEveryLibraryOnceWithAVersion) {
-  const auto libraries = study_file::MakeProvenance("", {}).libraries;
+  const auto libraries = desk::MakeProvenance("", {}).libraries;
   for (const char* name : {"Boost",
                            "Ceres",
                            "Eigen",
@@ -47,7 +47,7 @@ TEST_F(Provenance, HoldsWhatItIsGivenBesideCompilerLibrariesAndPlatform) {
   Write("empty.csv", "");
   const std::string path = (scratch_ / "empty.csv").string();
   const cli::Json block = cli::ProvenanceJson(
-      "errmap fit empty.csv", {{"seed", 7}}, {study_file::HashInput(path)});
+      "errmap fit empty.csv", {{"seed", 7}}, {desk::HashInput(path)});
   EXPECT_EQ(block["command_line"], "errmap fit empty.csv");
   EXPECT_EQ(block["configuration"]["seed"], 7);
   EXPECT_EQ(
@@ -56,22 +56,22 @@ TEST_F(Provenance, HoldsWhatItIsGivenBesideCompilerLibrariesAndPlatform) {
   EXPECT_THAT(block["compiler"].get<std::string>(), HasSubstr("++ "));
   EXPECT_THAT(block["platform"].get<std::string>(), HasSubstr(" kernels"));
   EXPECT_EQ(block["libraries"].size(),
-            study_file::MakeProvenance("", {}).libraries.size());
+            desk::MakeProvenance("", {}).libraries.size());
 }
 
 TEST_F(Provenance, RefusesAnInputThatIsNotThere) {
-  EXPECT_THROW(study_file::HashInput("no such file.csv"), data::InputError);
+  EXPECT_THROW(desk::HashInput("no such file.csv"), data::InputError);
 }
 
 TEST_F(Provenance, OfAModelFileIsPlainTexts) {
-  const models::Provenance provenance = study_file::ModelProvenance(
+  const models::Provenance provenance = desk::ModelProvenance(
       "errmap fit a.csv", {{"a.csv", "5a"}, {"b.csv", "6b"}}, 397, 12);
   EXPECT_THAT(provenance, Contains(std::pair("data_sha256", "5a")));
   EXPECT_THAT(provenance, Contains(std::pair("data_2", "b.csv")));
-  EXPECT_THAT(study_file::DataOf(provenance),
-              ElementsAre(study_file::InputFile{"a.csv", "5a"},
-                          study_file::InputFile{"b.csv", "6b"}));
-  EXPECT_THAT(study_file::DataOf({{"seed", "1"}}), IsEmpty());
+  EXPECT_THAT(desk::DataOf(provenance),
+              ElementsAre(desk::InputFile{"a.csv", "5a"},
+                          desk::InputFile{"b.csv", "6b"}));
+  EXPECT_THAT(desk::DataOf({{"seed", "1"}}), IsEmpty());
   EXPECT_THAT(provenance, Contains(std::pair("rows", "397")));
   EXPECT_THAT(provenance, Contains(std::pair("seed", "12")));
   for (const auto& [key, text] : provenance) EXPECT_NE(text, "") << key;

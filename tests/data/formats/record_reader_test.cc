@@ -29,25 +29,27 @@ TEST(RecordReader, ReadsTextsInAndWithoutQuotes) {
   EXPECT_THAT(reader.Words(1, "a name"), ElementsAre("run.out"));
 }
 
-void ExpectRefusal(const std::string& text,
-                   std::size_t count,
-                   const std::string& message) {
+void ExpectRefusalInRecordReader(const std::string& text,
+                                 std::size_t count,
+                                 const std::string& message) {
   RecordReader reader(text, "netcg.in");
   EXPECT_THAT([&] { reader.Numbers(count, "3 numbers"); },
               ThrowsMessage<InputError>(HasSubstr(message)));
 }
 
 TEST(RecordReader, NamesLineExpectedAndFound) {
-  ExpectRefusal("\n1 2 x\n",
-                3,
-                "netcg.in: line 2: expected 3 numbers, found "
-                "'x'");
-  ExpectRefusal(
+  ExpectRefusalInRecordReader("\n1 2 x\n",
+                              3,
+                              "netcg.in: line 2: expected 3 numbers, found "
+                              "'x'");
+  ExpectRefusalInRecordReader(
       "1 2\n", 3, "line 2: expected 3 numbers from line 1 on, but the file");
-  ExpectRefusal("1 2 3 4\n", 3, "line 1: expected 3 numbers, found one more");
-  ExpectRefusal("1 3*2\n", 3, "found more: '3*2'");
-  ExpectRefusal("1 1e999 3\n", 3, "found '1e999'");
-  ExpectRefusal(std::string(1 << 20, '\xff'), 3, "line 1: expected 3 numbers");
+  ExpectRefusalInRecordReader(
+      "1 2 3 4\n", 3, "line 1: expected 3 numbers, found one more");
+  ExpectRefusalInRecordReader("1 3*2\n", 3, "found more: '3*2'");
+  ExpectRefusalInRecordReader("1 1e999 3\n", 3, "found '1e999'");
+  ExpectRefusalInRecordReader(
+      std::string(1 << 20, '\xff'), 3, "line 1: expected 3 numbers");
   RecordReader reader("1.5", "f");
   EXPECT_THAT([&] { reader.Integers(1, "a count"); },
               ThrowsMessage<InputError>(HasSubstr("not whole")));

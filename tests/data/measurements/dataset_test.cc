@@ -19,7 +19,8 @@ using ::testing::ThrowsMessage;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<double> Column(const Dataset& dataset, Eigen::Index input) {
+std::vector<double> ColumnInDataset(const Dataset& dataset,
+                                    Eigen::Index input) {
   const Eigen::VectorXd values = dataset.input_values().col(input);
   return {values.begin(), values.end()};
 }
@@ -70,7 +71,7 @@ TEST(Dataset, SelectsRowsInTheOrderAsked) {
   const Dataset selected = Dataset(SmallParts()).SelectRows({2, 0, 2});
   EXPECT_THAT(selected.rows(), ElementsAre(30, 10, 30));
   EXPECT_EQ(selected.target_values(), Eigen::Vector3d(9, 7, 9));
-  EXPECT_THAT(Column(selected, 1), ElementsAre(6, 4, 6));
+  EXPECT_THAT(ColumnInDataset(selected, 1), ElementsAre(6, 4, 6));
   EXPECT_EQ(selected.weights(), Eigen::Vector3d(3, 1, 3));
   EXPECT_THAT(selected.groups().codes, ElementsAre(1, 0, 1));
   EXPECT_THAT(selected.groups().labels, ElementsAre("1", "2"));

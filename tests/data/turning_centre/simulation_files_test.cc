@@ -35,7 +35,8 @@ CsvTable Table(const std::string& name, const FileOptions& options = {}) {
   return ParseCsv(SimulationFile(Small(), options, name), name);
 }
 
-std::vector<double> Column(const CsvTable& table, const std::string& name) {
+std::vector<double> ColumnInSimulationFiles(const CsvTable& table,
+                                            const std::string& name) {
   const auto index = table.Find(name);
   if (index < 0) throw std::runtime_error(table.file + ": no " + name);
   return table.columns[static_cast<std::size_t>(index)].values;
@@ -91,15 +92,15 @@ TEST(SimulationFiles, HaveTheColumnsOfTheirComponent) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       EXPECT_EQ(table.columns[i].name, names[i]) << c.name;
     }
-    EXPECT_EQ(Column(table, "cycle").back(), kDays * kCycles);
-    EXPECT_EQ(Column(table, "day").back(), kDays);
+    EXPECT_EQ(ColumnInSimulationFiles(table, "cycle").back(), kDays * kCycles);
+    EXPECT_EQ(ColumnInSimulationFiles(table, "day").back(), kDays);
   }
 }
 
 TEST(SimulationFiles, ErrorIsTheTruthWithReadingNoise) {
   const CsvTable table = Table("x_displacement_down.csv", {.truth = true});
-  const std::vector<double> error = Column(table, "error_mm");
-  const std::vector<double> truth = Column(table, "truth_mm");
+  const std::vector<double> error = ColumnInSimulationFiles(table, "error_mm");
+  const std::vector<double> truth = ColumnInSimulationFiles(table, "truth_mm");
   double sum_of_squares = 0.0;
   for (std::size_t i = 0; i < error.size(); ++i) {
     sum_of_squares += (error[i] - truth[i]) * (error[i] - truth[i]);
@@ -114,13 +115,14 @@ TEST(SimulationFiles, TruthIsOptionalAndChangesNothingElse) {
   const CsvTable with = Table("x_displacement_down.csv", {.truth = true});
   const CsvTable without = Table("x_displacement_down.csv");
   EXPECT_EQ(without.Find("truth_mm"), -1);
-  EXPECT_EQ(Column(with, "error_mm"), Column(without, "error_mm"));
+  EXPECT_EQ(ColumnInSimulationFiles(with, "error_mm"),
+            ColumnInSimulationFiles(without, "error_mm"));
 }
 
 TEST(SimulationFiles, TellTheTrueTimeOfEveryDay) {
   const CsvTable table = Table("x_displacement_down.csv");
-  const std::vector<double> time = Column(table, "time_s");
-  const std::vector<double> day = Column(table, "day");
+  const std::vector<double> time = ColumnInSimulationFiles(table, "time_s");
+  const std::vector<double> day = ColumnInSimulationFiles(table, "day");
   EXPECT_EQ(time[1] - time[0], kSecondsPerStop);
   for (std::size_t i = 1; i < time.size(); ++i) {
     EXPECT_GT(time[i], time[i - 1]);
@@ -143,9 +145,10 @@ TEST(SimulationFiles, AreDataSetsOfFortyOneInputsLessTheDead) {
 
 TEST(SimulationFiles, TheToolTipTableRepeatsTheModel) {
   const CsvTable table = Table("tool_tip.csv");
-  const std::vector<double> x = Column(table, "x_mm");
-  const std::vector<double> z = Column(table, "z_mm");
-  const std::vector<double> error_z = Column(table, "error_z_mm");
+  const std::vector<double> x = ColumnInSimulationFiles(table, "x_mm");
+  const std::vector<double> z = ColumnInSimulationFiles(table, "z_mm");
+  const std::vector<double> error_z =
+      ColumnInSimulationFiles(table, "error_z_mm");
   ASSERT_EQ(table.num_rows, Small().points.size());
   for (std::size_t i = 0; i < table.num_rows; ++i) {
     const ToolTipPoint& point = Small().points[i];
@@ -162,9 +165,10 @@ TEST(SimulationFiles, TheToolTipTableRepeatsTheModel) {
 
 TEST(SimulationFiles, DiagonalsGoFromCornerToCornerForthAndBack) {
   const CsvTable table = Table("diagonals.csv");
-  const std::vector<double> x = Column(table, "x_mm");
-  const std::vector<double> z = Column(table, "z_mm");
-  const std::vector<double> error_x = Column(table, "error_x_mm");
+  const std::vector<double> x = ColumnInSimulationFiles(table, "x_mm");
+  const std::vector<double> z = ColumnInSimulationFiles(table, "z_mm");
+  const std::vector<double> error_x =
+      ColumnInSimulationFiles(table, "error_x_mm");
   const auto text = [&](std::size_t row, const char* name) {
     const auto index = static_cast<std::size_t>(table.Find(name));
     return table.CellText(table.columns[index], row);
@@ -204,8 +208,8 @@ TEST(SimulationFiles, DiagonalsGoFromCornerToCornerForthAndBack) {
 
 TEST(SimulationFiles, TheLogHasAllChannelsEveryMinuteFromSwitchOn) {
   const CsvTable table = Table("temperatures.csv");
-  const std::vector<double> day = Column(table, "day");
-  const std::vector<double> time = Column(table, "time_s");
+  const std::vector<double> day = ColumnInSimulationFiles(table, "day");
+  const std::vector<double> time = ColumnInSimulationFiles(table, "time_s");
   ASSERT_EQ(table.num_rows, Small().log.size());
   EXPECT_EQ(table.columns.size(), 3U + kNumThermocouples);
   for (std::size_t i = 0; i < table.num_rows; ++i) {

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "stats/random.h"
+#include "tests/random_matrix.h"
 
 namespace errmap::fitting {
 namespace {
@@ -18,6 +19,8 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using errmap::testing::RandomMatrix;
+using errmap::testing::RandomVector;
 using stats::DoubleDouble;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -26,17 +29,6 @@ using ::testing::ThrowsMessage;
 
 // Well-conditioned systems of some ten rows: a few roundings.
 constexpr double kRounding = 1e-13;
-
-MatrixXd RandomMatrix(Index rows, Index cols, std::uint64_t seed) {
-  stats::Random random(seed);
-  MatrixXd matrix(rows, cols);
-  for (double& value : matrix.reshaped()) value = 2.0 * random.Uniform() - 1.0;
-  return matrix;
-}
-
-VectorXd RandomVector(Index rows, std::uint64_t seed) {
-  return RandomMatrix(rows, 1, seed);
-}
 
 // Powers 0 .. degree of x, as NIST's polynomial problems are written.
 MatrixXd Powers(const VectorXd& x, Index degree) {

@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 
 constexpr std::int64_t kPatience = 10;
 
-FunctionObjective Bowl() {
+FunctionObjective BowlInGuardedRun() {
   return {2, [](const VectorXd& x, VectorXd* gradient) {
             if (gradient != nullptr) *gradient = x;
             return 0.5 * x.squaredNorm();
@@ -30,7 +30,7 @@ FunctionObjective Bowl() {
 }
 
 TEST(GuardedRun, AnswersTheSamePointFromMemory) {
-  const FunctionObjective bowl = Bowl();
+  const FunctionObjective bowl = BowlInGuardedRun();
   const WatchedObjective watched(bowl);
   const StoppingRules rules;
   const RunControl control;
@@ -44,7 +44,7 @@ TEST(GuardedRun, AnswersTheSamePointFromMemory) {
 }
 
 TEST(GuardedRun, CountsAnIterationOnlyWhereTheCostFell) {
-  const FunctionObjective bowl = Bowl();
+  const FunctionObjective bowl = BowlInGuardedRun();
   const StoppingRules rules;
   const RunControl control;
   GuardedRun run(bowl, rules, control, kPatience);
@@ -66,7 +66,7 @@ TEST(GuardedRun, CountsAnIterationOnlyWhereTheCostFell) {
 }
 
 TEST(GuardedRun, ClaimsNoMinimumWhereTheSolverIsContentAndTheGradientIsNot) {
-  const FunctionObjective bowl = Bowl();
+  const FunctionObjective bowl = BowlInGuardedRun();
   const StoppingRules rules;
   const RunControl control;
   GuardedRun run(bowl, rules, control, kPatience);
@@ -77,7 +77,7 @@ TEST(GuardedRun, ClaimsNoMinimumWhereTheSolverIsContentAndTheGradientIsNot) {
 }
 
 TEST(GuardedRun, LosesPatienceWithASolverThatAsksForEver) {
-  const FunctionObjective bowl = Bowl();
+  const FunctionObjective bowl = BowlInGuardedRun();
   const StoppingRules rules;
   const RunControl control;
   GuardedRun run(bowl, rules, control, kPatience);
@@ -94,7 +94,7 @@ TEST(GuardedRun, LosesPatienceWithASolverThatAsksForEver) {
 }
 
 TEST(GuardedRun, DoesNotAskTheObjectiveOutsideTheNumbers) {
-  const FunctionObjective bowl = Bowl();
+  const FunctionObjective bowl = BowlInGuardedRun();
   const WatchedObjective watched(bowl);
   const StoppingRules rules;
   const RunControl control;
@@ -171,7 +171,7 @@ TEST_P(ForeignSolver, IsInterruptedWhereTheObjectiveIs) {
 }
 
 TEST(GuardedRun, HasNoResultWhereTheCallerFindsNotEnoughMemory) {
-  const FunctionObjective bowl = Bowl();
+  const FunctionObjective bowl = BowlInGuardedRun();
   const StoppingRules rules;
   const RunControl control{
       .after_iteration = [](const auto&) -> bool { throw std::bad_alloc(); }};

@@ -19,6 +19,7 @@
 #include "tests/fitting/optimizer_cases.h"
 #include "tests/fitting/residual_problems.h"
 #include "tests/fitting/test_problems.h"
+#include "tests/numbers.h"
 #include "tests/random_matrix.h"
 
 namespace errmap::fitting {
@@ -34,9 +35,6 @@ using errmap::testing::ResidualObjective;
 using errmap::testing::ResidualProblem;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Way {
   std::string name;  // letters only: part of a test's name

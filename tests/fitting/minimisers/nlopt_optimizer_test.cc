@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 using ::testing::Property;
 using ::testing::Throws;
 
-FunctionObjective Bowl(Eigen::Index size) {
+FunctionObjective BowlInNloptOptimizer(Eigen::Index size) {
   return {size, [](const VectorXd& x, VectorXd* gradient) {
             if (gradient != nullptr) *gradient = x;
             return 0.5 * x.squaredNorm();
@@ -50,14 +50,16 @@ TEST(NloptOptimizer, NamesItsMethod) {
 
 TEST(NloptOptimizer, RefusesToSearchMoreParametersThanCrs2Can) {
   const NloptOptimizer crs2({.method = NloptMethod::kCrs2Lm});
-  EXPECT_NO_THROW(NloptOptimizer({.stopping = {.iterations = 1},
-                                  .method = NloptMethod::kCrs2Lm})
-                      .Minimize(Bowl(100), VectorXd::Ones(100)));
-  EXPECT_THAT([&] { crs2.Minimize(Bowl(101), VectorXd::Ones(101)); },
-              Throws<std::invalid_argument>(Property(
-                  &std::exception::what,
-                  HasSubstr("crs2_lm searches at most 100 parameters, found "
-                            "101; use lbfgs"))));
+  EXPECT_NO_THROW(
+      NloptOptimizer(
+          {.stopping = {.iterations = 1}, .method = NloptMethod::kCrs2Lm})
+          .Minimize(BowlInNloptOptimizer(100), VectorXd::Ones(100)));
+  EXPECT_THAT(
+      [&] { crs2.Minimize(BowlInNloptOptimizer(101), VectorXd::Ones(101)); },
+      Throws<std::invalid_argument>(
+          Property(&std::exception::what,
+                   HasSubstr("crs2_lm searches at most 100 parameters, found "
+                             "101; use lbfgs"))));
 }
 
 // 2 + x/20 - cos(x) in each coordinate: a minimum near every multiple of 2 pi,

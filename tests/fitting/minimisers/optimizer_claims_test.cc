@@ -19,6 +19,7 @@
 #include "tests/fitting/optimizer_cases.h"
 #include "tests/fitting/test_problems.h"
 #include "tests/fitting/watched_objective.h"
+#include "tests/numbers.h"
 #include "tests/random_matrix.h"
 
 namespace errmap::fitting {
@@ -33,9 +34,6 @@ using errmap::testing::RandomMatrix;
 using errmap::testing::WatchedObjective;
 using ::testing::IsEmpty;
 using ::testing::Not;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A function and a start where minimisation goes wrong, or may.
 struct HardCase {

@@ -10,14 +10,11 @@
 #include <gtest/gtest.h>
 
 #include "fitting/minimisers/scaled_conjugate_gradient.h"
+#include "tests/fitting/optimizer_cases.h"
 #include "tests/fitting/test_problems.h"
+#include "tests/numbers.h"
 
 namespace errmap::fitting {
-
-// The word in failure messages.
-static void PrintTo(Termination termination, std::ostream* out) {
-  *out << ToString(termination);
-}
 
 namespace {
 
@@ -27,9 +24,6 @@ using errmap::testing::TestProblem;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 ScaledConjugateGradient Scg(const StoppingRules& stopping) {
   ScaledConjugateGradientOptions options;

@@ -25,7 +25,7 @@ using ::testing::Not;
 using ::testing::ThrowsMessage;
 using ::testing::UnorderedElementsAre;
 
-const VectorXd kEqual;
+const VectorXd kStepwiseRulesEqual;
 
 MatrixXd DesignOf(const MatrixXd& candidates,
                   const std::vector<Index>& chosen) {
@@ -61,7 +61,7 @@ TEST(StepwiseRules, SelectsByPressAsRefittingWould) {
     options.select = options.stop = options.choose = Criterion::kPress;
     options.direction = Direction::kBoth;
     const SelectionResult result =
-        SelectStepwise({columns, response, kEqual}, {}, options);
+        SelectStepwise({columns, response, kStepwiseRulesEqual}, {}, options);
     std::vector<Index> chosen;
     for (std::size_t i = 0; i < result.steps.size(); ++i) {
       const SelectionStep& step = result.steps[i];
@@ -92,7 +92,7 @@ TEST(StepwiseRules, SelectsByCrossValidationAsRefittingWould) {
   options.select = options.stop = options.choose = Criterion::kCv;
   const MatrixColumns columns(candidates);
   const SelectionResult result =
-      SelectStepwise({columns, response, kEqual}, rules, options);
+      SelectStepwise({columns, response, kStepwiseRulesEqual}, rules, options);
   std::vector<Index> chosen;
   for (std::size_t i = 1; i < result.steps.size(); ++i) {
     for (Index j = 0; j < 6; ++j) {
@@ -124,7 +124,7 @@ TEST(StepwiseRules, EfroymsonLetsATermLeaveThatOthersReplace) {
   options.select = options.stop = options.choose = Criterion::kPValue;
   const MatrixColumns columns(candidates);
   const SelectionResult result =
-      SelectStepwise({columns, response, kEqual}, {}, options);
+      SelectStepwise({columns, response, kStepwiseRulesEqual}, {}, options);
   EXPECT_EQ(result.steps[1].candidate, 2);
   EXPECT_THAT(result.chosen, UnorderedElementsAre(0, 1));
   EXPECT_FALSE(result.steps.back().entered);
@@ -142,7 +142,9 @@ TEST(StepwiseRules, HeredityAdmitsAProductAfterItsParents) {
   StepwiseOptions options;
   const auto chosen = [&](Heredity heredity) {
     options.heredity = heredity;
-    return SelectStepwise({columns, response, kEqual}, rules, options).chosen;
+    return SelectStepwise(
+               {columns, response, kStepwiseRulesEqual}, rules, options)
+        .chosen;
   };
   EXPECT_EQ(chosen(Heredity::kNone).front(), 3);
   // One parent is enough: y lets x y in before x, and comes first because it
@@ -176,7 +178,8 @@ TEST(StepwiseRules, IncludedStayAndExcludedStayOut) {
     StepwiseOptions options;
     options.direction = direction;
     const auto chosen =
-        SelectStepwise({columns, response, kEqual}, rules, options).chosen;
+        SelectStepwise({columns, response, kStepwiseRulesEqual}, rules, options)
+            .chosen;
     EXPECT_THAT(chosen, Contains(4));
     EXPECT_THAT(chosen, Contains(1));
     EXPECT_THAT(chosen, Not(Contains(0)));
@@ -193,14 +196,14 @@ TEST(StepwiseRules, MoreCandidatesThanRowsAndCopiesAreNoTrouble) {
   options.stop = Criterion::kNone;
   options.choose = Criterion::kBic;
   const SelectionResult result =
-      SelectStepwise({columns, response, kEqual}, {}, options);
+      SelectStepwise({columns, response, kStepwiseRulesEqual}, {}, options);
   EXPECT_EQ(result.steps.back().terms, 18);  // one degree of freedom is left
   for (const SelectionStep& step : result.steps) {
     EXPECT_LT(step.candidate, 100);  // never the copy
     EXPECT_TRUE(std::isfinite(step.residual_sum_of_squares));
   }
   const auto excluded =
-      JudgeExcluded({columns, response, kEqual}, {3, 9}, 1e-7);
+      JudgeExcluded({columns, response, kStepwiseRulesEqual}, {3, 9}, 1e-7);
   ASSERT_EQ(excluded.size(), 198U);
   EXPECT_TRUE(excluded[101].aliased);  // column 103, the copy of 3
   EXPECT_FALSE(excluded[0].aliased);
@@ -215,7 +218,7 @@ TEST(StepwiseRules, ExcludedTermsHaveTheFOfARefit) {
   const double rss = SolveLeastSquares(DesignOf(candidates, {1, 2}), response)
                          .residual_sum_of_squares;
   for (const ExcludedTerm& term :
-       JudgeExcluded({columns, response, kEqual}, {1, 2}, 1e-7)) {
+       JudgeExcluded({columns, response, kStepwiseRulesEqual}, {1, 2}, 1e-7)) {
     const double less =
         SolveLeastSquares(DesignOf(candidates, {1, 2, term.candidate}),
                           response)
@@ -233,7 +236,7 @@ TEST(StepwiseRules, RefusesWhatCannotWork) {
                           const std::string& message) {
     EXPECT_THAT(
         [&] {
-          SelectStepwise({columns, response, kEqual}, {}, options);
+          SelectStepwise({columns, response, kStepwiseRulesEqual}, {}, options);
         },
         ThrowsMessage<std::invalid_argument>(HasSubstr(message)));
   };

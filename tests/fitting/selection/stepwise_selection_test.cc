@@ -13,6 +13,7 @@
 
 #include "fitting/least_squares/linear_least_squares.h"
 #include "stats/random.h"
+#include "tests/random_matrix.h"
 
 namespace errmap::fitting {
 namespace {
@@ -20,23 +21,14 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using errmap::testing::RandomMatrix;
+using errmap::testing::RandomVector;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 using ::testing::ThrowsMessage;
 using ::testing::UnorderedElementsAre;
-
-MatrixXd RandomMatrix(Index rows, Index cols, std::uint64_t seed) {
-  stats::Random random(seed);
-  MatrixXd matrix(rows, cols);
-  for (double& value : matrix.reshaped()) value = 2.0 * random.Uniform() - 1.0;
-  return matrix;
-}
-
-VectorXd RandomVector(Index rows, std::uint64_t seed) {
-  return RandomMatrix(rows, 1, seed);
-}
 
 double Bic(double residual_sum_of_squares, Index rows, Index coefficients) {
   const double n = static_cast<double>(rows);

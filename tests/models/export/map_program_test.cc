@@ -17,13 +17,12 @@
 #include "models/history/history.h"
 #include "models/net/feedforward_net.h"
 #include "models/polynomial/polynomial_model.h"
+#include "tests/numbers.h"
 
 namespace errmap::models {
 namespace {
 
 using Eigen::Index;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 data::ColumnInfo Column(const std::string& name) {
   return {name, data::UnitOfColumn(name)};

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 // Five runs whose error is a line in one temperature as it was some time ago:
 // 600 s through a filter.
-data::Dataset LaggingDays() {
+data::Dataset LaggingDaysInFitInView() {
   const data::Dataset wandering = errmap::testing::WanderingDays();
   History history;
   history.time_unit = "s";
@@ -48,7 +48,7 @@ double RmseOf(const FittedModel& fitted, const data::Dataset& dataset) {
 }
 
 TEST(FitInView, StepwiseFindsTheFilterThatTheErrorFollows) {
-  const data::Dataset dataset = LaggingDays();
+  const data::Dataset dataset = LaggingDaysInFitInView();
   const FittedModel raw = FitSpec("poly:stepwise:terms=linear", dataset);
   const FittedModel chosen =
       FitSpec("poly:stepwise:terms=linear:view=auto:history=600", dataset);
@@ -64,7 +64,7 @@ TEST(FitInView, StepwiseFindsTheFilterThatTheErrorFollows) {
 }
 
 TEST(FitInView, AFormulaNamesDerivedInputs) {
-  const data::Dataset dataset = LaggingDays();
+  const data::Dataset dataset = LaggingDaysInFitInView();
   const FittedModel fitted = FitSpec(
       "poly:formula=\"ema(t1_degC,600s)\":view=history:history=600", dataset);
   EXPECT_LT(RmseOf(fitted, dataset), 1e-9);

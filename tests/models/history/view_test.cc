@@ -21,7 +21,7 @@ std::optional<ViewOptions> ViewIn(const std::string& text) {
   return OptionsOf<PenalizedOptions>("poly:ridge" + text).basis.view;
 }
 
-std::vector<std::string> NamesOf(const data::Dataset& dataset) {
+std::vector<std::string> NamesOfInView(const data::Dataset& dataset) {
   std::vector<std::string> names;
   for (const data::ColumnInfo& input : dataset.inputs()) {
     names.push_back(input.name);
@@ -77,7 +77,7 @@ TEST(View, AutoTriesSineAndCosineOfAnglesThatTurnFar) {
   EXPECT_EQ(far[0].label(), "raw");
   EXPECT_EQ(far[1].label(), "raw with sine and cosine");
   EXPECT_THAT(
-      NamesOf(*far[1].rows),
+      NamesOfInView(*far[1].rows),
       ElementsAre(
           "sin(tilt_mrad)", "cos(tilt_mrad)", "sin(c_deg)", "cos(c_deg)"));
   const data::Dataset axes = TurningAxes(180.0);
@@ -94,7 +94,7 @@ TEST(View, NamesAndUnitsSayWhatADerivedInputIs) {
                                ViewIn(":history=300:zero=session"),
                                0.0);
   ASSERT_EQ(views.size(), 1U);
-  EXPECT_THAT(NamesOf(*views[0].rows),
+  EXPECT_THAT(NamesOfInView(*views[0].rows),
               ElementsAre("zeroed(t1_degC)",
                           "zeroed(t2_degC)",
                           "zeroed(ema(t1_degC,300s))",

@@ -29,7 +29,7 @@ using ::testing::ThrowsMessage;
 using enum ErrorDirection;
 
 // Sums of products near 0.1 mm: a millionth of a nanometre.
-constexpr double kRounding = 1e-12;
+constexpr double kKinematicChainRounding = 1e-12;
 constexpr double kOrthonormal = 1e-15;
 
 std::vector<ErrorDirection> AllSix() { return {kX, kY, kZ, kA, kB, kC}; }
@@ -107,12 +107,12 @@ TEST(KinematicChain, NoErrorsNoErrorAtTheTool) {
   stats::Random random(1);
   const VectorXd none = VectorXd::Zero(chain.num_errors());
   const VectorXd pose = DrawFiveAxes(&random);
-  EXPECT_LT(chain.ExactError(pose, none).norm(), kRounding);
+  EXPECT_LT(chain.ExactError(pose, none).norm(), kKinematicChainRounding);
   EXPECT_EQ(chain.FirstOrderError(pose, none).norm(), 0.0);
   EXPECT_TRUE(chain.Tool(pose, none).isApprox(chain.NominalTool(pose), 1e-15));
   EXPECT_LT((chain.Work(pose, none).matrix() - chain.NominalTool(pose).matrix())
                 .norm(),
-            kRounding);
+            kKinematicChainRounding);
 }
 
 TEST(KinematicChain, RotationsStayOrthonormal) {
@@ -179,7 +179,7 @@ TEST(KinematicChain, NominalReachIsThePlaceOnTheWork) {
   EXPECT_LT(
       (chain.NominalReach(Vector2d(20.0, 70.0)) - Vector3d(70.0, 0.0, 370.0))
           .norm(),
-      kRounding);
+      kKinematicChainRounding);
   EXPECT_THROW(chain.NominalReach(VectorXd::Zero(1)), std::invalid_argument);
 }
 
@@ -206,10 +206,11 @@ TEST(KinematicChain, ATipThatIsTooHighIsPositiveAndNegativeInEquation5) {
   VectorXd errors = VectorXd::Zero(6);
   errors[0] = 0.003;  // EXX
   const VectorXd pose = VectorXd::Constant(1, 100.0);
-  EXPECT_NEAR(chain.ExactError(pose, errors).x(), 0.003, kRounding);
+  EXPECT_NEAR(
+      chain.ExactError(pose, errors).x(), 0.003, kKinematicChainRounding);
   const Isometry3d e =
       ErrorMatrix(chain.Tool(pose, errors), chain.Work(pose, errors));
-  EXPECT_NEAR(e.translation().x(), -0.003, kRounding);
+  EXPECT_NEAR(e.translation().x(), -0.003, kKinematicChainRounding);
 }
 
 // ---- The simulated lathe: an independent summation.
@@ -294,7 +295,8 @@ TEST(KinematicChain, AgreesWithALatheWorkedOutByHand) {
   // Z: -8e-6 * 286 + 0.004 + (3e-6 + 15e-6) * 286 + 0.002 - 0.007
   //    + 30e-6 * 286
   const Vector3d by_hand(-0.03552, -0.0001, 0.01044);
-  EXPECT_LT((chain.FirstOrderError(pose, errors) - by_hand).norm(), kRounding);
+  EXPECT_LT((chain.FirstOrderError(pose, errors) - by_hand).norm(),
+            kKinematicChainRounding);
 }
 
 // ---- A textbook machine.
@@ -331,7 +333,8 @@ TEST(KinematicChain, AgreesWithThe21ErrorsOfThreeAxes) {
         x_axis[1] + y_axis[1] + z_axis[1] - (x_axis[3] + y_axis[3] + a0z) * z -
             (x_axis[3] + y_axis[3] + z_axis[3] + a0z) * t,
         x_axis[2] + y_axis[2] + z_axis[2] + x_axis[3] * y);
-    EXPECT_LT((chain.FirstOrderError(pose, e) - expected).norm(), kRounding);
+    EXPECT_LT((chain.FirstOrderError(pose, e) - expected).norm(),
+              kKinematicChainRounding);
     // Products of 1e-4 rad with 0.1 mm, and half its square with 500 mm.
     EXPECT_LT((chain.ExactError(pose, e) - expected).norm(), 5e-5);
   }
@@ -346,9 +349,9 @@ TEST(KinematicChain, ErrorsOfATableCountTheOtherWay) {
   errors[0] = 0.004;  // EXX
   errors[5] = 1e-5;   // ECX: the table's origin is at x = -200
   const Vector3d error = chain.FirstOrderError(pose, errors);
-  EXPECT_NEAR(error.x(), -0.004, kRounding);
-  EXPECT_NEAR(error.y(), -1e-5 * 200.0, kRounding);
-  EXPECT_NEAR(error.z(), 0.0, kRounding);
+  EXPECT_NEAR(error.x(), -0.004, kKinematicChainRounding);
+  EXPECT_NEAR(error.y(), -1e-5 * 200.0, kKinematicChainRounding);
+  EXPECT_NEAR(error.z(), 0.0, kKinematicChainRounding);
 }
 
 TEST(KinematicChain, ErrorsOfARotaryAxisStayInTheFrameBelowIt) {
@@ -363,9 +366,9 @@ TEST(KinematicChain, ErrorsOfARotaryAxisStayInTheFrameBelowIt) {
   errors[5] = 1e-5;   // ECC turns 100 mm of arm along -X
   errors[3] = 2e-6;   // EAC turns (0, 100, 30) about X: -30 in Y, 100 in Z
   const Vector3d error = chain.FirstOrderError(pose, errors);
-  EXPECT_NEAR(error.x(), 0.001 - 1e-5 * 100.0, kRounding);
-  EXPECT_NEAR(error.y(), -2e-6 * 30.0, kRounding);
-  EXPECT_NEAR(error.z(), 2e-6 * 100.0, kRounding);
+  EXPECT_NEAR(error.x(), 0.001 - 1e-5 * 100.0, kKinematicChainRounding);
+  EXPECT_NEAR(error.y(), -2e-6 * 30.0, kKinematicChainRounding);
+  EXPECT_NEAR(error.z(), 2e-6 * 100.0, kKinematicChainRounding);
 }
 
 // ---- Mistakes.

@@ -11,7 +11,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixX3d;
 
-constexpr double kRounding = 1e-12;
+constexpr double kPlaneCellsRounding = 1e-12;
 
 TEST(WorkingPlane, IsThatOfTheSensitiveDirections) {
   const auto lathe = WorkingPlaneOf({true, false, true});
@@ -41,20 +41,20 @@ TEST(CellsOf, TakesErrorsTogetherWherePosesAre) {
       1, 100, 0,        //
       0, 100, 0;
   const PlaneCells cells = CellsOf({.across = 0, .up = 2}, points, errors);
-  EXPECT_NEAR(cells.width, 10.0, kRounding);
-  EXPECT_NEAR(cells.height, 20.0, kRounding);
+  EXPECT_NEAR(cells.width, 10.0, kPlaneCellsRounding);
+  EXPECT_NEAR(cells.height, 20.0, kPlaneCellsRounding);
   ASSERT_EQ(cells.cells.size(), 2U);
   const PlaneCell& first = cells.cells[0];
   EXPECT_EQ(first.points, 2);
-  EXPECT_NEAR(first.across, 5.0, kRounding);
-  EXPECT_NEAR(first.up, 10.0, kRounding);
-  EXPECT_NEAR(first.mean_across, 2.0, kRounding);
-  EXPECT_NEAR(first.mean_up, 2.0, kRounding);
-  EXPECT_NEAR(first.rms, std::sqrt((25.0 + 1.0) / 2.0), kRounding);
+  EXPECT_NEAR(first.across, 5.0, kPlaneCellsRounding);
+  EXPECT_NEAR(first.up, 10.0, kPlaneCellsRounding);
+  EXPECT_NEAR(first.mean_across, 2.0, kPlaneCellsRounding);
+  EXPECT_NEAR(first.mean_up, 2.0, kPlaneCellsRounding);
+  EXPECT_NEAR(first.rms, std::sqrt((25.0 + 1.0) / 2.0), kPlaneCellsRounding);
   // A cell without error is there; cells without poses are not.
   const PlaneCell& last = cells.cells[1];
-  EXPECT_NEAR(last.across, 25.0, kRounding);
-  EXPECT_NEAR(last.up, 50.0, kRounding);
+  EXPECT_NEAR(last.across, 25.0, kPlaneCellsRounding);
+  EXPECT_NEAR(last.up, 50.0, kPlaneCellsRounding);
   EXPECT_EQ(last.rms, 0.0);
 }
 
@@ -67,7 +67,7 @@ TEST(CellsOf, KeepsEveryPointAndAtMostTwelveCellsInARow) {
   Index count = 0;
   for (const PlaneCell& cell : cells.cells) {
     count += cell.points;
-    EXPECT_NEAR(cell.rms, std::sqrt(2.0), kRounding);
+    EXPECT_NEAR(cell.rms, std::sqrt(2.0), kPlaneCellsRounding);
   }
   EXPECT_EQ(count, kPoints);
 }

@@ -20,13 +20,14 @@ using Eigen::MatrixX3d;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-HeldOutToolTip Session(MatrixX3d errors, double half_width) {
+HeldOutToolTip SessionInToolTipSpread(MatrixX3d errors, double half_width) {
   MatrixX3d half_widths = MatrixX3d::Constant(errors.rows(), 3, half_width);
   return {std::move(errors), std::move(half_widths)};
 }
 
 HeldOutToolTip Same(double error, double half_width, Index points = 2) {
-  return Session(MatrixX3d::Constant(points, 3, error), half_width);
+  return SessionInToolTipSpread(MatrixX3d::Constant(points, 3, error),
+                                half_width);
 }
 
 // Mean squares of errors / half-widths by hand: (0.5 + 1.5) / 2 and 1.21. Their
@@ -38,8 +39,8 @@ TEST(ToolTipHalfWidths, AreTheSpreadOfSessionsTimesStudentsT) {
                         {std::sqrt(1.5), std::sqrt(6.0), 0.0}};
   const MatrixX3d second{{1.1, 2.2, 0.0}, {-1.1, 2.2, 0.0}};
   const MatrixX3d first_order{{1.0, 2.0, 1.0}, {3.0, 6.0, 1.0}};
-  HeldOutToolTip one = Session(first, 1.0);
-  HeldOutToolTip two = Session(second, 1.0);
+  HeldOutToolTip one = SessionInToolTipSpread(first, 1.0);
+  HeldOutToolTip two = SessionInToolTipSpread(second, 1.0);
   one.half_widths.col(1).setConstant(2.0);
   two.half_widths.col(1).setConstant(2.0);
   const MatrixX3d half_widths = ToolTipHalfWidths({one, two}, first_order, 0.9);
@@ -105,7 +106,7 @@ TEST(ToolTipHalfWidths, CoverAFurtherSession) {
       for (int i = 0; i < sessions; ++i) {
         MatrixX3d errors(4, 3);
         for (double& error : errors.reshaped()) error = draw();
-        seen.push_back(Session(errors, 0.5));
+        seen.push_back(SessionInToolTipSpread(errors, 0.5));
       }
       const double half_width =
           ToolTipHalfWidths(seen, MatrixX3d::Constant(1, 3, 0.5), 0.9)(0, 0);
@@ -127,7 +128,9 @@ TEST(ToolTipHalfWidths, RefuseWhatTheyCannotJudge) {
   const HeldOutToolTip good = Same(0.0, 1.0);
   expect({good}, 0.9, "needs two sessions");
   expect({good, good}, 1.0, "a coverage between 0 and 1");
-  expect({good, Session(MatrixX3d(0, 3), 1.0)}, 0.9, "or there are none");
+  expect({good, SessionInToolTipSpread(MatrixX3d(0, 3), 1.0)},
+         0.9,
+         "or there are none");
   expect({good, {MatrixX3d::Zero(2, 3), MatrixX3d::Ones(1, 3)}},
          0.9,
          "differ in number");

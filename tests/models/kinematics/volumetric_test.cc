@@ -10,6 +10,7 @@
 
 #include "stats/random.h"
 #include "tests/models/kinematics/lathe_chain.h"
+#include "tests/numbers.h"
 
 namespace errmap::models {
 namespace {
@@ -20,8 +21,6 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // Poses over the work volume, and errors of some micrometres and microradians
 // with half-widths of a fifth of them.

@@ -29,7 +29,7 @@ FittedModel FitOf(const std::string& spec,
   return MakeRecipe(spec)->Fit(dataset, context);
 }
 
-double RmseOf(const FittedModel& fitted, const data::Dataset& dataset) {
+double RmseOfInNetFit(const FittedModel& fitted, const data::Dataset& dataset) {
   return std::sqrt(
       (dataset.target_values() - fitted.Predict(dataset)).squaredNorm() /
       static_cast<double>(dataset.num_rows()));
@@ -177,8 +177,8 @@ TEST(Wfactor, ByDiscrepancyGivesTheWantedRms) {
   const data::Dataset dataset = ShippedMeasurements();
   constexpr double kDelta = 0.0005;  // mm
   const FittedModel fitted = FitOf("net:scg:discrepancy=0.0005", dataset);
-  EXPECT_LE(RmseOf(fitted, dataset), kDelta * (1.0 + 1e-9));
-  EXPECT_GT(RmseOf(fitted, dataset), 0.97 * kDelta);
+  EXPECT_LE(RmseOfInNetFit(fitted, dataset), kDelta * (1.0 + 1e-9));
+  EXPECT_GT(RmseOfInNetFit(fitted, dataset), 0.97 * kDelta);
   ASSERT_EQ(fitted.choices.size(), 2U);
   EXPECT_EQ(fitted.choices[0].key, "wfactor");
   EXPECT_GT(std::get<double>(fitted.choices[0].value), 0.0);

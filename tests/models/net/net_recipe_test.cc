@@ -32,13 +32,13 @@ using fitting::Termination;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-FittedModel FitSpec(const std::string& spec,
-                    const data::Dataset& dataset,
-                    const FitContext& context = {}) {
+FittedModel FitSpecInNetRecipe(const std::string& spec,
+                               const data::Dataset& dataset,
+                               const FitContext& context = {}) {
   return MakeRecipe(spec)->Fit(dataset, context);
 }
 
-std::string MessageOf(const std::string& spec) {
+std::string MessageOfInNetRecipe(const std::string& spec) {
   try {
     MakeRecipe(spec);
   } catch (const std::invalid_argument& error) {
@@ -86,7 +86,7 @@ TEST(NetRecipe, IsMadeOfOptions) {
   EXPECT_EQ(recipe->kind(), ModelKind::kNet);
   const data::Dataset dataset = QuadraticData(40);
   EXPECT_EQ(recipe->Fit(dataset, {}).Predict(dataset),
-            FitSpec("net:cg:hidden=3", dataset).Predict(dataset));
+            FitSpecInNetRecipe("net:cg:hidden=3", dataset).Predict(dataset));
 }
 
 TEST(NetRecipe, TellsTheOptionsThatTookEffect) {
@@ -151,26 +151,28 @@ TEST(NetRecipe, RefusesEachOptionOutOfRange) {
       {"precision=half", "precision must be one of double, single"}};
   for (const auto& [option, message] : cases) {
     const std::string spec = "net:scg:" + option;
-    EXPECT_THAT(MessageOf(spec), AllOf(HasSubstr(spec), HasSubstr(message)));
+    EXPECT_THAT(MessageOfInNetRecipe(spec),
+                AllOf(HasSubstr(spec), HasSubstr(message)));
   }
   for (const char* option : {"learning_rate=0", "momentum=1", "momentum=-1"}) {
-    EXPECT_THAT(MessageOf(std::string("net:backprop:") + option),
+    EXPECT_THAT(MessageOfInNetRecipe(std::string("net:backprop:") + option),
                 HasSubstr("must be a number from"));
   }
 }
 
 TEST(NetRecipe, RefusesAnOptionItDoesNotHaveAndSaysWhichItHas) {
-  EXPECT_THAT(MessageOf("net:scg:nodes=5"),
+  EXPECT_THAT(MessageOfInNetRecipe("net:scg:nodes=5"),
               AllOf(HasSubstr("no option 'nodes'"),
                     HasSubstr("hidden"),
                     HasSubstr("variant"),
                     HasSubstr("precision")));
-  EXPECT_THAT(MessageOf("net:cg:variant=netcg"),
+  EXPECT_THAT(MessageOfInNetRecipe("net:cg:variant=netcg"),
               HasSubstr("no option 'variant'"));
   EXPECT_THAT(
-      MessageOf("net:backprop:precision=single"),
+      MessageOfInNetRecipe("net:backprop:precision=single"),
       AllOf(HasSubstr("no option 'precision'"), HasSubstr("learning_rate")));
-  EXPECT_THAT(MessageOf("net:scg:hidden=5:hidden=6"), HasSubstr("given twice"));
+  EXPECT_THAT(MessageOfInNetRecipe("net:scg:hidden=5:hidden=6"),
+              HasSubstr("given twice"));
 }
 
 TEST(NetRecipe, NeedsAnInputAndCountsItsWeights) {
@@ -185,12 +187,13 @@ TEST(NetRecipe, NeedsAnInputAndCountsItsWeights) {
   const data::Dataset none(std::move(parts));
   EXPECT_THAT(MakeRecipe("net:scg")->WhatIsMissing(none).value_or(""),
               HasSubstr("inputs"));
-  EXPECT_THROW(FitSpec("net:scg", none), std::invalid_argument);
+  EXPECT_THROW(FitSpecInNetRecipe("net:scg", none), std::invalid_argument);
 }
 
 TEST(NetRecipe, EveryOptimizerLearnsTheTrainingRows) {
   const data::Dataset dataset = QuadraticData(60);
-  const double spread = TrainingRmse(FitSpec("mean", dataset), dataset);
+  const double spread =
+      TrainingRmse(FitSpecInNetRecipe("mean", dataset), dataset);
   const std::vector<std::pair<std::string, double>> shares = {
       {"net:scg:hidden=6", 0.02},
       {"net:scg:hidden=6:variant=netcg", 0.05},
@@ -201,7 +204,7 @@ TEST(NetRecipe, EveryOptimizerLearnsTheTrainingRows) {
       {"net:cg:hidden=6", 0.5},
       {"net:backprop:hidden=6", 0.5}};
   for (const auto& [spec, share] : shares) {
-    const FittedModel fitted = FitSpec(spec, dataset);
+    const FittedModel fitted = FitSpecInNetRecipe(spec, dataset);
     EXPECT_LT(TrainingRmse(fitted, dataset), share * spread) << spec;
     EXPECT_EQ(fitted.name, spec);
     EXPECT_EQ(fitted.inputs.size(), 3U);
@@ -213,7 +216,7 @@ TEST(NetRecipe, EachStopReachesTheOptimizer) {
   const data::Dataset dataset = QuadraticData(60);
   const auto termination = [&](const std::string& options) {
     const fitting::FitSummary summary =
-        FitSpec("net:scg:hidden=6:" + options, dataset).summary;
+        FitSpecInNetRecipe("net:scg:hidden=6:" + options, dataset).summary;
     EXPECT_EQ(summary.converged(),
               summary.termination == Termination::kGradient);
     return summary.termination;
@@ -234,10 +237,10 @@ TEST(NetRecipe, TheSlopeIsInTheWeightsOfTheModel) {
   const data::Dataset dataset = QuadraticData(60);
   for (const std::string slope : {"0.5", "1", "2"}) {
     for (const std::string output : {"sigmoid", "linear"}) {
-      const FittedModel fitted =
-          FitSpec("net:scg:hidden=5:wfactor=0:iterations=50:slope=" + slope +
-                      ":output=" + output,
-                  dataset);
+      const FittedModel fitted = FitSpecInNetRecipe(
+          "net:scg:hidden=5:wfactor=0:iterations=50:slope=" + slope +
+              ":output=" + output,
+          dataset);
       const auto* net = dynamic_cast<const FeedforwardNet*>(fitted.model.get());
       ASSERT_NE(net, nullptr);
       const double scaled_rmse = std::sqrt(2.0 * fitted.summary.final_cost);
@@ -255,9 +258,11 @@ TEST(NetRecipe, TheSlopeIsInTheWeightsOfTheModel) {
 
 TEST(NetRecipe, TheSlopeMattersToTheFit) {
   const data::Dataset dataset = QuadraticData(60);
-  EXPECT_NE(FitSpec("net:scg:hidden=5:iterations=20", dataset).Predict(dataset),
-            FitSpec("net:scg:hidden=5:iterations=20:slope=2", dataset)
-                .Predict(dataset));
+  EXPECT_NE(
+      FitSpecInNetRecipe("net:scg:hidden=5:iterations=20", dataset)
+          .Predict(dataset),
+      FitSpecInNetRecipe("net:scg:hidden=5:iterations=20:slope=2", dataset)
+          .Predict(dataset));
 }
 
 TEST(NetRecipe, ALinearOutputExtrapolatesWhereASigmoidSaturates) {
@@ -265,7 +270,8 @@ TEST(NetRecipe, ALinearOutputExtrapolatesWhereASigmoidSaturates) {
   const Eigen::MatrixXd beyond = Eigen::MatrixXd::Constant(1, 1, 1.5);
   const double truth = 4.0;
   const auto predict = [&](const std::string& output) {
-    return FitSpec("net:scg:hidden=4:iterations=300:output=" + output, ramp)
+    return FitSpecInNetRecipe(
+               "net:scg:hidden=4:iterations=300:output=" + output, ramp)
         .model->Predict(beyond)[0];
   };
   // A sigmoid ends at 1 where the trained range ends at 0.99.
@@ -283,7 +289,7 @@ TEST(NetRecipe, TheSameSeedGivesTheSameBits) {
                            "net:cg:hidden=5:iterations=40",
                            "net:backprop:hidden=5:iterations=40"}) {
     const auto predict = [&](std::uint64_t seed) {
-      return FitSpec(spec, dataset, {.seed = seed}).Predict(dataset);
+      return FitSpecInNetRecipe(spec, dataset, {.seed = seed}).Predict(dataset);
     };
     EXPECT_EQ(predict(7), predict(7)) << spec;
     EXPECT_NE(predict(7), predict(8)) << spec;
@@ -316,8 +322,8 @@ TEST(NetRecipe, SinglePrecisionFitsAsWellAsDouble) {
   const auto median = [&](const std::string& spec) {
     std::vector<double> found;
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-      found.push_back(
-          TrainingRmse(FitSpec(spec, dataset, {.seed = seed}), dataset));
+      found.push_back(TrainingRmse(
+          FitSpecInNetRecipe(spec, dataset, {.seed = seed}), dataset));
     }
     std::ranges::sort(found);
     return found[kSeeds / 2];
@@ -333,7 +339,8 @@ TEST(NetRecipe, AnInterruptedFitGivesAUsableModelMarkedSo) {
   const data::Dataset dataset = ShippedMeasurements();
   for (const char* type : {"net:scg", "net:cg", "net:backprop"}) {
     const std::atomic<bool> stop = true;
-    const FittedModel fitted = FitSpec(type, dataset, {.stop = &stop});
+    const FittedModel fitted =
+        FitSpecInNetRecipe(type, dataset, {.stop = &stop});
     EXPECT_EQ(fitted.summary.termination, Termination::kInterrupted) << type;
     EXPECT_FALSE(fitted.summary.converged());
     EXPECT_THAT(fitted.summary.message, HasSubstr("interrupted"));
@@ -350,9 +357,9 @@ TEST(NetRecipe, AnInterruptKeepsTheBestPointSoFar) {
     stop = true;
   });
   const FittedModel fitted =
-      FitSpec("net:scg:hidden=60:iterations=1000000000:gwgoal=0",
-              dataset,
-              {.stop = &stop});
+      FitSpecInNetRecipe("net:scg:hidden=60:iterations=1000000000:gwgoal=0",
+                         dataset,
+                         {.stop = &stop});
   interrupter.join();
   EXPECT_EQ(fitted.summary.termination, Termination::kInterrupted);
   EXPECT_GT(fitted.summary.iterations, 0);
@@ -365,11 +372,12 @@ TEST(NetRecipe, KeepsATraceWhenAsked) {
   for (const char* type : {"net:scg", "net:cg", "net:backprop"}) {
     const std::string spec = std::string(type) + ":hidden=4:iterations=25";
     const fitting::FitSummary summary =
-        FitSpec(spec, dataset, {.keep_trace = true}).summary;
+        FitSpecInNetRecipe(spec, dataset, {.keep_trace = true}).summary;
     EXPECT_EQ(summary.trace.size(),
               static_cast<std::size_t>(summary.iterations) + 1)
         << spec;
-    EXPECT_TRUE(FitSpec(spec, dataset).summary.trace.empty()) << spec;
+    EXPECT_TRUE(FitSpecInNetRecipe(spec, dataset).summary.trace.empty())
+        << spec;
   }
 }
 
@@ -394,8 +402,9 @@ TEST(NetRecipe, CountsARowOfWeightTwoAsTwoRows) {
   // Inputs as they are: a scaling by mean and sd would tell the two apart.
   const std::string spec = "net:scg:hidden=3:iterations=10:scale=range";
   const VectorXd a =
-      FitSpec(spec, data::Dataset(std::move(weighted))).Predict(all);
-  const VectorXd b = FitSpec(spec, all.SelectRows(rows)).Predict(all);
+      FitSpecInNetRecipe(spec, data::Dataset(std::move(weighted))).Predict(all);
+  const VectorXd b =
+      FitSpecInNetRecipe(spec, all.SelectRows(rows)).Predict(all);
   EXPECT_LT((a - b).cwiseAbs().maxCoeff(),
             kRounding * all.target_values().cwiseAbs().maxCoeff());
 }
@@ -403,7 +412,7 @@ TEST(NetRecipe, CountsARowOfWeightTwoAsTwoRows) {
 TEST(NetRecipe, TrainsOnAShareOfManyRows) {
   const data::Dataset dataset = ShippedMeasurements();
   const FittedModel some =
-      FitSpec("net:scg:rows=100:iterations=5:hidden=2", dataset);
+      FitSpecInNetRecipe("net:scg:rows=100:iterations=5:hidden=2", dataset);
   EXPECT_THAT(some.remarks,
               ::testing::Contains(HasSubstr("trained on 100 of 397 rows")));
   ASSERT_THAT(some.choices, ::testing::SizeIs(1));
@@ -411,7 +420,7 @@ TEST(NetRecipe, TrainsOnAShareOfManyRows) {
   EXPECT_EQ(std::get<std::int64_t>(some.choices[0].value), 100);
   // What it was trained for is the range of all rows.
   const FittedModel all =
-      FitSpec("net:scg:rows=all:iterations=5:hidden=2", dataset);
+      FitSpecInNetRecipe("net:scg:rows=all:iterations=5:hidden=2", dataset);
   EXPECT_THAT(all.remarks, ::testing::IsEmpty());
   for (std::size_t i = 0; i < all.inputs.size(); ++i) {
     EXPECT_EQ(some.inputs[i].min, all.inputs[i].min);
@@ -419,7 +428,7 @@ TEST(NetRecipe, TrainsOnAShareOfManyRows) {
   }
   EXPECT_EQ(OptionOf("net:scg:rows=all", "rows"), "all");
   EXPECT_EQ(OptionOf("net:scg", "rows"), "-");
-  EXPECT_THAT(MessageOf("net:scg:rows=7"), HasSubstr("rows"));
+  EXPECT_THAT(MessageOfInNetRecipe("net:scg:rows=7"), HasSubstr("rows"));
 }
 
 }  // namespace

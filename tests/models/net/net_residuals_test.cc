@@ -22,7 +22,7 @@ using errmap::testing::NetCase;
 using errmap::testing::RandomMatrix;
 
 // Sums of up to some thousand products, in another order.
-constexpr double kRounding = 1e-12;
+constexpr double kNetResidualsRounding = 1e-12;
 
 class NetResidualsOf : public ::testing::TestWithParam<NetCase> {};
 
@@ -40,9 +40,9 @@ TEST_P(NetResidualsOf, AreTheObjectiveInAnotherForm) {
   ASSERT_EQ(j.cols(), w.size());
   EXPECT_NEAR(0.5 * r.squaredNorm() + 0.5 * form.ridge() * w.squaredNorm(),
               cost,
-              kRounding * cost);
+              kNetResidualsRounding * cost);
   EXPECT_LT((j.transpose() * r + form.ridge() * w - gradient).norm(),
-            kRounding * gradient.norm());
+            kNetResidualsRounding * gradient.norm());
   VectorXd alone;
   form.Evaluate(w, &alone, nullptr);
   EXPECT_EQ(alone, r);
@@ -90,13 +90,13 @@ TEST_P(NetResidualsOf, LinearizeAsTheirJacobianDoes) {
     const MatrixXd expected = j * j.transpose();
     const MatrixXd difference = gram - expected;
     EXPECT_LT(MatrixXd(difference.triangularView<Eigen::Lower>()).norm(),
-              kRounding * expected.norm());
+              kNetResidualsRounding * expected.norm());
     const VectorXd v = GetParam().Direction();
     EXPECT_LT((linearization->Apply(v) - j * v).norm(),
-              kRounding * j.norm() * v.norm());
+              kNetResidualsRounding * j.norm() * v.norm());
     const VectorXd u = RandomMatrix(r.size(), 1, 6);
     EXPECT_LT((linearization->ApplyTransposed(u) - j.transpose() * u).norm(),
-              kRounding * j.norm() * u.norm());
+              kNetResidualsRounding * j.norm() * u.norm());
   }
 }
 

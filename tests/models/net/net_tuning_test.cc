@@ -23,9 +23,9 @@ using ::testing::Property;
 using ::testing::SizeIs;
 using ::testing::Throws;
 
-FittedModel FitOf(const std::string& spec,
-                  const data::Dataset& dataset,
-                  const FitContext& context = {}) {
+FittedModel FitOfInNetTuning(const std::string& spec,
+                             const data::Dataset& dataset,
+                             const FitContext& context = {}) {
   return MakeRecipe(spec)->Fit(dataset, context);
 }
 
@@ -59,8 +59,8 @@ TEST(NetTuning, TriesAsManyNodesAsTheRowsAllow) {
 TEST(NetTuning, TakesTheFewestNodesThatDoAsWell) {
   // A straight line needs no more than the fewest.
   const FittedModel fitted =
-      FitOf("net:scg:hidden=cv:output=linear:iterations=200",
-            OneInput(120, [](double x) { return 1.0 + 2.0 * x; }));
+      FitOfInNetTuning("net:scg:hidden=cv:output=linear:iterations=200",
+                       OneInput(120, [](double x) { return 1.0 + 2.0 * x; }));
   ASSERT_THAT(fitted.choices, SizeIs(1));
   EXPECT_EQ(fitted.choices[0].key, "hidden");
   EXPECT_EQ(fitted.model->num_parameters(),
@@ -73,7 +73,7 @@ TEST(NetTuning, TakesTheFewestNodesThatDoAsWell) {
 }
 
 TEST(NetTuning, TakesMoreNodesWhereTheCurveNeedsThem) {
-  const FittedModel fitted = FitOf(
+  const FittedModel fitted = FitOfInNetTuning(
       "net:scg:hidden=cv:scale=standard:output=linear:wfactor=1e-7:"
       "iterations=1500",
       OneInput(300, [](double x) { return std::sin(15.0 * x); }));
@@ -83,8 +83,8 @@ TEST(NetTuning, TakesMoreNodesWhereTheCurveNeedsThem) {
 TEST(NetTuning, ChoosesNodesAndWfactorTogetherInABoundedNumberOfFits) {
   const data::Dataset dataset = ShippedMeasurements();
   const std::string spec = "net:scg:hidden=cv:wfactor=cv:iterations=40";
-  const FittedModel one = FitOf(spec, dataset, {.threads = 1});
-  const FittedModel two = FitOf(spec, dataset, {.threads = 2});
+  const FittedModel one = FitOfInNetTuning(spec, dataset, {.threads = 1});
+  const FittedModel two = FitOfInNetTuning(spec, dataset, {.threads = 2});
   EXPECT_EQ(one.Predict(dataset), two.Predict(dataset));
   EXPECT_EQ(one.remarks, two.remarks);
   ASSERT_THAT(one.choices, SizeIs(3));
@@ -97,24 +97,25 @@ TEST(NetTuning, ChoosesNodesAndWfactorTogetherInABoundedNumberOfFits) {
                           HasSubstr("wfactor"),
                           HasSubstr("(tried 8: ")));
   // What was chosen, given as numbers, is the same map.
-  EXPECT_EQ(FitOf("net:scg" + ChoicesAsOptions(one), dataset).Predict(dataset),
+  EXPECT_EQ(FitOfInNetTuning("net:scg" + ChoicesAsOptions(one), dataset)
+                .Predict(dataset),
             one.Predict(dataset));
 }
 
 TEST(NetTuning, TrainsAsLongAsRowsLeftOutGainFromIt) {
   // Without noise every step gains; where there is only noise, none does
   // (Wfactor.ByCrossValidationPrefersMuchOfItWhereThereIsOnlyNoise).
-  const FittedModel fitted =
-      FitOf("net:scg:output=linear:iterations=1000:wfactor=cv",
-            OneInput(200, [](double x) { return std::sin(15.0 * x); }),
-            {.inner_holdout = InnerHoldout::kRows});
+  const FittedModel fitted = FitOfInNetTuning(
+      "net:scg:output=linear:iterations=1000:wfactor=cv",
+      OneInput(200, [](double x) { return std::sin(15.0 * x); }),
+      {.inner_holdout = InnerHoldout::kRows});
   EXPECT_EQ(std::get<std::int64_t>(fitted.choices.back().value), 1000);
   EXPECT_EQ(fitted.summary.iterations, 1000);
 }
 
 TEST(NetTuning, TriesNoFewerThanOneIteration) {
   const FittedModel fitted =
-      FitOf("net:scg:iterations=1:wfactor=cv", QuadraticData(30));
+      FitOfInNetTuning("net:scg:iterations=1:wfactor=cv", QuadraticData(30));
   EXPECT_THAT(fitted.choices, SizeIs(1));
 }
 
@@ -130,7 +131,7 @@ TEST(NetTuning, WalksDownThePathToAWfactor) {
 TEST(NetTuning, TakesAPathWhereAsked) {
   const data::Dataset dataset = ShippedMeasurements();
   const FittedModel along =
-      FitOf("net:scg:hidden=10:wfactor=cv:path=yes", dataset);
+      FitOfInNetTuning("net:scg:hidden=10:wfactor=cv:path=yes", dataset);
   EXPECT_THAT(along.choices, SizeIs(1));
   // All steps count.
   EXPECT_GT(along.summary.iterations, 200);
@@ -151,21 +152,22 @@ TEST(NetTuning, SaysWhereNothingCouldBeJudged) {
   const data::Dataset flat(std::move(parts));
   for (const std::string key : {"hidden", "wfactor"}) {
     EXPECT_THAT(
-        [&] { FitOf("net:scg:" + key + "=cv", flat); },
+        [&] { FitOfInNetTuning("net:scg:" + key + "=cv", flat); },
         Throws<std::invalid_argument>(Property(
             &std::exception::what, HasSubstr(key + "=cv: no inner hold-out"))));
   }
   // A start is taken by its cost then.
-  const FittedModel fitted = FitOf("net:scg:starts=2:choose=cv", flat);
+  const FittedModel fitted =
+      FitOfInNetTuning("net:scg:starts=2:choose=cv", flat);
   EXPECT_THAT(fitted.remarks, ElementsAre(HasSubstr("the lowest cost")));
 }
 
 TEST(NetTuning, TakesTheStartThatErrsLeastOnInnerHoldOuts) {
   const data::Dataset dataset = ShippedMeasurements();
   const std::string spec = "net:scg:hidden=6:iterations=60:starts=6";
-  const FittedModel by_cost = FitOf(spec + ":choose=cost", dataset);
-  const FittedModel by_default = FitOf(spec, dataset);
-  const FittedModel by_cv = FitOf(spec + ":choose=cv", dataset);
+  const FittedModel by_cost = FitOfInNetTuning(spec + ":choose=cost", dataset);
+  const FittedModel by_default = FitOfInNetTuning(spec, dataset);
+  const FittedModel by_cv = FitOfInNetTuning(spec + ":choose=cv", dataset);
   EXPECT_EQ(by_cost.Predict(dataset), by_default.Predict(dataset));
   ASSERT_THAT(by_cv.starts, SizeIs(6));
   const StartResult* chosen = nullptr;
@@ -180,8 +182,8 @@ TEST(NetTuning, TakesTheStartThatErrsLeastOnInnerHoldOuts) {
     EXPECT_GE(start.holdout_rmse, chosen->holdout_rmse);
   }
   // Its seed alone gives the same map, and is told.
-  const FittedModel again =
-      FitOf("net:scg:hidden=6:iterations=60", dataset, {.seed = chosen->seed});
+  const FittedModel again = FitOfInNetTuning(
+      "net:scg:hidden=6:iterations=60", dataset, {.seed = chosen->seed});
   EXPECT_EQ(again.Predict(dataset), by_cv.Predict(dataset));
   ASSERT_THAT(by_cv.choices, SizeIs(1));
   EXPECT_EQ(by_cv.choices[0].key, "start_seed");

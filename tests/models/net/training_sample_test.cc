@@ -17,7 +17,8 @@ using ::testing::Ge;
 using ::testing::Le;
 
 // `sizes` of the groups in order; none: no groups, `rows` rows.
-data::Dataset RowsOf(const std::vector<Index>& sizes, Index rows = 0) {
+data::Dataset RowsOfInTrainingSample(const std::vector<Index>& sizes,
+                                     Index rows = 0) {
   data::Dataset::Parts parts;
   parts.source = "rows";
   parts.inputs = {{"t1_degC", data::UnitOfColumn("t1_degC")}};
@@ -36,12 +37,15 @@ data::Dataset RowsOf(const std::vector<Index>& sizes, Index rows = 0) {
 }
 
 TEST(StratifiedRows, AreAllWhereTheyAreFew) {
-  EXPECT_THAT(StratifiedRows(RowsOf({}, 4), 4), ElementsAre(0, 1, 2, 3));
-  EXPECT_THROW(StratifiedRows(RowsOf({}, 4), 0), std::invalid_argument);
+  EXPECT_THAT(StratifiedRows(RowsOfInTrainingSample({}, 4), 4),
+              ElementsAre(0, 1, 2, 3));
+  EXPECT_THROW(StratifiedRows(RowsOfInTrainingSample({}, 4), 0),
+               std::invalid_argument);
 }
 
 TEST(StratifiedRows, AreOneOfEachStretchOfRows) {
-  const std::vector<Index> rows = StratifiedRows(RowsOf({}, 1000), 100);
+  const std::vector<Index> rows =
+      StratifiedRows(RowsOfInTrainingSample({}, 1000), 100);
   ASSERT_EQ(rows.size(), 100U);
   std::map<Index, int> within;  // place in the stretch
   for (Index k = 0; k < 100; ++k) {
@@ -49,13 +53,13 @@ TEST(StratifiedRows, AreOneOfEachStretchOfRows) {
     ++within[rows[static_cast<std::size_t>(k)] % 10];
   }
   EXPECT_EQ(within.size(), 10U) << "no regular steps";
-  EXPECT_EQ(rows, StratifiedRows(RowsOf({}, 1000), 100));
+  EXPECT_EQ(rows, StratifiedRows(RowsOfInTrainingSample({}, 1000), 100));
 }
 
 TEST(StratifiedRows, AreWholeGroupsFromAllOverTheFile) {
   std::vector<Index> sizes;
   for (Index g = 0; g < 1000; ++g) sizes.push_back(5 + g % 7);
-  const data::Dataset dataset = RowsOf(sizes);
+  const data::Dataset dataset = RowsOfInTrainingSample(sizes);
   constexpr Index kMost = 2000;
   const std::vector<Index> rows = StratifiedRows(dataset, kMost);
   EXPECT_THAT(rows.size(), Le(static_cast<std::size_t>(kMost)));
@@ -74,7 +78,8 @@ TEST(StratifiedRows, AreWholeGroupsFromAllOverTheFile) {
 }
 
 TEST(StratifiedRows, TakeRowsOfEachGroupWhereFewGroupsWouldFit) {
-  const data::Dataset dataset = RowsOf(std::vector<Index>(20, 100));
+  const data::Dataset dataset =
+      RowsOfInTrainingSample(std::vector<Index>(20, 100));
   std::map<Index, int> taken;
   for (const Index row : StratifiedRows(dataset, 400)) ++taken[row / 100];
   EXPECT_EQ(taken.size(), 20U);

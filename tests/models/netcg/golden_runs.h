@@ -19,7 +19,7 @@ inline std::string RunPath(const std::string& name) {
   return tests::TestDir() + "/golden/netcg/runs/" + name;
 }
 
-inline std::string TextOf(const std::string& path) {
+inline std::string TextOfFile(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
@@ -27,7 +27,7 @@ inline std::string TextOf(const std::string& path) {
 }
 
 inline nlohmann::json Figures() {
-  return nlohmann::json::parse(TextOf(RunPath("figures.json")));
+  return nlohmann::json::parse(TextOfFile(RunPath("figures.json")));
 }
 
 /// The pattern file of cases a (train.csv) or e (held_out.csv), with the dead

@@ -24,7 +24,7 @@ using errmap::testing::Figures;
 using errmap::testing::ReadGoldenCase;
 using errmap::testing::RunPath;
 using errmap::testing::StackedPatterns;
-using errmap::testing::TextOf;
+using errmap::testing::TextOfFile;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 namespace fs = std::filesystem;
@@ -39,7 +39,7 @@ class NetcgRun : public ::testing::Test {
 
   std::string At(const std::string& name) const { return folder_ / name; }
   void Copy(const std::string& name) const {
-    data::WriteFileAtomically(At(name), TextOf(RunPath(name)));
+    data::WriteFileAtomically(At(name), TextOfFile(RunPath(name)));
   }
   void WritePatterns() const {
     data::WriteFileAtomically(
@@ -94,7 +94,7 @@ TEST_F(NetcgRun, PrintsTheReportsOfTheSmallCases) {
     std::string report = records[0].files.front().content;
     // Our line on the errata.
     report.erase(report.rfind('\n', report.size() - 2) + 1);
-    const std::string golden = TextOf(RunPath(name + ".out"));
+    const std::string golden = TextOfFile(RunPath(name + ".out"));
     if (name == "case_d3_exit" || name == "case_d5_exit") {
       // Decided by the last bits: layout and kind of exit only.
       EXPECT_EQ(report.substr(0, report.find("R-SQ")),
@@ -214,7 +214,7 @@ TEST_F(NetcgRun, TestsWithTheGoldenProgramsWeights) {
 TEST_F(NetcgRun, Reaches1500IterationsWhereTheOtherBuildsDo) {
   WritePatterns();
   Copy("case_a.in");
-  std::string text = TextOf(At("case_a.in"));
+  std::string text = TextOfFile(At("case_a.in"));
   text.replace(text.find("397 37 40"), 9, "397 37 60");
   text.replace(text.find("200 1.0e-3"), 3, "1500");
   data::WriteFileAtomically(At("main.in"), text);
@@ -240,8 +240,8 @@ TEST_F(NetcgRun, Reaches1500IterationsWhereTheOtherBuildsDo) {
 
 TEST_F(NetcgRun, TrainsAndTestsInOneFileWithTheTrainingScaling) {
   WritePatterns();
-  auto runs = ParseRunFile(TextOf(RunPath("case_a.in")), "x");
-  auto test = ParseRunFile(TextOf(RunPath("case_e.in")), "x").front();
+  auto runs = ParseRunFile(TextOfFile(RunPath("case_a.in")), "x");
+  auto test = ParseRunFile(TextOfFile(RunPath("case_e.in")), "x").front();
   runs.front().iterations = 5;
   test.files[static_cast<std::size_t>(NetcgFile::kReport)] = "test.out";
   test.files[static_cast<std::size_t>(NetcgFile::kInitialWeights)] =
@@ -257,7 +257,8 @@ TEST_F(NetcgRun, TrainsAndTestsInOneFileWithTheTrainingScaling) {
     ASSERT_EQ(records.size(), 2U);
     EXPECT_EQ(records[1].result.corrected_scaling, NetcgScaling::kTraining);
     WriteNetcgFiles(records);
-    const auto weights = ParseWeights(TextOf(At("new/out/weights.out")), "w");
+    const auto weights =
+        ParseWeights(TextOfFile(At("new/out/weights.out")), "w");
     EXPECT_EQ(weights.scaling.has_value(), digits == WeightDigits::kFull);
     EXPECT_EQ(weights.w == records[0].result.weights,
               digits == WeightDigits::kFull);
@@ -268,7 +269,7 @@ TEST_F(NetcgRun, TrainsAndTestsInOneFileWithTheTrainingScaling) {
 TEST_F(NetcgRun, RefusesWhatDoesNotFitTogether) {
   Copy("case_c.in");
   Copy("tiny.tab");
-  const std::string good = TextOf(At("case_c.in"));
+  const std::string good = TextOfFile(At("case_c.in"));
   const auto refusal = [&](const std::string& from,
                            const std::string& to,
                            const std::string& message) {

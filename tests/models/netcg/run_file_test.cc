@@ -24,7 +24,7 @@ std::string Lines(const std::string& text, int without) {
 
 const std::string& Good() {
   static const std::string text =
-      testing::TextOf(testing::RunPath("case_a.in"));
+      testing::TextOfFile(testing::RunPath("case_a.in"));
   return text;
 }
 

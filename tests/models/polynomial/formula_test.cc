@@ -17,7 +17,7 @@ std::vector<TermPowers> Read(const std::string& text) {
   return ResolveTerms(ParseTerms(text, "formula"), kNames, "formula");
 }
 
-std::string RefusalOf(const std::string& text) {
+std::string RefusalOfInFormula(const std::string& text) {
   try {
     Read(text);
   } catch (const std::invalid_argument& error) {
@@ -36,25 +36,26 @@ TEST(Formula, ReadsSumsOfProductsOfPowers) {
 }
 
 TEST(Formula, SaysWhereItCannotBeRead) {
-  EXPECT_THAT(RefusalOf("position_mm+"),
+  EXPECT_THAT(RefusalOfInFormula("position_mm+"),
               HasSubstr("position 13: ends where a name should be"));
-  EXPECT_THAT(RefusalOf("position_mm++t1_degC"),
+  EXPECT_THAT(RefusalOfInFormula("position_mm++t1_degC"),
               HasSubstr("position 13: '+' where a name should be"));
-  EXPECT_THAT(RefusalOf("position_mm t1_degC"),
+  EXPECT_THAT(RefusalOfInFormula("position_mm t1_degC"),
               HasSubstr("position 13: 't' where + or the end should be"));
-  EXPECT_THAT(RefusalOf("t1_degC^0"),
+  EXPECT_THAT(RefusalOfInFormula("t1_degC^0"),
               HasSubstr("position 9: a power must be a whole number from 1"));
-  EXPECT_THAT(RefusalOf("t1_degC^x"), HasSubstr("found 'x'"));
-  EXPECT_THAT(RefusalOf("3*t1_degC"), HasSubstr("the number '3'"));
-  EXPECT_THAT(RefusalOf("\"bed"), HasSubstr("never closed"));
-  EXPECT_THAT(RefusalOf("t1_degC+(position_mm)"), HasSubstr("position 9: '('"));
+  EXPECT_THAT(RefusalOfInFormula("t1_degC^x"), HasSubstr("found 'x'"));
+  EXPECT_THAT(RefusalOfInFormula("3*t1_degC"), HasSubstr("the number '3'"));
+  EXPECT_THAT(RefusalOfInFormula("\"bed"), HasSubstr("never closed"));
+  EXPECT_THAT(RefusalOfInFormula("t1_degC+(position_mm)"),
+              HasSubstr("position 9: '('"));
 }
 
 TEST(Formula, NamesWhatIsNoInputAndWhatStandsTwice) {
-  EXPECT_THAT(RefusalOf("t1_degC+t2_degC"),
+  EXPECT_THAT(RefusalOfInFormula("t1_degC+t2_degC"),
               HasSubstr("position 9: 't2_degC' is not an input; there are "
                         "position_mm, t1_degC"));
-  EXPECT_THAT(RefusalOf("t1_degC*position_mm+position_mm*t1_degC"),
+  EXPECT_THAT(RefusalOfInFormula("t1_degC*position_mm+position_mm*t1_degC"),
               HasSubstr("position 21: position_mm*t1_degC stands twice"));
 }
 

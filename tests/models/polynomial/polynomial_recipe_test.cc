@@ -18,7 +18,8 @@ using errmap::testing::ShippedMeasurements;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-FittedModel FitSpec(const std::string& spec, const data::Dataset& dataset) {
+FittedModel FitSpecInPolynomialRecipe(const std::string& spec,
+                                      const data::Dataset& dataset) {
   return MakeRecipe(spec)->Fit(dataset, {});
 }
 
@@ -26,7 +27,8 @@ FittedModel FitSpec(const std::string& spec, const data::Dataset& dataset) {
 // extended-precision QR in T = elapsed_cycles + 1.
 TEST(PolynomialRecipe, FitsEq8ToTheShippedMeasurementsToEveryPrintedDigit) {
   constexpr double kPrinted = 5e-9;  // half a unit of the ninth digit
-  const FittedModel fitted = FitSpec("poly:eq8", ShippedMeasurements());
+  const FittedModel fitted =
+      FitSpecInPolynomialRecipe("poly:eq8", ShippedMeasurements());
   const auto* model = dynamic_cast<const PolynomialModel*>(fitted.model.get());
   ASSERT_NE(model, nullptr);
   const auto terms = ExpandToPhysicalUnits(model->form());
@@ -47,7 +49,7 @@ TEST(PolynomialRecipe, FitsEq8ToTheShippedMeasurementsToEveryPrintedDigit) {
 
 TEST(PolynomialRecipe, RecoversAKnownPolynomialAndItsTemperature) {
   const data::Dataset dataset = QuadraticData(60);
-  const FittedModel fitted = FitSpec("poly:eq8", dataset);
+  const FittedModel fitted = FitSpecInPolynomialRecipe("poly:eq8", dataset);
   ASSERT_EQ(fitted.inputs.size(), 2U);
   EXPECT_EQ(fitted.inputs[0].column.name, "position_mm");
   EXPECT_EQ(fitted.inputs[1].column.name, "t1_degC");
@@ -58,15 +60,18 @@ TEST(PolynomialRecipe, RecoversAKnownPolynomialAndItsTemperature) {
 }
 
 TEST(PolynomialRecipe, TakesTheTemperatureThatIsNamed) {
-  const FittedModel fitted = FitSpec("poly:eq9:T=t2_degC", QuadraticData(60));
+  const FittedModel fitted =
+      FitSpecInPolynomialRecipe("poly:eq9:T=t2_degC", QuadraticData(60));
   EXPECT_EQ(fitted.inputs[1].column.name, "t2_degC");
-  EXPECT_THROW(FitSpec("poly:eq9:T=t3_degC", QuadraticData(60)),
-               std::invalid_argument);
+  EXPECT_THROW(
+      FitSpecInPolynomialRecipe("poly:eq9:T=t3_degC", QuadraticData(60)),
+      std::invalid_argument);
 }
 
 TEST(PolynomialRecipe, StepwiseLeavesOutAnInputWithoutAPart) {
   const data::Dataset dataset = QuadraticData(60);
-  const FittedModel fitted = FitSpec("poly:stepwise:degree=2", dataset);
+  const FittedModel fitted =
+      FitSpecInPolynomialRecipe("poly:stepwise:degree=2", dataset);
   for (const TrainedInput& input : fitted.inputs) {
     EXPECT_NE(input.column.name, "t2_degC");
   }
@@ -77,9 +82,11 @@ TEST(PolynomialRecipe, StepwiseLeavesOutAnInputWithoutAPart) {
 
 TEST(PolynomialRecipe, BaselinesAreZeroAndTheMean) {
   const data::Dataset dataset = QuadraticData(10);
-  EXPECT_TRUE(FitSpec("zero", dataset).Predict(dataset).isZero());
-  EXPECT_EQ(FitSpec("zero", dataset).model->num_parameters(), 0);
-  const FittedModel mean = FitSpec("mean", dataset);
+  EXPECT_TRUE(
+      FitSpecInPolynomialRecipe("zero", dataset).Predict(dataset).isZero());
+  EXPECT_EQ(FitSpecInPolynomialRecipe("zero", dataset).model->num_parameters(),
+            0);
+  const FittedModel mean = FitSpecInPolynomialRecipe("mean", dataset);
   EXPECT_NEAR(mean.Predict(dataset)[3], dataset.target_values().mean(), 1e-15);
   EXPECT_EQ(mean.kind, ModelKind::kBaseline);
 }
@@ -93,8 +100,8 @@ TEST(PolynomialRecipe, NamesTermsThatFollowFromOthers) {
   parts.input_values = all.input_values().col(0);
   parts.target = all.target();
   parts.target_values = all.target_values();
-  const FittedModel fitted =
-      FitSpec("poly:full:degree=7", data::Dataset(std::move(parts)));
+  const FittedModel fitted = FitSpecInPolynomialRecipe(
+      "poly:full:degree=7", data::Dataset(std::move(parts)));
   EXPECT_EQ(fitted.model->num_parameters(), 7);
   ASSERT_EQ(fitted.remarks.size(), 1U);
   EXPECT_THAT(fitted.remarks[0], HasSubstr("1 of 7 terms"));
@@ -102,13 +109,13 @@ TEST(PolynomialRecipe, NamesTermsThatFollowFromOthers) {
 
 TEST(PolynomialRecipe, RefusesMoreCoefficientsThanRows) {
   try {
-    FitSpec("poly:full:degree=2", QuadraticData(9));
+    FitSpecInPolynomialRecipe("poly:full:degree=2", QuadraticData(9));
     FAIL() << "10 coefficients were fitted to 9 rows";
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(), HasSubstr("10 coefficients"));
     EXPECT_THAT(error.what(), HasSubstr("9 training rows"));
   }
-  EXPECT_THROW(FitSpec("poly:stepwise", QuadraticData(2)),
+  EXPECT_THROW(FitSpecInPolynomialRecipe("poly:stepwise", QuadraticData(2)),
                std::invalid_argument);
 }
 
@@ -150,8 +157,10 @@ TEST(PolynomialRecipe, CountsARowOfWeightThreeAsThreeRows) {
   }
   const data::Dataset repeated = all.SelectRows(rows);
   const Eigen::VectorXd a =
-      FitSpec("poly:eq8", data::Dataset(std::move(weighted))).Predict(all);
-  const Eigen::VectorXd b = FitSpec("poly:eq8", repeated).Predict(all);
+      FitSpecInPolynomialRecipe("poly:eq8", data::Dataset(std::move(weighted)))
+          .Predict(all);
+  const Eigen::VectorXd b =
+      FitSpecInPolynomialRecipe("poly:eq8", repeated).Predict(all);
   EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-12);
 }
 

@@ -27,7 +27,7 @@ using ::testing::Not;
 
 constexpr FitContext kExplain{.explain = true};
 
-std::string RefusalOf(const std::function<void()>& action) {
+std::string RefusalOfInSelectionRecipe(const std::function<void()>& action) {
   try {
     action();
   } catch (const std::invalid_argument& error) {
@@ -37,7 +37,7 @@ std::string RefusalOf(const std::function<void()>& action) {
 }
 
 std::string RefusalOfSpec(const std::string& spec) {
-  return RefusalOf([&] { MakeRecipe(spec); });
+  return RefusalOfInSelectionRecipe([&] { MakeRecipe(spec); });
 }
 
 // Rows of six inputs in 12 groups, with weights where asked for.
@@ -332,7 +332,7 @@ TEST(SelectionRecipe, RefusesPressWhereTheRowsAreNotHeld) {
   reduced.most_design_values = 1000.0;
   const data::Dataset dataset = ManyRows(false);
   EXPECT_THAT(
-      RefusalOf([&] {
+      RefusalOfInSelectionRecipe([&] {
         MakeRecipe("poly:stepwise:criterion=press")->Fit(dataset, reduced);
       }),
       HasSubstr("PRESS of every step needs the rows"));
@@ -399,7 +399,7 @@ TEST(SelectionRecipe, BestSubsetIsNotWorseThanStepwise) {
                         static_cast<double>(fitted.model->num_parameters()));
   };
   EXPECT_LE(bic("poly:best:degree=4"), bic("poly:stepwise:degree=4"));
-  EXPECT_THAT(RefusalOf([&] {
+  EXPECT_THAT(RefusalOfInSelectionRecipe([&] {
                 MakeRecipe("poly:best:degree=4")->Fit(ManyRows(false), {});
               }),
               HasSubstr("best subset is practical up to about 40 candidate "
@@ -466,7 +466,8 @@ TEST(SelectionRecipe, RefusesBadOptionsInOneLine) {
               HasSubstr("which penalty= fixes"));
   const data::Dataset dataset = QuadraticData(40);
   const auto refusal = [&](const std::string& spec) {
-    return RefusalOf([&] { MakeRecipe(spec)->Fit(dataset, {}); });
+    return RefusalOfInSelectionRecipe(
+        [&] { MakeRecipe(spec)->Fit(dataset, {}); });
   };
   EXPECT_THAT(refusal("poly:stepwise:include=t9_degC"),
               HasSubstr("'t9_degC' is not an input"));

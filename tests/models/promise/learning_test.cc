@@ -161,7 +161,7 @@ data::Dataset WithTruthOf(
   return data::Dataset(std::move(parts));
 }
 
-std::set<std::string> NamesOf(const SensorCurve& curve) {
+std::set<std::string> NamesOfInLearning(const SensorCurve& curve) {
   std::set<std::string> names;
   for (const SensorCurve::Chosen& chosen : curve.chosen) {
     names.insert(chosen.sensor);
@@ -174,7 +174,8 @@ TEST(LearnSensors, FindsTheTwoSensorsThatTheTruthUses) {
       SimulatedDays(4, 6, 8), {{"t12_degC", 1.0}, {"t27_degC", -1.5}});
   const SensorCurve curve = LearnSensors(days, {.most_sensors = 4});
   EXPECT_EQ(curve.enough, 2);
-  EXPECT_EQ(NamesOf(curve), (std::set<std::string>{"t12_degC", "t27_degC"}));
+  EXPECT_EQ(NamesOfInLearning(curve),
+            (std::set<std::string>{"t12_degC", "t27_degC"}));
   EXPECT_EQ(curve.chosen[0].stability, 1.0);
 }
 
@@ -187,7 +188,7 @@ TEST(LearnSensors, FindsSensorsToWhichNoSingleStepLeads) {
   const SensorCurve curve = LearnSensors(
       WithTruthOf(SimulatedDays(4, 6, 8), truth), {.most_sensors = 4});
   EXPECT_EQ(
-      NamesOf(curve),
+      NamesOfInLearning(curve),
       (std::set<std::string>{"t00_degC", "t12_degC", "t27_degC", "t36_degC"}));
 }
 

@@ -50,7 +50,7 @@ HeldOutErrors::Unit Day(stats::Random* random,
   return unit;
 }
 
-HeldOutErrors Days(int count, std::uint64_t seed) {
+HeldOutErrors DaysInSessionCheck(int count, std::uint64_t seed) {
   stats::Random random(seed);
   HeldOutErrors errors{
       .time_unit = "s", .position = "position_mm", .rmse = 0.0, .units = {}};
@@ -70,7 +70,7 @@ SessionCheck CheckAt(const HeldOutErrors& errors,
 }
 
 TEST(CheckSession, TellsSessionsThatAreOffFromThoseThatHold) {
-  const HeldOutErrors errors = Days(10, 1);
+  const HeldOutErrors errors = DaysInSessionCheck(10, 1);
   stats::Random random(2);
   const std::vector<Index> rows = {4, 18, 35};
   int caught = 0;
@@ -93,7 +93,7 @@ TEST(CheckSession, TellsSessionsThatAreOffFromThoseThatHold) {
 }
 
 TEST(CheckSession, IsLessSureOfOneProbeThanOfMany) {
-  const HeldOutErrors errors = Days(10, 3);
+  const HeldOutErrors errors = DaysInSessionCheck(10, 3);
   const SessionCheck few =
       CheckSession(errors, VectorXd{{600.0}}, VectorXd{{1.0}});
   EXPECT_EQ(few.status, SessionStatus::kUnknown);
@@ -105,7 +105,7 @@ TEST(CheckSession, IsLessSureOfOneProbeThanOfMany) {
 }
 
 TEST(CheckSession, KnowsNothingWhereTheSessionBeginsInside) {
-  const HeldOutErrors errors = Days(10, 3);
+  const HeldOutErrors errors = DaysInSessionCheck(10, 3);
   const VectorXd times{{600.0, 4000.0, 8000.0}};
   const VectorXd large = VectorXd::Constant(3, 9.0);
   EXPECT_EQ(CheckSession(errors, times, large).status, SessionStatus::kOff);
@@ -117,7 +117,7 @@ TEST(CheckSession, KnowsNothingWhereTheSessionBeginsInside) {
 }
 
 TEST(CheckSession, TellsHowManyMoreProbesWouldSettleIt) {
-  const HeldOutErrors errors = Days(10, 3);
+  const HeldOutErrors errors = DaysInSessionCheck(10, 3);
   const VectorXd times{{600.0, 8000.0}};
   int unknown = 0;
   int can_be_settled = 0;
@@ -134,7 +134,7 @@ TEST(CheckSession, TellsHowManyMoreProbesWouldSettleIt) {
 }
 
 TEST(CheckSession, GrowsSurerThatItIsOffTheLargerTheProbes) {
-  const HeldOutErrors errors = Days(6, 4);
+  const HeldOutErrors errors = DaysInSessionCheck(6, 4);
   const VectorXd times{{0.0, 900.0, 3000.0}};
   double before = -1.0;
   for (const double size : {0.2, 0.8, 1.6, 3.2, 9.0}) {
@@ -147,7 +147,7 @@ TEST(CheckSession, GrowsSurerThatItIsOffTheLargerTheProbes) {
 }
 
 TEST(CheckSession, RefusesNoProbesAndOnesThatAreNotFinite) {
-  const HeldOutErrors errors = Days(3, 5);
+  const HeldOutErrors errors = DaysInSessionCheck(3, 5);
   EXPECT_THROW(CheckSession(errors, VectorXd(0), VectorXd(0)),
                std::invalid_argument);
   EXPECT_THROW(
@@ -158,7 +158,7 @@ TEST(CheckSession, RefusesNoProbesAndOnesThatAreNotFinite) {
 }
 
 TEST(RankProbeSites, PutsFirstWhereAProbeIsLikeItsDay) {
-  HeldOutErrors errors = Days(8, 6);
+  HeldOutErrors errors = DaysInSessionCheck(8, 6);
   // At one end the error is exactly the day's, elsewhere it is noise.
   for (HeldOutErrors::Unit& unit : errors.units) {
     for (Index i = 0; i < kRows; ++i) {
@@ -173,7 +173,7 @@ TEST(RankProbeSites, PutsFirstWhereAProbeIsLikeItsDay) {
 }
 
 TEST(FitOffset, FindsVarianceMemoryAndNoise) {
-  const OffsetModel model = FitOffset(Days(300, 7));
+  const OffsetModel model = FitOffset(DaysInSessionCheck(300, 7));
   EXPECT_NEAR(model.variance, 0.6, 0.1);
   EXPECT_NEAR(model.noise, 0.4, 0.1);
   // The grid has factors of 2.
@@ -212,7 +212,7 @@ TEST(TrackOffset, UsesProbesOfTheSameSessionUpToTheRow) {
 }
 
 TEST(TrackOffset, LowersTheErrorOfLaterRows) {
-  const HeldOutErrors errors = Days(10, 8);
+  const HeldOutErrors errors = DaysInSessionCheck(10, 8);
   const OffsetModel model = FitOffset(errors);
   stats::Random random(9);
   double before = 0.0;

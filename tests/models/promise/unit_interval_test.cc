@@ -43,7 +43,7 @@ struct Known {
 // Student's t over the normal's quantile, 0.95 each, from tables.
 constexpr double kOfTwo = 2.919986 / 1.644854;
 constexpr double kOfFour = 2.131847 / 1.644854;
-constexpr double kRounding = 1e-5;
+constexpr double kUnitIntervalRounding = 1e-5;
 
 // Units that differ as much as these count for one degree of freedom each.
 
@@ -58,13 +58,13 @@ TEST(UnitIntervalLevel, IsAQuantileInWhichUnitsWeighTheSameTimesStudentsT) {
   }
   EXPECT_NEAR(UnitIntervalLevel(residuals, units, 0.9).half_width,
               4.0 * kOfTwo,
-              kRounding);
+              kUnitIntervalRounding);
   // Sizes of at most 20 are 10 + 10 + 6 + 5 of the 40 in four units, of at most
   // 27 and 28 are 35 and 36.
   const Known four(4);
   EXPECT_NEAR(UnitIntervalLevel(four.residuals, four.units, 0.9).half_width,
               28.0 * kOfFour,
-              kRounding);
+              kUnitIntervalRounding);
 }
 
 TEST(UnitIntervalLevel, IsTheQuantileItselfOfManyUnits) {

@@ -11,6 +11,7 @@
 
 #include "models/recipe_catalog.h"
 #include "tests/models/model_test_data.h"
+#include "tests/numbers.h"
 #include "tests/random_matrix.h"
 
 namespace errmap::models {
@@ -22,8 +23,6 @@ using errmap::testing::QuadraticData;
 using errmap::testing::RandomMatrix;
 using errmap::testing::ShippedMeasurements;
 using ::testing::HasSubstr;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Memorisation Assess(const std::string& spec,
                     const data::Dataset& training,

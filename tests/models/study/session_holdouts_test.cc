@@ -22,7 +22,7 @@ using errmap::testing::MakeRecipes;
 using ::testing::ElementsAre;
 
 // `days` of 24 rows, each of four cycles, whose offset differs by the day.
-data::Dataset Days(Index days, bool with_cycles) {
+data::Dataset DaysInSessionHoldouts(Index days, bool with_cycles) {
   constexpr Index kRows = 24;
   const Index rows = days * kRows;
   Eigen::MatrixXd values(rows, 1);
@@ -65,11 +65,11 @@ std::string Decisive(const data::Dataset& dataset,
 }
 
 TEST(DefaultHoldouts, HoldOutWhateverCanBeHeldOutWhole) {
-  EXPECT_THAT(DefaultHoldouts(Days(3, true)),
+  EXPECT_THAT(DefaultHoldouts(DaysInSessionHoldouts(3, true)),
               ElementsAre("every:3", "groups:5", "sessions:3"));
-  EXPECT_THAT(DefaultHoldouts(Days(6, false)),
+  EXPECT_THAT(DefaultHoldouts(DaysInSessionHoldouts(6, false)),
               ElementsAre("every:3", "sessions:5"));
-  EXPECT_THAT(DefaultHoldouts(Days(2, false)),
+  EXPECT_THAT(DefaultHoldouts(DaysInSessionHoldouts(2, false)),
               ElementsAre("every:3", "sessions:2", "blocks:5"));
 }
 
@@ -85,16 +85,18 @@ TEST(StudyDefaults, GiveLengthsAGoalAndAnIndifference) {
 TEST(SessionHoldouts, DecideFromFourSessionsOn) {
   const std::vector<std::string> grouped = {
       "every:3", "groups:5", "sessions:3"};
-  EXPECT_EQ(Decisive(Days(3, true), grouped), "groups:5");
-  EXPECT_EQ(Decisive(Days(4, true), grouped), "sessions:3");
+  EXPECT_EQ(Decisive(DaysInSessionHoldouts(3, true), grouped), "groups:5");
+  EXPECT_EQ(Decisive(DaysInSessionHoldouts(4, true), grouped), "sessions:3");
   const std::vector<std::string> plain = {"every:3", "sessions:3", "blocks:5"};
-  EXPECT_EQ(Decisive(Days(3, false), plain), "blocks:5");
-  EXPECT_EQ(Decisive(Days(4, false), plain), "sessions:3");
-  EXPECT_EQ(Decisive(Days(3, false), {"every:3", "sessions:3"}), "sessions:3");
+  EXPECT_EQ(Decisive(DaysInSessionHoldouts(3, false), plain), "blocks:5");
+  EXPECT_EQ(Decisive(DaysInSessionHoldouts(4, false), plain), "sessions:3");
+  EXPECT_EQ(
+      Decisive(DaysInSessionHoldouts(3, false), {"every:3", "sessions:3"}),
+      "sessions:3");
 }
 
 TEST(SessionHoldouts, CountSessionsInTheTests) {
-  const data::Dataset dataset = Days(5, true);
+  const data::Dataset dataset = DaysInSessionHoldouts(5, true);
   const auto holdouts = MakeHoldouts(dataset, {"groups:5", "sessions:5"});
   EXPECT_FALSE(holdouts[0].among_neighbours);
   EXPECT_TRUE(holdouts[1].whole_sessions);
@@ -108,7 +110,7 @@ TEST(SessionHoldouts, CountSessionsInTheTests) {
 }
 
 TEST(SessionHoldouts, TellWhetherFoldsKeepSessionsWhole) {
-  const data::Dataset dataset = Days(4, true);
+  const data::Dataset dataset = DaysInSessionHoldouts(4, true);
   const auto holdouts = MakeHoldouts(
       dataset, {"every:3", "groups:4", "groups:5", "blocks:4", "blocks:5"});
   EXPECT_FALSE(holdouts[0].whole_sessions);
@@ -117,7 +119,8 @@ TEST(SessionHoldouts, TellWhetherFoldsKeepSessionsWhole) {
   EXPECT_TRUE(holdouts[3].whole_sessions);
   EXPECT_FALSE(holdouts[4].whole_sessions);
   // One session is no two: nothing is held out whole.
-  EXPECT_FALSE(MakeHoldouts(Days(1, true), {"groups:2"})[0].whole_sessions);
+  EXPECT_FALSE(MakeHoldouts(DaysInSessionHoldouts(1, true), {"groups:2"})[0]
+                   .whole_sessions);
 }
 
 TEST(SessionHoldouts, RefuseDataWithoutSessions) {

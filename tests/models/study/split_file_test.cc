@@ -19,7 +19,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string Refusal(const std::string& content) {
+std::string RefusalInSplitFile(const std::string& content) {
   return MessageOf<InputError>([&] {
     ReadSplitFile(data::ParseCsv(content, "split.csv"), QuadraticData(6));
   });
@@ -59,20 +59,21 @@ TEST(SplitFile, TakesRowsInAnyOrderAndLeavesOutUnusedOnes) {
 
 TEST(SplitFile, SaysWhatIsWrongWhere) {
   const std::string header = "row,holdout,fold,role\n";
-  EXPECT_THAT(Refusal("row,fold,role\n0,0,train\n"),
+  EXPECT_THAT(RefusalInSplitFile("row,fold,role\n0,0,train\n"),
               HasSubstr("no column 'holdout'"));
-  EXPECT_THAT(Refusal(header + "9,a,0,train\n"),
+  EXPECT_THAT(RefusalInSplitFile(header + "9,a,0,train\n"),
               AllOf(HasSubstr("line 2"), HasSubstr("no data row 9")));
-  EXPECT_THAT(Refusal(header + "1.5,a,0,train\n"),
+  EXPECT_THAT(RefusalInSplitFile(header + "1.5,a,0,train\n"),
               HasSubstr("'1.5' is no whole number"));
-  EXPECT_THAT(Refusal(header + "1,a,-1,train\n"),
+  EXPECT_THAT(RefusalInSplitFile(header + "1,a,-1,train\n"),
               HasSubstr("'-1' is no whole number"));
-  EXPECT_THAT(Refusal(header + "1,a,0,exam\n"),
+  EXPECT_THAT(RefusalInSplitFile(header + "1,a,0,exam\n"),
               HasSubstr("'exam' is none of train, test, unused"));
-  EXPECT_THAT(Refusal(header + "1,a,0,train\n1,a,0,test\n"),
+  EXPECT_THAT(RefusalInSplitFile(header + "1,a,0,train\n1,a,0,test\n"),
               HasSubstr("stands twice"));
-  EXPECT_THAT(Refusal(header + "1,a,0,train\n"), HasSubstr("no test rows"));
-  EXPECT_THAT(Refusal(header + "1,a,1,train\n2,a,1,test\n"),
+  EXPECT_THAT(RefusalInSplitFile(header + "1,a,0,train\n"),
+              HasSubstr("no test rows"));
+  EXPECT_THAT(RefusalInSplitFile(header + "1,a,1,train\n2,a,1,test\n"),
               HasSubstr("no fold 0"));
 }
 

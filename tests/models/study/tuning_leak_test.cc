@@ -61,7 +61,7 @@ Recipes RecipesThatTune() {
   return recipes;
 }
 
-data::Dataset::Parts PartsOf(const data::Dataset& dataset) {
+data::Dataset::Parts PartsOfInTuningLeak(const data::Dataset& dataset) {
   return {.source = dataset.source(),
           .inputs = dataset.inputs(),
           .input_values = dataset.input_values(),
@@ -73,11 +73,11 @@ data::Dataset::Parts PartsOf(const data::Dataset& dataset) {
 }
 
 // Rows of 9 days in order, 7 each: the quadratic and a little noise.
-data::Dataset Days() {
+data::Dataset DaysInTuningLeak() {
   constexpr Index kDays = 9;
   constexpr Index kRows = 7;
   data::Dataset::Parts parts =
-      PartsOf(errmap::testing::QuadraticData(kDays * kRows));
+      PartsOfInTuningLeak(errmap::testing::QuadraticData(kDays * kRows));
   stats::Random random(17);
   parts.groups.column = "day";
   for (Index day = 0; day < kDays; ++day) {
@@ -92,7 +92,7 @@ data::Dataset Days() {
 
 data::Dataset WithWildRows(const data::Dataset& dataset,
                            const std::vector<Index>& rows) {
-  data::Dataset::Parts parts = PartsOf(dataset);
+  data::Dataset::Parts parts = PartsOfInTuningLeak(dataset);
   for (const Index row : rows) {
     const double wild = row % 2 == 0 ? 1e6 : -1e5;
     parts.input_values.row(row).setConstant(wild + static_cast<double>(row));
@@ -135,7 +135,7 @@ class LeakingRecipe final : public ModelRecipe {
 };
 
 TEST(Tuning, NoFittedMapDependsOnTheRowsHeldOut) {
-  const data::Dataset clean = Days();
+  const data::Dataset clean = DaysInTuningLeak();
   for (const char* spec : {"groups:3", "every:3", "forward:2"}) {
     const Holdout holdout = MakeHoldout(stats::ParseHoldout(spec), clean, 1);
     const std::size_t fold = holdout.folds.size() - 1;
@@ -202,7 +202,7 @@ data::Dataset::Parts Runs() {
                                values,
                                time,
                                codes);
-  data::Dataset::Parts parts = PartsOf(dataset);
+  data::Dataset::Parts parts = PartsOfInTuningLeak(dataset);
   parts.target_values = target;
   parts.log = dataset.log();
   parts.log_rows = dataset.log_rows();
@@ -260,7 +260,7 @@ TEST(Tuning, NoMapWithAMemoryDependsOnSessionsHeldOut) {
 }
 
 TEST(Tuning, HoldsOutInsideAsOutside) {
-  const data::Dataset dataset = Days();
+  const data::Dataset dataset = DaysInTuningLeak();
   const std::string net = "net:scg:iterations=5:";
   Recipes recipes;
   for (const std::string& spec : {std::string("poly:ridge:degree=2"),

@@ -15,13 +15,15 @@ namespace {
 
 using Eigen::Index;
 
-enum class Noise {
+enum class NoiseInVerdictOnNoise {
   kEven,         // of one size
   kHeavyTailed,  // one reading in ten is far off
   kOfGroups,     // each group has an offset of its own
 };
 
-data::Dataset NoiseOf(Noise kind, Index groups, std::uint64_t seed) {
+data::Dataset NoiseOf(NoiseInVerdictOnNoise kind,
+                      Index groups,
+                      std::uint64_t seed) {
   constexpr Index kPerGroup = 6;
   stats::Random random(seed);
   const auto draw = [&] {
@@ -42,12 +44,13 @@ data::Dataset NoiseOf(Noise kind, Index groups, std::uint64_t seed) {
     const Index group = row / kPerGroup;
     if (row % kPerGroup == 0) {
       parts.groups.labels.push_back(std::to_string(group));
-      offset = kind == Noise::kOfGroups ? draw() : 0.0;
+      offset = kind == NoiseInVerdictOnNoise::kOfGroups ? draw() : 0.0;
     }
     parts.groups.codes.push_back(group);
     parts.input_values.row(row) << static_cast<double>(row % kPerGroup),
         20.0 + draw(), 20.0 + draw();
-    const bool is_far = kind == Noise::kHeavyTailed && random.Uniform() < 0.1;
+    const bool is_far =
+        kind == NoiseInVerdictOnNoise::kHeavyTailed && random.Uniform() < 0.1;
     parts.target_values[row] = 1e-3 * (offset + (is_far ? 10.0 : 1.0) * draw());
   }
   return data::Dataset(std::move(parts));
@@ -71,7 +74,7 @@ bool IsConfident(const data::Dataset& dataset, std::uint64_t seed) {
           advice->against_baseline == Confidence::kEstablished);
 }
 
-int ConfidentOf(Noise kind, Index groups, int studies) {
+int ConfidentOf(NoiseInVerdictOnNoise kind, Index groups, int studies) {
   int confident = 0;
   for (int seed = 1; seed <= studies; ++seed) {
     const auto number = static_cast<std::uint64_t>(seed);
@@ -81,8 +84,9 @@ int ConfidentOf(Noise kind, Index groups, int studies) {
 }
 
 TEST(VerdictOnNoise, IsNeverConfidentWhereOneSessionMayExplainAll) {
-  for (const Noise kind :
-       {Noise::kEven, Noise::kHeavyTailed, Noise::kOfGroups}) {
+  for (const NoiseInVerdictOnNoise kind : {NoiseInVerdictOnNoise::kEven,
+                                           NoiseInVerdictOnNoise::kHeavyTailed,
+                                           NoiseInVerdictOnNoise::kOfGroups}) {
     for (const Index groups : {3, 6, 11}) {
       EXPECT_EQ(ConfidentOf(kind, groups, 20), 0);
     }
@@ -93,8 +97,9 @@ TEST(VerdictOnNoise, IsNeverConfidentWhereOneSessionMayExplainAll) {
 TEST(VerdictOnNoise, IsSeldomConfidentWhereThereAreUnitsEnough) {
   constexpr int kStudies = 40;
   constexpr int kMostConfident = 2;
-  for (const Noise kind :
-       {Noise::kEven, Noise::kHeavyTailed, Noise::kOfGroups}) {
+  for (const NoiseInVerdictOnNoise kind : {NoiseInVerdictOnNoise::kEven,
+                                           NoiseInVerdictOnNoise::kHeavyTailed,
+                                           NoiseInVerdictOnNoise::kOfGroups}) {
     EXPECT_LE(ConfidentOf(kind, 15, kStudies), kMostConfident);
   }
 }

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/numbers.h"
+
 namespace errmap::stats {
 namespace {
 
@@ -14,11 +16,9 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::IsNan;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
 // R 4.2.2: p.adjust(p, "holm"), NA for NaN.
 TEST(AdjustByHolm, AgreesWithRAndPassesOverNan) {
-  EXPECT_THAT(AdjustByHolm({0.01, 0.04, 0.03, 0.005, 0.2, kNan, 0.04}),
+  EXPECT_THAT(AdjustByHolm({0.01, 0.04, 0.03, 0.005, 0.2, kNaN, 0.04}),
               ElementsAre(DoubleNear(0.05, 1e-15),
                           DoubleNear(0.12, 1e-15),
                           DoubleNear(0.12, 1e-15),
@@ -35,7 +35,7 @@ TEST(AdjustByHolm, NeverExceedsOne) {
 
 TEST(AdjustByHolm, LeavesOneTestAndNoneAsTheyAre) {
   EXPECT_THAT(AdjustByHolm({0.03}), ElementsAre(DoubleEq(0.03)));
-  EXPECT_THAT(AdjustByHolm({kNan, 0.03}), ElementsAre(IsNan(), DoubleEq(0.03)));
+  EXPECT_THAT(AdjustByHolm({kNaN, 0.03}), ElementsAre(IsNan(), DoubleEq(0.03)));
   EXPECT_THAT(AdjustByHolm({}), IsEmpty());
 }
 

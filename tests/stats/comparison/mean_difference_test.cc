@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/numbers.h"
+
 namespace errmap::stats {
 namespace {
 
@@ -15,7 +17,6 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 constexpr double kRelative = 1e-13;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void ExpectTest(const MeanDifferenceTest& found,
                 double t,

@@ -23,7 +23,7 @@ using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
 
 // `units` of 10 rows, model m with an RMSE of about scale[m].
-UnitLosses MakeLosses(Index units, const VectorXd& scale) {
+UnitLosses MakeLossesInPairedComparison(Index units, const VectorXd& scale) {
   Random random(8);
   UnitLosses losses;
   losses.mean_squares.resize(units, scale.size());
@@ -50,7 +50,8 @@ FoldLosses MakeFolds(Index folds, Index models) {
 }
 
 TEST(CompareModels, FindsAClearDifference) {
-  const UnitLosses losses = MakeLosses(12, VectorXd{{1.0, 1.02, 2.0}});
+  const UnitLosses losses =
+      MakeLossesInPairedComparison(12, VectorXd{{1.0, 1.02, 2.0}});
   const Comparison found = CompareModels(losses, nullptr, {});
   EXPECT_EQ(found.num_units, 12);
   ASSERT_EQ(found.pairs.size(), 3U);
@@ -68,7 +69,8 @@ TEST(CompareModels, FindsAClearDifference) {
 }
 
 TEST(CompareModels, TestsFiveRunsOfUnitsAsIfEachWereHeldOut) {
-  const UnitLosses losses = MakeLosses(12, VectorXd{{1.0, 1.5}});
+  const UnitLosses losses =
+      MakeLossesInPairedComparison(12, VectorXd{{1.0, 1.5}});
   const VectorXd d = losses.mean_squares.col(0) - losses.mean_squares.col(1);
   const VectorXd runs{{d.segment(0, 3).mean(),
                        d.segment(3, 3).mean(),
@@ -81,8 +83,10 @@ TEST(CompareModels, TestsFiveRunsOfUnitsAsIfEachWereHeldOut) {
 }
 
 TEST(CompareModels, AdjustsOverAllPairs) {
-  const Comparison found =
-      CompareModels(MakeLosses(9, VectorXd{{1.0, 1.2, 1.4, 1.6}}), nullptr, {});
+  const Comparison found = CompareModels(
+      MakeLossesInPairedComparison(9, VectorXd{{1.0, 1.2, 1.4, 1.6}}),
+      nullptr,
+      {});
   std::vector<double> p;
   std::vector<double> p_memory;
   for (const PairComparison& pair : found.pairs) {
@@ -98,8 +102,8 @@ TEST(CompareModels, AdjustsOverAllPairs) {
 }
 
 TEST(CompareModels, FindsEveryPairWhicheverComesFirst) {
-  const Comparison found =
-      CompareModels(MakeLosses(7, VectorXd::Ones(5)), nullptr, {});
+  const Comparison found = CompareModels(
+      MakeLossesInPairedComparison(7, VectorXd::Ones(5)), nullptr, {});
   for (Index a = 0; a < 5; ++a) {
     for (Index b = 0; b < 5; ++b) {
       if (a == b) continue;
@@ -114,7 +118,7 @@ TEST(CompareModels, FindsEveryPairWhicheverComesFirst) {
 }
 
 TEST(CompareModels, TestsFoldsAndTimeOnlyWhereTheyAreGiven) {
-  UnitLosses losses = MakeLosses(10, VectorXd{{1.0, 1.5}});
+  UnitLosses losses = MakeLossesInPairedComparison(10, VectorXd{{1.0, 1.5}});
   const Comparison without = CompareModels(losses, nullptr, {});
   EXPECT_FALSE(without.pairs[0].corrected_t.has_value());
   EXPECT_FALSE(without.pairs[0].diebold_mariano.has_value());
@@ -129,7 +133,8 @@ TEST(CompareModels, TestsFoldsAndTimeOnlyWhereTheyAreGiven) {
 
 // The answer does not hang on the order of models, nor on the unit of length.
 TEST(CompareModels, KeepsItsAnswerWithOtherOrderAndScale) {
-  const UnitLosses losses = MakeLosses(40, VectorXd{{1.0, 1.15, 1.6}});
+  const UnitLosses losses =
+      MakeLossesInPairedComparison(40, VectorXd{{1.0, 1.15, 1.6}});
   UnitLosses turned = losses;
   turned.mean_squares = 1e-6 * losses.mean_squares.rowwise().reverse();
   const Comparison a = CompareModels(losses, nullptr, {});
@@ -151,22 +156,25 @@ TEST(CompareModels, KeepsItsAnswerWithOtherOrderAndScale) {
 
 TEST(CompareModels, BoundsDifferencesFromTwoUnitsOnAndWithMemoryFromFour) {
   for (const Index units : {1, 2, 3, 5}) {
-    const Comparison found =
-        CompareModels(MakeLosses(units, VectorXd{{1.0, 100.0}}), nullptr, {});
+    const Comparison found = CompareModels(
+        MakeLossesInPairedComparison(units, VectorXd{{1.0, 100.0}}),
+        nullptr,
+        {});
     EXPECT_EQ(found.pairs[0].bounds.exist(), units >= 2);
     EXPECT_EQ(found.pairs[0].memory.bounds.exist(), units >= 4);
   }
 }
 
 TEST(CompareModels, PutsModelsAloneWhereNoBoundExists) {
-  UnitLosses losses = MakeLosses(1, VectorXd{{1.0, 1.0, 1.0}});
+  UnitLosses losses =
+      MakeLossesInPairedComparison(1, VectorXd{{1.0, 1.0, 1.0}});
   losses.mean_squares << 1.0, 1.0, 1.001;
   const Comparison found = CompareModels(losses, nullptr, {});
   EXPECT_THAT(found.tiers, ElementsAre(ElementsAre(0, 1), ElementsAre(2)));
 }
 
 TEST(CompareModels, CallsEqualModelsEqual) {
-  UnitLosses losses = MakeLosses(20, VectorXd{{1.0, 1.0}});
+  UnitLosses losses = MakeLossesInPairedComparison(20, VectorXd{{1.0, 1.0}});
   losses.mean_squares.col(1) = losses.mean_squares.col(0);
   losses.time_ordered = true;
   const FoldLosses folds{.mean_squares = MatrixXd::Ones(5, 2),
@@ -189,7 +197,7 @@ TEST(CompareModels, CallsEqualModelsEqual) {
 }
 
 TEST(CompareModels, WarnsOfUnitsThatResembleTheirNeighbours) {
-  UnitLosses losses = MakeLosses(35, VectorXd{{1.0, 1.0}});
+  UnitLosses losses = MakeLossesInPairedComparison(35, VectorXd{{1.0, 1.0}});
   EXPECT_FALSE(CompareModels(losses, nullptr, {}).pairs[0].correlated);
   for (Index unit = 0; unit < 35; ++unit) {
     losses.mean_squares(unit, 0) += unit < 17 ? 2.0 : 0.0;
@@ -205,7 +213,8 @@ TEST(CompareModels, WarnsOfUnitsThatResembleTheirNeighbours) {
 }
 
 TEST(CompareModels, GivesTheSameForTheSameSeedOnly) {
-  const UnitLosses losses = MakeLosses(40, VectorXd{{1.0, 1.05}});
+  const UnitLosses losses =
+      MakeLossesInPairedComparison(40, VectorXd{{1.0, 1.05}});
   const auto run = [&losses](std::uint64_t seed) {
     return CompareModels(losses, nullptr, {.seed = seed}).pairs[0];
   };
@@ -215,24 +224,24 @@ TEST(CompareModels, GivesTheSameForTheSameSeedOnly) {
 }
 
 TEST(CompareModels, ComparesNoUnitsNoModelsAndOne) {
-  const Comparison no_units =
-      CompareModels(MakeLosses(0, VectorXd::Ones(2)), nullptr, {});
+  const Comparison no_units = CompareModels(
+      MakeLossesInPairedComparison(0, VectorXd::Ones(2)), nullptr, {});
   EXPECT_TRUE(std::isnan(no_units.rmse[0]));
   EXPECT_EQ(no_units.pairs[0].sign_flip.test.why_not, "no units");
   EXPECT_THAT(no_units.tiers, IsEmpty());
   const Comparison no_models =
-      CompareModels(MakeLosses(9, VectorXd()), nullptr, {});
+      CompareModels(MakeLossesInPairedComparison(9, VectorXd()), nullptr, {});
   EXPECT_THAT(no_models.pairs, IsEmpty());
   EXPECT_THAT(no_models.tiers, IsEmpty());
-  const Comparison one =
-      CompareModels(MakeLosses(9, VectorXd::Ones(1)), nullptr, {});
+  const Comparison one = CompareModels(
+      MakeLossesInPairedComparison(9, VectorXd::Ones(1)), nullptr, {});
   EXPECT_THAT(one.pairs, IsEmpty());
   EXPECT_THAT(one.tiers, ElementsAre(ElementsAre(0)));
   EXPECT_TRUE(one.rmse_bounds[0].exist());
 }
 
 TEST(CompareModels, RefusesInvalidLossesFoldsAndOptions) {
-  const UnitLosses losses = MakeLosses(8, VectorXd::Ones(2));
+  const UnitLosses losses = MakeLossesInPairedComparison(8, VectorXd::Ones(2));
   UnitLosses bad = losses;
   bad.mean_squares(3, 1) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(

@@ -11,7 +11,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kRelative = 1e-12;
+constexpr double kSignedRankRelative = 1e-12;
 
 struct Reference {
   double v;
@@ -23,7 +23,7 @@ void ExpectAsR(const VectorXd& differences, const Reference& r) {
   const SignedRankTest found = TestSignedRanks(differences);
   ASSERT_TRUE(found.test.ok()) << found.test.why_not;
   EXPECT_EQ(found.test.statistic, r.v);
-  EXPECT_NEAR(found.test.p, r.p, kRelative * r.p);
+  EXPECT_NEAR(found.test.p, r.p, kSignedRankRelative * r.p);
   EXPECT_EQ(found.exact, r.exact);
 }
 

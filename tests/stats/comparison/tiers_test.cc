@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/numbers.h"
+
 namespace errmap::stats {
 namespace {
 
@@ -15,8 +17,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // Bounds as if every difference were known to +- `error`.
 MatrixXd Bounds(const VectorXd& rmse, double error) {
@@ -61,7 +61,7 @@ TEST(FormTiers, MeasuresFromTheBestAndNotFromTheNeighbour) {
 
 TEST(FormTiers, WithoutBoundsOnlyEqualModelsShareATier) {
   const VectorXd rmse{{1.0, 1.0 + 1e-15, 1.001, 1.0}};
-  EXPECT_THAT(FormTiers(rmse, MatrixXd::Constant(4, 4, kNan), {.share = 0.5}),
+  EXPECT_THAT(FormTiers(rmse, MatrixXd::Constant(4, 4, kNaN), {.share = 0.5}),
               ElementsAre(ElementsAre(0, 3, 1), ElementsAre(2)));
 }
 
@@ -77,7 +77,7 @@ TEST(FormTiers, RefusesOtherShapesAndValuesThatAreNotFinite) {
                   HasSubstr("bounds of 2 x 3 models for 2 RMSE")));
   EXPECT_THAT(
       [] {
-        FormTiers(VectorXd{{1.0, kNan}}, MatrixXd::Zero(2, 2), {});
+        FormTiers(VectorXd{{1.0, kNaN}}, MatrixXd::Zero(2, 2), {});
       },
       ThrowsMessage<std::invalid_argument>(HasSubstr("not finite")));
 }
@@ -87,7 +87,7 @@ TEST(Margin, IsCheckedFieldByField) {
   EXPECT_THAT([] { Margin{.share = -0.1}.Validate(); },
               ThrowsMessage<std::invalid_argument>(HasSubstr(
                   "share must be finite and at least 0, found -0.1")));
-  EXPECT_THAT([] { Margin{.indifference = kNan}.Validate(); },
+  EXPECT_THAT([] { Margin{.indifference = kNaN}.Validate(); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("indifference")));
 }
 

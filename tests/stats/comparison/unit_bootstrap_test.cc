@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 constexpr Index kResamples = 4999;
-constexpr std::uint64_t kSeed = 1;
+constexpr std::uint64_t kUnitBootstrapSeed = 1;
 
 UnitLosses SixUnits() {
   UnitLosses losses;
@@ -53,7 +53,8 @@ TEST(UnitBootstrap, IsNeverNarrowerThanStudentsT) {
   constexpr double kLowerByT = -0.15838399200574355;
   constexpr double kUpperByT = 0.80351709628237078;
   const Bounds95 bounds =
-      UnitBootstrap(SixUnits(), kResamples, kSeed).OfDifference(0, 1);
+      UnitBootstrap(SixUnits(), kResamples, kUnitBootstrapSeed)
+          .OfDifference(0, 1);
   constexpr double kRounding = 1e-12;
   EXPECT_LE(bounds.lower, kLowerByT + kRounding);
   EXPECT_GE(bounds.upper, kUpperByT - kRounding);
@@ -72,7 +73,8 @@ TEST(UnitBootstrap, ReachesBeyondTheWorstUnit) {
   UnitLosses losses;
   losses.mean_squares = VectorXd{{0.0, 0.0, 9.0}};
   losses.rows = VectorXd::Ones(3);
-  const Bounds95 bounds = UnitBootstrap(losses, kResamples, kSeed).OfRmse(0);
+  const Bounds95 bounds =
+      UnitBootstrap(losses, kResamples, kUnitBootstrapSeed).OfRmse(0);
   // se = |(-3, -3, 6)| / (2 sqrt(3)) / sqrt(6) = sqrt(3) / 2; the quantile of t
   // with 2 degrees of freedom in closed form.
   const double t = 0.95 * std::sqrt(2.0 / (1.0 - 0.95 * 0.95));
@@ -83,7 +85,7 @@ TEST(UnitBootstrap, ReachesBeyondTheWorstUnit) {
 // With many units both methods agree with the normal interval.
 TEST(UnitBootstrap, TendsToTheNormalIntervalWithManyUnits) {
   const UnitLosses losses = RandomLosses(2000, 2);
-  const UnitBootstrap bootstrap(losses, kResamples, kSeed);
+  const UnitBootstrap bootstrap(losses, kResamples, kUnitBootstrapSeed);
   const VectorXd rmse = PooledRmse(losses);
   const VectorXd g =
       (losses.mean_squares.col(0).array() - rmse[0] * rmse[0]) / (2 * rmse[0]) -
@@ -99,7 +101,7 @@ TEST(UnitBootstrap, TendsToTheNormalIntervalWithManyUnits) {
 }
 
 TEST(UnitBootstrap, TurnsSignWithTheOrderOfTheModels) {
-  const UnitBootstrap bootstrap(SixUnits(), kResamples, kSeed);
+  const UnitBootstrap bootstrap(SixUnits(), kResamples, kUnitBootstrapSeed);
   const Bounds95 ab = bootstrap.OfDifference(0, 1);
   const Bounds95 ba = bootstrap.OfDifference(1, 0);
   constexpr double kRounding = 1e-13;
@@ -111,10 +113,10 @@ TEST(UnitBootstrap, TurnsSignWithTheOrderOfTheModels) {
 TEST(UnitBootstrap, ScalesWithTheUnitOfTheTarget) {
   UnitLosses losses = SixUnits();
   const Bounds95 in_um =
-      UnitBootstrap(losses, kResamples, kSeed).OfDifference(0, 1);
+      UnitBootstrap(losses, kResamples, kUnitBootstrapSeed).OfDifference(0, 1);
   losses.mean_squares *= 1e-6;
   const Bounds95 in_mm =
-      UnitBootstrap(losses, kResamples, kSeed).OfDifference(0, 1);
+      UnitBootstrap(losses, kResamples, kUnitBootstrapSeed).OfDifference(0, 1);
   EXPECT_NEAR(in_mm.lower, 1e-3 * in_um.lower, 1e-14);
   EXPECT_NEAR(in_mm.at_most, 1e-3 * in_um.at_most, 1e-14);
 }
@@ -123,7 +125,7 @@ TEST(UnitBootstrap, KnowsEqualModelsToBeEqual) {
   UnitLosses losses = SixUnits();
   losses.mean_squares.col(1) = losses.mean_squares.col(0);
   const Bounds95 bounds =
-      UnitBootstrap(losses, kResamples, kSeed).OfDifference(0, 1);
+      UnitBootstrap(losses, kResamples, kUnitBootstrapSeed).OfDifference(0, 1);
   EXPECT_EQ(bounds.lower, 0.0);
   EXPECT_EQ(bounds.upper, 0.0);
   EXPECT_TRUE(bounds.exist());
@@ -133,7 +135,7 @@ TEST(UnitBootstrap, KnowsEqualModelsToBeEqual) {
 TEST(UnitBootstrap, CopesWithAPerfectModel) {
   UnitLosses losses = SixUnits();
   losses.mean_squares.col(1).setZero();
-  const UnitBootstrap bootstrap(losses, kResamples, kSeed);
+  const UnitBootstrap bootstrap(losses, kResamples, kUnitBootstrapSeed);
   EXPECT_EQ(bootstrap.OfRmse(1).upper, 0.0);
   EXPECT_EQ(bootstrap.OfRmse(1).lower, 0.0);
   EXPECT_TRUE(bootstrap.OfDifference(0, 1).ExcludeZero());
@@ -141,13 +143,15 @@ TEST(UnitBootstrap, CopesWithAPerfectModel) {
 
 TEST(UnitBootstrap, HasNoBoundsBelowTwoUnits) {
   for (const Index units : {0, 1}) {
-    const UnitBootstrap bootstrap(RandomLosses(units, 2), kResamples, kSeed);
+    const UnitBootstrap bootstrap(
+        RandomLosses(units, 2), kResamples, kUnitBootstrapSeed);
     EXPECT_FALSE(bootstrap.OfRmse(0).exist());
     EXPECT_FALSE(bootstrap.OfDifference(0, 1).exist());
     EXPECT_FALSE(bootstrap.OfDifference(0, 1).ExcludeZero());
   }
-  EXPECT_TRUE(
-      UnitBootstrap(RandomLosses(2, 2), kResamples, kSeed).OfRmse(0).exist());
+  EXPECT_TRUE(UnitBootstrap(RandomLosses(2, 2), kResamples, kUnitBootstrapSeed)
+                  .OfRmse(0)
+                  .exist());
 }
 
 TEST(UnitBootstrap, GivesTheSameForTheSameSeedOnly) {
@@ -159,12 +163,13 @@ TEST(UnitBootstrap, GivesTheSameForTheSameSeedOnly) {
 }
 
 TEST(UnitBootstrap, RefusesTooFewResamplesAndInvalidLosses) {
-  EXPECT_THAT([] { UnitBootstrap(SixUnits(), 98, kSeed); },
+  EXPECT_THAT([] { UnitBootstrap(SixUnits(), 98, kUnitBootstrapSeed); },
               ThrowsMessage<std::invalid_argument>(
                   HasSubstr("at least 99 resamples, found 98")));
   UnitLosses losses = SixUnits();
   losses.mean_squares(2, 1) = -1.0;
-  EXPECT_THROW(UnitBootstrap(losses, kResamples, kSeed), std::invalid_argument);
+  EXPECT_THROW(UnitBootstrap(losses, kResamples, kUnitBootstrapSeed),
+               std::invalid_argument);
 }
 
 }  // namespace

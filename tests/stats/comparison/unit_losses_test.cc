@@ -10,6 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/numbers.h"
+
 namespace errmap::stats {
 namespace {
 
@@ -21,8 +23,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 MatrixXd FiveRows() {
   MatrixXd residuals(5, 2);
@@ -74,7 +74,7 @@ TEST(GatherByUnit, RefusesWhatItCannotGather) {
       },
       ThrowsMessage<std::invalid_argument>(HasSubstr("negative unit code -4")));
   MatrixXd residuals = FiveRows();
-  residuals(3, 1) = kNan;
+  residuals(3, 1) = kNaN;
   EXPECT_THAT(
       [&] {
         GatherByUnit(residuals, {0, 0, 0, 0, 0});
@@ -105,7 +105,7 @@ TEST(UnitLosses, AreRefusedWhereInvalid) {
   bad.rows[1] = 0.0;
   EXPECT_THAT(message_of(bad), HasSubstr("unit 1 has 0.000000 rows"));
   for (const double wrong :
-       {kNan, -1.0, std::numeric_limits<double>::infinity()}) {
+       {kNaN, -1.0, std::numeric_limits<double>::infinity()}) {
     bad = good;
     bad.mean_squares(1, 2) = wrong;
     EXPECT_THAT(message_of(bad), HasSubstr("unit 1, model 2: mean square"));

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kRounding = 1e-14;
+constexpr double kBimodalityRounding = 1e-14;
 
 VectorXd Sorted(VectorXd values) {
   std::sort(values.begin(), values.end());
@@ -30,7 +30,7 @@ TEST(DipStatistic, ReproducesDiptestOnEverySample) {
     if (name == "sample_uniform_5000") continue;  // not among R's
     EXPECT_NEAR(DipStatistic(Sorted(GoldenSample(name))),
                 SerialReference(name).at("dip"),
-                kRounding)
+                kBimodalityRounding)
         << name;
   }
 }
@@ -39,7 +39,7 @@ TEST(DipStatistic, ReproducesDiptestWithTiesAndTwoModes) {
   const VectorXd once{{1, 2, 3, 3, 3, 9, 9, 9, 10}};
   EXPECT_NEAR(DipStatistic(Sorted(once.replicate(4, 1))),
               SerialReference("ties_1_to_20").at("dip"),
-              kRounding);
+              kBimodalityRounding);
   VectorXd two_modes(40);
   for (Index i = 0; i < 20; ++i) {
     two_modes[i] = static_cast<double>(i + 1);
@@ -47,7 +47,7 @@ TEST(DipStatistic, ReproducesDiptestWithTiesAndTwoModes) {
   }
   EXPECT_NEAR(DipStatistic(two_modes),
               SerialReference("two_modes").at("dip"),
-              kRounding);
+              kBimodalityRounding);
   EXPECT_EQ(DipProbability(DipStatistic(two_modes), 40), 0.001);
 }
 
@@ -67,7 +67,7 @@ TEST(DipStatistic, DoesNotDependOnShiftOrScaleOrSign) {
   const VectorXd x = Sorted(NormalSample(200, &random));
   const double dip = DipStatistic(x);
   EXPECT_NEAR(DipStatistic(1e3 * x.array() + 5.0), dip, 1e-12);
-  EXPECT_NEAR(DipStatistic(Sorted(-x)), dip, kRounding);
+  EXPECT_NEAR(DipStatistic(Sorted(-x)), dip, kBimodalityRounding);
 }
 
 // The report's Figures 15 and 15A look bimodal; this is how such a histogram

@@ -13,6 +13,7 @@
 #include "stats/normality/lilliefors.h"
 #include "stats/normality/monte_carlo.h"
 #include "stats/random.h"
+#include "tests/numbers.h"
 #include "tests/places.h"
 #include "tests/stats/golden_samples.h"
 
@@ -24,8 +25,6 @@ using Eigen::VectorXd;
 using Json = nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // golden/normality.json: scipy 1.10.1, statsmodels 0.13.5, R 4.2.2.
 const Json& Golden() {

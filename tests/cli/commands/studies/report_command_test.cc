@@ -3,7 +3,7 @@
 #include <sys/resource.h>
 
 #include "tests/cli/cli_fixture.h"
-#include "tests/models/report/report_document.h"
+#include "tests/cli/report/report_document.h"
 
 namespace errmap {
 namespace {

@@ -23,7 +23,7 @@ using errmap::testing::MakeRecipes;
 using errmap::testing::QuadraticData;
 using ::testing::HasSubstr;
 
-constexpr Eigen::Index kRows = 40;
+constexpr Eigen::Index kFitLabelRows = 40;
 
 Dataset::Parts PartsOf(const Dataset& dataset) {
   Dataset::Parts parts;
@@ -53,7 +53,7 @@ std::vector<std::string> KeysOf(
 }
 
 TEST(FitLabels, GiveEveryFitItsPlaceInTheOrderOfTheStudy) {
-  const Dataset dataset = QuadraticData(kRows);
+  const Dataset dataset = QuadraticData(kFitLabelRows);
   const auto holdouts = MakeHoldouts(dataset, {"every:3", "kfold:2"});
   const auto recipes = MakeRecipes({"net:scg:hidden=3", "mean"});
   const FitLabels labels("x down", dataset, holdouts, recipes, {}, "errmap 1");
@@ -70,7 +70,7 @@ TEST(FitLabels, GiveEveryFitItsPlaceInTheOrderOfTheStudy) {
 }
 
 TEST(FitLabels, GiveEveryFitAKeyOfItsOwn) {
-  const auto keys = KeysOf(QuadraticData(kRows),
+  const auto keys = KeysOf(QuadraticData(kFitLabelRows),
                            {"every:3", "every:4", "kfold:3"},
                            {"mean", "poly:eq7", "net:scg", "net:lm"});
   EXPECT_EQ(std::set<std::string>(keys.begin(), keys.end()).size(),
@@ -78,18 +78,19 @@ TEST(FitLabels, GiveEveryFitAKeyOfItsOwn) {
 }
 
 TEST(FitLabels, AreTheSameForTheSameStudy) {
-  EXPECT_EQ(KeysOf(QuadraticData(kRows)), KeysOf(QuadraticData(kRows)));
+  EXPECT_EQ(KeysOf(QuadraticData(kFitLabelRows)),
+            KeysOf(QuadraticData(kFitLabelRows)));
 }
 
 TEST(FitLabels, DoNotDependOnTheNameOfTheFileNorOnJobs) {
-  Dataset::Parts parts = PartsOf(QuadraticData(kRows));
+  Dataset::Parts parts = PartsOf(QuadraticData(kFitLabelRows));
   parts.source = "elsewhere.csv";
   EXPECT_EQ(KeysOf(Dataset(parts), {"every:3"}, {"poly:eq8"}, {.jobs = 4}),
-            KeysOf(QuadraticData(kRows)));
+            KeysOf(QuadraticData(kFitLabelRows)));
 }
 
 TEST(FitLabels, ChangeWithSeedOptionsAndProgram) {
-  const Dataset dataset = QuadraticData(kRows);
+  const Dataset dataset = QuadraticData(kFitLabelRows);
   const auto keys = KeysOf(dataset);
   const auto seed = KeysOf(dataset, {"every:3"}, {"poly:eq8"}, {.seed = 2});
   const auto options = KeysOf(dataset, {"every:3"}, {"poly:eq7"});
@@ -109,15 +110,16 @@ TEST(FitLabels, ChangeWithEverythingThatAFitSeesOfItsRows) {
       [](auto* p) { p->inputs[1].name = "t9_degC"; },
       [](auto* p) { p->inputs[1].unit.symbol = "K"; },
       [](auto* p) { p->target.unit.symbol = "um"; },
-      [](auto* p) { p->weights = Eigen::VectorXd::Ones(kRows); },
+      [](auto* p) { p->weights = Eigen::VectorXd::Ones(kFitLabelRows); },
       [](auto* p) { p->rows.back() = 99; },
       [](auto* p) {
-        p->groups = {"cycle", {"1"}, std::vector<Eigen::Index>(kRows, 0)};
+        p->groups = {
+            "cycle", {"1"}, std::vector<Eigen::Index>(kFitLabelRows, 0)};
       },
   };
-  const auto keys = KeysOf(QuadraticData(kRows));
+  const auto keys = KeysOf(QuadraticData(kFitLabelRows));
   for (std::size_t change = 0; change < changes.size(); ++change) {
-    Dataset::Parts parts = PartsOf(QuadraticData(kRows));
+    Dataset::Parts parts = PartsOf(QuadraticData(kFitLabelRows));
     changes[change](&parts);
     const auto changed = KeysOf(Dataset(parts));
     for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -154,9 +156,9 @@ TEST(FitLabels, ChangeWithTheLogThatFiltersRunThrough) {
 TEST(FitLabels, ChangeOnlyForTheFoldsThatSeeAChangedRow) {
   // Three folds forward: the last of four blocks is seen by the last fold and
   // by the fit to all rows.
-  const auto keys = KeysOf(QuadraticData(kRows), {"forward:3"});
-  Dataset::Parts parts = PartsOf(QuadraticData(kRows));
-  parts.target_values[kRows - 1] += 1.0;
+  const auto keys = KeysOf(QuadraticData(kFitLabelRows), {"forward:3"});
+  Dataset::Parts parts = PartsOf(QuadraticData(kFitLabelRows));
+  parts.target_values[kFitLabelRows - 1] += 1.0;
   const auto changed = KeysOf(Dataset(parts), {"forward:3"});
   ASSERT_EQ(keys.size(), 4U);
   EXPECT_NE(changed[0], keys[0]);
@@ -166,7 +168,7 @@ TEST(FitLabels, ChangeOnlyForTheFoldsThatSeeAChangedRow) {
 }
 
 TEST(FitLabels, KnowTheRowsOfATestFile) {
-  const Dataset dataset = QuadraticData(kRows);
+  const Dataset dataset = QuadraticData(kFitLabelRows);
   const auto keys_with = [&](const Dataset& test) {
     std::vector<Holdout> holdouts;
     holdouts.push_back(MakeHoldout(stats::ParseHoldout("file:test.csv"),

@@ -16,6 +16,7 @@
 #include "models/recipe_catalog.h"
 #include "models/regression_report.h"
 #include "tests/models/model_test_data.h"
+#include "tests/numbers.h"
 
 namespace errmap::models {
 namespace {
@@ -25,11 +26,11 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDenormal = std::numeric_limits<double>::denorm_min();
 constexpr double kMost = std::numeric_limits<double>::max();
 
-FitOutcome OutcomeOf(const std::string& spec, const data::Dataset& dataset) {
+FitOutcome OutcomeOfInFitRecord(const std::string& spec,
+                                const data::Dataset& dataset) {
   FitOutcome outcome;
   outcome.fitted = MakeRecipe(spec)->Fit(
       dataset, {.seed = 7, .explain = true, .keep_trace = true});
@@ -93,7 +94,7 @@ TEST(FitRecord, BringsBackEveryKindOfModelToTheBit) {
   specs.push_back("poly:formula=position_mm+t1_degC^2");
   specs.push_back("net:scg:hidden=3:iterations=20:starts=3");
   for (const std::string& spec : specs) {
-    const FitOutcome outcome = OutcomeOf(spec, dataset);
+    const FitOutcome outcome = OutcomeOfInFitRecord(spec, dataset);
     const std::string text = FitToText(outcome);
     EXPECT_EQ(text.find('\n'), std::string::npos) << spec;
     const FitOutcome back = FitFromText(text);

@@ -26,14 +26,15 @@ data::Dataset Rows() {
   return data::Dataset(std::move(parts));
 }
 
-FittedModel MapOf(const std::string& formula) {
+FittedModel MapOfInExtrapolatedRows(const std::string& formula) {
   return MakeRecipe("poly:formula=" + formula)->Fit(Rows(), {});
 }
 
 std::vector<std::vector<bool>> Outside(const Holdout& holdout,
                                        const std::string& formula) {
   std::vector<std::vector<bool>> found;
-  for (const auto& rows : ExtrapolatedRows(Rows(), holdout, MapOf(formula))) {
+  for (const auto& rows :
+       ExtrapolatedRows(Rows(), holdout, MapOfInExtrapolatedRows(formula))) {
     found.emplace_back(rows.begin(), rows.end());
   }
   return found;

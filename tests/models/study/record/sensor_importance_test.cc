@@ -18,14 +18,14 @@ using errmap::testing::MakeRecipes;
 using ::testing::ElementsAre;
 
 constexpr Index kDays = 6;
-constexpr Index kRows = 20;  // of a day
+constexpr Index kSensorImportanceRows = 20;  // of a day
 
 // The error follows t1, which t2 repeats to a tenth of a degree, and a little
 // of t3; t4 is idle.
-data::Dataset Days() {
-  Eigen::MatrixXd values(kDays * kRows, 5);
-  Eigen::VectorXd time(kDays * kRows);
-  Eigen::VectorXd error(kDays * kRows);
+data::Dataset DaysInSensorImportance() {
+  Eigen::MatrixXd values(kDays * kSensorImportanceRows, 5);
+  Eigen::VectorXd time(kDays * kSensorImportanceRows);
+  Eigen::VectorXd error(kDays * kSensorImportanceRows);
   std::vector<Index> codes;
   for (Index row = 0; row < values.rows(); ++row) {
     const auto k = static_cast<double>(row);
@@ -37,7 +37,7 @@ data::Dataset Days() {
     time[row] = 60.0 * k;
     error[row] = 0.01 * position + 2.0 * (t1 - 20.0) + 0.5 * t3 +
                  0.05 * std::sin(12.9898 * k * k);
-    codes.push_back(row / kRows);
+    codes.push_back(row / kSensorImportanceRows);
   }
   const data::Dataset rows =
       errmap::testing::WithLog({ColumnNamed("position_mm"),
@@ -59,17 +59,17 @@ data::Dataset Days() {
   return data::Dataset(std::move(parts));
 }
 
-struct Judged {
+struct JudgedInSensorImportance {
   StudyResult study;
   std::optional<SensorImportance> importance;
   double rmse = 0.0;
 };
 
-Judged Importance(const std::string& spec,
-                  const std::string& holdout = "sessions:3") {
-  const data::Dataset dataset = Days();
+JudgedInSensorImportance Importance(const std::string& spec,
+                                    const std::string& holdout = "sessions:3") {
+  const data::Dataset dataset = DaysInSensorImportance();
   const auto holdouts = MakeHoldouts(dataset, {holdout});
-  Judged judged;
+  JudgedInSensorImportance judged;
   judged.study = RunStudy(dataset, holdouts, MakeRecipes({spec}), {});
   const ModelResult& model = judged.study.models.front();
   EXPECT_TRUE(model.ok()) << model.why();
@@ -92,10 +92,10 @@ double Without(const std::vector<SensorImportance::Without>& list,
 }
 
 TEST(SensorImportance, TellsAlikeSensorsApartFromNeedlessOnes) {
-  const Judged judged = Importance("poly:full:degree=1");
+  const JudgedInSensorImportance judged = Importance("poly:full:degree=1");
   ASSERT_TRUE(judged.importance);
   const SensorImportance& found = *judged.importance;
-  EXPECT_EQ(found.rows, kDays * kRows);
+  EXPECT_EQ(found.rows, kDays * kSensorImportanceRows);
   EXPECT_NEAR(found.rmse, judged.rmse, 1e-12 * judged.rmse);
   ASSERT_EQ(found.one_by_one.size(), 4U);
   // t3 has no other to stand in for it, t1 has t2, and t4 says nothing.
@@ -112,7 +112,8 @@ TEST(SensorImportance, TellsAlikeSensorsApartFromNeedlessOnes) {
 }
 
 TEST(SensorImportance, RunsThroughTheMemoryOfAMap) {
-  const Judged judged = Importance("poly:ridge:view=history:terms=linear");
+  const JudgedInSensorImportance judged =
+      Importance("poly:ridge:view=history:terms=linear");
   ASSERT_TRUE(judged.importance);
   const SensorImportance& found = *judged.importance;
   EXPECT_NEAR(found.rmse, judged.rmse, 1e-12 * judged.rmse);
@@ -125,7 +126,7 @@ TEST(SensorImportance, IsOfMapsWithSensorsOnly) {
   EXPECT_FALSE(Importance("poly:position").importance);
   EXPECT_TRUE(Importance("poly:temperature").importance);
   // Once the maps of the folds are gone there is nothing to take away from.
-  const data::Dataset dataset = Days();
+  const data::Dataset dataset = DaysInSensorImportance();
   const auto holdouts = MakeHoldouts(dataset, {"sessions:3"});
   StudyResult study =
       RunStudy(dataset, holdouts, MakeRecipes({"poly:full:degree=1"}), {});
@@ -138,7 +139,7 @@ TEST(SensorImportance, IsOfMapsWithSensorsOnly) {
 }
 
 TEST(SensorImportance, StopsWhenAskedTo) {
-  const data::Dataset dataset = Days();
+  const data::Dataset dataset = DaysInSensorImportance();
   const auto holdouts = MakeHoldouts(dataset, {"sessions:3"});
   const StudyResult study =
       RunStudy(dataset, holdouts, MakeRecipes({"poly:full:degree=1"}), {});

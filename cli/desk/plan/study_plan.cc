@@ -1,0 +1,309 @@
+#include "cli/desk/plan/study_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "cli/desk/plan/component_names.h"
+#include "cli/report/words/fault_text.h"
+#include "data/argument_name.h"
+#include "data/atomic_file.h"
+#include "data/input_error.h"
+#include "data/sha256.h"
+#include "data/shown_path.h"
+#include "data/text.h"
+#include "models/comparison/compare.h"
+#include "models/file_recipe.h"
+#include "models/study/split_file.h"
+#include "models/study/study_defaults.h"
+#include "stats/error_metrics.h"
+
+namespace errmap::desk {
+namespace {
+
+// Several components may stand in one file: each is read and parsed once.
+class TableReader {
+ public:
+  explicit TableReader(std::vector<InputFile>* inputs) : inputs_(inputs) {}
+
+  const data::CsvTable& Read(const std::string& file) {
+    const auto found = tables_.find(file);
+    if (found != tables_.end()) return found->second;
+    const std::string text = data::ReadFile(file);
+    inputs_->push_back({.file = file, .sha256 = data::Sha256(text)});
+    return tables_.emplace(file, data::ParseCsv(text, file)).first->second;
+  }
+
+  const std::string& Sha256Of(const std::string& file) const {
+    return std::ranges::find(*inputs_, file, &InputFile::file)->sha256;
+  }
+
+ private:
+  std::vector<InputFile>* inputs_;
+  std::map<std::string, data::CsvTable> tables_;
+};
+
+// Makes one component ready; remarks tell which where there are several.
+class ComponentPlanner {
+ public:
+  ComponentPlanner(const StudyConfig& study,
+                   const ComponentConfig& component,
+                   const Remark& remark,
+                   TableReader* reader)
+      : study_(study),
+        component_(component),
+        remark_(remark),
+        reader_(reader) {}
+
+  models::ComponentPlan Plan() const {
+    data::PreparedDataset prepared = PrepareData();
+    std::vector<models::Holdout> holdouts = MakeHoldouts(prepared);
+    if (holdouts.empty()) {
+      throw data::InputError(
+          fmt::format("{}: names no hold-out", component_.split));
+    }
+    std::vector<std::string> left_out;
+    models::ComponentPlan plan =
+        models::PlanModels({.name = component_.name,
+                            .file = data::ShownPath(component_.data),
+                            .sha256 = reader_->Sha256Of(component_.data),
+                            .data = std::move(prepared),
+                            .holdouts = std::move(holdouts),
+                            .study = {},
+                            .judgement = {}},
+                           study_.models,
+                           &left_out);
+    for (const std::string& line : left_out) Tell(line);
+    plan.given = ReadGiven();
+    const data::Dataset& dataset = plan.comparison.data.dataset;
+    const data::Unit& unit = dataset.target().unit;
+    plan.comparison.goal = SizeOf("goal", component_.goal, study_.goal, dataset)
+                               .value_or(models::DefaultGoal(unit));
+    plan.comparison.indifference =
+        SizeOf("indifference",
+               component_.indifference,
+               study_.indifference,
+               dataset)
+            .value_or(models::DefaultIndifference(unit));
+    return plan;
+  }
+
+ private:
+  void Tell(const std::string& line) const {
+    if (!remark_) return;
+    remark_(study_.components.size() > 1
+                ? data::Printable(component_.name, line.max_size()) + ": " +
+                      line
+                : line);
+  }
+
+  data::PreparedDataset PrepareData() const {
+    data::PreparedDataset prepared =
+        data::MakeDataset(reader_->Read(component_.data), component_.selection);
+    TellWhatWasFound(prepared, report::FaultUse::kFit);
+    if (!component_.later.empty()) {
+      prepared.dataset = WithoutLater(prepared.dataset);
+    }
+    return prepared;
+  }
+
+  // Less the sessions that are to judge maps put together.
+  data::Dataset WithoutLater(const data::Dataset& dataset) const {
+    const std::vector<Eigen::Index> codes = dataset.session_codes();
+    std::vector<Eigen::Index> rows;
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+      const std::string& session =
+          dataset.log()->sessions.labels[static_cast<std::size_t>(codes[i])];
+      if (std::ranges::find(component_.later, session) !=
+          component_.later.end()) {
+        rows.push_back(dataset.rows()[i]);
+      }
+    }
+    if (rows.size() == codes.size()) {
+      throw data::InputError(fmt::format(
+          "{}: no session but those that are to judge; more days are needed",
+          data::PrintablePath(component_.data)));
+    }
+    return data::WithoutRows(dataset, rows);
+  }
+
+  void TellWhatWasFound(const data::PreparedDataset& prepared,
+                        report::FaultUse use) const {
+    if (!remark_) return;
+    for (const std::string& line : prepared.remarks) Tell(line);
+    for (const std::string& line :
+         report::FaultLines(prepared, component_.selection.faults, use)) {
+      Tell(line);
+    }
+  }
+
+  void TellOfLoneGroup(const data::Dataset& dataset) const {
+    if (!dataset.has_groups() || dataset.groups().labels.size() > 1) return;
+    Tell(
+        fmt::format("column '{}' has one group only; more cycles are needed "
+                    "to hold them out whole",
+                    dataset.groups().column));
+  }
+
+  // Those of the split file first; it takes the place of the default ones.
+  std::vector<models::Holdout> MakeHoldouts(
+      const data::PreparedDataset& prepared) const {
+    const data::Dataset& dataset = prepared.dataset;
+    std::vector<models::Holdout> holdouts;
+    std::vector<std::string> specs = study_.holdouts;
+    if (!component_.split.empty()) {
+      holdouts =
+          models::ReadSplitFile(reader_->Read(component_.split), dataset);
+    } else if (specs.empty()) {
+      specs = models::DefaultHoldouts(dataset);
+      TellOfLoneGroup(dataset);
+    }
+    for (const std::string& text : specs) {
+      if (std::ranges::find(holdouts, text, &models::Holdout::name) !=
+          holdouts.end()) {
+        throw data::InputError(
+            fmt::format("{}: has a hold-out {}, which {} names, too",
+                        component_.split,
+                        text,
+                        data::ArgumentName("holdout")));
+      }
+      const stats::HoldoutSpec spec = stats::ParseHoldout(text);
+      std::shared_ptr<const data::Dataset> test_data;
+      if (spec.kind == stats::HoldoutKind::kFile) {
+        const data::PreparedDataset test = data::MakeDataset(
+            reader_->Read(spec.file),
+            models::SelectionLike(dataset, component_.selection));
+        TellWhatWasFound(test, report::FaultUse::kJudge);
+        test_data = std::make_shared<const data::Dataset>(test.dataset);
+      }
+      try {
+        holdouts.push_back(models::MakeHoldout(
+            spec, dataset, study_.seed, std::move(test_data)));
+      } catch (const std::invalid_argument& error) {
+        throw data::InputError(
+            fmt::format("{}: {}", component_.data, error.what()));
+      }
+    }
+    return holdouts;
+  }
+
+  std::vector<models::GivenPredictions> ReadGiven() const {
+    std::vector<models::GivenPredictions> given;
+    for (const PredictionsFile& predictions : component_.predictions) {
+      given.push_back(models::ReadGivenPredictions(
+          predictions.name, reader_->Read(predictions.file)));
+    }
+    return given;
+  }
+
+  // The component's own, else the study's, in the target's unit. A bare number
+  // that says nothing was meant in the unit that people read errors in.
+  std::optional<double> SizeOf(const char* what,
+                               const GivenError& own,
+                               const GivenError& of_study,
+                               const data::Dataset& dataset) const {
+    const GivenError& given = own.is_given() ? own : of_study;
+    if (!given.is_given()) return std::nullopt;
+    const data::ColumnInfo& target = dataset.target();
+    const data::Unit& unit = target.unit;
+    if (!given.has_unit() && unit.display_scale != 1.0 && remark_ &&
+        given.value > stats::RootMeanSquare(dataset.target_values())) {
+      Tell(fmt::format(
+          "{0} {1} is in {2}, the unit of {3}: {4:g} {5}, more than the error "
+          "itself; write {1}{5} if that was meant",
+          what,
+          given.value,
+          unit.symbol,
+          data::Printable(target.name, target.name.size()),
+          unit.display_scale * given.value,
+          unit.display_symbol));
+    }
+    try {
+      return InUnitOf(unit, given);
+    } catch (const std::invalid_argument& error) {
+      throw data::InputError(
+          fmt::format("{}: {} {}", component_.data, what, error.what()));
+    }
+  }
+
+  const StudyConfig& study_;
+  const ComponentConfig& component_;
+  const Remark& remark_;
+  TableReader* reader_;
+};
+
+// What defaults became, so that a study with these words would do the same.
+// Hold-outs and models that differ between components stay unsaid.
+void FillInDefaults(StudyPlan* plan) {
+  for (std::size_t i = 0; i < plan->components.size(); ++i) {
+    const models::ComponentStudy& planned = plan->components[i].comparison;
+    const data::Dataset& dataset = planned.data.dataset;
+    ComponentConfig& component = plan->config.components[i];
+    component.selection.target = dataset.target().name;
+    component.selection.group = dataset.groups().column;
+    // "none" stays where nothing was found.
+    const std::string& session = dataset.log()->sessions.column;
+    if (!session.empty()) component.selection.session = session;
+    const std::string& time = planned.data.time_column;
+    if (!time.empty()) component.selection.time = time;
+    component.goal = {.value = planned.goal};
+    component.indifference = {.value = planned.indifference};
+    component.selection.inputs.clear();
+    for (const data::ColumnInfo& input : dataset.inputs()) {
+      component.selection.inputs.push_back(input.name);
+    }
+  }
+  const auto alike = [&](const auto& list_of) {
+    std::vector<std::string> first = list_of(plan->components.front());
+    for (const models::ComponentPlan& component : plan->components) {
+      if (list_of(component) != first) return std::vector<std::string>{};
+    }
+    return first;
+  };
+  plan->config.holdouts =
+      alike([](const models::ComponentPlan& c) { return c.HoldoutNames(); });
+  plan->config.models =
+      alike([](const models::ComponentPlan& c) { return c.ModelNames(); });
+}
+
+}  // namespace
+
+int StudyPlan::num_fits() const {
+  return std::transform_reduce(components.begin(),
+                               components.end(),
+                               0,
+                               std::plus<>(),
+                               [](const models::ComponentPlan& component) {
+                                 return component.num_fits();
+                               });
+}
+
+std::vector<std::string> StudyPlan::InputPaths() const {
+  std::vector<std::string> paths;
+  for (const InputFile& input : inputs) paths.push_back(input.file);
+  for (const models::ComponentPlan& component : components) {
+    for (const std::string& spec : component.ModelNames()) {
+      const std::string file = models::FileOfSpec(spec);
+      if (!file.empty()) paths.push_back(file);
+    }
+  }
+  return paths;
+}
+
+StudyPlan PlanStudy(const StudyConfig& config, const Remark& remark) {
+  StudyPlan plan{.config = config, .inputs = {}, .components = {}};
+  NameComponents(&plan.config);
+  TableReader reader(&plan.inputs);
+  for (const ComponentConfig& component : plan.config.components) {
+    plan.components.push_back(
+        ComponentPlanner(plan.config, component, remark, &reader).Plan());
+  }
+  FillInDefaults(&plan);
+  return plan;
+}
+
+}  // namespace errmap::desk

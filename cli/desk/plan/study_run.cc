@@ -1,0 +1,64 @@
+#include "cli/desk/plan/study_run.h"
+
+#include <optional>
+#include <utility>
+
+#include "models/study/journal/fit_journal_file.h"
+
+namespace errmap::desk {
+
+StudyRun RunPlan(StudyPlan plan,
+                 const std::string& command_line,
+                 const RunOptions& options) {
+  const int all = plan.num_fits();
+  StudyRun run{.seed = plan.config.seed,
+               .command_line = command_line,
+               .config = std::move(plan.config),
+               .inputs = std::move(plan.inputs),
+               .components = {},
+               .interrupted = false};
+  int before = 0;  // fits of the components that are finished
+  for (models::ComponentPlan& component : plan.components) {
+    models::StudyOptions study_options{
+        .seed = run.seed,
+        .jobs = options.jobs,
+        .stop = options.stop,
+        .indifference = component.comparison.indifference,
+        .progress = [&](const models::FitProgress& fit) {
+          if (!options.progress) return;
+          models::FitProgress of_plan = fit;
+          of_plan.done += before;
+          of_plan.all = all;
+          options.progress(run.components.size(), of_plan);
+        }};
+    const models::ComponentStudy& comparison = component.comparison;
+    std::optional<models::FitLabels> labels;
+    std::optional<models::ComponentJournal> journal;
+    if (options.journal != nullptr) {
+      labels.emplace(comparison.name,
+                     comparison.data.dataset,
+                     comparison.holdouts,
+                     component.recipes,
+                     study_options);
+      if (options.journal_has) {
+        for (const std::string& line :
+             models::DescribeResume(*options.journal, *labels)) {
+          options.journal_has(line);
+        }
+      }
+      journal.emplace(options.journal,
+                      &*labels,
+                      &comparison.data.dataset,
+                      &comparison.holdouts);
+      study_options.journal = &*journal;
+    }
+    models::RunComponent(&component, study_options, options.keep_fold_maps);
+    before += component.num_fits();
+    run.components.push_back(std::move(component.comparison));
+    run.interrupted = run.components.back().study.interrupted;
+    if (run.interrupted) break;
+  }
+  return run;
+}
+
+}  // namespace errmap::desk

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cli/desk/given_error.h"
+#include "data/measurements/dataset.h"
+
+namespace errmap::desk {
+
+/// Predictions made elsewhere, to stand in the table as model `name`.
+struct PredictionsFile {
+  std::string name;
+  std::string file;
+};
+
+/// One error component to be mapped, as the user asks for it: empty texts and
+/// NaN leave the choice to the defaults (models/study/study_defaults.h).
+struct ComponentConfig {
+  std::string name;  // default: the data file's name without its ending
+  std::string data;  // path as it can be opened
+  data::DatasetSelection selection;  // of the file's rows and columns
+  GivenError goal;  // RMSE wanted on held-out rows; default: the study's
+  /// RMSE that makes no practical difference; default: the study's.
+  GivenError indifference;
+  std::string split;       // split file to judge by
+  std::string save_split;  // file that gets the folds
+  std::vector<PredictionsFile> predictions;
+  std::vector<std::string> later;  // sessions that no fit may see
+};
+
+/// A study as the user asks for it, on the command line or in a study file:
+/// everything that decides a figure, nothing that does not (jobs, folders).
+struct StudyConfig {
+  std::uint64_t seed = 1;
+  /// For components without their own; default: 0.5 um for lengths, else none.
+  GivenError goal;
+  /// For components without their own; default: 0.02 um for lengths, else 0.
+  GivenError indifference;
+  std::vector<std::string> holdouts;  // SPECs; empty: those that the data allow
+  std::vector<std::string> models;    // SPECs; empty: all that suit
+  std::vector<ComponentConfig> components;
+};
+
+}  // namespace errmap::desk

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/desk/given_error.h"
+#include "cli/desk/toml/toml_parser.h"
+#include "data/text.h"
+
+namespace errmap::desk {
+
+/// Begins the name of a source that is no file but a change of one, KEY=VALUE.
+inline constexpr std::string_view kOverride = "KEY=VALUE ";
+/// What a message calls such a change.
+std::string NameOfOverride(std::string_view change);
+
+/// "FILE:LINE:COLUMN: ", to begin a message.
+std::string Place(const std::string& file, const toml::source_region& at);
+
+/// Throws data::InputError with the place, or std::invalid_argument where it is
+/// a change of the file.
+[[noreturn]] void Refuse(const std::string& file,
+                         const toml::source_region& at,
+                         const std::string& what);
+
+/// Of a whole or other number.
+double NumberOf(const toml::node& node);
+
+/// A TOML document. Throws data::InputError with the place of what is no TOML.
+toml::table ParseToml(const std::string& text, const std::string& path);
+
+/// A table of a file, read key by key; what is wrong is said with its place by
+/// Refuse. Keeps references to `table` and `file`.
+class Keys {
+ public:
+  Keys(const toml::table& table, std::string where, const std::string& file);
+
+  void AllowOnly(const std::vector<std::string>& known) const;
+  const toml::node* Find(std::string_view key) const { return table_.get(key); }
+
+  // Each leaves what it is given where the key is absent.
+  void TakeText(std::string_view key, std::string* text) const;
+  void TakeFlag(std::string_view key, bool* flag) const;
+  /// A number above 0, or at least 0, or a text of one with its unit.
+  void TakeError(std::string_view key,
+                 bool may_be_zero,
+                 GivenError* error) const;
+  void TakeSeed(std::uint64_t* seed) const;
+
+  /// Texts of a list; `check` may refuse one by throwing invalid_argument.
+  template <typename Check>
+  void TakeList(std::string_view key,
+                std::vector<std::string>* list,
+                const Check& check) const {
+    constexpr std::string_view kWanted = "a list of texts such as [\"a\"]";
+    const toml::node* const node = Find(key);
+    if (node == nullptr) return;
+    const toml::array* const array = node->as_array();
+    if (array == nullptr) RefuseType(key, *node, kWanted);
+    for (const toml::node& item : *array) {
+      const auto* const text = item.as_string();
+      if (text == nullptr) RefuseType(key, item, kWanted);
+      if (std::ranges::find(*list, text->get()) != list->end()) {
+        Refuse(file_,
+               item.source(),
+               fmt::format(
+                   "'{}' has {} twice", key, data::QuotedName(text->get())));
+      }
+      try {
+        check(text->get());
+      } catch (const std::invalid_argument& error) {
+        Refuse(file_, item.source(), error.what());
+      }
+      list->push_back(text->get());
+    }
+  }
+
+  void TakeList(std::string_view key, std::vector<std::string>* list) const;
+
+  /// The tables headed [[key]]; none where the key is absent.
+  std::vector<const toml::table*> Tables(std::string_view key) const;
+
+  [[noreturn]] void RefuseType(std::string_view key,
+                               const toml::node& node,
+                               std::string_view wanted) const;
+  [[noreturn]] void RefuseTable(const std::string& what) const;
+
+ private:
+  const toml::table& table_;
+  std::string where_;
+  const std::string& file_;
+};
+
+}  // namespace errmap::desk

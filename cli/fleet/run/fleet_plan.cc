@@ -1,0 +1,63 @@
+#include "cli/fleet/run/fleet_plan.h"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+
+#include "cli/desk/plan/rough_time.h"
+#include "cli/desk/plan/study_plan.h"
+#include "data/text.h"
+
+namespace errmap::fleet {
+namespace {
+
+// Rows and inputs as numbers, in some copies, designs of a few hundred columns,
+// and the program itself.
+double MebibytesOf(const models::ComponentPlan& component) {
+  constexpr double kProgram = 200.0;
+  constexpr double kColumns = 400.0;
+  constexpr double kBytes = 8.0;
+  const data::Dataset& dataset = component.comparison.data.dataset;
+  return kProgram +
+         kBytes * static_cast<double>(dataset.num_rows()) *
+             (kColumns + 4.0 * static_cast<double>(dataset.num_inputs())) /
+             (1 << 20U);
+}
+
+}  // namespace
+
+FleetPlan PlanFleet(const desk::StudyConfig& config) {
+  constexpr std::size_t kMostLookedAt = 24;
+  FleetPlan plan;
+  const std::size_t count = config.components.size();
+  plan.components = static_cast<std::int64_t>(count);
+  const std::size_t sample = std::min(count, kMostLookedAt);
+  for (std::size_t i = 0; i < sample; ++i) {
+    const desk::ComponentConfig& component =
+        config.components[i * count / sample];
+    desk::StudyConfig study = config;
+    study.components = {component};
+    ++plan.looked_at;
+    try {
+      const desk::StudyPlan one = desk::PlanStudy(study);
+      plan.fits += one.num_fits();
+      plan.seconds += desk::RoughSeconds(one.components.front(), 1);
+      plan.largest_mib =
+          std::max(plan.largest_mib, MebibytesOf(one.components.front()));
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      plan.unusable.push_back(
+          data::Printable(component.name, component.name.size()) + ": " +
+          error.what());
+    }
+  }
+  const double factor =
+      sample == 0 ? 0.0
+                  : static_cast<double>(count) / static_cast<double>(sample);
+  plan.fits *= factor;
+  plan.seconds *= factor;
+  return plan;
+}
+
+}  // namespace errmap::fleet

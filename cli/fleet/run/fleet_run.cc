@@ -1,0 +1,334 @@
+#include "cli/fleet/run/fleet_run.h"
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <mutex>
+#include <new>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/desk/configuration_record.h"
+#include "cli/desk/plan/component_names.h"
+#include "cli/desk/plan/run_files.h"
+#include "cli/desk/plan/run_record.h"
+#include "cli/desk/plan/study_plan.h"
+#include "cli/desk/plan/study_run.h"
+#include "cli/desk/provenance.h"
+#include "cli/fleet/store/gzip.h"
+#include "data/atomic_file.h"
+#include "data/input_error.h"
+#include "data/prepare_folder.h"
+#include "data/sha256.h"
+#include "data/shown_path.h"
+#include "data/text.h"
+#include "models/file_recipe.h"
+#include "models/fleet/watch.h"
+#include "models/study/record/record_json.h"
+#include "models/version.h"
+#include "stats/holdout.h"
+
+namespace errmap::fleet {
+
+using desk::ComponentConfig;
+using desk::ComponentSource;
+using desk::StudyConfig;
+using desk::StudyFile;
+using desk::StudyRun;
+
+namespace {
+
+StudyConfig StudyOf(const StudyConfig& fleet,
+                    const ComponentConfig& component) {
+  StudyConfig study = fleet;
+  study.components = {component};
+  return study;
+}
+
+// Short, since there are many of them.
+std::string HashOf(const std::string& text) {
+  constexpr std::size_t kDigits = 32;
+  return data::Sha256(text).substr(0, kDigits);
+}
+
+// Wherever the program was started: the data as the study file names them.
+std::string AskedOf(const StudyConfig& fleet,
+                    ComponentConfig component,
+                    const ComponentSource& source) {
+  component.data = source.path;
+  return HashOf(
+      std::string(models::Version()) + "\n" +
+      models::ToJson(desk::EffectiveConfiguration(StudyOf(fleet, component)))
+          .dump());
+}
+
+std::string Replaced(std::string text,
+                     const std::string& old,
+                     const std::string& by) {
+  for (std::size_t at = 0; (at = text.find(old, at)) != text.npos;) {
+    text.replace(at, old.size(), by);
+    at += by.size();
+  }
+  return text;
+}
+
+// The run as if its data had been named as the study file does, so that
+// results do not depend on the folder that the program was started in.
+void NameDataAsAsked(const std::string& path,
+                     const ComponentSource& source,
+                     StudyRun* run) {
+  run->components.front().file = data::ShownPath(source.path);
+  run->config.components.front().data = source.path;
+  for (desk::InputFile& input : run->inputs) {
+    if (input.file == path) input.file = source.path;
+  }
+}
+
+// With the content of every file that the study reads; one that cannot be read
+// is nothing.
+std::string KeyOf(const std::string& asked,
+                  const StudyConfig& fleet,
+                  const ComponentConfig& component) {
+  std::vector<std::string> files{component.data};
+  for (const std::string& holdout : fleet.holdouts) {
+    files.push_back(stats::ParseHoldout(holdout).file);
+  }
+  for (const std::string& model : fleet.models) {
+    files.push_back(models::FileOfSpec(model));
+  }
+  std::string text = asked;
+  for (const std::string& file : files) {
+    if (file.empty()) continue;
+    try {
+      text += "\n" + desk::HashInput(file).sha256;
+    } catch (const data::InputError&) {
+      text += "\nnone";
+    }
+  }
+  return HashOf(text);
+}
+
+// What is written of one component, and its summary last.
+class ComponentFiles {
+ public:
+  ComponentFiles(const StorePaths& store, const std::string& name)
+      : store_(store), name_(name) {}
+
+  void Write(const char* file, const std::string& content) const {
+    const std::string path = store_.InFolder(name_, file);
+    data::PrepareFolder(std::filesystem::path(path).parent_path().string());
+    data::WriteFileAtomically(path, content);
+  }
+
+  void Remove(const char* file) const {
+    std::error_code ignored;
+    std::filesystem::remove(store_.InFolder(name_, file), ignored);
+  }
+
+ private:
+  const StorePaths& store_;
+  const std::string& name_;
+};
+
+// The recommended map as compare --out would write it, "" where there is none.
+std::string MapOf(const StudyRun& run) {
+  const models::ComponentStudy& component = run.components.front();
+  if (!component.judgement.recommendation) return "";
+  const auto& model =
+      component.study.models[component.judgement.recommendation->model];
+  if (!model.final_fit) return "";
+  return desk::MapFileText(run, component, model);
+}
+
+class FleetRunner {
+ public:
+  FleetRunner(const StudyFile& study,
+              const StorePaths& store,
+              const FleetRunOptions& options)
+      : config_(study.config),
+        sources_(study.sources),
+        store_(store),
+        options_(options) {}
+
+  FleetRunResult Run() {
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+      if (options_.share.Has(config_.components[i].name)) share_.push_back(i);
+    }
+    const auto workers = static_cast<std::size_t>(
+        std::clamp<std::ptrdiff_t>(std::ssize(share_), 1, options_.jobs));
+    jobs_each_ = std::max(1, options_.jobs / static_cast<int>(workers));
+    std::vector<std::thread> threads;
+    for (std::size_t i = 1; i < workers; ++i) {
+      threads.emplace_back([this] { Work(); });
+    }
+    Work();
+    for (std::thread& thread : threads) thread.join();
+    if (error_) std::rethrow_exception(error_);
+    result_.interrupted = IsStopped();
+    result_.components = static_cast<int>(share_.size());
+    return result_;
+  }
+
+ private:
+  bool IsStopped() const {
+    return options_.stop != nullptr && options_.stop->load();
+  }
+
+  void Work() {
+    try {
+      for (std::size_t i = 0; (i = next_++) < share_.size() && !IsStopped();) {
+        Study(config_.components[share_[i]], sources_[share_[i]]);
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!error_) error_ = std::current_exception();
+      next_ = share_.size();
+    }
+  }
+
+  void Study(const ComponentConfig& component, const ComponentSource& source) {
+    const std::string asked = AskedOf(config_, component, source);
+    const std::string key = KeyOf(asked, config_, component);
+    const auto earlier = FindSummary(store_, component.name);
+    if (earlier && earlier->key == key &&
+        earlier->status == models::ModelStatus::kOk) {
+      Count(&FleetRunResult::kept);
+      return;
+    }
+    models::ComponentSummary summary;
+    bool is_final = true;
+    const ComponentFiles files(store_, component.name);
+    try {
+      StudyRun run = desk::RunPlan(desk::PlanStudy(StudyOf(config_, component)),
+                                   options_.command_line,
+                                   {.jobs = jobs_each_, .stop = options_.stop});
+      if (run.interrupted) return;  // begun anew by the next run
+      is_final = run.components.front().study.short_of_memory == 0;
+      NameDataAsAsked(component.data, source, &run);
+      models::StudyRecord record = desk::RecordOf(run, jobs_each_);
+      for (auto& table : record.components.front().figures.tables) {
+        if (table.file == data::ShownPath(component.data)) {
+          table.file = data::ShownPath(source.path);
+        }
+      }
+      summary = models::Summarise(record.components.front());
+      if (summary.status == models::ModelStatus::kOk) {
+        WriteResults(files, run, std::move(record), &summary);
+      }
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::system_error&) {
+      throw;  // the store cannot be written
+    } catch (const std::exception& error) {
+      summary = {};
+      summary.name = component.name;
+      summary.file = ShownFile(component);
+      summary.why = Replaced(error.what(), component.data, source.path);
+    }
+    summary.version = models::Version();
+    summary.asked = asked;
+    // Without its key, the next run studies the component again.
+    if (is_final) summary.key = key;
+    summary.fields = source.fields;
+    const bool failed = summary.status != models::ModelStatus::kOk;
+    if (failed) {
+      // Of an earlier run: they are not this component's any more.
+      for (const char* file : {kResultsFile, kMapFile, kRelationsFile}) {
+        files.Remove(file);
+      }
+      if (options_.remark) {
+        const std::lock_guard lock(mutex_);
+        options_.remark(
+            fmt::format("{} failed: {}",
+                        data::Printable(summary.name, summary.name.size()),
+                        *summary.why));
+      }
+    }
+    files.Write(kSummaryFile, models::ToJsonText(std::move(summary)));
+    Count(failed ? &FleetRunResult::failed : &FleetRunResult::fitted);
+  }
+
+  static std::string ShownFile(const ComponentConfig& component) {
+    return std::filesystem::path(component.data).filename().string();
+  }
+
+  static void WriteResults(const ComponentFiles& files,
+                           const StudyRun& run,
+                           models::StudyRecord record,
+                           models::ComponentSummary* summary) {
+    const std::string map = MapOf(run);
+    if (map.empty()) {
+      files.Remove(kMapFile);
+    } else {
+      summary->map = models::SummaryMapRecord{
+          .sha256 = data::Sha256(map),
+          .bytes = static_cast<std::int64_t>(map.size())};
+      files.Write(kMapFile, Gzip(map));
+    }
+    const auto relations =
+        models::LearnRelations(run.components.front().data.dataset);
+    if (relations) {
+      files.Write(kRelationsFile, Gzip(relations->ToJsonText()));
+    } else {
+      files.Remove(kRelationsFile);
+    }
+    files.Write(kResultsFile, PackResults(std::move(record)));
+  }
+
+  void Count(int FleetRunResult::*number) {
+    const std::lock_guard lock(mutex_);
+    ++(result_.*number);
+    if (options_.progress) {
+      options_.progress(result_.fitted + result_.kept + result_.failed,
+                        static_cast<int>(share_.size()));
+    }
+  }
+
+  const StudyConfig& config_;
+  const std::vector<ComponentSource>& sources_;
+  const StorePaths& store_;
+  const FleetRunOptions& options_;
+  std::vector<std::size_t> share_;  // index into the components
+  int jobs_each_ = 1;
+  std::atomic<std::size_t> next_ = 0;
+  std::mutex mutex_;  // of all that follows
+  FleetRunResult result_;
+  std::exception_ptr error_;
+};
+
+}  // namespace
+
+StudyFile ExpandFleet(StudyFile study) {
+  desk::ExpandPatterns(&study.config, &study.sources);
+  desk::NameComponents(&study.config);
+  return study;
+}
+
+FleetRecord FleetOf(const StudyFile& study, const std::string& command_line) {
+  FleetRecord fleet;
+  fleet.version = models::Version();
+  fleet.file = std::filesystem::path(study.file.file).filename().string();
+  fleet.sha256 = study.file.sha256;
+  fleet.seed = study.config.seed;
+  fleet.command_line = command_line;
+  for (std::size_t i = 0; i < study.sources.size(); ++i) {
+    const ComponentConfig& component = study.config.components[i];
+    fleet.components.push_back(
+        {.name = component.name,
+         .data = study.sources[i].path,
+         .asked = AskedOf(study.config, component, study.sources[i])});
+  }
+  std::ranges::sort(fleet.components, {}, &FleetComponentRecord::name);
+  return fleet;
+}
+
+FleetRunResult RunFleet(const StudyFile& study,
+                        const StorePaths& store,
+                        const FleetRunOptions& options) {
+  return FleetRunner(study, store, options).Run();
+}
+
+}  // namespace errmap::fleet

@@ -1,0 +1,465 @@
+#include "cli/fleet/store/fleet_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/report/documents/report_style.h"
+#include "cli/report/figures/row_pictures.h"
+#include "cli/report/figures/svg.h"
+#include "cli/report/html.h"
+#include "cli/report/number_text.h"
+#include "cli/report/plot.h"
+#include "cli/report/report_view.h"
+#include "cli/report/table.h"
+
+namespace errmap::fleet {
+namespace {
+
+using models::ComponentSummary;
+using models::GoalStanding;
+
+bool HasMap(const ComponentSummary& summary) {
+  return summary.recommendation.has_value();
+}
+
+// What is counted over some of the components.
+struct Tally {
+  std::int64_t components = 0;
+  std::int64_t met = 0;
+  std::int64_t missed = 0;
+  std::int64_t failed = 0;
+  double log_ratio = 0.0;  // sum of ln(after / before)
+  std::int64_t ratios = 0;
+
+  void Add(const ComponentSummary& summary) {
+    ++components;
+    if (!HasMap(summary)) {
+      ++failed;
+      return;
+    }
+    const auto& found = *summary.recommendation;
+    met += found.goal == GoalStanding::kMet ? 1 : 0;
+    missed += found.goal == GoalStanding::kMissed ||
+                      found.goal == GoalStanding::kMetAfterRezeroing
+                  ? 1
+                  : 0;
+    if (found.rmse > 0.0 && found.uncompensated > 0.0) {
+      log_ratio += std::log(found.rmse / found.uncompensated);
+      ++ratios;
+    }
+  }
+  // Of the error without a map, what is left: geometric mean.
+  double Left() const {
+    return ratios == 0 ? models::kNotKnown
+                       : std::exp(log_ratio / static_cast<double>(ratios));
+  }
+};
+
+std::string Paragraph(const std::string& html, const char* style = "soft") {
+  return fmt::format("<p class=\"{}\">{}</p>\n", style, html);
+}
+
+std::string Collapsed(const std::string& title, const std::string& content) {
+  return fmt::format("<details><summary>{}</summary>\n{}</details>\n",
+                     report::HtmlText(title),
+                     content);
+}
+
+std::string FigureHtml(const report::Plot& plot,
+                       const std::string& title,
+                       const std::string& description,
+                       bool wide) {
+  return fmt::format(
+      "<figure{}><figcaption><b>{}</b></figcaption>{}<p class=\"soft "
+      "small\">{}</p></figure>\n",
+      wide ? " class=\"wide\"" : "",
+      report::HtmlText(title),
+      report::Svg(plot, title, description),
+      report::HtmlText(description));
+}
+
+class FleetPage {
+ public:
+  FleetPage(const StorePaths& paths, const FleetSummaries& found)
+      : paths_(paths), found_(found) {
+    for (const ComponentSummary& summary : found.summaries) all_.Add(summary);
+    std::map<std::string, int> units;
+    for (const ComponentSummary& summary : found.summaries) {
+      if (!HasMap(summary)) continue;
+      const int count = ++units[summary.display.unit];
+      if (count > units[unit_]) unit_ = summary.display.unit;
+    }
+  }
+
+  std::string Html() const {
+    const std::string title = fmt::format(
+        "Error maps of {}", report::Count(all_.components, "component"));
+    std::string html = fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+        "<meta name=\"viewport\" content=\"width=device-width, "
+        "initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" "
+        "content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
+        "data:\">\n<title>{}</title>\n<style>{}</style></head>\n<body>\n"
+        "<header><h1>{}</h1></header>\n<main>\n",
+        report::HtmlText(title),
+        report::kReportStyle,
+        report::HtmlText(title));
+    html += Answer() + Matrix() + ByField(0) + ByField(1) + Worst() +
+            Failures() + All();
+    return html + Footer() + "</main>\n</body></html>\n";
+  }
+
+ private:
+  std::string Answer() const {
+    const std::int64_t judged = all_.met + all_.missed;
+    std::string card = "<div class=\"card\">";
+    card += fmt::format(
+        "<p class=\"sentence\">{} of {} with a goal meet it on rows that no "
+        "fit saw; {} failed{}.</p>",
+        all_.met,
+        report::Count(judged, "component"),
+        all_.failed,
+        found_.missing.empty()
+            ? std::string()
+            : fmt::format(" and {} are missing", found_.missing.size()));
+    if (judged > 0) {
+      card += fmt::format("<p class=\"number\">{:.0f} %</p>",
+                          report::kPercent * static_cast<double>(all_.met) /
+                              static_cast<double>(judged));
+    }
+    if (std::isfinite(all_.Left())) {
+      card += fmt::format(
+          "<p>Of the error without a map {:.0f} % are left (geometric "
+          "mean).</p>",
+          report::kPercent * all_.Left());
+    }
+    return "<div class=\"answer\">" + card + report::HtmlTable(Winners()) +
+           "</div>" + "<div>" + Distribution() + "</div></div>\n";
+  }
+
+  // Where polynomials, nets, or maps that remember win.
+  report::Table Winners() const {
+    std::map<std::string, std::pair<std::int64_t, std::int64_t>> counts;
+    for (const ComponentSummary& summary : found_.summaries) {
+      if (!HasMap(summary)) continue;
+      auto& [maps, remember] =
+          counts[std::string(ToString(summary.recommendation->choice))];
+      ++maps;
+      remember += summary.recommendation->longest_memory ? 1 : 0;
+    }
+    report::Table table;
+    table.columns = {{.name = "recommended", .is_number = false},
+                     {.name = "components"},
+                     {.name = "with a memory"}};
+    for (const auto& [choice, count] : counts) {
+      table.rows.push_back({report::Cell(std::string_view(choice)),
+                            report::Cell(count.first),
+                            report::Cell(count.second)});
+    }
+    table.missing = "no component has a map";
+    return table;
+  }
+
+  // Share of the components up to an error, before and after.
+  std::string Distribution() const {
+    report::Series before{
+        .label = "no map", .mark = report::Mark::kLine, .colour = "#A33A00"};
+    report::Series after{.label = "recommended map",
+                         .mark = report::Mark::kLine};
+    std::vector<double> errors_before;
+    std::vector<double> errors_after;
+    std::int64_t left_out = 0;
+    for (const ComponentSummary& summary : found_.summaries) {
+      if (!HasMap(summary)) continue;
+      if (summary.display.unit != unit_) {
+        ++left_out;
+        continue;
+      }
+      const double scale = summary.display.scale;
+      errors_before.push_back(scale * summary.recommendation->uncompensated);
+      errors_after.push_back(scale * summary.recommendation->rmse);
+    }
+    before.columns = Shares(std::move(errors_before));
+    after.columns = Shares(std::move(errors_after));
+    report::Plot plot;
+    plot.name = "distribution";
+    plot.x = {.quantity = "RMSE held out",
+              .unit = report::PrettyUnit(unit_),
+              .logarithmic = true};
+    plot.y = {.quantity = "components up to it",
+              .unit = "%",
+              .low = 0.0,
+              .high = report::kPercent};
+    plot.series = {before, after};
+    if (!report::HasPoints(plot)) {
+      return "<figure><figcaption><b>Errors before and after</b></figcaption>"
+             "<p class=\"absent\">No component has a map.</p></figure>";
+    }
+    return FigureHtml(
+        plot,
+        "Errors before and after",
+        left_out == 0 ? "Share of the components whose error is at most this"
+                      : fmt::format("Share of the components whose error is at "
+                                    "most this; {} in another unit are left "
+                                    "out",
+                                    left_out),
+        false);
+  }
+
+  // (error, percent of the errors up to it), at most kMost points.
+  static std::vector<std::vector<double>> Shares(std::vector<double> errors) {
+    constexpr std::size_t kMost = 200;
+    std::erase_if(errors, [](double e) { return !(e > 0.0) || std::isinf(e); });
+    std::ranges::sort(errors);
+    std::vector<std::vector<double>> columns(2);
+    const std::size_t points = std::min(errors.size(), kMost);
+    for (std::size_t i = 0; i < points; ++i) {
+      const std::size_t at =
+          points == 1 ? 0 : i * (errors.size() - 1) / (points - 1);
+      columns[0].push_back(errors[at]);
+      columns[1].push_back(report::kPercent * static_cast<double>(at + 1) /
+                           static_cast<double>(errors.size()));
+    }
+    return columns;
+  }
+
+  // Machines by components, coloured by the error over the goal.
+  std::string Matrix() const {
+    std::map<std::string, double> rows;
+    std::map<std::string, double> columns;
+    std::map<std::pair<std::string, std::string>, double> cells;
+    for (const ComponentSummary& summary : found_.summaries) {
+      if (summary.fields.size() < 2 || !HasMap(summary)) continue;
+      const double ratio = summary.recommendation->rmse / summary.goal;
+      if (!(ratio > 0.0) || std::isinf(ratio)) continue;
+      const std::string& row = summary.fields[0].second;
+      const std::string& column = summary.fields[1].second;
+      rows[row] = 0.0;
+      columns[column] = 0.0;
+      auto& worst = cells.try_emplace({row, column}, -HUGE_VAL).first->second;
+      worst = std::max(worst, std::log2(ratio));
+    }
+    if (rows.size() < 2 || columns.size() < 2) return "";
+    constexpr double kHalf = 0.5;
+    constexpr double kLimit = 2.0;
+    report::Series series{.mark = report::Mark::kCells};
+    series.columns.resize(5);
+    NumberKeys(&rows);
+    NumberKeys(&columns);
+    for (const auto& [place, value] : cells) {
+      const double numbers[] = {columns[place.second],
+                                rows[place.first],
+                                kHalf,
+                                kHalf,
+                                std::clamp(value, -kLimit, kLimit)};
+      for (std::size_t i = 0; i < series.columns.size(); ++i) {
+        series.columns[i].push_back(numbers[i]);
+      }
+    }
+    const int height = std::clamp(16 * static_cast<int>(rows.size()), 240, 900);
+    report::Plot plot;
+    plot.name = "matrix";
+    plot.width = 820;
+    plot.height = height;
+    plot.x = {.quantity = FieldName(1),
+              .low = -kHalf,
+              .high = static_cast<double>(columns.size()) - kHalf};
+    plot.y = {.quantity = FieldName(0),
+              .low = static_cast<double>(rows.size()) - kHalf,
+              .high = -kHalf};
+    plot.colour = {.quantity = "log2 of error over goal", .high = kLimit};
+    plot.series = {std::move(series)};
+    plot.x.names.assign(columns.begin(), columns.end());
+    plot.y.names.assign(rows.begin(), rows.end());
+    return "<h2>Where goals are met</h2>\n<div class=\"figures\">" +
+           FigureHtml(
+               plot,
+               "Error over goal",
+               "Blue: the goal is met, the deeper the better; orange: it "
+               "is not. The worst of a cell counts.",
+               true) +
+           "</div>\n";
+  }
+
+  // Numbers the keys in their order.
+  static void NumberKeys(std::map<std::string, double>* keys) {
+    double number = 0.0;
+    for (auto& [key, value] : *keys) value = number++;
+  }
+
+  std::string FieldName(std::size_t field) const {
+    for (const ComponentSummary& summary : found_.summaries) {
+      if (summary.fields.size() > field) return summary.fields[field].first;
+    }
+    return "";
+  }
+
+  std::string ByField(std::size_t field) const {
+    std::map<std::string, Tally> tallies;
+    for (const ComponentSummary& summary : found_.summaries) {
+      if (summary.fields.size() > field) {
+        tallies[summary.fields[field].second].Add(summary);
+      }
+    }
+    if (tallies.empty()) return "";
+    report::Table table;
+    table.columns = {{.name = FieldName(field), .is_number = false},
+                     {.name = "components"},
+                     {.name = "goal met"},
+                     {.name = "not met"},
+                     {.name = "failed"},
+                     {.name = "error left, %"}};
+    for (const auto& [value, tally] : tallies) {
+      table.rows.push_back(
+          {report::Cell(std::string_view(value)),
+           report::Cell(tally.components),
+           report::Cell(tally.met),
+           report::Cell(tally.missed),
+           report::Cell(tally.failed),
+           report::Cell(report::Number{report::kPercent * tally.Left(), 3})});
+    }
+    return Collapsed(fmt::format("By {}: {}", FieldName(field), tallies.size()),
+                     report::HtmlTable(table));
+  }
+
+  std::string Worst() const {
+    constexpr std::size_t kMost = 20;
+    std::vector<std::pair<double, const ComponentSummary*>> worst;
+    for (const ComponentSummary& summary : found_.summaries) {
+      if (!HasMap(summary)) continue;
+      const double ratio = summary.recommendation->rmse / summary.goal;
+      if (ratio > 1.0 && std::isfinite(ratio)) {
+        worst.emplace_back(ratio, &summary);
+      }
+    }
+    std::ranges::stable_sort(
+        worst, std::greater(), [](const auto& entry) { return entry.first; });
+    if (worst.size() > kMost) worst.resize(kMost);
+    if (worst.empty()) return "";
+    std::string html =
+        "<h2>The worst against their goals</h2>\n<div class=\"scroll\" "
+        "tabindex=\"0\" role=\"region\" aria-label=\"The "
+        "worst\"><table><tr><th "
+        "class=\"t\">component</th><th>RMSE</th><th>goal</th><th>without a "
+        "map</th><th class=\"t\">unit</th><th class=\"t\">recommended</th>"
+        "</tr>\n";
+    for (const auto& [ratio, summary] : worst) {
+      const auto& found = *summary->recommendation;
+      const double scale = summary->display.scale;
+      html += fmt::format(
+          "<tr><td class=\"t\">{}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td>"
+          "<td class=\"t\">{}</td><td class=\"t\">{}</td></tr>\n",
+          Linked(*summary),
+          scale * found.rmse,
+          scale * summary->goal,
+          std::isfinite(found.uncompensated)
+              ? fmt::format("{:.3g}", scale * found.uncompensated)
+              : "-",
+          report::HtmlText(report::PrettyUnit(summary->display.unit)),
+          report::HtmlName(found.model));
+    }
+    return html + "</table></div>\n";
+  }
+
+  std::string Failures() const {
+    std::string list;
+    for (const ComponentSummary& summary : found_.summaries) {
+      if (HasMap(summary)) continue;
+      list += "<li>" + report::HtmlName(summary.name) + ": " +
+              report::HtmlText(summary.why.value_or("")) + "</li>\n";
+    }
+    for (const std::string& name : found_.missing) {
+      list += "<li>" + report::HtmlName(name) +
+              ": missing, run its share again</li>\n";
+    }
+    if (list.empty()) return "";
+    return Collapsed("Components that failed or are missing",
+                     "<ul>" + list + "</ul>");
+  }
+
+  // Of so many that a page holds no picture of each.
+  static constexpr std::size_t kMostPictures = 1000;
+
+  std::string All() const {
+    const bool pictures = found_.summaries.size() <= kMostPictures;
+    std::string rows;
+    for (const ComponentSummary& summary : found_.summaries) {
+      if (!HasMap(summary)) continue;
+      const auto& found = *summary.recommendation;
+      const double scale = summary.display.scale;
+      std::string interval;
+      if (std::isfinite(found.ci95[0]) && std::isfinite(found.ci95[1])) {
+        interval = fmt::format(
+            "{:.3g}-{:.3g}", scale * found.ci95[0], scale * found.ci95[1]);
+      }
+      rows += fmt::format(
+          "<tr><td class=\"t\">{}</td><td class=\"t\">{}</td><td>{:.3g} {}</td>"
+          "<td>{}</td>{}<td class=\"t\">{}</td></tr>\n",
+          Linked(summary),
+          report::HtmlName(found.model),
+          scale * found.rmse,
+          report::HtmlText(report::PrettyUnit(summary.display.unit)),
+          interval,
+          pictures ? "<td class=\"t\">" +
+                         report::IntervalPicture(
+                             found.rmse, found.ci95, found.uncompensated) +
+                         "</td>"
+                   : "",
+          ToString(found.goal));
+    }
+    if (rows.empty()) return "";
+    return Collapsed(
+        "All components",
+        fmt::format(
+            "<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+            "aria-label=\"All components\"><table><tr><th "
+            "class=\"t\">component</th><th class=\"t\">use</th><th>error</th>"
+            "<th>95 %</th>{}<th class=\"t\">goal</th></tr>\n{}</table></div>",
+            pictures ? "<th class=\"t\">left of the error</th>" : "",
+            rows));
+  }
+
+  // Its page where that has been drawn.
+  std::string Linked(const ComponentSummary& summary) const {
+    std::error_code ignored;
+    if (!std::filesystem::exists(paths_.InFolder(summary.name, kPageFile),
+                                 ignored)) {
+      return report::HtmlName(summary.name);
+    }
+    return fmt::format("<a href=\"{}/{}\">{}</a>",
+                       report::HtmlText(StorePaths::FolderOf(summary.name)),
+                       kPageFile,
+                       report::HtmlName(summary.name));
+  }
+
+  std::string Footer() const {
+    return Paragraph(
+        fmt::format("errmap {}, study {}, seed {}. A component's own page: "
+                    "errmap report STORE --component NAME. Errors are RMSE "
+                    "on rows held out of the fit, error = actual - nominal.",
+                    report::HtmlText(found_.fleet.version),
+                    report::HtmlText(found_.fleet.file),
+                    found_.fleet.seed),
+        "soft small");
+  }
+
+  const StorePaths& paths_;
+  const FleetSummaries& found_;
+  Tally all_;
+  std::string unit_;  // of most components
+};
+
+}  // namespace
+
+std::string FleetReportHtml(const StorePaths& paths,
+                            const FleetSummaries& found) {
+  return FleetPage(paths, found).Html();
+}
+
+}  // namespace errmap::fleet

@@ -1,0 +1,72 @@
+#include "cli/fleet/store/merge.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/fleet/store/fleet_report.h"
+#include "cli/fleet/store/store.h"
+#include "data/atomic_file.h"
+#include "data/input_error.h"
+#include "data/text.h"
+
+namespace errmap::fleet {
+
+std::string MissingWords(const FleetSummaries& found) {
+  if (found.missing.empty()) return "";
+  constexpr std::size_t kMostNamed = 5;
+  std::vector<std::string> names;
+  for (const std::string& name : found.missing) {
+    if (names.size() == kMostNamed) break;
+    names.push_back(data::Printable(name, name.size()));
+  }
+  return fmt::format(
+      "{} of {} components are missing: {}{}; run the shards again",
+      found.missing.size(),
+      found.fleet.components.size(),
+      fmt::join(names, "; "),
+      names.size() < found.missing.size() ? "; ..." : "");
+}
+
+FleetSummaries ReadSummaries(const StorePaths& paths) {
+  FleetSummaries found{
+      .fleet = ReadFleet(paths), .summaries = {}, .missing = {}};
+  for (const FleetComponentRecord& component : found.fleet.components) {
+    const std::string path = paths.InFolder(component.name, kSummaryFile);
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(path, ignored)) {
+      models::ComponentSummary summary;
+      try {
+        summary = models::SummaryFromJsonText(
+            data::ReadFile(path, data::kMostTextOfPeople));
+      } catch (const data::InputError& error) {
+        throw data::InputError(data::PrintablePath(path) + ": " + error.what());
+      }
+      if (summary.asked == component.asked && summary.name == component.name) {
+        found.summaries.push_back(std::move(summary));
+        continue;
+      }
+    }
+    found.missing.push_back(component.name);
+  }
+  return found;
+}
+
+void DrawFleetReport(const StorePaths& paths, const FleetSummaries& found) {
+  data::WriteFileAtomically(paths.Report(), FleetReportHtml(paths, found));
+}
+
+FleetSummaries MergeStore(const StorePaths& paths) {
+  FleetSummaries found;
+  ReadFleet(paths);  // no lock is left where there is no store
+  const StoreLock lock(paths);
+  found = ReadSummaries(paths);
+  ChangeStore(paths, lock, [&](Database* store) {
+    WriteSummaries(store, found.fleet, found.summaries);
+  });
+  DrawFleetReport(paths, found);
+  return found;
+}
+
+}  // namespace errmap::fleet

@@ -1,0 +1,212 @@
+#include "cli/fleet/store/sqlite.h"
+
+#include <cmath>
+#include <limits>
+#include <new>
+#include <sqlite3.h>
+
+namespace errmap::fleet {
+namespace {
+
+bool LacksMemory(sqlite3* database) {
+  if (database == nullptr) return true;
+  const int code = sqlite3_extended_errcode(database);
+  return code == SQLITE_NOMEM || code == SQLITE_IOERR_NOMEM;
+}
+
+// Want of memory is no fault of the file.
+[[noreturn]] void Throw(sqlite3* database) {
+  if (LacksMemory(database)) throw std::bad_alloc();
+  throw SqliteError(sqlite3_errmsg(database));
+}
+
+// A path as it stands in a URI.
+std::string Escaped(const std::string& path) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (const char c : path) {
+    if (c == '%' || c == '?' || c == '#') {
+      const auto byte = static_cast<unsigned char>(c);
+      text += '%';
+      text += kDigits[byte >> 4U];
+      text += kDigits[byte & 15U];
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+// What a SELECT needs and nothing else: no ATTACH, no PRAGMA, no writes.
+int AllowReading(void* /*unused*/,
+                 int action,
+                 const char* /*unused*/,
+                 const char* /*unused*/,
+                 const char* /*unused*/,
+                 const char* /*unused*/) {
+  const bool reads = action == SQLITE_SELECT || action == SQLITE_READ ||
+                     action == SQLITE_FUNCTION || action == SQLITE_RECURSIVE;
+  return reads ? SQLITE_OK : SQLITE_DENY;
+}
+
+int IsSet(void* flag) {
+  return static_cast<const std::atomic<bool>*>(flag)->load() ? 1 : 0;
+}
+
+}  // namespace
+
+void Statement::Finalize::operator()(sqlite3_stmt* statement) const {
+  sqlite3_finalize(statement);
+}
+
+Statement::Statement(sqlite3* database, std::string_view sql)
+    : database_(database) {
+  sqlite3_stmt* statement = nullptr;
+  const char* tail = nullptr;
+  Check(sqlite3_prepare_v2(
+      database, sql.data(), static_cast<int>(sql.size()), &statement, &tail));
+  statement_.reset(statement);
+  if (statement == nullptr) throw SqliteError("there is no statement");
+  const std::string_view rest(tail, sql.data() + sql.size());
+  if (rest.find_first_not_of(" \t\r\n;") != rest.npos) {
+    throw SqliteError("more than one statement");
+  }
+}
+
+void Statement::Check(int code) const {
+  if (code != SQLITE_OK) Throw(database_);
+}
+
+void Statement::Reset() {
+  sqlite3_reset(statement_.get());
+  Check(sqlite3_clear_bindings(statement_.get()));
+}
+
+void Statement::Bind(int index, std::int64_t value) {
+  Check(sqlite3_bind_int64(statement_.get(), index, value));
+}
+
+void Statement::Bind(int index, double value) {
+  if (std::isnan(value)) return;
+  Check(sqlite3_bind_double(statement_.get(), index, value));
+}
+
+void Statement::Bind(int index, std::string_view value) {
+  Check(sqlite3_bind_text(statement_.get(),
+                          index,
+                          value.data(),
+                          static_cast<int>(value.size()),
+                          SQLITE_TRANSIENT));
+}
+
+bool Statement::Next() {
+  const int code = sqlite3_step(statement_.get());
+  if (code == SQLITE_ROW) return true;
+  if (code != SQLITE_DONE) Throw(database_);
+  return false;
+}
+
+void Statement::Run() {
+  while (Next()) {
+  }
+}
+
+int Statement::num_columns() const {
+  return sqlite3_column_count(statement_.get());
+}
+
+std::string Statement::ColumnName(int column) const {
+  const char* const name = sqlite3_column_name(statement_.get(), column);
+  return name == nullptr ? "" : name;
+}
+
+SqlValue Statement::Value(int column) const {
+  switch (sqlite3_column_type(statement_.get(), column)) {
+    case SQLITE_NULL:
+      return std::monostate();
+    case SQLITE_INTEGER:
+      return Whole(column);
+    case SQLITE_FLOAT:
+      return Number(column);
+    default:
+      return Text(column);
+  }
+}
+
+std::string Statement::Text(int column) const {
+  const void* const text = sqlite3_column_text(statement_.get(), column);
+  const int size = sqlite3_column_bytes(statement_.get(), column);
+  if (text == nullptr) {
+    if (LacksMemory(database_)) throw std::bad_alloc();
+    return "";
+  }
+  return {static_cast<const char*>(text), static_cast<std::size_t>(size)};
+}
+
+double Statement::Number(int column) const {
+  if (sqlite3_column_type(statement_.get(), column) == SQLITE_NULL) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return sqlite3_column_double(statement_.get(), column);
+}
+
+std::int64_t Statement::Whole(int column) const {
+  return sqlite3_column_int64(statement_.get(), column);
+}
+
+void Database::Close::operator()(sqlite3* database) const {
+  sqlite3_close(database);
+}
+
+Database::Database(const std::string& path, Access access) {
+  sqlite3* handle = nullptr;
+  const bool only_read = access == Access::kRead;
+  const std::string name =
+      only_read ? "file:" + Escaped(path) + "?immutable=1" : path;
+  const int flags = only_read ? SQLITE_OPEN_READONLY | SQLITE_OPEN_URI
+                              : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  const int code = sqlite3_open_v2(name.c_str(), &handle, flags, nullptr);
+  handle_.reset(handle);
+  if (code != SQLITE_OK) Throw(handle);
+  sqlite3_extended_result_codes(handle, 1);
+  if (only_read) {
+    WholeOf("SELECT count(*) FROM sqlite_schema");  // is it a database?
+    return;
+  }
+  Execute(
+      "PRAGMA foreign_keys = ON; PRAGMA journal_mode = MEMORY;"
+      "PRAGMA synchronous = OFF; PRAGMA temp_store = MEMORY");
+}
+
+void Database::Execute(const std::string& sql) {
+  if (sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr) !=
+      SQLITE_OK) {
+    Throw(handle_.get());
+  }
+}
+
+std::int64_t Database::WholeOf(std::string_view sql) {
+  Statement statement = Prepare(sql);
+  return statement.Next() ? statement.Whole(0) : 0;
+}
+
+Statement Database::PrepareQuery(const std::string& sql) {
+  sqlite3_set_authorizer(handle_.get(), AllowReading, nullptr);
+  return {handle_.get(), sql};
+}
+
+void Database::StopWhere(const std::atomic<bool>& flag) {
+  constexpr int kSteps = 10000;
+  sqlite3_progress_handler(
+      handle_.get(), kSteps, IsSet, const_cast<std::atomic<bool>*>(&flag));
+}
+
+void Database::CopyFrom(Database* from) {
+  sqlite3_backup* const backup =
+      sqlite3_backup_init(handle_.get(), "main", from->handle_.get(), "main");
+  if (backup == nullptr) Throw(handle_.get());
+  sqlite3_backup_step(backup, -1);
+  if (sqlite3_backup_finish(backup) != SQLITE_OK) Throw(handle_.get());
+}
+
+}  // namespace errmap::fleet

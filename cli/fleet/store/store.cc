@@ -1,0 +1,381 @@
+#include "cli/fleet/store/store.h"
+
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <fcntl.h>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+#include <thread>
+#include <unistd.h>
+#include <utility>
+
+#include <fmt/format.h>
+#include <sys/file.h>
+
+#include "cli/fleet/store/store_schema.h"
+#include "data/input_error.h"
+#include "data/text.h"
+
+namespace errmap::fleet {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "errm": tells a store from any other SQLite file.
+constexpr std::int64_t kApplication = 0x6572726d;
+
+template <typename T>
+std::optional<T> Optional(const models::LeftOut<T>& value) {
+  return value;
+}
+
+// What the store says of itself; throws where it is not ours to touch.
+std::int64_t VersionOf(Database* database, const std::string& path) {
+  const std::string shown = data::PrintablePath(path);
+  if (database->WholeOf("PRAGMA application_id") != kApplication) {
+    throw data::InputError(shown + " is no store of errmap's");
+  }
+  const std::int64_t version = database->WholeOf("PRAGMA user_version");
+  if (version > kStoreVersion) {
+    throw data::InputError(fmt::format(
+        "{} is of schema {}, this errmap knows schemas up to {}; use the newer "
+        "errmap that wrote it",
+        shown,
+        version,
+        kStoreVersion));
+  }
+  return version;
+}
+
+void Migrate(Database* database, std::int64_t from) {
+  for (std::int64_t version = from; version < kStoreVersion; ++version) {
+    database->Execute(kStoreMigrations[version]);
+  }
+  database->Execute(fmt::format(
+      "PRAGMA application_id = {}; PRAGMA user_version = {}; PRAGMA "
+      "foreign_keys = ON",
+      kApplication,
+      kStoreVersion));
+}
+
+void Flush(const std::string& path, int flags) {
+  data::FileDescriptor file(open(path.c_str(), flags | O_CLOEXEC));
+  if (file.is_open() && fsync(file.get()) == 0 && file.Close() == 0) return;
+  throw std::system_error(errno, std::generic_category(), "flush");
+}
+
+// The copy that is being changed; nothing is left of one that was given up.
+class Copy {
+ public:
+  explicit Copy(std::string path) : path_(std::move(path)) { Remove(); }
+  Copy(const Copy&) = delete;
+  Copy& operator=(const Copy&) = delete;
+  ~Copy() { Remove(); }
+
+  const std::string& path() const { return path_; }
+
+  void TakePlaceOf(const std::string& store) const {
+    Flush(path_, O_RDWR);
+    fs::rename(path_, store);
+    const fs::path folder = fs::path(store).parent_path();
+    try {
+      Flush(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
+    } catch (const std::system_error&) {
+      // It is in its place; some file systems cannot flush a folder.
+    }
+  }
+
+ private:
+  void Remove() const {
+    std::error_code ignored;
+    fs::remove(path_, ignored);
+    fs::remove(path_ + "-journal", ignored);
+  }
+
+  std::string path_;
+};
+
+double WithinOf(const models::SummaryRecommendationRecord& found,
+                double coverage) {
+  for (const models::PromiseLevelRecord& level : found.promise) {
+    if (std::abs(level.coverage - coverage) < 1e-9) return level.half_width;
+  }
+  return models::kNotKnown;
+}
+
+class SummaryWriter {
+ public:
+  explicit SummaryWriter(Database* store)
+      : component_(store->Prepare(
+            "INSERT INTO components VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?) "
+            "ON CONFLICT (name) DO UPDATE SET study = excluded.study, "
+            "status = excluded.status, why = excluded.why, "
+            "folder = excluded.folder, data = excluded.data, "
+            "sha256 = excluded.sha256, rows = excluded.rows, "
+            "sessions = excluded.sessions, target = excluded.target, "
+            "unit = excluded.unit, shown_unit = excluded.shown_unit, "
+            "shown_scale = excluded.shown_scale, goal = excluded.goal, "
+            "fits_seconds = excluded.fits_seconds")),
+        field_(store->Prepare("INSERT INTO fields VALUES (?,?,?)")),
+        holdout_(store->Prepare("INSERT INTO holdouts VALUES (?,?,?,?,?)")),
+        model_(store->Prepare("INSERT INTO models VALUES (?,?,?,?,?,?,?,?)")),
+        metrics_(store->Prepare(
+            "INSERT INTO metrics VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
+        verdict_(store->Prepare("INSERT INTO verdicts VALUES (?,?,?,?,?,?)")),
+        recommendation_(store->Prepare("INSERT INTO recommendations VALUES "
+                                       "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")),
+        sensor_(store->Prepare("INSERT OR IGNORE INTO sensors VALUES (?,?)")),
+        map_(store->Prepare("INSERT INTO maps VALUES (?,?,?)")) {}
+
+  void Write(const std::string& study,
+             const FleetComponentRecord& component,
+             const models::ComponentSummary* summary) {
+    const std::string& name = component.name;
+    const models::ComponentSummary nothing;
+    const models::ComponentSummary& found =
+        summary == nullptr ? nothing : *summary;
+    component_
+        .With(name,
+              study,
+              summary == nullptr ? std::string_view("missing")
+                                 : ToString(found.status),
+              Optional(found.why),
+              StorePaths::FolderOf(name),
+              component.data,
+              found.sha256,
+              found.rows,
+              found.sessions,
+              found.target,
+              found.unit,
+              found.display.unit,
+              found.display.scale,
+              found.goal,
+              found.fits_seconds)
+        .Run();
+    for (const auto& [field, value] : found.fields) {
+      field_.With(name, field, value).Run();
+    }
+    for (const models::SummaryHoldoutRecord& holdout : found.holdouts) {
+      holdout_
+          .With(name,
+                holdout.name,
+                holdout.folds,
+                holdout.unit_of_analysis,
+                holdout.units)
+          .Run();
+    }
+    for (const models::SummaryModelRecord& model : found.models) {
+      WriteModel(name, model);
+    }
+    for (const models::SummaryVerdictRecord& verdict : found.verdicts) {
+      verdict_
+          .With(name,
+                verdict.holdout,
+                ToString(verdict.choice),
+                verdict.model,
+                verdict.established,
+                ToString(verdict.confidence))
+          .Run();
+    }
+    if (found.recommendation) WriteRecommendation(name, *found.recommendation);
+    if (found.map) map_.With(name, found.map->sha256, found.map->bytes).Run();
+  }
+
+ private:
+  void WriteModel(const std::string& name,
+                  const models::SummaryModelRecord& model) {
+    model_
+        .With(name,
+              model.name,
+              ToString(model.kind),
+              ToString(model.choice),
+              ToString(model.status),
+              Optional(model.why),
+              Optional(model.parameters),
+              model.fit_seconds)
+        .Run();
+    for (const models::SummaryMetricsRecord& found : model.results) {
+      metrics_
+          .With(name,
+                model.name,
+                found.holdout,
+                found.n,
+                found.rmse,
+                found.sd,
+                found.mean,
+                found.mae,
+                found.range,
+                found.train_rmse,
+                found.ci95[0],
+                found.ci95[1],
+                found.tier,
+                ToString(found.goal))
+          .Run();
+    }
+  }
+
+  void WriteRecommendation(const std::string& name,
+                           const models::SummaryRecommendationRecord& found) {
+    recommendation_
+        .With(name,
+              ToString(found.choice),
+              found.model,
+              found.holdout,
+              found.rmse,
+              found.ci95[0],
+              found.ci95[1],
+              found.uncompensated,
+              found.constant,
+              ToString(found.goal),
+              found.established,
+              Optional(found.longest_memory),
+              Optional(found.zeroed),
+              WithinOf(found, 0.9),
+              WithinOf(found, 0.95),
+              found.extrapolated_share,
+              found.sentence)
+        .Run();
+    for (const std::string& sensor : found.sensors) {
+      sensor_.With(name, sensor).Run();
+    }
+  }
+
+  Statement component_;
+  Statement field_;
+  Statement holdout_;
+  Statement model_;
+  Statement metrics_;
+  Statement verdict_;
+  Statement recommendation_;
+  Statement sensor_;
+  Statement map_;
+};
+
+}  // namespace
+
+StoreLock::StoreLock(const StorePaths& paths)
+    : file_(open(paths.Lock().c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+  if (!file_.is_open()) {
+    throw std::system_error(
+        errno,
+        std::generic_category(),
+        "cannot write " + data::PrintablePath(paths.Lock()));
+  }
+  constexpr auto kPause = std::chrono::milliseconds(50);
+  constexpr int kMostPauses = 6000;  // five minutes
+  for (int pause = 0; flock(file_.get(), LOCK_EX | LOCK_NB) != 0; ++pause) {
+    // A file system without locks: then writers must not meet.
+    if (errno != EWOULDBLOCK && errno != EINTR) return;
+    if (pause == kMostPauses) {
+      throw std::runtime_error(
+          fmt::format("{} is being written by another errmap; try again later",
+                      data::PrintablePath(paths.Database())));
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+Database OpenStore(const StorePaths& paths) {
+  const std::string path = paths.Database();
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) {
+    throw data::InputError(
+        fmt::format("{} is not there; errmap merge STORE makes it",
+                    data::PrintablePath(path)));
+  }
+  // A named pipe would be waited for.
+  if (!fs::is_regular_file(path, ignored)) {
+    throw data::InputError(
+        fmt::format("{}: is no plain file; move it away, and errmap merge "
+                    "STORE makes another",
+                    data::PrintablePath(path)));
+  }
+  try {
+    Database store(path, Database::Access::kRead);
+    VersionOf(&store, path);
+    return store;
+  } catch (const SqliteError& error) {
+    throw data::InputError(data::PrintablePath(path) + ": " + error.what());
+  }
+}
+
+void ChangeStore(const StorePaths& paths,
+                 const StoreLock& /*held*/,
+                 const std::function<void(Database*)>& change) {
+  const std::string path = paths.Database();
+  std::error_code ignored;
+  std::optional<Database> old;
+  if (fs::exists(path, ignored)) old.emplace(OpenStore(paths));
+  const Copy copy(path + ".new");
+  try {
+    {
+      Database store(copy.path(), Database::Access::kPrivate);
+      std::int64_t version = 0;
+      if (old) {
+        store.CopyFrom(&*old);
+        version = VersionOf(&store, path);
+      }
+      store.Execute("BEGIN");
+      Migrate(&store, version);
+      change(&store);
+      store.Execute("COMMIT");
+    }
+    copy.TakePlaceOf(path);
+  } catch (const SqliteError& error) {
+    throw std::runtime_error(fmt::format("cannot write {}: {}; it is as it was",
+                                         data::PrintablePath(path),
+                                         error.what()));
+  } catch (const std::system_error& error) {
+    throw std::runtime_error(fmt::format("cannot write {}: {}; it is as it was",
+                                         data::PrintablePath(path),
+                                         error.code().message()));
+  }
+}
+
+void WriteSummaries(Database* store,
+                    const FleetRecord& fleet,
+                    const std::vector<models::ComponentSummary>& summaries) {
+  std::map<std::string_view, const models::ComponentSummary*> by_name;
+  for (const models::ComponentSummary& summary : summaries) {
+    by_name[summary.name] = &summary;
+  }
+  for (const char* table :
+       {"fields", "models", "holdouts", "recommendations", "sensors", "maps"}) {
+    store->Execute(std::string("DELETE FROM ") + table);
+  }
+  store->Prepare("INSERT OR IGNORE INTO runs VALUES (?, '', '', 0, '', 0, 0)")
+      .With(fleet.sha256)
+      .Run();
+  store
+      ->Prepare(
+          "UPDATE runs SET file = ?2, version = ?3, seed = ?4, "
+          "command_line = ?5, components = ?6, missing = ?7 WHERE study = ?1")
+      .With(fleet.sha256,
+            fleet.file,
+            fleet.version,
+            static_cast<std::int64_t>(fleet.seed),
+            fleet.command_line,
+            static_cast<std::int64_t>(fleet.components.size()),
+            static_cast<std::int64_t>(fleet.components.size() - by_name.size()))
+      .Run();
+  store->Prepare("UPDATE components SET study = ?, status = 'gone'")
+      .With(fleet.sha256)
+      .Run();
+  store->Prepare("DELETE FROM runs WHERE study <> ?").With(fleet.sha256).Run();
+  SummaryWriter writer(store);
+  for (const FleetComponentRecord& component : fleet.components) {
+    const auto found = by_name.find(component.name);
+    writer.Write(fleet.sha256,
+                 component,
+                 found == by_name.end() ? nullptr : found->second);
+  }
+  store->Execute(
+      "DELETE FROM components WHERE status = 'gone' AND name NOT IN "
+      "(SELECT component FROM deployments)");
+}
+
+}  // namespace errmap::fleet

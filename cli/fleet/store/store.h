@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "cli/fleet/store/sqlite.h"
+#include "cli/fleet/store/store_folder.h"
+#include "data/file_descriptor.h"
+#include "models/fleet/component_summary.h"
+
+namespace errmap::fleet {
+
+/// Version of the tables in errmap.sqlite that this program writes; an older
+/// store is brought up to it by the next command that writes.
+inline constexpr std::int64_t kStoreVersion = 2;
+
+/// The store's lock, held while it lives: merge, deploy and watch write one
+/// after another. Throws std::runtime_error where another has it for too long.
+class StoreLock {
+ public:
+  explicit StoreLock(const StorePaths& paths);
+
+ private:
+  data::FileDescriptor file_;
+};
+
+/// Opens errmap.sqlite to read. Throws data::InputError where there is none, it
+/// is no store, or of a newer version.
+Database OpenStore(const StorePaths& paths);
+
+/// Changes errmap.sqlite, or makes it: `change` gets a copy, which takes the
+/// old one's place once it is whole and on the disk. Whoever reads sees the old
+/// or the new one. What throws, a full disk too, leaves the store as it was.
+void ChangeStore(const StorePaths& paths,
+                 const StoreLock& lock,
+                 const std::function<void(Database*)>& change);
+
+/// Puts the summaries of a fleet in the place of those there were. Components
+/// that the study no longer has go, unless a deployment names them.
+void WriteSummaries(Database* store,
+                    const FleetRecord& fleet,
+                    const std::vector<models::ComponentSummary>& summaries);
+
+}  // namespace errmap::fleet

@@ -1,0 +1,199 @@
+#include "cli/fleet/store/store_folder.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "cli/fleet/store/gzip.h"
+#include "data/atomic_file.h"
+#include "data/formats/nesting.h"
+#include "data/input_error.h"
+#include "data/sha256.h"
+#include "data/text.h"
+#include "models/study/record/record_json.h"
+
+namespace errmap::fleet {
+
+namespace fs = std::filesystem;
+
+ERRMAP_RECORD(FleetComponentRecord, name, data, asked)
+ERRMAP_RECORD(
+    FleetRecord, schema, version, file, sha256, seed, command_line, components)
+
+namespace {
+
+// The rows of a data set that are not among `held_out`.
+std::vector<std::int64_t> Others(const std::vector<std::int64_t>& all,
+                                 const std::vector<std::int64_t>& held_out) {
+  std::vector<std::int64_t> sorted = held_out;
+  std::ranges::sort(sorted);
+  std::vector<std::int64_t> others;
+  std::ranges::set_difference(all, sorted, std::back_inserter(others));
+  return others;
+}
+
+// All rows of a hold-out that is no other file's: those held out in some fold,
+// or trained on in the first.
+std::vector<std::int64_t> RowsOf(const models::HoldoutRecord& holdout) {
+  std::vector<std::int64_t> rows;
+  for (const models::RowsOfFolds* lists :
+       {&holdout.test_rows, &holdout.train_rows}) {
+    for (const auto& list : *lists) {
+      rows.insert(rows.end(), list.begin(), list.end());
+    }
+  }
+  std::ranges::sort(rows);
+  const auto repeated = std::ranges::unique(rows);
+  rows.erase(repeated.begin(), repeated.end());
+  return rows;
+}
+
+}  // namespace
+
+std::string StorePaths::Fleet() const {
+  return (fs::path(store) / "fleet.json").string();
+}
+std::string StorePaths::Database() const {
+  return (fs::path(store) / "errmap.sqlite").string();
+}
+std::string StorePaths::Lock() const {
+  return (fs::path(store) / "errmap.lock").string();
+}
+std::string StorePaths::Report() const {
+  return (fs::path(store) / "report.html").string();
+}
+std::string StorePaths::Watch() const {
+  return (fs::path(store) / "watch.html").string();
+}
+std::string StorePaths::Map(const std::string& sha256) const {
+  return (fs::path(store) / "maps" / (sha256 + ".json")).string();
+}
+
+std::string StorePaths::FolderOf(const std::string& component) {
+  constexpr std::size_t kMostLength = 100;
+  constexpr std::size_t kHashDigits = 12;
+  std::string folder;
+  for (const char c : component.substr(0, kMostLength)) {
+    const bool safe = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+                      c == '.' || c == '=' || c == '+' || c == '-' || c == '_';
+    folder += safe ? c : '_';
+  }
+  if (folder == component && !folder.empty() && !folder.starts_with('.')) {
+    return "components/" + folder;
+  }
+  if (folder.starts_with('.')) folder.front() = '_';
+  return "components/" + folder + "-" +
+         data::Sha256(component).substr(0, kHashDigits);
+}
+
+std::string StorePaths::InFolder(const std::string& component,
+                                 const char* file) const {
+  return (fs::path(store) / FolderOf(component) / file).string();
+}
+
+bool IsStore(const std::string& folder) {
+  std::error_code ignored;
+  return fs::is_regular_file(StorePaths{folder}.Fleet(), ignored);
+}
+
+FleetRecord ReadFleet(const StorePaths& paths) {
+  std::error_code ignored;
+  if (!IsStore(paths.store)) {
+    throw data::InputError(fmt::format(
+        "{} is no store; errmap compare --config STUDY --out STORE makes one",
+        data::PrintablePath(paths.store)));
+  }
+  const std::string text =
+      data::ReadFile(paths.Fleet(), data::kMostTextOfPrograms);
+  FleetRecord fleet;
+  fleet.schema.clear();
+  if (data::IsShallowJson(text)) {
+    const auto json = models::RecordJson::parse(text, nullptr, false);
+    if (!json.is_discarded()) models::FromJson(json, &fleet);
+  }
+  if (fleet.schema != FleetRecord().schema) {
+    throw data::InputError(
+        fmt::format("{} is not what this version writes (errmap-fleet-1)",
+                    data::PrintablePath(paths.Fleet())));
+  }
+  return fleet;
+}
+
+void WriteFleet(const StorePaths& paths, const FleetRecord& fleet) {
+  constexpr int kIndent = 1;
+  const std::string text =
+      models::ToJson(fleet).dump(
+          kIndent, ' ', false, models::RecordJson::error_handler_t::replace) +
+      "\n";
+  if (IsStore(paths.store) && data::ReadFile(paths.Fleet()) == text) return;
+  data::WriteFileAtomically(paths.Fleet(), text);
+}
+
+std::string PackResults(models::StudyRecord record) {
+  for (models::ComponentRecord& component : record.components) {
+    for (models::HoldoutRecord& holdout : component.holdouts) {
+      if (holdout.another_file) continue;
+      const std::vector<std::int64_t> all = RowsOf(holdout);
+      bool restores = true;
+      for (std::size_t fold = 0; fold < holdout.train_rows.size(); ++fold) {
+        restores = restores && Others(all, holdout.test_rows[fold]) ==
+                                   holdout.train_rows[fold];
+      }
+      // Where some rows are held out in no fold they must be named.
+      models::HoldoutRecord without = holdout;
+      without.train_rows.clear();
+      if (restores && RowsOf(without) == all) holdout.train_rows.clear();
+    }
+  }
+  return Gzip(models::ToJson(record).dump(
+      -1, ' ', false, models::RecordJson::error_handler_t::replace));
+}
+
+std::string WhyNoMap(const std::string& component, const std::string& why) {
+  return fmt::format("{} has no results and no map, since it failed: {}",
+                     data::QuotedName(component),
+                     why);
+}
+
+std::optional<models::ComponentSummary> FindSummary(
+    const StorePaths& paths, const std::string& component) {
+  const std::string path = paths.InFolder(component, kSummaryFile);
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return std::nullopt;
+  try {
+    return models::SummaryFromJsonText(
+        data::ReadFile(path, data::kMostTextOfPeople));
+  } catch (const data::InputError&) {
+    return std::nullopt;  // torn by somebody else
+  }
+}
+
+models::StudyRecord ReadResultsOf(const StorePaths& paths,
+                                  const std::string& component) {
+  const auto summary = FindSummary(paths, component);
+  if (summary && summary->why) {
+    throw data::InputError(WhyNoMap(component, *summary->why));
+  }
+  const std::string path = paths.InFolder(component, kResultsFile);
+  const std::string compressed = data::ReadFile(path);
+  try {
+    models::StudyRecord record =
+        models::FromJsonText(Gunzip(compressed, data::kMostTextOfPrograms));
+    for (models::ComponentRecord& of : record.components) {
+      for (models::HoldoutRecord& holdout : of.holdouts) {
+        if (holdout.another_file || !holdout.train_rows.empty()) continue;
+        const std::vector<std::int64_t> all = RowsOf(holdout);
+        for (const auto& held_out : holdout.test_rows) {
+          holdout.train_rows.push_back(Others(all, held_out));
+        }
+      }
+    }
+    return record;
+  } catch (const data::InputError& error) {
+    throw data::InputError(data::PrintablePath(path) + ": " + error.what());
+  }
+}
+
+}  // namespace errmap::fleet

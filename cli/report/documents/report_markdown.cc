@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+
+#include "cli/report/documents/report_headline.h"
+#include "cli/report/html.h"
+#include "cli/report/report.h"
+#include "cli/report/tables/fit_tables.h"
+#include "cli/report/tables/machine_tables.h"
+#include "cli/report/tables/report_tables.h"
+#include "cli/report/tables/result_table.h"
+
+namespace errmap::report {
+namespace {
+
+std::string MarkdownParagraph(const std::string& text) {
+  return text.empty() ? "" : MarkdownText(text) + "\n\n";
+}
+
+std::string Bullets(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) {
+    text += "- " + MarkdownText(line) + "\n";
+  }
+  return text.empty() ? text : text + "\n";
+}
+
+std::string Answer(const ReportView& view) {
+  const Headline line = HeadlineOf(view);
+  std::string text = "**" + MarkdownText(line.sentence) + "**\n\n";
+  std::vector<std::string> facts;
+  if (!line.error.empty()) {
+    facts.push_back(line.error + " " + line.where +
+                    (line.interval.empty() ? "" : "; " + line.interval));
+  }
+  for (const std::string& fact : {line.goal, line.beside, line.cost}) {
+    if (!fact.empty()) facts.push_back(fact);
+  }
+  if (!line.sensors.empty()) facts.push_back("Sensors: " + line.sensors);
+  text += Bullets(facts) + MarkdownParagraph(kSignConvention) +
+          "### Every model\n\n" + MarkdownTable(PageLeaderboard(view)) + "\n";
+  if (!line.reasons.empty()) text += "### Reasons\n\n" + Bullets(line.reasons);
+  if (!line.caveats.empty()) text += "### Caveats\n\n" + Bullets(line.caveats);
+  return text;
+}
+
+std::string Polynomials(const ReportView& view) {
+  std::string text;
+  for (const PolynomialTables& model : PolynomialTablesOf(view)) {
+    text += "#### " + MarkdownText(model.model) + "\n\n" +
+            MarkdownParagraph(model.equation) +
+            MarkdownParagraph(model.summary);
+    if (model.model == view.recommended) {
+      text += MarkdownTable(model.coefficients, "####");
+    }
+  }
+  return text.empty() ? text : "### Equations\n\n" + text;
+}
+
+std::string Component(const ReportView& view) {
+  std::string text = "## " + MarkdownText(view.name) + "\n\n" + Answer(view);
+  text += MarkdownTable(ComparisonTable(view, view.decisive), "###");
+  text += MarkdownTable(GapTable(view), "###");
+  if (const Table since = SinceStartTable(view); !since.rows.empty()) {
+    text += MarkdownTable(since, "###");
+  }
+  for (const std::string& holdout : view.holdouts) {
+    text += MarkdownTable(ResidualTable(view, holdout), "###");
+  }
+  text += MarkdownTable(RunTable(view), "###") + Polynomials(view);
+  text += MarkdownTable(DroppedTable(view), "###");
+  return text + MarkdownTable(HoldoutTable(view), "###");
+}
+
+}  // namespace
+
+std::string ReportMarkdown(const models::StudyRecord& record) {
+  std::string text = "# Error maps\n\n";
+  if (record.interrupted) {
+    text += "The run was interrupted: only what was finished is shown.\n\n";
+  }
+  if (record.components.empty()) {
+    text += "results.json holds no component: there is nothing to report.\n\n";
+  }
+  for (const ComponentRecord& component : record.components) {
+    ReportView view = ViewOf(component);
+    view.shown_unit = component.display.unit;  // as in every file
+    text += Component(view);
+  }
+  if (record.machine) {
+    for (const Table& table : MachineTables(*record.machine)) {
+      text += MarkdownTable(table, "##");
+    }
+  }
+  return text + MarkdownTable(ProvenanceTable(record), "##");
+}
+
+}  // namespace errmap::report

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/report/number_text.h"
+#include "models/error_model.h"
+
+namespace errmap::report {
+
+/// The starts as a table with a line about the spread of their costs; "" for no
+/// starts.
+std::string StartsText(const std::vector<models::StartResult>& starts,
+                       const ErrorText& error);
+
+}  // namespace errmap::report

@@ -1,0 +1,351 @@
+#include "cli/report/documents/study_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/report/number_text.h"
+#include "cli/report/shell_word.h"
+#include "cli/report/tables/machine_tables.h"
+#include "cli/report/tables/result_table.h"
+#include "cli/report/words/component_numbers.h"
+#include "cli/report/words/data_words.h"
+#include "cli/report/words/next_steps.h"
+#include "cli/report/words/verdict_text.h"
+#include "cli/report/wrap_text.h"
+#include "data/text.h"
+
+namespace errmap::report {
+namespace {
+
+constexpr std::size_t kMostRows = 12;
+
+constexpr const char* kSign =
+    "Error = actual - nominal; compensate by minus the predicted error.";
+
+// "net:scg: 7 of 7 fits ended without converging (iteration_limit 7)": such
+// figures are usable, but another run length or start would give others.
+std::string UnconvergedNote(const ModelRecord& model) {
+  std::map<std::string, int> reasons;
+  int fits = 0;
+  int unconverged = 0;
+  const auto count = [&](const models::FitRecord& fit) {
+    ++fits;
+    if (fit.summary.value.converged) return;
+    ++unconverged;
+    ++reasons[std::string(fitting::ToString(fit.summary.value.stop))];
+  };
+  for (const auto& [holdout, result] : model.results) {
+    for (const models::FoldRecord& fold : result.folds) count(fold.fit.value);
+  }
+  if (model.final) count(*model.final);
+  if (unconverged == 0) return "";
+  std::vector<std::string> parts;
+  for (const auto& [reason, times] : reasons) {
+    parts.push_back(fmt::format("{} {}", reason, times));
+  }
+  return fmt::format("{}: {} of {} ended without converging ({}).",
+                     model.name,
+                     unconverged,
+                     Count(fits, "fit"),
+                     fmt::join(parts, ", "));
+}
+
+// What is written about one component, line by line.
+class ComponentScreen {
+ public:
+  ComponentScreen(const models::StudyRecord& record,
+                  std::size_t index,
+                  const StudyTableOptions& options,
+                  Screen* screen)
+      : study_(record),
+        index_(index),
+        record_(record.components[index]),
+        view_(ViewOf(record_)),
+        options_(options),
+        screen_(screen) {}
+
+  // What to use, of which data, and the table.
+  void Answer();
+  void Next(const std::string& data);
+  void Details();
+
+ private:
+  const models::StudyRecord& study_;
+  std::size_t index_;
+  const models::ComponentRecord& record_;
+  ReportView view_;
+  const StudyTableOptions& options_;
+  Screen* screen_;
+
+  void Verdict();
+  void Data();
+  void Leaderboard();
+
+  std::size_t Width() const { return options_.terminal.text_columns(); }
+  void Paragraph(const std::string& text) {
+    for (const std::string& line : WrapLines(text, Width())) {
+      screen_->Add(line + "\n");
+    }
+  }
+  // The marked row stands out.
+  void Add(const Table& table) {
+    const std::vector<std::string> lines =
+        TerminalLines(table, options_.terminal.columns);
+    const std::size_t head = lines.size() - table.rows.size();
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      screen_->Add(
+          lines[i] + "\n",
+          table.marked != std::string::npos && i == head + table.marked);
+    }
+  }
+};
+
+void ComponentScreen::Answer() {
+  Verdict();
+  screen_->Add("\n");
+  Data();
+  screen_->Add("\n");
+  Leaderboard();
+  screen_->Add("\n");
+}
+
+void ComponentScreen::Verdict() {
+  bool first = true;
+  for (const std::string& line : VerdictLines(record_, Width())) {
+    screen_->Add(line + "\n", first);
+    first = false;
+  }
+}
+
+void ComponentScreen::Data() {
+  const models::DataRecord& data = record_.data;
+  constexpr std::size_t kMostInputsNamed = 6;
+  std::vector<std::string> inputs;
+  for (const std::string& input : data.inputs) {
+    inputs.push_back(data::Printable(input, input.size()));
+  }
+  const std::size_t more =
+      inputs.size() - std::min(inputs.size(), kMostInputsNamed);
+  inputs.resize(inputs.size() - more);
+  Paragraph(fmt::format(
+      "{}: {}{}; {} from {}{}",
+      data.file,
+      Count(data.rows, "row"),
+      UnitsWords(data),
+      TargetWords(data),
+      inputs.empty() ? "no inputs" : fmt::format("{}", fmt::join(inputs, ", ")),
+      more > 0 ? fmt::format(" and {} more", more) : ""));
+}
+
+void ComponentScreen::Leaderboard() {
+  Add(TerminalLeaderboard(view_,
+                          options_.all ? view_.models.size() : kMostRows));
+  screen_->Add("\n");
+  std::vector<std::string> legend;
+  if (!view_.recommended.empty()) {
+    legend.emplace_back(
+        "* recommended, = interchangeable with the best: at most 5 % worse, or "
+        "by what never matters (--indifference).");
+  }
+  std::string where =
+      fmt::format("RMSE, {} ({})", UnseenWords(view_), view_.decisive);
+  if (!view_.neighbours.empty()) {
+    where += fmt::format(", and next to known rows ({})", view_.neighbours);
+  }
+  if (std::isfinite(record_.goal)) {
+    where += fmt::format("; goal {:g}{}{} (--goal)",
+                         record_.goal * record_.display.scale,
+                         record_.display.unit.empty() ? "" : " ",
+                         record_.display.unit);
+  }
+  legend.push_back(where + ".");
+  if (std::string drawn = DrawnRowsWords(view_); !drawn.empty()) {
+    legend.push_back(std::move(drawn));
+  }
+  if (!options_.all && view_.models.size() > kMostRows) {
+    legend.push_back(
+        fmt::format("{} more with --all.", view_.models.size() - kMostRows));
+  }
+  if (!options_.details) {
+    legend.emplace_back("p values, gaps and times with --details.");
+  }
+  Paragraph(fmt::format("{}", fmt::join(legend, " ")));
+  for (const ModelRecord& model : record_.models) {
+    if (model.why) {
+      Paragraph(fmt::format("{} failed, {}", model.name, *model.why));
+    }
+  }
+}
+
+void ComponentScreen::Next(const std::string& data) {
+  constexpr std::size_t kIndent = 16;
+  std::vector<NextStep> steps =
+      NextSteps(study_, index_, data, options_.folder);
+  for (NextStep& step : PlacesToLook(study_, index_, data, options_.folder)) {
+    steps.push_back(std::move(step));
+  }
+  for (const NextStep& step : steps) {
+    const std::string begin = fmt::format("{:{}}", step.purpose, kIndent);
+    if (!step.words.empty()) {
+      screen_->Add(
+          begin + ShellCommand(step.words, options_.terminal.columns, kIndent) +
+          "\n");
+      continue;
+    }
+    std::string indent = begin;
+    for (const std::string& line : WrapLines(step.text, Width() - kIndent)) {
+      screen_->Add(indent + line + "\n");
+      indent.assign(kIndent, ' ');
+    }
+  }
+}
+
+void ComponentScreen::Details() {
+  for (const std::string& holdout : view_.holdouts) {
+    const models::HoldoutRecord& held = *HoldoutOf(view_, holdout);
+    screen_->Add("\n");
+    Paragraph(fmt::format(
+        "{}: RMSE{}; p against the recommended one, by {}, after Holm",
+        holdout,
+        record_.display.unit.empty() ? "" : " in " + record_.display.unit,
+        CountOfUnits(held.units, held)));
+    Add(TerminalDetails(view_, holdout));
+  }
+  Paragraph(kIntervalCoverage);
+  screen_->Add("\n");
+  Add(TerminalTimes(view_));
+  screen_->Add("\n");
+  for (const ModelRecord& model : record_.models) {
+    Paragraph(UnconvergedNote(model));
+    if (model.memorisation) Paragraph(model.memorisation->sentence);
+  }
+  screen_->Add("\n" + VerdictParagraphs(record_, Width()));
+}
+
+// How many meet their goal, and for how many nothing is proven.
+std::string OverallWords(const models::StudyRecord& record) {
+  std::map<models::GoalStanding, std::size_t> standings;
+  std::size_t proven = 0;
+  std::size_t maps = 0;
+  for (const models::ComponentRecord& component : record.components) {
+    if (!component.recommendation) continue;
+    const models::RecommendationRecord& advice = *component.recommendation;
+    ++standings[advice.goal_standing];
+    if (advice.choice == models::Choice::kBaseline) continue;
+    ++maps;
+    if (advice.against_baseline == models::Confidence::kEstablished) ++proven;
+  }
+  using models::GoalStanding;
+  std::vector<std::string> goals;
+  for (const auto& [standing, words] :
+       {std::pair(GoalStanding::kMet, "met by {}"),
+        std::pair(GoalStanding::kMetAfterRezeroing, "by {} if re-zeroed"),
+        std::pair(GoalStanding::kMissed, "missed by {}"),
+        std::pair(GoalStanding::kNone, "not set for {}")}) {
+    if (const auto n = standings[standing]; n > 0) {
+      goals.push_back(fmt::format(fmt::runtime(words), n));
+    }
+  }
+  std::string text = Count(std::ssize(record.components), "component");
+  // Where none has a goal there is nothing to say of it.
+  if (!goals.empty() &&
+      (goals.size() > 1 || standings[GoalStanding::kNone] == 0)) {
+    text += fmt::format(": goal {}", fmt::join(goals, ", "));
+  }
+  text += ".";
+  if (maps > 0) {
+    text += fmt::format(
+        " That the map beats the best baseline is proven for {} of {}.",
+        proven,
+        maps);
+  }
+  return text;
+}
+
+// Its last columns are on the page, where a terminal has no room for them.
+std::string LeadingColumns(Table table, std::size_t width) {
+  const auto is_wide = [&] {
+    return std::ranges::any_of(
+        TerminalLines(table, std::string::npos),
+        [&](const std::string& line) { return WidthOf(line) > width; });
+  };
+  constexpr std::size_t kFewest = 4;
+  while (table.columns.size() > kFewest && is_wide()) {
+    table.columns.pop_back();
+    for (std::vector<Cell>& row : table.rows) {
+      if (row.size() > table.columns.size()) row.pop_back();
+    }
+  }
+  return TerminalTable(table, width);
+}
+
+void AddMachine(const models::MachineRecord& machine,
+                const Terminal& terminal,
+                Screen* screen) {
+  const std::size_t width = terminal.text_columns();
+  for (const Table& table : {ToolTipTable(machine),
+                             ToolTipIntervalTable(machine),
+                             PositioningTable(machine),
+                             DiagonalTable(machine)}) {
+    if (table.rows.empty()) continue;
+    screen->Add("\n" + WrapText(table.title, width) + "\n\n" +
+                LeadingColumns(table, terminal.columns) +
+                WrapText(table.note, width) + "\n");
+  }
+}
+
+std::string WhereMapsAre(const StudyTableOptions& options) {
+  std::string words =
+      options.folder.empty()
+          ? "The maps are written with --out DIR, which also draws a page."
+          : fmt::format(
+                "The maps are in {0}/models, the page is {0}/report.html.",
+                options.folder);
+  if (!options.details) {
+    words += " Each component's verdict, table and next steps: --details.";
+  }
+  return words;
+}
+
+}  // namespace
+
+Screen StudyTable(const models::StudyRecord& record,
+                  const StudyTableOptions& options) {
+  Screen screen;
+  const auto component = [&](std::size_t i) {
+    return ComponentScreen(record, i, options, &screen);
+  };
+  const std::size_t asked_for =
+      record.provenance.configuration.component.size();
+  if (asked_for <= 1 && record.components.size() == 1) {
+    ComponentScreen one = component(0);
+    one.Answer();
+    one.Next(options.data);
+    if (options.details) one.Details();
+  } else {
+    const std::size_t width = options.terminal.text_columns();
+    screen.Add(WrapText(OverallWords(record), width) + "\n\n", true);
+    screen.Add(TerminalTable(SummaryRows(record), options.terminal.columns));
+    screen.Add("\n");
+    for (std::size_t i = 0; i < record.components.size(); ++i) {
+      if (!options.details) break;
+      const std::string& name = record.components[i].name;
+      screen.Add("== " + data::Printable(name, name.size()) + " ==\n", true);
+      ComponentScreen one = component(i);
+      one.Answer();
+      one.Next("");
+      one.Details();
+      screen.Add("\n");
+    }
+    screen.Add(WrapText(WhereMapsAre(options), width) + "\n");
+  }
+  if (record.machine) AddMachine(*record.machine, options.terminal, &screen);
+  screen.Add(std::string("\n") + kSign + "\n");
+  return screen;
+}
+
+}  // namespace errmap::report

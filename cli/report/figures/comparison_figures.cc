@@ -1,0 +1,403 @@
+#include "cli/report/figures/comparison_figures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/report/figures/figure_parts.h"
+
+namespace errmap::report {
+namespace {
+
+constexpr std::size_t kNameLength = 24;
+
+// "every:3 (neighbours known)", "groups:5 (unseen groups)".
+std::string HoldoutLabel(const ReportView& view, const std::string& holdout) {
+  const models::HoldoutRecord* record = HoldoutOf(view, holdout);
+  const char* words = " (neighbours known)";
+  if (record != nullptr && record->whole_groups) words = " (unseen groups)";
+  if (record != nullptr && record->whole_sessions) words = " (unseen sessions)";
+  return Shortened(holdout, kNameLength) + words;
+}
+
+std::string GapWords(const ReportView& view,
+                     const std::vector<std::string>& holdouts) {
+  const ErrorText error = ErrorTextOf(view);
+  std::vector<std::string> words;
+  for (const ModelRecord* model : view.models) {
+    std::vector<std::string> parts;
+    for (const std::string& holdout : holdouts) {
+      const double rmse = TestRmse(*model, holdout);
+      if (std::isfinite(rmse)) {
+        parts.push_back(fmt::format("{} {}", holdout, error.WithUnit(rmse)));
+      }
+    }
+    if (!parts.empty()) {
+      words.push_back(
+          fmt::format("{}: {}", model->name, fmt::join(parts, ", ")));
+    }
+  }
+  return fmt::format("Held-out error of each model. {}.",
+                     fmt::join(words, "; "));
+}
+
+// Intervals of the errors under one hold-out, where results have them.
+Series Intervals(const ReportView& view,
+                 const std::vector<const ModelRecord*>& models,
+                 const std::string& holdout,
+                 const std::string& colour) {
+  Series series{.mark = Mark::kSpan,
+                .columns = {{}, {}, {}, {}},
+                .colour = colour,
+                .size = 1.6};
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const ResultRecord* result = ResultOf(*models[i], holdout);
+    if (result == nullptr || !(result->ci95[0] > 0.0) ||
+        !std::isfinite(result->ci95[1])) {
+      continue;
+    }
+    series.columns[0].push_back(result->test.rmse * view.scale);
+    series.columns[1].push_back(static_cast<double>(i));
+    series.columns[2].push_back(result->ci95[0] * view.scale);
+    series.columns[3].push_back(result->ci95[1] * view.scale);
+  }
+  return series;
+}
+
+// Hold-outs as the picture lists them: the decisive one and those beside it.
+std::vector<std::string> ShownHoldouts(const ReportView& view) {
+  constexpr std::size_t kMost = 4;
+  std::vector<std::string> shown;
+  if (!view.decisive.empty()) shown.push_back(view.decisive);
+  if (!view.neighbours.empty()) shown.push_back(view.neighbours);
+  for (const std::string& holdout : view.holdouts) {
+    if (std::find(shown.begin(), shown.end(), holdout) == shown.end() &&
+        shown.size() < kMost) {
+      shown.push_back(holdout);
+    }
+  }
+  return shown;
+}
+
+void AddGoal(const ReportView& view, double rows, Plot* plot) {
+  if (!std::isfinite(view.component->goal)) return;
+  const double goal = view.component->goal * view.scale;
+  plot->series.push_back(
+      {.label = fmt::format("goal {:g}{}{}",
+                            goal,
+                            view.shown_unit.empty() ? "" : " ",
+                            view.shown_unit),
+       .mark = Mark::kLine,
+       .columns = {{goal, goal}, {-0.5, rows - 0.5}},
+       .colour = "#000000",
+       .size = 1.5,
+       .dashed = true});
+}
+
+// A logarithmic axis over what there is.
+void MakeLogarithmic(double low, double high, Axis* axis) {
+  constexpr double kMargin = 1.25;
+  axis->logarithmic = true;
+  axis->low = low / kMargin;
+  axis->high = high * kMargin;
+}
+
+// What stands on an axis.
+struct Span {
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0.0;
+
+  void Take(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+// A mark per model and hold-out, with intervals for the first, which decides.
+std::vector<Series> HoldoutMarks(const ReportView& view,
+                                 const std::vector<const ModelRecord*>& models,
+                                 const std::vector<std::string>& holdouts,
+                                 Span* span) {
+  constexpr std::array kShapes = {
+      Shape::kDot, Shape::kCircle, Shape::kSquare, Shape::kDiamond};
+  constexpr std::array kHoldoutColours = {kVermillion, kBlue, kGreen, kPurple};
+  std::vector<Series> marks;
+  for (std::size_t h = 0; h < holdouts.size(); ++h) {
+    Series points{.label = HoldoutLabel(view, holdouts[h]),
+                  .mark = Mark::kPoints,
+                  .columns = {{}, {}},
+                  .colour = kHoldoutColours[h],
+                  .size = 2.6,
+                  .shape = kShapes[h]};
+    for (std::size_t i = 0; i < models.size(); ++i) {
+      const double rmse = TestRmse(*models[i], holdouts[h]) * view.scale;
+      points.columns[0].push_back(rmse > 0.0 ? rmse : kAutomatic);
+      points.columns[1].push_back(static_cast<double>(i));
+      if (rmse > 0.0) span->Take(rmse);
+    }
+    if (h == 0) {
+      Series bars = Intervals(view, models, holdouts[h], kHoldoutColours[h]);
+      for (const double end : bars.columns[2]) {
+        span->low = std::min(span->low, end);
+      }
+      for (const double end : bars.columns[3]) {
+        span->high = std::max(span->high, end);
+      }
+      marks.push_back(std::move(bars));
+    }
+    marks.push_back(std::move(points));
+  }
+  return marks;
+}
+
+// A thin line joins what belongs to one model.
+Series LinksOf(const ReportView& view,
+               const std::vector<const ModelRecord*>& models,
+               const std::vector<std::string>& holdouts) {
+  Series links{.mark = Mark::kLine, .columns = {{}, {}}, .colour = "#AAAAAA"};
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    for (const std::string& holdout : holdouts) {
+      links.columns[0].push_back(TestRmse(*models[i], holdout) * view.scale);
+      links.columns[1].push_back(static_cast<double>(i));
+    }
+    links.columns[0].push_back(kAutomatic);
+    links.columns[1].push_back(kAutomatic);
+  }
+  return links;
+}
+
+// A row per model, the best on top.
+void NameRows(const std::vector<const ModelRecord*>& models, Plot* plot) {
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    plot->y.names.emplace_back(Shortened(models[i]->name, kNameLength),
+                               static_cast<double>(i));
+  }
+  plot->y.quantity = "model";
+  plot->y.low = static_cast<double>(models.size()) - 0.5;
+  plot->y.high = -0.5;
+  plot->width = 450;
+  constexpr int kFrame = 60;
+  constexpr int kRow = 19;
+  plot->height = kFrame + kRow * static_cast<int>(models.size());
+}
+
+}  // namespace
+
+Figure GapFigure(const ReportView& view, const std::string& prefix) {
+  Figure figure;
+  figure.place = FigurePlace::kAnswer;
+  figure.title = "Error on rows never seen, by model";
+  figure.plot.name = prefix + "gap";
+  std::vector<const ModelRecord*> models;
+  for (const ModelRecord* model : view.models) {
+    if (std::ranges::any_of(view.holdouts, [&](const std::string& holdout) {
+          return std::isfinite(TestRmse(*model, holdout));
+        })) {
+      models.push_back(model);
+    }
+  }
+  if (models.empty()) {
+    figure.missing = "No model has an error on held-out rows.";
+    return figure;
+  }
+  const std::vector<std::string> holdouts = ShownHoldouts(view);
+  Plot& plot = figure.plot;
+  Span span;
+  std::vector<Series> marks = HoldoutMarks(view, models, holdouts, &span);
+  plot.series.push_back(LinksOf(view, models, holdouts));
+  for (Series& series : marks) plot.series.push_back(std::move(series));
+  AddGoal(view, static_cast<double>(models.size()), &plot);
+  plot.x = {.quantity = "RMSE on held-out rows", .unit = view.shown_unit};
+  if (SpansDecades(span.low, span.high)) {
+    const double goal = view.component->goal * view.scale;
+    if (goal > 0.0) span.Take(goal);
+    MakeLogarithmic(span.low, span.high, &plot.x);
+  } else {
+    plot.x.low = 0.0;
+  }
+  NameRows(models, &plot);
+  figure.note =
+      view.decisive_is_unseen
+          ? "What counts is the filled dot; an open one far left of it was "
+            "flattered by knowing the neighbours. Bars: 95 % intervals."
+          : "Further left is better. Bars: 95 % intervals.";
+  figure.description = GapWords(view, holdouts);
+  return figure;
+}
+
+std::vector<Figure> TrainingFigures(const ReportView& view,
+                                    const std::string& prefix) {
+  std::vector<Figure> figures;
+  std::vector<const ModelRecord*> iterated;
+  for (const ModelRecord* model : view.models) {
+    if (model->final && model->final->summary.value.trace) {
+      iterated.push_back(model);
+    }
+  }
+  for (std::size_t first = 0; first < iterated.size();
+       first += kLineColours.size()) {
+    Figure figure;
+    figure.place = FigurePlace::kFits;
+    figure.title = "Error against iteration";
+    figure.note =
+        "The fit to all rows; sqrt(2 E) of the scaled target, penalty "
+        "included, as the report's Figures 10 to 24.";
+    figure.plot.name =
+        fmt::format("{}training-{}", prefix, 1 + first / kLineColours.size());
+    figure.plot.x = {.quantity = "iteration", .unit = "count"};
+    figure.plot.y.quantity = "sqrt(2 E), scaled";
+    figure.plot.y.logarithmic = true;
+    std::vector<std::string> words;
+    for (std::size_t i = first;
+         i < std::min(iterated.size(), first + kLineColours.size());
+         ++i) {
+      Series series{.label = Shortened(iterated[i]->name, 34),
+                    .mark = Mark::kLine,
+                    .columns = {{}, {}},
+                    .colour = kLineColours[i - first],
+                    .size = 1.8};
+      for (const auto& [iteration, rms, gradient] :
+           *iterated[i]->final->summary.value.trace) {
+        series.columns[0].push_back(static_cast<double>(iteration));
+        series.columns[1].push_back(rms > 0.0 ? rms : kAutomatic);
+      }
+      const auto& y = series.columns[1];
+      words.push_back(fmt::format("{} from {:.3g} to {:.3g} in {:.0f} steps",
+                                  iterated[i]->name,
+                                  y.front(),
+                                  y.back(),
+                                  series.columns[0].back()));
+      figure.plot.series.push_back(std::move(series));
+    }
+    figure.description =
+        fmt::format("Falling error curves: {}.", fmt::join(words, "; "));
+    figures.push_back(std::move(figure));
+  }
+  return figures;
+}
+
+std::vector<Figure> StartFigures(const ReportView& view,
+                                 const std::string& prefix) {
+  Figure figure;
+  figure.place = FigurePlace::kFits;
+  figure.title = "Spread over the starts";
+  figure.note =
+      "Each dot is one start of the fit to all rows; the chosen one is "
+      "filled.";
+  figure.plot.name = prefix + "starts";
+  figure.plot.y.quantity = "sqrt(2 E), scaled";
+  figure.plot.x.quantity = "model";
+  Series all{.label = "start",
+             .mark = Mark::kPoints,
+             .columns = {{}, {}},
+             .colour = kBlue,
+             .size = 2.0,
+             .shape = Shape::kCircle};
+  Series chosen{.label = "chosen",
+                .mark = Mark::kPoints,
+                .columns = {{}, {}},
+                .colour = kVermillion,
+                .size = 2.2};
+  std::vector<std::string> words;
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0.0;
+  for (const ModelRecord* model : view.models) {
+    if (!model->final || !model->final->starts) continue;
+    const auto at = static_cast<double>(figure.plot.x.names.size());
+    figure.plot.x.names.emplace_back(Shortened(model->name, 20), at);
+    int n = 0;
+    for (const models::StartRecord& start : model->final->starts->table) {
+      if (!(start.final_cost > 0.0)) continue;
+      const double rms = std::sqrt(2.0 * start.final_cost);
+      low = std::min(low, rms);
+      high = std::max(high, rms);
+      Series& series = start.chosen ? chosen : all;
+      // Side by side, so that equal ends do not hide each other.
+      constexpr double kStep = 0.06;
+      constexpr int kColumns = 7;
+      constexpr int kMiddle = kColumns / 2;
+      series.columns[0].push_back(at + kStep * (n % kColumns - kMiddle));
+      series.columns[1].push_back(rms);
+      ++n;
+    }
+    words.push_back(fmt::format("{}: {} starts", model->name, n));
+  }
+  if (figure.plot.x.names.empty() || !(high > 0.0)) return {};
+  figure.plot.x.low = -0.6;
+  figure.plot.x.high = static_cast<double>(figure.plot.x.names.size()) - 0.4;
+  figure.plot.y.logarithmic = SpansDecades(low, high);
+  figure.plot.series = {std::move(all), std::move(chosen)};
+  figure.description =
+      fmt::format("Final sqrt(2 E) of every start, from {:.3g} to {:.3g}: {}.",
+                  low,
+                  high,
+                  fmt::join(words, "; "));
+  return {std::move(figure)};
+}
+
+Figure CorrelationFigure(const ReportView& view, const std::string& prefix) {
+  Figure figure;
+  figure.place = FigurePlace::kData;
+  figure.title = "Correlation of inputs and target";
+  figure.plot.name = prefix + "correlation";
+  const std::vector<std::string>& names =
+      view.component->figures.correlation.columns;
+  const std::vector<std::vector<double>>& matrix =
+      view.component->figures.correlation.matrix;
+  if (names.size() < 2 || matrix.size() != names.size()) {
+    figure.missing = names.empty() ? "results.json holds no correlations."
+                                   : "There are no two columns to correlate.";
+    return figure;
+  }
+  Series cells{.mark = Mark::kCells, .columns = {{}, {}, {}, {}, {}}};
+  double strongest = 0.0;
+  std::string pair;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::vector<double>& row = matrix[i];
+    for (std::size_t j = 0; j < row.size() && j < names.size(); ++j) {
+      cells.columns[0].push_back(static_cast<double>(j));
+      cells.columns[1].push_back(static_cast<double>(i));
+      cells.columns[2].push_back(0.5);
+      cells.columns[3].push_back(0.5);
+      cells.columns[4].push_back(row[j]);
+      if (j < i && std::abs(row[j]) > strongest) {
+        strongest = std::abs(row[j]);
+        pair = names[j] + " and " + names[i];
+      }
+    }
+    constexpr std::size_t kMostTics = 45;
+    if (names.size() <= kMostTics || i % 2 == 0) {
+      const std::string label = Shortened(names[i], 18);
+      figure.plot.x.names.emplace_back(label, static_cast<double>(i));
+      figure.plot.y.names.emplace_back(label, static_cast<double>(i));
+    }
+  }
+  const auto n = static_cast<double>(names.size());
+  constexpr int kFrame = 150;
+  constexpr int kCell = 13;
+  const int cell = names.size() > 12 ? kCell : 3 * kCell;
+  figure.plot.width = kFrame + 90 + cell * static_cast<int>(names.size());
+  figure.plot.height = kFrame + cell * static_cast<int>(names.size());
+  figure.plot.x.quantity = "column";
+  figure.plot.x.low = -0.5;
+  figure.plot.x.high = n - 0.5;
+  figure.plot.y.quantity = "column";
+  figure.plot.y.low = n - 0.5;
+  figure.plot.y.high = -0.5;
+  figure.plot.colour = {.quantity = "Pearson correlation", .high = 1.0};
+  figure.plot.series = {std::move(cells)};
+  figure.note =
+      "Columns near 1 or -1 say the same: a map needs one of them only.";
+  figure.description = fmt::format(
+      "Map of the correlations of {} columns; the strongest is {:.3f} in size, "
+      "of {}.",
+      names.size(),
+      strongest,
+      pair);
+  return figure;
+}
+
+}  // namespace errmap::report

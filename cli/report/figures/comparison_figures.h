@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/report/figures/figures.h"
+#include "cli/report/report_view.h"
+
+namespace errmap::report {
+
+/// Error of every model under each hold-out: the picture that decides.
+Figure GapFigure(const ReportView& view, const std::string& prefix);
+
+/// sqrt(2 E) against the iteration of every net (the report's Figures 10-24),
+/// a few nets to a figure; empty where no model iterates.
+std::vector<Figure> TrainingFigures(const ReportView& view,
+                                    const std::string& prefix);
+
+/// Final cost of every start of nets with several; empty where there is none.
+std::vector<Figure> StartFigures(const ReportView& view,
+                                 const std::string& prefix);
+
+/// Correlation of inputs and target.
+Figure CorrelationFigure(const ReportView& view, const std::string& prefix);
+
+}  // namespace errmap::report

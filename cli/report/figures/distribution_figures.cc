@@ -1,0 +1,217 @@
+#include "cli/report/figures/distribution_figures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Core>
+#include <fmt/format.h>
+
+#include "stats/distributions.h"
+#include "stats/normality/probability_plot.h"
+#include "stats/summary.h"
+
+namespace errmap::report {
+namespace {
+
+constexpr std::size_t kFewestForShape = 8;
+
+Eigen::VectorXd Sorted(const std::vector<double>& values) {
+  Eigen::VectorXd sorted = Eigen::Map<const Eigen::VectorXd>(
+      values.data(), static_cast<Eigen::Index>(values.size()));
+  std::sort(sorted.begin(), sorted.end());
+  return sorted;
+}
+
+std::vector<double> ListOf(const Eigen::VectorXd& values) {
+  return {values.begin(), values.end()};
+}
+
+// "" where the residuals can be standardised.
+std::string WhyNoShape(const HeldOutRows& rows) {
+  if (!rows.missing.empty()) return rows.missing;
+  if (rows.residual.size() < kFewestForShape) return "Too few residuals.";
+  const auto [low, high] =
+      std::minmax_element(rows.residual.begin(), rows.residual.end());
+  return *low < *high ? "" : "All residuals are equal.";
+}
+
+}  // namespace
+
+Figure HistogramFigure(const ResidualContext& context) {
+  Figure figure =
+      BeginFigure(context, "histogram", "histogram and normal curve");
+  const HeldOutRows& rows = context.rows;
+  if (figure.missing.empty() && rows.residual.size() < kFewestForShape) {
+    figure.missing = "Too few residuals for a histogram.";
+  }
+  if (!figure.missing.empty()) return figure;
+  const Eigen::VectorXd sorted = Sorted(rows.residual);
+  const stats::Histogram histogram = stats::MakeHistogram(sorted, 0);
+  Series bars{.mark = Mark::kBars, .columns = {{}, {}, {}}, .colour = kBlue};
+  for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
+    bars.columns[0].push_back(histogram.low +
+                              (static_cast<double>(i) + 0.5) * histogram.width);
+    bars.columns[1].push_back(static_cast<double>(histogram.counts[i]));
+    bars.columns[2].push_back(histogram.width);
+  }
+  const double mean = sorted.mean();
+  const double sd = stats::Summarize(sorted).sd;
+  Series curve{.label = "normal, same mean and sd",
+               .mark = Mark::kLine,
+               .columns = {{}, {}},
+               .colour = kVermillion,
+               .size = 2.0};
+  constexpr int kCurvePoints = 81;
+  constexpr double kReach = 3.5;
+  constexpr double kRootTwoPi = 2.5066282746310002;
+  for (int i = 0; i < kCurvePoints && sd > 0.0; ++i) {
+    const double z = kReach * (2.0 * i / (kCurvePoints - 1) - 1.0);
+    curve.columns[0].push_back(mean + z * sd);
+    curve.columns[1].push_back(static_cast<double>(sorted.size()) *
+                               histogram.width / sd / kRootTwoPi *
+                               std::exp(-0.5 * z * z));
+  }
+  figure.note = "Figure 11 of the report of 1995.";
+  figure.plot.x = ResidualAxis(context.view);
+  figure.plot.y = {.quantity = "count", .unit = "rows"};
+  figure.plot.y.low = 0.0;
+  figure.plot.series = {bars, curve};
+  figure.description = fmt::format(
+      "Histogram of {} bins with a normal curve of mean {} and sd {}: {}.",
+      histogram.counts.size(),
+      Plain(mean),
+      Plain(sd),
+      SpreadWords(context));
+  return figure;
+}
+
+Figure NormalPlotFigure(const ResidualContext& context) {
+  Figure figure = BeginFigure(context, "normal", "normal probability plot");
+  figure.missing = WhyNoShape(context.rows);
+  if (!figure.missing.empty()) return figure;
+  const Eigen::VectorXd sorted = Sorted(context.rows.residual);
+  const Eigen::VectorXd medians = stats::NormalMedians(sorted.size());
+  const double mean = sorted.mean();
+  const double sd = stats::Summarize(sorted).sd;
+  const std::vector<double> x = ListOf(medians);
+  figure.note =
+      "Figure 7 of the report of 1995: normal residuals lie on the line (same "
+      "mean and sd).";
+  figure.plot.x = {.quantity = "normal order statistic median",
+                   .unit = "standard deviations"};
+  figure.plot.y = {.quantity = "ordered residual",
+                   .unit = context.view.shown_unit};
+  figure.plot.series = {
+      {.mark = Mark::kLine,
+       .columns = {{x.front(), x.back()},
+                   {mean + sd * x.front(), mean + sd * x.back()}},
+       .colour = kVermillion,
+       .size = 1.8},
+      Points(x, ListOf(sorted))};
+  figure.description = fmt::format(
+      "Ordered residuals against normal medians, correlation {:.4f}: {}.",
+      stats::PlotCorrelation(sorted, medians),
+      SpreadWords(context));
+  return figure;
+}
+
+Figure PpccFigure(const ResidualContext& context) {
+  Figure figure = BeginFigure(context, "ppcc", "Tukey lambda PPCC plot");
+  figure.missing = WhyNoShape(context.rows);
+  if (!figure.missing.empty()) return figure;
+  const Eigen::VectorXd sorted = Sorted(context.rows.residual);
+  const stats::TukeyPpcc curve = stats::TukeyPlot(sorted.size()).Curve(sorted);
+  figure.note = fmt::format(
+      "Figure 8 of the report of 1995: highest at lambda {:.2f} (r {:.4f}); a "
+      "normal sample is highest near 0.14.",
+      curve.best_lambda,
+      curve.best_r);
+  figure.plot.x.quantity = "Tukey's lambda";
+  figure.plot.y.quantity = "probability plot correlation";
+  const double least = curve.r.minCoeff();
+  figure.plot.series = {{.label = "normal (0.14)",
+                         .mark = Mark::kLine,
+                         .columns = {{0.14, 0.14}, {least, 1.0}},
+                         .colour = kGrey,
+                         .dashed = true},
+                        {.mark = Mark::kLine,
+                         .columns = {ListOf(curve.lambda), ListOf(curve.r)},
+                         .colour = kBlue,
+                         .size = 2.0},
+                        {.label = "highest",
+                         .mark = Mark::kPoints,
+                         .columns = {{curve.best_lambda}, {curve.best_r}},
+                         .colour = kVermillion,
+                         .size = 2.0}};
+  figure.description = fmt::format(
+      "Correlation of the probability plot for 81 values of lambda from -2 to "
+      "2; maximum {:.4f} at lambda {:.2f}.",
+      curve.best_r,
+      curve.best_lambda);
+  return figure;
+}
+
+Figure EcdfFigure(const ResidualContext& context) {
+  Figure figure =
+      BeginFigure(context, "ecdf", "distribution against the normal");
+  figure.missing = WhyNoShape(context.rows);
+  if (!figure.missing.empty()) return figure;
+  const Eigen::VectorXd sorted = Sorted(context.rows.residual);
+  const double mean = sorted.mean();
+  const double sd = stats::Summarize(sorted).sd;
+  const auto n = static_cast<double>(sorted.size());
+  std::vector<double> x;
+  std::vector<double> y;
+  double distance = 0.0;
+  double place = 0.0;
+  for (Eigen::Index i = 0; i < sorted.size(); ++i) {
+    const double below = static_cast<double>(i) / n;
+    const double above = static_cast<double>(i + 1) / n;
+    const double normal = stats::NormalCdf((sorted[i] - mean) / sd);
+    const double here =
+        std::max(std::abs(normal - below), std::abs(normal - above));
+    if (here > distance) {
+      distance = here;
+      place = sorted[i];
+    }
+    x.insert(x.end(), {sorted[i], sorted[i]});
+    y.insert(y.end(), {below, above});
+  }
+  Series curve{.label = "normal, same mean and sd",
+               .mark = Mark::kLine,
+               .columns = {{}, {}},
+               .colour = kVermillion,
+               .size = 1.8};
+  constexpr int kCurvePoints = 81;
+  for (int i = 0; i < kCurvePoints; ++i) {
+    const double at = sorted[0] + (sorted[sorted.size() - 1] - sorted[0]) * i /
+                                      (kCurvePoints - 1);
+    curve.columns[0].push_back(at);
+    curve.columns[1].push_back(stats::NormalCdf((at - mean) / sd));
+  }
+  figure.note =
+      "The Kolmogorov-Smirnov distance is the largest gap between the two; the "
+      "grey line marks its place.";
+  figure.plot.x = ResidualAxis(context.view);
+  figure.plot.y = {.quantity = "share of rows", .unit = "fraction"};
+  figure.plot.y.low = 0.0;
+  figure.plot.y.high = 1.0;
+  figure.plot.series = {{.mark = Mark::kLine,
+                         .columns = {{place, place}, {0.0, 1.0}},
+                         .colour = kGrey,
+                         .dashed = true},
+                        curve,
+                        {.label = "residuals",
+                         .mark = Mark::kLine,
+                         .columns = {std::move(x), std::move(y)},
+                         .colour = kBlue,
+                         .size = 1.6}};
+  figure.description = fmt::format(
+      "Empirical distribution against the normal one; largest gap {:.4f} at "
+      "{}.",
+      distance,
+      WithUnit(Plain(place), context.view.shown_unit));
+  return figure;
+}
+
+}  // namespace errmap::report

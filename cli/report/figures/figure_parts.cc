@@ -1,0 +1,85 @@
+#include "cli/report/figures/figure_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace errmap::report {
+
+bool SpansDecades(double low, double high) {
+  constexpr double kManyTimes = 15.0;
+  return low > 0.0 && high > kManyTimes * low;
+}
+
+Figure BeginFigure(const ResidualContext& context,
+                   const std::string& kind,
+                   const std::string& title) {
+  Figure figure;
+  figure.place = FigurePlace::kResiduals;
+  figure.subject = context.model;
+  figure.title = title;
+  figure.plot.name = context.prefix + kind;
+  figure.missing = context.rows.missing;
+  return figure;
+}
+
+std::string SpreadWords(const ResidualContext& context) {
+  const auto [low, high] = std::minmax_element(context.rows.residual.begin(),
+                                               context.rows.residual.end());
+  return fmt::format(
+      "residuals of {} held-out rows from {} to {}, mean {}",
+      context.rows.residual.size(),
+      Plain(*low),
+      Plain(*high),
+      WithUnit(Plain(MeanOf(context.rows.residual)), context.view.shown_unit));
+}
+
+std::string Plain(double value) { return fmt::format("{:.3g}", value); }
+
+double MeanOf(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) /
+         static_cast<double>(values.size());
+}
+
+double RmsOf(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+std::size_t PositionIndex(const ReportView& view) {
+  const models::FiguresRecord& figures = view.component->figures;
+  for (std::size_t i = 0; i < figures.inputs.size(); ++i) {
+    if (figures.inputs[i].name == figures.position) return i;
+  }
+  return std::string::npos;
+}
+
+Axis InputAxis(const ReportView& view, std::size_t index, std::size_t most) {
+  const models::FigureInputRecord& input =
+      view.component->figures.inputs[index];
+  return {.quantity = Shortened(input.name, most),
+          .unit = PrettyUnit(input.unit)};
+}
+
+Axis ResidualAxis(const ReportView& view) {
+  return {.quantity = "residual", .unit = view.shown_unit};
+}
+
+Series Points(std::vector<double> x, std::vector<double> y) {
+  return {.mark = Mark::kPoints,
+          .columns = {std::move(x), std::move(y)},
+          .colour = kBlue};
+}
+
+Series ZeroLine(const std::vector<double>& x) {
+  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  return {.mark = Mark::kLine,
+          .columns = {{*low, *high}, {0.0, 0.0}},
+          .colour = kGrey};
+}
+
+}  // namespace errmap::report

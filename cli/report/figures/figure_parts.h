@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "cli/report/figures/figures.h"
+#include "cli/report/figures/held_out_rows.h"
+#include "cli/report/report_view.h"
+
+namespace errmap::report {
+
+// Okabe and Ito's colours (2008), told apart in every kind of colour vision.
+inline constexpr const char* kBlue = "#0072B2";
+inline constexpr const char* kVermillion = "#D55E00";
+inline constexpr const char* kGreen = "#009E73";
+inline constexpr const char* kPurple = "#CC79A7";
+inline constexpr const char* kOrange = "#E69F00";
+inline constexpr const char* kBlack = "#000000";
+inline constexpr const char* kGrey = "#666666";
+/// For lines on white, one after another.
+inline constexpr std::array kLineColours = {
+    kBlue, kVermillion, kGreen, kPurple, kOrange, kBlack};
+
+/// Error bars and lines from low to high need a logarithmic axis.
+bool SpansDecades(double low, double high);
+
+/// Everything the figures of one model's residuals share.
+struct ResidualContext {
+  const ReportView& view;
+  const HeldOutRows& rows;
+  std::string model;
+  std::string prefix;  // of the names of their files
+};
+
+/// A figure without its plot, which is missing where the rows are.
+Figure BeginFigure(const ResidualContext& context,
+                   const std::string& kind,
+                   const std::string& title);
+
+/// "residuals of 30 held-out rows from -1 to 1.2, mean 0.1 µm".
+std::string SpreadWords(const ResidualContext& context);
+
+/// Three digits.
+std::string Plain(double value);
+
+double MeanOf(const std::vector<double>& values);
+double RmsOf(const std::vector<double>& values);
+
+/// Index of the position among the inputs of the figures' rows; npos: none.
+std::size_t PositionIndex(const ReportView& view);
+
+/// Of an input, its name in at most `most` characters.
+Axis InputAxis(const ReportView& view, std::size_t index, std::size_t most);
+
+Axis ResidualAxis(const ReportView& view);
+
+Series Points(std::vector<double> x, std::vector<double> y);
+
+/// y = 0 from the lowest to the highest x.
+Series ZeroLine(const std::vector<double>& x);
+
+}  // namespace errmap::report

@@ -1,0 +1,165 @@
+#include "cli/report/figures/figures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cli/report/figures/comparison_figures.h"
+#include "cli/report/figures/compensation_figures.h"
+#include "cli/report/figures/machine_figures.h"
+#include "cli/report/figures/residual_figures.h"
+#include "cli/report/figures/sensor_figures.h"
+#include "cli/report/figures/svg.h"
+
+namespace errmap::report {
+namespace {
+
+constexpr std::size_t kFewComponents = 6;
+
+void Append(std::vector<Figure> more, std::vector<Figure>* figures) {
+  for (Figure& figure : more) figures->push_back(std::move(figure));
+}
+
+// One scale for pictures that are to be compared.
+void ShareScales(std::vector<Figure>* figures) {
+  double most = 0.0;
+  for (const Figure& figure : *figures) {
+    for (const Series& series : figure.plot.series) {
+      for (const double y : series.columns[1]) {
+        if (std::isfinite(y)) most = std::max(most, std::abs(y));
+      }
+    }
+  }
+  for (Figure& figure : *figures) {
+    if (!(most > 0.0)) break;
+    figure.plot.y.low = -most;
+    figure.plot.y.high = most;
+  }
+}
+
+void MarkEmpty(std::vector<Figure>* figures) {
+  for (Figure& figure : *figures) {
+    if (figure.missing.empty() && !HasPoints(figure.plot)) {
+      figure.missing = "There is no finite value to draw.";
+    }
+  }
+}
+
+std::vector<Figure> FiguresOf(const ReportView& view,
+                              const std::string& prefix,
+                              FigureDetail detail) {
+  const bool brief = detail == FigureDetail::kBrief;
+  const bool everything = detail == FigureDetail::kEverything;
+  const bool whole = everything || detail == FigureDetail::kFull;
+  constexpr std::size_t kMostInputs = 12;
+  constexpr std::size_t kEveryInput = 1000;
+  std::vector<Figure> figures{GapFigure(view, prefix)};
+  if (!brief) Append(OverTimeFigures(view, prefix), &figures);
+  Append(BeforeAndAfterFigures(view, prefix), &figures);
+  Append(UnitFigures(view, prefix), &figures);
+  if (!brief) {
+    Append(CostFigures(view, prefix), &figures);
+    Append(SurfaceFigures(view, prefix), &figures);
+    Append(ImportanceFigures(view, prefix), &figures);
+    Append(TrainingResidualFigures(view, prefix), &figures);
+  }
+  if (!brief && !view.recommended.empty() && !view.decisive.empty()) {
+    Append(ResidualFigures(view,
+                           view.recommended,
+                           view.decisive,
+                           prefix + "best-",
+                           !whole,
+                           everything ? kEveryInput : kMostInputs),
+           &figures);
+  }
+  if (whole && !view.rival.empty()) {
+    Append(ResidualFigures(view,
+                           view.rival,
+                           view.decisive,
+                           prefix + "rival-",
+                           false,
+                           everything ? kEveryInput : 0),
+           &figures);
+  }
+  if (whole) {
+    constexpr std::size_t kMostModels = 24;
+    std::vector<Figure> small;
+    for (std::size_t i = 0;
+         i < std::min(view.models.size(), everything ? 1000 : kMostModels);
+         ++i) {
+      const std::string& name = view.models[i]->name;
+      if (!std::isfinite(TestRmse(*view.models[i], view.decisive))) continue;
+      small.push_back(SmallResidualFigure(
+          view, name, view.decisive, fmt::format("{}model-{}", prefix, i + 1)));
+    }
+    ShareScales(&small);
+    Append(std::move(small), &figures);
+    Append(TrainingFigures(view, prefix), &figures);
+    Append(StartFigures(view, prefix), &figures);
+    figures.push_back(CorrelationFigure(view, prefix));
+  }
+  MarkEmpty(&figures);
+  return figures;
+}
+
+// Those that there are data for.
+std::vector<const Figure*> Drawn(const FigureSet& figures) {
+  std::vector<const Figure*> drawn;
+  const auto add = [&](const std::vector<Figure>& more) {
+    for (const Figure& figure : more) {
+      if (figure.missing.empty()) drawn.push_back(&figure);
+    }
+  };
+  for (const ComponentFigures& component : figures.components) {
+    add(component.figures);
+  }
+  add(figures.machine);
+  return drawn;
+}
+
+}  // namespace
+
+FigureSet MakeFigures(const models::StudyRecord& record, bool everything) {
+  FigureSet set;
+  const auto& components = record.components;
+  FigureDetail detail = components.size() > kFewComponents
+                            ? FigureDetail::kBrief
+                        : components.size() > 1 ? FigureDetail::kSome
+                                                : FigureDetail::kFull;
+  if (everything) detail = FigureDetail::kEverything;
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    const ReportView view = ViewOf(components[i]);
+    ComponentFigures figures{.detail = detail, .figures = {}};
+    figures.figures = FiguresOf(view, fmt::format("c{}-", i + 1), detail);
+    set.components.push_back(std::move(figures));
+  }
+  if (record.machine) {
+    set.machine = MachineFigures(*record.machine);
+    MarkEmpty(&set.machine);
+  }
+  return set;
+}
+
+std::string FigureSvg(const Figure& figure) {
+  return Svg(figure.plot,
+             figure.subject.empty() ? figure.title
+                                    : figure.subject + ": " + figure.title,
+             figure.description);
+}
+
+std::vector<ReportFile> FigureFiles(const FigureSet& figures,
+                                    ImageFormat format) {
+  std::vector<ReportFile> files;
+  for (const Figure* figure : Drawn(figures)) {
+    const std::string& name = figure->plot.name;
+    files.push_back({name + ".svg", SvgFile(FigureSvg(*figure))});
+    files.push_back({name + ".gp",
+                     PlotScript(figure->plot,
+                                format,
+                                fmt::format("{}.{}", name, ToString(format)))});
+  }
+  return files;
+}
+
+}  // namespace errmap::report

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/report/plot.h"
+
+namespace errmap::report {
+
+/// A mark at an axis and what is written beside it.
+struct Tic {
+  double at = 0.0;
+  std::string text;
+};
+
+/// Pixels along the axis that a tic's text needs.
+using TicRoom = double (*)(const Tic&);
+
+/// Lowest and highest value along an axis, with what marks reach beyond it.
+std::pair<double, double> Ends(const Plot& plot, bool along_x);
+
+/// From values of one axis to pixels from `from` to `to`.
+class Scale {
+ public:
+  /// `ends` are the lowest and highest value that must be seen.
+  Scale(const Axis& axis, std::pair<double, double> ends);
+
+  void Span(double from, double to) {
+    from_ = from;
+    to_ = to;
+  }
+  double from() const { return from_; }
+  double to() const { return to_; }
+
+  double operator()(double value) const {
+    return from_ + (Place(value) - low_) / (high_ - low_) * (to_ - from_);
+  }
+
+  /// Round numbers, as many as find room.
+  std::vector<Tic> Tics(TicRoom room) const;
+
+  bool StandApart(const std::vector<Tic>& tics, TicRoom room) const;
+
+ private:
+  bool logarithmic_;
+  double low_ = 0.0;
+  double high_ = 1.0;
+  double from_ = 0.0;
+  double to_ = 1.0;
+
+  double Place(double value) const;
+  double Value(double place) const;
+};
+
+}  // namespace errmap::report

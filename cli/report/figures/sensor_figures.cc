@@ -1,0 +1,179 @@
+#include "cli/report/figures/sensor_figures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/report/figures/figure_parts.h"
+
+namespace errmap::report {
+namespace {
+
+constexpr std::size_t kMostAlone = 12;
+constexpr std::size_t kMostTogether = 5;
+
+using Without = models::WithoutSensorsRecord;
+
+// "all 27 sensors", "t1 and t2", "t1 and 3 alike", "t1".
+std::string Label(const Without& without, std::size_t all) {
+  constexpr std::size_t kMost = 30;
+  constexpr std::size_t kRoomBeside = 12;
+  const std::vector<std::string>& sensors = without.sensors;
+  if (sensors.size() == 1) return Shortened(sensors.front(), kMost);
+  if (sensors.size() == all) return fmt::format("all {} sensors", all);
+  return fmt::format("{} and {} alike",
+                     Shortened(sensors.front(), kMost - kRoomBeside),
+                     sensors.size() - 1);
+}
+
+// One row of the picture: from the error with every sensor to that without.
+void AddRow(const ReportView& view,
+            const models::ImportanceRecord& importance,
+            const Without& without,
+            bool together,
+            Plot* plot) {
+  const auto row = static_cast<double>(plot->y.names.size());
+  plot->y.names.emplace_back(Label(without, importance.one_by_one.size()), row);
+  const double with = importance.rmse * view.scale;
+  const double left = without.rmse * view.scale;
+  Series& line = plot->series[together ? 0 : 1];
+  line.columns[0].push_back(left);
+  line.columns[1].push_back(row);
+  line.columns[2].push_back(std::min(with, left));
+  line.columns[3].push_back(std::max(with, left));
+  Series& dot = plot->series[together ? 2 : 3];
+  dot.columns[0].push_back(left);
+  dot.columns[1].push_back(row);
+}
+
+Series Lines(const char* colour) {
+  return {.mark = Mark::kSpan,
+          .columns = {{}, {}, {}, {}},
+          .colour = colour,
+          .size = 3.0};
+}
+
+Series Dots(const char* label, const char* colour, Shape shape) {
+  return {.label = label,
+          .mark = Mark::kPoints,
+          .columns = {{}, {}},
+          .colour = colour,
+          .size = 2.6,
+          .shape = shape};
+}
+
+std::string Words(const ErrorText& error, const Without& without) {
+  return fmt::format("without {} {}",
+                     fmt::join(without.sensors, ", "),
+                     error.WithUnit(without.rmse));
+}
+
+// What all sensors bring may be many times what one of them does.
+Axis ErrorAxis(const ReportView& view,
+               const models::ImportanceRecord& importance) {
+  constexpr double kMargin = 1.25;
+  Axis axis{.quantity = "RMSE on held-out rows", .unit = view.shown_unit};
+  double low = importance.rmse;
+  double high = importance.rmse;
+  for (const auto* list : {&importance.one_by_one, &importance.together}) {
+    for (const Without& without : *list) {
+      low = std::min(low, without.rmse);
+      high = std::max(high, without.rmse);
+    }
+  }
+  axis.logarithmic = SpansDecades(low, high);
+  axis.low = axis.logarithmic ? low * view.scale / kMargin : 0.0;
+  if (axis.logarithmic) axis.high = high * view.scale * kMargin;
+  return axis;
+}
+
+std::string Note(const models::ImportanceRecord& importance) {
+  std::string note =
+      "Nothing is fitted anew: in a sensor's place the map reads what its "
+      "others say of it.";
+  if (!importance.together.empty()) {
+    note += fmt::format(
+        " Sensors that are alike (correlation {:g} or more) stand in for one "
+        "another: needless one by one is not needless together.",
+        importance.alike);
+  }
+  if (importance.one_by_one.size() > kMostAlone) {
+    note += fmt::format(" {} more cost less than those shown.",
+                        importance.one_by_one.size() - kMostAlone);
+  }
+  return note;
+}
+
+}  // namespace
+
+std::vector<Figure> ImportanceFigures(const ReportView& view,
+                                      const std::string& prefix) {
+  const auto& advice = view.component->recommendation;
+  if (!advice || !advice->importance) return {};
+  const models::ImportanceRecord& importance = *advice->importance;
+  if (importance.one_by_one.empty() || !std::isfinite(importance.rmse)) {
+    return {};
+  }
+  Figure figure;
+  figure.place = FigurePlace::kSensors;
+  figure.title = "What the error would be without a sensor";
+  figure.plot.name = prefix + "importance";
+  Plot& plot = figure.plot;
+  plot.series = {Lines(kVermillion),
+                 Lines(kBlue),
+                 Dots("several", kVermillion, Shape::kDiamond),
+                 Dots("one sensor", kBlue, Shape::kDot)};
+  std::vector<Without> together = importance.together;
+  std::stable_sort(
+      together.begin(), together.end(), [](const Without& a, const Without& b) {
+        return a.rmse > b.rmse;
+      });
+  together.resize(std::min(together.size(), kMostTogether));
+  for (const Without& without : together) {
+    AddRow(view, importance, without, true, &plot);
+  }
+  for (std::size_t i = 0;
+       i < std::min(importance.one_by_one.size(), kMostAlone);
+       ++i) {
+    AddRow(view, importance, importance.one_by_one[i], false, &plot);
+  }
+  const auto rows = static_cast<double>(plot.y.names.size());
+  const double with = importance.rmse * view.scale;
+  const ErrorText error = ErrorTextOf(view);
+  plot.series.push_back(
+      {.label = "every sensor: " + error.WithUnit(importance.rmse),
+       .mark = Mark::kLine,
+       .columns = {{with, with}, {-0.5, rows - 0.5}},
+       .colour = kBlack,
+       .size = 1.5,
+       .dashed = true});
+  plot.x = ErrorAxis(view, importance);
+  plot.y.quantity = "taken away";
+  plot.y.low = rows - 0.5;
+  plot.y.high = -0.5;
+  plot.width = 560;
+  constexpr int kFrame = 60;
+  constexpr int kRow = 19;
+  constexpr int kLeast = 150;  // the words along the axis need it
+  plot.height =
+      std::max(kLeast, kFrame + kRow * static_cast<int>(plot.y.names.size()));
+  std::erase_if(plot.series, [](const Series& series) {
+    return series.columns.front().empty();
+  });
+  figure.note = Note(importance);
+  std::vector<std::string> words;
+  for (const Without& without : together) {
+    words.push_back(Words(error, without));
+  }
+  for (const Without& without : importance.one_by_one) {
+    words.push_back(Words(error, without));
+  }
+  figure.description = fmt::format("Held-out error {} with every sensor; {}.",
+                                   error.WithUnit(importance.rmse),
+                                   fmt::join(words, "; "));
+  return {std::move(figure)};
+}
+
+}  // namespace errmap::report

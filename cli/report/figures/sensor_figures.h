@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/report/figures/figures.h"
+#include "cli/report/report_view.h"
+
+namespace errmap::report {
+
+/// Held-out error of the recommended map without each of its sensors, and
+/// without those that are alike; none where the record has nothing of it.
+std::vector<Figure> ImportanceFigures(const ReportView& view,
+                                      const std::string& prefix);
+
+}  // namespace errmap::report

@@ -1,0 +1,125 @@
+#include "cli/report/learning_words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/report/number_text.h"
+#include "data/text.h"
+#include "models/promise/sensor_curve.h"
+
+namespace errmap::report {
+namespace {
+
+std::string GoalWords(const models::LearningCurvesRecord& curves,
+                      const models::LearningLawRecord& law,
+                      const ErrorText& error) {
+  constexpr double kSure = 0.9;
+  constexpr double kTooMany = 20.0;
+  const double never = law.never_reaches_goal;
+  const std::string wanted = error.WithUnit(curves.goal);
+  if (never >= kSure) {
+    return fmt::format(
+        "{} is not reached however many are measured ({:.0f} % "
+        "sure)",
+        wanted,
+        kPercent * never);
+  }
+  const auto [low, median, high] = *law.units_for_goal;
+  const auto have = static_cast<double>(curves.units);
+  if (median <= have) {
+    return fmt::format(
+        "{} is reached with about {:.0f} of the {:.0f}", wanted, median, have);
+  }
+  if (!(median <= kTooMany * have)) {
+    return fmt::format("{} is hardly reached: the floor of the law is {} to {}",
+                       wanted,
+                       error(law.floor[0]),
+                       error.WithUnit(law.floor[2]));
+  }
+  return fmt::format(
+      "about {:.0f} more to reach {} ({:.0f} at least{}; {:.0f} "
+      "% that it is never reached)",
+      median - have,
+      wanted,
+      std::max(0.0, low - have),
+      std::isfinite(high) ? fmt::format(", {:.0f} at most", high - have) : "",
+      kPercent * never);
+}
+
+}  // namespace
+
+std::string LawWords(const models::LearningCurvesRecord& curves,
+                     const models::LearningModelRecord& model,
+                     const ErrorText& error) {
+  if (!model.law) return "";
+  const models::QuantilesRecord& at_all = model.law->at_all_units;
+  std::string words = fmt::format("with all {}: {} expected ({} to {})",
+                                  curves.units,
+                                  error.WithUnit(at_all[1]),
+                                  error(at_all[0]),
+                                  error(at_all[2]));
+  if (std::isfinite(curves.goal) && model.law->units_for_goal) {
+    words += "; " + GoalWords(curves, *model.law, error);
+  }
+  return words;
+}
+
+std::string SensorWords(const models::SensorCurveRecord& curve,
+                        const ErrorText& error) {
+  constexpr std::size_t kMostSubstitutes = 4;
+  std::vector<std::string> sensors;
+  for (const models::ChosenSensorRecord& chosen : curve.chosen) {
+    std::vector<std::string> substitutes = chosen.substitutes;
+    substitutes.resize(std::min(kMostSubstitutes, substitutes.size()));
+    sensors.push_back(substitutes.empty()
+                          ? chosen.sensor
+                          : fmt::format("{} (or {})",
+                                        chosen.sensor,
+                                        fmt::join(substitutes, ", ")));
+  }
+  const auto number = static_cast<std::int64_t>(curve.chosen.size());
+  const auto point = std::ranges::find(
+      curve.points, number, &models::SensorPointRecord::sensors);
+  return fmt::format(
+      "{}: {} with {}, {} with all{}{}.",
+      curve.enough
+          ? fmt::format("{} of {} sensors do it, within {:.0f} % of all",
+                        *curve.enough,
+                        curve.all.sensors,
+                        kPercent * (models::SensorCurve::kTolerance - 1.0))
+          : fmt::format("No choice of {} sensors does as well as all {}",
+                        number,
+                        curve.all.sensors),
+      point == curve.points.end() ? "not known" : error.WithUnit(point->rmse),
+      number == 1 ? "it" : "them",
+      error.WithUnit(curve.all.rmse),
+      sensors.empty() ? "" : ". ",
+      data::Printable(fmt::format("{}", fmt::join(sensors, ", ")),
+                      std::string::npos));
+}
+
+ErrorText ErrorTextOf(const models::LearningCurvesRecord& curves,
+                      const data::Unit& unit) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const models::LearningModelRecord& model : curves.models) {
+    for (const auto& point : model.points) {
+      smallest = std::min(smallest, point.rmse);
+    }
+  }
+  return {unit, std::isfinite(smallest) ? smallest : 1.0};
+}
+
+ErrorText ErrorTextOf(const models::SensorCurveRecord& curve,
+                      const data::Unit& unit) {
+  double smallest = curve.all.rmse;
+  for (const auto& point : curve.points) {
+    smallest = std::min(smallest, point.rmse);
+  }
+  return {unit, smallest};
+}
+
+}  // namespace errmap::report

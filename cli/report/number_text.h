@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+
+#include "data/units.h"
+
+namespace errmap::report {
+
+inline constexpr double kPercent = 100.0;
+
+/// Writes errors for people: in the unit's display unit, all with the same
+/// number of decimals.
+class ErrorText {
+ public:
+  /// Three significant digits of `smallest`, the smallest error that matters
+  /// (in `unit`), decide the decimals.
+  ErrorText(const data::Unit& unit, double smallest);
+
+  /// "0.938"; "n/a" where not finite; "1.2e+07" where the decimals mean
+  /// nothing any more.
+  std::string operator()(double value) const;
+  /// "0.938 um".
+  std::string WithUnit(double value) const;
+  const std::string& symbol() const { return symbol_; }
+
+ private:
+  double scale_;
+  std::string symbol_;
+  int decimals_;
+};
+
+/// A probability in a table: "0.0123", "2.1e-06", "<1e-300"; "n/a" where there
+/// is none. Tables and sentences write p by this and the next only.
+std::string PText(double p);
+/// In a sentence: "0.012", "below 0.0001".
+std::string PWords(double p);
+
+/// "3 rows", "1 row".
+std::string Count(long long n, const std::string& noun);
+
+}  // namespace errmap::report

@@ -1,0 +1,97 @@
+#include "cli/report/plot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace errmap::report {
+namespace {
+
+std::size_t NumColumns(Mark mark) {
+  switch (mark) {
+    case Mark::kPoints:
+    case Mark::kLine:
+      return 2;
+    case Mark::kBars:
+      return 3;
+    case Mark::kSpan:
+      return 4;
+    case Mark::kCells:
+      return 5;
+  }
+  return 0;
+}
+
+void CheckColumns(const Series& series) {
+  if (series.columns.size() != NumColumns(series.mark)) {
+    throw std::invalid_argument("Plot: a series has not the columns it needs");
+  }
+  for (const std::vector<double>& column : series.columns) {
+    if (column.size() != series.columns.front().size()) {
+      throw std::invalid_argument("Plot: columns of different lengths");
+    }
+  }
+}
+
+}  // namespace
+
+std::string Axis::Label() const {
+  return names.empty() ? WithUnit(quantity, unit) : quantity;
+}
+
+double ColourLow(const Plot& plot) {
+  return plot.colour.low == 0.0 ? 0.0 : -plot.colour.high;
+}
+
+bool IsShown(const Plot& plot, const Series& series, std::size_t point) {
+  // Differences of larger ones overflow.
+  constexpr double kLargest = 1e300;
+  return std::all_of(series.columns.begin(),
+                     series.columns.end(),
+                     [&](const auto& column) {
+                       return std::abs(column[point]) < kLargest;
+                     }) &&
+         (!plot.x.logarithmic || series.columns[0][point] > 0.0) &&
+         (!plot.y.logarithmic || series.columns[1][point] > 0.0);
+}
+
+bool HasPoints(const Plot& plot, const Series& series) {
+  CheckColumns(series);
+  for (std::size_t i = 0; i < series.columns.front().size(); ++i) {
+    if (IsShown(plot, series, i)) return true;
+  }
+  return false;
+}
+
+bool HasPoints(const Plot& plot) {
+  return std::any_of(
+      plot.series.begin(), plot.series.end(), [&](const Series& series) {
+        return HasPoints(plot, series);
+      });
+}
+
+std::string WithUnit(std::string_view what, std::string_view unit) {
+  std::string text(what);
+  text += ", ";
+  text += unit.empty() ? std::string_view("no unit") : unit;
+  return text;
+}
+
+std::string Shortened(std::string_view text, std::size_t most) {
+  const auto begins = [](char c) {
+    constexpr unsigned kContinuation = 0x80;
+    constexpr unsigned kMask = 0xC0;
+    return (static_cast<unsigned char>(c) & kMask) != kContinuation;
+  };
+  std::vector<std::size_t> starts;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (begins(text[i])) starts.push_back(i);
+  }
+  if (starts.size() <= most || most < 2) return std::string(text);
+  const std::size_t front = most / 2;
+  const std::size_t back = most - front - 1;
+  return std::string(text.substr(0, starts[front])) + "…" +
+         std::string(text.substr(starts[starts.size() - back]));
+}
+
+}  // namespace errmap::report

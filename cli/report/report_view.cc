@@ -1,0 +1,170 @@
+#include "cli/report/report_view.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "data/units.h"
+
+namespace errmap::report {
+namespace {
+
+void ReadHoldouts(ReportView* view) {
+  const ComponentRecord& component = *view->component;
+  for (const models::HoldoutRecord& holdout : component.holdouts) {
+    if (!holdout.name.empty()) view->holdouts.push_back(holdout.name);
+  }
+  if (component.recommendation) {
+    view->decisive = component.recommendation->holdout;
+  }
+  if (view->decisive.empty() && !view->holdouts.empty()) {
+    view->decisive = view->holdouts.front();
+  }
+  const models::HoldoutRecord* decisive = HoldoutOf(*view, view->decisive);
+  view->decisive_is_unseen = decisive != nullptr && (decisive->whole_groups ||
+                                                     decisive->whole_sessions);
+  if (component.gap) view->neighbours = component.gap->neighbours;
+  // The recommendation may follow the neighbours, where there are no groups.
+  if (view->neighbours == view->decisive) view->neighbours.clear();
+  for (const std::string& name : view->holdouts) {
+    if (!view->neighbours.empty()) break;
+    if (name != view->decisive) view->neighbours = name;
+  }
+}
+
+// Before everything else what can be used, then by error.
+void OrderModels(ReportView* view) {
+  for (const ModelRecord& model : view->component->models) {
+    if (!model.name.empty()) view->models.push_back(&model);
+  }
+  std::stable_sort(view->models.begin(),
+                   view->models.end(),
+                   [&](const ModelRecord* a, const ModelRecord* b) {
+                     const double x = TestRmse(*a, view->decisive);
+                     const double y = TestRmse(*b, view->decisive);
+                     if (std::isfinite(x) != std::isfinite(y)) {
+                       return std::isfinite(x);
+                     }
+                     return std::isfinite(x) && x < y;
+                   });
+}
+
+std::string RivalOf(const ReportView& view) {
+  const ModelRecord* recommended = ModelOf(view, view.recommended);
+  std::string second;
+  for (const ModelRecord* model : view.models) {
+    if (model == recommended || model->kind == models::ModelKind::kBaseline ||
+        !std::isfinite(TestRmse(*model, view.decisive))) {
+      continue;
+    }
+    if (recommended == nullptr || model->kind != recommended->kind) {
+      return model->name;
+    }
+    if (second.empty()) second = model->name;
+  }
+  return second;
+}
+
+}  // namespace
+
+const models::HoldoutRecord* HoldoutOf(const ReportView& view,
+                                       const std::string& holdout) {
+  return models::FindNamed(view.component->holdouts, holdout);
+}
+
+const ModelRecord* ModelOf(const ReportView& view, const std::string& model) {
+  return models::FindNamed(view.component->models, model);
+}
+
+const ResultRecord* ResultOf(const ModelRecord& model,
+                             const std::string& holdout) {
+  return models::FindNamed(model.results, holdout);
+}
+
+const ResultRecord* ResultOf(const ReportView& view,
+                             const std::string& model,
+                             const std::string& holdout) {
+  const ModelRecord* record = ModelOf(view, model);
+  return record == nullptr ? nullptr : ResultOf(*record, holdout);
+}
+
+double TestRmse(const ModelRecord& model, const std::string& holdout) {
+  const ResultRecord* result = ResultOf(model, holdout);
+  return result == nullptr ? models::kNotKnown : result->test.rmse;
+}
+
+ReportView ViewOf(const ComponentRecord& component) {
+  ReportView view;
+  view.component = &component;
+  view.name = component.name.empty() ? "unnamed component" : component.name;
+  if (component.display.scale > 0.0) view.scale = component.display.scale;
+  view.shown_unit = PrettyUnit(component.display.unit);
+  ReadHoldouts(&view);
+  OrderModels(&view);
+  if (component.recommendation) {
+    view.recommended = component.recommendation->model;
+  }
+  view.rival = RivalOf(view);
+  return view;
+}
+
+namespace {
+
+ErrorText ErrorTextIn(const std::string& shown_unit,
+                      const ComponentRecord& component) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const ModelRecord& model : component.models) {
+    for (const auto& [holdout, result] : model.results) {
+      if (result.test.rmse > 0.0) {
+        smallest = std::min(smallest, result.test.rmse);
+      }
+    }
+  }
+  if (!std::isfinite(smallest)) smallest = component.goal;
+  return {data::Unit{.symbol = component.data.unit,
+                     .quantity = data::Quantity::kOther,
+                     .display_scale = component.display.scale,
+                     .display_symbol = shown_unit},
+          smallest};
+}
+
+}  // namespace
+
+ErrorText ErrorTextOf(const ReportView& view) {
+  return ErrorTextIn(view.shown_unit, *view.component);
+}
+
+ErrorText ErrorTextOf(const ComponentRecord& component) {
+  return ErrorTextIn(component.display.unit, component);
+}
+
+std::string PrettyUnit(const std::string& symbol) {
+  if (symbol == "um") return "µm";
+  if (symbol == "degC") return "°C";
+  if (symbol == "urad") return "µrad";
+  return symbol;
+}
+
+std::string PageWords(const std::string& sentence) {
+  std::string words;
+  for (std::size_t at = 0; at < sentence.size();) {
+    // Only what stands behind a number is a unit.
+    const bool after_number =
+        at >= 2 && sentence[at - 1] == ' ' &&
+        std::isdigit(static_cast<unsigned char>(sentence[at - 2])) != 0;
+    std::size_t end = at;
+    while (end < sentence.size() &&
+           std::isalpha(static_cast<unsigned char>(sentence[end])) != 0) {
+      ++end;
+    }
+    if (after_number && end > at) {
+      words += PrettyUnit(sentence.substr(at, end - at));
+      at = end;
+    } else {
+      words += sentence[at++];
+    }
+  }
+  return words;
+}
+
+}  // namespace errmap::report

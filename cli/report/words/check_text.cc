@@ -1,0 +1,180 @@
+#include "cli/report/words/check_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "cli/report/number_text.h"
+#include "cli/report/wrap_text.h"
+#include "data/text.h"
+
+namespace errmap::report {
+namespace {
+
+constexpr double kSecondsPerMinute = 60.0;
+
+std::string TimesText(const models::HeldOutErrors& errors,
+                      const Eigen::VectorXd& elapsed) {
+  if (errors.time_unit != "s") return "";
+  return fmt::format(", {:.0f} to {:.0f} min after the session began",
+                     elapsed.minCoeff() / kSecondsPerMinute,
+                     elapsed.maxCoeff() / kSecondsPerMinute);
+}
+
+std::string StatusText(const models::SessionCheck& check,
+                       const ErrorText& error) {
+  if (check.missing != models::Missing::kNothing) {
+    return fmt::format(
+        "Not known whether the map holds: it has a memory, and {} are missing. "
+        "Give all rows since its start, those without a probe with an empty "
+        "error, or the earlier ones with --after.\n",
+        check.missing == models::Missing::kStart
+            ? "the first rows of the session"
+            : "the readings between the probes of the session");
+  }
+  const std::string range =
+      fmt::format("its error is {} to {} RMSE with 80 % confidence",
+                  error(check.session_low),
+                  error.WithUnit(check.session_high));
+  switch (check.status) {
+    case models::SessionStatus::kHolds:
+      return fmt::format(
+          "The map holds in this session: {}, and the probability that it is "
+          "above {} is {:.0f} %.\n",
+          range,
+          error.WithUnit(models::kOffRatio * check.promised),
+          kPercent * check.off_probability);
+    case models::SessionStatus::kOff:
+      return fmt::format(
+          "The map does not hold in this session: {}, above {} with a "
+          "probability of {:.0f} %.\n",
+          range,
+          error.WithUnit(models::kOffRatio * check.promised),
+          kPercent * check.off_probability);
+    case models::SessionStatus::kUnknown:
+      return fmt::format(
+          "Not yet known whether the map holds: {}; above {} with a "
+          "probability of {:.0f} %. {}\n",
+          range,
+          error.WithUnit(models::kOffRatio * check.promised),
+          kPercent * check.off_probability,
+          check.more_probes
+              ? fmt::format("{} like these would settle it.",
+                            Count(*check.more_probes, "more probe"))
+              : "More probes like these would not settle it; take them later "
+                "or elsewhere.");
+  }
+  return "";
+}
+
+std::string RemedyText(const models::SessionCheck& check,
+                       const ErrorText& error) {
+  switch (check.remedy) {
+    case models::Remedy::kNone:
+      return "";
+    case models::Remedy::kRezero:
+      return fmt::format(
+          "An offset explains it: re-zero by {} (errmap predict --probes).\n",
+          error.WithUnit(check.probe_mean));
+    case models::Remedy::kRefit:
+      return "An offset does not explain it: the shape is wrong; measure this "
+             "state and fit again (errmap update).\n";
+    case models::Remedy::kUnknown:
+      return "One probe cannot tell an offset from a wrong shape: take a "
+             "second one elsewhere.\n";
+  }
+  return "";
+}
+
+std::string SiteText(const models::HeldOutErrors& errors,
+                     const models::ProbeSite& site) {
+  std::string text;
+  if (errors.time_unit == "s") {
+    text += fmt::format("{:.0f} to {:.0f} min after the start",
+                        site.from / kSecondsPerMinute,
+                        site.until / kSecondsPerMinute);
+  }
+  if (std::isfinite(site.position_from)) {
+    text +=
+        fmt::format("{}{} {:.4g} to {:.4g}",
+                    text.empty() ? "" : ", ",
+                    data::Printable(errors.position, errors.position.size()),
+                    site.position_from,
+                    site.position_until);
+  }
+  return text;
+}
+
+std::string SitesText(const models::HeldOutErrors& errors,
+                      const std::vector<models::ProbeSite>& sites) {
+  if (sites.size() < 2 || !std::isfinite(sites.front().factor)) return "";
+  return fmt::format(
+      "Probes tell most at {}: half of them are within a factor of {:.2g} of "
+      "the session's error.\n",
+      SiteText(errors, sites.front()),
+      sites.front().factor);
+}
+
+}  // namespace
+
+std::string CheckText(const models::SessionCheck& check,
+                      const models::HeldOutErrors& errors,
+                      const std::vector<models::ProbeSite>& sites,
+                      const Eigen::VectorXd& elapsed,
+                      const data::Unit& unit) {
+  const ErrorText error(unit, check.promised);
+  return fmt::format("{}: RMS {}, mean {}; promised {} RMSE\n{}{}{}",
+                     TimesText(errors, elapsed),
+                     error.WithUnit(check.probe_rms),
+                     error.WithUnit(check.probe_mean),
+                     error.WithUnit(check.promised),
+                     StatusText(check, error),
+                     RemedyText(check, error),
+                     SitesText(errors, sites));
+}
+
+std::string ProbesText(const models::ComponentRecord& component,
+                       std::size_t width) {
+  if (!component.probes) return "";
+  const models::ProbesRecord& probes = *component.probes;
+  double smallest = std::numeric_limits<double>::infinity();
+  std::size_t widest = 0;
+  for (const models::ProbedModelRecord& model : probes.models) {
+    widest = std::max(widest, model.model.size());
+    for (const double rmse : model.rmse) smallest = std::min(smallest, rmse);
+  }
+  const data::Unit unit = data::UnitOfSymbol(component.data.unit);
+  const ErrorText error(unit, smallest);
+  std::string text =
+      "\n" +
+      WrapText(
+          fmt::format(
+              "RMSE ({}) on unseen sessions after probes of each, {} "
+              "apart from its first row on ({}; the same {} for every "
+              "number; zero: probes without a map)",
+              error.symbol(),
+              probes.time_unit == "s"
+                  ? fmt::format("{:g} min", probes.spacing / kSecondsPerMinute)
+                  : Count(static_cast<long long>(probes.spacing), "row"),
+              probes.holdout,
+              Count(probes.scored_rows, "row")),
+          width) +
+      fmt::format("\n{:{}}", "probes", widest + 2);
+  for (const std::int64_t number : probes.numbers) {
+    text += fmt::format("{:>10}", number);
+  }
+  text += "\n";
+  for (const models::ProbedModelRecord& model : probes.models) {
+    text += fmt::format(
+        "{:{}}", data::Printable(model.model, model.model.size()), widest + 2);
+    for (const double rmse : model.rmse) {
+      text += fmt::format("{:>10}", error(rmse));
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace errmap::report

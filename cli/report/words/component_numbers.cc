@@ -1,0 +1,46 @@
+#include "cli/report/words/component_numbers.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace errmap::report {
+
+std::string ComponentNumbers::RmseWithInterval(
+    const std::string& model, const std::string& holdout) const {
+  const ResultRecord& result = Result(model, holdout);
+  std::string text = error.WithUnit(result.test.rmse) + " RMSE";
+  if (std::isfinite(result.ci95[0])) {
+    text += fmt::format(
+        " (95 % {} to {})", error(result.ci95[0]), error(result.ci95[1]));
+  }
+  return text;
+}
+
+std::string RatioText(double ratio) {
+  constexpr double kLarge = 1000.0;
+  return ratio < kLarge ? fmt::format("{:.1f}", ratio)
+                        : fmt::format("{:.2g}", ratio);
+}
+
+std::string PluralOfUnit(const models::HoldoutRecord& holdout) {
+  return holdout.unit_of_analysis == models::kBlockOfRows
+             ? "blocks of rows"
+             : holdout.unit_of_analysis + "s";
+}
+
+std::string CountOfUnits(std::int64_t count,
+                         const models::HoldoutRecord& holdout) {
+  return count == 1 ? "1 " + holdout.unit_of_analysis
+                    : fmt::format("{} {}", count, PluralOfUnit(holdout));
+}
+
+std::string ListBesides(const std::vector<std::string>& names,
+                        const std::string& besides) {
+  std::vector<std::string> others = names;
+  std::erase(others, besides);
+  return fmt::format("{}", fmt::join(others, ", "));
+}
+
+}  // namespace errmap::report

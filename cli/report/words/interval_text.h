@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "cli/report/number_text.h"
+#include "models/study/record/study_record.h"
+
+namespace errmap::report {
+
+/// "90 % of the errors on an unseen cycle lie within 1.4 um, 95 % within 2 um"
+std::string IntervalText(const models::PromiseRecord& promise,
+                         const ErrorText& error);
+/// ... and where from: " (groups:5: 35 cycles held out whole)".
+std::string IntervalLine(const models::PromiseRecord& promise,
+                         const ErrorText& error);
+
+}  // namespace errmap::report

@@ -1,0 +1,126 @@
+#include "cli/report/words/kept_promise_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cli/report/number_text.h"
+#include "data/text.h"
+
+namespace errmap::report {
+namespace {
+
+std::string BaselineText(const models::KeptPromise& kept,
+                         const ErrorText& error) {
+  if (!kept.better_than_nothing()) {
+    return fmt::format(
+        "it is worse than no compensation, {}: do not use it here",
+        error.WithUnit(kept.uncompensated));
+  }
+  if (!kept.better_than_constant()) {
+    return fmt::format("no compensation {}; a constant would do better, {}",
+                       error.WithUnit(kept.uncompensated),
+                       error.WithUnit(kept.constant));
+  }
+  return fmt::format(
+      "better than no compensation ({}) and than any constant "
+      "({})",
+      error.WithUnit(kept.uncompensated),
+      error.WithUnit(kept.constant));
+}
+
+}  // namespace
+
+std::string KeptPromiseText(const models::KeptPromise& kept,
+                            const data::Unit& unit) {
+  const ErrorText error(unit, kept.found);
+  std::string text;
+  if (std::isfinite(kept.promised)) {
+    text += fmt::format("found {} RMSE, promised {}",
+                        error.WithUnit(kept.found),
+                        error.WithUnit(kept.promised));
+    if (std::isfinite(kept.within_90)) {
+      text += fmt::format("; {:.0f} % of the errors within the 90 % interval",
+                          kPercent * kept.within_90);
+    }
+    text += "\n";
+  }
+  text += BaselineText(kept, error) + "\n";
+  if (kept.shape == models::ErrorShape::kOffset) {
+    text += fmt::format(
+        "an offset of {} is {:.0f} % of its mean square: re-zero, the map's "
+        "shape holds\n",
+        error.WithUnit(kept.mean),
+        kPercent * kept.offset_share);
+  } else if (kept.shape == models::ErrorShape::kShape) {
+    text += "no offset explains what it errs by: measure here and fit again\n";
+  }
+  return text;
+}
+
+std::string RelationText(const models::RelationChange& change) {
+  const std::string& symbol = change.column.unit.symbol;
+  return fmt::format(
+      "{} reads {:.3g}{} {} the other inputs tell, in {}: moved, loose or "
+      "mixed up?\n",
+      data::Printable(change.column.name, change.column.name.size()),
+      std::abs(change.shift),
+      symbol.empty() ? "" : " " + symbol,
+      change.shift > 0.0 ? "above what" : "below what",
+      Count(change.num_rows, "row"));
+}
+
+std::string TrialText(const models::UpdateTrial& trial,
+                      const data::Unit& unit) {
+  const ErrorText error(unit, std::min(trial.old_rmse, trial.new_rmse));
+  std::string text =
+      fmt::format("RMSE ({}) on new sessions, each unseen\n", error.symbol());
+  text += fmt::format("  {:<12}  {:>9}  {:>9}\n", "session", "old", "new");
+  for (const auto& session : trial.sessions) {
+    text += fmt::format("  {:<12}  {:>9}  {:>9}\n",
+                        data::Printable(session.label, session.label.size()),
+                        error(session.old_rmse),
+                        error(session.new_rmse));
+  }
+  return text + fmt::format("  {:<12}  {:>9}  {:>9}\n",
+                            "all",
+                            error(trial.old_rmse),
+                            error(trial.new_rmse));
+}
+
+std::string OffsetLine(const models::ProbeCorrection& correction,
+                       const data::Unit& unit) {
+  const models::OffsetTrack& track = correction.track;
+  const auto corrected = std::ranges::count_if(
+      track.used, [](Eigen::Index used) { return used > 0; });
+  const Eigen::Index last = track.offset.size() - 1;
+  const double known = std::sqrt(track.variance[last]);
+  const ErrorText error(unit, std::sqrt(correction.model.noise));
+  return fmt::format(
+      "{} move {} of {}; the offset in the last is {}, known to {}",
+      Count(correction.num_probes, "probe"),
+      corrected,
+      Count(track.offset.size(), "row"),
+      error.WithUnit(track.offset[last]),
+      error.WithUnit(known));
+}
+
+std::string SensitivityLine(const models::Sensitivity& sensitivity,
+                            const ErrorText& error) {
+  if (sensitivity.jump_of.empty()) return "";
+  std::string text = fmt::format(
+      "{:g} degC of noise in each thermometer moves it by {} (RMS), one that "
+      "fails to 0 by up to {} ({})",
+      models::Sensitivity::kNoise,
+      error.WithUnit(sensitivity.per_noise),
+      error.WithUnit(sensitivity.largest_jump),
+      data::Printable(sensitivity.jump_of, sensitivity.jump_of.size()));
+  if (sensitivity.rezero_jump > 0.0) {
+    text += fmt::format(", a zero taken anew by up to {}",
+                        error.WithUnit(sensitivity.rezero_jump));
+  }
+  return text;
+}
+
+}  // namespace errmap::report

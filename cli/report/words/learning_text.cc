@@ -1,0 +1,114 @@
+#include "cli/report/words/learning_text.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "cli/report/learning_words.h"
+#include "cli/report/number_text.h"
+#include "data/text.h"
+
+namespace errmap::report {
+namespace {
+
+std::string_view ViewWords(const std::string& view) {
+  if (view == "history") return "as they are and through filters";
+  if (view == "zero") return "each less its session's first value";
+  if (view == "history+zero") {
+    return "through filters, each less its session's first value";
+  }
+  return "as they are";
+}
+
+std::string CurveText(const models::LearningCurvesRecord& curves,
+                      const models::LearningModelRecord& model,
+                      const ErrorText& error) {
+  std::string text = data::Printable(model.model, model.model.size()) + "\n";
+  if (model.points.empty()) {
+    return text + "  failed: " + model.why_failed.value_or("") + "\n";
+  }
+  for (const models::LearningPointRecord& point : model.points) {
+    text += fmt::format("  {:4}  {:>9}  {:>9} to {}\n",
+                        point.units,
+                        error(point.rmse),
+                        error(point.low),
+                        error(point.high));
+  }
+  const std::string words = LawWords(curves, model, error);
+  return words.empty() ? text : text + "  " + words + "\n";
+}
+
+}  // namespace
+
+std::string CurvesText(const models::LearningCurvesRecord& curves,
+                       const data::Unit& unit) {
+  const ErrorText error = ErrorTextOf(curves, unit);
+  std::string text = fmt::format(
+      "RMSE ({}) on an unseen {} against the number learnt from, of {} in "
+      "all; 90 % interval over them\n",
+      error.symbol(),
+      curves.unit,
+      curves.units);
+  for (const models::LearningModelRecord& model : curves.models) {
+    text += CurveText(curves, model, error);
+  }
+  return text;
+}
+
+std::string SensorsText(const models::SensorCurveRecord& curve,
+                        const data::Unit& unit) {
+  constexpr std::size_t kMostSubstitutes = 4;
+  const ErrorText error = ErrorTextOf(curve, unit);
+  std::string text =
+      fmt::format("RMSE ({}) held out ({}) against the number of sensors, {}\n",
+                  error.symbol(),
+                  curve.held_out,
+                  ViewWords(curve.view));
+  for (const models::SensorPointRecord& point : curve.points) {
+    text += fmt::format("  {:4}  {:>9}{}\n",
+                        point.sensors,
+                        error(point.rmse),
+                        point.sensors == curve.enough ? "  enough" : "");
+  }
+  text +=
+      fmt::format("  all {}  {}\n", curve.all.sensors, error(curve.all.rmse));
+  text += curve.enough
+              ? fmt::format("{} of {} sensors do it, within 5 % of all:\n",
+                            *curve.enough,
+                            curve.all.sensors)
+              : fmt::format(
+                    "No choice of {} comes within 5 % of all; the best "
+                    "of so many:\n",
+                    curve.chosen.size());
+  for (const models::ChosenSensorRecord& chosen : curve.chosen) {
+    text += fmt::format("  {} (in {:.0f} % of the folds)",
+                        data::Printable(chosen.sensor, chosen.sensor.size()),
+                        kPercent * chosen.stability);
+    for (std::size_t s = 0;
+         s < std::min(kMostSubstitutes, chosen.substitutes.size());
+         ++s) {
+      text += fmt::format(
+          "{}{}",
+          s == 0 ? ", or instead " : ", ",
+          data::Printable(chosen.substitutes[s], chosen.substitutes[s].size()));
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string NextText(const std::vector<models::NextStateRecord>& chosen) {
+  std::string text =
+      "Measure next, in this order (data rows of the candidates; mean variance "
+      "of predictions left, and distance to the nearest measured state):\n";
+  for (const models::NextStateRecord& state : chosen) {
+    text += fmt::format("  row {:4}  {:3.0f} %  {:.1f}\n",
+                        state.row,
+                        kPercent * state.variance_left,
+                        state.distance);
+  }
+  return text;
+}
+
+}  // namespace errmap::report

@@ -1,0 +1,180 @@
+#include "cli/report/words/next_steps.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/report/number_text.h"
+#include "cli/report/shell_word.h"
+#include "cli/report/words/verdict_text.h"
+#include "data/text.h"
+
+namespace errmap::report {
+namespace {
+
+using Words = std::vector<std::string>;
+
+// The rows held out, beside the map "models/x.json" or "models/NAME/x.json".
+std::string HeldOutRows(const std::string& folder, const std::string& map) {
+  namespace fs = std::filesystem;
+  const fs::path of_component = fs::path(map).parent_path();
+  const fs::path file =
+      of_component.has_parent_path()
+          ? fs::path("residuals") / (of_component.filename().string() + ".csv")
+          : fs::path("residuals.csv");
+  return (fs::path(folder) / file).lexically_normal().string();
+}
+
+// What is asked next of a recommendation that has these doubts and grounds.
+void AddAnswers(const models::RecommendationRecord& advice,
+                const models::ModelRecord& model,
+                const std::string& folder,
+                std::vector<NextStep>* steps) {
+  if (std::ranges::find(advice.doubts,
+                        models::RemarkKind::kExtrapolates,
+                        &models::RemarkRecord::kind) != advice.doubts.end()) {
+    steps->push_back(
+        {"extrapolated",
+         {},
+         fmt::format("{:.0f} % of the held-out rows: inside = 0 in {}; predict "
+                     "marks new rows alike",
+                     kPercent * advice.extrapolated_share,
+                     model.file && !folder.empty()
+                         ? HeldOutRows(folder, *model.file)
+                         : "residuals.csv, which --out STUDY writes")});
+  }
+  const auto net = std::ranges::find(advice.grounds,
+                                     models::RemarkKind::kBestNet,
+                                     &models::RemarkRecord::kind);
+  const auto place = static_cast<std::size_t>(net - advice.grounds.begin());
+  if (net != advice.grounds.end() && place < advice.reasons.size()) {
+    steps->push_back({"why no net", {}, advice.reasons[place]});
+  }
+}
+
+}  // namespace
+
+void AddDataOptions(const Words& command, Words* words) {
+  constexpr std::array<std::string_view, 11> kOfData = {"--target",
+                                                        "--inputs",
+                                                        "--exclude",
+                                                        "--group",
+                                                        "--session",
+                                                        "--time",
+                                                        "--align",
+                                                        "--weight",
+                                                        "--missing",
+                                                        "--faults",
+                                                        "--seed"};
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    const std::string& word = command[i];
+    const std::string_view flag =
+        std::string_view(word).substr(0, word.find('='));
+    if (word == "--keep-dead") words->push_back(word);
+    if (std::ranges::find(kOfData, flag) == kOfData.end()) continue;
+    words->push_back(word);
+    if (flag.size() == word.size() && i + 1 < command.size()) {
+      words->push_back(command[++i]);
+    }
+  }
+}
+
+std::vector<NextStep> NextSteps(const models::StudyRecord& record,
+                                std::size_t component,
+                                const std::string& data,
+                                const std::string& folder) {
+  const models::ComponentRecord& of = record.components[component];
+  std::vector<NextStep> steps;
+  const models::ModelRecord* found =
+      of.recommendation ? models::FindNamed(of.models, of.recommendation->model)
+                        : nullptr;
+  if (found != nullptr && found->name != "zero") {
+    const models::ModelRecord& model = *found;
+    std::string map = "map.json";
+    if (model.kind == models::ModelKind::kFile) {
+      map = model.name.substr(model.name.find(':') + 1);
+      steps.push_back({"the map", {}, map});
+    } else if (model.file && !folder.empty()) {
+      map = (std::filesystem::path(folder) / *model.file)
+                .lexically_normal()
+                .string();
+      steps.push_back({"the map", {}, map});
+    } else if (data.empty() || record.components.size() > 1) {
+      // Rows of a part of a file, or defaults of a study file: no other command
+      // has them.
+      map = "STUDY/models/...json";
+      steps.push_back(
+          {"write the map", {}, "the same command with --out STUDY"});
+    } else {
+      Words words{"errmap", "fit", data, "--model", model.name};
+      AddDataOptions(ShellWords(record.provenance.command_line), &words);
+      words.insert(words.end(), {"-o", map});
+      steps.push_back({"write the map", std::move(words)});
+    }
+    steps.push_back({"does it hold?", {"errmap", "check", map, "PROBES.csv"}});
+    steps.push_back({"run it", {"errmap", "predict", map, "TODAY.csv"}});
+    if (model.step_cost) {
+      steps.push_back({"to the control",
+                       {"errmap", "export", map, "--c", "-o", "control"}});
+    } else {
+      steps.push_back({"to the control",
+                       {},
+                       "not yet: its memory counts rows; a column of times "
+                       "(--time) makes it exportable"});
+    }
+  }
+  if (std::string measure = MeasureNext(of); !measure.empty()) {
+    steps.push_back({"measure next", {}, std::move(measure)});
+  }
+  if (found != nullptr) {
+    AddAnswers(*of.recommendation, *found, folder, &steps);
+  }
+  return steps;
+}
+
+std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
+                                   std::size_t component,
+                                   const std::string& data,
+                                   const std::string& folder) {
+  constexpr std::size_t kMostNamed = 6;
+  const auto& advice = record.components[component].recommendation;
+  std::vector<NextStep> steps;
+  if (advice && !advice->sensors.empty()) {
+    Words sensors = advice->sensors;
+    if (advice->importance) {
+      sensors.clear();
+      for (const auto& without : advice->importance->one_by_one) {
+        sensors.push_back(without.sensors.front());
+      }
+    }
+    const std::size_t all = sensors.size();
+    sensors.resize(std::min(all, kMostNamed));
+    std::string text = fmt::format("{}", fmt::join(sensors, ", "));
+    if (all > kMostNamed) {
+      text += fmt::format(" and {} more; --exclude leaves some out",
+                          all - kMostNamed);
+    }
+    steps.push_back({"its sensors", {}, data::Printable(text, text.size())});
+    if (all > 1 && !data.empty()) {
+      Words words{"errmap", "learn", data, "--by", "sensors"};
+      AddDataOptions(ShellWords(record.provenance.command_line), &words);
+      if (!folder.empty()) words.insert(words.end(), {"--out", folder});
+      steps.push_back({"fewer of them", std::move(words)});
+    }
+  }
+  steps.push_back({"the page",
+                   {},
+                   folder.empty()
+                       ? "the same command with -o page.html"
+                       : (std::filesystem::path(folder) / "report.html")
+                             .lexically_normal()
+                             .string()});
+  return steps;
+}
+
+}  // namespace errmap::report

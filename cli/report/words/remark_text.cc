@@ -1,0 +1,483 @@
+#include "cli/report/words/remark_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/report/number_text.h"
+#include "cli/report/words/interval_text.h"
+#include "data/text.h"
+
+namespace errmap::report {
+namespace {
+
+using models::Confidence;
+using models::FindNamed;
+using models::GoalStanding;
+using models::HoldoutRecord;
+using models::RecommendationRecord;
+using models::RemarkKind;
+using models::RemarkRecord;
+using models::VerdictRecord;
+using Kind = models::Obstacle::Kind;
+
+// What one more session of measurements may bring.
+std::string OneMoreText(const models::SessionWorthRecord& worth,
+                        const std::string& unit) {
+  constexpr double kWorthSaying = 0.02;
+  const double saved = 1.0 - worth.ratio_of_one_more;
+  if (!(saved > kWorthSaying)) {
+    return fmt::format(
+        "With one {0} fewer to learn from it erred {1:.2f} times as much: one "
+        "more {0} of the same kind promises little.",
+        unit,
+        worth.ratio_of_one_fewer);
+  }
+  return fmt::format(
+      "With one {0} fewer to learn from it erred {1:.2f} times as much: one "
+      "more {0} may take {2:.0f} % off its error.",
+      unit,
+      worth.ratio_of_one_fewer,
+      kPercent * saved);
+}
+
+// After how long a step of temperature is forgotten, and the zero.
+std::string MemoryText(const models::MemoryRecord& memory) {
+  // After three time constants 5 % of a step is left.
+  constexpr double kForgotten = 3.0;
+  constexpr double kSecondsPerMinute = 60.0;
+  constexpr double kMinutesPerHour = 60.0;
+  std::string text;
+  if (memory.longest > 0.0) {
+    const double span = kForgotten * memory.longest;
+    const double minutes = span / kSecondsPerMinute;
+    text +=
+        memory.time_unit != "s"
+            ? fmt::format(" over the last {:.0f} rows", span)
+        : minutes < 2.0 * kMinutesPerHour
+            ? fmt::format(" over the last {:.0f} min", minutes)
+            : fmt::format(" over the last {:.2g} h", minutes / kMinutesPerHour);
+  }
+  if (memory.zeroed) text += ", zeroed at the start of a session";
+  return text;
+}
+
+std::string CostSentence(const RecommendationRecord& advice) {
+  constexpr std::size_t kMostNamed = 8;
+  std::string sensors = "no sensor";
+  if (!advice.sensors.empty()) {
+    sensors = Count(std::ssize(advice.sensors), "sensor");
+    if (advice.sensors.size() <= kMostNamed) {
+      sensors += fmt::format(" ({})", fmt::join(advice.sensors, ", "));
+    }
+  }
+  std::string cost = Count(advice.cost.multiplications, "multiplication");
+  if (advice.cost.exponentials > 0) {
+    cost += " and " + Count(advice.cost.exponentials, "exponential");
+  }
+  return fmt::format("It needs {}{}; a prediction costs {}.",
+                     sensors,
+                     advice.memory ? MemoryText(*advice.memory) : "",
+                     cost);
+}
+
+std::string SimplestSentence(const ComponentNumbers& component,
+                             const RemarkRecord& remark) {
+  const RecommendationRecord& advice = component.Advice();
+  if (remark.kind == RemarkKind::kLowestAndSimplest) {
+    return fmt::format(
+        "It has the lowest error and is the simplest of its "
+        "tier (the others: {}).",
+        ListBesides(advice.first_tier, advice.model));
+  }
+  const std::string& model = *remark.model;
+  const std::string rmse =
+      component.error.WithUnit(component.Rmse(model, advice.holdout));
+  switch (remark.kind) {
+    case RemarkKind::kAveragesMaps:
+      return fmt::format(
+          "It averages maps that see the inputs differently, which gambles "
+          "less than the choice of one; the {} single map is {} ({}).",
+          std::ranges::find(component.Advice().first_tier, model) ==
+                  component.Advice().first_tier.end()
+              ? "best"
+              : "simplest",
+          model,
+          rmse);
+    case RemarkKind::kSimplestNearLowest:
+      return fmt::format(
+          "It is the simplest of those that are near the lowest "
+          "error ({} of {}); more is not known.",
+          rmse,
+          model);
+    default:
+      return fmt::format(
+          "It is the simplest of a tier without practical difference: {} has "
+          "the lowest error ({}), and with 95 % certainty{} it loses at most "
+          "{} to it.",
+          model,
+          rmse,
+          *remark.confidence != Confidence::kEstablished
+              ? fmt::format(", as if {} were independent,",
+                            PluralOfUnit(component.Holdout(advice.holdout)))
+              : "",
+          component.error.WithUnit(*remark.excess));
+  }
+}
+
+// "The best net, net:scg, has 1.645 um, 0.837 um more (95 % 0.490 to 1.184)."
+std::string BestNetSentence(const ComponentNumbers& component,
+                            const std::string& net) {
+  const RecommendationRecord& advice = component.Advice();
+  const double rmse = component.Rmse(net, advice.holdout);
+  const auto in_first_tier = [&](const std::string& model) {
+    return std::ranges::find(advice.first_tier, model) !=
+           advice.first_tier.end();
+  };
+  if (in_first_tier(net) && in_first_tier(advice.model)) {
+    const auto parameters = FindNamed(component.record.models, net)->parameters;
+    return fmt::format("The best net, {} ({}), is interchangeable with it{}.",
+                       net,
+                       component.error.WithUnit(rmse),
+                       parameters && *parameters > advice.parameters
+                           ? fmt::format(" and dearer: {} parameters for {}",
+                                         *parameters,
+                                         advice.parameters)
+                           : "");
+  }
+  const double more = rmse - component.Rmse(advice.model, advice.holdout);
+  std::string text = fmt::format("The best net, {}, has {}, {} {}",
+                                 net,
+                                 component.error.WithUnit(rmse),
+                                 component.error.WithUnit(std::abs(more)),
+                                 more < 0.0 ? "less" : "more");
+  const models::PairRecord* const pair =
+      FindPair(component.record, advice.holdout, advice.model, net);
+  if (pair == nullptr) return text + ".";
+  // Of the difference a - b.
+  const double sign = (pair->a == net) == (more < 0.0) ? -1.0 : 1.0;
+  double low = sign * pair->ci95[0];
+  double high = sign * pair->ci95[1];
+  if (sign < 0.0) std::swap(low, high);
+  if (std::isfinite(low) && std::isfinite(high)) {
+    text += fmt::format(
+        " (95 % {} to {})", component.error(low), component.error(high));
+  }
+  return text + (pair->established ? "." : ", which is not proven.");
+}
+
+// Few sessions were held out whole, and something else decided.
+std::string FewSessionsSentence(const ComponentNumbers& component,
+                                const std::string& name) {
+  const HoldoutRecord& held = component.Holdout(name);
+  const std::string& model = component.Advice().model;
+  const auto verdict = std::ranges::find(
+      component.record.verdict, name, &VerdictRecord::holdout);
+  return fmt::format(
+      "Held out whole ({}) it has {}{}; {} are too few to decide by: measure "
+      "{} or more.",
+      name,
+      component.error.WithUnit(component.Rmse(model, name)),
+      verdict != component.record.verdict.end() && verdict->model != model
+          ? fmt::format(
+                ", {} {}",
+                verdict->model,
+                component.error.WithUnit(component.Rmse(verdict->model, name)))
+          : "",
+      CountOfUnits(component.record.data.sessions, held),
+      models::kFewestSessionsToDecide);
+}
+
+std::string GoalSentence(const ComponentNumbers& component) {
+  const RecommendationRecord& advice = component.Advice();
+  return fmt::format("The goal (RMSE at most {:g}{}{}) is {}: {}.",
+                     component.record.goal * component.record.display.scale,
+                     component.record.display.unit.empty() ? "" : " ",
+                     component.record.display.unit,
+                     models::ToString(advice.goal_standing),
+                     GoalFigures(component.Result(advice.model, advice.holdout),
+                                 component.error));
+}
+
+std::string DisagreementSentence(const ComponentNumbers& component,
+                                 const RemarkRecord& remark) {
+  std::vector<std::string> parts;
+  for (const std::string& holdout : *remark.holdouts) {
+    const std::string& best =
+        std::ranges::find(
+            component.record.verdict, holdout, &VerdictRecord::holdout)
+            ->model;
+    parts.push_back(
+        fmt::format("under {} it has {}, {} has {}",
+                    holdout,
+                    component.error.WithUnit(
+                        component.Rmse(component.Advice().model, holdout)),
+                    best,
+                    component.error.WithUnit(component.Rmse(best, holdout))));
+  }
+  return fmt::format("The hold-outs of unseen rows disagree: {}.",
+                     fmt::join(parts, "; "));
+}
+
+std::string CorrelationSentence(const ComponentNumbers& component,
+                                const RemarkRecord& remark) {
+  return fmt::format(
+      "Neighbouring {} resemble each other (lag-1 correlation {:.2f} of the "
+      "loss differences), so their number proves little, and {} is called "
+      "established; more days, held out whole, would tell.",
+      PluralOfUnit(component.Holdout(component.Advice().holdout)),
+      *remark.lag1,
+      *remark.established == 0
+          ? "nothing"
+          : fmt::format("only what is free of that, {} of {},",
+                        *remark.established,
+                        Count(*remark.pairs, "difference")));
+}
+
+// "6 cycles cannot prove a difference between 9 maps: ..."
+std::string TooFewSentence(const ComponentNumbers& component,
+                           const RemarkRecord& remark) {
+  const RecommendationRecord& advice = component.Advice();
+  const HoldoutRecord& holdout = component.Holdout(advice.holdout);
+  const models::ObstacleRecord& obstacle =
+      *std::ranges::find(
+           component.record.verdict, advice.holdout, &VerdictRecord::holdout)
+           ->obstacle;
+  const std::string found = Count(obstacle.units, holdout.unit_of_analysis);
+  const bool one = obstacle.units == 1;
+  if (remark.kind == RemarkKind::kTooManyMaps) {
+    std::size_t maps = 0;
+    for (const auto& tier :
+         *FindNamed(component.record.tiers, advice.holdout)) {
+      maps += tier.size();
+    }
+    return fmt::format(
+        "{} cannot prove a difference between {} maps: {}compare fewer.",
+        found,
+        maps,
+        obstacle.needed > 0
+            ? fmt::format("measure {} or more, or ", obstacle.needed)
+            : "");
+  }
+  if (obstacle.kind == Kind::kPerhapsOneSession) {
+    return fmt::format(
+        "{} that may be of one day cannot prove which map is better: measure "
+        "{} or more, or on several days (a column day or session).",
+        found,
+        obstacle.needed);
+  }
+  return fmt::format(
+      "{} alone cannot prove which map is better: measure {} or more.",
+      one ? "One " + holdout.unit_of_analysis : found,
+      obstacle.needed);
+}
+
+std::string OtherCutsSentence(const ComponentNumbers& component) {
+  std::vector<std::string> parts;
+  for (const models::StabilityRecord& cuts : component.record.stability) {
+    constexpr std::size_t kMostNamed = 3;
+    std::vector<std::string> shares;
+    for (std::size_t i = 0; i < std::min(cuts.wins.size(), kMostNamed); ++i) {
+      shares.push_back(fmt::format(
+          "{} {:.0f} %", cuts.wins[i].model, kPercent * cuts.wins[i].share));
+    }
+    parts.push_back(fmt::format("of {} cuts of {} the lowest error went to {}",
+                                cuts.repeats,
+                                cuts.holdout,
+                                fmt::join(shares, ", ")));
+  }
+  std::string text = fmt::format("{}.", fmt::join(parts, "; "));
+  text.front() = 'O';
+  return text;
+}
+
+// What is left is no noise where it has an offset per cycle, or repeats along
+// the position.
+std::string WhatIsLeftSentence(const ComponentNumbers& component,
+                               const RemarkRecord& remark) {
+  const auto& by_group =
+      component.Result(component.Advice().model, component.Advice().holdout)
+          .randomness.by_group;
+  std::string text;
+  for (std::size_t i = 0; i < remark.columns->size(); ++i) {
+    const std::string& column = (*remark.columns)[i];
+    const double percent = kPercent * (*remark.shares)[i];
+    text += text.empty() ? "" : " ";
+    text += by_group && by_group->column == column
+                ? fmt::format(
+                      "{:.0f} % of what is left is an offset per {}: a thermal "
+                      "state that the sensors do not see. Add a sensor, or "
+                      "re-zero each {}.",
+                      percent,
+                      column,
+                      column)
+                : fmt::format(
+                      "{:.0f} % of what is left repeats along {}: the map is "
+                      "too smooth there.",
+                      percent,
+                      column);
+  }
+  return text;
+}
+
+std::string FlatteredSentence(const ComponentNumbers& component,
+                              const std::string& model) {
+  const models::GapModelRecord& row = *std::ranges::find(
+      component.record.gap->models, model, &models::GapModelRecord::model);
+  return fmt::format(
+      "Ignore the {} column for {}: {} next to known rows, {} on a {} it "
+      "never saw.",
+      component.record.gap->neighbours,
+      model,
+      component.error.WithUnit(row.neighbours_rmse),
+      component.error.WithUnit(row.unseen_rmse),
+      component.Holdout(component.record.gap->unseen).unit_of_analysis);
+}
+
+}  // namespace
+
+std::string RemarkText(const ComponentNumbers& component,
+                       const RemarkRecord& remark) {
+  const RecommendationRecord& advice = component.Advice();
+  const HoldoutRecord& holdout = component.Holdout(advice.holdout);
+  const ModelRecord& model = *FindNamed(component.record.models, advice.model);
+  const auto unknown_day = [](const char* why) {
+    return fmt::format("How it does on another day is not known, since {}.",
+                       why);
+  };
+  switch (remark.kind) {
+    case RemarkKind::kAveragesMaps:
+    case RemarkKind::kLowestAndSimplest:
+    case RemarkKind::kSimplestNearLowest:
+    case RemarkKind::kSimplestOfTier:
+      return SimplestSentence(component, remark);
+    case RemarkKind::kRemoves:
+      return fmt::format(
+          "It removes {:.0f} % of the error ({} without a map).",
+          std::floor(kPercent * advice.removed_share),
+          component.error.WithUnit(component.Rmse("zero", advice.holdout)));
+    case RemarkKind::kBeatsBaseline:
+      return fmt::format("The best baseline, {}, has {}.",
+                         *remark.model,
+                         component.error.WithUnit(
+                             component.Rmse(*remark.model, advice.holdout)));
+    case RemarkKind::kBestNet:
+      return BestNetSentence(component, *remark.model);
+    case RemarkKind::kGap: {
+      const models::GapModelRecord& row =
+          *std::ranges::find(component.record.gap->models,
+                             advice.model,
+                             &models::GapModelRecord::model);
+      return fmt::format(
+          "Between neighbours ({}) it has {}, on unseen {} {} times that.",
+          component.record.gap->neighbours,
+          component.error.WithUnit(row.neighbours_rmse),
+          PluralOfUnit(component.Holdout(component.record.gap->unseen)),
+          RatioText(row.ratio));
+    }
+    case RemarkKind::kPromise:
+      return IntervalText(*advice.promise, component.error) + ".";
+    case RemarkKind::kOneMoreSession:
+      return OneMoreText(*advice.session_worth, holdout.unit_of_analysis);
+    case RemarkKind::kGoal:
+      return GoalSentence(component);
+    case RemarkKind::kCost:
+      return CostSentence(advice);
+    case RemarkKind::kNotNoise:
+      return WhatIsLeftSentence(component, remark);
+    case RemarkKind::kInterrupted:
+      return "The run was interrupted; fits are incomplete.";
+    case RemarkKind::kOneRunOnly:
+      return "One run only: nothing is known of another day.";
+    case RemarkKind::kGroupFitsFailed:
+      return unknown_day("no fit for whole groups held out succeeded");
+    case RemarkKind::kNoGroupsHeldOut:
+      return unknown_day("no whole groups were held out (--holdout groups:K)");
+    case RemarkKind::kNoGroups:
+      return unknown_day(
+          "no whole cycles were held out (name their column with --group)");
+    case RemarkKind::kFewSessions:
+      return FewSessionsSentence(component, remark.holdouts->front());
+    case RemarkKind::kBlocksForUnits:
+      return fmt::format(
+          "There are no groups: the tests count {} of held-out rows in order, "
+          "which may still resemble each other.",
+          Count(holdout.units, "block"));
+    case RemarkKind::kTooFewUnits:
+    case RemarkKind::kTooManyMaps:
+      return TooFewSentence(component, remark);
+    case RemarkKind::kIgnoreNeighbours:
+      return FlatteredSentence(component, *remark.model);
+    case RemarkKind::kHoldoutsDisagree:
+      return DisagreementSentence(component, remark);
+    case RemarkKind::kUnitsCorrelated:
+      return CorrelationSentence(component, remark);
+    case RemarkKind::kExtrapolates:
+      return fmt::format(
+          "In {:.0f} % of the held-out rows an input lies outside what the "
+          "fold was trained on, and the map extrapolates: measure more thermal "
+          "states{}.",
+          kPercent * advice.extrapolated_share,
+          WhereToMeasure(remark));
+    case RemarkKind::kNotConverged:
+      return fmt::format(
+          "Its fit ended without converging ({}): another start or run length "
+          "would give another map.",
+          fitting::ToString(model.final->summary.value.stop));
+    case RemarkKind::kNoiseLearning:
+      return model.memorisation->sentence;
+    case RemarkKind::kOtherCuts:
+      return OtherCutsSentence(component);
+    case RemarkKind::kBetterWithoutMap:
+      return fmt::format(
+          "The predictions {} are better ({}), but there is no map of them "
+          "here to use.",
+          *remark.model,
+          component.error.WithUnit(
+              component.Rmse(*remark.model, advice.holdout)));
+  }
+  return "";
+}
+
+std::string WhereToMeasure(const RemarkRecord& remark) {
+  if (!remark.columns || !remark.below || !remark.above ||
+      remark.below->size() != remark.columns->size() ||
+      remark.above->size() != remark.columns->size()) {
+    return "";  // of an older record
+  }
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < remark.columns->size(); ++i) {
+    const std::string& name = (*remark.columns)[i];
+    const double below = (*remark.below)[i];
+    const double above = (*remark.above)[i];
+    std::string part = data::Printable(name, name.size());
+    if (std::isfinite(below)) part += fmt::format(" below {:.4g}", below);
+    if (std::isfinite(above)) {
+      part += fmt::format(
+          "{} above {:.4g}", std::isfinite(below) ? " or" : "", above);
+    }
+    parts.push_back(std::move(part));
+  }
+  return parts.empty() ? "" : fmt::format(", with {}", fmt::join(parts, ", "));
+}
+
+std::string GoalFigures(const models::ResultRecord& result,
+                        const ErrorText& error) {
+  if (result.goal_standing == GoalStanding::kNone) return "";
+  if (result.goal_standing == GoalStanding::kNotJudged) {
+    return "the run was interrupted or a fit failed";
+  }
+  std::string text = "RMSE " + error.WithUnit(result.test.rmse);
+  if (std::isfinite(result.test.sd)) {
+    text += fmt::format(", scatter {} about an offset of {}",
+                        error.WithUnit(result.test.sd),
+                        error.WithUnit(result.test.mean));
+  }
+  return text;
+}
+
+}  // namespace errmap::report

@@ -1,0 +1,288 @@
+#include "cli/report/words/verdict_sentences.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/report/number_text.h"
+#include "stats/comparison/paired_comparison.h"
+
+namespace errmap::report {
+namespace {
+
+using models::Choice;
+using models::Confidence;
+using models::FindNamed;
+using models::HoldoutRecord;
+using models::PairRecord;
+using models::RecommendationRecord;
+using models::VerdictRecord;
+using Kind = models::Obstacle::Kind;
+
+// "10 cycles, at least 12 are needed where they may be of one session".
+std::string ObstacleText(const models::ObstacleRecord& obstacle) {
+  const std::string found = Count(obstacle.units, "unit");
+  switch (obstacle.kind) {
+    case Kind::kNone:
+      return "";
+    case Kind::kTooFewUnits:
+      return fmt::format(
+          "{}, at least {} are needed: with fewer, no sign-flip p can be below "
+          "0.05",
+          found,
+          obstacle.needed);
+    case Kind::kPerhapsOneSession:
+      return fmt::format(
+          "{}, not known to be separate sessions: at least {} are needed to "
+          "see whether they resemble each other",
+          found,
+          obstacle.needed);
+    case Kind::kTooManyPairs:
+      return fmt::format(
+          "{} for {} pairs: at least {} are needed for a p below 0.05 after "
+          "Holm's adjustment",
+          found,
+          obstacle.pairs,
+          obstacle.needed);
+    case Kind::kTooFewSignPatterns:
+      return fmt::format("the sign patterns drawn are too few for {} pairs",
+                         obstacle.pairs);
+  }
+  return "";
+}
+
+// "on cycles it never saw", "on another file (test.csv)", ...
+std::string WhereJudged(const HoldoutRecord& holdout) {
+  if (holdout.whole_groups || holdout.whole_sessions) {
+    return fmt::format("on {} it never saw", PluralOfUnit(holdout));
+  }
+  if (holdout.another_file) {
+    return fmt::format("on another file ({})", holdout.name);
+  }
+  if (holdout.among_neighbours) {
+    return fmt::format("next to rows that it knew ({})", holdout.name);
+  }
+  return fmt::format("on rows it never saw ({})", holdout.name);
+}
+
+// "0.707 um less RMSE than net:scg (95 % 0.4 to 1.1), p 0.0002 ..."
+std::string TestSentence(const ComponentNumbers& component,
+                         const VerdictRecord& verdict) {
+  const std::string& better = verdict.model;
+  const std::string& worse = *verdict.rival;
+  const PairRecord& pair =
+      *models::FindPair(component.record, verdict.holdout, better, worse);
+  const HoldoutRecord& held = component.Holdout(verdict.holdout);
+  const std::string units = PluralOfUnit(held);
+  // The pair may stand the other way round.
+  const bool straight = pair.a == better;
+  const double low = straight ? -pair.ci95[1] : pair.ci95[0];
+  const double high = straight ? -pair.ci95[0] : pair.ci95[1];
+  std::string text = fmt::format(
+      "{} has {} less than {}",
+      better,
+      component.error.WithUnit(straight ? -pair.difference : pair.difference),
+      worse);
+  if (std::isfinite(pair.ci95[0])) {
+    text += fmt::format(
+        " (95 % {} to {})", component.error(low), component.error(high));
+  }
+  text += fmt::format("; sign-flip p {} over {}, {} after Holm for {}",
+                      PWords(pair.p),
+                      CountOfUnits(pair.units, held),
+                      PWords(pair.p_holm),
+                      Count(std::ranges::count(component.record.comparisons,
+                                               verdict.holdout,
+                                               &PairRecord::holdout),
+                            "pair"));
+  switch (*verdict.against_rival) {
+    case Confidence::kEstablished:
+      return text + ": established.";
+    case Confidence::kUnitsCorrelated:
+      return text + fmt::format(
+                        ", as if {} were independent; neighbouring ones "
+                        "resemble each other: not established.",
+                        units);
+    case Confidence::kMemoryNotExcluded:
+      return text + fmt::format(
+                        ", as if {} were independent; with the memory that "
+                        "their order cannot exclude {}: not established.",
+                        units,
+                        PWords(pair.tests.memory_t.p_holm));
+    case Confidence::kBlocksDisagree:
+      return text + fmt::format(
+                        ", as if {} were independent; {} runs of neighbouring "
+                        "ones differ too much (p {}): not established.",
+                        units,
+                        stats::kBlocksOfUnits,
+                        PWords(pair.tests.block_t.p));
+    default:
+      return text + ": not established.";
+  }
+}
+
+std::string ChoiceSentence(const ComponentNumbers& component,
+                           const VerdictRecord& verdict) {
+  switch (verdict.choice) {
+    case Choice::kNoPracticalDifference:
+      return fmt::format(
+          "A polynomial and a net share its first tier: no practical "
+          "difference, {}established.",
+          verdict.established ? "" : "not ");
+    case Choice::kBaseline:
+      return verdict.established
+                 ? "A baseline shares its first tier: no map is worth more "
+                   "there, established."
+                 : "A baseline shares its first tier: no map is known to be "
+                   "worth more there.";
+    default:
+      break;
+  }
+  if (verdict.obstacle) {
+    return fmt::format(
+        "Whether that is more than chance cannot be "
+        "established: {}.",
+        ObstacleText(*verdict.obstacle));
+  }
+  if (!verdict.rival) return "";
+  std::string text = TestSentence(component, verdict);
+  if (!verdict.established &&
+      *verdict.against_rival == Confidence::kEstablished) {
+    text += fmt::format(" That it beats the best baseline, {}, is not.",
+                        verdict.best_baseline.value_or(""));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string VerdictSentence(const ComponentNumbers& component,
+                            const VerdictRecord& verdict) {
+  std::string text =
+      fmt::format("Under {} {} has the lowest error, {}",
+                  verdict.holdout,
+                  verdict.model,
+                  component.RmseWithInterval(verdict.model, verdict.holdout));
+  const std::vector<std::string>& first =
+      FindNamed(component.record.tiers, verdict.holdout)->front();
+  if (first.size() > 1) {
+    text += fmt::format("; without practical difference to it: {}",
+                        ListBesides(first, verdict.model));
+  }
+  const std::string choice = ChoiceSentence(component, verdict);
+  return text + "." + (choice.empty() ? "" : " " + choice);
+}
+
+std::string AdviceSentence(const ComponentNumbers& component) {
+  const RecommendationRecord& advice = component.Advice();
+  const std::string use =
+      fmt::format("Use {}: {} {}.",
+                  advice.model,
+                  component.RmseWithInterval(advice.model, advice.holdout),
+                  WhereJudged(component.Holdout(advice.holdout)));
+  const bool sure = !advice.against_baseline ||
+                    *advice.against_baseline == Confidence::kEstablished;
+  if (advice.choice == Choice::kBaseline) {
+    const char* const proven = advice.against_baseline && sure
+                                   ? ", and that is proven"
+                                   : ", as far as these data tell";
+    if (advice.model == "zero") {
+      return fmt::format(
+          "No map is worth its effort here{}. Compensate with nothing: {} {}.",
+          proven,
+          component.RmseWithInterval(advice.model, advice.holdout),
+          WhereJudged(component.Holdout(advice.holdout)));
+    }
+    return fmt::format("{} here{}. {}",
+                       advice.sensors.empty()
+                           ? "No temperature map earns its sensors"
+                           : "No richer map earns its effort",
+                       proven,
+                       use);
+  }
+  std::string text;
+  if (advice.choice == Choice::kNoPracticalDifference) {
+    text = "Polynomial or net makes no practical difference. ";
+  }
+  text += use;
+  // What the headline owes where the map is not surely worth its sensors.
+  if (sure) return text;
+  return text + fmt::format(
+                    " That it beats {} ({}), the best baseline, is not proven.",
+                    *advice.best_baseline,
+                    component.error.WithUnit(
+                        component.Rmse(*advice.best_baseline, advice.holdout)));
+}
+
+std::string GapSentence(const ComponentNumbers& component) {
+  std::vector<models::GapModelRecord> flattered;
+  std::ranges::copy_if(
+      component.record.gap->models,
+      std::back_inserter(flattered),
+      [&](const auto& row) {
+        return row.flatters &&
+               !FindNamed(component.record.models, row.model)->baseline;
+      });
+  if (flattered.empty()) return "";
+  std::ranges::stable_sort(
+      flattered, std::greater(), &models::GapModelRecord::ratio);
+  constexpr std::size_t kMostNamed = 4;
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < std::min(flattered.size(), kMostNamed); ++i) {
+    const models::GapModelRecord& row = flattered[i];
+    parts.push_back(fmt::format("{} ({} against {}, {} times)",
+                                row.model,
+                                component.error(row.neighbours_rmse),
+                                component.error.WithUnit(row.unseen_rmse),
+                                RatioText(row.ratio)));
+  }
+  std::string text = fmt::format("Warning: {} flatters {}",
+                                 component.record.gap->neighbours,
+                                 fmt::join(parts, ", "));
+  if (flattered.size() > kMostNamed) {
+    text += fmt::format(" and {} more", flattered.size() - kMostNamed);
+  }
+  return text +
+         ": its held-out rows have neighbours in the training rows, whole " +
+         PluralOfUnit(component.Holdout(component.record.gap->unseen)) + " (" +
+         component.record.gap->unseen + ") have not.";
+}
+
+std::string MemorisationSentence(const ModelRecord& model) {
+  const models::MemorisationRecord& found = *model.memorisation;
+  std::string effective;
+  if (std::isfinite(found.effective_parameters)) {
+    effective =
+        fmt::format(", {:.0f} of them effective", found.effective_parameters);
+  }
+  const std::string figures = fmt::format(
+      "{:.2g} weights per row{}; fitted to shuffled targets it still explains "
+      "{:.0f} % of them",
+      found.weights_per_row,
+      effective,
+      kPercent * std::max(0.0, found.shuffled_r2));
+  switch (found.learning) {
+    case models::NoiseLearning::kUnknown:
+      return fmt::format("Whether {} learns noise is not known: {}.",
+                         model.name,
+                         found.why_not.value_or(""));
+    case models::NoiseLearning::kLittle:
+      return fmt::format("{} learns little noise: {}.", model.name, figures);
+    case models::NoiseLearning::kSome:
+      return fmt::format("{} learns some noise: {}.", model.name, figures);
+    case models::NoiseLearning::kMuch:
+      return fmt::format(
+          "{} can learn its rows by heart: {}. Its training error says "
+          "nothing; a larger wfactor or fewer hidden nodes would.",
+          model.name,
+          figures);
+  }
+  return "";
+}
+
+}  // namespace errmap::report

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "cli/report/report_view.h"
+
+namespace errmap::report {
+
+// What a record says, in sentences. Nothing is decided here.
+
+/// What a 95 % interval of an RMSE is worth, as measured by
+/// tests/benchmarks/confidence_study.cc.
+extern const char* const kIntervalCoverage;
+
+/// Puts the sentences into `record`, which has all else: of the gap, the
+/// verdicts, the memorisation checks and the recommendation.
+void AddSentences(models::ComponentRecord* record);
+
+/// The recommendation and what is told with it first, most important first.
+std::vector<std::string> FirstWords(const models::ComponentRecord& record);
+
+/// As much of it as eight lines hold.
+inline constexpr std::size_t kMostVerdictLines = 8;
+std::vector<std::string> VerdictLines(const models::ComponentRecord& record,
+                                      std::size_t width);
+
+/// What measurements would make the answer surer: "cycles with t1 below 20 or
+/// above 27"; "" where nothing is known to.
+std::string MeasureNext(const models::ComponentRecord& record);
+
+/// All sentences in paragraphs.
+std::string VerdictParagraphs(const models::ComponentRecord& record,
+                              std::size_t width);
+
+}  // namespace errmap::report

@@ -1,0 +1,90 @@
+#include "cli/report/tables/result_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/report/report.h"
+#include "tests/cli/report/report_document.h"
+
+namespace errmap::report {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+TEST(LeaderboardRows, HasARowPerHoldoutAndModel) {
+  const models::StudyRecord record = Recorded(MakeReportDocument());
+  const Table table = LeaderboardRows(record);
+  const models::ComponentRecord& component = record.components[0];
+  EXPECT_EQ(table.rows.size(),
+            component.holdouts.size() * component.models.size());
+  EXPECT_THAT(CsvTable(table),
+              StartsWith("component,holdout,model,kind,status,parameters,"
+                         "test_n,test_rmse,"));
+}
+
+TEST(LeaderboardRows, CarryTheAnswerInOneUnit) {
+  const models::StudyRecord record = Recorded(MakeReportDocument());
+  const std::string csv = CsvTable(LeaderboardRows(record));
+  EXPECT_THAT(csv,
+              HasSubstr(",test_ci95_low,test_ci95_high,interchangeable,gap,"
+                        "sensors,goal,established,unit\n"));
+  EXPECT_THAT(csv, HasSubstr(",no,,1,no,,mm\n"));
+  EXPECT_THAT(MarkdownTable(LeaderboardRows(record)), HasSubstr("| um |"));
+}
+
+TEST(TerminalLeaderboard, StandsByTheDecisiveErrorAndMarksTheRecommended) {
+  const models::StudyRecord record = Recorded(MakeReportDocument());
+  const ReportView view = ViewOf(record.components[0]);
+  const Table table = TerminalLeaderboard(view, 12);
+  const std::vector<std::string> lines = TerminalLines(table, 80);
+  ASSERT_EQ(lines.size(), 5U);
+  EXPECT_THAT(lines[1], StartsWith("  model     sensors  "));
+  EXPECT_THAT(lines[2], StartsWith("= mean "));
+  EXPECT_THAT(lines[3], StartsWith("* poly:eq8 "));
+  EXPECT_THAT(lines[4], StartsWith("  net:scg "));
+  EXPECT_EQ(table.marked, 1U);
+}
+
+TEST(TerminalLeaderboard, AlwaysHoldsTheRecommended) {
+  const models::StudyRecord record = Recorded(MakeReportDocument());
+  const Table table = TerminalLeaderboard(ViewOf(record.components[0]), 1);
+  EXPECT_EQ(table.rows.size(), 1U);
+  EXPECT_EQ(table.marked, 0U);
+}
+
+TEST(DrawnRowsWords, NameWhatLearntFromAPart) {
+  models::StudyRecord record = Recorded(MakeReportDocument());
+  models::ComponentRecord& component = record.components[0];
+  EXPECT_EQ(DrawnRowsWords(ViewOf(component)), "");
+  component.data.rows = 28560;
+  component.models[2].final->choices =
+      models::ByName<models::OptionValue>{{"rows", std::int64_t{19992}}};
+  const std::string words =
+      "net:scg learnt from 19992 of 28560 rows (all by rows=all).";
+  EXPECT_EQ(DrawnRowsWords(ViewOf(component)), words);
+  EXPECT_THAT(ScreenText(record, 1000), HasSubstr(words));
+  EXPECT_THAT(PageLeaderboard(ViewOf(component)).note, StartsWith(words));
+}
+
+// What the same model is said to have in each of the three tables.
+TEST(ResultTables, AgreeWithEachOther) {
+  const models::StudyRecord record = Recorded(MakeReportDocument());
+  const models::ComponentRecord& component = record.components[0];
+  const auto row_of = [](const Table& table, std::size_t at) {
+    std::string text;
+    for (const auto& row : table.rows) {
+      if (table.Shown(row[at]) != "poly:eq8") continue;
+      for (const Cell& cell : row) text += table.Shown(cell) + " ";
+    }
+    return text;
+  };
+  EXPECT_THAT(row_of(LeaderboardRows(record), 2), HasSubstr(" 1.9 "));
+  EXPECT_THAT(row_of(TerminalLeaderboard(ViewOf(component), 12), 0),
+              HasSubstr(" 1.900 1.520-2.470 "));
+  EXPECT_THAT(row_of(PageLeaderboard(ViewOf(component)), 0),
+              HasSubstr(" 1.900 (1.520 to 2.470) no "));
+}
+
+}  // namespace
+}  // namespace errmap::report

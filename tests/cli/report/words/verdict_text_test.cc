@@ -1,0 +1,369 @@
+#include "cli/report/words/verdict_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/report/wrap_text.h"
+#include "tests/cli/report/report_document.h"
+
+namespace errmap::report {
+namespace {
+
+using models::ComponentRecord;
+using models::Confidence;
+using models::RemarkKind;
+using models::RemarkRecord;
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Le;
+using ::testing::Not;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+
+constexpr const char* kFar = "groups:5";
+
+// poly:eq8 of 1.9 um on unseen cycles is recommended; the mean has 0.8 um, the
+// net 3 um.
+ComponentRecord Base() {
+  DocumentSpec spec;
+  spec.models = {"zero", "poly:eq8", "net:scg"};
+  ComponentRecord record =
+      Recorded(MakeReportDocument(spec)).components.front();
+  for (models::HoldoutRecord& holdout : record.holdouts) {
+    holdout.unit_of_analysis = "cycle";
+    holdout.units = 6;
+    holdout.among_neighbours = !holdout.whole_groups;
+  }
+  record.tiers = {{kFar, {{"poly:eq8"}, {"net:scg"}, {"zero"}}}};
+  models::RecommendationRecord& advice = *record.recommendation;
+  advice.reasons.clear();
+  advice.caveats.clear();
+  advice.against_baseline = Confidence::kEstablished;
+  advice.best_baseline = "zero";
+  advice.removed_share = 0.9279;
+  return record;
+}
+
+std::string Headline(ComponentRecord record) {
+  AddSentences(&record);
+  return record.recommendation->sentence;
+}
+
+std::string GroundOf(ComponentRecord record, RemarkRecord remark) {
+  record.recommendation->grounds = {std::move(remark)};
+  AddSentences(&record);
+  return record.recommendation->reasons.at(0);
+}
+
+std::string DoubtOf(ComponentRecord record, RemarkRecord remark) {
+  record.recommendation->doubts = {std::move(remark)};
+  AddSentences(&record);
+  return record.recommendation->caveats.at(0);
+}
+
+// --- The headline ----------------------------------------------------------
+
+TEST(Headline, SaysWhatToUseAndHowGoodItIs) {
+  EXPECT_EQ(Headline(Base()),
+            "Use poly:eq8: 1.900 um RMSE (95 % 1.520 to 2.470) on cycles it "
+            "never saw.");
+}
+
+TEST(Headline, SaysWhereNothingBeatsTheBestBaselineForSure) {
+  ComponentRecord record = Base();
+  record.recommendation->against_baseline = Confidence::kNotShown;
+  EXPECT_THAT(Headline(record),
+              EndsWith("That it beats zero (0.800 um), the best baseline, is "
+                       "not proven."));
+}
+
+TEST(Headline, SaysWhereNoTemperatureMapEarnsItsSensors) {
+  ComponentRecord record = Base();
+  models::RecommendationRecord& advice = *record.recommendation;
+  advice.choice = models::Choice::kBaseline;
+  advice.sensors.clear();
+  advice.against_baseline = Confidence::kNotShown;
+  EXPECT_THAT(Headline(record),
+              StartsWith("No temperature map earns its sensors here, as far as "
+                         "these data tell. Use poly:eq8: 1.900 um"));
+  advice.against_baseline = Confidence::kEstablished;
+  EXPECT_THAT(Headline(record),
+              StartsWith("No temperature map earns its sensors here, and that "
+                         "is proven. Use poly:eq8: "));
+}
+
+TEST(Headline, SaysWhereNothingIsBetter) {
+  ComponentRecord record = Base();
+  record.recommendation->choice = models::Choice::kBaseline;
+  record.recommendation->model = "zero";
+  record.recommendation->against_baseline = Confidence::kNotShown;
+  EXPECT_THAT(Headline(record),
+              StartsWith("No map is worth its effort here, as far as these "
+                         "data tell. Compensate with nothing: 0.800 um RMSE"));
+}
+
+TEST(Headline, SaysWherePolynomialOrNetMakesNoDifference) {
+  ComponentRecord record = Base();
+  record.recommendation->choice = models::Choice::kNoPracticalDifference;
+  EXPECT_THAT(Headline(record),
+              StartsWith("Polynomial or net makes no practical difference. Use "
+                         "poly:eq8: "));
+}
+
+TEST(Headline, NamesWhatKindOfRowsItIsAbout) {
+  ComponentRecord record = Base();
+  for (models::HoldoutRecord& holdout : record.holdouts) {
+    if (holdout.name == kFar) {
+      holdout.whole_groups = false;
+      holdout.whole_sessions = true;
+      holdout.unit_of_analysis = "day";
+    }
+  }
+  EXPECT_THAT(Headline(record), HasSubstr("on days it never saw."));
+  record.holdouts.back().whole_sessions = false;
+  record.holdouts.back().another_file = true;
+  EXPECT_THAT(Headline(record), HasSubstr("on another file (groups:5)."));
+}
+
+// --- What speaks for it, and against ---------------------------------------
+
+TEST(Sentences, TellTheShareOfTheErrorThatIsRemoved) {
+  EXPECT_EQ(GroundOf(Base(), {.kind = RemarkKind::kRemoves}),
+            "It removes 92 % of the error (0.800 um without a map).");
+}
+
+TEST(Sentences, TellOffsetAndScatterOfAMissedGoalApart) {
+  EXPECT_EQ(GroundOf(Base(), {.kind = RemarkKind::kGoal}),
+            "The goal (RMSE at most 0.5 um) is not met: RMSE 1.900 um, scatter "
+            "1.881 um about an offset of 0.190 um.");
+}
+
+TEST(Sentences, CallAnOffsetPerCycleAThermalStateThatNoSensorSees) {
+  ComponentRecord record = Base();
+  models::ModelRecord& model = record.models[1];
+  for (auto& [holdout, result] : model.results) {
+    result.randomness.by_group.emplace().column = "cycle";
+  }
+  RemarkRecord remark{.kind = RemarkKind::kNotNoise};
+  remark.columns = std::vector<std::string>{"cycle", "position_mm"};
+  remark.shares = std::vector<double>{0.87, 0.31};
+  EXPECT_EQ(GroundOf(record, remark),
+            "87 % of what is left is an offset per cycle: a thermal state that "
+            "the sensors do not see. Add a sensor, or re-zero each cycle. 31 % "
+            "of what is left repeats along position_mm: the map is too smooth "
+            "there.");
+}
+
+TEST(Sentences, TellWhichColumnToIgnoreForAFlatteredModel) {
+  ComponentRecord record = Base();
+  record.gap =
+      models::GapRecord{.neighbours = "every:3",
+                        .unseen = kFar,
+                        .warning = {},
+                        .models = {{"net:scg", 3.6e-4, 1.65e-3, 4.6, true}}};
+  RemarkRecord remark{.kind = RemarkKind::kIgnoreNeighbours};
+  remark.model = "net:scg";
+  EXPECT_EQ(DoubtOf(record, remark),
+            "Ignore the every:3 column for net:scg: 0.360 um next to known "
+            "rows, 1.650 um on a cycle it never saw.");
+}
+
+// --- Why not the net -------------------------------------------------------
+
+std::string OfBestNet(ComponentRecord record) {
+  RemarkRecord remark{.kind = RemarkKind::kBestNet};
+  remark.model = "net:scg";
+  return GroundOf(std::move(record), remark);
+}
+
+TEST(BestNet, IsSaidToErrByHowMuchMore) {
+  ComponentRecord record = Base();
+  models::PairRecord& pair = record.comparisons.front();
+  ASSERT_EQ(pair.a, "poly:eq8");
+  ASSERT_EQ(pair.b, "net:scg");
+  pair.ci95 = {-1.75e-3, -4.5e-4};
+  EXPECT_EQ(OfBestNet(record),
+            "The best net, net:scg, has 3.000 um, 1.100 um more (95 % 0.450 to "
+            "1.750).");
+  // The pair may stand the other way round.
+  std::swap(pair.a, pair.b);
+  pair.ci95 = {4.5e-4, 1.75e-3};
+  pair.established = false;
+  EXPECT_EQ(OfBestNet(record),
+            "The best net, net:scg, has 3.000 um, 1.100 um more (95 % 0.450 to "
+            "1.750), which is not proven.");
+  record.comparisons.clear();
+  EXPECT_EQ(OfBestNet(record),
+            "The best net, net:scg, has 3.000 um, 1.100 um more.");
+}
+
+TEST(BestNet, IsSaidToErrLessWhereABaselineOrBlendIsUsedAllTheSame) {
+  ComponentRecord record = Base();
+  for (auto& [holdout, result] : record.models[2].results) {
+    result.test.rmse = 1.5e-3;
+  }
+  models::PairRecord& pair = record.comparisons.front();
+  pair.ci95 = {-1e-4, 9e-4};  // of poly:eq8 less net:scg
+  pair.established = false;
+  EXPECT_EQ(OfBestNet(record),
+            "The best net, net:scg, has 1.500 um, 0.400 um less (95 % -0.100 "
+            "to 0.900), which is not proven.");
+}
+
+TEST(BestNet, IsSaidToBeInterchangeableAndDearer) {
+  ComponentRecord record = Base();
+  record.recommendation->first_tier = {"poly:eq8", "net:scg"};
+  EXPECT_EQ(OfBestNet(record),
+            "The best net, net:scg (3.000 um), is interchangeable with it and "
+            "dearer: 21 parameters for 11.");
+  record.recommendation->parameters = 40;
+  EXPECT_EQ(OfBestNet(record),
+            "The best net, net:scg (3.000 um), is interchangeable with it.");
+}
+
+TEST(Sentences, TellWhatFewSessionsHeldOutWholeSay) {
+  ComponentRecord record = Base();
+  record.data.sessions = 2;
+  record.holdouts.front().unit_of_analysis = "day";
+  RemarkRecord remark{.kind = RemarkKind::kFewSessions};
+  remark.holdouts = std::vector<std::string>{record.holdouts.front().name};
+  EXPECT_EQ(DoubtOf(record, remark),
+            "Held out whole (every:3) it has 1.200 um; 2 days are too few to "
+            "decide by: measure 4 or more.");
+  models::VerdictRecord verdict;
+  verdict.holdout = record.holdouts.front().name;
+  verdict.model = "zero";
+  record.verdict = {verdict};
+  record.tiers.emplace_back(
+      verdict.holdout,
+      std::vector<std::vector<std::string>>{{"zero"}, {"poly:eq8"}});
+  EXPECT_THAT(DoubtOf(record, remark),
+              StartsWith("Held out whole (every:3) it has 1.200 um, zero 0.800 "
+                         "um; 2 days "));
+  record.recommendation->doubts = {remark};
+  EXPECT_EQ(MeasureNext(record), "4 days or more");
+}
+
+TEST(Sentences, SayWhichMapHasLessErrorThanABlend) {
+  RemarkRecord remark{.kind = RemarkKind::kAveragesMaps};
+  remark.model = "zero";
+  EXPECT_THAT(GroundOf(Base(), remark),
+              EndsWith("the best single map is zero (0.800 um)."));
+}
+
+models::VerdictRecord Hindered(models::Obstacle::Kind kind,
+                               std::int64_t units,
+                               std::int64_t needed) {
+  models::VerdictRecord verdict;
+  verdict.holdout = kFar;
+  verdict.model = "poly:eq8";
+  verdict.obstacle = models::ObstacleRecord{
+      .kind = kind, .units = units, .needed = needed, .pairs = 3};
+  return verdict;
+}
+
+TEST(Sentences, TellHowManyCyclesWouldProveADifference) {
+  using Kind = models::Obstacle::Kind;
+  ComponentRecord record = Base();
+  record.verdict = {Hindered(Kind::kTooManyPairs, 6, 11)};
+  EXPECT_EQ(DoubtOf(record, {.kind = RemarkKind::kTooManyMaps}),
+            "6 cycles cannot prove a difference between 3 maps: measure 11 or "
+            "more, or compare fewer.");
+  record.verdict = {Hindered(Kind::kTooFewSignPatterns, 6, 0)};
+  EXPECT_EQ(DoubtOf(record, {.kind = RemarkKind::kTooManyMaps}),
+            "6 cycles cannot prove a difference between 3 maps: compare "
+            "fewer.");
+  record.verdict = {Hindered(Kind::kTooFewUnits, 5, 6)};
+  EXPECT_EQ(DoubtOf(record, {.kind = RemarkKind::kTooFewUnits}),
+            "5 cycles alone cannot prove which map is better: measure 6 or "
+            "more.");
+  record.verdict = {Hindered(Kind::kPerhapsOneSession, 8, 12)};
+  EXPECT_EQ(DoubtOf(record, {.kind = RemarkKind::kTooFewUnits}),
+            "8 cycles that may be of one day cannot prove which map is better: "
+            "measure 12 or more, or on several days (a column day or "
+            "session).");
+}
+
+TEST(Sentences, TellThatOneRunKnowsNothingOfAnotherDay) {
+  EXPECT_EQ(DoubtOf(Base(), {.kind = RemarkKind::kOneRunOnly}),
+            "One run only: nothing is known of another day.");
+}
+
+TEST(Sentences, TellWhatToMeasureWhereTheMapExtrapolates) {
+  ComponentRecord record = Base();
+  record.recommendation->extrapolated_share = 0.4;
+  RemarkRecord remark{.kind = RemarkKind::kExtrapolates};
+  remark.columns = std::vector<std::string>{"t12_degC"};
+  remark.below = std::vector<double>{21.5};
+  remark.above = std::vector<double>{27.0};
+  EXPECT_EQ(DoubtOf(record, remark),
+            "In 40 % of the held-out rows an input lies outside what the fold "
+            "was trained on, and the map extrapolates: measure more thermal "
+            "states, with t12_degC below 21.5 or above 27.");
+  record.recommendation->doubts = {remark};
+  EXPECT_EQ(MeasureNext(record), "states with t12_degC below 21.5 or above 27");
+}
+
+TEST(Sentences, TellThatNeighboursProveLittle) {
+  RemarkRecord remark{.kind = RemarkKind::kUnitsCorrelated};
+  remark.lag1 = 0.75;
+  remark.pairs = 3;
+  remark.established = 0;
+  EXPECT_THAT(DoubtOf(Base(), remark),
+              StartsWith("Neighbouring cycles resemble each other (lag-1 "
+                         "correlation 0.75 of the loss differences), so their "
+                         "number proves little, and nothing is called "
+                         "established"));
+}
+
+// --- The first screen ------------------------------------------------------
+
+TEST(VerdictLines, AreAtMostEightAndBeginWithTheHeadline) {
+  ComponentRecord record = Base();
+  models::RecommendationRecord& advice = *record.recommendation;
+  for (int i = 0; i < 20; ++i) {
+    RemarkRecord remark{.kind = RemarkKind::kGoal};
+    remark.rank = 20 - i;
+    advice.grounds.push_back(remark);
+  }
+  AddSentences(&record);
+  for (const std::size_t width : {80U, 100U, 160U}) {
+    const std::vector<std::string> lines = VerdictLines(record, width);
+    EXPECT_THAT(lines, SizeIs(Le(kMostVerdictLines)));
+    EXPECT_THAT(lines.front(), StartsWith("Use poly:eq8: 1.900 um RMSE"));
+    for (const std::string& line : lines) EXPECT_LE(WidthOf(line), width);
+  }
+}
+
+TEST(VerdictLines, TellFirstWhatMattersMost) {
+  ComponentRecord record = Base();
+  RemarkRecord late{.kind = RemarkKind::kOneRunOnly};
+  late.rank = 2;
+  RemarkRecord unranked{.kind = RemarkKind::kGoal};
+  RemarkRecord early{.kind = RemarkKind::kRemoves};
+  early.rank = 1;
+  record.recommendation->doubts = {late};
+  record.recommendation->grounds = {unranked, early};
+  AddSentences(&record);
+  EXPECT_THAT(FirstWords(record),
+              ElementsAre(StartsWith("Use "),
+                          StartsWith("It removes 92 %"),
+                          StartsWith("One run only")));
+}
+
+TEST(VerdictLines, SayWhereThereIsNothingToRecommend) {
+  ComponentRecord record = Base();
+  record.recommendation.reset();
+  EXPECT_THAT(VerdictLines(record, 80),
+              ElementsAre("No map can be recommended: none could be judged."));
+}
+
+TEST(PageWords, HaveTheSymbolsThatPeopleWrite) {
+  EXPECT_EQ(PageWords("0.5 um RMSE (95 % 0.4 to 0.6 um), t_um at 20 degC"),
+            "0.5 µm RMSE (95 % 0.4 to 0.6 µm), t_um at 20 °C");
+  EXPECT_THAT(PageWords("um is no number"), Not(HasSubstr("µ")));
+}
+
+}  // namespace
+}  // namespace errmap::report

@@ -1,0 +1,52 @@
+#include "cli/report/wrap_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/report/shell_word.h"
+
+namespace errmap::report {
+namespace {
+
+using ::testing::ElementsAre;
+
+TEST(WrapLines, BreaksAtBlanksAndLongWordsAnywhere) {
+  EXPECT_THAT(WrapLines("one two  three", 7), ElementsAre("one two", "three"));
+  EXPECT_THAT(WrapLines("a abcdefgh b", 4),
+              ElementsAre("a", "abcd", "efgh", "b"));
+  EXPECT_THAT(WrapLines("", 7), ElementsAre());
+}
+
+TEST(WrapLines, KeepsANumberAndItsUnitTogether) {
+  EXPECT_THAT(WrapLines("it removes 92 % of 11.4 um.", 13),
+              ElementsAre("it removes", "92 % of", "11.4 um."));
+  EXPECT_THAT(WrapLines("10 cycles", 5), ElementsAre("10", "cycle", "s"));
+  EXPECT_THAT(WrapLines("11.481 um", 5), ElementsAre("11.48", "1 um"));
+}
+
+TEST(WrapLines, CountsCharactersNotBytes) {
+  EXPECT_THAT(WrapLines("µµ µµ", 5), ElementsAre("µµ µµ"));
+  EXPECT_THAT(WrapLines("µµµµ", 2), ElementsAre("µµ", "µµ"));
+}
+
+TEST(Squeezed, TakesFromTheMiddle) {
+  EXPECT_EQ(Squeezed("poly:full:degree=3", 11), "poly...ee=3");
+  EXPECT_EQ(Squeezed("mean", 4), "mean");
+}
+
+TEST(ShellWords, ReadsBackWhatWasQuoted) {
+  const std::vector<std::string> words{"a", "b c", "d'e", "", "--x=1"};
+  std::string line;
+  for (const std::string& word : words) {
+    line += (line.empty() ? "" : " ") + ShellWord(word);
+  }
+  EXPECT_EQ(ShellWords(line), words);
+}
+
+TEST(ShellCommand, GoesOnInTheNextLine) {
+  EXPECT_EQ(ShellCommand({"errmap", "fit", "a b.csv", "-o", "map.json"}, 22, 2),
+            "errmap fit \\\n      'a b.csv' -o \\\n      map.json");
+}
+
+}  // namespace
+}  // namespace errmap::report
