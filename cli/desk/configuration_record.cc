@@ -51,6 +51,7 @@ models::ComponentConfigurationRecord ComponentOf(
   record.keep_dead = component.selection.keep_dead;
   record.goal = Number(component.goal);
   record.indifference = Number(component.indifference);
+  if (!component.options.empty()) record.options = component.options;
   return record;
 }
 

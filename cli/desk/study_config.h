@@ -6,6 +6,7 @@
 
 #include "cli/desk/given_error.h"
 #include "data/measurements/dataset.h"
+#include "models/study/record/record.h"
 
 namespace errmap::desk {
 
@@ -28,6 +29,8 @@ struct ComponentConfig {
   std::string save_split;  // file that gets the folds
   std::vector<PredictionsFile> predictions;
   std::vector<std::string> later;  // sessions that no fit may see
+  /// Of a plan: the options by which a command reads the same measurements.
+  models::ByName<std::string> options = {};
 };
 
 /// A study as the user asks for it, on the command line or in a study file:

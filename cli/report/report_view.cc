@@ -1,7 +1,6 @@
 #include "cli/report/report_view.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "data/units.h"
@@ -143,28 +142,6 @@ std::string PrettyUnit(const std::string& symbol) {
   if (symbol == "degC") return "°C";
   if (symbol == "urad") return "µrad";
   return symbol;
-}
-
-std::string PageWords(const std::string& sentence) {
-  std::string words;
-  for (std::size_t at = 0; at < sentence.size();) {
-    // Only what stands behind a number is a unit.
-    const bool after_number =
-        at >= 2 && sentence[at - 1] == ' ' &&
-        std::isdigit(static_cast<unsigned char>(sentence[at - 2])) != 0;
-    std::size_t end = at;
-    while (end < sentence.size() &&
-           std::isalpha(static_cast<unsigned char>(sentence[end])) != 0) {
-      ++end;
-    }
-    if (after_number && end > at) {
-      words += PrettyUnit(sentence.substr(at, end - at));
-      at = end;
-    } else {
-      words += sentence[at++];
-    }
-  }
-  return words;
 }
 
 }  // namespace errmap::report

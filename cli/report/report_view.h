@@ -55,7 +55,4 @@ ErrorText ErrorTextOf(const ComponentRecord& component);
 /// A unit's symbol as people write it: "um" -> "µm", "degC" -> "°C".
 std::string PrettyUnit(const std::string& symbol);
 
-/// A sentence of the record as pages write it: "0.5 um" -> "0.5 µm".
-std::string PageWords(const std::string& sentence);
-
 }  // namespace errmap::report

@@ -16,29 +16,6 @@ std::string ShellWord(const std::string& word) {
   return quoted + "'";
 }
 
-std::vector<std::string> ShellWords(const std::string& line) {
-  std::vector<std::string> words;
-  bool inside = false;  // a word
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (c == ' ' && !quoted) {
-      inside = false;
-      continue;
-    }
-    if (!inside) words.emplace_back();
-    inside = true;
-    if (c == '\'') {
-      quoted = !quoted;
-    } else if (c == '\\' && !quoted && i + 1 < line.size()) {
-      words.back() += line[++i];
-    } else {
-      words.back() += c;
-    }
-  }
-  return words;
-}
-
 std::string ShellCommand(const std::vector<std::string>& words,
                          std::size_t width,
                          std::size_t indent) {

@@ -9,9 +9,6 @@ namespace errmap::report {
 /// A word as a shell reads it back: in quotes where it needs them.
 std::string ShellWord(const std::string& word);
 
-/// The words of a line that was made of ShellWord's.
-std::vector<std::string> ShellWords(const std::string& line);
-
 /// A command that begins in column `indent` and goes on in the next line, four
 /// columns further in, where it would pass `width`.
 std::string ShellCommand(const std::vector<std::string>& words,

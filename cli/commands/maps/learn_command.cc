@@ -15,6 +15,7 @@
 #include "cli/commands/format_option.h"
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/commands/progress.h"
+#include "cli/desk/data_options.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
@@ -195,21 +196,10 @@ void LearnCurves(const LearnArguments& arguments,
       report::CurvesText(*learned->record.curves, dataset.target().unit);
 }
 
-// Names as --inputs takes them.
-std::string NameList(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) {
-    const bool odd = name.find(',') != std::string::npos;
-    list += (list.empty() ? "" : ",") + (odd ? '"' + name + '"' : name);
-  }
-  return list;
-}
-
 // The comparison with the sensors that do it, and the positions.
 std::string ComparisonOfChosen(const models::SensorCurveRecord& curve,
                                const LearnArguments& arguments,
-                               const data::Dataset& dataset,
-                               const std::string& command_line) {
+                               const data::Dataset& dataset) {
   if (!curve.enough || *curve.enough >= curve.all.sensors) return "";
   std::vector<std::string> inputs;
   for (const data::ColumnInfo& input : dataset.inputs()) {
@@ -220,25 +210,17 @@ std::string ComparisonOfChosen(const models::SensorCurveRecord& curve,
       inputs.push_back(input.name);
     }
   }
-  std::vector<std::string> options;
-  report::AddDataOptions(report::ShellWords(command_line), &options);
+  data::DatasetSelection selection = arguments.data.selection;
+  selection.inputs = std::move(inputs);
+  selection.exclude.clear();
   std::vector<std::string> words{"errmap", "compare", arguments.data.file};
-  for (std::size_t i = 0; i < options.size(); ++i) {
-    const std::string flag = options[i].substr(0, options[i].find('='));
-    if (flag != "--inputs" && flag != "--exclude") {
-      words.push_back(options[i]);
-    } else if (flag == options[i]) {
-      ++i;  // its list, too
-    }
-  }
-  words.insert(words.end(), {"--inputs", NameList(inputs)});
+  report::AddOptions(desk::DataOptions(selection, arguments.seed), &words);
   return "With these alone:\n  " +
          report::ShellCommand(words, OutputTerminal().columns, 2) + "\n";
 }
 
 void LearnBySensors(const LearnArguments& arguments,
                     const data::Dataset& dataset,
-                    const std::string& command_line,
                     Learned* learned) {
   Progress progress(!arguments.data.quiet);
   try {
@@ -258,8 +240,8 @@ void LearnBySensors(const LearnArguments& arguments,
   }
   learned->text +=
       report::SensorsText(*learned->record.sensors, dataset.target().unit);
-  learned->text += ComparisonOfChosen(
-      *learned->record.sensors, arguments, dataset, command_line);
+  learned->text +=
+      ComparisonOfChosen(*learned->record.sensors, arguments, dataset);
 }
 
 void LearnNext(const LearnArguments& arguments,
@@ -302,7 +284,7 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
   const double goal = GoalOf(arguments, dataset.target().unit);
   Learned learned;
   if (arguments.by == "sensors") {
-    LearnBySensors(arguments, dataset, command_line, &learned);
+    LearnBySensors(arguments, dataset, &learned);
   } else if (!arguments.by.empty()) {
     LearnCurves(arguments, dataset, goal, &learned);
   }

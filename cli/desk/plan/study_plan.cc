@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/desk/data_options.h"
 #include "cli/desk/plan/component_names.h"
 #include "cli/report/words/fault_text.h"
 #include "data/argument_name.h"
@@ -243,6 +244,7 @@ void FillInDefaults(StudyPlan* plan) {
     const models::ComponentStudy& planned = plan->components[i].comparison;
     const data::Dataset& dataset = planned.data.dataset;
     ComponentConfig& component = plan->config.components[i];
+    component.options = DataOptions(component.selection, plan->config.seed);
     component.selection.target = dataset.target().name;
     component.selection.group = dataset.groups().column;
     // "none" stays where nothing was found.

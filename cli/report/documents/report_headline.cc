@@ -53,18 +53,6 @@ void SayGoal(const ReportView& view, const ErrorText& error, Headline* line) {
                            GoalFigures(*result, error));
 }
 
-bool IsOfGoal(const models::RecommendationRecord& advice,
-              const std::string& words) {
-  for (std::size_t i = 0;
-       i < std::min(advice.grounds.size(), advice.reasons.size());
-       ++i) {
-    if (advice.reasons[i] == words) {
-      return advice.grounds[i].kind == models::RemarkKind::kGoal;
-    }
-  }
-  return false;
-}
-
 std::string CostWords(const models::RecommendationRecord& advice) {
   std::vector<std::string> parts{
       advice.sensors.empty()
@@ -86,6 +74,15 @@ std::string SensorWords(std::vector<std::string> sensors) {
   return fmt::format("{}{}",
                      fmt::join(sensors, ", "),
                      more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
+std::vector<std::string> TextsOf(
+    const std::vector<models::RemarkRecord>& remarks) {
+  std::vector<std::string> texts;
+  for (const models::RemarkRecord& remark : remarks) {
+    if (!remark.text.empty()) texts.push_back(remark.text);
+  }
+  return texts;
 }
 
 std::string FallbackSentence(const ReportView& view, const Headline& line) {
@@ -122,20 +119,20 @@ Headline HeadlineOf(const ReportView& view) {
     line.cost = CostWords(advice);
     line.sensors = SensorWords(advice.sensors);
     line.sentence = advice.sentence;
-    // The goal has a line of its own.
     constexpr std::size_t kMostTold = 5;
-    for (const std::string& words : FirstWords(*view.component)) {
-      if (words == advice.sentence || IsOfGoal(advice, words)) continue;
-      if (line.told.size() < kMostTold) line.told.push_back(words);
+    for (const models::RemarkRecord* remark : ToldFirst(advice)) {
+      // The goal has a line of its own.
+      if (remark->kind == models::RemarkKind::kGoal) continue;
+      if (line.told.size() == kMostTold) break;
+      line.told.push_back(remark->text);
+      // What it costs names them already, where they are few.
+      if (remark->kind == models::RemarkKind::kCost &&
+          advice.sensors.size() <= kMostSensorsNamed) {
+        line.sensors.clear();
+      }
     }
-    // What it costs may name them already.
-    if (std::ranges::any_of(line.told, [&](const std::string& words) {
-          return words.find(line.sensors) != std::string::npos;
-        })) {
-      line.sensors.clear();
-    }
-    line.reasons = advice.reasons;
-    line.caveats = advice.caveats;
+    line.reasons = TextsOf(advice.grounds);
+    line.caveats = TextsOf(advice.doubts);
   }
   if (line.sentence.empty()) line.sentence = FallbackSentence(view, line);
   return line;

@@ -15,6 +15,7 @@
 #include "cli/report/tables/report_tables.h"
 #include "cli/report/tables/result_table.h"
 #include "cli/report/words/next_steps.h"
+#include "cli/report/words/verdict_text.h"
 
 namespace errmap::report {
 namespace {
@@ -25,7 +26,7 @@ std::string Paragraph(const std::string& text, const char* style = "") {
   if (text.empty()) return "";
   return fmt::format("<p{}>{}</p>\n",
                      *style != '\0' ? fmt::format(" class=\"{}\"", style) : "",
-                     HtmlText(PageWords(text)));
+                     HtmlText(text));
 }
 
 std::string List(const std::string& title,
@@ -34,7 +35,7 @@ std::string List(const std::string& title,
   std::string html =
       title.empty() ? "<ul>" : fmt::format("<h4>{}</h4><ul>", HtmlText(title));
   for (const std::string& line : lines) {
-    html += "<li>" + HtmlText(PageWords(line)) + "</li>";
+    html += "<li>" + HtmlText(line) + "</li>";
   }
   return html + "</ul>\n";
 }
@@ -274,7 +275,7 @@ std::string Page::Next(std::size_t index) const {
     html += fmt::format("<dt>{}</dt><dd>{}</dd>",
                         HtmlText(step.purpose),
                         step.words.empty()
-                            ? HtmlText(PageWords(step.text))
+                            ? HtmlText(step.text)
                             : "<code>" +
                                   HtmlText(ShellCommand(step.words, kLine, 0)) +
                                   "</code>");
@@ -285,8 +286,7 @@ std::string Page::Next(std::size_t index) const {
 std::string Page::Card(const ReportView& view) const {
   const Headline line = HeadlineOf(view);
   std::string html = "<div class=\"card\">\n";
-  html +=
-      "<p class=\"sentence\">" + HtmlText(PageWords(line.sentence)) + "</p>\n";
+  html += "<p class=\"sentence\">" + HtmlText(line.sentence) + "</p>\n";
   if (!line.error.empty()) {
     html += "<p class=\"number\">" + HtmlText(line.error) + "</p>\n";
     html += Paragraph(line.where +
@@ -549,7 +549,7 @@ std::string Page::Html() const {
 
 std::string ReportHtml(const models::StudyRecord& record,
                        const FigureSet& figures) {
-  return Page(record, figures).Html();
+  return Page(WithPageUnits(record), figures).Html();
 }
 
 }  // namespace errmap::report

@@ -51,7 +51,7 @@ Figure CurvesFigure(const models::LearningCurvesRecord& curves,
   plot.x = {
       .quantity = curves.unit + " learnt from", .unit = "count", .low = 0.0};
   plot.y = {.quantity = "RMSE on an unseen " + curves.unit,
-            .unit = PrettyUnit(unit.display_symbol),
+            .unit = unit.display_symbol,
             .low = 0.0};
   const ErrorText error = ErrorTextOf(curves, unit);
   std::vector<std::string> words;
@@ -77,16 +77,16 @@ Figure CurvesFigure(const models::LearningCurvesRecord& curves,
              &plot);
   }
   if (std::isfinite(curves.goal)) {
-    AddLevel(PageWords("goal " + error.WithUnit(curves.goal)),
+    AddLevel("goal " + error.WithUnit(curves.goal),
              unit.display_scale * curves.goal,
              static_cast<double>(curves.units),
              &plot);
   }
   figure.note = fmt::format("{}", fmt::join(words, " "));
-  figure.description = PageWords(
+  figure.description =
       fmt::format("Held-out error against the number of {} learnt from. {}.",
                   curves.unit,
-                  fmt::join(told, "; ")));
+                  fmt::join(told, "; "));
   return figure;
 }
 
@@ -100,9 +100,8 @@ Figure SensorsFigure(const models::SensorCurveRecord& curve,
   plot.name = prefix + "sensor-curve";
   plot.width = 560;
   plot.x = {.quantity = "sensors", .unit = "count", .low = 0.0};
-  plot.y = {.quantity = "RMSE held out",
-            .unit = PrettyUnit(unit.display_symbol),
-            .low = 0.0};
+  plot.y = {
+      .quantity = "RMSE held out", .unit = unit.display_symbol, .low = 0.0};
   const ErrorText error = ErrorTextOf(curve, unit);
   std::vector<std::vector<double>> columns(2);
   std::vector<std::string> told;
@@ -145,7 +144,8 @@ bool IsOf(const models::LearningRecord& learnt,
 
 std::vector<Figure> LearningFigures(const models::LearningRecord& learnt,
                                     const std::string& prefix) {
-  const data::Unit unit = data::UnitOfSymbol(learnt.unit);
+  data::Unit unit = data::UnitOfSymbol(learnt.unit);
+  unit.display_symbol = PrettyUnit(unit.display_symbol);
   std::vector<Figure> figures;
   if (learnt.curves) {
     figures.push_back(CurvesFigure(*learnt.curves, unit, prefix));

@@ -1,11 +1,35 @@
 #include "cli/report/words/component_numbers.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "data/input_error.h"
+
 namespace errmap::report {
+
+void RefuseIncompleteRecord() {
+  throw data::InputError("results.json lacks figures that its sentences need");
+}
+
+const models::VerdictRecord& ComponentNumbers::Verdict(
+    const std::string& holdout) const {
+  const auto found = std::ranges::find(
+      record.verdict, holdout, &models::VerdictRecord::holdout);
+  if (found == record.verdict.end()) RefuseIncompleteRecord();
+  return *found;
+}
+
+const models::GapModelRecord& ComponentNumbers::Gap(
+    const std::string& model) const {
+  const auto& rows = There(record.gap).models;
+  const auto found =
+      std::ranges::find(rows, model, &models::GapModelRecord::model);
+  if (found == rows.end()) RefuseIncompleteRecord();
+  return *found;
+}
 
 std::string ComponentNumbers::RmseWithInterval(
     const std::string& model, const std::string& holdout) const {

@@ -8,6 +8,16 @@
 
 namespace errmap::report {
 
+[[noreturn]] void RefuseIncompleteRecord();
+
+/// What a sentence needs of a record, a pointer or an optional; throws
+/// data::InputError where it is not there.
+template <typename Held>
+const auto& There(const Held& held) {
+  if (!held) RefuseIncompleteRecord();
+  return *held;
+}
+
 /// What the sentences about one component take from its record, which has to
 /// outlive it.
 struct ComponentNumbers {
@@ -17,17 +27,24 @@ struct ComponentNumbers {
   const models::ComponentRecord& record;
   ErrorText error;
 
-  // Each must be there.
+  // Each must be there, as in every record that this version made; else
+  // data::InputError.
   const models::RecommendationRecord& Advice() const {
-    return *record.recommendation;
+    return There(record.recommendation);
   }
   const models::HoldoutRecord& Holdout(const std::string& name) const {
-    return *models::FindNamed(record.holdouts, name);
+    return There(models::FindNamed(record.holdouts, name));
+  }
+  const ModelRecord& Model(const std::string& name) const {
+    return There(models::FindNamed(record.models, name));
   }
   const ResultRecord& Result(const std::string& model,
                              const std::string& holdout) const {
-    return *ResultOf(*models::FindNamed(record.models, model), holdout);
+    return There(ResultOf(Model(model), holdout));
   }
+  const models::VerdictRecord& Verdict(const std::string& holdout) const;
+  /// Of a model between neighbours and on units never seen.
+  const models::GapModelRecord& Gap(const std::string& model) const;
   double Rmse(const std::string& model, const std::string& holdout) const {
     return Result(model, holdout).test.rmse;
   }

@@ -1,9 +1,7 @@
 #include "cli/report/words/next_steps.h"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -30,6 +28,16 @@ std::string HeldOutRows(const std::string& folder, const std::string& map) {
   return (fs::path(folder) / file).lexically_normal().string();
 }
 
+// The options by which the study read the component's measurements.
+void AddDataOptions(const models::StudyRecord& record,
+                    std::size_t component,
+                    Words* words) {
+  const auto& configured = record.provenance.configuration.component;
+  if (component < configured.size() && configured[component].options) {
+    AddOptions(*configured[component].options, words);
+  }
+}
+
 // What is asked next of a recommendation that has these doubts and grounds.
 void AddAnswers(const models::RecommendationRecord& advice,
                 const models::ModelRecord& model,
@@ -51,36 +59,19 @@ void AddAnswers(const models::RecommendationRecord& advice,
   const auto net = std::ranges::find(advice.grounds,
                                      models::RemarkKind::kBestNet,
                                      &models::RemarkRecord::kind);
-  const auto place = static_cast<std::size_t>(net - advice.grounds.begin());
-  if (net != advice.grounds.end() && place < advice.reasons.size()) {
-    steps->push_back({"why no net", {}, advice.reasons[place]});
+  if (net != advice.grounds.end() && !net->text.empty()) {
+    steps->push_back({"why no net", {}, net->text});
   }
 }
 
 }  // namespace
 
-void AddDataOptions(const Words& command, Words* words) {
-  constexpr std::array<std::string_view, 11> kOfData = {"--target",
-                                                        "--inputs",
-                                                        "--exclude",
-                                                        "--group",
-                                                        "--session",
-                                                        "--time",
-                                                        "--align",
-                                                        "--weight",
-                                                        "--missing",
-                                                        "--faults",
-                                                        "--seed"};
-  for (std::size_t i = 0; i < command.size(); ++i) {
-    const std::string& word = command[i];
-    const std::string_view flag =
-        std::string_view(word).substr(0, word.find('='));
-    if (word == "--keep-dead") words->push_back(word);
-    if (std::ranges::find(kOfData, flag) == kOfData.end()) continue;
-    words->push_back(word);
-    if (flag.size() == word.size() && i + 1 < command.size()) {
-      words->push_back(command[++i]);
-    }
+void AddOptions(const models::ByName<std::string>& options, Words* words) {
+  for (const auto& [name, value] : options) {
+    std::string flag = "--" + name;
+    std::ranges::replace(flag, '_', '-');
+    words->push_back(std::move(flag));
+    if (!value.empty()) words->push_back(value);
   }
 }
 
@@ -112,7 +103,7 @@ std::vector<NextStep> NextSteps(const models::StudyRecord& record,
           {"write the map", {}, "the same command with --out STUDY"});
     } else {
       Words words{"errmap", "fit", data, "--model", model.name};
-      AddDataOptions(ShellWords(record.provenance.command_line), &words);
+      AddDataOptions(record, component, &words);
       words.insert(words.end(), {"-o", map});
       steps.push_back({"write the map", std::move(words)});
     }
@@ -162,7 +153,7 @@ std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
     steps.push_back({"its sensors", {}, data::Printable(text, text.size())});
     if (all > 1 && !data.empty()) {
       Words words{"errmap", "learn", data, "--by", "sensors"};
-      AddDataOptions(ShellWords(record.provenance.command_line), &words);
+      AddDataOptions(record, component, &words);
       if (!folder.empty()) words.insert(words.end(), {"--out", folder});
       steps.push_back({"fewer of them", std::move(words)});
     }

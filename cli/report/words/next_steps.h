@@ -7,10 +7,9 @@
 
 namespace errmap::report {
 
-/// Adds the options by which a command read its measurements, which compare,
-/// fit and learn have alike.
-void AddDataOptions(const std::vector<std::string>& command,
-                    std::vector<std::string>* words);
+/// Adds options by the names of a study file as flags of a command.
+void AddOptions(const models::ByName<std::string>& options,
+                std::vector<std::string>* words);
 
 /// What to do with a recommendation.
 struct NextStep {

@@ -67,11 +67,10 @@ std::string MemoryText(const models::MemoryRecord& memory) {
 }
 
 std::string CostSentence(const RecommendationRecord& advice) {
-  constexpr std::size_t kMostNamed = 8;
   std::string sensors = "no sensor";
   if (!advice.sensors.empty()) {
     sensors = Count(std::ssize(advice.sensors), "sensor");
-    if (advice.sensors.size() <= kMostNamed) {
+    if (advice.sensors.size() <= kMostSensorsNamed) {
       sensors += fmt::format(" ({})", fmt::join(advice.sensors, ", "));
     }
   }
@@ -94,7 +93,7 @@ std::string SimplestSentence(const ComponentNumbers& component,
         "tier (the others: {}).",
         ListBesides(advice.first_tier, advice.model));
   }
-  const std::string& model = *remark.model;
+  const std::string& model = There(remark.model);
   const std::string rmse =
       component.error.WithUnit(component.Rmse(model, advice.holdout));
   switch (remark.kind) {
@@ -121,11 +120,11 @@ std::string SimplestSentence(const ComponentNumbers& component,
           "{} to it.",
           model,
           rmse,
-          *remark.confidence != Confidence::kEstablished
+          There(remark.confidence) != Confidence::kEstablished
               ? fmt::format(", as if {} were independent,",
                             PluralOfUnit(component.Holdout(advice.holdout)))
               : "",
-          component.error.WithUnit(*remark.excess));
+          component.error.WithUnit(There(remark.excess)));
   }
 }
 
@@ -139,7 +138,7 @@ std::string BestNetSentence(const ComponentNumbers& component,
            advice.first_tier.end();
   };
   if (in_first_tier(net) && in_first_tier(advice.model)) {
-    const auto parameters = FindNamed(component.record.models, net)->parameters;
+    const auto parameters = component.Model(net).parameters;
     return fmt::format("The best net, {} ({}), is interchangeable with it{}.",
                        net,
                        component.error.WithUnit(rmse),
@@ -206,11 +205,8 @@ std::string GoalSentence(const ComponentNumbers& component) {
 std::string DisagreementSentence(const ComponentNumbers& component,
                                  const RemarkRecord& remark) {
   std::vector<std::string> parts;
-  for (const std::string& holdout : *remark.holdouts) {
-    const std::string& best =
-        std::ranges::find(
-            component.record.verdict, holdout, &VerdictRecord::holdout)
-            ->model;
+  for (const std::string& holdout : There(remark.holdouts)) {
+    const std::string& best = component.Verdict(holdout).model;
     parts.push_back(
         fmt::format("under {} it has {}, {} has {}",
                     holdout,
@@ -230,12 +226,12 @@ std::string CorrelationSentence(const ComponentNumbers& component,
       "loss differences), so their number proves little, and {} is called "
       "established; more days, held out whole, would tell.",
       PluralOfUnit(component.Holdout(component.Advice().holdout)),
-      *remark.lag1,
-      *remark.established == 0
+      There(remark.lag1),
+      There(remark.established) == 0
           ? "nothing"
           : fmt::format("only what is free of that, {} of {},",
-                        *remark.established,
-                        Count(*remark.pairs, "difference")));
+                        There(remark.established),
+                        Count(There(remark.pairs), "difference")));
 }
 
 // "6 cycles cannot prove a difference between 9 maps: ..."
@@ -244,15 +240,13 @@ std::string TooFewSentence(const ComponentNumbers& component,
   const RecommendationRecord& advice = component.Advice();
   const HoldoutRecord& holdout = component.Holdout(advice.holdout);
   const models::ObstacleRecord& obstacle =
-      *std::ranges::find(
-           component.record.verdict, advice.holdout, &VerdictRecord::holdout)
-           ->obstacle;
+      There(component.Verdict(advice.holdout).obstacle);
   const std::string found = Count(obstacle.units, holdout.unit_of_analysis);
   const bool one = obstacle.units == 1;
   if (remark.kind == RemarkKind::kTooManyMaps) {
     std::size_t maps = 0;
     for (const auto& tier :
-         *FindNamed(component.record.tiers, advice.holdout)) {
+         There(FindNamed(component.record.tiers, advice.holdout))) {
       maps += tier.size();
     }
     return fmt::format(
@@ -285,14 +279,13 @@ std::string OtherCutsSentence(const ComponentNumbers& component) {
       shares.push_back(fmt::format(
           "{} {:.0f} %", cuts.wins[i].model, kPercent * cuts.wins[i].share));
     }
-    parts.push_back(fmt::format("of {} cuts of {} the lowest error went to {}",
+    parts.push_back(fmt::format("{} {} cuts of {} the lowest error went to {}",
+                                parts.empty() ? "Of" : "of",
                                 cuts.repeats,
                                 cuts.holdout,
                                 fmt::join(shares, ", ")));
   }
-  std::string text = fmt::format("{}.", fmt::join(parts, "; "));
-  text.front() = 'O';
-  return text;
+  return fmt::format("{}.", fmt::join(parts, "; "));
 }
 
 // What is left is no noise where it has an offset per cycle, or repeats along
@@ -303,9 +296,9 @@ std::string WhatIsLeftSentence(const ComponentNumbers& component,
       component.Result(component.Advice().model, component.Advice().holdout)
           .randomness.by_group;
   std::string text;
-  for (std::size_t i = 0; i < remark.columns->size(); ++i) {
-    const std::string& column = (*remark.columns)[i];
-    const double percent = kPercent * (*remark.shares)[i];
+  for (std::size_t i = 0; i < There(remark.columns).size(); ++i) {
+    const std::string& column = remark.columns->at(i);
+    const double percent = kPercent * There(remark.shares).at(i);
     text += text.empty() ? "" : " ";
     text += by_group && by_group->column == column
                 ? fmt::format(
@@ -326,8 +319,7 @@ std::string WhatIsLeftSentence(const ComponentNumbers& component,
 
 std::string FlatteredSentence(const ComponentNumbers& component,
                               const std::string& model) {
-  const models::GapModelRecord& row = *std::ranges::find(
-      component.record.gap->models, model, &models::GapModelRecord::model);
+  const models::GapModelRecord& row = component.Gap(model);
   return fmt::format(
       "Ignore the {} column for {}: {} next to known rows, {} on a {} it "
       "never saw.",
@@ -344,7 +336,7 @@ std::string RemarkText(const ComponentNumbers& component,
                        const RemarkRecord& remark) {
   const RecommendationRecord& advice = component.Advice();
   const HoldoutRecord& holdout = component.Holdout(advice.holdout);
-  const ModelRecord& model = *FindNamed(component.record.models, advice.model);
+  const ModelRecord& model = component.Model(advice.model);
   const auto unknown_day = [](const char* why) {
     return fmt::format("How it does on another day is not known, since {}.",
                        why);
@@ -362,16 +354,13 @@ std::string RemarkText(const ComponentNumbers& component,
           component.error.WithUnit(component.Rmse("zero", advice.holdout)));
     case RemarkKind::kBeatsBaseline:
       return fmt::format("The best baseline, {}, has {}.",
-                         *remark.model,
-                         component.error.WithUnit(
-                             component.Rmse(*remark.model, advice.holdout)));
+                         There(remark.model),
+                         component.error.WithUnit(component.Rmse(
+                             There(remark.model), advice.holdout)));
     case RemarkKind::kBestNet:
-      return BestNetSentence(component, *remark.model);
+      return BestNetSentence(component, There(remark.model));
     case RemarkKind::kGap: {
-      const models::GapModelRecord& row =
-          *std::ranges::find(component.record.gap->models,
-                             advice.model,
-                             &models::GapModelRecord::model);
+      const models::GapModelRecord& row = component.Gap(advice.model);
       return fmt::format(
           "Between neighbours ({}) it has {}, on unseen {} {} times that.",
           component.record.gap->neighbours,
@@ -380,9 +369,9 @@ std::string RemarkText(const ComponentNumbers& component,
           RatioText(row.ratio));
     }
     case RemarkKind::kPromise:
-      return IntervalText(*advice.promise, component.error) + ".";
+      return IntervalText(There(advice.promise), component.error) + ".";
     case RemarkKind::kOneMoreSession:
-      return OneMoreText(*advice.session_worth, holdout.unit_of_analysis);
+      return OneMoreText(There(advice.session_worth), holdout.unit_of_analysis);
     case RemarkKind::kGoal:
       return GoalSentence(component);
     case RemarkKind::kCost:
@@ -401,7 +390,7 @@ std::string RemarkText(const ComponentNumbers& component,
       return unknown_day(
           "no whole cycles were held out (name their column with --group)");
     case RemarkKind::kFewSessions:
-      return FewSessionsSentence(component, remark.holdouts->front());
+      return FewSessionsSentence(component, There(remark.holdouts).at(0));
     case RemarkKind::kBlocksForUnits:
       return fmt::format(
           "There are no groups: the tests count {} of held-out rows in order, "
@@ -411,34 +400,36 @@ std::string RemarkText(const ComponentNumbers& component,
     case RemarkKind::kTooManyMaps:
       return TooFewSentence(component, remark);
     case RemarkKind::kIgnoreNeighbours:
-      return FlatteredSentence(component, *remark.model);
+      return FlatteredSentence(component, There(remark.model));
     case RemarkKind::kHoldoutsDisagree:
       return DisagreementSentence(component, remark);
     case RemarkKind::kUnitsCorrelated:
       return CorrelationSentence(component, remark);
-    case RemarkKind::kExtrapolates:
+    case RemarkKind::kExtrapolates: {
+      const std::string where = WhereToMeasure(remark);
       return fmt::format(
           "In {:.0f} % of the held-out rows an input lies outside what the "
           "fold was trained on, and the map extrapolates: measure more thermal "
           "states{}.",
           kPercent * advice.extrapolated_share,
-          WhereToMeasure(remark));
+          where.empty() ? "" : ", with " + where);
+    }
     case RemarkKind::kNotConverged:
       return fmt::format(
           "Its fit ended without converging ({}): another start or run length "
           "would give another map.",
-          fitting::ToString(model.final->summary.value.stop));
+          fitting::ToString(There(model.final).summary.value.stop));
     case RemarkKind::kNoiseLearning:
-      return model.memorisation->sentence;
+      return There(model.memorisation).sentence;
     case RemarkKind::kOtherCuts:
       return OtherCutsSentence(component);
     case RemarkKind::kBetterWithoutMap:
       return fmt::format(
           "The predictions {} are better ({}), but there is no map of them "
           "here to use.",
-          *remark.model,
+          There(remark.model),
           component.error.WithUnit(
-              component.Rmse(*remark.model, advice.holdout)));
+              component.Rmse(There(remark.model), advice.holdout)));
   }
   return "";
 }
@@ -450,10 +441,10 @@ std::string WhereToMeasure(const RemarkRecord& remark) {
     return "";  // of an older record
   }
   std::vector<std::string> parts;
-  for (std::size_t i = 0; i < remark.columns->size(); ++i) {
-    const std::string& name = (*remark.columns)[i];
-    const double below = (*remark.below)[i];
-    const double above = (*remark.above)[i];
+  for (std::size_t i = 0; i < There(remark.columns).size(); ++i) {
+    const std::string& name = remark.columns->at(i);
+    const double below = remark.below->at(i);
+    const double above = remark.above->at(i);
     std::string part = data::Printable(name, name.size());
     if (std::isfinite(below)) part += fmt::format(" below {:.4g}", below);
     if (std::isfinite(above)) {
@@ -462,7 +453,7 @@ std::string WhereToMeasure(const RemarkRecord& remark) {
     }
     parts.push_back(std::move(part));
   }
-  return parts.empty() ? "" : fmt::format(", with {}", fmt::join(parts, ", "));
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::string GoalFigures(const models::ResultRecord& result,

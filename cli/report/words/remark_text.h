@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "cli/report/words/component_numbers.h"
@@ -10,7 +11,10 @@ namespace errmap::report {
 std::string RemarkText(const ComponentNumbers& component,
                        const models::RemarkRecord& remark);
 
-/// ", with elapsed_cycles below 7 or above 27"; "" where nothing is known.
+/// What it costs names so many sensors at most.
+inline constexpr std::size_t kMostSensorsNamed = 8;
+
+/// "elapsed_cycles below 7 or above 27"; "" where nothing is known.
 std::string WhereToMeasure(const models::RemarkRecord& remark);
 
 /// What a goal was held against: "RMSE 4.98 um, scatter 0.2 um about an offset

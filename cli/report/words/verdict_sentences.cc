@@ -74,9 +74,9 @@ std::string WhereJudged(const HoldoutRecord& holdout) {
 std::string TestSentence(const ComponentNumbers& component,
                          const VerdictRecord& verdict) {
   const std::string& better = verdict.model;
-  const std::string& worse = *verdict.rival;
+  const std::string& worse = There(verdict.rival);
   const PairRecord& pair =
-      *models::FindPair(component.record, verdict.holdout, better, worse);
+      There(models::FindPair(component.record, verdict.holdout, better, worse));
   const HoldoutRecord& held = component.Holdout(verdict.holdout);
   const std::string units = PluralOfUnit(held);
   // The pair may stand the other way round.
@@ -100,7 +100,7 @@ std::string TestSentence(const ComponentNumbers& component,
                                                verdict.holdout,
                                                &PairRecord::holdout),
                             "pair"));
-  switch (*verdict.against_rival) {
+  switch (There(verdict.against_rival)) {
     case Confidence::kEstablished:
       return text + ": established.";
     case Confidence::kUnitsCorrelated:
@@ -152,7 +152,7 @@ std::string ChoiceSentence(const ComponentNumbers& component,
   if (!verdict.rival) return "";
   std::string text = TestSentence(component, verdict);
   if (!verdict.established &&
-      *verdict.against_rival == Confidence::kEstablished) {
+      There(verdict.against_rival) == Confidence::kEstablished) {
     text += fmt::format(" That it beats the best baseline, {}, is not.",
                         verdict.best_baseline.value_or(""));
   }
@@ -169,7 +169,7 @@ std::string VerdictSentence(const ComponentNumbers& component,
                   verdict.model,
                   component.RmseWithInterval(verdict.model, verdict.holdout));
   const std::vector<std::string>& first =
-      FindNamed(component.record.tiers, verdict.holdout)->front();
+      There(FindNamed(component.record.tiers, verdict.holdout)).at(0);
   if (first.size() > 1) {
     text += fmt::format("; without practical difference to it: {}",
                         ListBesides(first, verdict.model));
@@ -186,7 +186,7 @@ std::string AdviceSentence(const ComponentNumbers& component) {
                   component.RmseWithInterval(advice.model, advice.holdout),
                   WhereJudged(component.Holdout(advice.holdout)));
   const bool sure = !advice.against_baseline ||
-                    *advice.against_baseline == Confidence::kEstablished;
+                    There(advice.against_baseline) == Confidence::kEstablished;
   if (advice.choice == Choice::kBaseline) {
     const char* const proven = advice.against_baseline && sure
                                    ? ", and that is proven"
@@ -214,19 +214,17 @@ std::string AdviceSentence(const ComponentNumbers& component) {
   if (sure) return text;
   return text + fmt::format(
                     " That it beats {} ({}), the best baseline, is not proven.",
-                    *advice.best_baseline,
-                    component.error.WithUnit(
-                        component.Rmse(*advice.best_baseline, advice.holdout)));
+                    There(advice.best_baseline),
+                    component.error.WithUnit(component.Rmse(
+                        There(advice.best_baseline), advice.holdout)));
 }
 
 std::string GapSentence(const ComponentNumbers& component) {
+  const models::GapRecord& gap = There(component.record.gap);
   std::vector<models::GapModelRecord> flattered;
   std::ranges::copy_if(
-      component.record.gap->models,
-      std::back_inserter(flattered),
-      [&](const auto& row) {
-        return row.flatters &&
-               !FindNamed(component.record.models, row.model)->baseline;
+      gap.models, std::back_inserter(flattered), [&](const auto& row) {
+        return row.flatters && !component.Model(row.model).baseline;
       });
   if (flattered.empty()) return "";
   std::ranges::stable_sort(
@@ -241,16 +239,15 @@ std::string GapSentence(const ComponentNumbers& component) {
                                 component.error.WithUnit(row.unseen_rmse),
                                 RatioText(row.ratio)));
   }
-  std::string text = fmt::format("Warning: {} flatters {}",
-                                 component.record.gap->neighbours,
-                                 fmt::join(parts, ", "));
+  std::string text = fmt::format(
+      "Warning: {} flatters {}", gap.neighbours, fmt::join(parts, ", "));
   if (flattered.size() > kMostNamed) {
     text += fmt::format(" and {} more", flattered.size() - kMostNamed);
   }
   return text +
          ": its held-out rows have neighbours in the training rows, whole " +
-         PluralOfUnit(component.Holdout(component.record.gap->unseen)) + " (" +
-         component.record.gap->unseen + ") have not.";
+         PluralOfUnit(component.Holdout(gap.unseen)) + " (" + gap.unseen +
+         ") have not.";
 }
 
 std::string MemorisationSentence(const ModelRecord& model) {

@@ -1,7 +1,6 @@
 #include "cli/report/words/verdict_text.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include "cli/report/words/remark_text.h"
 #include "cli/report/words/verdict_sentences.h"
 #include "cli/report/wrap_text.h"
+#include "data/input_error.h"
 
 namespace errmap::report {
 namespace {
@@ -42,13 +42,43 @@ void AddSentences(models::ComponentRecord* record) {
   RecommendationRecord& advice = *record->recommendation;
   advice.sentence = AdviceSentence(numbers);
   advice.why = advice.sentence;
-  for (const RemarkRecord& ground : advice.grounds) {
-    advice.reasons.push_back(RemarkText(numbers, ground));
-    advice.why += " " + advice.reasons.back();
+  const auto put = [&](std::vector<RemarkRecord>* remarks,
+                       std::vector<std::string>* words) {
+    words->clear();
+    for (RemarkRecord& remark : *remarks) {
+      remark.text = RemarkText(numbers, remark);
+      words->push_back(remark.text);
+    }
+  };
+  put(&advice.grounds, &advice.reasons);
+  put(&advice.doubts, &advice.caveats);
+  for (const std::string& reason : advice.reasons) advice.why += " " + reason;
+}
+
+models::StudyRecord WithPageUnits(models::StudyRecord record) {
+  for (models::ComponentRecord& component : record.components) {
+    models::ComponentRecord page = component;
+    page.display.unit = PrettyUnit(page.display.unit);
+    try {
+      AddSentences(&page);
+    } catch (const data::InputError&) {
+      continue;  // an incomplete record, whose words stay as they are
+    }
+    component = std::move(page);
   }
-  for (const RemarkRecord& doubt : advice.doubts) {
-    advice.caveats.push_back(RemarkText(numbers, doubt));
+  return record;
+}
+
+std::vector<const RemarkRecord*> ToldFirst(const RecommendationRecord& advice) {
+  std::vector<const RemarkRecord*> told;
+  for (const auto* remarks : {&advice.grounds, &advice.doubts}) {
+    for (const RemarkRecord& remark : *remarks) {
+      if (remark.rank && !remark.text.empty()) told.push_back(&remark);
+    }
   }
+  std::ranges::stable_sort(
+      told, {}, [](const RemarkRecord* remark) { return *remark->rank; });
+  return told;
 }
 
 std::vector<std::string> FirstWords(const models::ComponentRecord& record) {
@@ -58,18 +88,10 @@ std::vector<std::string> FirstWords(const models::ComponentRecord& record) {
                 : "No map can be recommended: none could be judged."};
   }
   const RecommendationRecord& advice = *record.recommendation;
-  std::vector<std::pair<std::int64_t, const std::string*>> ranked;
-  const auto add = [&](const std::vector<RemarkRecord>& remarks,
-                       const std::vector<std::string>& words) {
-    for (std::size_t i = 0; i < std::min(remarks.size(), words.size()); ++i) {
-      if (remarks[i].rank) ranked.emplace_back(*remarks[i].rank, &words[i]);
-    }
-  };
-  add(advice.grounds, advice.reasons);
-  add(advice.doubts, advice.caveats);
-  std::ranges::sort(ranked, {}, [](const auto& one) { return one.first; });
   std::vector<std::string> words{advice.sentence};
-  for (const auto& [rank, text] : ranked) words.push_back(*text);
+  for (const RemarkRecord* remark : ToldFirst(advice)) {
+    words.push_back(remark->text);
+  }
   return words;
 }
 
@@ -121,7 +143,7 @@ std::string MeasureNext(const models::ComponentRecord& record) {
         break;
       case RemarkKind::kExtrapolates:
         if (const std::string where = WhereToMeasure(doubt); !where.empty()) {
-          want("states" + where.substr(where.find(' ')));
+          want("states with " + where);
         }
         break;
       default:
@@ -146,7 +168,11 @@ std::string VerdictParagraphs(const models::ComponentRecord& record,
   if (record.recommendation) {
     const RecommendationRecord& advice = *record.recommendation;
     paragraphs.push_back(advice.why);
-    paragraphs.push_back(fmt::format("{}", fmt::join(advice.caveats, " ")));
+    std::string doubts;
+    for (const RemarkRecord& doubt : advice.doubts) {
+      doubts += (doubts.empty() ? "" : " ") + doubt.text;
+    }
+    paragraphs.push_back(std::move(doubts));
   }
   std::string text;
   for (const std::string& paragraph : paragraphs) {

@@ -16,7 +16,16 @@ extern const char* const kIntervalCoverage;
 
 /// Puts the sentences into `record`, which has all else: of the gap, the
 /// verdicts, the memorisation checks and the recommendation.
+/// Throws data::InputError where it has not.
 void AddSentences(models::ComponentRecord* record);
+
+/// The record in the units' symbols and words of pages: "0.5 µm" where a
+/// terminal has "0.5 um".
+models::StudyRecord WithPageUnits(models::StudyRecord record);
+
+/// What is told with a recommendation first, most important first.
+std::vector<const models::RemarkRecord*> ToldFirst(
+    const models::RecommendationRecord& advice);
 
 /// The recommendation and what is told with it first, most important first.
 std::vector<std::string> FirstWords(const models::ComponentRecord& record);

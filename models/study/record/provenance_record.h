@@ -30,6 +30,9 @@ struct ComponentConfigurationRecord {
   bool keep_dead = false;
   LeftOut<double> goal;
   LeftOut<double> indifference;
+  /// By which another command reads the same measurements: what was not left to
+  /// the defaults, a flag with an empty value.
+  LeftOut<ByName<std::string>> options;
 };
 ERRMAP_RECORD(ComponentConfigurationRecord,
               name,
@@ -47,7 +50,8 @@ ERRMAP_RECORD(ComponentConfigurationRecord,
               faults,
               keep_dead,
               goal,
-              indifference)
+              indifference,
+              options)
 
 /// The study as it was carried out, with the words of a study file.
 struct ConfigurationRecord {

@@ -116,8 +116,10 @@ struct RecommendationRecord {
   std::vector<RemarkRecord> doubts;
   std::string sentence;
   std::string why;
-  std::vector<std::string> reasons;  // the grounds in words
-  std::vector<std::string> caveats;  // the doubts in words
+  // The texts of the grounds and of the doubts, for who reads results.json;
+  // the program itself reads those with the remarks.
+  std::vector<std::string> reasons;
+  std::vector<std::string> caveats;
 };
 ERRMAP_RECORD(RecommendationRecord,
               choice,

@@ -8,8 +8,8 @@
 #include "models/study/judgement/confidence.h"
 #include "models/study/record/record.h"
 
-// What is to be said of a recommendation, as kinds and numbers; words are put
-// to them elsewhere.
+// What is to be said of a recommendation: its kind, its numbers and, once
+// report::AddSentences was there, its words.
 
 namespace errmap::models {
 
@@ -67,6 +67,7 @@ struct RemarkRecord {
   /// Of each of `columns`: below and above what more is to be measured.
   LeftOut<std::vector<double>> below = {};
   LeftOut<std::vector<double>> above = {};
+  std::string text = {};
 };
 ERRMAP_RECORD(RemarkRecord,
               kind,
@@ -81,6 +82,7 @@ ERRMAP_RECORD(RemarkRecord,
               pairs,
               established,
               below,
-              above)
+              above,
+              text)
 
 }  // namespace errmap::models

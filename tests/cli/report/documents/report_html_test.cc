@@ -273,10 +273,13 @@ TEST(ReportHtml, OfSixComponentsIsBelowTwoMegabytes) {
 
 TEST(ReportHtml, HasOneUnitOfLengthOnly) {
   Json document = MakeReportDocument();
-  document["components"][0]["recommendation"]["reasons"] = {
-      "It has 1.900 um, and 0.5 um are wanted."};
+  // With these its words can be written anew.
+  document["components"][0]["tiers"] = {
+      {"groups:5", {{"poly:eq8"}, {"net:scg"}, {"mean"}}}};
   const std::string text = VisibleText(Write(document));
-  EXPECT_THAT(text, HasSubstr("It has 1.900 µm, and 0.5 µm are wanted."));
+  EXPECT_THAT(text,
+              HasSubstr("The goal (RMSE at most 0.5 µm) is not met: RMSE 1.900 "
+                        "µm"));
   EXPECT_FALSE(std::regex_search(text, std::regex("[0-9] um")));
 }
 

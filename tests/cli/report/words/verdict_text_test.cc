@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/report/wrap_text.h"
+#include "data/input_error.h"
 #include "tests/cli/report/report_document.h"
 
 namespace errmap::report {
@@ -37,8 +38,8 @@ ComponentRecord Base() {
   }
   record.tiers = {{kFar, {{"poly:eq8"}, {"net:scg"}, {"zero"}}}};
   models::RecommendationRecord& advice = *record.recommendation;
-  advice.reasons.clear();
-  advice.caveats.clear();
+  advice.grounds.clear();
+  advice.doubts.clear();
   advice.against_baseline = Confidence::kEstablished;
   advice.best_baseline = "zero";
   advice.removed_share = 0.9279;
@@ -53,13 +54,13 @@ std::string Headline(ComponentRecord record) {
 std::string GroundOf(ComponentRecord record, RemarkRecord remark) {
   record.recommendation->grounds = {std::move(remark)};
   AddSentences(&record);
-  return record.recommendation->reasons.at(0);
+  return record.recommendation->grounds.at(0).text;
 }
 
 std::string DoubtOf(ComponentRecord record, RemarkRecord remark) {
   record.recommendation->doubts = {std::move(remark)};
   AddSentences(&record);
-  return record.recommendation->caveats.at(0);
+  return record.recommendation->doubts.at(0).text;
 }
 
 // --- The headline ----------------------------------------------------------
@@ -359,10 +360,33 @@ TEST(VerdictLines, SayWhereThereIsNothingToRecommend) {
               ElementsAre("No map can be recommended: none could be judged."));
 }
 
-TEST(PageWords, HaveTheSymbolsThatPeopleWrite) {
-  EXPECT_EQ(PageWords("0.5 um RMSE (95 % 0.4 to 0.6 um), t_um at 20 degC"),
-            "0.5 µm RMSE (95 % 0.4 to 0.6 µm), t_um at 20 °C");
-  EXPECT_THAT(PageWords("um is no number"), Not(HasSubstr("µ")));
+models::StudyRecord Study(ComponentRecord component) {
+  models::StudyRecord study;
+  study.components = {std::move(component)};
+  return study;
+}
+
+TEST(PageUnits, AreTheSymbolsThatPeopleWriteAndOfNumbersOnly) {
+  ComponentRecord record = Base();
+  record.models[1].name = "2 um";
+  record.verdict.clear();
+  record.recommendation->model = "2 um";
+  record.recommendation->grounds = {{.kind = RemarkKind::kGoal}};
+  AddSentences(&record);
+  const ComponentRecord page = WithPageUnits(Study(record)).components.front();
+  EXPECT_THAT(page.recommendation->sentence,
+              StartsWith("Use 2 um: 1.900 µm RMSE"));
+  EXPECT_THAT(page.recommendation->grounds.front().text,
+              HasSubstr("RMSE 1.900 µm, scatter 1.881 µm"));
+}
+
+TEST(PageUnits, LeaveTheWordsOfAnIncompleteRecord) {
+  ComponentRecord record = Base();
+  record.recommendation->grounds = {
+      {.kind = RemarkKind::kPromise, .text = "As it was told."}};
+  const ComponentRecord page = WithPageUnits(Study(record)).components.front();
+  EXPECT_EQ(page.recommendation->grounds.front().text, "As it was told.");
+  EXPECT_THROW(AddSentences(&record), data::InputError);
 }
 
 }  // namespace
