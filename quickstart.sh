@@ -15,7 +15,7 @@ packages="g++ cmake ninja-build libeigen3-dev libopenblas-dev libceres-dev
   zlib1g-dev"
 test_packages="libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 python3-jsonschema chromium gnuplot-nox patch"
 # Without these a few tests are skipped.
-optional_packages="clang linuxcnc-uspace linuxcnc-uspace-dev slurm-wlm munge
+optional_packages="clang cmark-gfm linuxcnc-uspace linuxcnc-uspace-dev slurm-wlm munge
   openmpi-bin"
 example="data/sets/nistir5367_xdisp_down.csv"
 

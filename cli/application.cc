@@ -7,7 +7,6 @@
 #include <exception>
 #include <memory>
 #include <new>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -25,9 +24,12 @@
 #include "cli/report/shell_word.h"
 #include "cli/shell/command_reference.h"
 #include "cli/shell/completion.h"
+#include "cli/shell/help_text.h"
 #include "cli/shell/man_page.h"
+#include "cli/shell/reference_page.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
+#include "cli/shell/topics.h"
 #include "data/argument_name.h"
 #include "data/input_error.h"
 #include "data/shown_path.h"
@@ -39,18 +41,12 @@ namespace errmap::cli {
 namespace {
 
 constexpr const char* kAbout =
-    "errmap: which map of (axis position, temperatures) -> error holds on "
-    "another day?\n\n"
-    "Fits polynomials and neural nets to the measured error of a machine tool "
-    "axis and\ncompares them on rows, and on whole warm-up cycles, that they "
-    "have never seen.";
+    "errmap: which map of (position, temperatures) -> error holds on another "
+    "day?";
 
 constexpr const char* kExample =
-    "Example: errmap compare data/sets/nistir5367_xdisp_down.csv\n"
-    "Lengths are mm and temperatures degC unless a column's suffix says "
-    "otherwise (_um, _K);\nerror = actual - nominal, so the compensation is "
-    "minus the predicted error.\n"
-    "errmap help COMMAND explains a command, errmap models the models.";
+    "Begin with: errmap compare DATA.csv, or errmap help tutorial\n"
+    "errmap help COMMAND explains a command, errmap help TOPIC a topic: ";
 
 int Fail(int status, const std::string& message) {
   WriteMessage(message);
@@ -115,6 +111,7 @@ std::string ProvenanceCommandLine(int argc, char** argv) {
 // For shells and the build, not for people: no help names them.
 constexpr std::string_view kComplete = "__complete";  // WORDS...
 constexpr std::string_view kManPage = "__man";
+constexpr std::string_view kReference = "__reference";  // in Markdown
 
 bool RunHiddenCommand(const CLI::App& app, int argc, char** argv) {
   if (argv[1] == kComplete) {
@@ -124,6 +121,10 @@ bool RunHiddenCommand(const CLI::App& app, int argc, char** argv) {
   }
   if (argv[1] == kManPage) {
     PrintResult(ManPage(DescribeProgram(app)));
+    return true;
+  }
+  if (argv[1] == kReference) {
+    PrintResult(ReferencePage(DescribeProgram(app)));
     return true;
   }
   return false;
@@ -201,16 +202,89 @@ std::string WithSuggestion(const CLI::App& app,
   return text + "; see errmap --help";
 }
 
-// CLI11's help is that of the command at work, once there is one.
+using AddCommand = void (*)(CLI::App*, Run*);
+
+struct Purpose {
+  const char* name;
+  std::vector<AddCommand> commands;
+};
+
+// Every command, under what it serves and in the order of the help.
+const std::vector<Purpose>& Purposes() {
+  static const std::vector<Purpose> purposes = {
+      {"Judge: which map holds, and how sure",
+       {AddCompareCommand,
+        AddLearnCommand,
+        AddModelsCommand,
+        AddInitCommand,
+        AddReportCommand}},
+      {"Use a map", {AddFitCommand, AddPredictCommand, AddEvaluateCommand}},
+      {"Hand over to the control",
+       {AddExportCommand, AddCostCommand, AddVolumetricCommand}},
+      {"Another day", {AddCheckCommand, AddUpdateCommand}},
+      {"A fleet of machines",
+       {AddSubmitCommand,
+        AddMergeCommand,
+        AddQueryCommand,
+        AddDeployCommand,
+        AddWatchCommand}},
+      {"Laboratory",
+       {AddSimulateCommand,
+        AddResidualsCommand,
+        AddConvertCommand,
+        AddNetcgCommand,
+        AddCertifyCommand}}};
+  return purposes;
+}
+
+void AddCommands(CLI::App* app, Run* run) {
+  for (const Purpose& purpose : Purposes()) {
+    for (const AddCommand add : purpose.commands) {
+      add(app, run);
+      app->get_subcommands(nullptr).back()->group(purpose.name);
+    }
+  }
+}
+
+void PrintHelp(const CLI::App& app, const std::string& name, bool all) {
+  const std::size_t width = OutputTerminal().columns;
+  const ProgramReference program = DescribeProgram(app);
+  if (name.empty()) {
+    PrintResult(ProgramHelp(program, width));
+    return;
+  }
+  for (const CommandReference& command : program.commands) {
+    if (command.name != name) continue;
+    PrintResult(CommandHelp(
+        command, all ? HelpOptions::kAll : HelpOptions::kUsual, width));
+    return;
+  }
+  for (const Topic& topic : Topics()) {
+    if (topic.name != name) continue;
+    PrintResult(TopicText(topic, width));
+    return;
+  }
+  std::vector<std::string> known = CommandNames(app);
+  const std::vector<std::string> topics = TopicNames();
+  known.insert(known.end(), topics.begin(), topics.end());
+  throw UsageError(fmt::format("no command or topic '{}'; {}there are {}",
+                               name,
+                               Suggestion(name, known),
+                               fmt::join(known, ", ")));
+}
+
 void AddHelpCommand(CLI::App* app) {
-  auto name = std::make_shared<std::string>();
-  CLI::App* help = app->add_subcommand("help", "Explain a command");
-  help->add_option("COMMAND", *name, "The command to explain")->type_name("");
-  help->callback([app, name] {
-    if (name->empty()) return;
-    RequireKnownCommand(*app, *name);
-    PrintFitted(app->get_subcommand(*name)->help(app->get_name()));
-  });
+  struct Asked {
+    std::string name;
+    bool all = false;
+  };
+  auto asked = std::make_shared<Asked>();
+  CLI::App* help = app->add_subcommand("help", "Explain a command or a topic");
+  help->group("Help");
+  help->add_option("WORD", asked->name, "What to explain")
+      ->type_name(kHelpWord);
+  help->add_flag("--all", asked->all, "Every option of a command");
+  help->callback([app, asked] { PrintHelp(*app, asked->name, asked->all); });
 }
 
 int RunParsed(int argc, char** argv) {
@@ -220,51 +294,26 @@ int RunParsed(int argc, char** argv) {
   }
   Run run{.command_line = ProvenanceCommandLine(argc, argv)};
   CLI::App app(kAbout, "errmap");
-  app.footer(kExample);
+  app.footer(kExample + fmt::format("{}", fmt::join(TopicNames(), ", ")));
   app.set_version_flag("--version", std::string("errmap ") + models::Version());
   app.require_subcommand(1);
-  AddCompareCommand(&app, &run);
-  AddInitCommand(&app, &run);
-  AddFitCommand(&app, &run);
-  AddPredictCommand(&app, &run);
-  AddEvaluateCommand(&app, &run);
-  AddCheckCommand(&app, &run);
-  AddUpdateCommand(&app, &run);
-  AddLearnCommand(&app, &run);
-  AddResidualsCommand(&app, &run);
-  AddReportCommand(&app, &run);
-  AddSimulateCommand(&app, &run);
-  AddVolumetricCommand(&app, &run);
-  AddNetcgCommand(&app, &run);
-  AddConvertCommand(&app, &run);
-  AddExportCommand(&app, &run);
-  AddCostCommand(&app, &run);
-  AddCertifyCommand(&app, &run);
-  AddMergeCommand(&app, &run);
-  AddQueryCommand(&app, &run);
-  AddSubmitCommand(&app, &run);
-  AddDeployCommand(&app, &run);
-  AddWatchCommand(&app, &run);
-  AddModelsCommand(&app, &run);
+  AddCommands(&app, &run);
   AddHelpCommand(&app);
   if (argc < 2) {
-    PrintFitted(app.help());
+    PrintResult(FirstSteps());
     return kWrongCommandLine;
-  }
-  constexpr std::string_view kHelp = "help";
-  if (argc == 2 && argv[1] == kHelp) {
-    PrintFitted(app.help());
-    return kDone;
   }
   if (RunHiddenCommand(app, argc, argv)) return kDone;
   RequireKnownCommand(app, argv[1]);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::Success& asked) {
-    std::ostringstream text;  // help or version
-    const int status = app.exit(asked, text, text);
-    PrintFitted(text.str());
-    return status;
+  } catch (const CLI::CallForHelp&) {
+    const std::string_view word = argv[1];
+    PrintHelp(app, word.starts_with('-') ? "" : std::string(word), false);
+    return kDone;
+  } catch (const CLI::CallForVersion& version) {
+    PrintResult(std::string(version.what()) + "\n");
+    return kDone;
   } catch (const CLI::ParseError& error) {
     throw UsageError(WithSuggestion(app, error, argc, argv));
   }

@@ -1,35 +1,73 @@
 #!/bin/sh
-# README.md and the pages that it sends its readers to tell the truth: their
-# commands run, their outputs are real, their C++ compiles, links and runs.
+# Pages tell the truth: their commands run, their outputs are real, their C++
+# compiles, links and runs.
 #
-#   README_commands_test.sh ROOT BUILD_DIR
+#   README_commands_test.sh ROOT BUILD_DIR [developers|manual|gallery [--update]]
+#
+# developers: README.md and the READMEs of folders; manual: the users' pages;
+# gallery: data/sets/examples.md. --update writes the outputs of today into the
+# pages in place of comparing them: look at the difference before you keep it.
 #
 # Conventions of these pages that this relies on:
-# - In a ```sh block, each line that starts with "errmap " is run (a trailing
-#   backslash continues it), in the order of the text, in one scratch folder that
-#   holds a copy of data/sets. Commands that cannot run stand in another block.
+# - In a ```sh block, each line that starts with "errmap " (in the manual and
+#   the gallery also with cut, sed and the like) is run (a trailing backslash continues it), in
+#   the order of the text, in one scratch folder that holds a copy of data/sets.
+#   Commands that cannot run stand in another block.
 # - A ```text block that directly follows (blank lines apart) a ```sh block with
-#   one errmap command is that command's standard output. Measured times may
+#   one command is that command's standard output. Measured times may
 #   differ: numbers before s, ms, us or ns and numbers in columns headed by
 #   such a unit; so may runs of blanks and dashes.
+# - Between the two may stand "<!-- shown: SCRIPT -->": of the output the lines
+#   that sed -n SCRIPT prints; and "<!-- digits masked -->": digits may differ;
+#   or "<!-- nets masked -->": those of lines that name a net, and of the next,
+#   may, as they do from one processor to another.
 # - A ```cpp block is a whole program; run in the same scratch folder it exits
 #   with 0.
 set -eu
 
-if [ $# -ne 2 ]; then
-  echo "usage: README_commands_test.sh ROOT BUILD_DIR" >&2
+usage="README_commands_test.sh ROOT BUILD_DIR [developers|manual|gallery [--update]]"
+if [ $# -lt 2 ] || [ $# -gt 4 ] || [ "${4---update}" != --update ]; then
+  echo "usage: $usage" >&2
   exit 2
 fi
 root=$(CDPATH='' cd -- "$1" && pwd)
 build=$(CDPATH='' cd -- "$2" && pwd)
+set=${3-developers}
+update=${4-}
+starts="errmap "
 # In this order, since later commands read what earlier ones wrote.
-pages="README.md cli/desk/README.md models/README.md
+case $set in
+manual | gallery)
+  # As errmap help TOPIC shows it, indented by four.
+  COLUMNS=76
+  export COLUMNS
+  ;;
+esac
+case $set in
+manual)
+  starts="(errmap|cut|sed|cc|python3) "
+  pages=$(sed -n '/^set(manual_pages/,/)/p' "$root/cli/manual/pages.cmake" |
+    sed '1d; s/)//; s/ //g; s|.*|cli/manual/&.md|')
+  ;;
+gallery)
+  starts="(errmap|sed|printf|mkdir) "
+  pages="data/sets/examples.md"
+  ;;
+developers)
+  pages="README.md cli/desk/README.md models/README.md
   models/polynomial/README.md models/net/README.md models/history/README.md
   models/study/README.md models/promise/README.md models/promise/measured.md
   models/export/README.md
   models/certification/README.md models/netcg/README.md
   data/sets/nistir5367_xdisp_down.md data/sets/turning_centre/README.md
+  data/turning_centre/README.md
   data/sets/nistir5367_appendix_b.md data/sets/machines/README.md"
+  ;;
+*)
+  echo "usage: $usage" >&2
+  exit 2
+  ;;
+esac
 
 die() {
   printf 'README: %s\n' "$*" >&2
@@ -66,15 +104,17 @@ PATH=$build:$PATH
 export PATH
 
 # The two commands, each on a line of its own in a ```sh block.
-awk '/^```/ { inside = !inside && $0 ~ /^```sh[ \t]*$/; next } inside' \
+[ "$set" != developers ] || awk '/^```/ { inside = !inside && $0 ~ /^```sh[ \t]*$/; next } inside' \
   "$readme" >"$scratch/sh_lines"
 for command in "sh quickstart.sh" "sh quickstart.sh test"; do
+  [ "$set" = developers ] || continue
   sed 's/[[:space:]]*\(#.*\)\{0,1\}$//' "$scratch/sh_lines" |
     grep -Fqx -e "$command" || fail "does not name: $command"
 done
 
 # The blocks as files 001.sh, 002.text, ...; the index has number, language and
-# whether only blank lines part it from the block before.
+# whether only blank lines part it from the block before; 002.shown and
+# 002.masked are what comments say of it.
 awk -v blocks="$blocks" '
   /^```/ && !inside {
     inside = 1
@@ -84,6 +124,21 @@ awk -v blocks="$blocks" '
     file = sprintf("%s/%03d.%s", blocks, ++count, language)
     printf "" >file
     printf "%03d %s %s\n", count, language, (prose ? "apart" : "adjacent")
+    if (shown != "") {
+      print shown >sprintf("%s/%03d.shown", blocks, count)
+      close(sprintf("%s/%03d.shown", blocks, count))
+    }
+    if (masked != "") {
+      print masked >sprintf("%s/%03d.masked", blocks, count)
+      close(sprintf("%s/%03d.masked", blocks, count))
+    }
+    shown = ""
+    masked = ""
+    next
+  }
+  !inside && /^<!-- (digits|nets) masked -->$/ { masked = $2; next }
+  !inside && /^<!-- shown: .* -->$/ {
+    shown = substr($0, 13, length($0) - 16)
     next
   }
   /^```/ { inside = 0; prose = 0; close(file); next }
@@ -161,9 +216,26 @@ while read -r number language gap; do
   block=$blocks/$number.$language
   if [ "$language" = text ] && [ "$gap" = adjacent ] && [ -n "$single" ]; then
     outputs=$((outputs + 1))
+    shown=$blocks/$number.shown
+    if [ -f "$shown" ]; then
+      sed -n "$(cat "$shown")" "$scratch/stdout" >"$scratch/part"
+      mv "$scratch/part" "$scratch/stdout"
+    fi
+    if [ -n "$update" ]; then cp "$scratch/stdout" "$blocks/$number.new"; fi
     mask_times "$block" >"$scratch/expected"
     mask_times "$scratch/stdout" >"$scratch/actual"
-    if ! diff -u "$scratch/expected" "$scratch/actual" >"$scratch/diff"; then
+    if [ -f "$blocks/$number.masked" ]; then
+      case $(cat "$blocks/$number.masked") in
+      nets) where='/net:/,+1' ;;
+      *) where='' ;;
+      esac
+      for side in expected actual; do
+        sed "$where{s/[0-9][0-9]*/#/g; s/  */ /g}" "$scratch/$side" >"$scratch/part"
+        mv "$scratch/part" "$scratch/$side"
+      done
+    fi
+    if [ -z "$update" ] &&
+      ! diff -u "$scratch/expected" "$scratch/actual" >"$scratch/diff"; then
       fail "the output of '$single' is not what it shows (- README, + now):"
       sed '1,2d' "$scratch/diff" >&2
     fi
@@ -172,10 +244,10 @@ while read -r number language gap; do
   case $language in
     sh)
       # Lines joined at trailing backslashes.
-      awk '{
+      awk -v starts="^$starts" '{
         line = line $0
         if (sub(/\\$/, " ", line)) next
-        if (line ~ /^errmap /) print line
+        if (line ~ starts) print line
         line = ""
       }' "$block" >"$scratch/commands"
       while IFS= read -r command; do
@@ -235,10 +307,32 @@ while read -r number language gap; do
   esac
 done <"$scratch/index"
 
+# The pages again, each output that was seen in its place.
+if [ -n "$update" ]; then
+  before=0
+  for page in $pages; do
+    awk -v blocks="$blocks" -v count="$before" '
+      /^```/ && !inside {
+        print
+        inside = 1
+        file = sprintf("%s/%03d.new", blocks, ++count)
+        replaced = (getline line <file) > 0
+        if (replaced) do print line; while ((getline line <file) > 0)
+        next
+      }
+      /^```/ { inside = 0 }
+      !inside || !replaced || /^```/ { print }
+    ' "$root/$page" >"$scratch/page"
+    before=$((before + $(grep -c '^```' "$root/$page") / 2)) || true
+    cmp -s "$scratch/page" "$root/$page" || cp "$scratch/page" "$root/$page"
+  done
+fi
+
 # A test that finds nothing proves nothing.
 [ "$commands" -gt 0 ] || fail "has no errmap command in a \`\`\`sh block"
 [ "$outputs" -gt 0 ] || fail "shows no output (\`\`\`text after \`\`\`sh)"
-[ "$programs" -gt 0 ] || fail "has no C++ example (\`\`\`cpp)"
+[ "$programs" -gt 0 ] || [ "$set" != manual ] ||
+  fail "has no C++ example (\`\`\`cpp)"
 
 if [ "$failures" -ne 0 ]; then exit 1; fi
 echo "README: $commands commands, $outputs outputs, $programs C++ examples"

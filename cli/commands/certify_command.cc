@@ -69,8 +69,7 @@ void AddCertifyCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<CertifyArguments>();
   CLI::App* command = app->add_subcommand(
       "certify",
-      "Prove the optimisers and statistics of this installation on certified "
-      "problems");
+      "Prove solvers and statistics on problems whose answers are known");
   command
       ->add_option("PART",
                    arguments->part,

@@ -43,7 +43,7 @@ void AddConvertCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<ConvertArguments>();
   CLI::App* command = app->add_subcommand(
       "convert",
-      "Turn the report's pattern files, plain tables and CSV into each other");
+      "Turn the report's pattern files, tables and CSV into each other");
   command->add_option("IN", arguments->in, "File to read")
       ->required()
       ->type_name("FILE");

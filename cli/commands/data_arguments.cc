@@ -14,6 +14,7 @@
 
 #include "cli/command.h"
 #include "cli/report/words/fault_text.h"
+#include "cli/shell/command_reference.h"
 #include "cli/shell/standard_streams.h"
 #include "data/shown_path.h"
 #include "models/model_spec.h"
@@ -96,27 +97,27 @@ void AddDataArguments(CLI::App* command, DataArguments* arguments) {
       ->type_name("COL");
   AddNames(command,
            "--inputs",
-           "Columns to map from (default: every other numeric column)",
+           "Columns to map from (default: all other numeric)",
            &selection.inputs);
   AddNames(
       command, "--exclude", "Columns never to map from", &selection.exclude);
   command
       ->add_option("--group",
                    selection.group,
-                   "Column that tells warm-up cycles, days or segments apart "
-                   "(default: cycle)")
+                   "Column of warm-up cycles (default: cycle)\nor of days or "
+                   "segments: what tells groups of rows apart")
       ->type_name("COL");
   command
       ->add_option("--time",
                    selection.time,
-                   "Column of times or dates (default: the only time*; none: "
-                   "the number of the row)")
+                   "Column of times (default: the only time*)\nor of dates; "
+                   "none: the number of the row counts")
       ->type_name("COL");
   command
       ->add_option("--session",
                    selection.session,
-                   "Column that tells uninterrupted runs apart (default: "
-                   "session, day or run; none: cut where time breaks off)")
+                   "Column of sessions (default: session, day or run)\nthat "
+                   "is, uninterrupted runs; none: cut where time breaks off")
       ->type_name("COL");
   AddChoice(command,
             "--align",
@@ -129,6 +130,7 @@ void AddDataArguments(CLI::App* command, DataArguments* arguments) {
   command->add_flag("--keep-dead",
                     selection.keep_dead,
                     "Keep inputs that hold one value only (failed sensors)");
+  MarkSeldom(command, {"--align", "--weight", "--keep-dead"});
   command->add_flag(
       "--quiet", arguments->quiet, "No remarks and no progress on stderr");
 }
@@ -147,6 +149,7 @@ void AddRowOptions(CLI::App* command,
             "a thermometer), which are named: keep or drop-rows",
             {data::FaultPolicy::kKeep, data::FaultPolicy::kDropRows},
             faults);
+  MarkSeldom(command, {"--missing", "--faults"});
 }
 
 void AddMapLogArguments(CLI::App* command, models::MapLogArguments* arguments) {
@@ -159,13 +162,13 @@ void AddMapLogArguments(CLI::App* command, models::MapLogArguments* arguments) {
   command
       ->add_option("--time",
                    arguments->time,
-                   "Column of times or dates (default: the only time*)")
+                   "Column of times (default: the only time*)\nor of dates")
       ->type_name("COL");
   command
       ->add_option("--session",
                    arguments->session,
-                   "Column that tells uninterrupted runs apart (default: that "
-                   "of the map)")
+                   "Column of sessions (default: that of the map)\nthat is, "
+                   "uninterrupted runs")
       ->type_name("COL");
 }
 
@@ -222,6 +225,7 @@ void AddKeepPathsFlag(CLI::App* command) {
       [] { data::KeepPaths(); },
       "Write absolute paths into reports, maps and journals; without it, the "
       "files' names only");
+  MarkSeldom(command, {"--keep-paths"});
 }
 
 void AddForceFlag(CLI::App* command, bool* force) {
@@ -229,6 +233,11 @@ void AddForceFlag(CLI::App* command, bool* force) {
                     *force,
                     "Replace files in the folder that errmap did not write, or "
                     "that were changed since; never one that is read");
+  MarkSeldom(command, {"--force"});
+}
+
+void MarkSeldom(CLI::App* command, const std::vector<const char*>& names) {
+  for (const char* name : names) command->get_option(name)->group(kSeldom);
 }
 
 void AddSeedOption(CLI::App* command,

@@ -59,6 +59,9 @@ void SayUnless(bool quiet, const std::vector<std::string>& lines);
 std::function<void(const std::string&)> Sayer(bool quiet);
 
 /// --keep-paths, which the program looks for before any command does.
+/// Leaves options that are there already to help COMMAND --all.
+void MarkSeldom(CLI::App* command, const std::vector<const char*>& names);
+
 void AddKeepPathsFlag(CLI::App* command);
 
 /// --force, which lets a command replace files that errmap did not write.

@@ -163,8 +163,7 @@ void AddNetcgCommand(CLI::App* app, Run* run) {
   models::NetcgStudyOptions& options = arguments->options;
   CLI::App* command = app->add_subcommand(
       "netcg",
-      "Run the report's own program of 1995: its run files, its results, and "
-      "what they should have been");
+      "Run the report's own program of 1995, with its errors or without");
   command
       ->add_option("RUNFILE",
                    arguments->file,
@@ -214,10 +213,17 @@ void AddNetcgCommand(CLI::App* app, Run* run) {
                    options.jobs,
                    "Experiments of --study at a time; 0: one per processor")
       ->check(CLI::Range(0, 1024))
+      ->type_name("N")
       ->capture_default_str();
   AddFormatOption(command, &arguments->format);
   AddForceFlag(command, &arguments->force);
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
+  MarkSeldom(command,
+             {"--precision",
+              "--training",
+              "--full-weights",
+              "--iterations",
+              "--jobs"});
   command->footer(
       models::NetcgErrata() +
       "\nExample: errmap netcg netcg.in --precision double --out results");

@@ -149,6 +149,14 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
       "Add the error without reading noise: truth_mm, truth_urad");
   AddForceFlag(command, &arguments->force);
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
+  MarkSeldom(command,
+             {"--duty",
+              "--speed",
+              "--warm",
+              "--air",
+              "--angle-noise",
+              "--sensor-noise",
+              "--points"});
   command->footer(
       "Example: errmap simulate turning-centre -o simulated --days 3 --dead "
       "3,4,16,19\nThe same options give the same files, byte for byte.");

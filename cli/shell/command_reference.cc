@@ -27,7 +27,8 @@ OptionReference DescribeOption(const CLI::Option& option) {
                             .description = option.get_description(),
                             .fallback = option.get_default_str(),
                             .required = option.get_required(),
-                            .repeatable = option.get_items_expected_max() > 1};
+                            .repeatable = option.get_items_expected_max() > 1,
+                            .seldom = option.get_group() == kSeldom};
   for (const std::string& name : option.get_snames()) {
     reference.names.push_back("-" + name);
   }
@@ -43,6 +44,7 @@ OptionReference DescribeOption(const CLI::Option& option) {
 CommandReference DescribeCommand(const CLI::App& command,
                                  const std::string& inherited_footer) {
   CommandReference reference{.name = command.get_name(),
+                             .purpose = command.get_group(),
                              .description = command.get_description(),
                              .footer = command.get_footer(),
                              .positionals = {},

@@ -6,6 +6,7 @@
 #include <set>
 #include <system_error>
 
+#include "cli/shell/topics.h"
 #include "data/csv.h"
 #include "models/recipe_catalog.h"
 #include "stats/holdout.h"
@@ -203,6 +204,15 @@ Completion CompleteCommand(const CommandReference& command,
   return completion;
 }
 
+void OfferCommands(const ProgramReference& program,
+                   const std::string& typed,
+                   Completion* completion) {
+  for (const CommandReference& command : program.commands) {
+    if (!command.name.starts_with(typed)) continue;
+    completion->candidates.push_back({command.name, command.description});
+  }
+}
+
 std::string FirstLine(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
@@ -222,17 +232,24 @@ Completion Complete(const ProgramReference& program,
   if (words.empty()) return Complete(program, {""});
   Completion completion;
   if (words.size() == 1) {
-    for (const CommandReference& command : program.commands) {
-      if (!command.name.starts_with(words.front())) continue;
-      completion.candidates.push_back({command.name, command.description});
-    }
+    OfferCommands(program, words.front(), &completion);
     if (words.front().starts_with("-")) {
       Offer({"--help", "--version"}, "", words.front(), &completion);
     }
     return completion;
   }
   for (const CommandReference& command : program.commands) {
-    if (command.name == words.front()) return CompleteCommand(command, words);
+    if (command.name != words.front()) continue;
+    completion = CompleteCommand(command, words);
+    if (words.size() == 2 && !words.back().starts_with("-") &&
+        !command.positionals.empty() &&
+        command.positionals.front().value == kHelpWord) {
+      OfferCommands(program, words.back(), &completion);
+      for (const Topic& topic : Topics()) {
+        if (!topic.name.starts_with(words.back())) continue;
+        completion.candidates.push_back({topic.name, TitleOf(topic)});
+      }
+    }
   }
   return completion;
 }

@@ -7,6 +7,9 @@
 
 namespace errmap::cli {
 
+/// The value of help's argument: any command, any topic.
+inline constexpr const char* kHelpWord = "COMMAND|TOPIC";
+
 /// A word that may stand where the cursor is.
 struct Candidate {
   std::string word;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/command.h"
 #include "models/recipe_catalog.h"
 #include "models/version.h"
 
@@ -137,15 +138,15 @@ std::string Models() {
          "\nthe terms as written\n";
 }
 
-constexpr std::string_view kExitStatus =
-    ".SH EXIT STATUS\n"
-    ".TP\n\\fB0\\fR\ndone\n"
-    ".TP\n\\fB2\\fR\nthe command line is wrong\n"
-    ".TP\n\\fB3\\fR\nthe input is unusable; file, row and column are named\n"
-    ".TP\n\\fB4\\fR\nevery fit failed, or a check or floor was missed\n"
-    ".TP\n\\fB130\\fR\ninterrupted; what was finished is kept\n"
-    ".TP\n\\fB1\\fR\nanything else\n"
-    ".PP\nOne line on standard error says what is wrong and what to do.\n";
+std::string ExitStatusSection() {
+  std::string roff = ".SH EXIT STATUS\n";
+  for (const auto& [status, meaning] : ExitStatusWords()) {
+    roff += fmt::format(
+        ".TP\n{}\n{}\n", Bold(std::to_string(status)), Escape(meaning));
+  }
+  return roff +
+         ".PP\nOne line on standard error says what is wrong and what to do.\n";
+}
 
 constexpr std::string_view kFiles =
     ".SH FILES\n"
@@ -159,6 +160,17 @@ constexpr std::string_view kFiles =
     "Neural Networks\\fR, NISTIR 5367, 1995.\n";
 
 }  // namespace
+
+const std::vector<std::pair<int, std::string>>& ExitStatusWords() {
+  static const std::vector<std::pair<int, std::string>> words = {
+      {kDone, "done"},
+      {kWrongCommandLine, "the command line is wrong"},
+      {kUnusableInput, "the input is unusable; file, row and column are named"},
+      {kEveryFitFailed, "every fit failed, or a check or floor was missed"},
+      {kInterrupted, "interrupted; what was finished is kept"},
+      {kOtherFailure, "anything else"}};
+  return words;
+}
 
 std::string ManPage(const ProgramReference& program) {
   std::string roff = fmt::format(
@@ -181,7 +193,7 @@ std::string ManPage(const ProgramReference& program) {
     roff += CommandSection(command);
   }
   roff += Models();
-  roff += kExitStatus;
+  roff += ExitStatusSection();
   roff += kFiles;
   return roff;
 }

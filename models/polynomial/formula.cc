@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "data/text.h"
+
 namespace errmap::models {
 namespace {
 
@@ -137,6 +139,13 @@ class Parser {
   std::size_t at_ = 0;
 };
 
+// "; did you mean 'position_mm'?", where one is near.
+std::string DidYouMean(const std::string& name,
+                       const std::vector<std::string>& names) {
+  const std::string nearest = data::NearestName(name, names);
+  return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+}
+
 }  // namespace
 
 std::vector<NamedTerm> ParseTerms(std::string_view text,
@@ -154,12 +163,13 @@ std::vector<TermPowers> ResolveTerms(const std::vector<NamedTerm>& terms,
       const auto found = std::find(names.begin(), names.end(), factor.input);
       if (found == names.end()) {
         throw std::invalid_argument(
-            fmt::format("{}, position {}: '{}' is not an input; there {} {}",
+            fmt::format("{}, position {}: '{}' is not an input; there {} {}{}",
                         what,
                         term.position,
                         factor.input,
                         names.size() == 1 ? "is" : "are",
-                        fmt::join(names, ", ")));
+                        fmt::join(names, ", "),
+                        DidYouMean(factor.input, names)));
       }
       powers[static_cast<std::size_t>(found - names.begin())] += factor.power;
     }

@@ -271,6 +271,8 @@ void AddExportCommand(CLI::App* app, Run* run) {
   AddTableOptions(command, &arguments->tables);
   AddForceFlag(command, &arguments->force);
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
+  MarkSeldom(command,
+             {"--float", "--joint", "--row", "--points", "--over", "--grid"});
   command->footer(
       "Every file states inputs, their order and units, and the sign: "
       "compensation = -error.\nWhat is written is checked against errmap "

@@ -371,8 +371,7 @@ int RunVolumetric(const VolumetricArguments& arguments) {
 void AddVolumetricCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<VolumetricArguments>();
   CLI::App* command = app->add_subcommand(
-      "volumetric",
-      "Combine the maps of a machine's components into the error at the tool");
+      "volumetric", "The error at the tool by the maps of all its components");
   command
       ->add_option("MACHINE",
                    arguments->machine,

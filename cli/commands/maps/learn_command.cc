@@ -330,8 +330,7 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
 void AddLearnCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<LearnArguments>();
   CLI::App* command = app->add_subcommand(
-      "learn",
-      "Tell what more days, cycles or fewer sensors would do to the error");
+      "learn", "What more days, cycles or fewer sensors would do to the error");
   AddDataArguments(command, &arguments->data);
   command
       ->add_option("--by",
@@ -344,14 +343,14 @@ void AddLearnCommand(CLI::App* app, Run* run) {
   command
       ->add_option("--models",
                    arguments->model_list,
-                   "Models whose curves are drawn, separated by commas")
+                   "Models, separated by commas, whose curves are drawn")
       ->type_name("LIST")
       ->capture_default_str();
   command
       ->add_option("--next",
                    arguments->candidates,
                    "States that could be measured next, a row each with the "
-                   "inputs: which of\nthem lower the predicted error most")
+                   "inputs: which of them lower the predicted error most")
       ->type_name("CANDIDATES.csv");
   command
       ->add_option("--repeats",
@@ -362,29 +361,32 @@ void AddLearnCommand(CLI::App* app, Run* run) {
   command->add_option("--sensors", arguments->sensors, "Sensors chosen at most")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  command->add_option(
-      "--goal",
-      arguments->goal,
-      "RMSE wanted: 2um, or in the target's unit (default: 0.5 um for "
-      "lengths)");
+  command
+      ->add_option("--goal",
+                   arguments->goal,
+                   "RMSE wanted: 2um (default for lengths: 0.5 um)")
+      ->type_name("X");
   AddSeedOption(command, &arguments->seed);
   command
       ->add_option("--jobs",
                    arguments->jobs,
-                   "Fits at a time (default: one per processor)")
-      ->check(CLI::PositiveNumber);
+                   "Fits at the same time (default: one per core)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
   command
-      ->add_option("--out",
-                   arguments->out,
-                   "Folder for learn-*.json, learn-*.svg and the journal of "
-                   "fits; errmap report puts\nthe curves of a study's folder "
-                   "on its page")
+      ->add_option(
+          "--out",
+          arguments->out,
+          "Folder for learn-*.json, learn-*.svg and the journal of "
+          "fits\nerrmap report puts the curves of a study's folder on its "
+          "page")
       ->type_name("DIR");
   command->add_flag("--resume",
                     arguments->resume,
                     "Go on with the fits of an earlier run in --out");
   AddForceFlag(command, &arguments->force);
   AddFormatOption(command, &arguments->format);
+  MarkSeldom(command, {"--repeats", "--sensors", "--seed", "--resume"});
   command->footer(
       "Example: errmap learn days.csv --by sessions --goal 2um\nWhole units "
       "are held out, others learnt from; a power law through the curve tells\n"

@@ -260,7 +260,7 @@ void AddPredictCommand(CLI::App* app, Run* run) {
       ->add_option("--probes",
                    arguments->probes,
                    "Measurements of the same session: the map is moved by the "
-                   "offset that\nthey show up to each row, and the interval "
+                   "offset that they show up to each row, and the interval "
                    "narrows")
       ->type_name("PROBES.csv");
   AddMapLogArguments(command, &arguments->log);

@@ -255,9 +255,15 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
                    "the files that it names, if unchanged)")
       ->type_name("DATA.csv")
       ->allow_extra_args(false);
-  command->add_option("--time", arguments->time, "Column of times")
+  command
+      ->add_option("--time",
+                   arguments->time,
+                   "Column of times (default: the only time*)")
       ->type_name("COL");
-  command->add_option("--session", arguments->session, "Column of sessions")
+  command
+      ->add_option("--session",
+                   arguments->session,
+                   "Column of sessions (default: session, day or run)")
       ->type_name("COL");
   AddRowOptions(command, &arguments->missing, &arguments->faults);
   AddSeedOption(command, &arguments->seed);

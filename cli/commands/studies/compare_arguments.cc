@@ -80,8 +80,13 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
   command
       ->add_option("--config",
                    arguments->config,
-                   "Study file in place of DATA: components, models and "
-                   "hold-outs (errmap init writes one)")
+                   "Study file in place of DATA: errmap init writes it\nIt "
+                   "has components, models and hold-outs. Where the data of a "
+                   "component are a pattern, \"{machine}/{component}.csv\", "
+                   "--out is a store of the components of all files that "
+                   "match, each studied by itself: one that fails stops no "
+                   "other, and the same command goes on where it was broken "
+                   "off")
       ->type_name("study.toml");
   command
       ->add_option("--set",
@@ -92,23 +97,25 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
       ->allow_extra_args(false);
   command->add_flag("--dry-run",
                     arguments->dry_run,
-                    "Print what would be fitted and how long it may take; fit "
-                    "and write nothing");
+                    "Print what would be fitted and how long it takes\nNothing "
+                    "is fitted or written");
   command
-      ->add_option(
-          "--holdout",
-          arguments->holdouts,
-          "Rows to judge by, may be repeated: " + stats::HoldoutFormsText() +
-              " (default: every:3, groups:5 where "
-              "there are groups, sessions:5 where there are sessions, "
-              "blocks:5 without groups)")
+      ->add_option("--holdout",
+                   arguments->holdouts,
+                   "Rows to judge by, may be repeated: every:K, groups:K, "
+                   "sessions:K, forward:K ...\nAll: " +
+                       stats::HoldoutFormsText() +
+                       " (default: every:3, groups:5 where "
+                       "there are groups, sessions:5 where there are sessions, "
+                       "blocks:5 without groups)")
       ->type_name("SPEC")
       ->allow_extra_args(false);
   command
       ->add_option("--models",
                    arguments->model_list,
-                   "Models, separated by commas (default: all that suit): " +
-                       KnownModels() + "; errmap models explains them")
+                   "Models, separated by commas (default: all that suit); "
+                   "errmap models lists them\nThey are " +
+                       KnownModels())
       ->type_name("LIST");
   command
       ->add_option("--model",
@@ -119,16 +126,15 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
   command
       ->add_option("--goal",
                    arguments->goal,
-                   "RMSE wanted on held-out rows: with its unit, 2um, or a "
-                   "number in that of the target (default for lengths: 0.5 "
-                   "um)")
+                   "RMSE wanted: 2um (default for lengths: 0.5 um)\nof "
+                   "held-out rows; without a unit in that of the target")
       ->type_name("X");
   AddSeedOption(command, &arguments->seed);
   command
       ->add_option("--jobs",
                    arguments->jobs,
-                   "Fits at the same time (default: the processor's cores); "
-                   "changes no figure")
+                   "Fits at the same time (default: one per core)\nIt changes "
+                   "no figure")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
   command
@@ -152,7 +158,7 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
       "--all", arguments->all, "Every model in the table, not the best twelve");
   command->add_flag("--details",
                     arguments->details,
-                    "Also print p values, gaps, times and every sentence");
+                    "Also p values, gaps, times and every sentence");
   AddTableFormatOption(command,
                        "What to print; csv and md have a row per component, "
                        "hold-out and model",
@@ -175,10 +181,22 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
       ->capture_default_str();
   command->add_flag("--resume",
                     arguments->resume,
-                    "Go on with the run that was broken off in --out DIR: fits "
-                    "finished there are not repeated");
+                    "Go on with the run broken off in --out DIR\nFits finished "
+                    "there are not repeated");
   AddKeepPathsFlag(command);
   AddForceFlag(command, &arguments->force);
+  MarkSeldom(command,
+             {"--set",
+              "--seed",
+              "--shard",
+              "--indifference",
+              "--probes-per-session",
+              "--probe-spacing",
+              "--split",
+              "--save-split",
+              "--predictions",
+              "--machine",
+              "--later"});
 }
 
 }  // namespace errmap::cli

@@ -254,10 +254,6 @@ void AddCompareCommand(CLI::App* app, Run* run) {
   command->footer(
       "Exit status: 0 done, 2 wrong command line, 3 unusable input, 4 every "
       "fit failed, 130 interrupted.\n"
-      "Where a component's data in a study file are a pattern, "
-      "\"{machine}/{component}.csv\", --out is a\nstore of the components of "
-      "all files that match, each studied by itself: one that fails stops\nno "
-      "other, and the same command goes on where it was broken off.\n"
       "Example: errmap compare xdown.csv --models mean,poly:eq8,net:scg "
       "--out study");
   command->callback([arguments, run, command] {

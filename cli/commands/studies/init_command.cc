@@ -109,7 +109,7 @@ void AddInitCommand(CLI::App* app, Run* run) {
                    arguments->target,
                    "Column to be mapped (default: the only one named error*)")
       ->type_name("COL");
-  command->add_option("-o,--out", arguments->out, "Study file to write")
+  command->add_option("-o,--output", arguments->out, "Study file to write")
       ->type_name("study.toml")
       ->capture_default_str();
   command->add_flag(

@@ -55,6 +55,8 @@ TEST(Formula, NamesWhatIsNoInputAndWhatStandsTwice) {
   EXPECT_THAT(RefusalOfInFormula("t1_degC+t2_degC"),
               HasSubstr("position 9: 't2_degC' is not an input; there are "
                         "position_mm, t1_degC"));
+  EXPECT_THAT(RefusalOfInFormula("positon_mm"),
+              HasSubstr("did you mean 'position_mm'?"));
   EXPECT_THAT(RefusalOfInFormula("t1_degC*position_mm+position_mm*t1_degC"),
               HasSubstr("position 21: position_mm*t1_degC stands twice"));
 }

@@ -1,0 +1,159 @@
+#include "cli/shell/help_text.h"
+
+#include <algorithm>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/report/wrap_text.h"
+
+namespace errmap::cli {
+namespace {
+
+// `name` with `text` beside it from `column` on; below it where they would
+// overlap, or where too few columns were left.
+std::string Entry(const std::string& name,
+                  const std::string& text,
+                  std::size_t column,
+                  std::size_t width) {
+  constexpr std::size_t kNarrowest = 20;
+  constexpr std::size_t kBelow = 6;
+  if (column + kNarrowest > width) column = kBelow;
+  std::string entry = "  " + name;
+  if (report::WidthOf(entry) + 1 > column) entry += "\n";
+  std::size_t at = entry.ends_with('\n') ? 0 : report::WidthOf(entry);
+  for (const std::string& line : report::WrapLines(text, width - column)) {
+    entry += std::string(column - at, ' ') + line + "\n";
+    at = 0;
+  }
+  if (!entry.ends_with('\n')) entry += "\n";
+  return entry;
+}
+
+// Whether a line of a footer stands for itself; the others go on with the
+// line before.
+bool BeginsAnew(const std::string& line) {
+  if (line.empty()) return true;
+  constexpr const char* kBegins[] = {"Example", "Exit status", "- ", "errmap "};
+  return std::ranges::any_of(
+      kBegins, [&](const char* begin) { return line.starts_with(begin); });
+}
+
+std::string Wrapped(const std::string& text, std::size_t width) {
+  std::istringstream lines(text);
+  std::vector<std::string> paragraphs;
+  for (std::string line; std::getline(lines, line);) {
+    if (paragraphs.empty() || BeginsAnew(line) || paragraphs.back().empty()) {
+      paragraphs.push_back(line);
+    } else {
+      paragraphs.back() += " " + line;
+    }
+  }
+  std::string wrapped;
+  for (const std::string& paragraph : paragraphs) {
+    wrapped += report::WrapText(paragraph, width) + "\n";
+  }
+  return wrapped;
+}
+
+// Its text in one paragraph, the rest of it with --all alone.
+std::string Explained(const OptionReference& option, HelpOptions options) {
+  std::string text = option.description;
+  if (options == HelpOptions::kUsual) text = text.substr(0, text.find('\n'));
+  std::ranges::replace(text, '\n', ' ');
+  if (!option.fallback.empty()) {
+    text += fmt::format(" (default: {})", option.fallback);
+  }
+  return text;
+}
+
+std::string OptionEntry(const OptionReference& option,
+                        HelpOptions options,
+                        std::size_t width) {
+  constexpr std::size_t kColumn = 30;
+  std::string name = fmt::format("{}", fmt::join(option.names, ","));
+  if (!option.value.empty()) name += " " + option.value;
+  return Entry(name, Explained(option, options), kColumn, width);
+}
+
+}  // namespace
+
+std::string UsageOf(const CommandReference& command) {
+  std::string usage;
+  for (const OptionReference& positional : command.positionals) {
+    const std::string name =
+        positional.value.empty() ? positional.names.front() : positional.value;
+    usage += positional.required ? " " + name : " [" + name + "]";
+  }
+  for (const OptionReference& option : command.options) {
+    if (!option.required) continue;
+    usage += " " + option.names.front();
+    if (!option.value.empty()) usage += " " + option.value;
+  }
+  usage += command.options.empty() ? "" : " [options]";
+  return usage.empty() ? usage : usage.substr(1);
+}
+
+std::string CommandHelp(const CommandReference& command,
+                        HelpOptions options,
+                        std::size_t width) {
+  std::string text = Wrapped(command.description, width);
+  text += Wrapped(
+      fmt::format("Usage: errmap {} {}", command.name, UsageOf(command)),
+      width);
+  text += "\n";
+  for (const OptionReference& positional : command.positionals) {
+    text += OptionEntry(positional, options, width);
+  }
+  std::vector<std::string> left_out;
+  for (const OptionReference& option : command.options) {
+    if (option.seldom && options == HelpOptions::kUsual) {
+      left_out.push_back(option.names.back());
+      continue;
+    }
+    text += OptionEntry(option, options, width);
+  }
+  if (!command.footer.empty()) text += "\n" + Wrapped(command.footer, width);
+  if (!left_out.empty()) {
+    text += Wrapped(fmt::format("{} options more: errmap help {} --all",
+                                left_out.size(),
+                                command.name),
+                    width);
+  }
+  return text;
+}
+
+std::string ProgramHelp(const ProgramReference& program, std::size_t width) {
+  constexpr std::size_t kColumn = 15;
+  std::string text = Wrapped(program.description, width);
+  text += "Usage: errmap COMMAND [options]\n";
+  std::string purpose;
+  for (const CommandReference& command : program.commands) {
+    if (command.purpose != purpose) {
+      purpose = command.purpose;
+      text += "\n" + purpose + "\n";
+    }
+    text += Entry(command.name, command.description, kColumn, width);
+  }
+  return text + "\n" + Wrapped(program.footer, width);
+}
+
+std::string FirstSteps() {
+  return "errmap tells which map of a machine tool's error holds on another "
+         "day.\n\n"
+         "  errmap compare DATA.csv             which map, how sure, what "
+         "next\n"
+         "  errmap export map.json --c -o DIR   the map as code for a control\n"
+         "  errmap check map.json PROBES.csv    does it still hold today?\n\n"
+         "DATA.csv has a header (position_mm, t1_degC, day, error_um) and a "
+         "row "
+         "per\nreading; compare says how to write map.json.\n"
+         "errmap help tutorial shows how, errmap help words explains the "
+         "words,\n"
+         "errmap --help lists all commands.\n";
+}
+
+}  // namespace errmap::cli
