@@ -195,6 +195,14 @@ for schema in "$root"/cli/schemas/*.json; do
 done
 [ "$count" -ge 4 ] || fail "only $count schemas in cli/schemas"
 
+# The manual, where it could be made.
+if [ -e "$build/manual/index.html" ]; then
+  manual=$(find "$prefix" -path '*/manual/index.html')
+  [ -n "$manual" ] || fail "the manual is not installed"
+  [ -s "$(dirname "$manual")/cli/manual/tutorial.html" ] ||
+    fail "the manual has no tutorial"
+fi
+
 # The man page: whole, and without a warning of roff.
 page=$prefix/share/man/man1/errmap.1
 [ -s "$page" ] || die "no man page $page"

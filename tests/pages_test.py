@@ -10,7 +10,6 @@ page are counted, and nothing is judged.
 
 import pathlib
 import re
-import subprocess
 import sys
 
 MOST_WORDS = 35  # of a sentence
@@ -98,6 +97,41 @@ def check_sentences(root, page, problems, listed):
                             f"{sentence[:70]}...")
 
 
+# What looks like a name of ours and is an example, or of another program.
+FOREIGN = {"report.md", "data/nist/", "kVerdictX", "XInVerdict"}
+
+
+def check_names(root, pages, files, problems):
+    """Files, folders and types that folders' READMEs name are there."""
+    known = {f.rsplit("/", 1)[-1] for f in files}
+    folders = {f"{p}/" for f in files for p in pathlib.PurePath(f).parents}
+    words = set()
+    for file in files:
+        if re.search(r"\.(h|cc|in|cmake|py|sh|txt|toml)$", file) and \
+                not file.startswith("data/sets/") and (root / file).exists():
+            words.update(re.findall(r"\w+", (root / file).read_text()))
+    found = 0
+    for page in pages:
+        text = re.sub(r"^```.*?^```", "", page.read_text(), flags=re.S | re.M)
+        for name in sorted(set(re.findall(r"`([^`\n]+)`", text)) - FOREIGN):
+            if re.search(r"NAME|ROOM|\.\.\.", name):
+                continue
+            if re.fullmatch(r"[\w/.-]+\.(h|cc|py|sh|patch|md)", name):
+                there = name.rsplit("/", 1)[-1] in known
+            elif re.fullmatch(r"[\w/.-]+/", name):
+                there = any(("/" + f).endswith("/" + name) for f in folders)
+            elif re.fullmatch(r"(\w+::)*[A-Z]\w*[a-z]\w*[A-Z]\w*(\(\))?|k[A-Z]\w+",
+                              name):
+                there = name.rstrip("()").split("::")[-1] in words
+            else:
+                continue
+            found += 1
+            if not there:
+                problems.append(f"{page.relative_to(root)}: there is no {name}")
+    if found < 100:
+        problems.append(f"only {found} names of files and types were found")
+
+
 def check_length(root, page, most, problems):
     lines = len(page.read_text().splitlines())
     if lines > most:
@@ -116,15 +150,9 @@ def check_myself():
 def main(root, listed):
     check_myself()
     problems = []
-    tracked = subprocess.run(["git", "-C", str(root), "ls-files", "-co",
-                              "--exclude-standard", "*.md"],
-                             capture_output=True, text=True)
-    if tracked.returncode == 0:
-        pages = [root / name for name in tracked.stdout.split()]
-    else:  # an archive without its history
-        pages = [p for p in root.rglob("*.md")
-                 if "build" not in p.relative_to(root).parts]
-    pages = sorted(p for p in pages if p.exists())
+    files = [str(p.relative_to(root)) for p in root.rglob("*") if p.is_file()
+             and not p.relative_to(root).parts[0].startswith(("build", ".git"))]
+    pages = sorted(root / f for f in files if f.endswith(".md"))
     manual = [p for p in pages if p.parent == root / "cli" / "manual"]
     users = [root / "README.md", root / "data/sets/examples.md"] + manual
     for page in pages:
@@ -133,6 +161,9 @@ def main(root, listed):
             name = str(page.relative_to(root))
             check_length(root, page, LONG.get(name, FOLDER_README_LINES),
                          problems)
+    check_names(root, [p for p in pages if p.name == "README.md" and
+                       p not in users and "golden" not in p.parts],
+                files, problems)
     check_length(root, root / "README.md", README_LINES, problems)
     for page in users:
         check_sentences(root, page, problems, listed)

@@ -1,6 +1,7 @@
 #include "cli/commands/studies/compare_plan.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <utility>
@@ -9,6 +10,8 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/report/shell_word.h"
+#include "data/input_error.h"
 #include "data/text.h"
 #include "models/model_spec.h"
 #include "stats/holdout.h"
@@ -149,6 +152,19 @@ const std::vector<ComponentFlag>& ComponentFlags() {
   return flags;
 }
 
+// A folder of files is a study, of which somebody must say what belongs
+// together.
+void RefuseFolder(const std::string& data) {
+  if (!std::filesystem::is_directory(data)) return;
+  const std::string folder = data::PrintablePath(data);
+  throw data::InputError(fmt::format(
+      "{}: is a folder; name one CSV file in it, or have a study of all of "
+      "them proposed: errmap init {} -o study.toml, then errmap compare "
+      "--config study.toml --out STUDY",
+      folder,
+      report::ShellWord(folder)));
+}
+
 }  // namespace
 
 desk::StudyFile ConfigOfFile(const CompareArguments& arguments) {
@@ -236,6 +252,7 @@ desk::StudyPlan PlanOf(const CompareArguments& arguments,
     if (!arguments.changes.empty()) {
       throw UsageError("--set changes a study file; name it with --config");
     }
+    RefuseFolder(arguments.data.file);
     return desk::PlanStudy(ConfigOf(arguments), remark);
   }
   return desk::PlanStudy(ConfigOfFile(arguments), remark);

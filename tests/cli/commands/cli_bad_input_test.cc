@@ -116,7 +116,9 @@ TEST_F(CliBadInput, HeaderAlone) {
 TEST_F(CliBadInput, AbsentFileAndFolder) {
   EXPECT_THAT(RefusalOf(Run({"compare", "none.csv"}), kUnusable),
               HasSubstr("none.csv: cannot be read: No such file"));
-  EXPECT_THAT(RefusalOf(Run({"compare", "."}), kUnusable), HasSubstr(".: "));
+  EXPECT_THAT(RefusalOf(Run({"compare", "."}), kUnusable),
+              AllOf(HasSubstr(".: is a folder"),
+                    HasSubstr("errmap init . -o study.toml")));
 }
 
 TEST_F(CliBadInput, UnknownColumnNamesFlagAndKnownColumns) {
