@@ -21,7 +21,18 @@ cd "$root"
 
 names=$(sed -n '/^set(manual_pages/,/)/p' cli/manual/pages.cmake |
   sed '1d; s/)//; s/ //g')
-"$errmap" __reference >"$out/cli/manual/reference.md"
+{
+  "$errmap" __reference
+  printf '\n## Files\n\nResults are JSON with published schemas.\n\n'
+  printf '| schema | what it describes |\n|---|---|\n'
+  mkdir -p "$out/cli/schemas"
+  for schema in cli/schemas/*.json; do
+    cp "$schema" "$out/cli/schemas/"
+    printf '| [%s](../schemas/%s) | %s |\n' "$(basename "$schema" .schema.json)" \
+      "$(basename "$schema")" \
+      "$(sed -n 's/^  "description": "\(.*\)",$/\1/p' "$schema" | sed 's/\\"/"/g; s/|/\\|/g')"
+  done
+} >"$out/cli/manual/reference.md"
 
 title_of() { sed -n '1s/^#* *//p' "$1" | sed 's/`//g; s/&/\&amp;/g; s/</\&lt;/g'; }
 
@@ -86,7 +97,7 @@ cp cli/manual/manual.css cli/manual/search.js "$out/"
     awk -v page="$name" '
       function flush() {
         gsub(/<[^>]*>/, " ", text)
-        gsub(/\\/, "\\\\", text)
+        gsub(/\\/, "\\\\&", text)
         gsub(/"/, "\\\"", text)
         gsub(/\t/, " ", text)
         if (title != "") {

@@ -9,7 +9,7 @@ namespace errmap::cli {
 namespace {
 
 // Without the marks of Markdown: "[words](page.md)" is "words", `code` and
-// **strong** are what they enclose; a picture is nothing.
+// **strong** are what they enclose; of a picture it is said what it shows.
 std::string Unmarked(std::string_view text) {
   std::string plain;
   for (std::size_t at = 0; at < text.size(); ++at) {
@@ -18,6 +18,7 @@ std::string Unmarked(std::string_view text) {
     const std::size_t end =
         middle == rest.npos ? middle : rest.find(')', middle);
     if (rest.starts_with("![") && end != rest.npos) {
+      plain.append("[Picture: ").append(rest.substr(2, middle - 2)) += "]";
       at += end;
     } else if (rest.front() == '[' && end != rest.npos) {
       plain += Unmarked(rest.substr(1, middle - 1));

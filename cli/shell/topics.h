@@ -22,7 +22,7 @@ std::vector<std::string> TopicNames();
 std::string TitleOf(const Topic& topic);
 
 /// The page to be read on a terminal: headings, paragraphs and lists in lines
-/// of `width`, blocks of code and tables as they are, no pictures, links as
+/// of `width`, blocks of code and tables as they are, links and pictures as
 /// their words.
 std::string TopicText(const Topic& topic, std::size_t width);
 

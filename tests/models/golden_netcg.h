@@ -15,7 +15,7 @@
 
 namespace errmap::testing {
 
-/// A run of the report's program, as tests/golden/README.md describes it.
+/// A run of the report's program, as tests/golden/netcg/README.md describes it.
 struct GoldenCase {
   nlohmann::json json;
   models::NetShape shape;

@@ -28,11 +28,12 @@ TEST(TopicText, WrapsParagraphsAndItemsAndUnderlinesHeadings) {
             "- an item that goes on and on\n  and on\n- another\n");
 }
 
-TEST(TopicText, KeepsCodeAsItIsAndDropsMarksAndPictures) {
+TEST(TopicText, KeepsCodeAsItIsDropsMarksAndNamesPictures) {
   EXPECT_EQ(Shown("## Run [it](run.md)\n\n![A map](map.svg)\n\n"
                   "Say `fit` and **wait**.\n\n"
                   "<!-- For the test. -->\n\n```sh\na `b` [c](d)\n\ne\n```\n"),
-            "Run it\n------\n\nSay fit and wait.\n\n    a `b` [c](d)\n\n"
+            "Run it\n------\n\n[Picture: A map]\n\nSay fit and wait.\n\n    a "
+            "`b` [c](d)\n\n"
             "    e\n");
 }
 

@@ -1,4 +1,4 @@
-// netcg against the report's own program (tests/golden/README.md).
+// netcg against the report's own program (tests/golden/netcg/README.md).
 
 #include <cmath>
 #include <cstdint>
@@ -21,7 +21,7 @@ using errmap::testing::ReadGoldenCase;
 using models::NetArithmetic;
 
 // How far a comparison of trajectories means anything: rounding is amplified
-// by the iteration (tests/golden/README.md).
+// by the iteration (tests/golden/netcg/README.md).
 constexpr double kSameDigits = 1e-9;
 constexpr double kLateDigits = 1e-6;
 constexpr double kSingleDigits = 1e-3;

@@ -1,5 +1,5 @@
 // The report's program against an independent reconstruction of it; see
-// tests/golden/README.md for the cases.
+// tests/golden/netcg/README.md for the cases.
 
 #include "models/netcg/netcg_run.h"
 
@@ -112,7 +112,7 @@ TEST_F(NetcgRun, PrintsTheReportsOfTheSmallCases) {
   }
 }
 
-// The lengths of tests/golden/README.md.
+// The lengths of tests/golden/netcg/README.md.
 TEST_F(NetcgRun, RetracesTheErrorsOfTheGoldenTrajectories) {
   WritePatterns();
   Copy("case_a.in");
