@@ -45,7 +45,7 @@ manual | gallery)
 esac
 case $set in
 manual)
-  starts="(errmap|cut|sed|cc|python3) "
+  starts="(errmap|cut|sed|cc|python3|printf) "
   pages=$(sed -n '/^set(manual_pages/,/)/p' "$root/cli/manual/pages.cmake" |
     sed '1d; s/)//; s/ //g; s|.*|cli/manual/&.md|')
   ;;
