@@ -59,8 +59,11 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
                             "models/net models/blend "
     rooms["models/study/journal"] = rooms["models/study"] "models/study "
     rooms["models/study/judgement"] = " models models/study "
+    rooms["models/study/rezero"] = " models models/study " \
+                                   "models/study/judgement "
     rooms["models/study/record"] = rooms["models/study"] "models/study " \
-                                   "models/study/judgement models/export "
+                                   "models/study/judgement " \
+                                   "models/study/rezero models/export "
     rooms["models/promise"] = rooms["models/study"] "models/study " \
                               "models/study/judgement models/study/record "
     rooms["models/fleet"] = rooms["models/promise"]
@@ -69,7 +72,8 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
                              "models/net models/blend "
     rooms["models/certification"] = " models models/polynomial models/net "
     rooms["models/netcg"] = " models models/net "
-    rooms["models/comparison"] = rooms["models/promise"] "models/promise "
+    rooms["models/comparison"] = rooms["models/promise"] "models/promise " \
+                                 "models/study/rezero "
     # Libraries of their own: a record as words, tables, figures, pages.
     rooms["cli/report"] = ""
     rooms["cli/report/figures"] = " cli/report "

@@ -64,6 +64,7 @@ models::ConfigurationRecord EffectiveConfiguration(const StudyConfig& config) {
   record.indifference = Number(config.indifference);
   record.holdouts = List(config.holdouts);
   record.models = List(config.models);
+  record.rezero = Text(config.rezero);
   for (const ComponentConfig& component : config.components) {
     record.component.push_back(ComponentOf(component));
   }

@@ -64,4 +64,19 @@ double InUnitOf(const data::Unit& target, const GivenError& given) {
          data::Converted(0.0, given.unit, target);
 }
 
+void CheckRezero(std::string_view text) {
+  std::string noise;
+  models::ParseRezero(text, &noise);
+  if (!noise.empty()) ParseGivenError(noise, true);
+}
+
+models::RezeroRule RezeroIn(const data::Unit& target, std::string_view text) {
+  std::string noise;
+  models::RezeroRule rule = models::ParseRezero(text, &noise);
+  if (!noise.empty()) {
+    rule.noise = InUnitOf(target, ParseGivenError(noise, true));
+  }
+  return rule;
+}
+
 }  // namespace errmap::desk

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "data/units.h"
+#include "models/study/rezero/rezero_rule.h"
 
 namespace errmap::desk {
 
@@ -28,5 +29,12 @@ GivenError ParseGivenError(std::string_view text, bool may_be_zero);
 /// The value in `target`, NaN where none is given. Throws
 /// std::invalid_argument where it has a unit of another quantity.
 double InUnitOf(const data::Unit& target, const GivenError& given);
+
+/// Checks the words of --rezero as far as they can be without data. Throws
+/// std::invalid_argument, to follow the name of what is given.
+void CheckRezero(std::string_view text);
+
+/// The rule, its noise in `target`. Throws std::invalid_argument.
+models::RezeroRule RezeroIn(const data::Unit& target, std::string_view text);
 
 }  // namespace errmap::desk

@@ -43,6 +43,7 @@ struct StudyConfig {
   GivenError indifference;
   std::vector<std::string> holdouts;  // SPECs; empty: those that the data allow
   std::vector<std::string> models;    // SPECs; empty: all that suit
+  std::string rezero;  // models::ParseRezero; "": held-out rows as they are
   std::vector<ComponentConfig> components;
 };
 

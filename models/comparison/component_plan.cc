@@ -10,6 +10,7 @@
 #include "data/input_error.h"
 #include "models/promise/promise.h"
 #include "models/recipe_catalog.h"
+#include "models/study/rezero/rezeroed_study.h"
 
 namespace errmap::models {
 namespace {
@@ -120,6 +121,14 @@ void RunComponent(ComponentPlan* plan,
     component.study.models.push_back(
         JudgeGivenPredictions(given, dataset, component.holdouts));
   }
+  std::optional<BeforeRezero> before;
+  if (component.rezero) {
+    before = RezeroStudy(dataset,
+                         *component.rezero,
+                         options.seed,
+                         &component.holdouts,
+                         &component.study);
+  }
   component.judgement =
       JudgeStudy(dataset,
                  component.holdouts,
@@ -130,10 +139,25 @@ void RunComponent(ComponentPlan* plan,
     for (ModelResult& model : component.study.models) {
       if (!model.final_fit) continue;
       AddApplicability(dataset, &*model.final_fit);
-      AddPromise(
-          dataset, component.holdouts[h], model.holdouts[h], &*model.final_fit);
+      // What a map promises holds where nobody re-zeroes it.
+      const auto m =
+          static_cast<std::size_t>(&model - component.study.models.data());
+      AddPromise(dataset,
+                 before ? before->holdouts[h] : component.holdouts[h],
+                 before ? before->results[m][h] : model.holdouts[h],
+                 &*model.final_fit);
     }
-    AddAdvice(options, plan);
+    // Sensors and sessions are weighed by maps as they are.
+    if (!before) AddAdvice(options, plan);
+  }
+  if (before && component.judgement.recommendation) {
+    component.rezero_worth =
+        WorthOfRezero(dataset,
+                      *component.rezero,
+                      options.seed,
+                      *before,
+                      component.judgement.recommendation->holdout,
+                      component.judgement.recommendation->model);
   }
   if (!keep_fold_maps) ForgetFoldMaps(&component.study);
 }

@@ -95,6 +95,35 @@ FoldOutcome JudgeFold(const Dataset& dataset,
   return judged;
 }
 
+void PoolTest(const Dataset& dataset,
+              const Holdout& holdout,
+              HoldoutResult* result) {
+  Index num_test = 0;
+  for (const FoldResult& fold : result->folds) {
+    num_test += fold.test_predictions.size();
+  }
+  VectorXd targets(num_test);
+  VectorXd residuals(num_test);
+  VectorXd baseline(num_test);
+  Index begin = 0;
+  for (std::size_t i = 0; i < result->folds.size(); ++i) {
+    const stats::Fold& rows = holdout.folds[i];
+    FoldResult& fold = result->folds[i];
+    const Index size = fold.test_predictions.size();
+    targets.segment(begin, size) =
+        holdout.test_data != nullptr
+            ? holdout.test_data->target_values()
+            : VectorXd(dataset.target_values()(rows.test));
+    residuals.segment(begin, size) =
+        targets.segment(begin, size) - fold.test_predictions;
+    const VectorXd trained = dataset.target_values()(rows.train);
+    baseline.segment(begin, size).setConstant(stats::Summarize(trained).mean);
+    fold.test_rmse = stats::RootMeanSquare(residuals.segment(begin, size));
+    begin += size;
+  }
+  result->test = stats::ComputeErrorMetrics(targets, residuals, baseline);
+}
+
 HoldoutResult PoolFolds(const Dataset& dataset,
                         const Holdout& holdout,
                         std::vector<FoldOutcome> outcomes) {
@@ -108,32 +137,12 @@ HoldoutResult PoolFolds(const Dataset& dataset,
                             : fmt::format("fold {}: {}", fold, fit.why_failed);
     return result;
   }
-  const auto test_targets = [&](const stats::Fold& fold) -> VectorXd {
-    return holdout.test_data != nullptr ? holdout.test_data->target_values()
-                                        : dataset.target_values()(fold.test);
-  };
-  Index num_test = 0;
-  for (const FoldOutcome& outcome : outcomes) {
-    num_test += outcome.fit.test_predictions.size();
-  }
-  VectorXd targets(num_test);
-  VectorXd residuals(num_test);
-  VectorXd baseline(num_test);
   std::vector<stats::ErrorMetrics> train;
-  Index begin = 0;
-  for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    const stats::Fold& fold = holdout.folds[i];
-    FitOutcome& outcome = outcomes[i].fit;
-    train.push_back(outcomes[i].train);
-    const Index size = outcome.test_predictions.size();
-    targets.segment(begin, size) = test_targets(fold);
-    residuals.segment(begin, size) =
-        targets.segment(begin, size) - outcome.test_predictions;
-    const VectorXd trained = dataset.target_values()(fold.train);
-    baseline.segment(begin, size).setConstant(stats::Summarize(trained).mean);
+  for (FoldOutcome& judged : outcomes) {
+    FitOutcome& outcome = judged.fit;
+    train.push_back(judged.train);
     FoldResult folded;
     folded.train_rmse = train.back().rmse;
-    folded.test_rmse = stats::RootMeanSquare(residuals.segment(begin, size));
     folded.summary = std::move(outcome.fitted->summary);
     folded.fit_seconds = outcome.seconds;
     folded.remarks = std::move(outcome.fitted->remarks);
@@ -146,10 +155,9 @@ HoldoutResult PoolFolds(const Dataset& dataset,
           std::make_shared<const FittedModel>(std::move(*outcome.fitted));
     }
     result.folds.push_back(std::move(folded));
-    begin += size;
   }
   result.train = AverageMetrics(train);
-  result.test = stats::ComputeErrorMetrics(targets, residuals, baseline);
+  PoolTest(dataset, holdout, &result);
   if (!(result.test.rmse <= kLargestRmse)) {
     result.folds.clear();
     result.why_failed = fmt::format(

@@ -40,6 +40,12 @@ HoldoutResult PoolFolds(const data::Dataset& dataset,
                         const Holdout& holdout,
                         std::vector<FoldOutcome> outcomes);
 
+/// Figures of the held-out rows, of each fold and of all, from the folds'
+/// predictions of them.
+void PoolTest(const data::Dataset& dataset,
+              const Holdout& holdout,
+              HoldoutResult* result);
+
 /// Metrics of `predicted` (m) against the targets of `dataset`, R2 about its
 /// own mean.
 stats::ErrorMetrics Judge(const data::Dataset& dataset,

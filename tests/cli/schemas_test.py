@@ -193,6 +193,10 @@ def documents(program):
         "compare", "grouped.csv", "--models", "mean,poly:eq8", "--session",
         "cycle", "--probes-per-session", "0,2"
     )
+    yield "rezeroed", program.json(
+        "compare", "grouped.csv", "--models", "zero,poly:eq8", "--rezero",
+        "session:noise=0.1um"
+    )
     yield "angle", program.json("compare", "angle.csv", "--models", simple)
     yield "no groups", program.json("compare", "plain.csv", "--models", simple)
     program.run(

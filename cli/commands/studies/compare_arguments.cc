@@ -129,6 +129,15 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
                    "RMSE wanted: 2um (default for lengths: 0.5 um)\nof "
                    "held-out rows; without a unit in that of the target")
       ->type_name("X");
+  command
+      ->add_option("--rezero",
+                   arguments->rezero,
+                   "Judge maps with their offset set anew from the true error "
+                   "then: at an interval (2h, 90min; 5 of a time column that "
+                   "counts cycles), session (where one begins) or probe (with "
+                   "every cycle, every row where there are none), beside no "
+                   "map re-zeroed alike; by probes of this noise")
+      ->type_name("2h|session|probe[:noise=X]");
   AddSeedOption(command, &arguments->seed);
   command
       ->add_option("--jobs",

@@ -24,6 +24,7 @@ struct CompareArguments {
   std::vector<std::string> models;
   std::optional<std::string> goal = {};
   std::optional<std::string> indifference = {};
+  std::string rezero;
   std::string split;
   std::string save_split;
   std::vector<desk::PredictionsFile> predictions;

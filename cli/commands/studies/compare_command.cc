@@ -206,6 +206,11 @@ int RunCompare(const CompareArguments& arguments) {
   if (arguments.resume && arguments.out.empty()) {
     throw UsageError("--resume needs the folder of the earlier run: --out DIR");
   }
+  if (!arguments.rezero.empty() && !arguments.probes.numbers.empty()) {
+    throw UsageError(
+        "--rezero and --probes-per-session exclude each other: both move the "
+        "same rows");
+  }
   const std::optional<desk::MachineStudy> machine = MachineOf(arguments);
   if (const std::optional<int> status = RunIfFleet(arguments)) return *status;
   desk::StudyPlan plan = PlanOf(arguments, machine);

@@ -75,6 +75,13 @@ desk::StudyConfig ConfigOf(const CompareArguments& arguments) {
   const desk::GivenError indifference =
       ErrorOfFlag("--indifference", arguments.indifference, true);
   CheckHoldouts(arguments.holdouts);
+  if (!arguments.rezero.empty()) {
+    try {
+      desk::CheckRezero(arguments.rezero);
+    } catch (const std::invalid_argument& error) {
+      throw UsageError(fmt::format("--rezero {}", error.what()));
+    }
+  }
   const DataArguments& data = arguments.data;
   desk::ComponentConfig component;
   component.data = data.file;
@@ -97,6 +104,7 @@ desk::StudyConfig ConfigOf(const CompareArguments& arguments) {
           .indifference = indifference,
           .holdouts = arguments.holdouts,
           .models = std::move(specs),
+          .rezero = arguments.rezero,
           .components = {std::move(component)}};
 }
 
@@ -192,6 +200,7 @@ desk::StudyFile ConfigOfFile(const CompareArguments& arguments) {
     }
   }
   if (given("--holdout")) config.holdouts = flags.holdouts;
+  if (given("--rezero")) config.rezero = flags.rezero;
   if (given("--models") || given("--model")) config.models = flags.models;
   const desk::ComponentConfig& from = flags.components.front();
   for (const ComponentFlag& flag : ComponentFlags()) {
@@ -218,7 +227,7 @@ std::optional<desk::MachineStudy> MachineOf(const CompareArguments& arguments) {
     }
     return std::nullopt;
   }
-  std::vector<const char*> of_one = {"--config"};
+  std::vector<const char*> of_one = {"--config", "--rezero"};
   for (const ComponentFlag& flag : ComponentFlags()) {
     if (flag.reach == Reach::kOne) of_one.push_back(flag.name);
   }

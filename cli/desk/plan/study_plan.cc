@@ -80,6 +80,7 @@ class ComponentPlanner {
                            &left_out);
     for (const std::string& line : left_out) Tell(line);
     plan.given = ReadGiven();
+    plan.comparison.rezero = Rezero(plan.comparison);
     const data::Dataset& dataset = plan.comparison.data.dataset;
     const data::Unit& unit = dataset.target().unit;
     plan.comparison.goal = SizeOf("goal", component_.goal, study_.goal, dataset)
@@ -199,6 +200,22 @@ class ComponentPlanner {
           predictions.name, reader_->Read(predictions.file)));
     }
     return given;
+  }
+
+  // Refused before anything is fitted where it leaves nothing to judge.
+  std::optional<models::RezeroRule> Rezero(
+      const models::ComponentStudy& component) const {
+    if (study_.rezero.empty()) return std::nullopt;
+    const data::Dataset& dataset = component.data.dataset;
+    try {
+      const models::RezeroRule rule =
+          RezeroIn(dataset.target().unit, study_.rezero);
+      models::RequireRezero(dataset, component.holdouts, rule);
+      return rule;
+    } catch (const std::invalid_argument& error) {
+      throw data::InputError(
+          fmt::format("{}: {}", component_.data, error.what()));
+    }
   }
 
   // The component's own, else the study's, in the target's unit. A bare number

@@ -45,6 +45,7 @@ class StudyFileReader {
                     "indifference",
                     "holdouts",
                     "models",
+                    "rezero",
                     "model",
                     "component"});
     StudyFile study;
@@ -64,6 +65,16 @@ class StudyFileReader {
     keys.TakeList("models", &config.models, [](const std::string& spec) {
       models::MakeRecipe(spec);
     });
+    keys.TakeText("rezero", &config.rezero);
+    if (!config.rezero.empty()) {
+      try {
+        CheckRezero(config.rezero);
+      } catch (const std::invalid_argument& error) {
+        Refuse(file_,
+               keys.Find("rezero")->source(),
+               fmt::format("'rezero' {}", error.what()));
+      }
+    }
     for (const toml::table* table : keys.Tables("model")) {
       config.models.push_back(ReadModel(*table, config.models));
     }

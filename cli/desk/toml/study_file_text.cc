@@ -93,6 +93,11 @@ std::string StudyKeys(const StudyPlan& plan) {
       "# see the end of this file.\n";
   text += ListKey(
       "models", plan.config.models, plan.components.front().ModelNames());
+  text += fmt::format(
+      "{}rezero = {}   # judge maps with their offset set anew so often\n",
+      plan.config.rezero.empty() ? "# " : "",
+      TomlText(plan.config.rezero.empty() ? "2h:noise=0.5um"
+                                          : plan.config.rezero));
   return text;
 }
 

@@ -14,6 +14,7 @@
 #include "cli/report/words/component_numbers.h"
 #include "cli/report/words/data_words.h"
 #include "cli/report/words/next_steps.h"
+#include "cli/report/words/rezero_text.h"
 #include "cli/report/words/verdict_text.h"
 #include "cli/report/wrap_text.h"
 #include "data/text.h"
@@ -163,6 +164,11 @@ void ComponentScreen::Leaderboard() {
                          record_.display.unit);
   }
   legend.push_back(where + ".");
+  if (record_.rezero) {
+    legend.push_back(fmt::format(
+        "All {} but no re-zero, the same rows without it (--rezero).",
+        RezeroedWords(record_)));
+  }
   if (std::string drawn = DrawnRowsWords(view_); !drawn.empty()) {
     legend.push_back(std::move(drawn));
   }

@@ -148,6 +148,16 @@ Cell Goal(const Place& place) {
   }
 }
 
+// Of the rows that were scored, without re-zeroing.
+Cell NeverRezeroed(const Place& place) {
+  const auto& rezero = place.component.rezero;
+  if (!rezero || rezero->holdout != place.holdout) return {};
+  const auto found = std::ranges::find(
+      rezero->models, place.model.name, &models::RezeroedModelRecord::model);
+  if (found == rezero->models.end()) return {};
+  return Error{found->never, place.component.display.scale};
+}
+
 double FoldSeconds(const ResultRecord& result) {
   double seconds = 0.0;
   for (const models::FoldRecord& fold : result.folds) {
@@ -253,6 +263,11 @@ const std::vector<ResultColumn>& Columns() {
          .is_number = false,
          .name = "meets goal",
          .page = "meets goal"},
+        {.key = "never_rezeroed",
+         .cell = &NeverRezeroed,
+         .name = "no re-zero",
+         .page = "never re-zeroed",
+         .explanation = "RMSE"},
         {.key = "p_recommended",
          .cell = &PAgainstRecommended,
          .name = "p",
@@ -381,6 +396,9 @@ Table TerminalLeaderboard(const ReportView& view, std::size_t most_rows) {
   if (!view.neighbours.empty()) {
     Append(SlotsOf({"test_rmse"}, view.neighbours), &slots);
   }
+  if (component.rezero) {
+    Append(SlotsOf({"never_rezeroed"}, view.decisive), &slots);
+  }
   if (std::isfinite(component.goal)) {
     Append(SlotsOf({"goal"}, view.decisive), &slots);
   }
@@ -500,6 +518,9 @@ Table PageLeaderboard(const ReportView& view) {
   Append(SlotsOf({"error", "interchangeable"}, decisive), &slots);
   for (const std::string& holdout : view.holdouts) {
     if (holdout != decisive) Append(SlotsOf({"test_rmse"}, holdout), &slots);
+  }
+  if (view.component->rezero) {
+    Append(SlotsOf({"never_rezeroed"}, decisive), &slots);
   }
   Append(SlotsOf({"goal", "p_recommended"}, decisive), &slots);
   Append(SlotsOf({"sensors", "parameters", "predict_ns"}), &slots);

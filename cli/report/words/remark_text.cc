@@ -369,7 +369,8 @@ std::string RemarkText(const ComponentNumbers& component,
           RatioText(row.ratio));
     }
     case RemarkKind::kPromise:
-      return IntervalText(There(advice.promise), component.error) + ".";
+      return IntervalText(There(advice.promise), component.error) +
+             (component.record.rezero ? ", never re-zeroed." : ".");
     case RemarkKind::kOneMoreSession:
       return OneMoreText(There(advice.session_worth), holdout.unit_of_analysis);
     case RemarkKind::kGoal:

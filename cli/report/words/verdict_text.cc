@@ -8,6 +8,7 @@
 
 #include "cli/report/words/component_numbers.h"
 #include "cli/report/words/remark_text.h"
+#include "cli/report/words/rezero_text.h"
 #include "cli/report/words/verdict_sentences.h"
 #include "cli/report/wrap_text.h"
 #include "data/input_error.h"
@@ -38,6 +39,7 @@ void AddSentences(models::ComponentRecord* record) {
   for (VerdictRecord& verdict : record->verdict) {
     verdict.why = VerdictSentence(numbers, verdict);
   }
+  if (record->rezero) record->rezero->sentence = RezeroSentence(*record);
   if (!record->recommendation) return;
   RecommendationRecord& advice = *record->recommendation;
   advice.sentence = AdviceSentence(numbers);
@@ -89,6 +91,7 @@ std::vector<std::string> FirstWords(const models::ComponentRecord& record) {
   }
   const RecommendationRecord& advice = *record.recommendation;
   std::vector<std::string> words{advice.sentence};
+  if (record.rezero) words.push_back(record.rezero->sentence);
   for (const RemarkRecord* remark : ToldFirst(advice)) {
     words.push_back(remark->text);
   }

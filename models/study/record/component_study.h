@@ -9,6 +9,7 @@
 #include "models/study/judgement/verdict.h"
 #include "models/study/record/sensor_importance.h"
 #include "models/study/record/session_worth.h"
+#include "models/study/rezero/rezeroed_study.h"
 #include "models/study/study.h"
 
 namespace errmap::models {
@@ -20,6 +21,8 @@ struct ComponentStudy {
   std::string sha256;
   double goal = 0.0;          // target's unit; NaN: none
   double indifference = 0.0;  // target's unit
+  /// How maps are re-zeroed where they are judged; nothing: not.
+  std::optional<RezeroRule> rezero = {};
   data::PreparedDataset data;
   std::vector<Holdout> holdouts;
   StudyResult study;
@@ -27,6 +30,7 @@ struct ComponentStudy {
   std::size_t first_added = 0;
   std::size_t num_added = 0;
   Judgement judgement;
+  std::optional<RezeroWorth> rezero_worth = {};
   // Of the recommended map:
   std::optional<SessionWorth> session_worth = {};
   std::optional<SensorImportance> importance = {};

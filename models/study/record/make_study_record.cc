@@ -524,6 +524,54 @@ std::optional<RecommendationRecord> JudgementRecord::Advice() const {
   return record;
 }
 
+std::string_view WordOf(RezeroKind kind) {
+  switch (kind) {
+    case RezeroKind::kEvery:
+      return "interval";
+    case RezeroKind::kSession:
+      return "session";
+    case RezeroKind::kProbe:
+      return "probe";
+  }
+  return "";
+}
+
+double FiniteOrNothing(double value) {
+  return std::isfinite(value) ? value : kNotKnown;
+}
+
+RezeroRecord MakeRezero(const ComponentStudy& study) {
+  const RezeroRule& rule = *study.rezero;
+  const RezeroWorth& worth = *study.rezero_worth;
+  RezeroRecord record{
+      .rule = rule.text,
+      .when = std::string(WordOf(rule.kind)),
+      .interval = FiniteOrNothing(rule.interval),
+      .noise = rule.noise,
+      .holdout = study.holdouts[study.judgement.recommendation->holdout].name,
+      .probes = worth.probes,
+      .scored_rows = worth.scored_rows,
+      .no_map = worth.no_map,
+      .models = {},
+      .curve = {},
+      .needs = worth.does_as_well_never            ? "never"
+               : std::isnan(worth.does_as_well_at) ? "more"
+               : std::isinf(worth.does_as_well_at) ? "session"
+                                                   : "every",
+      .needs_interval = worth.does_as_well_never
+                            ? kNotKnown
+                            : FiniteOrNothing(worth.does_as_well_at),
+      .sentence = {}};
+  for (const RezeroWorth::Model& model : worth.models) {
+    record.models.push_back(
+        {study.study.models[model.model].name, model.rmse, model.never});
+  }
+  for (const RezeroWorth::At& at : worth.curve) {
+    record.curve.push_back({FiniteOrNothing(at.interval), at.map, at.no_map});
+  }
+  return record;
+}
+
 }  // namespace
 
 PromiseRecord MakeRecord(const PredictionInterval& interval) {
@@ -585,6 +633,7 @@ ComponentRecord MakeComponentRecord(const ComponentStudy& study, int jobs) {
     record.recommendation->grounds = FindGrounds(study, record);
     record.recommendation->doubts = FindDoubts(study, record);
   }
+  if (study.rezero_worth) record.rezero = MakeRezero(study);
   record.figures = MakeFiguresRecord(study);
   return record;
 }

@@ -60,10 +60,17 @@ struct ConfigurationRecord {
   LeftOut<double> indifference;
   LeftOut<std::vector<std::string>> holdouts;
   LeftOut<std::vector<std::string>> models;
+  LeftOut<std::string> rezero;
   std::vector<ComponentConfigurationRecord> component;
 };
-ERRMAP_RECORD(
-    ConfigurationRecord, seed, goal, indifference, holdouts, models, component)
+ERRMAP_RECORD(ConfigurationRecord,
+              seed,
+              goal,
+              indifference,
+              holdouts,
+              models,
+              rezero,
+              component)
 
 struct InputFileRecord {
   std::string file;

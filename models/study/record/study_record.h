@@ -16,6 +16,7 @@
 #include "models/study/record/recommendation_record.h"
 #include "models/study/record/record.h"
 #include "models/study/record/record_values.h"
+#include "models/study/record/rezero_record.h"
 
 // What a study found, as plain data: these structs are results.json, schema
 // errmap-results-1, member by key in the same order. Lengths are in the data
@@ -32,6 +33,7 @@
 //   recommendation_record.h  the recommended map
 //   remark_record.h          what speaks for it and bounds its worth
 //   probe_record.h           probes of a session
+//   rezero_record.h          maps that are re-zeroed
 //   figure_record.h          the rows behind the figures
 //   machine_record.h         the error at the tool
 //   provenance_record.h      configuration, program, files
@@ -55,6 +57,7 @@ struct ComponentRecord {
   std::optional<RecommendationRecord> recommendation;
   /// Where it was asked for.
   LeftOut<ProbesRecord> probes;
+  LeftOut<RezeroRecord> rezero;
   FiguresRecord figures;
 };
 ERRMAP_RECORD(ComponentRecord,
@@ -73,6 +76,7 @@ ERRMAP_RECORD(ComponentRecord,
               verdict,
               recommendation,
               probes,
+              rezero,
               figures)
 
 inline constexpr std::string_view kResultsSchema = "errmap-results-1";

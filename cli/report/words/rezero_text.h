@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "models/study/record/study_record.h"
+
+namespace errmap::report {
+
+/// What the recommended map saves in probes beside no map that is re-zeroed
+/// alike; "" where maps were not re-zeroed.
+std::string RezeroSentence(const models::ComponentRecord& component);
+
+/// "re-zeroed every 2 h", "re-zeroed once a session", "re-zeroed every cycle".
+std::string RezeroedWords(const models::ComponentRecord& component);
+
+/// "2 h", "90 min", "30 s".
+std::string DurationText(double seconds);
+
+}  // namespace errmap::report

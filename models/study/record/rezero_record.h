@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "models/study/record/record.h"
+#include "models/study/record/record_values.h"
+
+// What re-zeroing at an interval makes of maps, and of no map at all.
+
+namespace errmap::models {
+
+struct RezeroedModelRecord {
+  std::string model;
+  double rmse = kNotKnown;
+  double never = kNotKnown;  // the same rows without re-zeroing
+};
+ERRMAP_RECORD(RezeroedModelRecord, model, rmse, never)
+
+struct RezeroIntervalRecord {
+  double interval = kNotKnown;  // s; NaN: once a session
+  double map = kNotKnown;
+  double no_map = kNotKnown;
+};
+ERRMAP_RECORD(RezeroIntervalRecord, interval, map, no_map)
+
+/// See RezeroRule and RezeroWorth.
+struct RezeroRecord {
+  std::string rule;             // as given
+  std::string when;             // "interval", "session", "probe"
+  double interval = kNotKnown;  // s; of "interval" alone
+  double noise = kNotKnown;
+  std::string holdout;
+  std::int64_t probes = 0;
+  std::int64_t scored_rows = 0;
+  double no_map = kNotKnown;
+  std::vector<RezeroedModelRecord> models;
+  std::vector<RezeroIntervalRecord> curve;  // of the recommended map
+  /// What the map needs to do what no map does by the rule: "every" interval,
+  /// "session", "never"; "more": not even the rule will do.
+  std::string needs;
+  double needs_interval = kNotKnown;  // s; of "every" alone
+  std::string sentence;
+};
+ERRMAP_RECORD(RezeroRecord,
+              rule,
+              when,
+              interval,
+              noise,
+              holdout,
+              probes,
+              scored_rows,
+              no_map,
+              models,
+              curve,
+              needs,
+              needs_interval,
+              sentence)
+
+}  // namespace errmap::models
