@@ -14,6 +14,7 @@ import sys
 
 MOST_WORDS = 35  # of a sentence
 MEAN_WORDS = 18  # of a page
+CODE_COLUMNS = 76  # errmap help TOPIC indents it by four
 README_LINES = 90
 FOLDER_README_LINES = 80
 
@@ -130,6 +131,15 @@ def check_names(root, pages, files, problems):
         problems.append(f"only {found} names of files and types were found")
 
 
+def check_code(root, page, problems):
+    """Commands and outputs of a page fit a terminal of 80 columns."""
+    for block in re.findall(r"^```.*?^```", page.read_text(), flags=re.S | re.M):
+        for line in block.splitlines():
+            if len(line) > CODE_COLUMNS:
+                problems.append(f"{page.relative_to(root)}: wider than "
+                                f"{CODE_COLUMNS} columns: {line}")
+
+
 def check_length(root, page, most, problems):
     lines = len(page.read_text().splitlines())
     if lines > most:
@@ -167,6 +177,7 @@ def main(root, listed):
     names = re.search(r"set\(manual_pages(.*?)\)", listed_pages,
                       flags=re.S).group(1).split()
     for page in manual:
+        check_code(root, page, problems)
         if page.name != "README.md" and page.stem not in names:
             problems.append(f"{page.name} is not in pages.cmake")
         if page.name != "README.md" and \
