@@ -132,8 +132,8 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
   command
       ->add_option("--rezero",
                    arguments->rezero,
-                   "Judge maps with their offset set anew from the true error "
-                   "then: at an interval (2h, 90min; 5 of a time column that "
+                   "Judge maps with their offset set anew then\nfrom the true "
+                   "error: at an interval (2h, 90min; 5 of a time column that "
                    "counts cycles), session (where one begins) or probe (with "
                    "every cycle, every row where there are none), beside no "
                    "map re-zeroed alike; by probes of this noise")
