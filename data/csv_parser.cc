@@ -8,11 +8,14 @@
 #include <functional>
 #include <limits>
 #include <system_error>
+#include <tuple>
 #include <unordered_map>
 
 #include "data/csv.h"
 #include "data/formula_text.h"
 #include "data/text.h"
+#include "data/text_encoding.h"
+#include "data/units.h"
 
 namespace errmap::data {
 namespace {
@@ -22,8 +25,28 @@ constexpr char kNoDelimiter = '\0';
 
 // Where all else is equal the rarer character wins: commas and semicolons
 // occur in names.
-constexpr std::array<char, 3> kDelimiters = {'\t', ';', ','};
+constexpr std::array<char, 4> kDelimiters = {'\t', ';', '|', ','};
 using DelimiterCounts = std::array<std::size_t, kDelimiters.size()>;
+
+// Whether a cell below a name is a unit or nothing: "mm", "[um]", "-"; a unit
+// comes back without its brackets, nothing as "".
+bool ReadUnitCell(std::string* cell) {
+  std::string_view text = *cell;
+  if (text.size() > 1 && ((text.front() == '[' && text.back() == ']') ||
+                          (text.front() == '(' && text.back() == ')'))) {
+    text = Trimmed(text.substr(1, text.size() - 2));
+  }
+  if (text.empty() || text == "-") {
+    cell->clear();
+    return true;
+  }
+  double number = 0.0;
+  if (ParseNumber(text, &number)) return false;
+  const bool is_unit =
+      ReadHeader("x [" + std::string(text) + "]").source == UnitSource::kStated;
+  *cell = std::string(text);
+  return is_unit;
+}
 
 bool IsLineEnd(char c) { return c == '\n' || c == '\r'; }
 
@@ -80,12 +103,17 @@ class Parser {
   }
 
   CsvTable Parse() {
-    CheckEncoding();
+    CheckText();
+    TakeSeparatorLine();
     SkipToHeader();
-    ChooseDelimiter();
+    if (delimiter_ == kNoDelimiter) ChooseDelimiter();
+    decimal_comma_ = delimiter_ != ',' && delimiter_ != kNoDelimiter;
     ReadHeader();
+    TakeUnitsRow();
+    LeaveEmptyEnd();
     ReserveRows();
     ReadRows();
+    LeaveEmptyColumns();
     return std::move(table_);
   }
 
@@ -120,13 +148,17 @@ class Parser {
     return c == ' ' || (c == '\t' && delimiter_ != '\t');
   }
 
+  // Cells stand apart by any number of blanks.
+  bool by_blanks() const { return delimiter_ == ' '; }
+
   const char* SkipBlanks(const char* p) const {
     while (p != end_ && IsBlank(*p)) ++p;
     return p;
   }
 
   bool EndsCell(const char* p) const {
-    return p == end_ || *p == delimiter_ || IsLineEnd(*p);
+    return p == end_ || *p == delimiter_ || IsLineEnd(*p) ||
+           (by_blanks() && IsBlank(*p));
   }
 
   // Past the line end at `p`, if there is one.
@@ -159,25 +191,37 @@ class Parser {
 
   // ---- Before the data.
 
-  void CheckEncoding() {
+  void CheckText() {
     const std::string_view text(cursor_,
                                 static_cast<std::size_t>(end_ - cursor_));
-    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-      throw InputError(File() +
-                       ": the file is UTF-16; save it as CSV in UTF-8");
-    }
     if (text.starts_with("\xEF\xBB\xBF")) cursor_ += 3;
     const std::size_t nul = text.find('\0');
     if (nul != std::string_view::npos) {
       ThrowAt(1 + CountLineEnds(text.data(), text.data() + nul),
-              "NUL byte; this is no text file, or UTF-16: save it as CSV in "
-              "UTF-8");
+              "NUL byte; this is no text file: save it as CSV in UTF-8");
     }
     if (cursor_ == end_) {
       throw InputError(File() +
                        ": the file is empty; it needs a line of column names "
                        "and rows of numbers below");
     }
+  }
+
+  // "sep=;", as spreadsheets write and read it above the header.
+  void TakeSeparatorLine() {
+    const char* const line_end = std::find_if(cursor_, end_, IsLineEnd);
+    std::string_view line = {cursor_,
+                             static_cast<std::size_t>(line_end - cursor_)};
+    if (line.size() > 2 && line.front() == '"' && line.back() == '"') {
+      line = line.substr(1, line.size() - 2);
+    }
+    constexpr std::string_view kSeparator = "sep=";
+    if (line.size() != kSeparator.size() + 1 ||
+        !StartsWithIgnoringCase(line, kSeparator)) {
+      return;
+    }
+    delimiter_ = line.back();
+    SkipLine();
   }
 
   void SkipToHeader() {
@@ -191,6 +235,18 @@ class Parser {
                        ": no header, only comments or blank lines; it needs a "
                        "line of column names and rows of numbers below");
     }
+  }
+
+  // Cells of the line at `p` that blanks part.
+  static std::size_t NumBlankFields(const char* p, const char* end) {
+    std::size_t count = 0;
+    bool inside = false;
+    for (; p != end && !IsLineEnd(*p); ++p) {
+      const bool blank = *p == ' ' || *p == '\t';
+      count += !blank && !inside ? 1 : 0;
+      inside = !blank;
+    }
+    return count;
   }
 
   // Candidate delimiters outside quotes in the record at *p, which moves to
@@ -221,12 +277,19 @@ class Parser {
     return counts;
   }
 
-  void ChooseDelimiter() {
-    const char* p = cursor_;
-    const DelimiterCounts in_header = CountDelimiters(&p);
+  // The record after this one and after comments and blank lines.
+  const char* NextRecord(const char* p) const {
     while (p != end_ && (*p == '#' || IsLineEnd(*p))) {
       p = PastLineEnd(std::find_if(p, end_, IsLineEnd));
     }
+    return p;
+  }
+
+  void ChooseDelimiter() {
+    const char* p = cursor_;
+    const DelimiterCounts in_header = CountDelimiters(&p);
+    p = NextRecord(p);
+    const char* const row = p;
     const DelimiterCounts in_row = CountDelimiters(&p);
     std::pair<bool, std::size_t> best{false, 0};
     for (std::size_t i = 0; i < kDelimiters.size(); ++i) {
@@ -237,7 +300,19 @@ class Parser {
         delimiter_ = kDelimiters[i];
       }
     }
-    decimal_comma_ = delimiter_ == ';' || delimiter_ == '\t';
+    if (delimiter_ != kNoDelimiter) return;
+    const std::size_t fields = NumBlankFields(cursor_, end_);
+    if (fields > 1 && fields == NumBlankFields(row, end_) &&
+        (p == end_ || fields == NumBlankFields(NextRecord(p), end_))) {
+      delimiter_ = ' ';
+      return;
+    }
+    // A title above the header has nothing of what parts the rows.
+    const DelimiterCounts in_next = CountDelimiters(&(p = NextRecord(p)));
+    const auto* const most = std::ranges::max_element(in_row);
+    if (*most > 1 && in_row == in_next) {
+      delimiter_ = kDelimiters[static_cast<std::size_t>(most - in_row.begin())];
+    }
   }
 
   void ReadHeader() {
@@ -273,6 +348,90 @@ class Parser {
     }
     texts_.resize(table_.columns.size());
     header_line_ = line;
+  }
+
+  // What the unit of a column of this name and unit makes of it; throws where
+  // the two do not agree.
+  std::string WithUnit(const std::string& name, std::string_view unit) const {
+    const Header header = data::ReadHeader(name);
+    if (header.source == UnitSource::kStated) {
+      if (header.unit ==
+          data::ReadHeader("x [" + std::string(unit) + "]").unit) {
+        return name;
+      }
+      ThrowAt(line_,
+              "the unit " + QuotedText(unit) + " of column " +
+                  QuotedName(name) +
+                  " is another than in its name; correct "
+                  "one of them");
+    }
+    return name + " [" + std::string(unit) + "]";
+  }
+
+  // The cells of the record at the cursor, which stays.
+  std::vector<std::string> PeekRecord(std::size_t record) {
+    const auto saved = std::pair(cursor_, line_);
+    std::vector<std::string> cells;
+    try {
+      for (std::size_t i = 0; i <= record; ++i) {
+        cells.clear();
+        if (cursor_ == end_) break;
+        do {
+          cells.push_back(AsUtf8(TextOf(NextField())));
+        } while (PassCellEnd());
+      }
+    } catch (const InputError&) {
+      cells.clear();  // to be told where the row is read
+    }
+    std::tie(cursor_, line_) = saved;
+    return cells;
+  }
+
+  // Units below the names, "mm, degC, [um]", each over a number or nothing:
+  // they become part of the names.
+  void TakeUnitsRow() {
+    if (cursor_ == end_ || *cursor_ == '#' || AtBlankLine()) return;
+    std::vector<std::string> units = PeekRecord(0);
+    if (units.size() > table_.columns.size()) return;
+    bool any = false;
+    for (std::string& text : units) {
+      if (!ReadUnitCell(&text)) return;
+      any = any || !text.empty();
+    }
+    if (!any) return;
+    const std::vector<std::string> below = PeekRecord(1);
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      if (units[i].empty()) continue;
+      NumberForm form{};
+      if (i >= below.size() || !ReadNumber(below[i], &form)) return;
+    }
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      CsvColumn& column = table_.columns[i];
+      if (!units[i].empty() && column.has_name) {
+        column.name = WithUnit(column.name, units[i]);
+      }
+    }
+    SkipLine();
+  }
+
+  // Rows at the end that hold delimiters alone, as spreadsheets leave them.
+  void LeaveEmptyEnd() {
+    const char* last = end_;
+    while (last != cursor_ && (IsBlank(last[-1]) || IsLineEnd(last[-1]) ||
+                               last[-1] == delimiter_)) {
+      --last;
+    }
+    end_ = PastLineEnd(std::find_if(last, end_, IsLineEnd));
+  }
+
+  // Columns at the end without a name or a cell.
+  void LeaveEmptyColumns() {
+    auto& columns = table_.columns;
+    while (columns.size() > 1 && !columns.back().has_name &&
+           columns.back().is_text() && columns.back().texts.size() == 1 &&
+           columns.back().texts.front().empty()) {
+      columns.pop_back();
+    }
   }
 
   // No more rows than lines, and none shorter than its delimiters. Memory that
@@ -320,8 +479,28 @@ class Parser {
     }
     column_ = 0;
     while (column_ < table_.columns.size() && ReadCell()) ++column_;
-    if (column_ + 1 != table_.columns.size()) ThrowRagged(line);
+    if (column_ + 1 != table_.columns.size() && !EndsEmpty()) ThrowRagged(line);
     ++table_.num_rows;
+  }
+
+  // Whether a row with more or less cells than the header has nothing beyond
+  // the last name; columns that it left out become empty.
+  bool EndsEmpty() {
+    if (column_ == table_.columns.size()) {
+      const char* rest = cursor_;
+      while (rest != end_ && (IsBlank(*rest) || *rest == delimiter_)) ++rest;
+      if (rest != end_ && !IsLineEnd(*rest)) return false;
+      cursor_ = PastLineEnd(rest);
+      ++line_;
+      return true;
+    }
+    for (std::size_t i = column_ + 1; i < table_.columns.size(); ++i) {
+      if (table_.columns[i].has_name) return false;
+    }
+    while (++column_ < table_.columns.size()) {
+      StoreText("", &table_.columns[column_]);
+    }
+    return true;
   }
 
   [[noreturn]] void ThrowRagged(std::size_t line) {
@@ -333,7 +512,11 @@ class Parser {
         std::to_string(found) + (found == 1 ? " field" : " fields") +
         " where the header has " + std::to_string(table_.columns.size()) +
         "; complete the row or remove it";
-    if (delimiter_ == ',' && found > table_.columns.size()) {
+    if (table_.num_rows == 0 && table_.columns.size() == 1) {
+      what +=
+          ", or, where the names stand further down, start the lines above "
+          "them with #";
+    } else if (delimiter_ == ',' && found > table_.columns.size()) {
       what +=
           " (if these are decimal commas, write decimal points or separate "
           "the columns with ; or tab)";
@@ -411,7 +594,9 @@ class Parser {
 
   // Past the delimiter (true) or line end (false) that ended a cell.
   bool PassCellEnd() {
+    if (by_blanks()) cursor_ = SkipBlanks(cursor_);
     if (cursor_ == end_) return false;
+    if (by_blanks() && !IsLineEnd(*cursor_)) return true;
     if (*cursor_ == delimiter_) {
       ++cursor_;
       return true;
@@ -489,7 +674,8 @@ class Parser {
 }  // namespace
 
 CsvTable ParseCsv(std::string_view text, const std::string& name) {
-  return Parser(text, name).Parse();
+  const std::string converted = TextOfFile(text, name);
+  return Parser(converted.empty() ? text : converted, name).Parse();
 }
 
 }  // namespace errmap::data

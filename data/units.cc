@@ -75,7 +75,7 @@ constexpr auto kKnownUnits = std::to_array<KnownUnit>({
      kZeroCelsius,
      "celsius \u00b0C degreesC",
      "C"},
-    {"K", Quantity::kTemperature, 1.0, 0, "kelvin", "", true},
+    {"K", Quantity::kTemperature, 1.0, 0, "kelvin", ""},
     {"degF",
      Quantity::kTemperature,
      5.0 / 9.0,
@@ -306,17 +306,54 @@ std::string WithoutSeparators(std::string_view text) {
       text.substr(0, last == std::string_view::npos ? 0 : last + 1));
 }
 
-// The group in brackets or parentheses that ends the name, or npos.
+// The group in brackets of any kind that ends the name, or npos.
 std::size_t BracketStart(std::string_view name) {
   if (name.empty()) return std::string_view::npos;
-  const char open = name.back() == ']' ? '[' : name.back() == ')' ? '(' : '\0';
-  if (open == '\0') return std::string_view::npos;
-  const std::size_t at = name.rfind(open);
+  constexpr std::string_view kOpen = "[({<";
+  constexpr std::string_view kClose = "])}>";
+  const std::size_t kind = kClose.find(name.back());
+  if (kind == std::string_view::npos) return std::string_view::npos;
+  const std::size_t at = name.rfind(kOpen[kind]);
   // "a [[b]]" holds no unit: brackets within brackets are part of a name.
   const bool nested = at != std::string_view::npos &&
                       name.substr(at, name.size() - at - 1).find(name.back()) !=
                           std::string_view::npos;
   return nested ? std::string_view::npos : at;
+}
+
+// A word within a name that is a unit of errors: "um" of "error_um_mean".
+struct UnitWord {
+  std::size_t at;
+  std::string_view text;
+  Unit unit;
+};
+
+// Those of a name, each unit once; `counted`: with digits before it, "10um".
+std::vector<UnitWord> UnitWords(std::string_view name, bool counted) {
+  constexpr std::string_view kBetween = "_ -.,/()[]{}<>";
+  std::vector<UnitWord> words;
+  for (std::size_t at = 0; at < name.size();) {
+    const std::size_t end =
+        std::min(name.find_first_of(kBetween, at), name.size());
+    const std::string_view word = name.substr(at, end - at);
+    const std::size_t letter =
+        std::min(word.find_first_not_of("0123456789"), word.size());
+    const KnownUnit* const known =
+        counted == (letter > 0)
+            ? FindUnit(Normalised(word.substr(letter)), Place::kBare)
+            : nullptr;
+    if (known != nullptr &&
+        (known->quantity == Quantity::kLength ||
+         (known->quantity == Quantity::kAngle && known->symbol != "deg" &&
+          known->symbol != "rad")) &&
+        std::ranges::none_of(words, [&](const UnitWord& other) {
+          return other.unit.symbol == known->symbol;
+        })) {
+      words.push_back({.at = at, .text = word, .unit = MakeUnit(*known)});
+    }
+    at = end + 1;
+  }
+  return words;
 }
 
 // A bare last word that is no unit, yet may be meant as one: one that counts in
@@ -345,6 +382,44 @@ bool NamesPosition(std::string_view name) {
   return StartsWithIgnoringCase(name, "position");
 }
 
+namespace {
+
+// By a word within the name; false where there is none. Of several units, and
+// of one with a number, nobody can tell which is meant.
+bool ReadUnitWithin(std::string_view name, Header* header) {
+  const std::vector<UnitWord> words = UnitWords(name, false);
+  if (words.size() == 1) {
+    const UnitWord& word = words.front();
+    if (word.text == name) return false;
+    const std::string before = WithoutSeparators(name.substr(0, word.at));
+    constexpr std::string_view kCloses = "_ -.,/)]}>";
+    const std::size_t rest =
+        std::min(name.find_first_not_of(kCloses, word.at + word.text.size()),
+                 name.size());
+    header->base = before.substr(0, before.find_last_not_of("_ ([{<") + 1) +
+                   (rest < name.size() ? "_" : "") +
+                   std::string(name.substr(rest));
+    header->unit_text = word.text;
+    header->unit = word.unit;
+    header->source = UnitSource::kStated;
+    return true;
+  }
+  std::vector<UnitWord> doubtful =
+      words.empty() ? UnitWords(name, true) : words;
+  if (doubtful.empty()) return false;
+  header->base = name;
+  header->unit_text.clear();
+  for (const UnitWord& word : doubtful) {
+    header->unit_text += header->unit_text.empty() ? "" : ", ";
+    header->unit_text += word.text;
+  }
+  header->unit = Unit{};
+  header->source = UnitSource::kDoubtful;
+  return true;
+}
+
+}  // namespace
+
 Header ReadHeader(std::string_view name) {
   name = Trimmed(name);
   // R writes "error [um]" as "error..um.".
@@ -354,10 +429,18 @@ Header ReadHeader(std::string_view name) {
       open != std::string_view::npos) {
     header.base = WithoutSeparators(name.substr(0, open));
     header.unit_text = name.substr(open + 1, name.size() - open - 2);
-    header.source = ReadUnit(header.unit_text, Place::kBracketed, &header.unit)
-                        ? UnitSource::kStated
-                        : UnitSource::kUnknown;
-    return header;
+    // Braces and angle brackets hold other things, too.
+    const bool is_for_units = name[open] == '[' || name[open] == '(';
+    if (ReadUnit(header.unit_text, Place::kBracketed, &header.unit)) {
+      header.source = UnitSource::kStated;
+      return header;
+    }
+    if (ReadUnitWithin(name.substr(0, open), &header)) return header;
+    if (is_for_units) {
+      header.source = UnitSource::kUnknown;
+      return header;
+    }
+    header.unit_text.clear();
   }
   // The longest ending that is a unit: "um/m" before "m".
   for (std::size_t at = name.find_first_of(kSeparators);
@@ -368,8 +451,13 @@ Header ReadHeader(std::string_view name) {
     header.base = WithoutSeparators(name.substr(0, at));
     header.unit_text = ending;
     header.source = UnitSource::kStated;
+    if (const auto words = UnitWords(name, false);
+        words.size() > 1 && words.back().text == ending) {
+      ReadUnitWithin(name, &header);
+    }
     return header;
   }
+  if (ReadUnitWithin(name, &header)) return header;
   header.base = name;
   header.unit = AssumedUnit(name);
   const std::size_t last = name.find_last_of(kSeparators.substr(0, 2));

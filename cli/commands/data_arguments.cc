@@ -140,13 +140,15 @@ void AddRowOptions(CLI::App* command,
                    data::FaultPolicy* faults) {
   AddChoice(command,
             "--missing",
-            "What empty, NA and NaN cells do: error or drop-rows",
+            "What cells without a number do (empty, NA, #N/A, -): error or "
+            "drop-rows",
             {data::MissingPolicy::kError, data::MissingPolicy::kDropRows},
             missing);
   AddChoice(command,
             "--faults",
-            "What becomes of rows with failed readings (9999, jumps of "
-            "a thermometer), which are named: keep or drop-rows",
+            "What becomes of rows with failed readings (9999, jumps of a "
+            "thermometer, zeros of a lost beam) or that stand twice, which "
+            "are named: keep or drop-rows",
             {data::FaultPolicy::kKeep, data::FaultPolicy::kDropRows},
             faults);
   MarkSeldom(command, {"--missing", "--faults"});

@@ -94,6 +94,29 @@ Rows RowsBeyond(const VectorXd& values, const Bounds& bounds, Bounds* others) {
   return rows;
 }
 
+// Rows of one code at either end, far from all other values; `others` becomes
+// their range.
+Rows RowsOfCode(const VectorXd& values, Bounds* others) {
+  for (const double code : {values.minCoeff(), values.maxCoeff()}) {
+    if (!IsCode(code)) continue;
+    const bool low = code < values.mean();
+    Bounds rest;
+    const double infinity = std::numeric_limits<double>::infinity();
+    Rows rows =
+        RowsBeyond(values,
+                   low ? Bounds{std::nextafter(code, infinity), infinity}
+                       : Bounds{-infinity, std::nextafter(code, -infinity)},
+                   &rest);
+    const double gap = low ? rest.low - code : code - rest.high;
+    if (2 * static_cast<Index>(rows.size()) <= values.size() &&
+        gap > kFarRangesOfCode * (rest.high - rest.low)) {
+      *others = rest;
+      return rows;
+    }
+  }
+  return {};
+}
+
 // The range of the values that hang together.
 Bounds BoundsOfTheRest(const VectorXd& values) {
   const Bounds all{values.minCoeff(), values.maxCoeff()};
@@ -221,6 +244,7 @@ class CellFaultFinder {
             wrong,
             values[wrong.front()],
             others);
+        SingleOutCodes(values);
       }
       if (!found_.faults.empty() && found_.faults.back().input == input &&
           !found_.faults.back().of_cells) {
@@ -231,8 +255,22 @@ class CellFaultFinder {
     }
     if (!HasLevels(values, kFewestLevels)) return;
     wrong = RowsBeyond(values, BoundsOfTheRest(values), &others);
+    if (wrong.empty()) wrong = RowsOfCode(values, &others);
     if (wrong.empty()) return;
     Add(FaultKind::kOutlying, input, wrong, values[wrong.front()], others);
+    SingleOutCodes(values);
+  }
+
+  // One number for "no reading" in up to half of the rows is no fault of the
+  // column as a whole.
+  void SingleOutCodes(const VectorXd& values) {
+    ColumnFault& fault = found_.faults.back();
+    fault.of_cells =
+        fault.of_cells ||
+        (2 * static_cast<Index>(fault.rows.size()) <= values.size() &&
+         IsCode(fault.value) && std::ranges::all_of(fault.rows, [&](Index row) {
+           return values[row] == fault.value;
+         }));
   }
 
   void TakeThermometer(Index input, Rows wrong) {

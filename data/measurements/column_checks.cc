@@ -1,6 +1,7 @@
 #include "data/measurements/column_checks.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <optional>
 #include <system_error>
@@ -55,7 +56,7 @@ bool IsNumberForPeople(std::string_view text) {
 std::string Complaint(std::string_view text) {
   if (text.empty()) return "empty cell; fill it in";
   const std::string quoted = QuotedText(text);
-  if (IsMissingText(text)) return quoted + " is a missing value; fill it in";
+  if (IsMissingNumber(text)) return quoted + " is a missing value; fill it in";
   if (IsInfinity(text)) return quoted + " is not finite; correct it";
   if (IsOutOfRange(text)) {
     return quoted + " is beyond the range of a double; correct it";
@@ -92,7 +93,7 @@ struct BadCell {
         ", or leave the column out with " +
         ArgumentName("exclude", Printable(cell.column->name, text.max_size()));
   }
-  if (IsMissingText(text)) {
+  if (IsMissingNumber(text)) {
     what += ", or drop such rows with " + ArgumentName("missing", "drop-rows");
     if (num_missing > 1) {
       what += " (the columns in use have " + std::to_string(num_missing) +
@@ -153,10 +154,11 @@ BadCells FindBadCells(const CsvTable& table,
   for (const ColumnInUse& used : columns) {
     const CsvColumn& column = table.columns[used.index];
     std::vector<bool> text_is_missing(column.texts.size());
-    std::transform(column.texts.begin(),
-                   column.texts.end(),
-                   text_is_missing.begin(),
-                   IsMissingText);
+    std::transform(
+        column.texts.begin(),
+        column.texts.end(),
+        text_is_missing.begin(),
+        used.use == ColumnUse::kGroup ? IsMissingText : IsMissingNumber);
     std::size_t missing_here = 0;
     for (const auto& [row, text] : column.exceptions) {
       if (!passes[row]) continue;
@@ -184,8 +186,23 @@ BadCells FindBadCells(const CsvTable& table,
 }  // namespace
 
 bool IsMissingText(std::string_view text) {
-  return text.empty() || EqualsIgnoringCase(text, "na") ||
-         EqualsIgnoringCase(text, "nan");
+  constexpr auto kWords = std::to_array<std::string_view>(
+      {"", "na", "nan", "n/a", "#n/a", "#na", "#nv", "null", "(null)"});
+  return std::ranges::any_of(kWords, [&](std::string_view word) {
+    return EqualsIgnoringCase(text, word);
+  });
+}
+
+bool IsMissingNumber(std::string_view text) {
+  constexpr auto kWords = std::to_array<std::string_view>(
+      {"-",         "--",      "---",     "?",      ".",
+       "none",      "nil",     "missing", "-nan",   "nan(ind)",
+       "-nan(ind)", "1.#qnan", "-1.#ind", "1.#ind", "#value!",
+       "#div/0!",   "#num!",   "#ref!",   "#name?", "#null!"});
+  return IsMissingText(text) ||
+         std::ranges::any_of(kWords, [&](std::string_view word) {
+           return EqualsIgnoringCase(text, word);
+         });
 }
 
 void ThrowUnusable(const CsvTable& table, const std::string& what) {
@@ -256,6 +273,9 @@ void RequireNumbers(const CsvTable& table, const ColumnInUse& column) {
 }
 
 std::string WhyNoUnit(const Header& header) {
+  if (header.source == UnitSource::kDoubtful) {
+    return QuotedText(header.unit_text) + " can be read in several ways";
+  }
   return QuotedText(header.unit_text) +
          (IsUnit(header.unit_text)
               ? " counts as a unit in brackets or parentheses only"
@@ -266,9 +286,16 @@ void RequireKnownUnit(const CsvTable& table, const ColumnInUse& column) {
   const std::string& name = table.columns[column.index].name;
   const Header header = ReadHeader(name);
   const bool is_refused = header.source == UnitSource::kUnknown ||
-                          (header.source == UnitSource::kUnread &&
+                          ((header.source == UnitSource::kUnread ||
+                            header.source == UnitSource::kDoubtful) &&
                            column.use == ColumnUse::kTarget);
   if (!is_refused) return;
+  if (header.source == UnitSource::kDoubtful) {
+    throw InputError(PrintablePath(table.file) + ": column " +
+                     QuotedName(name) + ": " + WhyNoUnit(header) +
+                     "; rename the column, its unit in brackets at the end: "
+                     "'error [um]', 'error [mm]'");
+  }
   throw InputError(
       PrintablePath(table.file) + ": column " + QuotedName(name) + ": " +
       WhyNoUnit(header) +
@@ -280,14 +307,14 @@ void RefuseNumbersAsText(const CsvTable& table, const CsvColumn& column) {
   bool any = false;
   bool all_numbers = true;
   for (const std::string& text : column.texts) {
-    if (IsMissingText(text)) continue;
+    if (IsMissingNumber(text)) continue;
     any = true;
     all_numbers = all_numbers && IsNumberForPeople(text);
   }
   if (!NamesPosition(column.name) && !(any && all_numbers)) return;
   std::size_t row = 0;
   while (any && row + 1 < table.num_rows &&
-         IsMissingText(table.CellText(column, row))) {
+         IsMissingNumber(table.CellText(column, row))) {
     ++row;
   }
   throw InputError(table.Where(row, column.name) + ": " +
@@ -401,7 +428,10 @@ void RefuseMissingCell(const CsvTable& table,
                        std::size_t row) {
   const CsvColumn& cells = table.columns[column.index];
   const auto* const exception = FindException(cells, row);
-  if (exception == nullptr || !IsMissingText(cells.texts[exception->second])) {
+  if (exception == nullptr) return;
+  const std::string& text = cells.texts[exception->second];
+  if (!(column.use == ColumnUse::kGroup ? IsMissingText(text)
+                                        : IsMissingNumber(text))) {
     return;
   }
   ThrowBadCell(table, {row, &cells, column.use, exception->second}, 1);

@@ -74,8 +74,13 @@ KeptRows CheckCells(const CsvTable& table,
                     const std::vector<bool>& passes,
                     MissingPolicy missing);
 
-/// True for "", NA and NaN in any case: the cell holds no measurement.
+/// True for "", NA, NaN, N/A, #N/A and NULL in any case: the cell holds
+/// nothing.
 bool IsMissingText(std::string_view text);
+
+/// And for what else stands where a number is missing: "-", "?", "none",
+/// "#DIV/0!".
+bool IsMissingNumber(std::string_view text);
 
 /// Throws InputError where the cell is such.
 void RefuseMissingCell(const CsvTable& table,

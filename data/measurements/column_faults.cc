@@ -6,6 +6,7 @@
 
 #include "data/measurements/cell_faults.h"
 #include "data/measurements/drift_faults.h"
+#include "data/measurements/row_faults.h"
 #include "data/measurements/thermometer_faults.h"
 
 namespace errmap::data {
@@ -28,6 +29,12 @@ std::string_view ToString(FaultKind kind) {
       return "noisy";
     case FaultKind::kDrifting:
       return "drifting";
+    case FaultKind::kRepeated:
+      return "repeated";
+    case FaultKind::kZero:
+      return "zero";
+    case FaultKind::kOtherUnit:
+      return "other-unit";
   }
   return "";
 }
@@ -40,6 +47,7 @@ std::vector<ColumnFault> FindColumnFaults(const MeasuredColumns& measured) {
   };
   append(FindThermometerFaults(measured, thermometers));
   append(FindDrift(measured, thermometers, faults));
+  append(FindTargetFaults(measured));
   std::ranges::stable_sort(faults, {}, &ColumnFault::input);
   for (ColumnFault& fault : faults) {
     for (Index& row : fault.rows) {

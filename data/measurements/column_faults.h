@@ -19,9 +19,13 @@ enum class FaultKind {
   kStuck,       // one temperature for long while the others change
   kNoisy,       // a thermometer with far more noise than the others
   kDrifting,    // a thermometer that leaves the others, more from day to day
+  kRepeated,    // a row that repeats another value for value
+  kZero,        // a target of 0 where the others say that there is an error
+  kOtherUnit,   // targets hundreds of times smaller than all others
 };
 
-/// "impossible", "outlying", "jump", "step", "stuck", "noisy", "drifting".
+/// "impossible", "outlying", "jump", "step", "stuck", "noisy", "drifting",
+/// "repeated", "zero", "other-unit".
 std::string_view ToString(FaultKind kind);
 
 /// What is wrong with a column; all values in the column's unit.
@@ -34,12 +38,14 @@ struct ColumnFault {
   /// column as a whole is not to be trusted.
   bool of_cells = false;
   /// The first row's value; of kStep the height; of kNoisy the standard
-  /// deviation of the noise; of kDrifting the change from first to last row.
+  /// deviation of the noise; of kDrifting the change from first to last row; of
+  /// kOtherUnit how many times larger the others are.
   double value = 0.0;
   /// What to hold it against: the range of all other values (kImpossible,
   /// kOutlying), the neighbours (kJump, both the same), the change of the
   /// others meanwhile (kStuck: low 0, high their median range), their noise
-  /// (kNoisy, likewise), the scatter about the drift (kDrifting, likewise).
+  /// (kNoisy, likewise), the scatter about the drift (kDrifting, likewise);
+  /// of kZero low is what a linear map of the others makes of the worst row.
   double low = 0.0;
   double high = 0.0;
 };

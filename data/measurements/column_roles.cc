@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
+#include <string>
 #include <string_view>
 #include <unordered_set>
 #include <utility>
@@ -13,25 +15,55 @@
 namespace errmap::data {
 namespace {
 
-// Columns that number or date the rows; what no controller has at hand.
-bool KeepsRecord(std::string_view name) {
-  constexpr auto kNames = std::to_array<std::string_view>({"cycle",
-                                                           "session",
-                                                           "day",
-                                                           "run",
-                                                           "segment",
-                                                           "record",
-                                                           "index",
-                                                           "row",
-                                                           "id",
-                                                           "sample"});
-  return std::any_of(kNames.begin(),
-                     kNames.end(),
-                     [&](std::string_view known) {
-                       return EqualsIgnoringCase(name, known);
-                     }) ||
-         StartsWithIgnoringCase(name, "time") ||
-         StartsWithIgnoringCase(name, "truth");
+// A name less "no.", "number" and marks, in small letters: "cycle" of
+// "Cycle No.", "Cycle_Number" and "cycle#".
+std::string CounterStem(std::string_view name) {
+  std::string stem;
+  std::string word;
+  const auto end_word = [&] {
+    constexpr auto kNumber = std::to_array<std::string_view>(
+        {"no", "nr", "num", "number", "nummer", "id", "index", "count"});
+    const bool is_number =
+        std::ranges::find(kNumber, word) != kNumber.end() && !stem.empty();
+    if (!is_number) stem += word;
+    word.clear();
+  };
+  for (const char c : name) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    if (letter) {
+      word += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    } else if (std::string_view("_ -.#:()").find(c) != std::string_view::npos) {
+      end_word();
+    } else {
+      return "";  // "cycle2" is another name
+    }
+  }
+  end_word();
+  return stem;
+}
+
+bool IsOneOf(std::span<const std::string_view> names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+// Which of several machines, tools or people a row is of: a number that means
+// no more than a word.
+bool NamesPart(std::string_view name) {
+  constexpr auto kNames = std::to_array<std::string_view>({"machine",
+                                                           "maschine",
+                                                           "tool",
+                                                           "werkzeug",
+                                                           "pallet",
+                                                           "palette",
+                                                           "station",
+                                                           "operator"});
+  return IsOneOf(kNames, CounterStem(name));
+}
+
+bool NamesCycle(std::string_view name) {
+  constexpr auto kNames =
+      std::to_array<std::string_view>({"cycle", "zyklus", "takt"});
+  return IsOneOf(kNames, CounterStem(name));
 }
 
 // A column that nobody named: the index that spreadsheets and data frames
@@ -41,10 +73,10 @@ bool IsUnnamed(const CsvColumn& column) {
   return !column.has_name || StartsWithIgnoringCase(column.name, "Unnamed:");
 }
 
-// True where every cell is empty, NA or NaN: a channel that was never logged.
+// True where no cell holds anything: a channel that was never logged.
 bool IsAllMissing(const CsvColumn& column) {
   return column.is_text() &&
-         std::all_of(column.texts.begin(), column.texts.end(), IsMissingText);
+         std::all_of(column.texts.begin(), column.texts.end(), IsMissingNumber);
 }
 
 // Whether two names differ in nothing but the letter of an axis: "disp_x" and
@@ -190,13 +222,18 @@ class RoleChooser {
       }
       return;
     }
+    // "cycle" itself before "Cycle" before "Zyklus" and "Cycle No.".
     std::ptrdiff_t cycle = table_.Find("cycle");
-    for (std::size_t i = 0; cycle == kNoColumn && i < table_.columns.size();
-         ++i) {
-      if (EqualsIgnoringCase(Name(i), "cycle")) {
-        cycle = static_cast<std::ptrdiff_t>(i);
+    const auto look = [&](const auto& fits) {
+      for (std::size_t i = 0; cycle == kNoColumn && i < table_.columns.size();
+           ++i) {
+        if (fits(Name(i))) cycle = static_cast<std::ptrdiff_t>(i);
       }
-    }
+    };
+    look([](std::string_view name) {
+      return EqualsIgnoringCase(name, "cycle");
+    });
+    look(NamesCycle);
     if (cycle != kNoColumn && !Is(cycle, roles_.target)) roles_.group = cycle;
   }
 
@@ -281,7 +318,6 @@ class InputChooser {
     const std::unordered_set<std::string> excluded = ExcludedNames();
     const MeasuredBeside measured(Name(roles_.target));
     std::vector<std::string> texts;
-    std::vector<std::string> parting;  // of these
     std::vector<std::string> beside;
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       if (i == roles_.target || Is(roles_.group, i) || Is(roles_.weight, i) ||
@@ -307,8 +343,12 @@ class InputChooser {
                                   " has no number in any row and is left out");
       } else if (table_.At(i).is_text()) {
         RefuseNumbersAsText(table_, table_.At(i));
-        texts.push_back(Name(i));
-        if (PartsComponents(table_, table_.At(i))) parting.push_back(Name(i));
+        if (!PartsComponents(table_, table_.At(i))) texts.push_back(Name(i));
+        chosen_.words.push_back(i);
+      } else if (NamesPart(Name(i))) {
+        had_candidates_ = true;
+        Drop(i, "tells which one, and measures nothing");
+        chosen_.words.push_back(i);
       } else if (const std::string_view why = measured.Why(Name(i));
                  !why.empty()) {
         had_candidates_ = true;
@@ -333,11 +373,6 @@ class InputChooser {
           (texts.size() == 1 ? " holds text and is" : " hold text and are") +
           " left out of the inputs");
     }
-    if (!parting.empty()) {
-      chosen_.remarks.push_back("rows that differ in " + ListOfNames(parting) +
-                                " may need a map each, by " +
-                                ArgumentName("where"));
-    }
     if (chosen_.inputs.empty() && found_.time_column >= 0) {
       had_candidates_ = true;
       Drop(static_cast<std::size_t>(found_.time_column), "is the time");
@@ -357,6 +392,18 @@ class InputChooser {
 
 }  // namespace
 
+bool KeepsRecord(std::string_view name) {
+  constexpr auto kNames = std::to_array<std::string_view>(
+      {"cycle",   "zyklus",    "takt", "lauf",    "session",
+       "day",     "tag",       "run",  "segment", "record",
+       "index",   "row",       "id",   "sample",  "messung",
+       "versuch", "durchgang", "nr",   "no",      "number",
+       "nummer",  "zeile",     "test", "trial",   "repeat"});
+  return IsOneOf(kNames, CounterStem(name)) ||
+         StartsWithIgnoringCase(name, "time") ||
+         StartsWithIgnoringCase(name, "truth");
+}
+
 bool PartsComponents(const CsvTable& table, const CsvColumn& column) {
   constexpr auto kNames = std::to_array<std::string_view>({"direction",
                                                            "dir",
@@ -368,6 +415,7 @@ bool PartsComponents(const CsvTable& table, const CsvColumn& column) {
                                                            "component"});
   constexpr std::size_t kMostValues = 24;
   const bool is_named =
+      NamesPart(column.name) ||
       std::any_of(kNames.begin(), kNames.end(), [&](std::string_view name) {
         return EqualsIgnoringCase(column.name, name);
       });

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "data/csv.h"
@@ -30,6 +31,7 @@ struct ChosenInputs {
   std::vector<std::size_t> inputs;     // (p) as named, else ascending
   std::vector<DroppedColumn> dropped;  // would-be inputs left out, and why
   std::vector<std::string> remarks;    // one line each, for people
+  std::vector<std::size_t> words;      // columns that name things, not amounts
 };
 
 /// The inputs that `selection` names, else the defaults of MakeDataset, which
@@ -41,8 +43,13 @@ ChosenInputs ChooseInputs(const CsvTable& table,
                           const ColumnRoles& roles,
                           const FoundSessions& found);
 
+/// Whether a column numbers or dates the rows by its name ("Cycle No.",
+/// "Takt", "time_s"), or holds what no controller has.
+bool KeepsRecord(std::string_view name);
+
 /// Whether the values of a column make errors of their own, as up and down
-/// motion differ by hysteresis: named direction, axis or alike, with 2 to 24
+/// motion differ by hysteresis: named direction, axis, machine or alike, with 2
+/// to 24
 /// values and no empty cell.
 bool PartsComponents(const CsvTable& table, const CsvColumn& column);
 

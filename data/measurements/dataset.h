@@ -192,8 +192,10 @@ struct DroppedColumn {
 /// A data set and what was decided on the way to it.
 struct PreparedDataset {
   Dataset dataset;
-  std::vector<DroppedColumn> dropped;    // would-be inputs left out, and why
-  std::vector<std::string> remarks;      // one line each, for people
+  std::vector<DroppedColumn> dropped;  // would-be inputs left out, and why
+  std::vector<std::string> remarks;    // one line each, for people
+  /// Of these, whole sentences that an answer must not go without.
+  std::vector<std::string> doubts = {};
   std::string time_column = {};          // "": the numbers of the rows
   std::vector<ColumnFilter> where = {};  // that its rows pass
   /// What was found in the columns in use, rows left out for it included.
@@ -204,15 +206,17 @@ struct PreparedDataset {
 /// in use (all others may hold anything).
 ///
 /// Default inputs are the numeric columns other than target, group, weight,
-/// time, session, `cycle`, `session`, `day`, `run`, `segment`, `record`,
-/// `index`, `row`, `id`, `sample` and names starting with `time` or `truth`.
+/// time, session, what KeepsRecord tells by its name, and which of several
+/// machines or tools it was.
 /// Errors measured beside the target are left out with a remark unless named in
 /// `inputs`: columns of its stem (StemOfColumn), of its unit and of a name that
 /// differs in the letter of an axis alone, named `error*`, or in nm, um, uin,
-/// arcsec or urad, positions and axes of one letter apart. Dead
-/// inputs (all zero, constant, or one value in at least 90 % of the rows) are
-/// dropped with a remark unless `keep_dead`; an input that repeats another
-/// value for value is named in a remark and kept. Columns of `where`, and those
+/// arcsec or urad, positions and axes of one letter apart. Dead inputs (one
+/// value in all rows; unless it was named, a thermometer that is stuck from a
+/// row on) are dropped with a remark unless `keep_dead`, and so is what gives
+/// the target together with other inputs (FindLeaks); an input that repeats
+/// another value for value, or has one value in nearly all rows, is named in a
+/// remark and kept. Columns of `where`, and those
 /// that the header leaves unnamed, are no default inputs. The log holds the
 /// rows that `where` lets pass. kFirst takes the first value kept of each
 /// session off the target, with a remark. Readings that no machine made come

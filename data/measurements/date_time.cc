@@ -131,7 +131,8 @@ std::optional<int> HourOf(int hour, bool afternoon) {
   return hour % kHoursOfHalfADay + (afternoon ? kHoursOfHalfADay : 0);
 }
 
-std::optional<double> TakeTime(Scanner* text) {
+// `in_halves`: with AM or PM.
+std::optional<double> TakeTime(Scanner* text, bool* in_halves) {
   const auto number = text->TakeNumber(2);
   if (!number || number->value > 23 || !text->Take(':')) return std::nullopt;
   const auto minute = text->TakePair(59);
@@ -143,10 +144,13 @@ std::optional<double> TakeTime(Scanner* text) {
     seconds += *second + text->TakeFraction();
   }
   std::optional<int> hour = number->value;
-  if (text->TakeIgnoringCase(" am") || text->TakeIgnoringCase("am")) {
+  text->Take(' ');
+  if (text->TakeIgnoringCase("am") || text->TakeIgnoringCase("a.m.")) {
     hour = HourOf(*hour, false);
-  } else if (text->TakeIgnoringCase(" pm") || text->TakeIgnoringCase("pm")) {
+    *in_halves = true;
+  } else if (text->TakeIgnoringCase("pm") || text->TakeIgnoringCase("p.m.")) {
     hour = HourOf(*hour, true);
+    *in_halves = true;
   }
   if (!hour) return std::nullopt;
   return kHour * *hour + seconds;
@@ -185,7 +189,7 @@ std::optional<DateTime> ParseDateTime(std::string_view text, DateOrder order) {
     if (scanner.done()) return parsed;
     if (!scanner.TakeOneOf("T ")) return std::nullopt;
   }
-  const auto time = TakeTime(&scanner);
+  const auto time = TakeTime(&scanner, &parsed.in_halves);
   if (!time) return std::nullopt;
   const auto offset = TakeOffset(&scanner);
   if (!offset || !scanner.done()) return std::nullopt;

@@ -13,8 +13,9 @@ struct DateTime {
   /// From 1970-01-01T00:00:00, or from midnight where there is no date.
   double seconds = 0.0;
   bool has_date = false;
-  bool has_time = false;  // else midnight
-  bool by_order = false;  // another DateOrder reads another date, or none
+  bool has_time = false;   // else midnight
+  bool in_halves = false;  // by AM and PM, as where months come first
+  bool by_order = false;   // another DateOrder reads another date, or none
 };
 
 /// A date, a time of day or both:

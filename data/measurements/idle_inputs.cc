@@ -8,8 +8,8 @@
 namespace errmap::data {
 namespace {
 
-// The share of rows with one value from which an input counts as dead.
-constexpr Eigen::Index kDeadPercent = 90;
+// The share of rows with one value from which an input is worth a word.
+constexpr Eigen::Index kIdlePercent = 90;
 
 std::uint64_t Hash(const Eigen::Ref<const Eigen::VectorXd>& values) {
   // Multiplicative mixing by 2^64 / golden ratio; zeros of both signs agree.
@@ -24,7 +24,7 @@ std::uint64_t Hash(const Eigen::Ref<const Eigen::VectorXd>& values) {
 
 }  // namespace
 
-std::string DeadBecause(const Eigen::Ref<const Eigen::VectorXd>& values) {
+IdleInput HowIdle(const Eigen::Ref<const Eigen::VectorXd>& values) {
   // The only value that more than half of the rows can have (Boyer and
   // Moore, 1981): it outlasts all others that cancel it one for one.
   double candidate = 0.0;
@@ -35,10 +35,11 @@ std::string DeadBecause(const Eigen::Ref<const Eigen::VectorXd>& values) {
   }
   const Eigen::Index count = (values.array() == candidate).count();
   const Eigen::Index m = values.size();
-  if (100 * count < kDeadPercent * m) return "";
-  return CsvNumber(candidate + 0.0) + " in " +
-         (count == m ? "all " : std::to_string(count) + " of ") +
-         std::to_string(m) + " rows";
+  if (100 * count < kIdlePercent * m) return {};
+  return {.how = CsvNumber(candidate + 0.0) + " in " +
+                 (count == m ? "all " : std::to_string(count) + " of ") +
+                 std::to_string(m) + " rows",
+          .dead = count == m};
 }
 
 std::vector<std::string> RepeatedInputs::Look(const Dataset::Parts& parts) {

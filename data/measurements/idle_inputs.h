@@ -11,9 +11,15 @@
 
 namespace errmap::data {
 
-/// Says how an input (m, not empty) is dead: one value in at least 90 % of the
-/// rows, "0 in all 40 rows"; "" where it lives.
-std::string DeadBecause(const Eigen::Ref<const Eigen::VectorXd>& values);
+/// What one value in many rows says of an input.
+struct IdleInput {
+  std::string how;    // "0 in all 40 rows", "0 in 38 of 40 rows"; "": nothing
+  bool dead = false;  // one value in all rows
+};
+
+/// Of an input (m, not empty) with one value in at least 90 % of the rows: dead
+/// where it is in all, else sparse, as a flag is.
+IdleInput HowIdle(const Eigen::Ref<const Eigen::VectorXd>& values);
 
 /// Tells which inputs repeat another value for value. Columns are met by their
 /// hash, so that many stay cheap.

@@ -15,8 +15,11 @@
 #include "data/measurements/column_roles.h"
 #include "data/measurements/dataset.h"
 #include "data/measurements/idle_inputs.h"
+#include "data/measurements/leaking_inputs.h"
+#include "data/measurements/row_faults.h"
 #include "data/measurements/session_log.h"
 #include "data/measurements/sessions.h"
+#include "data/measurements/word_columns.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -48,7 +51,10 @@ class DatasetBuilder {
     TakeTarget();
     TakeWeights();
     TakeInputs();
+    LeaveOutLeaks();
     LookForFaults();
+    LeaveOutStuck();
+    LookForParts();
     if (roles_.group != kNoColumn) {
       parts_.groups = GroupByColumn(table_, Name(roles_.group), parts_.rows);
     }
@@ -64,6 +70,7 @@ class DatasetBuilder {
     return {.dataset = Dataset(std::move(parts_)),
             .dropped = std::move(dropped_),
             .remarks = std::move(remarks_),
+            .doubts = std::move(doubts_),
             .time_column = time_column,
             .where = selection_.where,
             .faults = std::move(faults_)};
@@ -87,11 +94,13 @@ class DatasetBuilder {
   // Those that may be used, and their sessions.
   void ChooseRows() {
     passes_ = RowsThatPass(table_, selection_.where);
+    RefuseRowsOfWords(table_, NumberingColumns(), passes_);
+    LookForRepeatedRows();
     if (!selection_.with_log) return;
     for (std::size_t row = 0; row < passes_.size(); ++row) {
       if (passes_[row]) log_rows_.push_back(static_cast<Eigen::Index>(row));
     }
-    found_ = FindSessions(table_, selection_, log_rows_);
+    FindSessionsOfRows();
     remarks_.insert(
         remarks_.end(), found_.remarks.begin(), found_.remarks.end());
     std::size_t num_unknown = 0;
@@ -107,10 +116,51 @@ class DatasetBuilder {
     }
   }
 
+  std::vector<bool> NumberingColumns() const {
+    std::vector<bool> numbering;
+    for (const CsvColumn& column : table_.columns) {
+      numbering.push_back(KeepsRecord(column.name));
+    }
+    if (roles_.group != kNoColumn) {
+      numbering[static_cast<std::size_t>(roles_.group)] = true;
+    }
+    return numbering;
+  }
+
+  void LookForRepeatedRows() {
+    if (selection_.only_to_judge) return;
+    repeated_rows_ = RepeatedRows(table_, roles_.target, passes_);
+    if (selection_.faults != FaultPolicy::kDropRows) return;
+    for (const Eigen::Index row : repeated_rows_) {
+      passes_[static_cast<std::size_t>(row)] = false;
+    }
+  }
+
+  // Rows that stand twice go back in time, which is not what is wrong.
+  void FindSessionsOfRows() {
+    try {
+      found_ = FindSessions(table_, selection_, log_rows_);
+    } catch (const InputError& error) {
+      if (repeated_rows_.empty() ||
+          selection_.faults == FaultPolicy::kDropRows) {
+        throw;
+      }
+      throw InputError(std::string(error.what()) + " (" +
+                       std::to_string(repeated_rows_.size()) +
+                       " rows repeat others value for value, the first at "
+                       "line " +
+                       std::to_string(table_.LineOfRow(
+                           static_cast<std::size_t>(repeated_rows_.front()))) +
+                       "; " + ArgumentName("faults", "drop-rows") +
+                       " leaves them out)");
+    }
+  }
+
   void TakeChosenInputs() {
     ChosenInputs chosen = ChooseInputs(table_, selection_, roles_, found_);
     inputs_ = std::move(chosen.inputs);
     dropped_ = std::move(chosen.dropped);
+    words_ = std::move(chosen.words);
     remarks_.insert(
         remarks_.end(), chosen.remarks.begin(), chosen.remarks.end());
   }
@@ -257,15 +307,13 @@ class DatasetBuilder {
       // A dead column is overwritten by the next.
       parts_.input_values.col(used) =
           ValuesOfRows(table_.At(input), parts_.rows);
-      const std::string dead = selection_.only_to_judge
-                                   ? ""
-                                   : DeadBecause(parts_.input_values.col(used));
-      if (!dead.empty()) {
-        ReportDead(input, dead);
-        if (!selection_.keep_dead) continue;
-      }
+      const IdleInput idle = selection_.only_to_judge
+                                 ? IdleInput{}
+                                 : HowIdle(parts_.input_values.col(used));
+      if (!idle.how.empty()) ReportIdle(Name(input), idle);
+      if (idle.dead && !selection_.keep_dead) continue;
       parts_.inputs.push_back(Info(input));
-      if (dead.empty() && !selection_.only_to_judge) {
+      if (!idle.dead && !selection_.only_to_judge) {
         std::ranges::move(repeated_.Look(parts_), std::back_inserter(remarks_));
       }
       ++used;
@@ -284,6 +332,27 @@ class DatasetBuilder {
     return static_cast<Eigen::Index>(found_.sessions.labels.size());
   }
 
+  // Rows that change what every figure of a study means.
+  void SayOfDoubtfulRows() {
+    if (selection_.faults == FaultPolicy::kDropRows) return;
+    for (const ColumnFault& fault : faults_) {
+      std::string what;
+      if (fault.kind == FaultKind::kRepeated) {
+        what = " rows repeat others value for value";
+      } else if (fault.kind == FaultKind::kOtherUnit) {
+        what = " rows have a target some " + Rounded(fault.value) +
+               " times smaller than the others, as if in another unit";
+      } else if (fault.kind == FaultKind::kZero) {
+        what = " rows have a target of 0 where the others say otherwise";
+      } else {
+        continue;
+      }
+      doubts_.push_back(std::to_string(fault.rows.size()) + what + "; " +
+                        ArgumentName("faults", "drop-rows") +
+                        " leaves them out.");
+    }
+  }
+
   // Before anything is made of the rows.
   void LookForFaults() {
     faults_ = FindColumnFaults({.target = parts_.target,
@@ -292,6 +361,14 @@ class DatasetBuilder {
                                 .input_values = parts_.input_values,
                                 .rows = parts_.rows,
                                 .num_sessions = NumSessions()});
+    if (!repeated_rows_.empty()) {
+      faults_.insert(faults_.begin(),
+                     {.kind = FaultKind::kRepeated,
+                      .input = -1,
+                      .rows = repeated_rows_,
+                      .of_cells = true});
+    }
+    SayOfDoubtfulRows();
     if (selection_.faults != FaultPolicy::kDropRows) return;
     const std::vector<Eigen::Index> faulty = RowsOfCellFaults(faults_);
     std::vector<Eigen::Index> kept;
@@ -313,14 +390,143 @@ class DatasetBuilder {
     }
   }
 
-  void ReportDead(std::size_t input, const std::string& how) {
-    const std::string why = "is dead (" + how + ")";
-    if (!selection_.keep_dead) Drop(input, why);
-    remarks_.push_back(
-        "input " + NameInRemark(Name(input)) + " " + why +
-        (selection_.keep_dead
-             ? " and is kept"
-             : " and is left out; " + ArgumentName("keep_dead") + " keeps it"));
+  bool IsNamed(const std::string& input) const {
+    return std::ranges::find(selection_.inputs, input) !=
+           selection_.inputs.end();
+  }
+
+  // A remark, which the answer repeats where somebody asked for the input.
+  void SayLeftOut(const std::string& input, const std::string& what) {
+    remarks_.push_back("input " + NameInRemark(input) + " " + what);
+    if (IsNamed(input)) {
+      doubts_.push_back("The input " + NameInRemark(input) + ", asked for by " +
+                        ArgumentName("inputs") + ", " + what + ".");
+    }
+  }
+
+  void ReportIdle(const std::string& input, const IdleInput& idle) {
+    if (!idle.dead) {
+      remarks_.push_back("input " + NameInRemark(input) + " is " + idle.how +
+                         " and is kept: what it does rests on the others");
+      return;
+    }
+    const std::string why = "is dead (" + idle.how + ")";
+    if (selection_.keep_dead) {
+      remarks_.push_back("input " + NameInRemark(input) + " " + why +
+                         " and is kept");
+      return;
+    }
+    dropped_.push_back({.column = input, .why = why});
+    SayLeftOut(
+        input,
+        why + " and is left out; " + ArgumentName("keep_dead") + " keeps it");
+  }
+
+  // Those of `parts_.inputs` that are not marked.
+  void KeepInputs(const std::vector<bool>& left_out) {
+    std::vector<Eigen::Index> kept;
+    std::vector<ColumnInfo> inputs;
+    std::vector<Eigen::Index> place(left_out.size(), -1);
+    for (std::size_t i = 0; i < left_out.size(); ++i) {
+      if (left_out[i]) continue;
+      place[i] = static_cast<Eigen::Index>(kept.size());
+      kept.push_back(static_cast<Eigen::Index>(i));
+      inputs.push_back(std::move(parts_.inputs[i]));
+    }
+    if (kept.size() == left_out.size()) {
+      parts_.inputs = std::move(inputs);
+      return;
+    }
+    if (kept.empty()) ThrowNoInputs(table_, dropped_);
+    parts_.inputs = std::move(inputs);
+    parts_.input_values = parts_.input_values(Eigen::all, kept).eval();
+    std::erase_if(faults_, [&](const ColumnFault& fault) {
+      return fault.input >= 0 &&
+             left_out[static_cast<std::size_t>(fault.input)];
+    });
+    for (ColumnFault& fault : faults_) {
+      if (fault.input < 0) continue;
+      fault.input = place[static_cast<std::size_t>(fault.input)];
+    }
+  }
+
+  void LeaveOutLeaks() {
+    if (selection_.only_to_judge) return;
+    std::vector<bool> left_out(parts_.inputs.size(), false);
+    for (const Leak& leak : FindLeaks(parts_.target,
+                                      parts_.target_values,
+                                      parts_.inputs,
+                                      parts_.input_values)) {
+      for (const Eigen::Index input : leak.left_out) {
+        left_out[static_cast<std::size_t>(input)] = true;
+        const std::string& name =
+            parts_.inputs[static_cast<std::size_t>(input)].name;
+        const std::string what = "holds the error itself (" +
+                                 NameInRemark(parts_.target.name) + " = " +
+                                 leak.formula + " in all rows, to rounding)";
+        dropped_.push_back({.column = name, .why = what});
+        SayLeftOut(name,
+                   what + " and is left out: no control knows it beforehand");
+      }
+    }
+    KeepInputs(left_out);
+  }
+
+  // A thermometer that was alive and ends stuck is of no use to a map.
+  void LeaveOutStuck() {
+    if (selection_.only_to_judge || selection_.keep_dead) return;
+    std::vector<bool> left_out(parts_.inputs.size(), false);
+    for (const ColumnFault& fault : faults_) {
+      if (fault.kind != FaultKind::kStuck || parts_.rows.empty() ||
+          fault.rows.back() != parts_.rows.back()) {
+        continue;
+      }
+      const std::string& name =
+          parts_.inputs[static_cast<std::size_t>(fault.input)].name;
+      if (IsNamed(name)) continue;  // the fault is told
+      left_out[static_cast<std::size_t>(fault.input)] = true;
+      const std::string what = "is dead (stuck at " + CsvNumber(fault.value) +
+                               " from data row " +
+                               std::to_string(fault.rows.front()) + " on)";
+      dropped_.push_back({.column = name, .why = what});
+      SayLeftOut(name,
+                 what + " and is left out; " + ArgumentName("keep_dead") +
+                     " keeps it");
+    }
+    KeepInputs(left_out);
+  }
+
+  // Rows of several machines, tools or directions, which err differently.
+  void LookForParts() {
+    constexpr double kDiffers = 0.7;
+    if (selection_.only_to_judge) return;
+    for (const std::size_t index : words_) {
+      const PartingColumn column =
+          PartBy(table_, table_.At(index), parts_.rows);
+      const PartingEffect effect =
+          EffectOfParting(column, parts_.target_values, parts_.input_values);
+      if (!(effect.each < kDiffers * effect.one)) {
+        if (!PartsComponents(table_, table_.At(index))) continue;
+        remarks_.push_back("rows that differ in " + QuotedName(column.name) +
+                           " may need a map each, by " + ArgumentName("where"));
+        continue;
+      }
+      const Unit& unit = parts_.target.unit;
+      const auto shown = [&](double value) {
+        return Rounded(unit.display_scale * value) +
+               (unit.display_symbol.empty() ? "" : " " + unit.display_symbol);
+      };
+      std::string values;
+      for (const std::string& value : column.values) {
+        values += (values.empty() ? "" : ", ") + NameInRemark(value);
+      }
+      doubts_.push_back(
+          "Rows differ by " + NameInRemark(column.name) + " (" + values +
+          "): plain linear maps, one for each, miss by " + shown(effect.each) +
+          ", one for all by " + shown(effect.one) +
+          "; give each a map of its own, by " + ArgumentName("where") + ".");
+      remarks_.push_back(doubts_.back());
+    }
   }
 
   const CsvTable& table_;
@@ -335,6 +541,9 @@ class DatasetBuilder {
   std::vector<DroppedColumn> dropped_;
   std::vector<std::string> remarks_;
   std::vector<ColumnFault> faults_;
+  std::vector<std::size_t> words_;  // columns that name things
+  std::vector<Eigen::Index> repeated_rows_;
+  std::vector<std::string> doubts_;
 };
 
 }  // namespace

@@ -153,7 +153,7 @@ class SessionFinder {
       if (!std::isnan(at)) continue;
       while (exception->first < row) ++exception;
       const std::string& text = column.texts[exception->second];
-      if (IsMissingText(text)) {
+      if (IsMissingNumber(text)) {
         if (!MayBeMissing(index, row, named)) return;
         known[i] = false;
       } else if (as_numbers || !times.seconds[exception->second]) {

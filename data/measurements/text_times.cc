@@ -19,8 +19,9 @@ TextTimes ReadTimes(const CsvColumn& column, DateOrder order) {
       times.all_dates = times.all_dates && parsed->has_date;
       times.any_hours = times.any_hours || parsed->has_time;
       times.by_order = times.by_order || parsed->by_order;
+      times.in_halves = times.in_halves || parsed->in_halves;
     } else {
-      times.all = times.all && IsMissingText(text);
+      times.all = times.all && IsMissingNumber(text);
     }
   }
   return times;
@@ -37,6 +38,15 @@ std::size_t TimesBack(const CsvColumn& column, const TextTimes& times) {
   return count;
 }
 
+// Of two that go back as often, the one of people who write AM and PM.
+bool GoesBackLess(const CsvColumn& column,
+                  const TextTimes& month_first,
+                  const TextTimes& day_first) {
+  const std::size_t by_month = TimesBack(column, month_first);
+  const std::size_t by_day = TimesBack(column, day_first);
+  return by_month != by_day ? by_month < by_day : month_first.in_halves;
+}
+
 }  // namespace
 
 TextTimes ReadTimes(const CsvColumn& column) {
@@ -44,10 +54,9 @@ TextTimes ReadTimes(const CsvColumn& column) {
   if (day_first.all && !day_first.by_order) return day_first;
   TextTimes month_first = ReadTimes(column, DateOrder::kMonthFirst);
   if (day_first.seconds == month_first.seconds) return day_first;
-  const bool by_month =
-      day_first.all == month_first.all
-          ? TimesBack(column, month_first) < TimesBack(column, day_first)
-          : month_first.all;
+  const bool by_month = day_first.all == month_first.all
+                            ? GoesBackLess(column, month_first, day_first)
+                            : month_first.all;
   day_first.doubt = ", its dates read as day/month/year";
   month_first.doubt = ", its dates read as month/day/year";
   return by_month ? month_first : day_first;

@@ -17,6 +17,7 @@ struct TextTimes {
   bool any = false;        // one of them is
   bool all_dates = true;   // of each that is
   bool any_hours = false;  // a time of day in some
+  bool in_halves = false;  // by AM and PM
   bool by_order = false;   // another order reads some of them otherwise
   /// ", its dates read as day/month/year" where another order reads others.
   std::string doubt;
@@ -24,7 +25,8 @@ struct TextTimes {
 
 /// Reads them by ParseDateTime. "03/04/2024" may be in March or in April: the
 /// order is the one that makes all of them dates, else the one that goes back
-/// in time less often down the rows, else the day first.
+/// in time less often down the rows, else the month with AM and PM, else the
+/// day.
 TextTimes ReadTimes(const CsvColumn& column);
 
 }  // namespace errmap::data

@@ -160,7 +160,9 @@ class ThermometerFaultFinder {
       ranges_elsewhere.push_back(RangeOf(other, first, last, false) /
                                  other.degree);
     }
-    if (ranges_within.size() < kFewestOthers) return;
+    // Who stays to the end, and never came back, needs one witness only.
+    const bool to_the_end = rows.back() == sound.back();
+    if (ranges_within.size() < (to_the_end ? 1 : kFewestOthers)) return;
     const double others = MedianOf(std::move(ranges_within)) * t.degree;
     const double elsewhere = MedianOf(std::move(ranges_elsewhere)) * t.degree;
     const double expected = others * RangeOf(t, first, last, false) / elsewhere;

@@ -349,12 +349,13 @@ TEST(ParseCsvError, NulByte) {
               HasSubstr("f.csv: line 3: NUL byte"));
 }
 
-TEST(ParseCsvError, Utf16) {
+TEST(ParseCsvError, Utf16ThatBreaksOff) {
   EXPECT_EQ(ErrorOf(std::string_view("\xFF\xFE"
-                                     "a\0",
-                                     4)),
-            "f.csv: the file is UTF-16; save it as CSV in UTF-8");
-  EXPECT_THAT(ErrorOf("\xFE\xFF"), HasSubstr("UTF-16"));
+                                     "a\0b",
+                                     5)),
+            "f.csv: UTF-16 that breaks off at byte 4; save it as CSV in UTF-8");
+  EXPECT_THAT(ErrorOf(std::string_view("\xFE\xFF\xDC\x00", 4)),
+              HasSubstr("breaks off at byte 2"));
 }
 
 TEST(ParseCsvError, StaysOnOneReadableLine) {

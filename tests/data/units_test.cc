@@ -105,19 +105,34 @@ TEST(ReadHeader, ReadsUnitsHoweverPeopleWriteThem) {
 
 TEST(ReadHeader, KnowsTheUnitsOfTheField) {
   const std::vector<std::pair<const char*, const char*>> names = {
-      {"error_inch", "in"},       {"error [in]", "in"},
-      {"error_mil", "mil"},       {"error_thou", "mil"},
-      {"error [nm]", "nm"},       {"error_CM", "cm"},
-      {"error (m)", "m"},         {"error [arcsec]", "arcsec"},
-      {"error [\"]", "arcsec"},   {"error_\u00b5rad", "urad"},
-      {"error_mrad", "mrad"},     {"error_rad", "rad"},
-      {"tilt_deg", "deg"},        {"T1 [\u00b0C]", "degC"},
-      {"T1 [\u2103]", "degC"},    {"T1 (C)", "degC"},
-      {"T1_deg C", "degC"},       {"T1 [K]", "K"},
-      {"T1 [\u00b0F]", "degF"},   {"T1 (F)", "degF"},
-      {"strain_ppm", "ppm"},      {"strain_um/m", "um/m"},
-      {"speed [U/min]", "rpm"},   {"flow [l/min]", "l/min"},
-      {"NOx_mg_per_m3", "mg/m3"}, {"torque_Nm", "Nm"}};
+      {"error_inch", "in"},
+      {"error [in]", "in"},
+      {"error_mil", "mil"},
+      {"error_thou", "mil"},
+      {"error [nm]", "nm"},
+      {"error_CM", "cm"},
+      {"error (m)", "m"},
+      {"error [arcsec]", "arcsec"},
+      {"error [\"]", "arcsec"},
+      {"error_\u00b5rad", "urad"},
+      {"error_mrad", "mrad"},
+      {"error_rad", "rad"},
+      {"tilt_deg", "deg"},
+      {"T1 [\u00b0C]", "degC"},
+      {"T1 [\u2103]", "degC"},
+      {"T1 (C)", "degC"},
+      {"T1_deg C", "degC"},
+      {"T1 [K]", "K"},
+      {"t1_K", "K"},
+      {"temp_K", "K"},
+      {"T1 [\u00b0F]", "degF"},
+      {"T1 (F)", "degF"},
+      {"strain_ppm", "ppm"},
+      {"strain_um/m", "um/m"},
+      {"speed [U/min]", "rpm"},
+      {"flow [l/min]", "l/min"},
+      {"NOx_mg_per_m3", "mg/m3"},
+      {"torque_Nm", "Nm"}};
   for (const auto& [name, symbol] : names) {
     EXPECT_EQ(ReadHeader(name).unit.symbol, symbol) << name;
   }
@@ -134,13 +149,11 @@ TEST(ReadHeader, TakesBareLettersForNames) {
 }
 
 TEST(ReadHeader, LeavesWhatMayBeAUnitWithoutOne) {
-  for (const char* name : {"t1_K",
-                           "travel_m",
+  for (const char* name : {"travel_m",
                            "error_m",
                            "error_in",
                            "position_m",
                            "position_in",
-                           "temp_K",
                            "error_furlong",
                            "error_mm2",
                            "flow_m\u00b3"}) {
@@ -149,6 +162,34 @@ TEST(ReadHeader, LeavesWhatMayBeAUnitWithoutOne) {
   }
   EXPECT_EQ(ReadHeader("error [furlong]").source, UnitSource::kUnknown);
   EXPECT_EQ(ReadHeader("position (left)").source, UnitSource::kUnknown);
+}
+
+// Mutation: reading the last word alone leaves all of these in mm.
+TEST(ReadHeader, FindsTheOneUnitOfErrorsAnywhereInAName) {
+  const std::vector<std::pair<const char*, const char*>> names = {
+      {"error_um_mean", "um"},
+      {"error {um}", "um"},
+      {"error <um>", "um"},
+      {"error [um] mean", "um"},
+      {"Error in um (mean)", "um"},
+      {"error_mm_x", "mm"},
+      {"tilt_arcsec_avg", "arcsec"}};
+  for (const auto& [name, symbol] : names) {
+    EXPECT_EQ(ReadHeader(name).unit.symbol, symbol) << name;
+    EXPECT_EQ(ReadHeader(name).source, UnitSource::kStated) << name;
+  }
+  EXPECT_EQ(ReadHeader("error_um_mean").base, "error_mean");
+  EXPECT_EQ(ReadHeader("temp_min_left").unit.symbol, "degC");
+  EXPECT_EQ(ReadHeader("spindle_rad_x").source, UnitSource::kNone);
+}
+
+TEST(ReadHeader, DoubtsSeveralUnitsAndThoseWithANumber) {
+  for (const char* name : {"error_10um", "error_um_mm", "error_mm_um_x"}) {
+    EXPECT_EQ(ReadHeader(name).source, UnitSource::kDoubtful) << name;
+    EXPECT_EQ(ReadHeader(name).unit, Unit{}) << name;
+  }
+  EXPECT_EQ(ReadHeader("probe_10mm_um").unit.symbol, "um");
+  EXPECT_EQ(ReadHeader("error_um_per_mm").source, UnitSource::kStated);
 }
 
 TEST(ReadHeader, SaysWhatItOnlyAssumes) {

@@ -122,6 +122,7 @@ struct Evaluation {
   Eigen::Index clipped;  // rows
   std::optional<models::RelationChange> change;
   models::KeptPromise kept;
+  RowsLearnt learnt;
   Eigen::VectorXd residuals;
   stats::ErrorMetrics metrics;
 };
@@ -139,6 +140,8 @@ Json EvaluationJson(const Evaluation& found,
       {"unit", fitted.target.unit.symbol},
       {"align", data::ToString(fitted.align)},
       {"clipped", found.clipped},
+      {"learnt_from",
+       {{"file", found.learnt.file}, {"rows", found.learnt.rows}}},
       {"summary", models::ToJson(models::MakeRecord(found.metrics))},
       {"promise", PromiseJson(found.kept)},
       {"outside", OutsideJson(fitted.inputs, dataset.input_values())},
@@ -156,17 +159,33 @@ Json EvaluationJson(const Evaluation& found,
                        desk::HashInput(arguments.file)})}};
 }
 
+// Rows that a map learnt from say nothing of others.
+std::string LearntText(const RowsLearnt& learnt, long long rows) {
+  if (learnt.file) {
+    return "The map was fitted to this file: what follows is no promise for "
+           "new rows.\n";
+  }
+  return learnt.rows == 0
+             ? ""
+             : fmt::format(
+                   "The map was fitted to {} of these {} rows: what follows is "
+                   "no promise for new ones.\n",
+                   learnt.rows,
+                   rows);
+}
+
 std::string EvaluationText(const Evaluation& found,
                            const EvaluateArguments& arguments) {
   const data::Unit& unit = found.fitted.target.unit;
   const double ks_d = stats::KsDistanceFromNormal(found.residuals,
                                                   found.metrics.residuals.mean,
                                                   found.metrics.residuals.sd);
-  return fmt::format("{} ({}) on {}: target - predicted of {}\n{}{}{}",
+  return fmt::format("{} ({}) on {}: target - predicted of {}\n{}{}{}{}",
                      arguments.model,
                      found.fitted.name,
                      arguments.file,
                      report::TargetWords(found.rows.dataset),
+                     LearntText(found.learnt, found.rows.dataset.num_rows()),
                      report::SummaryText(found.metrics,
                                          unit,
                                          ks_d,
@@ -195,6 +214,7 @@ int RunEvaluate(const EvaluateArguments& arguments,
       .clipped = prediction.clipped.count(),
       .change = models::ChangedRelation(fitted, dataset.input_values()),
       .kept = models::HoldToPromise(fitted, dataset.target_values(), predicted),
+      .learnt = FindRowsLearnt(fitted, arguments.model, arguments.file, rows),
       .residuals = dataset.target_values() - predicted,
       .metrics = models::Judge(dataset, predicted)};
   if (found.clipped > 0 && !arguments.quiet) {

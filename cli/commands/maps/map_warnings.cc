@@ -1,19 +1,89 @@
 #include "cli/commands/maps/map_warnings.h"
 
 #include <cmath>
+#include <filesystem>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/commands/data_arguments.h"
+#include "cli/desk/provenance.h"
+#include "cli/json_blocks.h"
 #include "cli/report/number_text.h"
 #include "cli/report/words/fault_text.h"
 #include "cli/report/words/outside_text.h"
+#include "data/atomic_file.h"
+#include "data/input_error.h"
 #include "data/text.h"
 
 namespace errmap::cli {
 
 using Eigen::Index;
+
+namespace {
+
+// Inputs and target of each row.
+std::vector<std::vector<double>> ValuesOf(const data::Dataset& dataset) {
+  std::vector<std::vector<double>> values;
+  for (Index row = 0; row < dataset.num_rows(); ++row) {
+    const Eigen::VectorXd inputs = dataset.input_values().row(row);
+    std::vector<double>& all =
+        values.emplace_back(inputs.begin(), inputs.end());
+    all.push_back(dataset.target_values()[row]);
+  }
+  return values;
+}
+
+}  // namespace
+
+models::Provenance ProvenanceOf(const std::string& model) {
+  const Json document = Json::parse(data::ReadFile(model));
+  const Json texts = document.value("provenance", Json::object());
+  models::Provenance provenance;
+  for (const auto& [key, text] : texts.items()) {
+    if (text.is_string()) provenance.emplace_back(key, text);
+  }
+  return provenance;
+}
+
+RowsLearnt FindRowsLearnt(const models::FittedModel& fitted,
+                          const std::string& model,
+                          const std::string& file,
+                          const models::MapRows& rows) {
+  RowsLearnt learnt;
+  const std::string sha256 = desk::HashInput(file).sha256;
+  std::set<std::vector<double>> known;
+  for (const desk::InputFile& named : desk::DataOf(ProvenanceOf(model))) {
+    learnt.file = learnt.file || named.sha256 == sha256;
+    if (learnt.file || !std::filesystem::exists(named.file) ||
+        desk::HashInput(named.file) != named) {
+      continue;
+    }
+    try {
+      const models::MapRows trained = models::MakeMapRows(
+          fitted,
+          models::ReadForMap(
+              fitted, named.file, models::MapColumns::kInputsAndTarget)
+              .table,
+          {.missing = data::MissingPolicy::kDropRows, .with_memory = false});
+      for (auto& values : ValuesOf(trained.prepared.dataset)) {
+        known.insert(std::move(values));
+      }
+    } catch (const data::InputError&) {
+      // A file that no longer serves tells nothing of these rows.
+    }
+  }
+  if (learnt.file) {
+    learnt.rows = rows.prepared.dataset.num_rows();
+    return learnt;
+  }
+  for (const auto& values : ValuesOf(rows.prepared.dataset)) {
+    learnt.rows += known.contains(values) ? 1 : 0;
+  }
+  return learnt;
+}
 
 data::CsvTable ReadForMap(const models::FittedModel& fitted,
                           const std::string& file,

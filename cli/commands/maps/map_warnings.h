@@ -7,6 +7,7 @@
 
 #include "data/csv.h"
 #include "models/error_model.h"
+#include "models/model_file.h"
 #include "models/promise/applicability.h"
 #include "models/promise/map_rows.h"
 
@@ -24,6 +25,22 @@ models::MapRows ReadMapRows(const models::FittedModel& fitted,
                             const std::string& file,
                             const models::MapRowsOptions& options,
                             bool quiet);
+
+/// What a model file says of where it comes from.
+models::Provenance ProvenanceOf(const std::string& model);
+
+/// Of the rows of a file that a map is judged on, what it learnt from.
+struct RowsLearnt {
+  bool file = false;      // the file itself is one that the map names
+  Eigen::Index rows = 0;  // value for value in the files that it names
+};
+
+/// By the hashes in the model file `model`; rows are looked for in the files
+/// that it names and that are still there as they were.
+RowsLearnt FindRowsLearnt(const models::FittedModel& fitted,
+                          const std::string& model,
+                          const std::string& file,
+                          const models::MapRows& rows);
 
 struct RowsJudged {
   Eigen::MatrixXd form_inputs;  // (rows x inputs of the form)

@@ -65,17 +65,6 @@ data::Dataset ReadRows(const models::FittedModel& map,
   return std::move(prepared.dataset);
 }
 
-// What a model file says of where it comes from.
-models::Provenance ProvenanceOf(const std::string& model) {
-  const Json document = Json::parse(data::ReadFile(model));
-  const Json texts = document.value("provenance", Json::object());
-  models::Provenance provenance;
-  for (const auto& [key, text] : texts.items()) {
-    if (text.is_string()) provenance.emplace_back(key, text);
-  }
-  return provenance;
-}
-
 // The files that the map learnt from, where they are still there as they were.
 std::vector<desk::InputFile> KnownFiles(const UpdateArguments& arguments) {
   std::vector<desk::InputFile> known;

@@ -62,8 +62,9 @@ Json FitJson(const models::FittedModel& fitted,
              double fit_seconds,  // its choices and starts included
              const models::Sensitivity& sensitivity,
              const stats::ErrorMetrics& train,
-             const data::Dataset& dataset,
+             const data::PreparedDataset& prepared,
              const FitArguments& arguments) {
+  const data::Dataset& dataset = prepared.dataset;
   Json inputs = Json::array();
   for (const models::TrainedInput& input : fitted.inputs) {
     inputs.push_back(input.column.name);
@@ -80,6 +81,7 @@ Json FitJson(const models::FittedModel& fitted,
       {"train", models::ToJson(models::MakeRecord(train))},
       {"fit_seconds", fit_seconds},
       {"remarks", fitted.remarks},
+      {"data_remarks", prepared.remarks},
       {"sensitivity", SensitivityJson(sensitivity)}};
   json.update(models::ToJson(models::MakeRecord(fitted.summary)));
   if (!fitted.choices.empty()) {
@@ -264,7 +266,7 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
   const stats::ErrorMetrics train = models::Judge(dataset, predicted);
   if (arguments.format == "json") {
     Json document =
-        FitJson(fitted, fit.seconds, sensitivity, train, dataset, arguments);
+        FitJson(fitted, fit.seconds, sensitivity, train, prepared, arguments);
     document["provenance"] =
         ProvenanceJson(command_line, configuration, {input});
     PrintResult(DumpJson(document));

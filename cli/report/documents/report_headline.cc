@@ -120,6 +120,7 @@ Headline HeadlineOf(const ReportView& view) {
     line.sensors = SensorWords(advice.sensors);
     line.sentence = advice.sentence;
     constexpr std::size_t kMostTold = 5;
+    line.told = view.component->data.doubts;
     for (const models::RemarkRecord* remark : ToldFirst(advice)) {
       // The goal has a line of its own.
       if (remark->kind == models::RemarkKind::kGoal) continue;

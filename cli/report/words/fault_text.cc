@@ -60,7 +60,9 @@ std::string WhatIsWrong(const ColumnFault& fault,
             fault.value,
             symbol,
             fault.rows.front(),
-            UnitHint(fault, unit));
+            fault.rows.size() == static_cast<std::size_t>(dataset.num_rows())
+                ? UnitHint(fault, unit)
+                : "");
       }
       return fmt::format(
           "{:g}{} in {} is beyond any thermometer; all others "
@@ -112,6 +114,23 @@ std::string WhatIsWrong(const ColumnFault& fault,
           fault.value,
           symbol,
           fault.high);
+    case FaultKind::kRepeated:
+      return fmt::format("and all else in {} repeat other rows value for value",
+                         rows);
+    case FaultKind::kZero:
+      return fmt::format(
+          "is 0 in {} where the other rows say {:.3g}{}: no reading, as of a "
+          "lost beam",
+          rows,
+          fault.low,
+          symbol);
+    case FaultKind::kOtherUnit:
+      return fmt::format(
+          "is some {:.0f} times smaller in data rows {} to {} than in the "
+          "others, as if in another unit",
+          fault.value,
+          fault.rows.front(),
+          fault.rows.back());
   }
   return "";
 }

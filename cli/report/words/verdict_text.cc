@@ -1,6 +1,7 @@
 #include "cli/report/words/verdict_text.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -91,6 +92,7 @@ std::vector<std::string> FirstWords(const models::ComponentRecord& record) {
   }
   const RecommendationRecord& advice = *record.recommendation;
   std::vector<std::string> words{advice.sentence};
+  std::ranges::copy(record.data.doubts, std::back_inserter(words));
   if (record.rezero) words.push_back(record.rezero->sentence);
   for (const RemarkRecord* remark : ToldFirst(advice)) {
     words.push_back(remark->text);

@@ -49,6 +49,8 @@ struct DataRecord {
   data::Alignment align = data::Alignment::kNone;
   std::vector<DroppedRecord> dropped;
   std::vector<FaultRecord> faults;
+  std::vector<std::string> remarks;  // on columns and rows, one line each
+  std::vector<std::string> doubts;   // of these, what no answer goes without
 };
 ERRMAP_RECORD(DataRecord,
               file,
@@ -65,7 +67,9 @@ ERRMAP_RECORD(DataRecord,
               sessions,
               align,
               dropped,
-              faults)
+              faults,
+              remarks,
+              doubts)
 
 /// What people see is value * scale, in this unit.
 struct DisplayRecord {

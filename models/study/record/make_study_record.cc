@@ -66,7 +66,9 @@ DataRecord MakeData(const ComponentStudy& study) {
                     .sessions = dataset.num_sessions(),
                     .align = dataset.align(),
                     .dropped = {},
-                    .faults = MakeFaultRecords(study.data)};
+                    .faults = MakeFaultRecords(study.data),
+                    .remarks = study.data.remarks,
+                    .doubts = study.data.doubts};
   for (const data::ColumnInfo& input : dataset.inputs()) {
     record.inputs.push_back(input.name);
   }

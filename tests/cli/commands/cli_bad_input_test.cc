@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/cli_runner.h"
+#include "tests/cli/one_line.h"
 
 namespace errmap {
 namespace {
@@ -252,6 +253,48 @@ TEST_F(CliBadInput, DeadSensorsAreDroppedAndDuplicatesNamed) {
   ASSERT_EQ(data["dropped"].size(), 2U);
   EXPECT_EQ(data["dropped"][0]["column"], "t2");
   EXPECT_EQ(data["dropped"][1]["column"], "t3");
+}
+
+// Mutation: a headline without the doubts of its data fails.
+TEST_F(CliBadInput, WhatWasAskedForAndLeftOutStandsInTheHeadline) {
+  const std::vector<std::string> asked{
+      "--inputs", "position_mm,t2", "--format"};
+  for (const std::string quiet : {"", "--quiet"}) {
+    std::vector<std::string> more = asked;
+    more.emplace_back("json");
+    if (!quiet.empty()) more.push_back(quiet);
+    const Json data = Data(Compare(kDeadSensors, more))["data"];
+    const std::string doubt =
+        "The input t2, asked for by --inputs, is dead (0 in all 4 rows) and is "
+        "left out; --keep-dead keeps it.";
+    EXPECT_EQ(data["doubts"], Json::array({doubt}));
+    EXPECT_THAT(data["remarks"].dump(), HasSubstr("input t2 is dead"));
+    more[3] = "table";
+    EXPECT_THAT(OneLine(Compare(kDeadSensors, more).out),
+                HasSubstr("The input t2, asked for by --inputs, is dead"));
+  }
+}
+
+TEST_F(CliBadInput, EvaluateKnowsWhatTheMapLearntFrom) {
+  Write("f.csv", kHeader + kRows);
+  Write("more.csv", kHeader + kRows + "7,21,0.7\n8,20.5,0.9\n");
+  Write("new.csv", kHeader + "7,21,0.7\n8,20.5,0.9\n9,22,0.8\n");
+  ASSERT_EQ(
+      Run({"fit", "f.csv", "--model", "poly:position", "-o", "m.json"}).status,
+      0);
+  const auto learnt = [&](const std::string& file) {
+    return Json::parse(Run({"evaluate", "m.json", file, "--format", "json"})
+                           .out)["learnt_from"];
+  };
+  EXPECT_EQ(learnt("f.csv"), Json::parse(R"({"file": true, "rows": 6})"));
+  EXPECT_EQ(learnt("more.csv"), Json::parse(R"({"file": false, "rows": 6})"));
+  EXPECT_EQ(learnt("new.csv"), Json::parse(R"({"file": false, "rows": 0})"));
+  EXPECT_THAT(Run({"evaluate", "m.json", "f.csv"}).out,
+              HasSubstr("The map was fitted to this file"));
+  EXPECT_THAT(Run({"evaluate", "m.json", "more.csv"}).out,
+              HasSubstr("The map was fitted to 6 of these 8 rows"));
+  EXPECT_THAT(Run({"evaluate", "m.json", "new.csv"}).out,
+              Not(HasSubstr("The map was fitted to")));
 }
 
 TEST_F(CliBadInput, KeepDeadKeepsThemAndSaysSo) {

@@ -181,10 +181,10 @@ TEST_F(CliPlantedFaults, AnUnknownUnitIsRefusedWithTheList) {
   file.header[kT1] = "t1 [brix]";
   EXPECT_THAT(RefusalOf(Compare(file.Csv()), kUnusable),
               HasSubstr("column 't1 [brix]': 'brix' is no unit known here"));
-  file.header[kT1] = "t1_K";
+  file.header[kT1] = "travel_m";
   EXPECT_THAT(Compare(file.Csv()).err,
-              HasSubstr("errmap: no unit is read from 't1_K': 'K' counts as a "
-                        "unit in brackets or parentheses only\n"));
+              HasSubstr("errmap: no unit is read from 'travel_m': 'm' counts "
+                        "as a unit in brackets or parentheses only\n"));
 }
 
 TEST_F(CliPlantedFaults, WithoutAUnitWhatIsAssumedIsSaid) {

@@ -93,8 +93,8 @@ TEST(ColumnChecks, DropRowsDropsNothingButMissingCells) {
   EXPECT_THAT(
       ErrorOf("a,error\n1,1\ninf,2\n,3\n", drop),
       HasSubstr("line 3 (data row 1), column 'a': 'inf' is not finite"));
-  EXPECT_THAT(ErrorOf("a,error\n1,1\n,2\nN/A,3\n", drop),
-              HasSubstr("'N/A' is no number"));
+  EXPECT_THAT(ErrorOf("a,error\n1,1\n,2\nOVER,3\n", drop),
+              HasSubstr("'OVER' is no number"));
 }
 
 TEST(ColumnChecks, NoRowIsLeft) {

@@ -22,8 +22,8 @@ TEST(IdleInputs, LeavesOutDeadInputsWithARemark) {
     text.append(std::to_string(i)).append("\n");
   }
   const PreparedDataset prepared = Make(text);
-  EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("live"));
-  EXPECT_THAT(Column(prepared.dataset, 0),
+  EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("stuck", "live"));
+  EXPECT_THAT(Column(prepared.dataset, 1),
               ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9));
   EXPECT_THAT(
       prepared.remarks,
@@ -31,11 +31,11 @@ TEST(IdleInputs, LeavesOutDeadInputsWithARemark) {
                   "keep_dead keeps it",
                   "input constant is dead (21.5 in all 10 rows) and is left "
                   "out; keep_dead keeps it",
-                  "input stuck is dead (8 in 9 of 10 rows) and is left out; "
-                  "keep_dead keeps it",
+                  "input stuck is 8 in 9 of 10 rows and is kept: what it does "
+                  "rests on the others",
                   "input live repeats the target error_um value for value; "
                   "exclude = live leaves it out"));
-  EXPECT_THAT(DroppedNames(prepared), ElementsAre("zero", "constant", "stuck"));
+  EXPECT_THAT(DroppedNames(prepared), ElementsAre("zero", "constant"));
   EXPECT_EQ(prepared.dropped[0].why, "is dead (0 in all 10 rows)");
 }
 
@@ -48,6 +48,15 @@ TEST(IdleInputs, KeepsDeadInputsWhereAskedAndSaysSo) {
       ElementsAre("input zero is dead (0 in all 2 rows) and is kept",
                   "input nought is dead (0 in all 2 rows) and is kept"));
   EXPECT_THAT(prepared.dropped, IsEmpty());
+}
+
+TEST(IdleInputs, SaysWhatBecameOfOneThatWasNamedWithTheAnswer) {
+  const std::string text = "a,b,error_um\n1,5,1\n2,5,3\n4,5,4\n";
+  EXPECT_THAT(Make(text).doubts, IsEmpty());
+  EXPECT_THAT(
+      Make(text, {.inputs = {"a", "b"}}).doubts,
+      ElementsAre("The input b, asked for by inputs, is dead (5 in all 3 rows) "
+                  "and is left out; keep_dead keeps it."));
 }
 
 TEST(IdleInputs, KeepsInputsWithLessThanNineTenthsOfOneValue) {

@@ -93,9 +93,10 @@ TEST(MakeDataset, SaysWhichUnitOfTheTargetIsOnlyAssumed) {
 }
 
 TEST(MakeDataset, NamesInputsWhoseUnitIsNotRead) {
-  EXPECT_THAT(Make("t1_K,T_in,error_um\n1,1,2\n2,0,3\n").remarks,
-              ElementsAre("no unit is read from 't1_K': 'K' counts as a unit "
-                          "in brackets or parentheses only"));
+  EXPECT_THAT(
+      Make("travel_m,T_in,error_um\n1,1,2\n2,0,3\n").remarks,
+      ElementsAre("no unit is read from 'travel_m': 'm' counts as a unit "
+                  "in brackets or parentheses only"));
 }
 
 TEST(MakeDataset, DropsRowsOfFailedReadingsWhereAsked) {

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "data/csv.h"
+#include "data/measurements/column_faults.h"
+
+namespace errmap::data {
+
+/// Throws InputError where a row that passes (one flag per row of the table) is
+/// no measurement but a row of totals or a remark: text where nearly all other
+/// rows have a number or a time; in columns that number the rows (`numbering`,
+/// one flag per column) any word, elsewhere one such as "Mean".
+void RefuseRowsOfWords(const CsvTable& table,
+                       const std::vector<bool>& numbering,
+                       const std::vector<bool>& passes);
+
+/// Rows that pass and repeat an earlier one value for value in all named
+/// columns, ascending; none where the target's values are so few that rows may
+/// be alike by chance.
+std::vector<Eigen::Index> RepeatedRows(const CsvTable& table,
+                                       std::size_t target,
+                                       const std::vector<bool>& passes);
+
+/// Targets that are no measurement though each looks like one: zeros where all
+/// other rows say that there is an error (kZero, a lost beam), and a first or
+/// last part of the rows in another unit (kOtherUnit). Rows count from 0.
+std::vector<ColumnFault> FindTargetFaults(const MeasuredColumns& measured);
+
+}  // namespace errmap::data

@@ -1,0 +1,505 @@
+// Files as people have them: what is unambiguous is read as if it were clean,
+// all else is one line that says what to do. The same measurements stand in
+// each, so that each must give the same numbers.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/data/measurements/make_dataset_test_data.h"
+
+namespace errmap::data {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+using Rows = std::vector<std::vector<std::string>>;
+
+// Three days of eight cycles of five positions.
+constexpr int kDays = 3;
+constexpr int kCycles = 8;
+constexpr int kPositions = 5;
+constexpr std::size_t kDay = 0;
+constexpr std::size_t kCycle = 1;
+constexpr std::size_t kTime = 2;
+constexpr std::size_t kPosition = 3;
+constexpr std::size_t kT1 = 4;
+constexpr std::size_t kT2 = 5;
+constexpr std::size_t kError = 6;
+
+// To three decimals, as instruments write.
+std::string Fixed(double value) {
+  return CsvNumber(std::round(1000.0 * value) / 1000.0);
+}
+
+// A number in [-1, 1) that looks random, the same on every machine.
+double Noise(int i) {
+  const double x = std::sin(12.9898 * (i + 1)) * 43758.5453;
+  return 2.0 * (x - std::floor(x)) - 1.0;
+}
+
+Rows Measured() {
+  Rows rows = {{"day",
+                "cycle",
+                "time_s",
+                "position_mm",
+                "t1_degC",
+                "t2_degC",
+                "error_um"}};
+  int i = 0;
+  for (int day = 0; day < kDays; ++day) {
+    for (int cycle = 0; cycle < kCycles; ++cycle) {
+      for (int p = 0; p < kPositions; ++p, ++i) {
+        const double warm = 1.0 - std::exp(-0.3 * cycle - 0.02 * p);
+        const double t1 = 20.0 + 0.4 * day + 8.0 * warm + 0.02 * Noise(i);
+        const double t2 = 19.0 + 0.3 * day + 4.0 * warm + 0.02 * Noise(i + 500);
+        const double error =
+            3.0 + 1.5 * (t1 - 20.0) + 2.0 * p + 0.2 * Noise(i + 1000);
+        rows.push_back({std::to_string(day + 1),
+                        std::to_string(kCycles * day + cycle + 1),
+                        std::to_string(600 * cycle + 30 * p),
+                        std::to_string(100 * p),
+                        Fixed(t1),
+                        Fixed(t2),
+                        Fixed(error)});
+      }
+    }
+  }
+  return rows;
+}
+
+std::string Joined(const Rows& rows,
+                   const std::string& separator = ",",
+                   const std::string& line_end = "\n") {
+  std::string text;
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      text += (i == 0 ? "" : separator) + row[i];
+    }
+    text += line_end;
+  }
+  return text;
+}
+
+std::string WithCommas(std::string text) {
+  std::ranges::replace(text, '.', ',');
+  return text;
+}
+
+std::string InUtf16(const std::string& text, bool little, bool mark) {
+  std::string wide = !mark ? "" : little ? "\xFF\xFE" : "\xFE\xFF";
+  for (const char c : text) {
+    wide += little ? c : '\0';
+    wide += little ? '\0' : c;
+  }
+  return wide;
+}
+
+// Each row changed; the header is row 0.
+Rows Changed(
+    Rows rows,
+    const std::function<void(std::size_t, std::vector<std::string>*)>& change) {
+  for (std::size_t i = 0; i < rows.size(); ++i) change(i, &rows[i]);
+  return rows;
+}
+
+Rows WithCell(std::size_t row, std::size_t column, const std::string& text) {
+  Rows rows = Measured();
+  rows[row + 1][column] = text;
+  return rows;
+}
+
+double Number(const std::string& text) { return std::stod(text); }
+
+TEST(MessyFiles, WhatIsUnambiguousIsSimplyRead) {
+  const Rows rows = Measured();
+  const Dataset clean = Make(Joined(rows)).dataset;
+  const auto padded = [&](std::size_t header, std::size_t row) {
+    return Joined(Changed(rows, [&](std::size_t i, auto* cells) {
+      cells->resize(cells->size() + (i == 0 ? header : row));
+    }));
+  };
+  Rows units = rows;
+  units[0] = {"day", "cycle", "time", "position", "t1", "t2", "error"};
+  Rows bracketed = units;
+  units.insert(units.begin() + 1, {"", "-", "s", "mm", "degC", "degC", "um"});
+  bracketed.insert(bracketed.begin() + 1,
+                   {"[-]", "[-]", "[s]", "[mm]", "[°C]", "(°C)", "[µm]"});
+  Rows stated = rows;
+  stated.insert(stated.begin() + 1, units[1]);
+  const std::vector<std::pair<const char*, std::string>> files = {
+      {"units below the names", Joined(units)},
+      {"units in brackets", Joined(bracketed)},
+      {"units twice", Joined(stated)},
+      {"sep=;", "sep=;\n" + Joined(rows, ";")},
+      {"sep=, and CRLF", "sep=,\r\n" + Joined(rows, ",", "\r\n")},
+      {"quoted sep=|", "\"sep=|\"\n" + Joined(rows, "|")},
+      {"bars", Joined(rows, "|")},
+      {"bars between blanks", Joined(rows, " | ")},
+      {"blanks", Joined(rows, " ")},
+      {"many blanks", Joined(rows, "    ")},
+      {"decimal commas", WithCommas(Joined(rows, ";"))},
+      {"decimal commas, tabs", WithCommas(Joined(rows, "\t"))},
+      {"UTF-16", InUtf16(Joined(rows), true, true)},
+      {"UTF-16, other order", InUtf16(Joined(rows), false, true)},
+      {"UTF-16 without a mark", InUtf16(Joined(rows), true, false)},
+      {"UTF-8 with a mark", "\xEF\xBB\xBF" + Joined(rows)},
+      {"lone CR", Joined(rows, ",", "\r")},
+      {"separators at each end", padded(3, 3)},
+      {"separators at the rows' ends", padded(0, 3)},
+      {"one more at the header's end", padded(1, 0)},
+      {"rows of separators below", Joined(rows) + ",,,,,,\n,,,,,,\n"},
+  };
+  for (const auto& [what, text] : files) {
+    SCOPED_TRACE(what);
+    const PreparedDataset prepared = Make(text);
+    EXPECT_EQ(prepared.dataset.target_values(), clean.target_values());
+    EXPECT_EQ(prepared.dataset.input_values(), clean.input_values());
+    EXPECT_EQ(prepared.dataset.target().unit.symbol, "um");
+    EXPECT_EQ(prepared.dataset.inputs()[1].unit.symbol, "degC");
+    EXPECT_EQ(prepared.dataset.num_sessions(), kDays);
+    EXPECT_THAT(prepared.dropped, IsEmpty());
+  }
+}
+
+TEST(MessyFiles, WordsForMissingCellsAreMissingCells) {
+  for (const char* word : {"",
+                           "NA",
+                           "NaN",
+                           "n/a",
+                           "#N/A",
+                           "#NV",
+                           "NULL",
+                           "null",
+                           "-",
+                           "--",
+                           "?",
+                           "None",
+                           "missing",
+                           "(null)",
+                           "1.#QNAN",
+                           "-nan",
+                           ".",
+                           "#DIV/0!",
+                           "#VALUE!"}) {
+    SCOPED_TRACE(word);
+    const std::string text = Joined(WithCell(7, kT1, word));
+    EXPECT_THAT(ErrorOf(text),
+                HasSubstr("line 9 (data row 7), column 't1_degC'"));
+    EXPECT_THAT(ErrorOf(text), HasSubstr("missing = drop-rows"));
+    EXPECT_EQ(
+        Make(text, {.missing = MissingPolicy::kDropRows}).dataset.num_rows(),
+        kDays * kCycles * kPositions - 1);
+  }
+}
+
+TEST(MessyFiles, AllElseIsOneLineThatSaysWhatToDo) {
+  const Rows rows = Measured();
+  const std::string text = Joined(rows);
+  using namespace std::string_literals;
+  const std::vector<std::pair<std::string, const char*>> files = {
+      {"PK\x03\x04 rest of a sheet", "spreadsheet (xlsx, ods)"},
+      {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"s,
+       "spreadsheet (xls); save it as CSV"},
+      {"\x1F\x8B\x08\0"s, "gunzip"},
+      {"%PDF-1.4\n", "PDF"},
+      {"<!doctype html><table></table>\n", "web page"},
+      {"Machine 7\n" + text, "start the lines above them with #"},
+      {text + "End of file\n", "line 122 (data row 120): 1 field"},
+      {text + "End of file,,,,,,\n", "'End of file' where the other rows"},
+      {text + "Mean,,,200,24,21,9.5\n", "a row of totals or a remark"},
+      {text + "3,Mean,4380,200,24,21,9.5\n", "column 'cycle': 'Mean'"},
+      {text + text.substr(text.find('\n') + 1), "120 rows repeat others"},
+      {text + text, "'day' where the other rows have numbers"},
+      {Joined(WithCell(7, kT1, "OVER")), "'OVER' is no number"},
+      {Joined(WithCell(7, kT1, "1,5")), "8 fields where the header has 7"},
+  };
+  for (const auto& [messy, line] : files) {
+    const std::string error = ErrorOf(messy);
+    EXPECT_THAT(error, HasSubstr(line));
+    EXPECT_EQ(error.find('\n'), std::string::npos);
+  }
+  Rows other = rows;
+  other.insert(other.begin() + 1, {"", "", "s", "mm", "degC", "degC", "mm"});
+  EXPECT_THAT(ErrorOf(Joined(other)),
+              HasSubstr("line 2: the unit 'mm' of column 'error_um'"));
+}
+
+TEST(MessyFiles, DatesWithHalvesOfTheDayHaveTheMonthFirst) {
+  const auto at = [](const char* form) {
+    return Joined(Changed(Measured(), [&](std::size_t i, auto* cells) {
+      if (i == 0) {
+        (*cells)[kTime] = "time";
+        return;
+      }
+      const int seconds = std::stoi((*cells)[kTime]);
+      const int minutes = 11 * 60 + seconds / 60;
+      std::string text(64, '\0');
+      text.resize(static_cast<std::size_t>(
+          std::snprintf(text.data(),
+                        text.size(),
+                        form,
+                        (*cells)[kDay].c_str(),
+                        (minutes / 60 - 1) % 12 + 1,
+                        minutes % 60,
+                        seconds % 60,
+                        minutes < 12 * 60 ? 'A' : 'P')));
+      (*cells)[kTime] = text;
+    }));
+  };
+  for (const char* form :
+       {"3/%s/2024 %d:%02d:%02d %cM", "3/%s/2024 %d:%02d:%02d %c.M."}) {
+    const PreparedDataset prepared = Make(at(form));
+    const Eigen::VectorXd& time = prepared.dataset.log()->time;
+    EXPECT_EQ(prepared.time_column, "time");
+    EXPECT_EQ(time[kPositions] - time[0], 600.0);
+    EXPECT_EQ(time[kCycles * kPositions] - time[0], 86400.0);
+  }
+}
+
+TEST(MessyFiles, AThermometerThatEndsStuckIsLeftOut) {
+  const Rows rows = Changed(Measured(), [](std::size_t i, auto* cells) {
+    if (i > 46) (*cells)[kT2] = "21.5";  // 62 % of the rows
+  });
+  const PreparedDataset prepared = Make(Joined(rows));
+  EXPECT_THAT(DroppedNames(prepared), ElementsAre("t2_degC"));
+  EXPECT_THAT(prepared.remarks,
+              Contains("input t2_degC is dead (stuck at 21.5 from data row 46 "
+                       "on) and is left out; keep_dead keeps it"));
+  EXPECT_EQ(Make(Joined(rows), {.keep_dead = true}).dataset.num_inputs(), 3);
+  // One that was asked for stays, and the fault is told.
+  const PreparedDataset named =
+      Make(Joined(rows), {.inputs = {"t1_degC", "t2_degC"}});
+  EXPECT_EQ(named.dataset.num_inputs(), 2);
+  ASSERT_EQ(named.faults.size(), 1U);
+  EXPECT_EQ(named.faults[0].kind, FaultKind::kStuck);
+}
+
+TEST(MessyFiles, InputsThatHoldTheErrorAreLeftOut) {
+  const auto with = [](const std::string& name, const auto& value) {
+    return Joined(Changed(Measured(), [&](std::size_t i, auto* cells) {
+      cells->insert(cells->end() - 1, i == 0 ? name : CsvNumber(value(*cells)));
+    }));
+  };
+  const auto error = [](const auto& cells) { return Number(cells[kError]); };
+  const auto rounded = [](double value, double decimals) {
+    const double scale = std::pow(10.0, decimals);
+    return std::round(value * scale) / scale;
+  };
+  const auto actual = [&](const auto& cells) {
+    return rounded(Number(cells[kPosition]) + error(cells) / 1000.0, 6);
+  };
+  const auto coarse = [&](const auto& cells) {
+    return rounded(actual(cells), 4);
+  };
+  const auto copy = [&](const auto& cells) { return -25.4 * error(cells); };
+  for (const std::string& text : {with("actual_mm", actual),
+                                  with("actual_mm", coarse),
+                                  with("raw", copy)}) {
+    const PreparedDataset prepared = Make(text);
+    EXPECT_THAT(InputNames(prepared.dataset),
+                ElementsAre("position_mm", "t1_degC", "t2_degC"));
+    EXPECT_THAT(prepared.remarks,
+                Contains(HasSubstr("holds the error itself (error_um = ")));
+  }
+  const PreparedDataset asked =
+      Make(with("actual_mm", actual), {.inputs = {"position_mm", "actual_mm"}});
+  EXPECT_THAT(InputNames(asked.dataset), ElementsAre("position_mm"));
+  EXPECT_THAT(asked.doubts, ElementsAre(HasSubstr("The input actual_mm")));
+  EXPECT_THAT(ErrorOf(with("raw", copy), {.inputs = {"raw"}}),
+              HasSubstr("no input is left: 'raw' holds the error itself"));
+  // Two parts of it, of which none tells it alone.
+  const auto part = [&](const auto& cells) {
+    return rounded(std::sin(Number(cells[kCycle])), 3);
+  };
+  const std::string halves =
+      Joined(Changed(Measured(), [&](std::size_t i, auto* cells) {
+        const double a = i == 0 ? 0.0 : part(*cells);
+        const double b = i == 0 ? 0.0 : rounded(error(*cells) - a, 3);
+        cells->insert(
+            cells->end() - 1,
+            {i == 0 ? "a" : CsvNumber(a), i == 0 ? "b" : CsvNumber(b)});
+      }));
+  EXPECT_THAT(DroppedNames(Make(halves)), Contains("b"));
+}
+
+// A good map is no leak: thermometers that tell the error to their rounding.
+TEST(MessyFiles, StatesThatTellTheErrorAreNoLeak) {
+  const Rows rows = Changed(Measured(), [](std::size_t i, auto* cells) {
+    if (i == 0) return;
+    (*cells)[kError] =
+        Fixed(1.5 * Number((*cells)[kT1]) + 0.02 * Number((*cells)[kPosition]));
+  });
+  EXPECT_THAT(Make(Joined(rows)).dropped, IsEmpty());
+}
+
+TEST(MessyFiles, RowsThatAreNoMeasurementsAreNamedAndLeftOutByAnOption) {
+  const Rows rows = Measured();
+  const auto changed = [&](const auto& change) {
+    return Joined(Changed(rows, [&](std::size_t i, auto* cells) {
+      if (i > 0) change(static_cast<int>(i) - 1, cells);
+    }));
+  };
+  struct Case {
+    std::string text;
+    FaultKind kind;
+    std::vector<Eigen::Index> rows;  // the first of them
+    Eigen::Index left;
+  };
+  Rows twice;
+  for (const auto& row : rows) {
+    twice.push_back(row);
+    if (row != rows.front()) twice.push_back(row);
+  }
+  const std::vector<Case> cases = {
+      {Joined(twice), FaultKind::kRepeated, {1, 3, 5}, 120},
+      {changed([](int i, auto* cells) {
+         if (i == 38 || i == 39 || i == 118) (*cells)[kError] = "0";
+       }),
+       FaultKind::kZero,
+       {38, 39, 118},
+       117},
+      {changed([](int i, auto* cells) {
+         if (i >= 60) {
+           (*cells)[kError] = CsvNumber(Number((*cells)[kError]) / 1000.0);
+         }
+       }),
+       FaultKind::kOtherUnit,
+       {60, 61, 62},
+       60},
+      {changed([](int i, auto* cells) {
+         if (i % 3 == 0) (*cells)[kT1] = "-999";
+       }),
+       FaultKind::kImpossible,
+       {0, 3, 6},
+       80},
+      {changed([](int i, auto* cells) {
+         if (i % 4 == 0) (*cells)[kError] = "-999";
+       }),
+       FaultKind::kOutlying,
+       {0, 4, 8},
+       90},
+  };
+  for (const Case& one : cases) {
+    const PreparedDataset kept = Make(one.text);
+    ASSERT_EQ(kept.faults.size(), 1U) << ToString(one.kind);
+    EXPECT_EQ(kept.faults[0].kind, one.kind);
+    EXPECT_TRUE(kept.faults[0].of_cells);
+    EXPECT_TRUE(
+        std::ranges::equal(one.rows,
+                           std::vector(kept.faults[0].rows.begin(),
+                                       kept.faults[0].rows.begin() + 3)))
+        << ToString(one.kind);
+    EXPECT_EQ(
+        Make(one.text, {.faults = FaultPolicy::kDropRows}).dataset.num_rows(),
+        one.left)
+        << ToString(one.kind);
+  }
+  // Zeros where each is one: the position that errors are measured from.
+  const std::string reference = changed([](int, auto* cells) {
+    if ((*cells)[kPosition] == "200") (*cells)[kError] = "0";
+  });
+  EXPECT_THAT(Make(reference).faults, IsEmpty());
+  EXPECT_THAT(Make(Joined(rows)).faults, IsEmpty());
+  EXPECT_THAT(Make(Joined(rows)).doubts, IsEmpty());
+}
+
+TEST(MessyFiles, RowsOfSeveralThingsAreAskedAbout) {
+  const auto with = [](const std::string& name,
+                       const std::string& one,
+                       const std::string& other,
+                       bool differ) {
+    return Joined(Changed(Measured(), [&](std::size_t i, auto* cells) {
+      const bool second = (i / kPositions) % 2 == 1;
+      if (i > 0 && second && differ) {
+        (*cells)[kError] = Fixed(5.0 - Number((*cells)[kError]));
+      }
+      cells->insert(cells->begin(), i == 0 ? name : second ? other : one);
+    }));
+  };
+  const char* const kInputs[] = {"position_mm", "t1_degC", "t2_degC"};
+  for (const char* name : {"machine", "direction", "tool", "axis"}) {
+    const PreparedDataset same = Make(with(name, "A", "B", false));
+    EXPECT_THAT(same.remarks,
+                Contains(HasSubstr("may need a map each, by where")));
+    EXPECT_THAT(same.doubts, IsEmpty());
+    const PreparedDataset differ = Make(with(name, "A", "B", true));
+    EXPECT_THAT(differ.doubts,
+                ElementsAre(HasSubstr("Rows differ by " + std::string(name) +
+                                      " (A, B): ")));
+    EXPECT_THAT(InputNames(differ.dataset),
+                ::testing::ElementsAreArray(kInputs));
+  }
+  const PreparedDataset numbers = Make(with("machine", "1", "2", true));
+  EXPECT_THAT(InputNames(numbers.dataset),
+              ::testing::ElementsAreArray(kInputs));
+  EXPECT_THAT(numbers.doubts, ElementsAre(HasSubstr("machine (1, 2)")));
+}
+
+TEST(MessyFiles, CountersAreNoInputsAndCyclesAreGroups) {
+  for (const std::string name : {"Zyklus",
+                                 "Cycle No.",
+                                 "Takt",
+                                 "cycle_number",
+                                 "Lauf",
+                                 "run",
+                                 "Messung",
+                                 "Nr."}) {
+    const PreparedDataset prepared =
+        Make(Joined(Changed(Measured(), [&](std::size_t i, auto* cells) {
+          if (i == 0) (*cells)[kCycle] = name;
+        })));
+    EXPECT_THAT(InputNames(prepared.dataset),
+                ElementsAre("position_mm", "t1_degC", "t2_degC"))
+        << name;
+    const bool is_cycle =
+        name != "Lauf" && name != "run" && name != "Messung" && name != "Nr.";
+    EXPECT_EQ(prepared.dataset.groups().column, is_cycle ? name : "") << name;
+  }
+}
+
+TEST(MessyFiles, ATargetOfTwoUnitsIsAskedFor) {
+  const auto named = [](const std::string& name) {
+    Rows rows = Measured();
+    rows[0][kError] = name;
+    return Joined(rows);
+  };
+  EXPECT_EQ(Make(named("error_um_mean")).dataset.target().unit.symbol, "um");
+  EXPECT_THAT(
+      ErrorOf(named("error_10um")),
+      HasSubstr("'10um' can be read in several ways; rename the column, "
+                "its unit in brackets at the end: 'error [um]'"));
+}
+
+TEST(MessyFiles, ASlowDriftIsNamed) {
+  Rows rows = Measured();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (int k = 3; k <= 4; ++k) {
+      const double own = 0.02 * Noise(static_cast<int>(i) + 2000 * k);
+      rows[i].push_back(
+          i == 0 ? "t" + std::to_string(k) + "_degC"
+                 : Fixed(18.0 + 0.3 * k * (Number(rows[i][kT2]) - 19.0) + own));
+    }
+    if (i == 0) continue;
+    const double hours =
+        24.0 * Number(rows[i][kDay]) + Number(rows[i][kTime]) / 3600.0;
+    rows[i][kT1] = Fixed(Number(rows[i][kT1]) + 0.04 * hours);
+  }
+  const std::vector<ColumnFault> faults = Make(Joined(rows)).faults;
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].kind, FaultKind::kDrifting);
+}
+
+}  // namespace
+}  // namespace errmap::data
