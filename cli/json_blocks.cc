@@ -1,5 +1,7 @@
 #include "cli/json_blocks.h"
 
+#include <nlohmann/json.hpp>
+
 #include "models/study/record/record_json.h"
 
 namespace errmap::cli {

@@ -112,9 +112,7 @@ void SortByWorth(ComponentSummary* summary) {
 }
 
 std::string Dump(const ComponentSummary& summary) {
-  return ToJson(summary).dump(
-             -1, ' ', false, RecordJson::error_handler_t::replace) +
-         "\n";
+  return JsonText(summary, -1) + "\n";
 }
 
 void Shorten(std::string* text) {
@@ -186,10 +184,10 @@ std::string ToJsonText(ComponentSummary summary) {
 
 ComponentSummary SummaryFromJsonText(std::string_view text) {
   data::RequireShallowJson(text);
-  const RecordJson json = RecordJson::parse(text, nullptr, false);
+  record_json::Tree json;
   ComponentSummary summary;
   summary.schema.clear();
-  if (!json.is_discarded()) FromJson(json, &summary);
+  if (json.Parse(text)) FromJson(*json.root(), &summary);
   if (summary.schema != ComponentSummary().schema) {
     throw data::InputError("is no summary of a component (errmap-summary-1)");
   }

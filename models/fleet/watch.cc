@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include <nlohmann/json.hpp>
+
 #include "data/formats/nesting.h"
 #include "data/input_error.h"
 #include "data/text.h"

@@ -84,14 +84,14 @@ std::vector<NextStateRecord> MakeRecord(const std::vector<NextState>& chosen) {
 
 LearningRecord LearningFromJsonText(std::string_view text) {
   data::RequireShallowJson(text);
-  const RecordJson json = RecordJson::parse(text, nullptr, false);
-  if (json.is_discarded()) {
+  record_json::Tree json;
+  if (!json.Parse(text)) {
     throw data::InputError("is no JSON; errmap learn " +
                            data::ArgumentName("out") + " writes it");
   }
   LearningRecord record;
   record.schema.clear();
-  FromJson(json, &record);
+  FromJson(*json.root(), &record);
   if (record.schema != kLearningSchema) {
     throw data::InputError(fmt::format(
         "schema is {}, this version reads {}; run errmap learn again",

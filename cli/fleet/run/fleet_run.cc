@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "cli/desk/configuration_record.h"
 #include "cli/desk/plan/component_names.h"

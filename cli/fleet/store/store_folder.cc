@@ -110,8 +110,8 @@ FleetRecord ReadFleet(const StorePaths& paths) {
   FleetRecord fleet;
   fleet.schema.clear();
   if (data::IsShallowJson(text)) {
-    const auto json = models::RecordJson::parse(text, nullptr, false);
-    if (!json.is_discarded()) models::FromJson(json, &fleet);
+    models::record_json::Tree json;
+    if (json.Parse(text)) models::FromJson(*json.root(), &fleet);
   }
   if (fleet.schema != FleetRecord().schema) {
     throw data::InputError(
@@ -123,10 +123,7 @@ FleetRecord ReadFleet(const StorePaths& paths) {
 
 void WriteFleet(const StorePaths& paths, const FleetRecord& fleet) {
   constexpr int kIndent = 1;
-  const std::string text =
-      models::ToJson(fleet).dump(
-          kIndent, ' ', false, models::RecordJson::error_handler_t::replace) +
-      "\n";
+  const std::string text = models::JsonText(fleet, kIndent) + "\n";
   if (IsStore(paths.store) && data::ReadFile(paths.Fleet()) == text) return;
   data::WriteFileAtomically(paths.Fleet(), text);
 }
@@ -147,8 +144,7 @@ std::string PackResults(models::StudyRecord record) {
       if (restores && RowsOf(without) == all) holdout.train_rows.clear();
     }
   }
-  return Gzip(models::ToJson(record).dump(
-      -1, ' ', false, models::RecordJson::error_handler_t::replace));
+  return Gzip(models::JsonText(record, -1));
 }
 
 std::string WhyNoMap(const std::string& component, const std::string& why) {

@@ -44,18 +44,33 @@ template <typename T>
 struct IsInline<Inline<T>> : std::true_type {};
 
 /// Lists the members of a struct, which are the keys of its JSON: once, for
-/// writing, reading, comparing and the schema's test. Only all of them, in the
-/// order of their declaration, compile. At namespace scope.
-#define ERRMAP_RECORD(Struct, ...)                            \
-  template <typename Self>                                    \
-  requires std::same_as<std::remove_const_t<Self>, Struct>    \
-  auto MembersOf(Self& self) {                                \
-    auto& [__VA_ARGS__] = self;                               \
-    return std::tie(__VA_ARGS__);                             \
-  }                                                           \
-  constexpr std::string_view KeysOf(const Struct* /*type*/) { \
-    return #__VA_ARGS__;                                      \
+/// writing, reading, comparing and the schema's test. Compiles only if each is
+/// a member and none is missing. At namespace scope.
+#define ERRMAP_RECORD(Struct, ...)                               \
+  template <typename Self>                                       \
+  requires std::same_as<std::remove_const_t<Self>, Struct>       \
+  auto MembersOf(Self& self) {                                   \
+    [[maybe_unused]] auto& [__VA_ARGS__] = self;                 \
+    return std::tie(ERRMAP_EXPAND(ERRMAP_OF_SELF(__VA_ARGS__))); \
+  }                                                              \
+  constexpr std::string_view KeysOf(const Struct* /*type*/) {    \
+    return #__VA_ARGS__;                                         \
   }
+
+// self.a, self.b, ...: each step expands the next name, 256 at most.
+#define ERRMAP_OF_SELF(member, ...) \
+  self.member __VA_OPT__(, ERRMAP_AGAIN ERRMAP_PARENTHESES(__VA_ARGS__))
+#define ERRMAP_AGAIN() ERRMAP_OF_SELF
+#define ERRMAP_PARENTHESES ()
+#define ERRMAP_EXPAND(...) \
+  ERRMAP_EXPAND_64(ERRMAP_EXPAND_64(ERRMAP_EXPAND_64(__VA_ARGS__)))
+#define ERRMAP_EXPAND_64(...) \
+  ERRMAP_EXPAND_16(ERRMAP_EXPAND_16(ERRMAP_EXPAND_16(__VA_ARGS__)))
+#define ERRMAP_EXPAND_16(...) \
+  ERRMAP_EXPAND_4(ERRMAP_EXPAND_4(ERRMAP_EXPAND_4(__VA_ARGS__)))
+#define ERRMAP_EXPAND_4(...) \
+  ERRMAP_EXPAND_1(ERRMAP_EXPAND_1(ERRMAP_EXPAND_1(__VA_ARGS__)))
+#define ERRMAP_EXPAND_1(...) __VA_ARGS__
 
 template <typename T>
 concept Record = requires(const T& record) {

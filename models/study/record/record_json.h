@@ -1,53 +1,144 @@
 #pragma once
 
-// How records become JSON and back. Not for public headers: it needs
-// nlohmann's library.
+// How records become JSON and back. Not for public headers. Only those who
+// touch a RecordJson themselves need nlohmann's library.
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <tuple>
 #include <utility>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
-#include "data/text.h"
 #include "models/study/record/record.h"
 
 namespace errmap::models {
 
 using RecordJson = nlohmann::ordered_json;
 
-template <typename T>
-RecordJson ToJson(const T& value);
-
+// What all records are written with and read by: one object of JSON each,
+// compiled once.
 namespace record_json {
 
-template <typename T>
-void ReadInline(const RecordJson& json, T* value);
+void SetNull(RecordJson* json);
+void Set(double value, RecordJson* json);
+void Set(bool value, RecordJson* json);
+void Set(std::int64_t value, RecordJson* json);
+void Set(std::uint64_t value, RecordJson* json);
+void Set(std::string_view value, RecordJson* json);
+void SetObject(RecordJson* json);
+void SetArray(RecordJson* json);
+/// The member of that name, made where there is none.
+RecordJson* Member(std::string_view key, RecordJson* object);
+RecordJson* Append(RecordJson* array);
+
+bool IsObject(const RecordJson& json);
+bool IsArray(const RecordJson& json);
+bool IsText(const RecordJson& json);
+bool IsInteger(const RecordJson& json);
+std::size_t Size(const RecordJson& json);
+const RecordJson& At(const RecordJson& array, std::size_t i);
+/// Null where it is no object or has no such member.
+const RecordJson* Find(const RecordJson& json, std::string_view key);
+void ForMembers(const RecordJson& object,
+                const std::function<void(std::string name,
+                                         const RecordJson& value)>& visit);
+// Whether it is of the type; what is not leaves *value as it is.
+bool Get(const RecordJson& json, double* value);
+bool Get(const RecordJson& json, bool* value);
+bool Get(const RecordJson& json, std::int64_t* value);
+bool Get(const RecordJson& json, std::uint64_t* value);
+bool Get(const RecordJson& json, std::string* value);
+bool IsWord(const RecordJson& json, std::string_view word);
 
 template <typename T>
 concept Named = std::is_enum_v<T> && requires(T value) {
   ToString(value);
 };
 
+/// The integer type of JSON that holds T.
+template <std::integral T>
+using Wide =
+    std::conditional_t<std::is_signed_v<T>, std::int64_t, std::uint64_t>;
+
+/// A tree of JSON for those who do not know its type.
+class Tree {
+ public:
+  Tree();
+  ~Tree();
+  Tree(const Tree&) = delete;
+  Tree& operator=(const Tree&) = delete;
+  /// False where it is no JSON.
+  bool Parse(std::string_view text);
+  /// Indented by so many spaces, or in one line (-1). Bytes that are no UTF-8
+  /// are replaced.
+  std::string Text(int indent) const;
+  RecordJson* root() { return root_.get(); }
+
+ private:
+  std::unique_ptr<RecordJson> root_;
+};
+
+template <typename T>
+void Write(const T& value, RecordJson* json);
+
 template <typename T>
 void Add(const T& record, RecordJson* json) {
   VisitMembers(record, [&](std::string_view key, const auto& member) {
-    using Member = std::decay_t<decltype(member)>;
-    if constexpr (IsInline<Member>::value) {
+    using Held = std::decay_t<decltype(member)>;
+    if constexpr (IsInline<Held>::value) {
       if constexpr (requires { member.value.has_value(); }) {
         if (member.value) Add(*member.value, json);
       } else {
         Add(member.value, json);
       }
-    } else if constexpr (IsLeftOut<Member>::value) {
-      if (member) (*json)[std::string(key)] = ToJson(*member);
+    } else if constexpr (IsLeftOut<Held>::value) {
+      if (member) Write(*member, Member(key, json));
     } else {
-      (*json)[std::string(key)] = ToJson(member);
+      Write(member, Member(key, json));
     }
   });
+}
+
+/// What is not finite becomes null.
+template <typename T>
+void Write(const T& value, RecordJson* json) {
+  if constexpr (Record<T>) {
+    SetObject(json);
+    Add(value, json);
+  } else if constexpr (Named<T>) {
+    Set(std::string_view(ToString(value)), json);
+  } else if constexpr (std::floating_point<T>) {
+    Set(double{value}, json);
+  } else if constexpr (std::same_as<T, bool>) {
+    Set(value, json);
+  } else if constexpr (std::integral<T>) {
+    Set(static_cast<Wide<T>>(value), json);
+  } else if constexpr (std::convertible_to<T, std::string_view>) {
+    Set(std::string_view(value), json);
+  } else if constexpr (requires { value.has_value(); }) {
+    if (value) {
+      Write(*value, json);
+    } else {
+      SetNull(json);
+    }
+  } else if constexpr (requires { std::tuple_size<T>::value; }) {
+    SetArray(json);
+    std::apply([&](const auto&... held) { (Write(held, Append(json)), ...); },
+               value);
+  } else if constexpr (requires { std::get<std::int64_t>(value); }) {
+    std::visit([&](const auto& held) { Write(held, json); }, value);
+  } else if constexpr (requires { value.front().second; }) {
+    SetObject(json);
+    for (const auto& [name, held] : value) Write(held, Member(name, json));
+  } else {
+    SetArray(json);
+    for (const auto& held : value) Write(held, Append(json));
+  }
 }
 
 template <typename T>
@@ -55,46 +146,27 @@ bool HasAnyKey(const RecordJson& json) {
   bool any = false;
   const T record{};
   VisitMembers(record, [&](std::string_view key, const auto& /*member*/) {
-    any = any || json.contains(key);
+    any = any || Find(json, key) != nullptr;
   });
   return any;
 }
 
 }  // namespace record_json
 
-/// What is not finite becomes null.
+/// What is not finite becomes null. Who calls it includes nlohmann's library.
+template <typename T, typename Json = RecordJson>
+Json ToJson(const T& value) {
+  Json json;
+  record_json::Write(value, &json);
+  return json;
+}
+
+/// The text of the same.
 template <typename T>
-RecordJson ToJson(const T& value) {
-  if constexpr (Record<T>) {
-    RecordJson json = RecordJson::object();
-    record_json::Add(value, &json);
-    return json;
-  } else if constexpr (record_json::Named<T>) {
-    return std::string(ToString(value));
-  } else if constexpr (std::floating_point<T>) {
-    return std::isfinite(value) ? RecordJson(value) : RecordJson();
-  } else if constexpr (requires { value.has_value(); }) {
-    return value ? ToJson(*value) : RecordJson();
-  } else if constexpr (requires { std::tuple_size<T>::value; }) {
-    RecordJson json = RecordJson::array();
-    std::apply(
-        [&](const auto&... held) { (json.push_back(ToJson(held)), ...); },
-        value);
-    return json;
-  } else if constexpr (requires { std::get<std::int64_t>(value); }) {
-    return std::visit([](const auto& held) { return ToJson(held); }, value);
-  } else if constexpr (requires { value.front().second; }) {
-    RecordJson json = RecordJson::object();
-    for (const auto& [name, held] : value) json[name] = ToJson(held);
-    return json;
-  } else if constexpr (!std::same_as<T, std::string> &&
-                       requires { value.begin(); }) {
-    RecordJson json = RecordJson::array();
-    for (const auto& held : value) json.push_back(ToJson(held));
-    return json;
-  } else {
-    return value;
-  }
+std::string JsonText(const T& value, int indent) {
+  record_json::Tree tree;
+  record_json::Write(value, tree.root());
+  return tree.Text(indent);
 }
 
 /// Reads what stands there and says whether it was of the right type; what is
@@ -102,94 +174,80 @@ RecordJson ToJson(const T& value) {
 /// nothing.
 template <typename T>
 bool FromJson(const RecordJson& json, T* value) {
+  using namespace record_json;
   if constexpr (Record<T>) {
     VisitMembers(*value, [&](std::string_view key, auto& member) {
-      using Member = std::decay_t<decltype(member)>;
-      if constexpr (IsInline<Member>::value) {
-        record_json::ReadInline(json, &member.value);
-      } else if (json.is_object()) {
-        const auto found = json.find(key);
-        if (found != json.end()) FromJson(*found, &member);
+      using Held = std::decay_t<decltype(member)>;
+      if constexpr (!IsInline<Held>::value) {
+        const RecordJson* found = Find(json, key);
+        if (found != nullptr) FromJson(*found, &member);
+      } else if constexpr (requires { member.value.has_value(); }) {
+        using Inlined = typename decltype(member.value)::value_type;
+        if (HasAnyKey<Inlined>(json)) FromJson(json, &member.value.emplace());
+      } else {
+        FromJson(json, &member.value);
       }
     });
-    return json.is_object();
-  } else if constexpr (record_json::Named<T>) {
-    if (!json.is_string()) return false;
-    constexpr int kMostEnumerators = 32;
+    return IsObject(json);
+  } else if constexpr (Named<T>) {
+    // No enumeration has more; where ToString knows none it says "".
+    constexpr int kMostEnumerators = 256;
     for (int i = 0; i < kMostEnumerators; ++i) {
-      const T candidate = static_cast<T>(i);
-      const std::string_view word = ToString(candidate);
-      if (word.empty() || json.get_ref<const std::string&>() != word) continue;
-      *value = candidate;
+      const std::string_view word = ToString(static_cast<T>(i));
+      if (word.empty() || !IsWord(json, word)) continue;
+      *value = static_cast<T>(i);
       return true;
     }
     return false;
   } else if constexpr (std::floating_point<T>) {
-    *value =
-        json.is_number() ? json.get<T>() : std::numeric_limits<T>::quiet_NaN();
-    if (!std::isfinite(*value)) *value = std::numeric_limits<T>::quiet_NaN();
-    return json.is_number();
-  } else if constexpr (std::same_as<T, bool>) {
-    if (json.is_boolean()) *value = json.get<bool>();
-    return json.is_boolean();
+    double read = std::numeric_limits<double>::quiet_NaN();
+    const bool is_number = Get(json, &read);
+    *value = std::isfinite(read) ? static_cast<T>(read)
+                                 : std::numeric_limits<T>::quiet_NaN();
+    return is_number;
+  } else if constexpr (std::same_as<T, bool> || std::same_as<T, std::string>) {
+    return Get(json, value);
   } else if constexpr (std::integral<T>) {
-    if (json.is_number_integer()) *value = json.get<T>();
-    return json.is_number_integer();
-  } else if constexpr (std::same_as<T, std::string>) {
-    if (!json.is_string()) return false;
-    *value = data::AsUtf8(json.get_ref<const std::string&>());
-    return true;
+    auto read = static_cast<Wide<T>>(*value);
+    const bool is_integer = Get(json, &read);
+    *value = static_cast<T>(read);
+    return is_integer;
   } else if constexpr (requires { value->has_value(); }) {
     typename T::value_type held{};
     if (FromJson(json, &held)) value->emplace(std::move(held));
     return true;
   } else if constexpr (requires { std::tuple_size<T>::value; }) {
-    if (!json.is_array()) return false;
+    if (!IsArray(json)) return false;
     std::size_t i = 0;
     const auto read = [&](auto& held) {
-      if (i < json.size()) FromJson(json[i], &held);
+      if (i < Size(json)) FromJson(At(json, i), &held);
       ++i;
     };
     std::apply([&](auto&... held) { (read(held), ...); }, *value);
     return true;
   } else if constexpr (requires { std::get<std::int64_t>(*value); }) {
-    if (json.is_string()) {
+    if (IsText(json)) {
       return FromJson(json, &value->template emplace<std::string>());
     }
-    return json.is_number_integer()
+    return IsInteger(json)
                ? FromJson(json, &value->template emplace<std::int64_t>())
                : FromJson(json, &value->template emplace<double>());
   } else if constexpr (requires { value->front().second; }) {
-    if (!json.is_object()) return false;
-    for (const auto& [name, held] : json.items()) {
-      value->emplace_back(data::AsUtf8(name),
+    if (!IsObject(json)) return false;
+    ForMembers(json, [&](std::string name, const RecordJson& held) {
+      value->emplace_back(std::move(name),
                           typename T::value_type::second_type{});
       FromJson(held, &value->back().second);
-    }
+    });
     return true;
   } else {
-    if (!json.is_array()) return false;
-    value->resize(json.size());
-    for (std::size_t i = 0; i < json.size(); ++i) {
-      FromJson(json[i], &(*value)[i]);
+    if (!IsArray(json)) return false;
+    value->resize(Size(json));
+    for (std::size_t i = 0; i < value->size(); ++i) {
+      FromJson(At(json, i), &(*value)[i]);
     }
     return true;
   }
 }
-
-namespace record_json {
-
-template <typename T>
-void ReadInline(const RecordJson& json, T* value) {
-  if constexpr (requires { value->has_value(); }) {
-    if (HasAnyKey<typename T::value_type>(json)) {
-      FromJson(json, &value->emplace());
-    }
-  } else {
-    FromJson(json, value);
-  }
-}
-
-}  // namespace record_json
 
 }  // namespace errmap::models

@@ -25,20 +25,18 @@ const PairRecord* FindPair(const ComponentRecord& component,
 
 std::string ToJsonText(const StudyRecord& record) {
   constexpr int kIndent = 1;
-  return ToJson(record).dump(
-             kIndent, ' ', false, RecordJson::error_handler_t::replace) +
-         "\n";
+  return JsonText(record, kIndent) + "\n";
 }
 
 StudyRecord FromJsonText(std::string_view text) {
   data::RequireShallowJson(text);
-  const RecordJson json = RecordJson::parse(text, nullptr, false);
-  if (json.is_discarded()) {
+  record_json::Tree json;
+  if (!json.Parse(text)) {
     throw data::InputError("is no JSON; errmap compare " +
                            data::ArgumentName("out") + " writes it");
   }
   StudyRecord record;
-  FromJson(json, &record);
+  FromJson(*json.root(), &record);
   constexpr std::string_view kSchema = kResultsSchema;
   if (record.schema != kSchema) {
     throw data::InputError(fmt::format(

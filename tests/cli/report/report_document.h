@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "models/study/record/record_json.h"
 #include "models/study/record/study_record.h"
 

@@ -1,0 +1,85 @@
+#include "models/study/record/record_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "data/text.h"
+
+namespace errmap::models::record_json {
+
+void SetNull(RecordJson* json) { *json = nullptr; }
+void Set(double value, RecordJson* json) {
+  *json = std::isfinite(value) ? RecordJson(value) : RecordJson();
+}
+void Set(bool value, RecordJson* json) { *json = value; }
+void Set(std::int64_t value, RecordJson* json) { *json = value; }
+void Set(std::uint64_t value, RecordJson* json) { *json = value; }
+void Set(std::string_view value, RecordJson* json) { *json = value; }
+void SetObject(RecordJson* json) { *json = RecordJson::object(); }
+void SetArray(RecordJson* json) { *json = RecordJson::array(); }
+
+RecordJson* Member(std::string_view key, RecordJson* object) {
+  return &(*object)[std::string(key)];
+}
+RecordJson* Append(RecordJson* array) { return &array->emplace_back(); }
+
+bool IsObject(const RecordJson& json) { return json.is_object(); }
+bool IsArray(const RecordJson& json) { return json.is_array(); }
+bool IsText(const RecordJson& json) { return json.is_string(); }
+bool IsInteger(const RecordJson& json) { return json.is_number_integer(); }
+std::size_t Size(const RecordJson& json) { return json.size(); }
+const RecordJson& At(const RecordJson& array, std::size_t i) {
+  return array[i];
+}
+
+const RecordJson* Find(const RecordJson& json, std::string_view key) {
+  if (!json.is_object()) return nullptr;
+  const auto found = json.find(key);
+  return found == json.end() ? nullptr : &*found;
+}
+
+void ForMembers(const RecordJson& object,
+                const std::function<void(std::string name,
+                                         const RecordJson& value)>& visit) {
+  for (const auto& [name, value] : object.items()) {
+    visit(data::AsUtf8(name), value);
+  }
+}
+
+bool Get(const RecordJson& json, double* value) {
+  if (json.is_number()) *value = json.get<double>();
+  return json.is_number();
+}
+bool Get(const RecordJson& json, bool* value) {
+  if (json.is_boolean()) *value = json.get<bool>();
+  return json.is_boolean();
+}
+bool Get(const RecordJson& json, std::int64_t* value) {
+  if (json.is_number_integer()) *value = json.get<std::int64_t>();
+  return json.is_number_integer();
+}
+bool Get(const RecordJson& json, std::uint64_t* value) {
+  if (json.is_number_integer()) *value = json.get<std::uint64_t>();
+  return json.is_number_integer();
+}
+bool Get(const RecordJson& json, std::string* value) {
+  if (!json.is_string()) return false;
+  *value = data::AsUtf8(json.get_ref<const std::string&>());
+  return true;
+}
+bool IsWord(const RecordJson& json, std::string_view word) {
+  return json.is_string() && json.get_ref<const std::string&>() == word;
+}
+
+Tree::Tree() : root_(std::make_unique<RecordJson>()) {}
+Tree::~Tree() = default;
+
+bool Tree::Parse(std::string_view text) {
+  *root_ = RecordJson::parse(text, nullptr, false);
+  return !root_->is_discarded();
+}
+
+std::string Tree::Text(int indent) const {
+  return root_->dump(indent, ' ', false, RecordJson::error_handler_t::replace);
+}
+
+}  // namespace errmap::models::record_json
