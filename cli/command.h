@@ -16,6 +16,7 @@ enum ExitStatus : int {
   kWrongCommandLine = 2,
   kUnusableInput = 3,
   kEveryFitFailed = 4,
+  kNothingJudged = 5,
   kInterrupted = 130,
 };
 
@@ -52,6 +53,7 @@ void AddVolumetricCommand(CLI::App* app, Run* run);
 void AddExportCommand(CLI::App* app, Run* run);
 void AddCostCommand(CLI::App* app, Run* run);
 void AddUpdateCommand(CLI::App* app, Run* run);
+void AddIso230Command(CLI::App* app, Run* run);
 void AddModelsCommand(CLI::App* app, Run* run);
 
 }  // namespace errmap::cli

@@ -188,9 +188,12 @@ void FlushFolder(const std::filesystem::path& folder) {
   if (descriptor.is_open()) fsync(descriptor.get());
 }
 
+enum class Flush { kNow, kLater };
+
 void ReplaceFile(const std::string& path,
                  std::string_view content,
-                 std::optional<mode_t> old_permissions) {
+                 std::optional<mode_t> old_permissions,
+                 Flush flush) {
   std::filesystem::path target = path;
   if (old_permissions.has_value()) {
     // A link keeps pointing where it does; the file behind it is replaced.
@@ -209,18 +212,19 @@ void ReplaceFile(const std::string& path,
   if (old_permissions && fchmod(file.get(), *old_permissions) != 0) {
     ThrowUnwritable(path, errno);
   }
-  if (fsync(file.get()) != 0) ThrowUnwritable(path, errno);
+  if (flush == Flush::kNow && fsync(file.get()) != 0) {
+    ThrowUnwritable(path, errno);
+  }
   if (file.Close() != 0) ThrowUnwritable(path, errno);
   if (rename(temporary.path().c_str(), target.c_str()) != 0) {
     ThrowUnwritable(path, errno);
   }
   temporary.Release();
+  if (flush == Flush::kLater) return;
   FlushFolder(target.has_parent_path() ? target.parent_path() : ".");
 }
 
-}  // namespace
-
-void WriteFileAtomically(const std::string& path, std::string_view content) {
+void WriteFile(const std::string& path, std::string_view content, Flush flush) {
   if (NamesOpenDescriptor(path)) {
     WriteDirectly(path, content);
     return;
@@ -228,13 +232,31 @@ void WriteFileAtomically(const std::string& path, std::string_view content) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) {
     if (errno != ENOENT) ThrowUnwritable(path, errno);
-    ReplaceFile(path, content, std::nullopt);
+    ReplaceFile(path, content, std::nullopt, flush);
   } else if (S_ISDIR(status.st_mode)) {
     ThrowUnwritable(path, EISDIR);
   } else if (S_ISREG(status.st_mode)) {
-    ReplaceFile(path, content, status.st_mode & kPermissionBits);
+    ReplaceFile(path, content, status.st_mode & kPermissionBits, flush);
   } else {
     WriteDirectly(path, content);
+  }
+}
+
+}  // namespace
+
+void WriteFileAtomically(const std::string& path, std::string_view content) {
+  WriteFile(path, content, Flush::kNow);
+}
+
+void WriteFileUnflushed(const std::string& path, std::string_view content) {
+  WriteFile(path, content, Flush::kLater);
+}
+
+void FlushFileSystemOf(const std::string& folder) {
+  const FileDescriptor descriptor(
+      open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!descriptor.is_open() || syncfs(descriptor.get()) != 0) {
+    ThrowUnwritable(folder, errno);
   }
 }
 

@@ -12,6 +12,14 @@ namespace errmap::data {
 /// Throws std::system_error naming the path; the old file is left as it was.
 void WriteFileAtomically(const std::string& path, std::string_view content);
 
+/// The same without the flush to disk, for many files before one
+/// FlushFileSystemOf: until then a power cut may leave them torn.
+void WriteFileUnflushed(const std::string& path, std::string_view content);
+
+/// Flushes all that was written to the file system that the folder is on.
+/// Throws std::system_error naming it.
+void FlushFileSystemOf(const std::string& folder);
+
 /// Removes from `folder` what a killed process had begun to write; files that
 /// another process is writing now stay, and what cannot be removed is let be.
 void RemoveAbandonedFiles(const std::string& folder);

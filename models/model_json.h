@@ -19,6 +19,9 @@ using ModelJson = nlohmann::ordered_json;
 
 inline constexpr const char* kModelSchema = "errmap-model-1";
 
+/// What an interval's units are where they are that.
+inline constexpr const char* kWholeSessions = "sessions";
+
 /// The key of an interval's half-width: "90", "95".
 inline std::string CoverageKey(double coverage) {
   constexpr double kPercent = 100.0;

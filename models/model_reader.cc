@@ -242,7 +242,8 @@ PredictionInterval ReadInterval(const Node& node) {
   PredictionInterval interval{.holdout = node.At("holdout").Text(),
                               .unit = "",
                               .units = node.At("groups").Count(),
-                              .levels = {}};
+                              .levels = {},
+                              .of_sessions = false};
   if (const auto unit = node.Find("unit")) interval.unit = unit->Text();
   std::vector<std::string> at_least;
   if (const auto keys = node.Find("at_least")) {
@@ -258,6 +259,10 @@ PredictionInterval ReadInterval(const Node& node) {
     }
     level.at_least = std::ranges::find(at_least, key) != at_least.end();
   }
+  const auto whole = node.Find("whole");
+  // Older files tell by the hold-out's name alone.
+  interval.of_sessions = whole ? whole->Text() == kWholeSessions
+                               : interval.holdout.starts_with("sessions");
   return interval;
 }
 

@@ -71,6 +71,7 @@ Json ToJson(const PredictionInterval& interval) {
     if (level.at_least) at_least.push_back(key);
   }
   json["at_least"] = std::move(at_least);
+  if (interval.of_sessions) json["whole"] = kWholeSessions;
   return json;
 }
 

@@ -27,6 +27,9 @@ struct PredictionInterval {
   std::string unit;           // "day", "cycle", "block of rows"
   Eigen::Index units = 0;     // at least 2
   std::vector<Level> levels;  // as kCoverages
+  /// Whether whole sessions were held out, by whatever name: groups that cut
+  /// the rows as sessions do are sessions.
+  bool of_sessions = false;
 };
 
 }  // namespace errmap::models

@@ -66,7 +66,7 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
                                    "models/study/rezero models/export "
     rooms["models/promise"] = rooms["models/study"] "models/study " \
                               "models/study/judgement models/study/record "
-    rooms["models/fleet"] = rooms["models/promise"]
+    rooms["models/fleet"] = rooms["models/promise"] "models/promise "
     rooms["models/kinematics"] = " models models/history "
     rooms["models/export"] = " models models/history models/polynomial " \
                              "models/net models/blend "

@@ -12,10 +12,13 @@ namespace errmap::models {
 struct MeasuredCost {
   std::int64_t code_bytes = 0;
   std::int64_t constant_bytes = 0;
+  // In CPU time, which stands still while the system runs something else.
   /// One step, of many made one after the other.
   double median_ns = 0.0;
-  /// The slowest of a hundred thousand steps made alone, less what reading the
-  /// clock takes: on a system that is not real-time, interrupts included.
+  /// Of a hundred thousand steps made alone, less what reading the clock takes:
+  /// what 99.9 % of them stay below, and the slowest. That one is mostly this
+  /// system's interrupts, which are counted as the program's.
+  double high_ns = 0.0;
   double worst_ns = 0.0;
 };
 

@@ -2,25 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
-#include <nlohmann/json.hpp>
-
-#include "data/formats/nesting.h"
-#include "data/input_error.h"
-#include "data/text.h"
-#include "fitting/least_squares/decompositions.h"
-#include "models/study/record/record_json.h"
 #include "stats/distributions.h"
 
 namespace errmap::models {
 namespace {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr Index kFewestSessions = 3;
 
 // What the spread common to all sensors counts in that of one, in sessions.
 constexpr double kPriorSessions = 1.0;
@@ -28,208 +17,140 @@ constexpr double kPriorSessions = 1.0;
 // days of simulated machines 1 instead of 3 has a corrected p below 0.0025.
 constexpr double kSensorWidening = 1.25;
 
-// Makes mean, weights and variance, by the inverse covariance P: value less
-// what the others tell is (x - mean)' P / diag(P), its variance 1 / diag(P).
-SensorRelations RegressOnOthers(const MatrixXd& values) {
-  // A channel that shows one value has no scatter; in units of the reading.
-  constexpr double kLeastVariance = 1e-5;
-  SensorRelations found;
-  found.mean = values.colwise().mean();
-  const MatrixXd centred = values.rowwise() - found.mean.transpose();
-  const Index size = values.cols();
-  const MatrixXd covariance =
-      centred.transpose() * centred / static_cast<double>(values.rows()) +
-      kLeastVariance * MatrixXd::Identity(size, size);
-  const MatrixXd precision =
-      covariance.llt().solve(MatrixXd::Identity(size, size));
-  found.variance = precision.diagonal().cwiseInverse();
-  found.weights = precision * found.variance.asDiagonal();
-  return found;
-}
-
-// Of the distances of one sensor's others to their usual one, what widens the
-// variance of its shift.
-Eigen::ArrayXXd Widening(const MatrixXd& distances, const VectorXd& usual) {
-  constexpr double kLeast = 1e-12;
-  return 1.0 +
-         distances.array().rowwise() / usual.array().max(kLeast).transpose();
-}
-
-std::vector<Index> SensorsOf(const data::Dataset& dataset) {
-  std::vector<Index> sensors;
-  for (Index i = 0; i < dataset.num_inputs(); ++i) {
-    const data::ColumnInfo& column = dataset.inputs()[std::size_t(i)];
-    if (!data::StartsWithIgnoringCase(column.name, "position")) {
-      sensors.push_back(i);
+// For each of m rows the nearest of a unit's, in time as shares of the longest
+// unit and in place as shares of all places.
+class Neighbours {
+ public:
+  Neighbours(const HeldOutErrors& errors,
+             const VectorXd& elapsed,
+             const VectorXd& position)
+      : elapsed_(elapsed), position_(position) {
+    double longest = 0.0;
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const HeldOutErrors::Unit& unit : errors.units) {
+      if (elapsed.size() > 0) {
+        longest = std::max(longest, unit.elapsed.maxCoeff());
+      }
+      if (position.size() == 0) continue;
+      low = std::min(low, unit.position.minCoeff());
+      high = std::max(high, unit.position.maxCoeff());
     }
+    if (longest > 0.0) per_time_ = 1.0 / longest;
+    if (high > low) per_place_ = 1.0 / (high - low);
   }
-  return sensors;
-}
 
-double MeanSquareOf(const VectorXd& residuals) {
-  return residuals.squaredNorm() / static_cast<double>(residuals.size());
-}
+  Eigen::ArrayXd Residuals(const HeldOutErrors::Unit& unit,
+                           Index num_rows) const {
+    Eigen::ArrayXd found(num_rows);
+    for (Index row = 0; row < num_rows; ++row) {
+      Eigen::ArrayXd far = Eigen::ArrayXd::Zero(unit.residuals.size());
+      if (per_time_ > 0.0) {
+        far += (per_time_ * (unit.elapsed.array() - elapsed_[row])).square();
+      }
+      if (per_place_ > 0.0) {
+        far += (per_place_ * (unit.position.array() - position_[row])).square();
+      }
+      Index nearest = 0;
+      far.minCoeff(&nearest);
+      found[row] = unit.residuals[nearest];
+    }
+    return found;
+  }
 
-// Of the newest `count` sessions.
+ private:
+  const VectorXd& elapsed_;
+  const VectorXd& position_;
+  double per_time_ = 0.0;
+  double per_place_ = 0.0;
+};
+
+// Of the newest `count` sessions, of each of which something is expected.
 MapJudgement JudgeNewest(const HeldOutErrors& held_out,
                          const std::vector<WatchedSession>& sessions,
                          std::size_t count) {
   const auto n = static_cast<double>(held_out.units.size());
   const auto k = static_cast<double>(count);
-  double offsets = 0.0;  // sum of squares
-  VectorXd logs(static_cast<Index>(held_out.units.size()));
-  Index filled = 0;
-  for (const HeldOutErrors::Unit& unit : held_out.units) {
-    const double offset = unit.residuals.mean();
-    offsets += offset * offset;
-    logs[filled++] = std::log(MeanSquareOf(unit.residuals));
-  }
-  double offset = 0.0;
+  double offset = 0.0;  // in the spread of the held-out ones
+  double logarithm = 0.0;
   double square = 0.0;
+  double expected = 0.0;
   for (std::size_t i = sessions.size() - count; i < sessions.size(); ++i) {
-    offset += sessions[i].offset / k;
-    square += sessions[i].mean_square / k;
+    const WatchedSession& session = sessions[i];
+    offset += session.offset / session.expected.offset / k;
+    logarithm += (std::log(session.mean_square) - session.expected.log_square) /
+                 session.expected.log_spread / k;
+    square += session.mean_square / k;
+    expected += session.expected.square / k;
   }
   MapJudgement found;
-  found.promised = held_out.rmse;
+  found.promised = std::max(held_out.rmse, std::sqrt(expected));
   found.found = std::sqrt(square);
-  if (!logs.allFinite() || !(offsets > 0.0)) return found;
-  const double t = offset / std::sqrt(offsets / n / k);
-  found.p_offset = stats::StudentTwoSided(t, n);
+  for (std::size_t i = sessions.size() - count; i < sessions.size(); ++i) {
+    found.offset += sessions[i].offset / k;
+  }
+  found.p_offset = stats::StudentTwoSided(offset * std::sqrt(k), n);
   // Mean squares differ by factors from day to day. How widely is known from n
   // days only: F with degrees of freedom estimated from them takes it as given,
   // and accused healthy days that were odd by a factor of 6 at p = 1e-6.
-  constexpr double kMostFreedom = 1000.0;
-  const double mean = logs.mean();
-  const double sd =
-      std::max(std::sqrt((logs.array() - mean).square().sum() / (n - 1.0)),
-               std::sqrt(2.0 / kMostFreedom));
-  const double t_rms =
-      (std::log(square) - mean) / (sd * std::sqrt(1.0 / k + 1.0 / n));
+  const double t_rms = logarithm / std::sqrt(1.0 / k + 1.0 / n);
   const double both = stats::StudentTwoSided(t_rms, n - 1.0);
   found.p_rms = t_rms > 0.0 ? 0.5 * both : 1.0 - 0.5 * both;
   found.p = std::min(1.0, 2.0 * std::min(found.p_offset, found.p_rms));
   return found;
 }
 
-RecordJson ToArray(const VectorXd& values) {
-  return ToJson(std::vector<double>(values.begin(), values.end()));
-}
-
-VectorXd ToVector(const RecordJson& json, Index size) {
-  std::vector<double> values;
-  FromJson(json, &values);
-  if (static_cast<Index>(values.size()) != size) {
-    throw data::InputError("has lists of other lengths than its columns");
-  }
-  return Eigen::Map<const VectorXd>(values.data(), size);
-}
-
-constexpr const char* kSchema = "errmap-relations-1";
-
 }  // namespace
 
-std::string SensorRelations::ToJsonText() const {
-  RecordJson names = RecordJson::array();
-  RecordJson rows = RecordJson::array();
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    names.push_back(
-        {{"name", columns[i].name}, {"unit", columns[i].unit.symbol}});
-    rows.push_back(ToArray(weights.row(Index(i)).transpose()));
+bool AreTooFew(const HeldOutErrors& errors,
+               Index rows,
+               const VectorXd& position) {
+  if (rows < kFewestRows) return true;
+  if (position.size() == 0) return false;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const HeldOutErrors::Unit& unit : errors.units) {
+    low = std::min(low, unit.position.minCoeff());
+    high = std::max(high, unit.position.maxCoeff());
   }
-  const RecordJson json = {{"schema", kSchema},
-                           {"columns", std::move(names)},
-                           {"mean", ToArray(mean)},
-                           {"weights", std::move(rows)},
-                           {"variance", ToArray(variance)},
-                           {"distance", ToArray(distance)},
-                           {"spread", ToArray(spread)},
-                           {"sessions", sessions}};
-  return json.dump(-1, ' ', false, RecordJson::error_handler_t::replace) + "\n";
+  return position.maxCoeff() - position.minCoeff() <
+         kLeastTravel * (high - low);
 }
 
-SensorRelations SensorRelations::FromJsonText(std::string_view text) {
-  data::RequireShallowJson(text);
-  const RecordJson json = RecordJson::parse(text, nullptr, false);
-  if (!json.is_object() || json.value("schema", RecordJson()) != kSchema) {
-    throw data::InputError("is not what compare wrote (errmap-relations-1)");
+ExpectedErrors ExpectedOf(const HeldOutErrors& errors,
+                          const VectorXd& elapsed,
+                          const VectorXd& position) {
+  ExpectedErrors expected;
+  const auto num_units = static_cast<Index>(errors.units.size());
+  if (num_units < kFewestSessions) return expected;
+  const Neighbours neighbours(errors, elapsed, position);
+  const Index num_rows = std::max<Index>(
+      {elapsed.size(), position.size(), Index{elapsed.size() == 0}});
+  Eigen::ArrayXd means(num_units);
+  Eigen::ArrayXd squares(num_units);
+  for (Index u = 0; u < num_units; ++u) {
+    const HeldOutErrors::Unit& unit = errors.units[static_cast<std::size_t>(u)];
+    const bool anywhere = elapsed.size() == 0 && position.size() == 0;
+    const Eigen::ArrayXd residuals = anywhere
+                                         ? unit.residuals.array()
+                                         : neighbours.Residuals(unit, num_rows);
+    means[u] = residuals.mean();
+    squares[u] = residuals.square().mean();
   }
-  SensorRelations found;
-  for (const RecordJson& column : json.value("columns", RecordJson::array())) {
-    std::string name;
-    std::string unit;
-    FromJson(column.value("name", RecordJson()), &name);
-    FromJson(column.value("unit", RecordJson()), &unit);
-    found.columns.push_back({.name = name, .unit = data::UnitOfSymbol(unit)});
-  }
-  const auto size = static_cast<Index>(found.columns.size());
-  found.mean = ToVector(json.value("mean", RecordJson()), size);
-  found.variance = ToVector(json.value("variance", RecordJson()), size);
-  found.distance = ToVector(json.value("distance", RecordJson()), size);
-  found.spread = ToVector(json.value("spread", RecordJson()), size);
-  found.weights.resize(size, size);
-  const RecordJson rows = json.value("weights", RecordJson::array());
-  if (!rows.is_array() || static_cast<Index>(rows.size()) != size) {
-    throw data::InputError("has lists of other lengths than its columns");
-  }
-  for (Index i = 0; i < size; ++i) {
-    found.weights.row(i) = ToVector(rows[std::size_t(i)], size).transpose();
-  }
-  FromJson(json.value("sessions", RecordJson()), &found.sessions);
-  return found;
-}
-
-std::optional<SensorRelations> LearnRelations(const data::Dataset& training) {
-  const std::vector<Index> sensors = SensorsOf(training);
-  const std::vector<Index> codes = training.session_codes();
-  const Index sessions =
-      codes.empty() ? 0 : *std::ranges::max_element(codes) + 1;
-  if (sensors.size() < 2 || sessions < kFewestSessions) return std::nullopt;
-  const MatrixXd values = training.input_values()(Eigen::all, sensors);
-  MatrixXd shifts(sessions, values.cols());
-  MatrixXd distances(sessions, values.cols());
-  Index used = 0;
-  for (Index session = 0; session < sessions; ++session) {
-    std::vector<Index> of_it;
-    std::vector<Index> others;
-    for (std::size_t row = 0; row < codes.size(); ++row) {
-      (codes[row] == session ? of_it : others).push_back(Index(row));
-    }
-    if (of_it.empty() || others.empty()) continue;
-    const SensorShifts left_out = ShiftsOf(
-        RegressOnOthers(values(others, Eigen::all)), values(of_it, Eigen::all));
-    shifts.row(used) = left_out.shift.transpose();
-    distances.row(used) = left_out.distance.transpose();
-    ++used;
-  }
-  if (used < kFewestSessions) return std::nullopt;
-  shifts.conservativeResize(used, Eigen::NoChange);
-  distances.conservativeResize(used, Eigen::NoChange);
-  SensorRelations found = RegressOnOthers(values);
-  for (const Index sensor : sensors) {
-    found.columns.push_back(training.inputs()[std::size_t(sensor)]);
-  }
-  found.sessions = used;
-  found.distance = distances.colwise().mean();
-  found.spread = (shifts.array().square() / Widening(distances, found.distance))
-                     .colwise()
-                     .mean()
-                     .sqrt()
-                     .transpose();
-  return found;
-}
-
-SensorShifts ShiftsOf(const SensorRelations& relations,
-                      const MatrixXd& values) {
-  const VectorXd mean = values.colwise().mean();
-  const VectorXd centred = mean - relations.mean;
-  SensorShifts found;
-  found.shift = relations.weights.transpose() * centred;
-  // x' P x of all sensors is that of the others and the shift's own.
-  const Eigen::ArrayXd scaled = found.shift.cwiseQuotient(relations.variance);
-  const double all = centred.dot(scaled.matrix());
-  found.distance = (all - found.shift.array() * scaled).max(0.0);
-  return found;
+  if (!(squares.minCoeff() > 0.0)) return expected;
+  // Few days may be alike by chance; those of simulated machines differ by this
+  // sd, which counts as so many sessions.
+  constexpr double kUsualSpread = 0.6;
+  constexpr double kPriorUnits = 2.0;
+  const Eigen::ArrayXd logs = squares.log();
+  const auto n = static_cast<double>(num_units);
+  expected.offset = std::sqrt(means.square().mean());
+  expected.square = squares.mean();
+  expected.log_square = logs.mean();
+  expected.log_spread = std::sqrt(((logs - logs.mean()).square().sum() +
+                                   kPriorUnits * kUsualSpread * kUsualSpread) /
+                                  (n - 1.0 + kPriorUnits));
+  return expected;
 }
 
 void JudgeSensors(const SensorRelations& relations,
@@ -240,13 +161,20 @@ void JudgeSensors(const SensorRelations& relations,
   const double common = std::exp(squares.cwiseMax(kLeast).array().log().mean());
   const auto n = static_cast<double>(relations.sessions);
   const Eigen::ArrayXd widening =
-      Widening(shifts.distance.transpose(), relations.distance).transpose();
+      relations.Widening(shifts.distance.transpose()).transpose();
+  const double missing =
+      relations.rows > 0
+          ? std::max(0.0,
+                     1.0 - static_cast<double>(session->rows) /
+                               static_cast<double>(relations.rows))
+          : 0.0;
   Index worst = 0;
   double largest = 0.0;
   for (Index i = 0; i < squares.size(); ++i) {
-    const double variance = widening[i] *
-                            (n * squares[i] + kPriorSessions * common) /
-                            (n + kPriorSessions);
+    const double variance =
+        widening[i] *
+        ((n * squares[i] + kPriorSessions * common) / (n + kPriorSessions) +
+         missing * relations.within[i]);
     const double t =
         std::abs(shifts.shift[i]) / (kSensorWidening * std::sqrt(variance));
     if (t <= largest) continue;
@@ -264,31 +192,25 @@ void JudgeSensors(const SensorRelations& relations,
 std::optional<MapJudgement> JudgeSessions(
     const HeldOutErrors& held_out,
     const std::vector<WatchedSession>& sessions) {
-  if (static_cast<Index>(held_out.units.size()) < kFewestSessions ||
-      sessions.empty()) {
+  if (sessions.empty() || !sessions.back().expected.known()) {
     return std::nullopt;
   }
   MapJudgement best = JudgeNewest(held_out, sessions, 1);
-  if (sessions.size() == 1) return best;
+  if (sessions.size() == 1 || !sessions[sessions.size() - 2].expected.known()) {
+    return best;
+  }
   const MapJudgement two = JudgeNewest(held_out, sessions, 2);
   if (two.p < best.p) best = two;
   best.p = std::min(1.0, 2.0 * best.p);
   return best;
 }
 
-std::vector<double> FalseDiscoveryRates(const std::vector<double>& p) {
-  std::vector<std::size_t> order(p.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return p[i]; });
-  std::vector<double> rates(p.size());
-  double least = 1.0;
-  for (std::size_t rank = order.size(); rank-- > 0;) {
-    least = std::min(least,
-                     p[order[rank]] * static_cast<double>(p.size()) /
-                         static_cast<double>(rank + 1));
-    rates[order[rank]] = least;
-  }
-  return rates;
+bool IsWorse(const MapJudgement& judgement, double indifference) {
+  return judgement.p < kSurelyChanged &&
+         judgement.found > judgement.promised + indifference &&
+         std::max(judgement.found,
+                  std::hypot(judgement.promised, judgement.offset)) >
+             (1.0 + kLeastWorse) * judgement.promised;
 }
 
 std::string_view ToString(WatchStatus status) {
@@ -301,6 +223,8 @@ std::string_view ToString(WatchStatus status) {
       return "sensor changed";
     case WatchStatus::kOutside:
       return "outside";
+    case WatchStatus::kTooFewRows:
+      return "too few rows";
     case WatchStatus::kNotJudged:
       return "not judged";
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -7,57 +8,56 @@
 
 #include <Eigen/Core>
 
-#include "data/measurements/dataset.h"
+#include "models/fleet/sensor_relations.h"
 #include "models/map_experience.h"
 
 // Whether a map still does what it promised, and its sensors still go together
-// as they did: statistics of whole sessions, each held against the sessions
-// that were held out when the map was made, and tried on healthy simulated
-// machines (tests/benchmarks/fleet_watch.py).
+// as they did: statistics of sessions, each held against what the sessions that
+// were held out when the map was made show of rows at such times and places,
+// and tried on healthy simulated machines (tests/benchmarks/watch_study.cc).
 
 namespace errmap::models {
 
-/// How the sensors of a component go together: what the others tell of each, by
-/// linear regression on them.
-struct SensorRelations {
-  std::vector<data::ColumnInfo> columns;  // (s) of the data, as in training
-  Eigen::VectorXd mean;                   // (s)
-  /// (s x s) value less what the others tell = (values - mean)' * weights.
-  Eigen::MatrixXd weights;
-  Eigen::VectorXd variance;  // (s) of that, row by row
-  /// (s) Mean over the sessions, each left out in turn, of how far the others
-  /// were from their own mean (SensorShifts::distance).
-  Eigen::VectorXd distance;
-  /// (s) RMS of those sessions' shifts, each over sqrt(1 + its distance /
-  /// `distance`): what is extrapolated far errs more.
-  Eigen::VectorXd spread;
-  Eigen::Index sessions = 0;
+/// What the held-out units show of rows at some times and places.
+struct ExpectedErrors {
+  static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  double offset = kNaN;      // RMS of the units' means, target's unit
+  double square = kNaN;      // mean of the units' mean squares
+  double log_square = kNaN;  // mean of their logarithms
+  double log_spread = kNaN;  // sd of these, shrunk to what is usual
 
-  std::string ToJsonText() const;
-  /// Throws data::InputError where it is not what ToJsonText wrote.
-  static SensorRelations FromJsonText(std::string_view text);
+  bool known() const { return log_square == log_square; }
 };
 
-/// Of the inputs that are no positions; nothing for fewer than two of them or
-/// than three sessions.
-std::optional<SensorRelations> LearnRelations(const data::Dataset& training);
+/// Of the rows of each unit that are nearest to these: `elapsed` (m) since the
+/// session began in errors.time_unit, or (0) where that is not known,
+/// `position` (m) or (0). Nothing is known from units without errors, or of
+/// fewer than kFewestSessions of them.
+ExpectedErrors ExpectedOf(const HeldOutErrors& errors,
+                          const Eigen::VectorXd& elapsed,
+                          const Eigen::VectorXd& position);
 
-/// The sensors of a session, by the mean of its rows.
-struct SensorShifts {
-  Eigen::VectorXd shift;     // (s) value less what the others tell, its unit
-  Eigen::VectorXd distance;  // (s) of the others, squared, after Mahalanobis
-};
-
-/// Over `values` (m x s).
-SensorShifts ShiftsOf(const SensorRelations& relations,
-                      const Eigen::MatrixXd& values);
+/// By two days nobody knows how days differ.
+inline constexpr Eigen::Index kFewestSessions = 3;
+/// Of fewer rows, or of less than this share of the travel, errmap check tells
+/// more: the mean of half a sweep is that of the map's own shape.
+inline constexpr Eigen::Index kFewestRows = 5;
+inline constexpr double kLeastTravel = 0.5;
+/// Whether these rows (`position` (m), or (0) where there are none) are so few.
+bool AreTooFew(const HeldOutErrors& errors,
+               Eigen::Index rows,
+               const Eigen::VectorXd& position);
 
 /// A session as it was found: what is kept of it for later.
 struct WatchedSession {
   std::string label = {};
   Eigen::Index rows = 0;
-  double offset = 0.0;         // mean of target less prediction, its unit
-  double mean_square = 0.0;    // of the same
+  double offset = 0.0;       // mean of target less prediction, its unit
+  double mean_square = 0.0;  // of the same
+  /// Of so many rows at these times; not known where they are too few, or the
+  /// map was not judged on whole sessions.
+  ExpectedErrors expected = {};
+  bool too_few = false;
   double outside_share = 0.0;  // of the rows, unlike the trained states
   /// The sensor that goes with the others least, its shift (its unit) and p,
   /// corrected for their number; NaN where nothing is known of sensors.
@@ -66,9 +66,9 @@ struct WatchedSession {
   double p_sensor = 1.0;
 };
 
-/// Fills in the sensor of a session: t statistics with the spread of the
-/// sessions, shrunk to their common one, wider the farther its state is from
-/// those trained on.
+/// Fills in the sensor of a session of so many rows: t statistics with the
+/// spread of the sessions, shrunk to their common one, wider the farther its
+/// state is from those trained on, and the fewer the rows.
 void JudgeSensors(const SensorRelations& relations,
                   const SensorShifts& shifts,
                   WatchedSession* session);
@@ -79,20 +79,24 @@ struct MapJudgement {
   double p_rms = 1.0;     // t of the mean squares' logarithms
   double p = 1.0;         // of both, and of one and two sessions
   double found = 0.0;     // RMSE of the sessions behind p
+  double offset = 0.0;    // mean error of the same
+  /// What held-out sessions show of such rows, or the promise if that is more.
   double promised = 0.0;
 };
 
-/// Judges the newest of `sessions` (oldest first, at least one) and the newest
-/// two together. Nothing where the map has fewer than three sessions held out.
+/// Judges the newest of `sessions` (oldest first, at least one), and it and the
+/// one before together. Nothing where nothing is expected of the newest.
 std::optional<MapJudgement> JudgeSessions(
     const HeldOutErrors& held_out, const std::vector<WatchedSession>& sessions);
 
-/// Benjamini and Hochberg (1995): the smallest share of false discoveries at
-/// which each would be one; as many as `p`.
-std::vector<double> FalseDiscoveryRates(const std::vector<double>& p);
-
-/// A discovery is one below this share of false ones among them.
-inline constexpr double kFalseDiscoveries = 0.05;
+/// A map is worse, or a sensor changed, where p is below: of each component by
+/// itself, whoever else is watched.
+inline constexpr double kSurelyChanged = 0.0025;
+/// What is found has to be above the promise by the difference that never
+/// matters; and it, or what its offset adds to the promise, by this share.
+inline constexpr double kLeastWorse = 0.2;
+/// `indifference` in the unit of the judgement.
+bool IsWorse(const MapJudgement& judgement, double indifference);
 
 /// A session of which a larger share is outside of the trained states is so.
 inline constexpr double kMostlyOutside = 0.5;
@@ -102,9 +106,11 @@ enum class WatchStatus {
   kWorse,
   kSensorChanged,  // its relation to the others
   kOutside,        // of the trained states: nothing is promised there
-  kNotJudged,      // no sessions were held out, or there is no promise
+  kTooFewRows,
+  kNotJudged,  // no sessions were held out, or there is no promise
 };
-/// "as promised", "worse", "sensor changed", "outside", "not judged".
+/// "as promised", "worse", "sensor changed", "outside", "too few rows", "not
+/// judged".
 std::string_view ToString(WatchStatus status);
 
 }  // namespace errmap::models

@@ -18,23 +18,17 @@ using Eigen::Vector3d;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// Mean and standard deviation of the runs in one direction; NaN where too few.
-struct Runs {
-  std::vector<double> deviations;
-
-  double mean() const {
-    double sum = 0.0;
-    for (const double deviation : deviations) sum += deviation;
-    return sum / static_cast<double>(deviations.size());
-  }
-  double sd() const {
-    double squares = 0.0;
-    for (const double deviation : deviations) {
-      squares += (deviation - mean()) * (deviation - mean());
-    }
-    return std::sqrt(squares / (static_cast<double>(deviations.size()) - 1.0));
-  }
-};
+Approaches ApproachesOf(const std::vector<double>& deviations) {
+  const Eigen::Map<const Eigen::ArrayXd> values(
+      deviations.data(), static_cast<Index>(deviations.size()));
+  const auto n = static_cast<double>(values.size());
+  const double mean = deviations.empty() ? kNaN : values.mean();
+  return {.runs = values.size(),
+          .mean = mean,
+          .sd = deviations.size() < 2
+                    ? kNaN
+                    : std::sqrt((values - mean).square().sum() / (n - 1.0))};
+}
 
 // Largest less smallest of what was added; NaN stays.
 class Range {
@@ -59,7 +53,7 @@ void Check(const PositioningTest& test) {
   if (n == 0 || test.positions.size() != n ||
       static_cast<Index>(test.upwards.size()) != n) {
     throw std::invalid_argument(
-        "PositioningFiguresOf: " + std::to_string(test.positions.size()) +
+        "PositioningPointsOf: " + std::to_string(test.positions.size()) +
         " positions, " + std::to_string(n) + " deviations and " +
         std::to_string(test.upwards.size()) + " directions");
   }
@@ -67,38 +61,90 @@ void Check(const PositioningTest& test) {
 
 }  // namespace
 
-PositioningFigures PositioningFiguresOf(const PositioningTest& test) {
+std::vector<PositioningPoint> PositioningPointsOf(const PositioningTest& test) {
   Check(test);
-  std::map<double, std::array<Runs, 2>> by_position;  // downwards, upwards
+  std::map<double, std::array<std::vector<double>, 2>> by_position;
   for (Index i = 0; i < test.deviations.size(); ++i) {
     const bool up = test.upwards[static_cast<std::size_t>(i)];
-    by_position[test.positions[i]][up ? 1 : 0].deviations.push_back(
-        test.deviations[i]);
+    by_position[test.positions[i]][up ? 1 : 0].push_back(test.deviations[i]);
   }
-  Range means;
-  Range both;
-  Range spread;
-  PositioningFigures figures{.num_positions =
-                                 static_cast<Index>(by_position.size())};
+  std::vector<PositioningPoint> points;
   for (const auto& [position, runs] : by_position) {
-    const auto& [down, up] = runs;
-    const double reversal = std::abs(up.mean() - down.mean());
-    both.Add(0.5 * (up.mean() + down.mean()));
-    for (const Runs* of : {&down, &up}) {
-      means.Add(of->mean());
-      spread.Add(of->mean() + 2.0 * of->sd());
-      spread.Add(of->mean() - 2.0 * of->sd());
-      figures.repeatability =
-          LargerOrNaN(figures.repeatability, 4.0 * of->sd());
-    }
-    figures.repeatability = LargerOrNaN(
-        figures.repeatability, 2.0 * up.sd() + 2.0 * down.sd() + reversal);
-    figures.reversal = LargerOrNaN(figures.reversal, reversal);
+    points.push_back({.position = position,
+                      .up = ApproachesOf(runs[1]),
+                      .down = ApproachesOf(runs[0])});
   }
-  figures.systematic = means.width();
+  return points;
+}
+
+PositioningFigures PositioningFiguresOf(const PositioningTest& test) {
+  return PositioningFiguresOf(PositioningPointsOf(test));
+}
+
+PositioningFigures PositioningFiguresOf(
+    const std::vector<PositioningPoint>& points) {
+  PositioningFigures figures;
+  figures.num_positions = static_cast<Index>(points.size());
+  Range both;
+  double reversals = 0.0;
+  for (const PositioningPoint& point : points) {
+    const double reversal = std::abs(point.reversal());
+    both.Add(0.5 * (point.up.mean + point.down.mean));
+    reversals += point.reversal();
+    figures.reversal = LargerOrNaN(figures.reversal, reversal);
+    figures.repeatability =
+        LargerOrNaN(figures.repeatability,
+                    2.0 * point.up.sd + 2.0 * point.down.sd + reversal);
+  }
   figures.mean_bidirectional = both.width();
+  figures.mean_reversal = reversals / static_cast<double>(points.size());
+  Range means;
+  Range spread;
+  const auto one_way = [&](Approaches PositioningPoint::*side) {
+    Range means_of_it;
+    Range spread_of_it;
+    PositioningFigures::OneWay found;
+    for (const PositioningPoint& point : points) {
+      const Approaches& of = point.*side;
+      for (Range* range : {&means, &means_of_it}) range->Add(of.mean);
+      for (Range* range : {&spread, &spread_of_it}) {
+        range->Add(of.mean + 2.0 * of.sd);
+        range->Add(of.mean - 2.0 * of.sd);
+      }
+      found.repeatability = LargerOrNaN(found.repeatability, 4.0 * of.sd);
+    }
+    found.systematic = means_of_it.width();
+    found.accuracy = spread_of_it.width();
+    return found;
+  };
+  figures.up = one_way(&PositioningPoint::up);
+  figures.down = one_way(&PositioningPoint::down);
+  figures.systematic = means.width();
   figures.accuracy = spread.width();
+  figures.repeatability = LargerOrNaN(
+      figures.repeatability,
+      LargerOrNaN(figures.up.repeatability, figures.down.repeatability));
   return figures;
+}
+
+std::vector<bool> ApproachedUpwards(const Eigen::VectorXd& positions) {
+  const Index n = positions.size();
+  std::vector<bool> upwards(static_cast<std::size_t>(n), true);
+  if (n < 2) return upwards;
+  const double far = 0.5 * (positions.maxCoeff() - positions.minCoeff());
+  const auto is_step = [&](double step) {
+    return step != 0.0 && std::abs(step) <= far;
+  };
+  for (Index i = 0; i < n; ++i) {
+    const double before = i > 0 ? positions[i] - positions[i - 1] : 0.0;
+    const double after = i + 1 < n ? positions[i + 1] - positions[i] : 0.0;
+    const double step = is_step(before)  ? before
+                        : is_step(after) ? after
+                        : before != 0.0  ? before
+                                         : after;
+    upwards[static_cast<std::size_t>(i)] = step >= 0.0;
+  }
+  return upwards;
 }
 
 std::vector<Diagonal> DiagonalsOf(const Vector3d& low,

@@ -17,6 +17,26 @@ struct PositioningTest {
   std::vector<bool> upwards;   // (n) approached in the positive direction
 };
 
+/// What approaches to one position from one side deviate by.
+struct Approaches {
+  Eigen::Index runs = 0;
+  double mean = 0.0;
+  double sd = 0.0;  // of n - 1; NaN of fewer than two runs
+};
+
+/// A target position.
+struct PositioningPoint {
+  double position = 0.0;
+  Approaches up;
+  Approaches down;
+
+  double reversal() const { return up.mean - down.mean; }
+};
+
+/// Ascending. Throws std::invalid_argument where the sizes do not agree or
+/// there is no deviation.
+std::vector<PositioningPoint> PositioningPointsOf(const PositioningTest& test);
+
 /// ISO 230-2:2014, clause 3, with the means and standard deviations (n - 1) of
 /// the runs at each target position and direction. NaN where runs of one
 /// direction, or fewer than two in a direction, leave a figure open.
@@ -33,11 +53,28 @@ struct PositioningFigures {
   double repeatability = 0.0;
   /// Bidirectional accuracy A: range of the means +- 2 s.
   double accuracy = 0.0;
+  double mean_reversal = 0.0;  // of the differences up less down, signed
+
+  /// The same of the runs in one direction: E, R = largest 4 s, A.
+  struct OneWay {
+    double systematic = 0.0;
+    double repeatability = 0.0;
+    double accuracy = 0.0;
+  };
+  OneWay up;
+  OneWay down;
 };
 
-/// Throws std::invalid_argument where the sizes do not agree or there is no
-/// deviation.
+/// Throws as PositioningPointsOf does.
 PositioningFigures PositioningFiguresOf(const PositioningTest& test);
+PositioningFigures PositioningFiguresOf(
+    const std::vector<PositioningPoint>& points);
+
+/// Whether each row approached its position upwards, from the order in which
+/// `positions` (n) were driven to: by the step before, or by the one after
+/// where a sweep begins, which a step of more than half of the travel or none
+/// does.
+std::vector<bool> ApproachedUpwards(const Eigen::VectorXd& positions);
 
 /// A straight line through the work volume (ISO 230-6:2002): a face diagonal
 /// where one axis stands, else a body diagonal.

@@ -90,6 +90,7 @@ std::optional<PredictionInterval> PromiseOf(const data::Dataset& dataset,
   const std::vector<Index> codes = AssignUnits(holdout, held, &units);
   interval.unit = units.name;
   interval.units = static_cast<Index>(units.labels.size());
+  interval.of_sessions = units.are_sessions;
   if (interval.units < 2) return std::nullopt;
   const VectorXd residuals = ResidualsOf(held, result);
   for (const double coverage : PredictionInterval::kCoverages) {

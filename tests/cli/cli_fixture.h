@@ -16,6 +16,7 @@ namespace errmap {
 inline constexpr int kFailure = 1;
 inline constexpr int kWrongCommandLine = 2;
 inline constexpr int kUnusable = 3;
+inline constexpr int kNothingJudged = 5;
 inline constexpr int kEveryFitFailed = 4;
 inline constexpr int kInterrupted = 130;
 

@@ -223,6 +223,7 @@ def documents(program):
         yield "map " + label, program.read(name)
     yield "evaluate", program.json("evaluate", "stepwise.json", "grouped.csv")
     yield "cost", program.json("cost", "stepwise.json")
+    yield "iso230", program.json("iso230", "grouped.csv", "--map", "stepwise.json")
 
     yield "check", program.json("check", "stepwise.json", "grouped.csv", statuses=(0, 4))
 
@@ -393,6 +394,7 @@ DEEP = {
         put("floors", "linear_lre_sd", "10"),
     ],
     "cost": [put("operations", "copies", -1), put("bytes", "state", None)],
+    "iso230": [put("measured", "A", -1.0), put("points", "measured", 0, "up", "runs", 0.5)],
     "evaluate": [put("summary", "rmse", ...), put("normality", "ppcc", ...)],
 }
 

@@ -1,12 +1,18 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/fleet/fleet_commands.h"
 #include "cli/fleet/store/deployments.h"
 #include "cli/fleet/store/gzip.h"
@@ -18,6 +24,7 @@
 #include "data/prepare_folder.h"
 #include "data/sha256.h"
 #include "data/text.h"
+#include "models/fleet/session_measures.h"
 #include "models/model_file.h"
 
 namespace errmap::cli {
@@ -25,7 +32,8 @@ namespace {
 
 struct DeployArguments {
   std::string store;
-  std::string component;
+  std::vector<std::string> components;
+  bool all = false;
   std::string model;
 };
 
@@ -43,106 +51,208 @@ std::string Unpacked(const fleet::StorePaths& paths,
   }
 }
 
-// What the component's map is by the store: its target and its file's hash.
+// What a component's map is by the store: its target and its file's hash.
 struct Recommended {
+  std::string component;
   std::string target;
-  std::string sha256;
+  std::string sha256 = {};  // "": none
+  std::string why_failed = {};
 };
-Recommended FindComponent(fleet::Database* store,
-                          const DeployArguments& arguments) {
-  fleet::Statement row = store->Prepare(
-      "SELECT target, maps.sha256, why FROM components LEFT JOIN maps ON "
-      "component = name WHERE name = ?");
-  row.With(arguments.component);
-  if (row.Next()) {
-    const std::string why = row.Text(2);
-    if (!why.empty()) {
-      throw data::InputError(fleet::WhyNoMap(arguments.component, why));
-    }
-    return {.target = row.Text(0), .sha256 = row.Text(1)};
+
+// Every component of the study, by name.
+std::map<std::string, Recommended> ComponentsIn(fleet::Database* store) {
+  fleet::Statement rows = store->Prepare(
+      "SELECT name, target, maps.sha256, why FROM components LEFT JOIN maps ON "
+      "component = name");
+  std::map<std::string, Recommended> found;
+  while (rows.Next()) {
+    found[rows.Text(0)] = {.component = rows.Text(0),
+                           .target = rows.Text(1),
+                           .sha256 = rows.Text(2),
+                           .why_failed = rows.Text(3)};
   }
-  throw UsageError(fmt::format(
-      "no component {} in {}; errmap query STORE \"SELECT name FROM "
-      "components\" lists them",
-      data::QuotedName(arguments.component),
-      data::PrintablePath(arguments.store)));
+  return found;
+}
+
+// Those that are asked for; of --all those that have a map.
+std::vector<Recommended> Asked(fleet::Database* store,
+                               const DeployArguments& arguments) {
+  const std::map<std::string, Recommended> known = ComponentsIn(store);
+  std::vector<Recommended> asked;
+  for (const auto& [name, component] : known) {
+    if (arguments.all && !component.sha256.empty()) asked.push_back(component);
+  }
+  std::set<std::string> named;
+  for (const std::string& name : arguments.components) {
+    const auto found = known.find(name);
+    if (found == known.end()) {
+      throw UsageError(fmt::format(
+          "no component {} in {}; errmap query STORE \"SELECT name FROM "
+          "components\" lists them",
+          data::QuotedName(name),
+          data::PrintablePath(arguments.store)));
+    }
+    if (!found->second.why_failed.empty()) {
+      throw data::InputError(fleet::WhyNoMap(name, found->second.why_failed));
+    }
+    if (named.insert(name).second) asked.push_back(found->second);
+  }
+  if (asked.empty()) {
+    throw data::InputError(data::PrintablePath(arguments.store) +
+                           ": no component has a map to deploy");
+  }
+  return asked;
 }
 
 std::string MapText(const fleet::StorePaths& paths,
-                    const DeployArguments& arguments,
+                    const std::string& model,
                     const Recommended& recommended) {
-  if (!arguments.model.empty()) {
-    return data::ReadFile(arguments.model, data::kMostTextOfPrograms);
-  }
-  const std::string text =
-      Unpacked(paths, arguments.component, fleet::kMapFile);
+  if (!model.empty()) return data::ReadFile(model, data::kMostTextOfPrograms);
+  const std::string& component = recommended.component;
+  const std::string text = Unpacked(paths, component, fleet::kMapFile);
   if (!recommended.sha256.empty() && data::Sha256(text) == recommended.sha256) {
     return text;
   }
   throw data::InputError(fmt::format(
       "{} has no recommended map, or it is not the one that was merged: run "
       "errmap merge again, or name one with --model",
-      data::QuotedName(arguments.component)));
+      data::QuotedName(component)));
 }
 
-fleet::Deployment DeploymentOf(const DeployArguments& arguments,
-                               const models::FittedModel& fitted) {
+// Keeps a text under its hash, which is returned; flushed by the caller.
+std::string Keep(const fleet::StorePaths& paths, const std::string& text) {
+  const std::string sha256 = data::Sha256(text);
+  const std::string path = paths.Map(sha256);
+  std::error_code ignored;
+  const bool is_kept = std::filesystem::exists(path, ignored) &&
+                       data::Sha256(data::ReadFile(path)) == sha256;
+  if (!is_kept) data::WriteFileUnflushed(path, text);
+  return sha256;
+}
+
+// A deployment, and what a person is told of it.
+struct Deployed {
+  fleet::Deployment deployment;
+  std::string promised;
+  std::string why_not_watched;
+};
+
+Deployed Prepare(const fleet::StorePaths& paths,
+                 const std::string& model,
+                 const std::string& since,
+                 const Recommended& recommended) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const std::string map = MapText(paths, model, recommended);
+  const models::FittedModel fitted =
+      models::ModelFromJson(map, model.empty() ? recommended.component : model);
+  if (fitted.target.name != recommended.target) {
+    throw data::InputError(
+        fmt::format("the map is of {}, the target of {} is {}",
+                    data::QuotedName(fitted.target.name),
+                    data::QuotedName(recommended.component),
+                    data::QuotedName(recommended.target)));
+  }
   const bool has_levels = fitted.interval && fitted.interval->levels.size() > 1;
-  return {
-      .component = arguments.component,
-      .since = fleet::NowText(),
-      .model = fitted.name,
-      .promised = fitted.held_out ? fitted.held_out->rmse : kNaN,
-      .within_95 = has_levels ? fitted.interval->levels[1].half_width : kNaN,
-      .shown_unit = fitted.target.unit.display_symbol,
-      .shown_scale = fitted.target.unit.display_scale};
+  Deployed deployed{
+      .deployment = {.component = recommended.component,
+                     .since = since,
+                     .map = Keep(paths, map),
+                     .model = fitted.name,
+                     .promised = fitted.held_out ? fitted.held_out->rmse : kNaN,
+                     .within_95 = has_levels
+                                      ? fitted.interval->levels[1].half_width
+                                      : kNaN},
+      .promised = "nothing, since no rows were held out",
+      .why_not_watched = models::WhyNotWatched(fitted)};
+  if (const double promised = deployed.deployment.promised;
+      std::isfinite(promised)) {
+    deployed.promised =
+        report::ErrorText(fitted.target.unit, promised).WithUnit(promised) +
+        " RMSE";
+  }
+  const std::string relations =
+      Unpacked(paths, recommended.component, fleet::kRelationsFile);
+  if (!relations.empty())
+    deployed.deployment.relations = Keep(paths, relations);
+  return deployed;
+}
+
+// The first to fail ends them all: nobody knows of what was written so far.
+std::vector<Deployed> PrepareAll(const fleet::StorePaths& paths,
+                                 const std::string& model,
+                                 const std::vector<Recommended>& asked) {
+  const std::string since = fleet::NowText();
+  const std::string folder =
+      std::filesystem::path(paths.Map("")).parent_path().string();
+  data::PrepareFolder(folder);
+  std::vector<Deployed> deployed(asked.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, asked.size(), [&](std::size_t i) {
+    deployed[i] = Prepare(paths, model, since, asked[i]);
+  });
+  data::FlushFileSystemOf(folder);
+  return deployed;
+}
+
+std::string DeployedText(const fleet::StorePaths& paths,
+                         const std::vector<Deployed>& all) {
+  if (all.size() == 1) {
+    const fleet::Deployment& deployment = all.front().deployment;
+    return fmt::format(
+        "{}: {} since {}, promised {}; its file: {}\n",
+        data::Printable(deployment.component, deployment.component.size()),
+        deployment.model,
+        deployment.since,
+        all.front().promised,
+        data::PrintablePath(paths.Map(deployment.map)));
+  }
+  return fmt::format(
+      "{} deployed since {}; their files: {}\n",
+      report::Count(std::ssize(all), "map"),
+      all.front().deployment.since,
+      data::PrintablePath(
+          std::filesystem::path(paths.Map("")).parent_path().string()));
+}
+
+// What errmap watch will not tell.
+void SayNotWatched(const std::vector<Deployed>& all) {
+  const auto unwatched =
+      std::ranges::find_if(all, [](const Deployed& deployed) {
+        return !deployed.why_not_watched.empty();
+      });
+  if (unwatched == all.end()) return;
+  const auto others = std::ranges::count_if(
+      unwatched + 1, all.end(), [](const Deployed& deployed) {
+        return !deployed.why_not_watched.empty();
+      });
+  const std::string& name = unwatched->deployment.component;
+  Say(fmt::format("errmap watch will not judge {}{}: {}",
+                  data::QuotedName(name),
+                  others > 0 ? fmt::format(" and {} more", others) : "",
+                  unwatched->why_not_watched));
 }
 
 int RunDeploy(const DeployArguments& arguments) {
+  if (arguments.all == !arguments.components.empty()) {
+    throw UsageError("name components, or --all for every one with a map");
+  }
+  if (!arguments.model.empty() && arguments.components.size() != 1) {
+    throw UsageError("--model is of one component: name that alone");
+  }
   const fleet::StorePaths paths{arguments.store};
   fleet::ReadFleet(paths);
   const fleet::StoreLock lock(paths);
   fleet::Database store = fleet::OpenStore(paths);
-  const Recommended recommended = FindComponent(&store, arguments);
-  const std::string map = MapText(paths, arguments, recommended);
-  const models::FittedModel fitted = models::ModelFromJson(
-      map, arguments.model.empty() ? arguments.component : arguments.model);
-  if (fitted.target.name != recommended.target) {
-    throw data::InputError(
-        fmt::format("the map is of {}, the component's target is {}",
-                    data::QuotedName(fitted.target.name),
-                    data::QuotedName(recommended.target)));
-  }
-  fleet::Deployment deployment = DeploymentOf(arguments, fitted);
-  deployment.map = data::Sha256(map);
-  const auto keep = [&](const std::string& text) {
-    const std::string path = paths.Map(data::Sha256(text));
-    data::PrepareFolder(std::filesystem::path(path).parent_path().string());
-    data::WriteFileAtomically(path, text);
-  };
-  keep(map);
-  const std::string relations =
-      Unpacked(paths, arguments.component, fleet::kRelationsFile);
-  if (!relations.empty()) {
-    deployment.relations = data::Sha256(relations);
-    keep(relations);
-  }
+  const std::vector<Deployed> all =
+      PrepareAll(paths, arguments.model, Asked(&store, arguments));
   // Files of a newer schema are refused before this; what was written so far
   // nobody knows of.
   fleet::ChangeStore(paths, lock, [&](fleet::Database* copy) {
-    fleet::WriteDeployment(copy, deployment);
+    for (const Deployed& deployed : all) {
+      fleet::WriteDeployment(copy, deployed.deployment);
+    }
   });
-  const report::ErrorText error(fitted.target.unit, deployment.promised);
-  PrintResult(fmt::format(
-      "{}: {} since {}, promised {}; its file: {}\n",
-      data::Printable(arguments.component, arguments.component.size()),
-      fitted.name,
-      deployment.since,
-      std::isfinite(deployment.promised)
-          ? error.WithUnit(deployment.promised) + " RMSE"
-          : "nothing, since no rows were held out",
-      data::PrintablePath(paths.Map(deployment.map))));
+  PrintResult(DeployedText(paths, all));
+  SayNotWatched(all);
   return kDone;
 }
 
@@ -155,9 +265,10 @@ void AddDeployCommand(CLI::App* app, Run* run) {
   command->add_option("STORE", arguments->store, "Folder with an errmap.sqlite")
       ->required()
       ->type_name("DIR");
-  command->add_option("COMPONENT", arguments->component, "Its name")
-      ->required()
+  command->add_option("COMPONENT", arguments->components, "Names of components")
       ->type_name("NAME");
+  command->add_flag(
+      "--all", arguments->all, "Every component that has a recommended map");
   command
       ->add_option("--model",
                    arguments->model,
@@ -166,9 +277,9 @@ void AddDeployCommand(CLI::App* app, Run* run) {
   command->footer(
       "The map is kept in the store's maps/ with what it promised, and errmap "
       "watch holds new\nmeasurements against it. What the component had before "
-      "is ended.\nExit status: 0 done, 2 no such component, 3 no map, no "
-      "store, or one of a newer errmap.\nExample: errmap deploy fleet \"m01/x, "
-      "down\"");
+      "is ended. Several are deployed\nall or none.\nExit status: 0 done, 2 no "
+      "such component, 3 no map, no store, or one of a newer errmap.\nExample: "
+      "errmap deploy fleet \"m01/x, down\"");
   command->callback([arguments, run] { run->status = RunDeploy(*arguments); });
 }
 

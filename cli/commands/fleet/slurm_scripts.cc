@@ -45,18 +45,16 @@ std::string ShardsScript(const SlurmJob& job) {
       "#SBATCH --array=0-{2}\n"
       "#SBATCH --ntasks=1\n"
       "#SBATCH --cpus-per-task={3}\n"
-      "#SBATCH --mem={4}M\n"
-      "#SBATCH --time={5}\n"
+      "#SBATCH --time={4}\n"
       "#SBATCH --requeue\n"
       "#SBATCH --open-mode=append\n"
-      "#SBATCH --output=\"{6}/%x-%A_%a.log\"\n"
-      "exec {0} compare --config {7} --out {8} \\\n"
-      "  --shard \"$SLURM_ARRAY_TASK_ID/{9}\" --jobs {3}\n",
+      "#SBATCH --output=\"{5}/%x-%A_%a.log\"\n"
+      "exec {0} compare --config {6} --out {7} \\\n"
+      "  --shard \"$SLURM_ARRAY_TASK_ID/{8}\" --jobs {3}\n",
       Quoted(job.program),
       job.plan.components,
       job.tasks - 1,
       job.cpus,
-      Mebibytes(job),
       TimeLimit(job),
       job.folder,
       Quoted(job.config),
@@ -70,7 +68,6 @@ std::string MergeScript(const SlurmJob& job) {
       "# Puts the shares together and says what is missing.\n"
       "#SBATCH --job-name=errmap-merge\n"
       "#SBATCH --ntasks=1\n"
-      "#SBATCH --mem=1024M\n"
       "#SBATCH --time=00:10:00\n"
       "#SBATCH --requeue\n"
       "#SBATCH --open-mode=append\n"
@@ -87,11 +84,17 @@ std::string SubmitScript(const SlurmJob& job) {
   return fmt::format(
       "#!/bin/sh\n"
       "set -eu\n"
-      "shards=$(sbatch --parsable {0}/shards.sh)\n"
+      "# A node of which Slurm was not told how much memory it has (1 MB) "
+      "refuses any\n# --mem: it is asked for where some node has so much.\n"
+      "largest=$(sinfo -h -o %m 2>/dev/null | tr -d + | sort -n | tail -n 1)\n"
+      "mem=\n"
+      "if [ \"${{largest:-0}}\" -ge {1} ]; then mem=--mem={1}M; fi\n"
+      "shards=$(sbatch --parsable $mem {0}/shards.sh)\n"
       "merge=$(sbatch --parsable --dependency=\"afterany:${{shards%%;*}}\" "
       "{0}/merge.sh)\n"
       "echo \"shares: job ${{shards%%;*}}, merge: job ${{merge%%;*}}\"\n",
-      Quoted(job.folder));
+      Quoted(job.folder),
+      Mebibytes(job));
 }
 
 }  // namespace errmap::cli

@@ -114,7 +114,8 @@ void AddSubmitCommand(CLI::App* app, Run* run) {
   command->footer(
       "Writes STORE/slurm/shards.sh, a job array, merge.sh, which runs after "
       "it whatever became of its\ntasks, and submit.sh, which submits both. "
-      "Time and memory are those of a dry run, with margins.\nExit status: 0 "
+      "Time and memory are those of a dry run, with margins; memory is asked "
+      "for where a node says\nthat it has so much.\nExit status: 0 "
       "done, 1 sbatch refused, 3 unusable study file.\nExample: errmap submit "
       "slurm --config fleet.toml --out fleet --tasks 64 --cpus 4");
   command->callback([arguments, run] {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,6 +16,7 @@
 #include "cli/fleet/store/watched_maps.h"
 #include "cli/json_blocks.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
@@ -69,16 +69,18 @@ Json WatchJson(const std::string& store,
                const std::vector<fleet::WatchedComponent>& components) {
   Json list = Json::array();
   for (const fleet::WatchedComponent& component : components) {
-    Json json = {{"name", component.deployment.component},
-                 {"status", ToString(component.status)},
-                 {"since", component.deployment.since},
-                 {"model", component.deployment.model},
-                 {"sessions", component.checks.size()},
-                 {"found", component.found},
-                 {"promised", component.deployment.promised},
-                 {"p_map", component.p_map},
-                 {"false_discovery_rate_map", component.rate_map},
-                 {"proposal", component.Proposal(store)}};
+    Json json = {
+        {"name", component.deployment.component},
+        {"status", ToString(component.status)},
+        {"since", component.deployment.since},
+        {"model", component.deployment.model},
+        {"sessions", component.checks.size()},
+        {"found", component.found},
+        {"promised", component.deployment.promised},
+        {"p_map", component.p_map},
+        {"expected",
+         component.judgement ? Json(component.judgement->promised) : Json()},
+        {"proposal", component.Proposal(store)}};
     if (component.examined) {
       const models::WatchedSession& newest = component.checks.back().session;
       json["session"] = newest.label;
@@ -87,7 +89,7 @@ Json WatchJson(const std::string& store,
       json["sensor"] = newest.sensor;
       json["sensor_shift"] = newest.sensor_shift;
       json["p_sensor"] = newest.p_sensor;
-      json["false_discovery_rate_sensor"] = component.rate_sensor;
+      json["rows"] = newest.rows;
     }
     list.push_back(std::move(json));
   }
@@ -96,27 +98,44 @@ Json WatchJson(const std::string& store,
 
 std::string WatchText(const std::string& store,
                       const std::vector<fleet::WatchedComponent>& components) {
-  std::map<std::string, int> counts;
   std::vector<fleet::WatchedComponent> told;
   std::string proposals;
   for (const fleet::WatchedComponent& component : components) {
-    ++counts[std::string(ToString(component.status))];
     if (component.status != WatchStatus::kAsPromised) told.push_back(component);
     const std::string proposal = component.Proposal(store);
     if (proposal.empty()) continue;
     const std::string& name = component.deployment.component;
     proposals += data::Printable(name, name.size()) + ": " + proposal + "\n";
   }
-  std::string text = report::Count(std::ssize(components), "component");
-  for (const auto& [status, count] : counts) {
-    text += fmt::format(", {} {}", count, status);
+  std::string text = fleet::WatchHeadline(components) + "\n";
+  if (!told.empty()) {
+    text += report::TerminalTable(fleet::WatchTable(told, true),
+                                  OutputTerminal().columns);
   }
-  text += fmt::format(
-      "; at most {:g} % of those named worse or changed are so by chance "
-      "(Benjamini-Hochberg)\n",
-      100.0 * models::kFalseDiscoveries);
-  if (!told.empty()) text += report::TerminalTable(fleet::WatchTable(told));
   return text + proposals;
+}
+
+// Worse goes before what could not be read, and that before what could not be
+// judged: silence would be taken for health.
+int StatusOf(const std::vector<fleet::WatchedComponent>& components) {
+  const auto any = [&](const auto& is) {
+    return std::ranges::any_of(components, is);
+  };
+  const auto has = [](WatchStatus status) {
+    return [=](const fleet::WatchedComponent& component) {
+      return component.status == status;
+    };
+  };
+  if (any(has(WatchStatus::kWorse))) return kEveryFitFailed;
+  if (!std::ranges::all_of(components, &fleet::WatchedComponent::examined)) {
+    return kUnusableInput;
+  }
+  return any([](const fleet::WatchedComponent& component) {
+    return component.status != WatchStatus::kNotJudged &&
+           component.status != WatchStatus::kTooFewRows;
+  })
+             ? kDone
+             : kNothingJudged;
 }
 
 int RunWatch(const WatchArguments& arguments) {
@@ -124,7 +143,7 @@ int RunWatch(const WatchArguments& arguments) {
   const fleet::FleetRecord study =
       fleet::ReadFleet(paths);  // before a lock is left there
   const fleet::StoreLock lock(paths);
-  fleet::Database store = fleet::OpenStore(paths);
+  fleet::Database store = fleet::OpenStore(paths, lock);
   const std::vector<fleet::Deployment> deployments =
       fleet::DeploymentsInUse(&store);
   const fleet::WatchedMaps watched = fleet::WatchMaps(
@@ -150,18 +169,17 @@ int RunWatch(const WatchArguments& arguments) {
   } else {
     const auto text =
         report::TableText(fleet::WatchTable(components), arguments.format);
-    PrintResult(text ? *text : WatchText(arguments.store, components));
+    if (text) {
+      PrintResult(*text);
+    } else {
+      PrintFitted(WatchText(arguments.store, components));
+    }
   }
-  if (std::ranges::any_of(components,
-                          [](const fleet::WatchedComponent& component) {
-                            return component.status == WatchStatus::kWorse;
-                          })) {
-    return kEveryFitFailed;
+  const int status = StatusOf(components);
+  if (status == kNothingJudged) {
+    Say("none of the maps could be judged: what is said of each tells why");
   }
-  // Silence would be taken for health.
-  const bool all_examined =
-      std::ranges::all_of(components, &fleet::WatchedComponent::examined);
-  return all_examined ? kDone : kUnusableInput;
+  return status;
 }
 
 }  // namespace
@@ -186,13 +204,15 @@ void AddWatchCommand(CLI::App* app, Run* run) {
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
   command->footer(
       "Each session's offset and RMS are held against the sessions held out "
-      "when the map was made\n(t statistics), each sensor against what "
-      "the others tell of it; over all components at most\n5 % of those named "
-      "worse or changed are so by chance. Sessions are kept in the store, "
-      "watch.html\ndraws them. A file is of the component whose data have its "
+      "when the map was made\n(t statistics; part of a session against the "
+      "same part of those), each sensor against what\nthe others tell of it. "
+      "A map is worse where p is below 0.005 and it errs 20 % more than\n"
+      "promised, whoever else is watched. Sessions are kept in the store, "
+      "watch.html draws them.\nA file is of the component whose data have its "
       "name and the most of its folders.\nExit status: 0 none is worse, 3 no "
       "store, one of a newer errmap, nothing deployed, no data of\nwhat is or "
-      "data that cannot be judged, 4 some map is worse than promised.\n"
+      "data that cannot be read, 4 some map is worse than promised, 5 nothing "
+      "could be judged.\n"
       "Example: errmap watch fleet september/");
   command->callback([arguments, run] { run->status = RunWatch(*arguments); });
 }

@@ -126,7 +126,8 @@ int RunReport(const ReportArguments& arguments) {
     PrintResult(report::ReportHtml(results,
                                    FiguresInFolder(results, arguments.folder)));
   } else if (!component.empty()) {
-    const std::string page = fleet::StorePaths::FolderOf(component) + ".html";
+    const std::string page =
+        fleet::StorePaths::FlatFolderOf(component) + ".html";
     ClaimedFolder folder(arguments.folder,
                          {page},
                          {ResultsPath(arguments.folder)},

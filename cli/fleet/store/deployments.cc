@@ -11,7 +11,8 @@ models::WatchStatus StatusNamed(const std::string& name) {
   for (const WatchStatus status : {WatchStatus::kAsPromised,
                                    WatchStatus::kWorse,
                                    WatchStatus::kSensorChanged,
-                                   WatchStatus::kOutside}) {
+                                   WatchStatus::kOutside,
+                                   WatchStatus::kTooFewRows}) {
     if (ToString(status) == name) return status;
   }
   return WatchStatus::kNotJudged;
@@ -74,23 +75,33 @@ void WriteDeployment(Database* store, const Deployment& deployment) {
 std::vector<Check> ChecksOf(Database* store, std::int64_t deployment) {
   Statement rows = store->Prepare(
       "SELECT session, rows, offset, mean_square, outside_share, sensor, "
-      "sensor_shift, p_sensor, rows_sha256, file, p_map, status FROM checks "
+      "sensor_shift, p_sensor, rows_sha256, file, p_map, status, "
+      "begins_sha256, expected_offset, expected_square, expected_log_square, "
+      "expected_log_spread FROM checks "
       "WHERE deployment = ? ORDER BY number");
   rows.With(deployment);
   std::vector<Check> found;
   while (rows.Next()) {
-    found.push_back({.session = {.label = rows.Text(0),
-                                 .rows = rows.Whole(1),
-                                 .offset = rows.Number(2),
-                                 .mean_square = rows.Number(3),
-                                 .outside_share = rows.Number(4),
-                                 .sensor = rows.Text(5),
-                                 .sensor_shift = rows.Number(6),
-                                 .p_sensor = rows.Number(7)},
-                     .rows_sha256 = rows.Text(8),
-                     .file = rows.Text(9),
-                     .p_map = rows.Number(10),
-                     .status = StatusNamed(rows.Text(11))});
+    const models::WatchStatus status = StatusNamed(rows.Text(11));
+    found.push_back(
+        {.session = {.label = rows.Text(0),
+                     .rows = rows.Whole(1),
+                     .offset = rows.Number(2),
+                     .mean_square = rows.Number(3),
+                     .expected = {.offset = rows.Number(13),
+                                  .square = rows.Number(14),
+                                  .log_square = rows.Number(15),
+                                  .log_spread = rows.Number(16)},
+                     .too_few = status == models::WatchStatus::kTooFewRows,
+                     .outside_share = rows.Number(4),
+                     .sensor = rows.Text(5),
+                     .sensor_shift = rows.Number(6),
+                     .p_sensor = rows.Number(7)},
+         .rows_sha256 = rows.Text(8),
+         .begins_sha256 = rows.Text(12),
+         .file = rows.Text(9),
+         .p_map = rows.Number(10),
+         .status = status});
   }
   return found;
 }
@@ -102,9 +113,22 @@ void WriteChecks(Database* store,
   Statement insert = store->Prepare(
       "INSERT INTO checks VALUES (?1, ?2, (SELECT ifnull(max(number), 0) + 1 "
       "FROM checks WHERE deployment = ?1), ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, "
-      "?11, ?12, ?13, ?14) ON CONFLICT (deployment, rows_sha256) DO UPDATE SET "
-      "at = excluded.at, p_map = excluded.p_map, status = excluded.status");
+      "?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, ?19) ON CONFLICT (deployment, "
+      "rows_sha256) DO UPDATE SET at = excluded.at, p_map = excluded.p_map, "
+      "status = excluded.status, begins_sha256 = excluded.begins_sha256, "
+      "expected_offset = excluded.expected_offset, "
+      "expected_square = excluded.expected_square, "
+      "expected_log_square = excluded.expected_log_square, "
+      "expected_log_spread = excluded.expected_log_spread");
+  Statement forget = store->Prepare(
+      "DELETE FROM checks WHERE deployment = ? AND begins_sha256 = ? AND rows "
+      "< ?");
   for (const Check& check : checks) {
+    forget
+        .With(deployment,
+              check.begins_sha256,
+              static_cast<std::int64_t>(check.session.rows))
+        .Run();
     insert
         .With(deployment,
               check.rows_sha256,
@@ -119,7 +143,12 @@ void WriteChecks(Database* store,
               check.session.sensor_shift,
               check.session.p_sensor,
               check.p_map,
-              ToString(check.status))
+              ToString(check.status),
+              NullIfEmpty(check.begins_sha256),
+              check.session.expected.offset,
+              check.session.expected.square,
+              check.session.expected.log_square,
+              check.session.expected.log_spread)
         .Run();
   }
 }

@@ -36,15 +36,23 @@ void WriteDeployment(Database* store, const Deployment& deployment);
 struct Check {
   models::WatchedSession session;
   std::string rows_sha256;
+  std::string begins_sha256 = {};  // of its first row
   std::string file;
   double p_map = 0.0;  // NaN: not judged
   models::WatchStatus status = models::WatchStatus::kNotJudged;
+
+  /// Whether this is the session of `part` when more of it was measured.
+  bool GoesOnFrom(const Check& part) const {
+    return !begins_sha256.empty() && begins_sha256 == part.begins_sha256 &&
+           session.rows > part.session.rows;
+  }
 };
 
 /// The sessions checked so far, oldest first.
 std::vector<Check> ChecksOf(Database* store, std::int64_t deployment);
 
-/// Adds checks, or puts them in the place of those of the same rows.
+/// Adds checks, or puts them in the place of those of the same rows, and of
+/// those that they go on from.
 void WriteChecks(Database* store,
                  std::int64_t deployment,
                  const std::vector<Check>& checks,

@@ -16,6 +16,7 @@
 #include "cli/report/number_text.h"
 #include "cli/report/plot.h"
 #include "cli/report/report_view.h"
+#include "cli/report/shell_word.h"
 #include "cli/report/table.h"
 
 namespace errmap::fleet {
@@ -65,8 +66,11 @@ std::string Paragraph(const std::string& html, const char* style = "soft") {
   return fmt::format("<p class=\"{}\">{}</p>\n", style, html);
 }
 
-std::string Collapsed(const std::string& title, const std::string& content) {
-  return fmt::format("<details><summary>{}</summary>\n{}</details>\n",
+std::string Collapsed(const std::string& title,
+                      const std::string& content,
+                      bool open = false) {
+  return fmt::format("<details{}><summary>{}</summary>\n{}</details>\n",
+                     open ? " open" : "",
                      report::HtmlText(title),
                      content);
 }
@@ -110,8 +114,8 @@ class FleetPage {
         report::HtmlText(title),
         report::kReportStyle,
         report::HtmlText(title));
-    html += Answer() + Matrix() + ByField(0) + ByField(1) + Worst() +
-            Failures() + All();
+    html += Answer() + All() + Matrix() + ByField(0) + ByField(1) + Worst() +
+            Failures();
     return html + Footer() + "</main>\n</body></html>\n";
   }
 
@@ -385,6 +389,18 @@ class FleetPage {
 
   // Of so many that a page holds no picture of each.
   static constexpr std::size_t kMostPictures = 1000;
+  // Of so many that the page begins with all of them.
+  static constexpr std::size_t kMostShown = 60;
+
+  // "unseen day", what the error is of.
+  static std::string Unseen(const ComponentSummary& summary) {
+    for (const models::SummaryHoldoutRecord& holdout : summary.holdouts) {
+      if (holdout.name == summary.recommendation->holdout) {
+        return "unseen " + holdout.unit_of_analysis;
+      }
+    }
+    return "";
+  }
 
   std::string All() const {
     const bool pictures = found_.summaries.size() <= kMostPictures;
@@ -400,18 +416,22 @@ class FleetPage {
       }
       rows += fmt::format(
           "<tr><td class=\"t\">{}</td><td class=\"t\">{}</td><td>{:.3g} {}</td>"
-          "<td>{}</td>{}<td class=\"t\">{}</td></tr>\n",
+          "<td class=\"t\">{}</td><td>{}</td>{}<td class=\"t\">{}</td><td "
+          "class=\"t\"><code>errmap deploy {} {}</code></td></tr>\n",
           Linked(summary),
           report::HtmlName(found.model),
           scale * found.rmse,
           report::HtmlText(report::PrettyUnit(summary.display.unit)),
+          report::HtmlText(Unseen(summary)),
           interval,
           pictures ? "<td class=\"t\">" +
                          report::IntervalPicture(
                              found.rmse, found.ci95, found.uncompensated) +
                          "</td>"
                    : "",
-          ToString(found.goal));
+          ToString(found.goal),
+          report::HtmlText(report::ShellWord(paths_.store)),
+          report::HtmlText(report::ShellWord(summary.name)));
     }
     if (rows.empty()) return "";
     return Collapsed(
@@ -420,9 +440,11 @@ class FleetPage {
             "<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
             "aria-label=\"All components\"><table><tr><th "
             "class=\"t\">component</th><th class=\"t\">use</th><th>error</th>"
-            "<th>95 %</th>{}<th class=\"t\">goal</th></tr>\n{}</table></div>",
+            "<th class=\"t\">of an</th><th>95 %</th>{}<th class=\"t\">goal</th>"
+            "<th class=\"t\">to hand it over</th></tr>\n{}</table></div>",
             pictures ? "<th class=\"t\">left of the error</th>" : "",
-            rows));
+            rows),
+        found_.summaries.size() <= kMostShown);
   }
 
   // Its page where that has been drawn.
@@ -433,7 +455,7 @@ class FleetPage {
       return report::HtmlName(summary.name);
     }
     return fmt::format("<a href=\"{}/{}\">{}</a>",
-                       report::HtmlText(StorePaths::FolderOf(summary.name)),
+                       report::HtmlText(paths_.FolderOf(summary.name)),
                        kPageFile,
                        report::HtmlName(summary.name));
   }

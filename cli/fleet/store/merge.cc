@@ -63,7 +63,7 @@ FleetSummaries MergeStore(const StorePaths& paths) {
   const StoreLock lock(paths);
   found = ReadSummaries(paths);
   ChangeStore(paths, lock, [&](Database* store) {
-    WriteSummaries(store, found.fleet, found.summaries);
+    WriteSummaries(store, paths, found.fleet, found.summaries);
   });
   DrawFleetReport(paths, found);
   return found;

@@ -109,8 +109,9 @@ double WithinOf(const models::SummaryRecommendationRecord& found,
 
 class SummaryWriter {
  public:
-  explicit SummaryWriter(Database* store)
-      : component_(store->Prepare(
+  SummaryWriter(Database* store, const StorePaths& paths)
+      : paths_(paths),
+        component_(store->Prepare(
             "INSERT INTO components VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?) "
             "ON CONFLICT (name) DO UPDATE SET study = excluded.study, "
             "status = excluded.status, why = excluded.why, "
@@ -144,7 +145,7 @@ class SummaryWriter {
               summary == nullptr ? std::string_view("missing")
                                  : ToString(found.status),
               Optional(found.why),
-              StorePaths::FolderOf(name),
+              paths_.FolderOf(name),
               component.data,
               found.sha256,
               found.rows,
@@ -244,6 +245,7 @@ class SummaryWriter {
     }
   }
 
+  const StorePaths& paths_;
   Statement component_;
   Statement field_;
   Statement holdout_;
@@ -336,7 +338,15 @@ void ChangeStore(const StorePaths& paths,
   }
 }
 
+Database OpenStore(const StorePaths& paths, const StoreLock& lock) {
+  Database store = OpenStore(paths);
+  if (VersionOf(&store, paths.Database()) == kStoreVersion) return store;
+  ChangeStore(paths, lock, [](Database*) {});
+  return OpenStore(paths);
+}
+
 void WriteSummaries(Database* store,
+                    const StorePaths& paths,
                     const FleetRecord& fleet,
                     const std::vector<models::ComponentSummary>& summaries) {
   std::map<std::string_view, const models::ComponentSummary*> by_name;
@@ -366,7 +376,7 @@ void WriteSummaries(Database* store,
       .With(fleet.sha256)
       .Run();
   store->Prepare("DELETE FROM runs WHERE study <> ?").With(fleet.sha256).Run();
-  SummaryWriter writer(store);
+  SummaryWriter writer(store, paths);
   for (const FleetComponentRecord& component : fleet.components) {
     const auto found = by_name.find(component.name);
     writer.Write(fleet.sha256,

@@ -13,7 +13,7 @@ namespace errmap::fleet {
 
 /// Version of the tables in errmap.sqlite that this program writes; an older
 /// store is brought up to it by the next command that writes.
-inline constexpr std::int64_t kStoreVersion = 2;
+inline constexpr std::int64_t kStoreVersion = 3;
 
 /// The store's lock, held while it lives: merge, deploy and watch write one
 /// after another. Throws std::runtime_error where another has it for too long.
@@ -36,9 +36,14 @@ void ChangeStore(const StorePaths& paths,
                  const StoreLock& lock,
                  const std::function<void(Database*)>& change);
 
+/// Opens it for a command that writes later: one of an older version is brought
+/// up to this one first.
+Database OpenStore(const StorePaths& paths, const StoreLock& lock);
+
 /// Puts the summaries of a fleet in the place of those there were. Components
 /// that the study no longer has go, unless a deployment names them.
 void WriteSummaries(Database* store,
+                    const StorePaths& paths,
                     const FleetRecord& fleet,
                     const std::vector<models::ComponentSummary>& summaries);
 

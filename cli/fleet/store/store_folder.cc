@@ -50,6 +50,29 @@ std::vector<std::int64_t> RowsOf(const models::HoldoutRecord& holdout) {
   return rows;
 }
 
+// What is safe of a name as one of a file.
+std::string SafeName(const std::string& name) {
+  constexpr std::size_t kMostLength = 100;
+  std::string safe;
+  for (const char c : name.substr(0, kMostLength)) {
+    const bool is_safe = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+                         c == '.' || c == '=' || c == '+' || c == '-' ||
+                         c == '_';
+    safe += is_safe ? c : '_';
+  }
+  if (safe.starts_with('.')) safe.front() = '_';
+  return safe;
+}
+
+bool IsPlainName(const std::string& name) {
+  return !name.empty() && SafeName(name) == name;
+}
+
+std::string WithHash(const std::string& safe, const std::string& name) {
+  constexpr std::size_t kHashDigits = 12;
+  return safe + "-" + data::Sha256(name).substr(0, kHashDigits);
+}
+
 }  // namespace
 
 std::string StorePaths::Fleet() const {
@@ -71,21 +94,23 @@ std::string StorePaths::Map(const std::string& sha256) const {
   return (fs::path(store) / "maps" / (sha256 + ".json")).string();
 }
 
-std::string StorePaths::FolderOf(const std::string& component) {
-  constexpr std::size_t kMostLength = 100;
-  constexpr std::size_t kHashDigits = 12;
-  std::string folder;
-  for (const char c : component.substr(0, kMostLength)) {
-    const bool safe = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-                      c == '.' || c == '=' || c == '+' || c == '-' || c == '_';
-    folder += safe ? c : '_';
+std::string StorePaths::FlatFolderOf(const std::string& component) {
+  return "components/" + (IsPlainName(component)
+                              ? component
+                              : WithHash(SafeName(component), component));
+}
+
+std::string StorePaths::FolderOf(const std::string& component) const {
+  const std::string flat = FlatFolderOf(component);
+  const std::size_t slash = component.find('/');
+  const std::string machine = component.substr(0, slash);
+  std::error_code ignored;
+  if (slash == component.npos || !IsPlainName(machine) ||
+      fs::exists(fs::path(store) / flat, ignored)) {
+    return flat;
   }
-  if (folder == component && !folder.empty() && !folder.starts_with('.')) {
-    return "components/" + folder;
-  }
-  if (folder.starts_with('.')) folder.front() = '_';
-  return "components/" + folder + "-" +
-         data::Sha256(component).substr(0, kHashDigits);
+  return "components/" + machine + "/" +
+         WithHash(SafeName(component.substr(slash + 1)), component);
 }
 
 std::string StorePaths::InFolder(const std::string& component,

@@ -13,7 +13,8 @@ namespace errmap::fleet {
 /// Where the files of a store are:
 ///
 ///   fleet.json                          what was asked for
-///   components/COMPONENT/summary.json   at most 20 kB, written last
+///   components/COMPONENT/summary.json   at most 20 kB, written last; of
+///       machine/component in components/MACHINE/COMPONENT/
 ///   components/COMPONENT/results.json.gz
 ///   components/COMPONENT/map.json.gz    the recommended map
 ///   components/COMPONENT/relations.json.gz  how its sensors go together
@@ -32,8 +33,12 @@ struct StorePaths {
   /// Of maps that were deployed.
   std::string Map(const std::string& sha256) const;
   /// The component's folder below the store: its name where that is a plain
-  /// file name, else what is safe of it and a hash.
-  static std::string FolderOf(const std::string& component);
+  /// file name, else what is safe of it and a hash; of a name with a slash in
+  /// the folder of what stands before, such as a machine, but for stores that
+  /// have it beside the others already.
+  std::string FolderOf(const std::string& component) const;
+  /// Beside the others, whatever the name.
+  static std::string FlatFolderOf(const std::string& component);
   std::string InFolder(const std::string& component, const char* file) const;
 };
 

@@ -166,6 +166,16 @@ LEFT JOIN checks c ON c.deployment = d.id AND c.number =
   (SELECT max(number) FROM checks WHERE deployment = d.id)
 WHERE d.until IS NULL;
 )sql",
+    R"sql(
+CREATE INDEX deployments_in_use ON deployments(component) WHERE until IS NULL;
+ALTER TABLE checks ADD COLUMN begins_sha256 TEXT;  -- of the first row
+-- What the map's held-out sessions show of such rows: RMS of their means, mean
+-- of their mean squares, mean and sd of the logarithms of these.
+ALTER TABLE checks ADD COLUMN expected_offset REAL;
+ALTER TABLE checks ADD COLUMN expected_square REAL;
+ALTER TABLE checks ADD COLUMN expected_log_square REAL;
+ALTER TABLE checks ADD COLUMN expected_log_spread REAL;
+)sql",
 };
 
 }  // namespace errmap::fleet

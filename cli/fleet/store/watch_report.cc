@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -61,12 +62,16 @@ std::string Figure(const WatchedComponent& component, std::size_t number) {
 }  // namespace
 
 std::string WatchedComponent::Proposal(const std::string& store) const {
+  const std::string map =
+      report::ShellWord(StorePaths{store}.Map(deployment.map));
+  // update judges each session by a map that has seen the others.
   const auto measure = [&](const char* what) {
     return fmt::format(
-        "measure {}, then errmap update {} {} -o new.json; where that is "
+        "measure {}{}, then errmap update {} {} -o new.json; where that is "
         "better, errmap deploy {} {} --model new.json",
         what,
-        report::ShellWord(StorePaths{store}.Map(deployment.map)),
+        file_sessions < 2 ? " until the file has two sessions or more" : "",
+        map,
         report::ShellWord(file),
         report::ShellWord(store),
         report::ShellWord(deployment.component));
@@ -83,6 +88,10 @@ std::string WatchedComponent::Proposal(const std::string& store) const {
                          checks.back().session.sensor);
     case WatchStatus::kOutside:
       return measure("these states");
+    case WatchStatus::kTooFewRows:
+      return fmt::format("errmap check {} {} tells more from so few",
+                         map,
+                         report::ShellWord(file));
     case WatchStatus::kAsPromised:
     case WatchStatus::kNotJudged:
       break;
@@ -90,18 +99,40 @@ std::string WatchedComponent::Proposal(const std::string& store) const {
   return why_not;
 }
 
-report::Table WatchTable(const std::vector<WatchedComponent>& components) {
+std::string WatchHeadline(const std::vector<WatchedComponent>& components) {
+  std::map<std::string_view, int> counts;
+  int judged = 0;
+  for (const WatchedComponent& component : components) {
+    ++counts[ToString(component.status)];
+    judged += std::isfinite(component.p_map) ? 1 : 0;
+  }
+  std::string text = report::Count(std::ssize(components), "component");
+  for (const auto& [status, count] : counts) {
+    text += fmt::format(", {} {}", count, status);
+  }
+  if (judged == 0) return text;
+  // By its error and by its sensors.
+  return text + fmt::format(
+                    "; of {} that are healthy some {:.2g} would be "
+                    "named worse or changed by chance",
+                    judged,
+                    2.0 * models::kSurelyChanged * judged);
+}
+
+report::Table WatchTable(const std::vector<WatchedComponent>& components,
+                         bool brief) {
   report::Table table;
   table.columns = {{.name = "component", .is_number = false},
                    {.name = "status", .is_number = false},
-                   {.name = "sessions"},
                    {.name = "found"},
                    {.name = "promised"},
                    {.name = "unit", .is_number = false},
                    {.name = "p"},
                    {.name = "sensor", .is_number = false},
+                   {.name = "p sensor"},
                    {.name = "shift"},
-                   {.name = "p sensor"}};
+                   {.name = "sessions"}};
+  if (brief) table.columns.resize(table.columns.size() - 2);
   for (const WatchedComponent& component : components) {
     std::vector<report::Cell> row{
         report::Cell(std::string_view(component.deployment.component)),
@@ -111,15 +142,15 @@ report::Table WatchTable(const std::vector<WatchedComponent>& components) {
       const models::WatchedSession& newest = component.checks.back().session;
       row.insert(
           row.end(),
-          {report::Cell(std::ssize(component.checks)),
-           report::Cell(report::Number{component.found, 3, scale}),
+          {report::Cell(report::Number{component.found, 3, scale}),
            report::Cell(
                report::Number{component.deployment.promised, 3, scale}),
            report::Cell(std::string_view(component.deployment.shown_unit)),
            report::Cell(report::P{component.p_map}),
            report::Cell(std::string_view(newest.sensor)),
+           report::Cell(report::P{newest.p_sensor}),
            report::Cell(report::Number{newest.sensor_shift, 3}),
-           report::Cell(report::P{newest.p_sensor})});
+           report::Cell(std::ssize(component.checks))});
     }
     row.resize(table.columns.size());
     table.rows.push_back(std::move(row));
@@ -128,28 +159,64 @@ report::Table WatchTable(const std::vector<WatchedComponent>& components) {
   return table;
 }
 
+namespace {
+
+// What was found first, the worst before the others.
+int Rank(const WatchedComponent& component) {
+  switch (component.status) {
+    case WatchStatus::kWorse:
+      return 0;
+    case WatchStatus::kSensorChanged:
+      return 1;
+    case WatchStatus::kOutside:
+      return 2;
+    default:
+      return 3;
+  }
+}
+
+// A row for each of whom something is to be done.
+report::Table ToDo(const std::string& store,
+                   const std::vector<WatchedComponent>& sorted) {
+  report::Table table;
+  table.columns = {{.name = "component", .is_number = false},
+                   {.name = "verdict", .is_number = false},
+                   {.name = "map", .is_number = false},
+                   {.name = "found"},
+                   {.name = "promised"},
+                   {.name = "unit", .is_number = false},
+                   {.name = "what to do", .is_number = false}};
+  for (const WatchedComponent& component : sorted) {
+    const std::string proposal = component.Proposal(store);
+    if (proposal.empty()) continue;
+    const Deployment& deployment = component.deployment;
+    const double scale = deployment.shown_scale;
+    table.rows.push_back(
+        {report::Cell(std::string_view(deployment.component)),
+         report::Cell(ToString(component.status)),
+         report::Cell(std::string_view(deployment.model)),
+         report::Cell(report::Number{component.found, 3, scale}),
+         report::Cell(report::Number{deployment.promised, 3, scale}),
+         report::Cell(std::string_view(deployment.shown_unit)),
+         report::Cell(std::string_view(proposal))});
+  }
+  table.missing = "nothing is to be done";
+  return table;
+}
+
+}  // namespace
+
 std::string WatchHtml(const std::string& store,
                       const std::vector<WatchedComponent>& components) {
   constexpr std::size_t kMostFigures = 60;
   std::vector<WatchedComponent> sorted = components;
-  const auto rank = [](const WatchedComponent& component) {
-    return component.status == WatchStatus::kWorse           ? 0
-           : component.status == WatchStatus::kSensorChanged ? 1
-           : component.status == WatchStatus::kOutside       ? 2
-                                                             : 3;
-  };
-  std::ranges::stable_sort(sorted, {}, rank);
+  std::ranges::stable_sort(sorted, {}, Rank);
   std::string figures;
-  std::string proposals;
   std::size_t number = 0;
   for (const WatchedComponent& component : sorted) {
-    if (rank(component) < 3 && number < kMostFigures) {
+    if (Rank(component) < 3 && number < kMostFigures) {
       figures += Figure(component, ++number);
     }
-    const std::string proposal = component.Proposal(store);
-    if (proposal.empty()) continue;
-    proposals += "<li>" + report::HtmlName(component.deployment.component) +
-                 ": " + report::HtmlText(proposal) + "</li>\n";
   }
   const std::string title = fmt::format(
       "Maps watched: {}", report::Count(std::ssize(components), "component"));
@@ -159,18 +226,22 @@ std::string WatchHtml(const std::string& store,
       "initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" "
       "content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
       "data:\">\n<title>{0}</title>\n<style>{1}</style></head>\n<body>\n"
-      "<header><h1>{0}</h1></header>\n<main>\n{2}<div "
-      "class=\"figures\">{3}</div>\n{4}<p class=\"soft small\">p by t "
-      "statistics of whole sessions against those held out when the map was "
-      "made; at most {5:g} % of the components that are named worse or changed "
-      "are so by chance (Benjamini and Hochberg 1995).</p>\n</main>\n"
-      "</body></html>\n",
+      "<header><h1>{0}</h1></header>\n<main>\n<div class=\"card\"><p "
+      "class=\"sentence\">{2}.</p></div>\n{3}<div "
+      "class=\"figures\">{4}</div>\n<details><summary>All "
+      "components</summary>\n{5}</details>\n<p class=\"soft small\">p by t "
+      "statistics of sessions against what those held out when the map was "
+      "made show of rows at such times and places; worse or changed is a "
+      "component whose own p is below {6:g}, and worse one that errs {7:g} % "
+      "more than promised.</p>\n</main>\n</body></html>\n",
       report::HtmlText(title),
       report::kReportStyle,
-      proposals.empty() ? "" : "<ul>" + proposals + "</ul>\n",
+      report::HtmlText(WatchHeadline(components)),
+      report::HtmlTable(ToDo(store, sorted)),
       figures,
       report::HtmlTable(WatchTable(sorted)),
-      100.0 * models::kFalseDiscoveries);
+      models::kSurelyChanged,
+      100.0 * models::kLeastWorse);
 }
 
 }  // namespace errmap::fleet

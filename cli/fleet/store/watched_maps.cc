@@ -6,14 +6,16 @@
 #include <limits>
 #include <new>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "data/atomic_file.h"
 #include "data/sha256.h"
 #include "data/text.h"
+#include "models/fleet/session_measures.h"
 #include "models/model_file.h"
-#include "models/promise/applicability.h"
 #include "models/promise/map_rows.h"
+#include "models/study/study_defaults.h"
 
 namespace errmap::fleet {
 namespace {
@@ -23,35 +25,18 @@ using models::WatchStatus;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// Rows of one session, in the order of the file.
-struct SessionRows {
-  std::string label;
-  std::vector<Index> rows;  // of the data set
-};
-
-std::vector<SessionRows> SessionsOf(const models::FittedModel& fitted,
-                                    const models::MapRows& rows) {
-  const std::vector<models::Moment> moments =
-      models::MomentsOf(fitted, rows.table, rows.dataset.rows(), {});
-  std::vector<SessionRows> sessions;
-  for (std::size_t i = 0; i < moments.size(); ++i) {
-    if (sessions.empty() || sessions.back().label != moments[i].session) {
-      sessions.push_back({.label = moments[i].session, .rows = {}});
-    }
-    sessions.back().rows.push_back(static_cast<Index>(i));
-  }
-  return sessions;
-}
-
-std::string HashOf(const data::Dataset& dataset, const SessionRows& session) {
+// Of the session's first `count` rows.
+std::string HashOf(const data::Dataset& dataset,
+                   const models::MeasuredSession& session,
+                   std::size_t count) {
   data::Sha256Stream hash;
   // The same rows in another unit differ in their last bits.
   const auto add = [&](double value) {
     const auto rounded = static_cast<float>(value);
     hash.Add({reinterpret_cast<const char*>(&rounded), sizeof rounded});
   };
-  hash.Add(session.label);
-  for (const Index row : session.rows) {
+  hash.Add(session.session.label);
+  for (const Index row : std::span(session.rows).first(count)) {
     add(dataset.target_values()[row]);
     for (Index i = 0; i < dataset.num_inputs(); ++i) {
       add(dataset.input_values()(row, i));
@@ -79,92 +64,31 @@ class Examiner {
         models::ReadForMap(fitted_, file, models::MapColumns::kInputsAndTarget)
             .table,
         {});
-    const Eigen::MatrixXd form_inputs = fitted_.FormInputs(rows.dataset);
-    const std::vector<models::RowFlag> flags =
-        models::FlagRows(fitted_, rows.dataset.input_values(), form_inputs);
-    const Eigen::VectorXd residuals =
-        rows.dataset.target_values() - fitted_.PredictForm(form_inputs).errors;
-    const std::vector<const data::CsvColumn*> sensors = SensorsIn(rows.table);
     std::vector<Check> checks;
-    for (const SessionRows& session : SessionsOf(fitted_, rows)) {
-      Check& check = checks.emplace_back();
-      check.session = Statistics(session, residuals, flags);
-      check.rows_sha256 = HashOf(rows.dataset, session);
-      check.file = data::PrintablePath(file);
-      check.p_map = kNaN;
-      JudgeSensorsOf(session, rows.dataset, sensors, &check.session);
+    for (const models::MeasuredSession& measured : models::MeasureSessions(
+             fitted_, rows, relations_ ? &*relations_ : nullptr)) {
+      checks.push_back(
+          {.session = measured.session,
+           .rows_sha256 = HashOf(rows.dataset, measured, measured.rows.size()),
+           .begins_sha256 = HashOf(rows.dataset, measured, 1),
+           .file = data::PrintablePath(file),
+           .p_map = kNaN});
     }
     return checks;
   }
 
  private:
-  static models::WatchedSession Statistics(
-      const SessionRows& session,
-      const Eigen::VectorXd& residuals,
-      const std::vector<models::RowFlag>& flags) {
-    const Eigen::VectorXd of_it = residuals(session.rows);
-    const auto outside = std::ranges::count_if(session.rows, [&](Index row) {
-      return flags[static_cast<std::size_t>(row)].outside();
-    });
-    const auto n = static_cast<double>(of_it.size());
-    return {.label = session.label,
-            .rows = of_it.size(),
-            .offset = of_it.mean(),
-            .mean_square = of_it.squaredNorm() / n,
-            .outside_share = static_cast<double>(outside) / n,
-            .sensor = "",
-            .sensor_shift = kNaN,
-            .p_sensor = kNaN};
-  }
-
-  // Columns of the relations; none where the file lacks one.
-  std::vector<const data::CsvColumn*> SensorsIn(
-      const data::CsvTable& table) const {
-    std::vector<const data::CsvColumn*> sensors;
-    if (!relations_) return sensors;
-    for (const data::ColumnInfo& column : relations_->columns) {
-      const std::ptrdiff_t found = table.Find(column.name);
-      if (found < 0) return {};
-      sensors.push_back(&table.At(found));
-    }
-    return sensors;
-  }
-
-  void JudgeSensorsOf(const SessionRows& session,
-                      const data::Dataset& dataset,
-                      const std::vector<const data::CsvColumn*>& sensors,
-                      models::WatchedSession* found) const {
-    if (sensors.empty()) return;
-    Eigen::MatrixXd values(session.rows.size(), sensors.size());
-    Index kept = 0;
-    for (const Index row : session.rows) {
-      const auto in_file = static_cast<std::size_t>(
-          dataset.rows()[static_cast<std::size_t>(row)]);
-      for (std::size_t i = 0; i < sensors.size(); ++i) {
-        values(kept, static_cast<Index>(i)) = sensors[i]->values[in_file];
-      }
-      kept += values.row(kept).allFinite() ? 1 : 0;
-    }
-    if (kept == 0) return;
-    models::JudgeSensors(*relations_,
-                         models::ShiftsOf(*relations_, values.topRows(kept)),
-                         found);
-  }
-
   models::FittedModel fitted_;
   std::optional<models::SensorRelations> relations_;
 };
 
-bool HasSessionsHeldOut(const models::FittedModel& fitted) {
-  return fitted.held_out != nullptr && fitted.interval &&
-         fitted.interval->holdout.starts_with("sessions");
-}
-
-// New sessions after those that are known; the same ones are known already.
+// New sessions after those that are known. The same one is known already; one
+// that went on since takes the place of its part.
 void Append(std::vector<Check> found, std::vector<Check>* checks) {
   for (Check& check : found) {
-    const auto known =
-        std::ranges::find(*checks, check.rows_sha256, &Check::rows_sha256);
+    const auto known = std::ranges::find_if(*checks, [&](const Check& old) {
+      return old.rows_sha256 == check.rows_sha256 || check.GoesOnFrom(old);
+    });
     if (known == checks->end()) {
       checks->push_back(std::move(check));
     } else {
@@ -195,7 +119,9 @@ class Watcher {
     WatchedComponent& component = found_.components.back();
     try {
       const Examiner examiner(paths_, component.deployment);
-      Append(examiner.Examine(file.file), &component.checks);
+      std::vector<Check> found = examiner.Examine(file.file);
+      component.file_sessions = std::ssize(found);
+      Append(std::move(found), &component.checks);
       found_.as_studied += data::Sha256(data::ReadFile(file.file)) ==
                            file.deployment->data_sha256;
       component.file = file.file;
@@ -211,39 +137,25 @@ class Watcher {
   static void JudgeMap(const models::FittedModel& fitted,
                        WatchedComponent* component) {
     if (component->checks.empty()) return;
-    component->found = std::sqrt(component->checks.back().session.mean_square);
-    if (!HasSessionsHeldOut(fitted)) {
-      component->why_not =
-          "its map was not judged on whole sessions: it promises nothing for "
-          "another one";
+    const models::WatchedSession& newest = component->checks.back().session;
+    component->found = std::sqrt(newest.mean_square);
+    component->indifference = models::DefaultIndifference(fitted.target.unit);
+    if (component->why_not = models::WhyNotWatched(fitted);
+        !component->why_not.empty()) {
       return;
     }
     std::vector<models::WatchedSession> sessions;
     for (const Check& check : component->checks) {
       sessions.push_back(check.session);
     }
-    const auto judgement = models::JudgeSessions(*fitted.held_out, sessions);
-    if (!judgement) return;
-    component->p_map = judgement->p;
-    component->found = judgement->found;
+    component->judgement = models::JudgeSessions(*fitted.held_out, sessions);
+    if (!component->judgement) return;
+    component->p_map = component->judgement->p;
+    component->found = component->judgement->found;
   }
 
-  // One family of tests: every map, and every component's sensors.
   void Judge() {
-    std::vector<double> p;
-    for (const WatchedComponent& component : found_.components) {
-      if (std::isfinite(component.p_map)) p.push_back(component.p_map);
-      if (const double sensor = SensorP(component); std::isfinite(sensor)) {
-        p.push_back(sensor);
-      }
-    }
-    const std::vector<double> rates = models::FalseDiscoveryRates(p);
-    std::size_t next = 0;
     for (WatchedComponent& component : found_.components) {
-      component.rate_map =
-          std::isfinite(component.p_map) ? rates[next++] : kNaN;
-      component.rate_sensor =
-          std::isfinite(SensorP(component)) ? rates[next++] : kNaN;
       component.status = StatusOf(component);
       if (!component.examined) continue;
       component.checks.back().p_map = component.p_map;
@@ -251,21 +163,20 @@ class Watcher {
     }
   }
 
-  static double SensorP(const WatchedComponent& component) {
-    return component.examined ? component.checks.back().session.p_sensor : kNaN;
-  }
-
+  // By the component alone: what is found of it does not depend on who else is
+  // watched.
   static WatchStatus StatusOf(const WatchedComponent& component) {
     if (!component.examined) return WatchStatus::kNotJudged;
-    if (component.rate_map < models::kFalseDiscoveries &&
-        component.found > component.deployment.promised) {
+    const models::WatchedSession& newest = component.checks.back().session;
+    if (newest.too_few) return WatchStatus::kTooFewRows;
+    if (component.judgement &&
+        IsWorse(*component.judgement, component.indifference)) {
       return WatchStatus::kWorse;
     }
-    if (component.rate_sensor < models::kFalseDiscoveries) {
+    if (newest.p_sensor < models::kSurelyChanged) {
       return WatchStatus::kSensorChanged;
     }
-    if (component.checks.back().session.outside_share >
-        models::kMostlyOutside) {
+    if (newest.outside_share > models::kMostlyOutside) {
       return WatchStatus::kOutside;
     }
     return std::isfinite(component.p_map) ? WatchStatus::kAsPromised

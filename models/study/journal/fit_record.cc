@@ -185,7 +185,7 @@ ERRMAP_MEMBERS(Guards,
                error_min,
                error_max)
 ERRMAP_MEMBERS(PredictionInterval::Level, coverage, half_width, at_least)
-ERRMAP_MEMBERS(PredictionInterval, holdout, unit, units, levels)
+ERRMAP_MEMBERS(PredictionInterval, holdout, unit, units, levels, of_sessions)
 ERRMAP_MEMBERS(Applicability::Derived, column, min, max)
 ERRMAP_MEMBERS(Applicability,
                derived,

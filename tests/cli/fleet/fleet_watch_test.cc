@@ -124,6 +124,128 @@ TEST_F(Watch, WhatCannotBeDeployedOrFoundGetsOneLine) {
               HasSubstr("of no component with a map deployed"));
 }
 
+// A map is worse or not by itself; of few rows errmap check tells more, and
+// nothing that was judged is not health.
+TEST_F(Watch, PartsOfADay) {
+  ASSERT_EQ(Run({"deploy", "store", kName}).status, 0);
+  Simulate("healthy", 11);
+  WriteNewDays("healthy", "new");
+  const std::string whole = Read("new/m1/x_displacement_down.csv");
+  const auto give = [&](std::size_t rows) {
+    const std::vector<std::string> lines = SplitLines(whole);
+    std::string text;
+    for (std::size_t i = 0; i <= rows; ++i) text += lines[i] + "\n";
+    Write("new/m1/x_displacement_down.csv", text);
+  };
+  give(3);
+  const Outcome few = Run({"watch", "store", "new"});
+  EXPECT_EQ(few.status, kNothingJudged);
+  EXPECT_THAT(few.out,
+              AllOf(HasSubstr("1 too few rows"),
+                    HasSubstr("errmap check store/maps/")));
+  EXPECT_THAT(few.err, HasSubstr("none of the maps could be judged"));
+  give(40);
+  EXPECT_EQ(Watched("new", 0)["status"], "as promised");
+  // The day when it was whole takes the place of its parts.
+  Write("new/m1/x_displacement_down.csv", whole);
+  const Json day = Watched("new", 0);
+  EXPECT_EQ(day["sessions"], 1);
+  EXPECT_EQ(Rows("store", "SELECT rows FROM checks"),
+            Json::array({Json::array({day["rows"]})}));
+  EXPECT_THAT(Read("store/watch.html"),
+              HasSubstr("<p class=\"sentence\">1 component, 1 as promised"));
+}
+
+// Of one session update makes nothing.
+TEST_F(Watch, ProposesAnUpdateThatRuns) {
+  ASSERT_EQ(Run({"deploy", "store", kName}).status, 0);
+  Simulate("shifted", 11, {"--from-day", "11", "--shift-um", "9"});
+  WriteNewDays("shifted", "new");
+  const Json one = Watched("new", kEveryFitFailed);
+  EXPECT_THAT(one["proposal"].get<std::string>(),
+              HasSubstr("until the file has two sessions or more"));
+  for (const std::string& line :
+       SplitLines(Run({"watch", "store", "new"}).out)) {
+    if (line.starts_with("m1/")) EXPECT_THAT(line, Not(HasSubstr("  - ")));
+  }
+}
+
+// Several maps in one change of the store, all or none.
+class Deploy : public FleetTest {
+ protected:
+  void SetUp() override {
+    WriteFleet();
+    ASSERT_EQ(Study("store").status, 0);
+  }
+  Json InUse() const {
+    return Rows("store",
+                "SELECT component FROM deployments WHERE until IS NULL "
+                "ORDER BY component");
+  }
+};
+
+TEST_F(Deploy, AllThatHaveAMapAreDeployedAtOnce) {
+  const Outcome all = Run({"deploy", "store", "--all"});
+  ASSERT_EQ(all.status, 0) << all.err;
+  EXPECT_THAT(all.out, HasSubstr("8 maps deployed since 20"));
+  EXPECT_EQ(InUse().size(), 8U);
+  EXPECT_EQ(Rows("store",
+                 "SELECT count(*) FROM deployments d JOIN maps m ON "
+                 "m.component = d.component AND m.sha256 = d.map"),
+            Json::parse("[[8]]"));
+  // Again: each begins anew, one is in use.
+  ASSERT_EQ(Run({"deploy", "store", "--all"}).status, 0);
+  EXPECT_EQ(InUse().size(), 8U);
+  EXPECT_EQ(Rows("store", "SELECT count(*) FROM deployments"),
+            Json::parse("[[16]]"));
+}
+
+TEST_F(Deploy, ListsAreDeployedWholeOrNotAtAll) {
+  RefusalOf(Run({"deploy", "store", "m01/x, down", "nobody"}),
+            kWrongCommandLine);
+  RefusalOf(Run({"deploy", "store", "m01/x, down", "m02/yaw"}), kUnusable);
+  EXPECT_EQ(InUse(), Json::array());
+  ASSERT_EQ(Run({"deploy", "store", "m01/x, down", "m02/z, up"}).status, 0);
+  EXPECT_EQ(InUse(), Json::parse(R"([["m01/x, down"], ["m02/z, up"]])"));
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"deploy", "store"},
+        {"deploy", "store", "--all", "m01/x, down"},
+        {"deploy", "store", "--all", "--model", "fleet.toml"}}) {
+    RefusalOf(Run(words), kWrongCommandLine);
+  }
+}
+
+TEST_F(Deploy, EachMachineHasAFolder) {
+  std::size_t folders = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(scratch_ / "store/components")) {
+    EXPECT_THAT(entry.path().filename().string(), ::testing::StartsWith("m0"));
+    ++folders;
+  }
+  EXPECT_EQ(folders, 2U);
+  const std::string folder =
+      Rows("store",
+           "SELECT folder FROM components WHERE name = 'm01/x, down'")[0][0];
+  EXPECT_THAT(folder, ::testing::StartsWith("components/m01/x__down-"));
+  EXPECT_TRUE(Exists("store/" + folder + "/summary.json"));
+  // Where a component has its folder beside the others it stays there.
+  const std::string flat = "components/m01_x__down-" + folder.substr(23);
+  std::filesystem::rename(scratch_ / "store" / folder,
+                          scratch_ / "store" / flat);
+  ASSERT_EQ(Run({"merge", "store"}).status, 0);
+  EXPECT_EQ(
+      Rows("store", "SELECT folder FROM components WHERE name = 'm01/x, down'"),
+      Json::array({Json::array({flat})}));
+}
+
+TEST_F(Deploy, SaysWhichMapsNobodyWillWatch) {
+  WriteComponent("data/m01/short_up.csv", 5, 2);
+  ASSERT_EQ(Study("store").status, 0);
+  EXPECT_THAT(Run({"deploy", "store", "m01/short"}).err,
+              HasSubstr("errmap watch will not judge 'm01/short'"));
+  EXPECT_EQ(Run({"deploy", "store", "m01/x, down"}).err, "");
+}
+
 // Whose measurements a file has, and what becomes of those already kept.
 class WatchedFiles : public FleetTest {
  protected:

@@ -16,7 +16,6 @@ namespace errmap::models {
 namespace {
 
 using ::testing::DoubleEq;
-using ::testing::ElementsAre;
 
 // Ten held-out days of offset +-1 and mean square 2.
 HeldOutErrors TenDays() {
@@ -31,12 +30,21 @@ HeldOutErrors TenDays() {
   return errors;
 }
 
-WatchedSession Session(double offset, double mean_square) {
+// A whole session; without time or place every row of a held-out day is like
+// it.
+WatchedSession Session(const HeldOutErrors& errors,
+                       double offset,
+                       double mean_square) {
   return {.label = "new",
           .rows = 100,
           .offset = offset,
           .mean_square = mean_square,
+          .expected = ExpectedOf(errors, {}, {}),
           .sensor = ""};
+}
+
+WatchedSession Session(double offset, double mean_square) {
+  return Session(TenDays(), offset, mean_square);
 }
 
 TEST(JudgeSessions, FindsADayLikeTheOthersAsPromised) {
@@ -45,6 +53,7 @@ TEST(JudgeSessions, FindsADayLikeTheOthersAsPromised) {
   EXPECT_GT(found->p, 0.3);
   EXPECT_DOUBLE_EQ(found->found, std::sqrt(2.0));
   EXPECT_DOUBLE_EQ(found->promised, std::sqrt(2.0));
+  EXPECT_FALSE(IsWorse(*found, 0.0));
 }
 
 TEST(JudgeSessions, HoldsAnOffsetAgainstThoseHeldOut) {
@@ -52,19 +61,103 @@ TEST(JudgeSessions, HoldsAnOffsetAgainstThoseHeldOut) {
   // By ten offsets about 0.
   EXPECT_THAT(found->p_offset, DoubleEq(stats::StudentTwoSided(9.0, 10.0)));
   EXPECT_LT(found->p, 1e-3);
+  EXPECT_TRUE(IsWorse(*found, 0.0));
 }
 
 TEST(JudgeSessions, TwoDaysTogetherSayMoreThanTheNewest) {
   const WatchedSession day = Session(3.0, 2.0);
   const double one = JudgeSessions(TenDays(), {day})->p;
   EXPECT_LT(JudgeSessions(TenDays(), {day, day})->p, one);
+  // Of a day of which nothing is expected nothing is made.
+  WatchedSession few = day;
+  few.expected = {};
+  EXPECT_DOUBLE_EQ(JudgeSessions(TenDays(), {few, day})->p, one);
+  EXPECT_FALSE(JudgeSessions(TenDays(), {day, few}));
 }
 
 TEST(JudgeSessions, JudgesNothingByTwoDays) {
   HeldOutErrors few = TenDays();
   few.units.resize(2);
-  EXPECT_FALSE(JudgeSessions(few, {Session(0.0, 1.0)}));
+  EXPECT_FALSE(JudgeSessions(few, {Session(few, 0.0, 1.0)}));
   EXPECT_FALSE(JudgeSessions(TenDays(), {}));
+}
+
+// Sure, but 3 % above the promise: 0.551 against 0.534.
+TEST(IsWorse, NeedsAnEffectThatMatters) {
+  MapJudgement judgement{
+      .p = 1e-6, .found = 0.551, .offset = 0.1, .promised = 0.534};
+  EXPECT_FALSE(IsWorse(judgement, 0.0));
+  judgement.found = 0.65;
+  EXPECT_TRUE(IsWorse(judgement, 0.0));
+  EXPECT_FALSE(IsWorse(judgement, 0.2));
+  judgement.p = 0.003;
+  EXPECT_FALSE(IsWorse(judgement, 0.0));
+  // An offset of two thirds of the promise adds a fifth to it.
+  judgement = {.p = 1e-6, .found = 0.6, .offset = 0.4, .promised = 0.534};
+  EXPECT_TRUE(IsWorse(judgement, 0.0));
+}
+
+// Days that begin 4 off and end 0 off, at places from 0 to 30.
+HeldOutErrors Warming() {
+  HeldOutErrors errors;
+  errors.time_unit = "s";
+  errors.position = "position_mm";
+  for (int day = 0; day < 6; ++day) {
+    HeldOutErrors::Unit& unit = errors.units.emplace_back();
+    unit.elapsed = Eigen::VectorXd::LinSpaced(40, 0.0, 3900.0);
+    unit.position.resize(40);
+    for (int i = 0; i < 40; ++i) unit.position[i] = 10.0 * (i % 4);
+    unit.residuals = (4.0 - 4.0 * unit.elapsed.array() / 3900.0 +
+                      (unit.position.array() == 30.0).cast<double>() * 2.0) *
+                     (1.0 + 0.1 * day);
+  }
+  return errors;
+}
+
+TEST(ExpectedErrors, AreThoseOfTheSameTimesAndPlaces) {
+  const HeldOutErrors errors = Warming();
+  const Eigen::VectorXd none;
+  const double whole =
+      ExpectedOf(errors, errors.units[0].elapsed, errors.units[0].position)
+          .offset;
+  const double begins =
+      ExpectedOf(errors, Eigen::VectorXd{{0, 100, 200, 300}}, none).offset;
+  const double ends =
+      ExpectedOf(errors, Eigen::VectorXd{{3600, 3700, 3800, 3900}}, none)
+          .offset;
+  EXPECT_GT(begins, 1.5 * whole);
+  EXPECT_LT(ends, whole);
+  // One place in the whole of a day.
+  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(10, 0.0, 3900.0);
+  EXPECT_GT(
+      ExpectedOf(errors, times, Eigen::VectorXd::Constant(10, 30.0)).offset,
+      1.3 *
+          ExpectedOf(errors, times, Eigen::VectorXd::Constant(10, 0.0)).offset);
+}
+
+// The cold half hour of a healthy day, which is worse than the day: 27 of 60
+// were accused.
+TEST(JudgeSessions, HoldsPartOfADayAgainstPartsOfDays) {
+  const HeldOutErrors errors = Warming();
+  const HeldOutErrors::Unit& day = errors.units[2];
+  const Eigen::VectorXd part = day.residuals.head(8);
+  WatchedSession session = {
+      .label = "new",
+      .rows = 8,
+      .offset = part.mean(),
+      .mean_square = part.squaredNorm() / 8.0,
+      .expected = ExpectedOf(errors, day.elapsed.head(8), day.position.head(8)),
+      .sensor = ""};
+  EXPECT_GT(JudgeSessions(errors, {session})->p, 0.1);
+}
+
+TEST(AreTooFew, CountsRowsAndTravel) {
+  const HeldOutErrors errors = Warming();
+  const Eigen::VectorXd none;
+  EXPECT_TRUE(AreTooFew(errors, 4, none));
+  EXPECT_FALSE(AreTooFew(errors, 5, none));
+  EXPECT_TRUE(AreTooFew(errors, 8, Eigen::VectorXd::Constant(8, 10.0)));
+  EXPECT_FALSE(AreTooFew(errors, 5, Eigen::VectorXd{{0, 5, 10, 15, 20}}));
 }
 
 // Of sd 1; a sum of twelve uniform numbers is normal enough.
@@ -97,7 +190,7 @@ TEST(JudgeSessions, AccusesHealthyOffsetsAsOftenAsPSays) {
     }
     const double offset = deviate();
     const auto found =
-        JudgeSessions(errors, {Session(offset, 1.0 + offset * offset)});
+        JudgeSessions(errors, {Session(errors, offset, 1.0 + offset * offset)});
     below += found->p_offset < 0.05 ? 1 : 0;
   }
   EXPECT_THAT(below, kOneInTwenty);
@@ -116,7 +209,7 @@ TEST(JudgeSessions, AccusesDaysThatDifferByFactorsAsOftenAsPSays) {
       unit.residuals *= rms;
     }
     const auto found = JudgeSessions(
-        errors, {Session(0.0, std::exp(kOfLogarithms * deviate()))});
+        errors, {Session(errors, 0.0, std::exp(kOfLogarithms * deviate()))});
     below += found->p_rms < 0.05 ? 1 : 0;
     far_below += found->p_rms < 0.001 ? 1 : 0;
   }
@@ -153,16 +246,6 @@ TEST(SensorRelations, AccuseHealthySensorsAsOftenAsPSays) {
     below += session.p_sensor < 0.05 ? 1 : 0;
   }
   EXPECT_THAT(below, kOneInTwenty);
-}
-
-// Of p.adjust(c(0.01, 0.04, 0.03, 0.5), "BH") in R.
-TEST(FalseDiscoveryRates, AreThoseOfR) {
-  EXPECT_THAT(FalseDiscoveryRates({0.01, 0.04, 0.03, 0.5}),
-              ElementsAre(DoubleEq(0.04),
-                          DoubleEq(0.04 * 4 / 3),
-                          DoubleEq(0.04 * 4 / 3),
-                          DoubleEq(0.5)));
-  EXPECT_TRUE(FalseDiscoveryRates({}).empty());
 }
 
 // Three sensors of one temperature, by day.
@@ -240,6 +323,21 @@ TEST(SensorRelations, AShiftFarFromTrainingSaysLess) {
   EXPECT_LT(near.p_sensor, far.p_sensor);
 }
 
+// Half a day is off by what rows of a day are off about its mean.
+TEST(SensorRelations, PartOfADaySaysLess) {
+  const auto relations = LearnRelations(Machine(10, 1, 0.0));
+  EXPECT_EQ(relations->rows, 40);
+  const SensorShifts shifts{.shift = 3.0 * relations->spread,
+                            .distance = relations->distance};
+  WatchedSession whole = Session(0.0, 0.0);
+  whole.rows = 40;
+  JudgeSensors(*relations, shifts, &whole);
+  WatchedSession part = Session(0.0, 0.0);
+  part.rows = 5;
+  JudgeSensors(*relations, shifts, &part);
+  EXPECT_LT(whole.p_sensor, part.p_sensor);
+}
+
 TEST(SensorRelations, NeedsThreeDaysAndTwoSensors) {
   EXPECT_FALSE(LearnRelations(Machine(2, 1, 0.0)));
 }
@@ -250,6 +348,8 @@ TEST(SensorRelations, ReadsBackWhatItWroteAndRefusesOtherText) {
       SensorRelations::FromJsonText(relations->ToJsonText());
   EXPECT_EQ(read.weights, relations->weights);
   EXPECT_EQ(read.spread, relations->spread);
+  EXPECT_EQ(read.within, relations->within);
+  EXPECT_EQ(read.rows, relations->rows);
   EXPECT_EQ(read.variance, relations->variance);
   EXPECT_EQ(read.distance, relations->distance);
   EXPECT_EQ(read.columns, relations->columns);

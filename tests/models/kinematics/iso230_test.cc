@@ -53,6 +53,54 @@ TEST(PositioningFigures, AreThoseOfAWorkedExample) {
   EXPECT_NEAR(figures.accuracy, 7.0 + 2.0 * s - -1.0, kRounding);  // A
 }
 
+TEST(PositioningFigures, AreOfEachDirectionAlone) {
+  const PositioningFigures figures = PositioningFiguresOf(Worked());
+  const double s = std::sqrt(3.0);
+  EXPECT_NEAR(figures.up.systematic, 7.0 - 2.0, kRounding);
+  EXPECT_NEAR(figures.down.systematic, 5.0 - -1.0, kRounding);
+  EXPECT_NEAR(figures.up.repeatability, 4.0 * s, kRounding);
+  EXPECT_NEAR(figures.down.repeatability, 4.0, kRounding);
+  EXPECT_NEAR(figures.up.accuracy, 7.0 + 2.0 * s - 0.0, kRounding);
+  EXPECT_NEAR(figures.down.accuracy, 7.0 - -1.0, kRounding);
+  EXPECT_NEAR(figures.mean_reversal, 0.5 * (3.0 + 2.0), kRounding);
+}
+
+TEST(PositioningPoints, AreByPositionWithTheRunsOfEachDirection) {
+  const auto points = PositioningPointsOf(Worked());
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_EQ(points[1].position, 100.0);
+  EXPECT_EQ(points[1].up.runs, 3);
+  EXPECT_NEAR(points[1].up.mean, 7.0, kRounding);
+  EXPECT_NEAR(points[1].up.sd, std::sqrt(3.0), kRounding);
+  EXPECT_NEAR(points[1].reversal(), 2.0, kRounding);
+}
+
+// Of one direction alone its own figures are known, and no others.
+TEST(PositioningFigures, OfOneDirectionAreItsOwn) {
+  PositioningTest one_way = Worked();
+  one_way.upwards.assign(12, true);
+  const PositioningFigures figures = PositioningFiguresOf(one_way);
+  EXPECT_TRUE(std::isfinite(figures.up.accuracy));
+  EXPECT_TRUE(std::isnan(figures.down.accuracy));
+  EXPECT_TRUE(std::isnan(figures.accuracy));
+  EXPECT_TRUE(std::isnan(figures.repeatability));
+  EXPECT_TRUE(std::isnan(figures.systematic));
+}
+
+TEST(ApproachedUpwards, IsWhereTheAxisCameFrom) {
+  const bool up = true;
+  const bool down = false;
+  // There and back, with a stop at the end approached again from beyond.
+  EXPECT_EQ(ApproachedUpwards(VectorXd{{0, 10, 20, 30, 30, 20, 10, 0}}),
+            (std::vector<bool>{up, up, up, up, down, down, down, down}));
+  // Sweeps one way, the axis going back unmeasured.
+  EXPECT_EQ(ApproachedUpwards(VectorXd{{-10, -20, -30, -10, -20, -30}}),
+            std::vector<bool>(6, down));
+  EXPECT_EQ(ApproachedUpwards(VectorXd{{0, 100, 0, 100}}),
+            (std::vector<bool>{up, up, down, up}));
+  EXPECT_EQ(ApproachedUpwards(VectorXd{{5}}), std::vector<bool>(1, up));
+}
+
 TEST(PositioningFigures, DoNotChangeWithAConstantAndGrowWithScale) {
   PositioningTest moved = Worked();
   moved.deviations = 3.0 * moved.deviations.array() + 17.0;
@@ -83,7 +131,7 @@ TEST(PositioningFigures, RefuseShapesThatDoNotAgree) {
   EXPECT_THAT([&] { PositioningFiguresOf(test); },
               ThrowsMessage<std::invalid_argument>(
                   HasSubstr("12 deviations and 11 directions")));
-  EXPECT_THROW(PositioningFiguresOf({}), std::invalid_argument);
+  EXPECT_THROW(PositioningFiguresOf(PositioningTest{}), std::invalid_argument);
 }
 
 std::vector<std::string> Names(const std::vector<Diagonal>& diagonals) {

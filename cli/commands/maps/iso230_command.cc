@@ -1,0 +1,530 @@
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/commands/data_arguments.h"
+#include "cli/commands/format_option.h"
+#include "cli/commands/maps/map_warnings.h"
+#include "cli/desk/provenance.h"
+#include "cli/json_blocks.h"
+#include "cli/output/claimed_folder.h"
+#include "cli/report/figures/svg.h"
+#include "cli/report/number_text.h"
+#include "cli/report/plot.h"
+#include "cli/report/table.h"
+#include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
+#include "data/atomic_file.h"
+#include "data/input_error.h"
+#include "data/shown_path.h"
+#include "data/text.h"
+#include "models/kinematics/iso230.h"
+#include "models/model_file.h"
+
+namespace errmap::cli {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using models::PositioningFigures;
+using models::PositioningPoint;
+
+struct Iso230Arguments {
+  std::vector<std::string> files;
+  std::vector<std::string> maps;  // none, one, or one per file
+  std::string target;
+  std::string position;
+  std::string direction;
+  std::string figure;
+  std::string format = "table";
+  bool quiet = false;
+};
+
+// Approaches with what they deviated by, without and with a map.
+struct Approached {
+  std::string target;
+  data::Unit unit;
+  std::string position;  // column
+  std::vector<double> positions;
+  std::vector<double> before;
+  std::vector<double> after;  // none without a map
+  std::vector<bool> upwards;
+};
+
+// The column that is named, else the first whose name begins as `begins` does;
+// -1: there is none.
+std::ptrdiff_t FindColumn(const data::CsvTable& table,
+                          const std::string& named,
+                          std::string_view begins) {
+  if (!named.empty()) {
+    const std::ptrdiff_t found = table.Find(named);
+    if (found >= 0) return found;
+    throw data::InputError(fmt::format(
+        "{}: has no column {}", table.file, data::QuotedName(named)));
+  }
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    if (data::StartsWithIgnoringCase(table.columns[i].name, begins)) {
+      return static_cast<std::ptrdiff_t>(i);
+    }
+  }
+  return -1;
+}
+
+std::string PositionColumn(const data::CsvTable& table,
+                           const Iso230Arguments& arguments) {
+  const std::ptrdiff_t found =
+      FindColumn(table, arguments.position, "position");
+  if (found >= 0) return table.At(found).name;
+  throw data::InputError(fmt::format(
+      "{}: has no column position*; name it with --position", table.file));
+}
+
+// Whether a word says which way an axis moves; nothing where it is another.
+std::optional<bool> IsUpwards(const std::string& word) {
+  const auto is = [&](std::initializer_list<std::string_view> words) {
+    return std::ranges::any_of(words, [&](std::string_view of) {
+      return data::EqualsIgnoringCase(word, of);
+    });
+  };
+  if (is({"up", "+", "1", "+1", "pos", "positive", "plus"})) return true;
+  if (is({"down", "-", "-1", "neg", "negative", "minus"})) return false;
+  return std::nullopt;
+}
+
+// By the column of directions where its words say it, else by the motion.
+std::vector<bool> DirectionsOf(const data::CsvTable& table,
+                               const std::vector<Index>& rows,
+                               const VectorXd& positions,
+                               const Iso230Arguments& arguments) {
+  std::vector<bool> upwards = models::ApproachedUpwards(positions);
+  const std::ptrdiff_t column =
+      FindColumn(table, arguments.direction, "direction");
+  if (column < 0) return upwards;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string word =
+        table.CellText(table.At(column), static_cast<std::size_t>(rows[i]));
+    if (const auto up = IsUpwards(word)) {
+      upwards[i] = *up;
+    } else if (!arguments.direction.empty()) {
+      throw data::InputError(fmt::format(
+          "{}: {} is no direction: up or down, + or -, 1 or -1; without "
+          "--direction the order of the positions tells",
+          table.Where(static_cast<std::size_t>(rows[i]), table.At(column).name),
+          data::QuotedName(word)));
+    }
+  }
+  return upwards;
+}
+
+void Take(const data::CsvTable& table,
+          const std::vector<Index>& rows,
+          const data::ColumnInfo& target,
+          const VectorXd& before,
+          const VectorXd& after,
+          const Iso230Arguments& arguments,
+          Approached* all) {
+  const std::string position = PositionColumn(table, arguments);
+  const VectorXd positions = data::NumericColumn(
+      table, position, data::MissingPolicy::kError, nullptr)(rows);
+  if (all->target.empty()) {
+    all->target = target.name;
+    all->unit = target.unit;
+    all->position = position;
+  } else if (all->unit.symbol != target.unit.symbol) {
+    throw data::InputError(
+        fmt::format("{}: the error is in {}, that of {} in {}",
+                    table.file,
+                    target.unit.symbol,
+                    arguments.files.front(),
+                    all->unit.symbol));
+  }
+  const std::vector<bool> upwards =
+      DirectionsOf(table, rows, positions, arguments);
+  all->positions.insert(
+      all->positions.end(), positions.begin(), positions.end());
+  all->before.insert(all->before.end(), before.begin(), before.end());
+  all->after.insert(all->after.end(), after.begin(), after.end());
+  all->upwards.insert(all->upwards.end(), upwards.begin(), upwards.end());
+}
+
+void ReadWithMap(const std::string& file,
+                 const std::string& map,
+                 const Iso230Arguments& arguments,
+                 Approached* all) {
+  const models::FittedModel fitted = models::LoadModel(map);
+  const models::MapRows rows = ReadMapRows(fitted, file, {}, arguments.quiet);
+  const VectorXd& measured = rows.dataset.target_values();
+  Take(rows.table,
+       rows.dataset.rows(),
+       fitted.target,
+       measured,
+       measured - fitted.PredictForm(fitted.FormInputs(rows.dataset)).errors,
+       arguments,
+       all);
+}
+
+void ReadAlone(const std::string& file,
+               const Iso230Arguments& arguments,
+               Approached* all) {
+  const data::CsvTable table = data::ReadCsv(file);
+  const data::PreparedDataset prepared =
+      data::MakeDataset(table,
+                        {.target = arguments.target,
+                         .inputs = {PositionColumn(table, arguments)},
+                         .only_to_judge = true,
+                         .with_log = false});
+  const data::Dataset& dataset = prepared.dataset;
+  Take(table,
+       dataset.rows(),
+       dataset.target(),
+       dataset.target_values(),
+       {},
+       arguments,
+       all);
+}
+
+Approached ReadAll(const Iso230Arguments& arguments) {
+  Approached all;
+  for (std::size_t i = 0; i < arguments.files.size(); ++i) {
+    if (arguments.maps.empty()) {
+      ReadAlone(arguments.files[i], arguments, &all);
+    } else {
+      ReadWithMap(arguments.files[i],
+                  arguments.maps[std::min(i, arguments.maps.size() - 1)],
+                  arguments,
+                  &all);
+    }
+  }
+  return all;
+}
+
+std::vector<PositioningPoint> PointsOf(const Approached& all,
+                                       const std::vector<double>& deviations) {
+  const auto vector = [](const std::vector<double>& values) {
+    return Eigen::Map<const VectorXd>(values.data(),
+                                      static_cast<Index>(values.size()));
+  };
+  return models::PositioningPointsOf({.positions = vector(all.positions),
+                                      .deviations = vector(deviations),
+                                      .upwards = all.upwards});
+}
+
+// A test as it was measured, and with a map if there is one.
+struct Judged {
+  std::vector<PositioningPoint> before;
+  std::vector<PositioningPoint> after;
+};
+
+// A figure of the standard by its letter.
+struct Figure {
+  const char* key;
+  const char* words;
+  double (*of)(const PositioningFigures&);
+};
+
+constexpr Figure kFigures[] = {
+    {"A",
+     "bidirectional accuracy",
+     [](const PositioningFigures& f) { return f.accuracy; }},
+    {"A_up",
+     "accuracy, upwards",
+     [](const PositioningFigures& f) { return f.up.accuracy; }},
+    {"A_down",
+     "accuracy, downwards",
+     [](const PositioningFigures& f) { return f.down.accuracy; }},
+    {"R",
+     "bidirectional repeatability",
+     [](const PositioningFigures& f) { return f.repeatability; }},
+    {"R_up",
+     "repeatability, upwards",
+     [](const PositioningFigures& f) { return f.up.repeatability; }},
+    {"R_down",
+     "repeatability, downwards",
+     [](const PositioningFigures& f) { return f.down.repeatability; }},
+    {"E",
+     "bidirectional systematic error",
+     [](const PositioningFigures& f) { return f.systematic; }},
+    {"E_up",
+     "systematic error, upwards",
+     [](const PositioningFigures& f) { return f.up.systematic; }},
+    {"E_down",
+     "systematic error, downwards",
+     [](const PositioningFigures& f) { return f.down.systematic; }},
+    {"M",
+     "mean bidirectional error",
+     [](const PositioningFigures& f) { return f.mean_bidirectional; }},
+    {"B",
+     "reversal error",
+     [](const PositioningFigures& f) { return f.reversal; }},
+    {"B_mean", "mean reversal, up less down", [](const PositioningFigures& f) {
+       return f.mean_reversal;
+     }}};
+
+report::Table FiguresTable(const Judged& judged, const data::Unit& unit) {
+  report::Table table;
+  table.columns = {{.name = "figure", .is_number = false},
+                   {.name = "measured"},
+                   {.name = "with the map"},
+                   {.name = "unit", .is_number = false},
+                   {.name = "what", .is_number = false}};
+  const PositioningFigures before = PositioningFiguresOf(judged.before);
+  const PositioningFigures after = judged.after.empty()
+                                       ? PositioningFigures()
+                                       : PositioningFiguresOf(judged.after);
+  for (const Figure& figure : kFigures) {
+    table.rows.push_back(
+        {report::Cell(figure.key),
+         report::Cell(report::Number{figure.of(before), 4, unit.display_scale}),
+         report::Cell(report::Number{figure.of(after), 4, unit.display_scale}),
+         report::Cell(std::string_view(unit.display_symbol)),
+         report::Cell(figure.words)});
+  }
+  if (judged.after.empty()) {
+    table.columns.erase(table.columns.begin() + 2);
+    for (auto& row : table.rows) row.erase(row.begin() + 2);
+  }
+  return table;
+}
+
+struct RunCount {
+  Index least = 0;
+  Index most = 0;
+};
+RunCount RunsOf(const std::vector<PositioningPoint>& points,
+                models::Approaches PositioningPoint::*side) {
+  RunCount count{.least = (points.front().*side).runs, .most = 0};
+  for (const PositioningPoint& point : points) {
+    count.least = std::min(count.least, (point.*side).runs);
+    count.most = std::max(count.most, (point.*side).runs);
+  }
+  return count;
+}
+
+std::string RunsText(const RunCount& count) {
+  return count.least == count.most
+             ? fmt::format("{}", count.least)
+             : fmt::format("{} to {}", count.least, count.most);
+}
+
+// What the test has, and what the standard asks for that it lacks.
+std::string TestText(const Approached& all, const Judged& judged) {
+  constexpr Index kRunsAsked = 5;
+  const RunCount up = RunsOf(judged.before, &PositioningPoint::up);
+  const RunCount down = RunsOf(judged.before, &PositioningPoint::down);
+  std::string text =
+      fmt::format("ISO 230-2: {} at {}, {} runs upwards and {} downwards\n",
+                  data::Printable(all.target, all.target.size()),
+                  report::Count(std::ssize(judged.before), "position"),
+                  RunsText(up),
+                  RunsText(down));
+  if (up.most == 0 || down.most == 0) {
+    text +=
+        "all runs are in one direction: A, R, E, M and B need both; give the "
+        "file of the other direction, too\n";
+  } else if (std::min(up.least, down.least) < kRunsAsked) {
+    text += fmt::format("the standard asks for {} runs in each direction\n",
+                        kRunsAsked);
+  }
+  return text;
+}
+
+Json FiguresJson(const std::vector<PositioningPoint>& points) {
+  if (points.empty()) return nullptr;
+  const PositioningFigures figures = PositioningFiguresOf(points);
+  Json json;
+  for (const Figure& figure : kFigures) json[figure.key] = figure.of(figures);
+  return json;
+}
+
+Json PointsJson(const std::vector<PositioningPoint>& points) {
+  Json list = Json::array();
+  const auto side = [](const models::Approaches& of) {
+    return Json{{"runs", of.runs}, {"mean", of.mean}, {"sd", of.sd}};
+  };
+  for (const PositioningPoint& point : points) {
+    list.push_back({{"position", point.position},
+                    {"up", side(point.up)},
+                    {"down", side(point.down)}});
+  }
+  return list;
+}
+
+Json TestJson(const Iso230Arguments& arguments,
+              const Approached& all,
+              const Judged& judged,
+              const std::string& command_line) {
+  Json files = Json::array();
+  std::vector<desk::InputFile> inputs;
+  for (const std::string& file : arguments.files) {
+    files.push_back(data::ShownPath(file));
+    inputs.push_back(desk::HashInput(file));
+  }
+  for (const std::string& map : arguments.maps) {
+    inputs.push_back(desk::HashInput(map));
+  }
+  return {{"schema", "errmap-iso230-1"},
+          {"files", std::move(files)},
+          {"target", all.target},
+          {"unit", all.unit.symbol},
+          {"position", all.position},
+          {"measured", FiguresJson(judged.before)},
+          {"with_map", FiguresJson(judged.after)},
+          {"points",
+           {{"measured", PointsJson(judged.before)},
+            {"with_map", PointsJson(judged.after)}}},
+          {"provenance", ProvenanceJson(command_line, Json(nullptr), inputs)}};
+}
+
+// Means of one direction, and 2 s about them.
+void AddSeries(const std::vector<PositioningPoint>& points,
+               models::Approaches PositioningPoint::*side,
+               const std::string& label,
+               const std::string& colour,
+               double scale,
+               report::Plot* plot) {
+  for (const double times : {0.0, -2.0, 2.0}) {
+    report::Series series{.label = times == 0.0 ? label : "",
+                          .mark = report::Mark::kLine,
+                          .columns = {{}, {}},
+                          .colour = colour,
+                          .dashed = times != 0.0};
+    for (const PositioningPoint& point : points) {
+      const models::Approaches& of = point.*side;
+      series.columns[0].push_back(point.position);
+      series.columns[1].push_back(
+          scale * (times == 0.0 ? of.mean : of.mean + times * of.sd));
+    }
+    plot->series.push_back(std::move(series));
+  }
+}
+
+std::string FigureSvg(const Approached& all, const Judged& judged) {
+  report::Plot plot;
+  plot.name = "iso230";
+  plot.width = 820;
+  plot.height = 420;
+  plot.x = {.quantity = all.position};
+  plot.y = {.quantity = "deviation", .unit = all.unit.display_symbol};
+  const auto add = [&](const std::vector<PositioningPoint>& points,
+                       const std::string& what,
+                       const char* up,
+                       const char* down) {
+    if (points.empty()) return;
+    const double scale = all.unit.display_scale;
+    AddSeries(
+        points, &PositioningPoint::up, "upwards" + what, up, scale, &plot);
+    AddSeries(points,
+              &PositioningPoint::down,
+              "downwards" + what,
+              down,
+              scale,
+              &plot);
+  };
+  add(judged.before, "", "#0072B2", "#A33A00");
+  add(judged.after, ", with the map", "#56B4E9", "#E69F00");
+  return report::SvgFile(
+      report::Svg(plot,
+                  "Positioning test by ISO 230-2",
+                  "Means of the runs at each position in each direction, and "
+                  "two standard deviations about them."));
+}
+
+int RunIso230(const Iso230Arguments& arguments,
+              const std::string& command_line) {
+  if (arguments.maps.size() > 1 &&
+      arguments.maps.size() != arguments.files.size()) {
+    throw UsageError(
+        fmt::format("{} maps for {} files: name one for all, or one for each",
+                    arguments.maps.size(),
+                    arguments.files.size()));
+  }
+  if (!arguments.figure.empty()) {
+    std::vector<std::string> read = arguments.files;
+    read.insert(read.end(), arguments.maps.begin(), arguments.maps.end());
+    CheckOutputName("--figure", arguments.figure, read);
+    RequirePlaceFor(arguments.figure);
+  }
+  const Approached all = ReadAll(arguments);
+  Judged judged{.before = PointsOf(all, all.before), .after = {}};
+  if (!all.after.empty()) judged.after = PointsOf(all, all.after);
+  if (!arguments.figure.empty()) {
+    data::WriteFileAtomically(arguments.figure, FigureSvg(all, judged));
+  }
+  if (arguments.format == "json") {
+    PrintResult(DumpJson(TestJson(arguments, all, judged, command_line)));
+    return kDone;
+  }
+  const report::Table table = FiguresTable(judged, all.unit);
+  const auto text = report::TableText(table, arguments.format);
+  if (text) {
+    PrintResult(*text);
+  } else {
+    PrintFitted(TestText(all, judged) +
+                report::TerminalTable(table, OutputTerminal().columns));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void AddIso230Command(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<Iso230Arguments>();
+  CLI::App* command = app->add_subcommand(
+      "iso230",
+      "Figures of a positioning test by ISO 230-2, with and without "
+      "a map");
+  command
+      ->add_option("DATA",
+                   arguments->files,
+                   "CSV files with the error at each approach to a position: "
+                   "of both directions, or one of each")
+      ->required()
+      ->type_name("FILE.csv");
+  command
+      ->add_option("--map",
+                   arguments->maps,
+                   "Map to compensate by: one for all files, or one per file "
+                   "in their order")
+      ->allow_extra_args(false)
+      ->type_name("MODEL.json");
+  command
+      ->add_option("--target",
+                   arguments->target,
+                   "Column of the error (default: the only one named error*)")
+      ->type_name("COL");
+  command
+      ->add_option("--position",
+                   arguments->position,
+                   "Column of the target positions (default: the first named "
+                   "position*)")
+      ->type_name("COL");
+  command
+      ->add_option("--direction",
+                   arguments->direction,
+                   "Column of the direction of approach: up or down, + or - "
+                   "(default: direction, else the order of the positions)")
+      ->type_name("COL");
+  command->add_option("--figure", arguments->figure, "Draw it")
+      ->type_name("FILE.svg");
+  AddTableFormatOption(command, "What to print", &arguments->format);
+  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
+  command->footer(
+      "Each row is one run to one position. ISO 230-2:2014: A accuracy, R "
+      "repeatability, E systematic\nerror, M mean bidirectional error, B "
+      "reversal error, from the means and standard deviations\nof the runs at "
+      "each position and direction; A, R and E also of one direction alone.\n"
+      "The standard's test is short and of a settled machine: rows of a "
+      "warm-up show its drift in R and A.\n"
+      "Example: errmap iso230 down.csv up.csv --map down.json --map up.json");
+  command->callback([arguments, run] {
+    run->status = RunIso230(*arguments, run->command_line);
+  });
+}
+
+}  // namespace errmap::cli
