@@ -13,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/command.h"
+#include "cli/commands/choice_option.h"
 #include "cli/report/words/fault_text.h"
 #include "cli/shell/command_reference.h"
 #include "cli/shell/standard_streams.h"
@@ -23,29 +24,6 @@
 namespace errmap::cli {
 
 namespace {
-
-// An option of words, each of which stands for a value that ToString names.
-template <typename Value>
-CLI::Option* AddChoice(CLI::App* command,
-                       const std::string& flag,
-                       const std::string& what,
-                       std::initializer_list<Value> values,
-                       Value* chosen) {
-  std::vector<std::string> words;
-  for (const Value value : values) words.emplace_back(ToString(value));
-  const std::vector<Value> meant(values);
-  return command
-      ->add_option_function<std::string>(
-          flag,
-          [words, meant, chosen](const std::string& word) {
-            *chosen = meant[static_cast<std::size_t>(
-                std::ranges::find(words, word) - words.begin())];
-          },
-          what)
-      ->check(CLI::IsMember(words))
-      ->type_name(fmt::format("{}", fmt::join(words, "|")))
-      ->default_str(std::string(ToString(*chosen)));
-}
 
 // Splits "A,B" at commas outside double quotes and takes the quotes off.
 std::vector<std::string> SplitNames(const std::string& flag,

@@ -62,6 +62,12 @@ models::ConfigurationRecord EffectiveConfiguration(const StudyConfig& config) {
   record.seed = config.seed;
   record.goal = Number(config.goal);
   record.indifference = Number(config.indifference);
+  if (config.choose != models::Choose::kAuto) {
+    record.choose = std::string(ToString(config.choose));
+  }
+  if (config.prefer != models::Prefer::kLeastError) {
+    record.prefer = std::string(ToString(config.prefer));
+  }
   record.holdouts = List(config.holdouts);
   record.models = List(config.models);
   record.rezero = Text(config.rezero);

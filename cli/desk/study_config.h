@@ -6,6 +6,7 @@
 
 #include "cli/desk/given_error.h"
 #include "data/measurements/dataset.h"
+#include "models/study/judgement/verdict.h"
 #include "models/study/record/record.h"
 
 namespace errmap::desk {
@@ -41,6 +42,8 @@ struct StudyConfig {
   GivenError goal;
   /// For components without their own; default: 0.02 um for lengths, else 0.
   GivenError indifference;
+  models::Choose choose = models::Choose::kAuto;  // the map to recommend
+  models::Prefer prefer = models::Prefer::kLeastError;
   std::vector<std::string> holdouts;  // SPECs; empty: those that the data allow
   std::vector<std::string> models;    // SPECs; empty: all that suit
   std::string rezero;  // models::ParseRezero; "": held-out rows as they are

@@ -22,12 +22,18 @@ void ReadHoldouts(ReportView* view) {
   const models::HoldoutRecord* decisive = HoldoutOf(*view, view->decisive);
   view->decisive_is_unseen = decisive != nullptr && (decisive->whole_groups ||
                                                      decisive->whole_sessions);
+  for (const models::HoldoutRecord& holdout : component.holdouts) {
+    if (holdout.whole_sessions && holdout.name.starts_with("forward:") &&
+        holdout.name != view->decisive) {
+      view->later = holdout.name;
+    }
+  }
   if (component.gap) view->neighbours = component.gap->neighbours;
   // The recommendation may follow the neighbours, where there are no groups.
   if (view->neighbours == view->decisive) view->neighbours.clear();
   for (const std::string& name : view->holdouts) {
     if (!view->neighbours.empty()) break;
-    if (name != view->decisive) view->neighbours = name;
+    if (name != view->decisive && name != view->later) view->neighbours = name;
   }
 }
 

@@ -24,8 +24,9 @@ struct ReportView {
   std::string decisive;
   bool decisive_is_unseen = false;  // it holds out whole groups
   std::string neighbours;           // the one beside it, "" = none
-  std::string recommended;          // model, "" = none
-  std::string rival;  // best other kind under `decisive`, else next best
+  std::string later;  // later sessions foretold from earlier ones, "" = none
+  std::string recommended;  // model, "" = none
+  std::string rival;        // best other kind under `decisive`, else next best
   /// By the test RMSE under `decisive`, failed ones last.
   std::vector<const ModelRecord*> models;
 };

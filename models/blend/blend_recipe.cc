@@ -134,7 +134,13 @@ class BlendRecipe final : public ModelRecipe {
     if (net && weights[weights.size() - 1] > kLeastWeight) {
       parts.push_back({net->name, weights[weights.size() - 1], *net});
     }
-    FittedModel fitted = Average(training, std::move(parts));
+    std::vector<std::string> growing;
+    for (const BasisCandidate& basis : bases) {
+      for (std::string& name : NamesOfGrowing(*basis.viewed)) {
+        growing.push_back(std::move(name));
+      }
+    }
+    FittedModel fitted = Average(training, growing, std::move(parts));
     fitted.summary.message =
         fmt::format("{} candidates weighted by {} on inner hold-outs ({})",
                     scores.size(),
@@ -223,7 +229,9 @@ class BlendRecipe final : public ModelRecipe {
   }
 
   // One map that reads what any of the parts reads.
-  FittedModel Average(const Dataset& training, std::vector<Part> parts) const {
+  FittedModel Average(const Dataset& training,
+                      const std::vector<std::string>& growing,
+                      std::vector<Part> parts) const {
     History history;
     std::vector<std::string> columns;
     const auto place_of = [&](const std::string& column) {
@@ -282,8 +290,9 @@ class BlendRecipe final : public ModelRecipe {
     fitted.target = training.target();
     fitted.summary.termination = fitting::Termination::kDirect;
     fitted.inputs = DescribeInputs(read, all);
-    if (options_.bases.guarded()) {
+    if (options_.bases.clip) {
       fitted.guards = MakeGuards(fitted.inputs, training.target_values());
+      LeaveRoom(growing, fitted.inputs, &*fitted.guards);
     }
     fitted.model = std::make_shared<AveragedModel>(
         static_cast<Index>(columns.size()),

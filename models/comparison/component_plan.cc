@@ -129,11 +129,14 @@ void RunComponent(ComponentPlan* plan,
                          &component.holdouts,
                          &component.study);
   }
-  component.judgement =
-      JudgeStudy(dataset,
-                 component.holdouts,
-                 component.study,
-                 {component.indifference, component.goal, options.seed});
+  component.judgement = JudgeStudy(dataset,
+                                   component.holdouts,
+                                   component.study,
+                                   {component.indifference,
+                                    component.goal,
+                                    options.seed,
+                                    component.choose,
+                                    component.prefer});
   if (component.judgement.recommendation && !component.study.interrupted) {
     const std::size_t h = component.judgement.recommendation->holdout;
     for (ModelResult& model : component.study.models) {

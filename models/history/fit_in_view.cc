@@ -85,9 +85,6 @@ FittedModel FitInView(const Dataset& training,
     fitted.remarks.push_back(fmt::format(
         "view {} by inner hold-outs (tried {})", chosen->label(), tried));
   }
-  if (options.clip) {
-    fitted.guards = MakeGuards(fitted.inputs, training.target_values());
-  }
   if (chosen->history == nullptr || fitted.inputs.empty()) return fitted;
   return WithHistory(std::move(fitted), training, *chosen->history);
 }

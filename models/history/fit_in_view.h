@@ -15,7 +15,7 @@ using FitRows =
 /// `fit` of `training` in the view of `options`: the one named, else that with
 /// the least TypicalError when `fit` is repeated on inner hold-outs, the
 /// simplest of equals. The map reads the columns of `training`; it is guarded
-/// where its view clips. Throws as MakeViews and `fit` do.
+/// where `fit` guards. Throws as MakeViews and `fit` do.
 FittedModel FitInView(const data::Dataset& training,
                       const ViewOptions& options,
                       const FitContext& context,

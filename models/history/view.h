@@ -38,8 +38,6 @@ struct ViewOptions {
   /// Sine and cosine of angles in place of the angles; empty: chosen with the
   /// view where an angle turns far enough, else not.
   std::optional<bool> sine_and_cosine = {};
-  /// Whether the map is guarded (Guards).
-  bool clip = true;
 
   bool operator==(const ViewOptions&) const = default;
 };
@@ -51,6 +49,7 @@ struct ViewedRows {
   std::shared_ptr<const History> history;  // null: the rows as they are
   std::shared_ptr<const data::Dataset> rows;
   std::vector<bool> is_position;  // (inputs of rows)
+  std::vector<bool> only_grows;   // likewise: ColumnsThatOnlyGrow
   bool intercept = true;
 
   std::string label() const;  // "history+zero", "raw with sine and cosine"
@@ -79,6 +78,22 @@ std::vector<double> MakeTimeConstants(const data::Dataset& training);
 /// Largest size of the target in the first rows of those sessions of which
 /// `training` has the first row; NaN where it has none.
 double LargestFirstError(const data::Dataset& training);
+
+/// Inputs of `rows` that hardly ever return to values they had, as an age does:
+/// with three sessions or more the sessions' means only rise or only fall, and
+/// of a later session on average less than a tenth of the rows lies within what
+/// the earlier ones had. Rows held out of the middle lie between others there,
+/// and all that is to come lies beyond them.
+std::vector<bool> ColumnsThatOnlyGrow(const data::Dataset& rows);
+
+std::vector<std::string> NamesOfGrowing(const ViewedRows& viewed);
+
+/// Guards of a map that is a straight line in the inputs named, which only grow
+/// and so will leave their range: three ranges more for them, and for the
+/// error.
+void LeaveRoom(const std::vector<std::string>& growing,
+               const std::vector<TrainedInput>& form_inputs,
+               Guards* guards);
 
 /// "position*" columns, which are neither filtered nor zeroed.
 bool IsPosition(const data::ColumnInfo& column);

@@ -104,16 +104,6 @@ const OptionList<std::optional<ViewOptions>>& ViewOptionList() {
   return list;
 }
 
-const Option<std::optional<ViewOptions>>& ClipOption() {
-  static const auto option = Within<std::optional<ViewOptions>>(
-      OptionFor("clip",
-                "guards at the trained range of a map in a view",
-                &ViewOptions::clip,
-                OneOf<bool>{{{"auto", true}, {"none", false}}}),
-      kIn);
-  return option;
-}
-
 void NameTheView(ModelSpec* spec, bool intercept_counts) {
   const auto word = [&](std::string_view key) -> std::string {
     for (const auto& [name, value] : spec->options) {

@@ -12,8 +12,14 @@ namespace errmap::models {
 /// map without `view` reads its inputs as they are, and the others are checked
 /// only.
 const OptionList<std::optional<ViewOptions>>& ViewOptionList();
-/// clip, which not every model in a view has.
-const Option<std::optional<ViewOptions>>& ClipOption();
+/// clip, of all that may extrapolate: a member of that name.
+template <typename Options>
+Option<Options> ClipOption() {
+  return OptionFor("clip",
+                   "guards at the trained range",
+                   &Options::clip,
+                   OneOf<bool>{{{"auto", true}, {"none", false}}});
+}
 
 /// Adds the view= that a SPEC implies: that of history= and zero=, raw where
 /// there are only angles=sincos and the like (or intercept=no, where that

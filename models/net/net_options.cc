@@ -157,7 +157,7 @@ OptionList<NetOptions> CommonList() {
           "all", NetOptions::kAllRows, Whole{kFewestRows, kNoLimit}}));
   const auto view = [](auto& options) { return &options.view; };
   AddWithin(ViewOptionList(), view, &list);
-  list.push_back(Within<Options>(ClipOption(), view));
+  list.push_back(ClipOption<Options>());
   return list;
 }
 

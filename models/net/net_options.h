@@ -141,6 +141,7 @@ struct NetOptions {
   /// the rows, accuracy beyond these hardly.
   std::int64_t rows = 20'000;
   std::optional<ViewOptions> view = {};
+  bool clip = true;  // whether the map is guarded (Guards)
 
   static constexpr std::int64_t kAllRows =
       std::numeric_limits<std::int64_t>::max();

@@ -159,9 +159,9 @@ class OneLayerRecipe final : public NetRecipe {
       if (viewed.sine_and_cosine) {
         fitted.choices.push_back({"angles", std::string("sincos")});
       }
-      if (options_.view->clip) {
-        fitted.guards = MakeGuards(fitted.inputs, training.target_values());
-      }
+    }
+    if (options_.clip) {
+      fitted.guards = MakeGuards(fitted.inputs, training.target_values());
     }
     if (views.size() > 1) {
       std::string tried;

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "fitting/selection/best_subset.h"
+#include "models/history/view_options.h"
 #include "models/option_list.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/polynomial/polynomial_options.h"
@@ -27,7 +28,7 @@ constexpr Index kMostSubsetTerms = 48;
 class BestSubsetRecipe final : public PolynomialRecipe {
  public:
   BestSubsetRecipe(const BestSubsetOptions& options, std::string name)
-      : PolynomialRecipe(CheckedName(options, std::move(name))),
+      : PolynomialRecipe(CheckedName(options, std::move(name)), options.clip),
         options_(options),
         terms_(options.terms) {
     rules_.criterion = options.criterion;
@@ -186,6 +187,7 @@ OptionList<BestSubsetOptions> BestSubsetList() {
                      .Never());
   AddWithin(
       TermOptionList(), [](auto& options) { return &options.terms; }, &list);
+  list.push_back(ClipOption<Options>());
   return list;
 }
 

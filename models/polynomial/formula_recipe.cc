@@ -22,7 +22,7 @@ using Eigen::Index;
 class FormulaRecipe final : public PolynomialRecipe {
  public:
   FormulaRecipe(const FormulaOptions& options, std::string name)
-      : PolynomialRecipe(CheckedName(options, std::move(name))),
+      : PolynomialRecipe(CheckedName(options, std::move(name)), options.clip),
         options_(options),
         terms_(ParseTerms(options.formula, "formula")),
         form_{.centring = options.centring, .intercept = options.intercept} {
@@ -31,7 +31,6 @@ class FormulaRecipe final : public PolynomialRecipe {
     if (!form_.intercept && !options_.view) {
       options_.view = ViewOptions{.view = View::kRaw};
     }
-    if (options_.view) options_.view->clip = false;
   }
 
   std::vector<EffectiveOption> options() const override {
@@ -123,6 +122,7 @@ OptionList<FormulaOptions> FormulaList() {
   std::erase_if(list, [seen = false](const auto& option) mutable {
     return option.name == "intercept" && std::exchange(seen, true);
   });
+  list.push_back(ClipOption<FormulaOptions>());
   return list;
 }
 

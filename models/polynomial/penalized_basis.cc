@@ -74,7 +74,20 @@ void ClipColumns(const VectorXd& min,
   }
 }
 
+// Whether a term is more than a straight line of an input that only grows: what
+// bends is foretold by nothing where such an input has never been.
+bool Bends(const TermPowers& powers, const ViewedRows& viewed) {
+  int degree = 0;
+  bool grows = false;
+  for (std::size_t i = 0; i < powers.size(); ++i) {
+    degree += powers[i];
+    grows = grows || (powers[i] > 0 && viewed.only_grows[i]);
+  }
+  return grows && degree > 1;
+}
+
 std::vector<bool> ExcludedTerms(const PenalizedBasis& basis,
+                                const ViewedRows& viewed,
                                 const PolynomialDesign& design) {
   std::vector<bool> excluded(static_cast<std::size_t>(design.num_terms()),
                              false);
@@ -93,6 +106,9 @@ std::vector<bool> ExcludedTerms(const PenalizedBasis& basis,
                       basis.degree));
     }
     excluded[static_cast<std::size_t>(at - design.terms().begin())] = true;
+  }
+  for (std::size_t i = 0; basis.guarded && i < excluded.size(); ++i) {
+    excluded[i] = excluded[i] || Bends(design.terms()[i], viewed);
   }
   return excluded;
 }
@@ -137,7 +153,7 @@ class SummedBasis {
       : viewed_(std::move(viewed)),
         design_(std::make_shared<const PolynomialDesign>(
             MakeDesign(*viewed_, basis))),
-        excluded_(ExcludedTerms(basis, *design_)),
+        excluded_(ExcludedTerms(basis, *viewed_, *design_)),
         guarded_(basis.guarded),
         stop_(context.stop) {
     if (folds != nullptr) folds_ = *folds;
@@ -432,6 +448,7 @@ FittedModel MapOfCandidate(const std::string& name,
   fitted.inner_rmse = candidate.held_out_rmse;
   if (guarded) {
     fitted.guards = MakeGuards(fitted.inputs, raw.target_values());
+    LeaveRoom(NamesOfGrowing(viewed), fitted.inputs, &*fitted.guards);
   }
   if (viewed.history != nullptr) {
     fitted = WithHistory(std::move(fitted), raw, *viewed.history);

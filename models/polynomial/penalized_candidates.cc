@@ -63,7 +63,7 @@ class BasisJudge {
             set, static_cast<Index>(viewed->is_position.size()))),
         .centring = options_.centring,
         .exclude = options_.exclude,
-        .guarded = options_.guarded()};
+        .guarded = options_.clip};
     return {.viewed = viewed,
             .fit = FitOf(viewed, basis, penalty),
             .terms = set,
@@ -156,7 +156,7 @@ OptionList<BasisOptions> BasisOptionList() {
   list.push_back(
       Within<BasisOptions>(TermsOption("exclude", "terms that are never in"),
                            [](auto& options) { return &options.exclude; }));
-  list.push_back(Within<BasisOptions>(ClipOption(), view));
+  list.push_back(ClipOption<BasisOptions>());
   return list;
 }
 

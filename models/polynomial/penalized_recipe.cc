@@ -24,7 +24,8 @@ using fitting::Penalty;
 class PenalizedRecipe final : public PolynomialRecipe {
  public:
   PenalizedRecipe(const PenalizedOptions& options, std::string name)
-      : PolynomialRecipe(CheckedName(options, std::move(name))),
+      : PolynomialRecipe(CheckedName(options, std::move(name)),
+                         options.basis.clip),
         options_(options) {}
 
   std::vector<EffectiveOption> options() const override {

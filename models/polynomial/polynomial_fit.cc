@@ -293,6 +293,9 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
       std::sqrt(solution.residual_sum_of_squares / rows.observations));
   fitted.model =
       std::make_shared<PolynomialModel>(std::move(form), solution.rank);
+  if (guarded_) {
+    fitted.guards = MakeGuards(fitted.inputs, training.target_values());
+  }
 
   if (context.explain) {
     auto complete = std::make_shared<RegressionReport>();

@@ -21,7 +21,9 @@ struct FormOptions {
 /// The part that every recipe of a polynomial shares.
 class PolynomialRecipe : public ModelRecipe {
  public:
-  explicit PolynomialRecipe(std::string name) : name_(std::move(name)) {}
+  /// `guarded`: what FitTerms gives is clipped (Guards).
+  PolynomialRecipe(std::string name, bool guarded)
+      : name_(std::move(name)), guarded_(guarded) {}
   std::string name() const override { return name_; }
   ModelKind kind() const override { return ModelKind::kPolynomial; }
   std::vector<EffectiveOption> options() const override { return {}; }
@@ -49,6 +51,7 @@ class PolynomialRecipe : public ModelRecipe {
 
  private:
   std::string name_;
+  bool guarded_;
 };
 
 /// A map of given coefficients of the scaled terms, zeros left out, that reads

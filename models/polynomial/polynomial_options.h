@@ -47,6 +47,7 @@ struct PositionTemperatureOptions {
   PositionTemperatureForm form = PositionTemperatureForm::kEq8;
   std::string position = {};     // "": the first input named so
   std::string temperature = {};  // T; "": the input that leaves least
+  bool clip = true;              // whether the map is guarded (Guards)
 
   std::string_view type() const;
   void Validate() const;
@@ -55,7 +56,8 @@ struct PositionTemperatureOptions {
 
 /// poly:full: all products up to a degree.
 struct FullOptions {
-  int degree = 2;  // 1 .. 12
+  int degree = 2;    // 1 .. 12
+  bool clip = true;  // whether the map is guarded (Guards)
 
   std::string_view type() const { return "poly:full"; }
   void Validate() const;
@@ -96,6 +98,7 @@ struct StepwiseOptions {
   TermOptions terms = {};
   /// Its `intercept` is always true.
   std::optional<ViewOptions> view = {};
+  bool clip = true;  // whether the map is guarded (Guards)
 
   std::string_view type() const { return "poly:stepwise"; }
   void Validate() const;
@@ -109,6 +112,7 @@ struct BestSubsetOptions {
   std::optional<double> sigma2 = {};  // for Cp, above 0; empty: estimated
   std::int64_t bootstrap = 0;         // 0 .. 1,000,000 for the report
   TermOptions terms = {};
+  bool clip = true;  // whether the map is guarded (Guards)
 
   std::string_view type() const { return "poly:best"; }
   void Validate() const;
@@ -134,12 +138,12 @@ struct BasisOptions {
   std::optional<int> degree = {};     // 1 .. 4; empty: that of the terms
   Centring centring = Centring::kStandardised;  // or kAll, kNone
   std::vector<NamedTerm> exclude = {};
+  bool clip = true;  // whether the map is guarded (Guards)
 
   bool operator==(const BasisOptions&) const = default;
 
   /// Whether more than one basis may be judged.
   bool chooses_basis() const { return view && (!view->view || !terms); }
-  bool guarded() const { return view && view->clip; }
 };
 
 /// poly:ridge and poly:lasso: all terms of a basis, shrunk.
@@ -158,8 +162,9 @@ struct FormulaOptions {
   std::string formula = {};                 // as ParseTerms reads them
   Centring centring = Centring::kHarmless;  // or kNone
   bool intercept = true;
-  /// Names one; its `clip` and `intercept` are not read.
+  /// Names one; its `intercept` is not read.
   std::optional<ViewOptions> view = {};
+  bool clip = true;  // whether the map is guarded (Guards)
 
   std::string_view type() const { return "poly"; }
   void Validate() const;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "models/history/view_options.h"
 #include "models/option_list.h"
 #include "models/polynomial/polynomial_basis.h"
 #include "models/polynomial/polynomial_fit.h"
@@ -20,7 +21,7 @@ using Eigen::Index;
 class ConstantRecipe final : public PolynomialRecipe {
  public:
   ConstantRecipe(const ConstantOptions& options, std::string name)
-      : PolynomialRecipe(CheckedName(options, std::move(name))),
+      : PolynomialRecipe(CheckedName(options, std::move(name)), false),
         is_zero_(options.is_zero) {}
 
   ModelKind kind() const override { return ModelKind::kBaseline; }
@@ -90,7 +91,7 @@ class PositionTemperatureRecipe final : public PolynomialRecipe {
  public:
   PositionTemperatureRecipe(const PositionTemperatureOptions& options,
                             std::string name)
-      : PolynomialRecipe(CheckedName(options, std::move(name))),
+      : PolynomialRecipe(CheckedName(options, std::move(name)), options.clip),
         options_(options),
         form_(FormOf(options.form)) {}
 
@@ -171,7 +172,7 @@ class PositionTemperatureRecipe final : public PolynomialRecipe {
 class FullRecipe final : public PolynomialRecipe {
  public:
   FullRecipe(const FullOptions& options, std::string name)
-      : PolynomialRecipe(CheckedName(options, std::move(name))),
+      : PolynomialRecipe(CheckedName(options, std::move(name)), options.clip),
         options_(options) {}
 
   std::vector<EffectiveOption> options() const override {
@@ -237,6 +238,7 @@ const std::vector<ListedModel<PositionTemperatureOptions>>& ListedModels() {
           options.push_back(OptionFor(
               "T", "the column of T", &Options::temperature, Words()));
         }
+        options.push_back(ClipOption<Options>());
         return options;
       };
       all.push_back({.name = std::string(form.type),
@@ -261,6 +263,7 @@ const std::vector<ListedModel<FullOptions>>& ListedModels() {
                                 Whole{1, kMostDegree})
                           .Always());
     options.front().always_in_spec = true;
+    options.push_back(ClipOption<FullOptions>());
     return options;
   };
   static const std::vector<ListedModel<FullOptions>> models = {

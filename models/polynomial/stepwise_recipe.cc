@@ -87,7 +87,7 @@ StepwiseOptions Resolved(StepwiseOptions options) {
 class StepwiseRecipe final : public PolynomialRecipe {
  public:
   StepwiseRecipe(const StepwiseOptions& options, std::string name)
-      : PolynomialRecipe(CheckedName(options, std::move(name))),
+      : PolynomialRecipe(CheckedName(options, std::move(name)), options.clip),
         options_(Resolved(options)),
         rules_(RulesOf(options)) {
     rules_.Validate();
@@ -410,7 +410,7 @@ OptionList<StepwiseOptions> StepwiseList() {
       TermOptionList(), [](auto& options) { return &options.terms; }, &list);
   const auto view = [](auto& options) { return &options.view; };
   AddWithin(ViewOptionList(), view, &list);
-  list.push_back(Within<Options>(ClipOption(), view));
+  list.push_back(ClipOption<Options>());
   return list;
 }
 

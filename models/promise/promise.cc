@@ -34,7 +34,7 @@ void AddPromise(const data::Dataset& dataset,
                 StudyOptions options,
                 FittedModel* fitted) {
   const Holdout holdout =
-      MakeHoldout(stats::ParseHoldout(DecisiveDefaultHoldout(dataset)),
+      MakeHoldout(stats::ParseHoldout(StrictestDefaultHoldout(dataset)),
                   dataset,
                   options.seed);
   options.fit_all_rows = false;

@@ -21,7 +21,7 @@ void AddPromise(const data::Dataset& dataset,
                 FittedModel* fitted);
 
 /// The same for a map fitted alone: its recipe is run under
-/// DecisiveDefaultHoldout(dataset). Nothing where a fold fails or was
+/// StrictestDefaultHoldout(dataset). Nothing where a fold fails or was
 /// interrupted. Throws std::invalid_argument where the data allow
 /// no such hold-out, std::bad_alloc where a fold finds not enough memory.
 void AddPromise(const data::Dataset& dataset,

@@ -373,18 +373,20 @@ Holdout MakeHoldout(const stats::HoldoutSpec& spec,
   if ((spec.kind == stats::HoldoutKind::kFile) != (test_data != nullptr)) {
     throw std::invalid_argument("MakeHoldout: test data belong to file: only");
   }
+  const bool forward = spec.kind == stats::HoldoutKind::kForward;
+  // Days follow each other as their cycles do, and are what is to be foreseen.
+  const bool by_session = spec.kind == stats::HoldoutKind::kSessions ||
+                          (forward && dataset.num_sessions() > spec.k);
   const bool by_group = spec.kind == stats::HoldoutKind::kGroups ||
                         spec.kind == stats::HoldoutKind::kLeaveOneGroupOut ||
-                        spec.kind == stats::HoldoutKind::kForward;
+                        (forward && !by_session);
   Holdout holdout;
   holdout.name = spec.text;
-  holdout.whole_groups = by_group && dataset.has_groups();
   holdout.among_neighbours = spec.kind == stats::HoldoutKind::kEvery ||
                              spec.kind == stats::HoldoutKind::kKFold ||
                              spec.kind == stats::HoldoutKind::kRandom;
-  holdout.forward = spec.kind == stats::HoldoutKind::kForward;
+  holdout.forward = forward;
   holdout.repeats = std::max<Index>(1, spec.repeats);
-  const bool by_session = spec.kind == stats::HoldoutKind::kSessions;
   const std::vector<Index> sessions = dataset.session_codes();
   RequireUnits(spec, dataset, sessions);
   holdout.folds =
@@ -392,10 +394,16 @@ Holdout MakeHoldout(const stats::HoldoutSpec& spec,
                        dataset.num_rows(),
                        by_session ? sessions : dataset.groups().codes,
                        seed);
+  holdout.whole_groups =
+      dataset.has_groups() &&
+      (by_group ||
+       (forward && stats::KeepsWhole(holdout.folds, dataset.groups().codes)));
   holdout.whole_sessions = test_data == nullptr && dataset.has_sessions() &&
                            stats::KeepsWhole(holdout.folds, sessions);
   holdout.test_data = std::move(test_data);
-  holdout.inner = InnerHoldoutLike(spec.kind);
+  // What was measured before is chosen from as all of it will be.
+  holdout.inner = forward && by_session ? InnerHoldout::kDecisive
+                                        : InnerHoldoutLike(spec.kind);
   return holdout;
 }
 

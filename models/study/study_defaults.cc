@@ -37,22 +37,22 @@ std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset) {
     specs.push_back(
         fmt::format("blocks:{}", std::min(dataset.num_rows(), kFolds)));
   }
+  if (sessions >= kFewestSessionsToDecide) {
+    constexpr Eigen::Index kForwardFolds = 3;
+    specs.push_back(fmt::format("forward:{}", kForwardFolds));
+  }
   return specs;
 }
 
-std::string DecisiveDefaultHoldout(const data::Dataset& dataset) {
+std::string StrictestDefaultHoldout(const data::Dataset& dataset) {
   const std::vector<std::string> specs = DefaultHoldouts(dataset);
-  const auto find = [&](std::string_view kind) {
-    return std::ranges::find_if(
+  // The last of them asks most, but for looking forward.
+  for (const std::string_view kind : {"sessions:", "groups:"}) {
+    const auto found = std::ranges::find_if(
         specs, [&](const std::string& spec) { return spec.starts_with(kind); });
-  };
-  if (dataset.num_sessions() >= kFewestSessionsToDecide) {
-    if (const auto sessions = find("sessions:"); sessions != specs.end()) {
-      return *sessions;
-    }
+    if (found != specs.end()) return *found;
   }
-  const auto groups = find("groups:");
-  return groups != specs.end() ? *groups : *find("blocks:");
+  return specs.back();
 }
 
 double DefaultGoal(const data::Unit& unit) {

@@ -11,12 +11,12 @@ namespace errmap::models {
 
 /// SPECs of the hold-outs: rows, and whatever can be held out whole. Two or
 /// three sessions are too few to decide, so without groups blocks stand beside
-/// them.
+/// them; more are also foreseen from those before them.
 std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset);
 
-/// That of them which stands for another day: whole sessions where there are
-/// enough to decide, else whole groups, else blocks.
-std::string DecisiveDefaultHoldout(const data::Dataset& dataset);
+/// That of them which a map may promise by: whole sessions where there are two
+/// or more, else whole groups, else blocks.
+std::string StrictestDefaultHoldout(const data::Dataset& dataset);
 
 /// RMSE wanted on held-out rows, in `unit`: of lengths that of NISTIR 5367,
 /// 0.5 um; NaN, none, of all else.

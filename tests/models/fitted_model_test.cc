@@ -112,6 +112,40 @@ TEST(FittedModel, PredictsARowAsItPredictsAllToTheLastBit) {
   }
 }
 
+// Ten ranges away every form that bends goes astray, and a line may.
+TEST(FittedModel, IsGuardedWhateverItsFamilyUnlessAskedNotToBe) {
+  const data::Dataset training = QuadraticData(60);
+  const double low = training.target_values().minCoeff();
+  const double high = training.target_values().maxCoeff();
+  for (const std::string spec : {"poly:position",
+                                 "poly:temperature",
+                                 "poly:eq8",
+                                 "poly:full:degree=3",
+                                 "poly:stepwise",
+                                 "poly:best:terms=squares",
+                                 "poly:ridge",
+                                 "poly:lasso:view=raw",
+                                 "poly:formula=position_mm^2+t1_degC",
+                                 "net:scg:hidden=2:iterations=20",
+                                 "blend:view=raw:terms=linear"}) {
+    const FittedModel fitted = MakeRecipe(spec)->Fit(training, {});
+    ASSERT_TRUE(fitted.guards.has_value()) << spec;
+    Eigen::MatrixXd far = fitted.FormInputs(training);
+    for (Index j = 0; j < far.cols(); ++j) {
+      far.col(j).array() +=
+          10.0 * (far.col(j).maxCoeff() - far.col(j).minCoeff());
+    }
+    const Eigen::VectorXd errors = fitted.PredictForm(far).errors;
+    const double margin = fitted.guards->error_margin * (high - low);
+    EXPECT_GE(errors.minCoeff(), low - margin - 1e-12) << spec;
+    EXPECT_LE(errors.maxCoeff(), high + margin + 1e-12) << spec;
+    EXPECT_FALSE(
+        MakeRecipe(spec + ":clip=none")->Fit(training, {}).guards.has_value())
+        << spec;
+  }
+  EXPECT_FALSE(MakeRecipe("mean")->Fit(training, {}).guards.has_value());
+}
+
 TEST(FittedModel, RefusesARowOfAnotherSize) {
   const data::Dataset training = QuadraticData(60);
   FittedModel fitted = Guarded(training);

@@ -202,7 +202,8 @@ TEST(ModelOptions, SurviveTheirSpec) {
       .max_terms = StepwiseOptions::kNoLimit,
       .bootstrap = 0,
       .terms = {.degree = 2, .include = ParseTerms("x*y+z^2", "include")},
-      .view = ViewOptions{.view = View::kZero, .clip = false}});
+      .view = ViewOptions{.view = View::kZero},
+      .clip = false});
   ExpectRoundTrip(PenalizedOptions{
       .family = fitting::Penalty::kLasso,
       .penalty = {.one_standard_error = true},

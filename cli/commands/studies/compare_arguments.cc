@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/command.h"
+#include "cli/commands/choice_option.h"
 #include "cli/commands/format_option.h"
 #include "models/recipe_catalog.h"
 #include "stats/holdout.h"
@@ -31,6 +32,21 @@ void AddJudgingOptions(CLI::App* command, CompareArguments* arguments) {
                    "Difference in RMSE that never matters, as --goal (default "
                    "for lengths: 0.02 um)")
       ->type_name("X");
+  AddChoice(
+      command,
+      "--choose",
+      "The map to recommend: auto (the blend, unless a baseline errs less "
+      "or a single map is proven better by separate days), best (the "
+      "lowest error) or blend",
+      {models::Choose::kAuto, models::Choose::kBest, models::Choose::kBlend},
+      &arguments->choose);
+  AddChoice(
+      command,
+      "--prefer",
+      "least-error, or small: the fewest sensors that lose at most 5 % to "
+      "it",
+      {models::Prefer::kLeastError, models::Prefer::kSmall},
+      &arguments->prefer);
   command
       ->add_option("--probes-per-session",
                    arguments->probes.numbers,
@@ -107,6 +123,7 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
                        stats::HoldoutFormsText() +
                        " (default: every:3, groups:5 where "
                        "there are groups, sessions:5 where there are sessions, "
+                       "forward:3 from four sessions on, "
                        "blocks:5 without groups)")
       ->type_name("SPEC")
       ->allow_extra_args(false);

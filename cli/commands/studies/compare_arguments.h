@@ -25,6 +25,8 @@ struct CompareArguments {
   std::optional<std::string> goal = {};
   std::optional<std::string> indifference = {};
   std::string rezero;
+  models::Choose choose = models::Choose::kAuto;
+  models::Prefer prefer = models::Prefer::kLeastError;
   std::string split;
   std::string save_split;
   std::vector<desk::PredictionsFile> predictions;

@@ -102,6 +102,8 @@ desk::StudyConfig ConfigOf(const CompareArguments& arguments) {
   return {.seed = arguments.seed,
           .goal = goal,
           .indifference = indifference,
+          .choose = arguments.choose,
+          .prefer = arguments.prefer,
           .holdouts = arguments.holdouts,
           .models = std::move(specs),
           .rezero = arguments.rezero,
@@ -199,6 +201,8 @@ desk::StudyFile ConfigOfFile(const CompareArguments& arguments) {
       component.indifference = flags.indifference;
     }
   }
+  if (given("--choose")) config.choose = flags.choose;
+  if (given("--prefer")) config.prefer = flags.prefer;
   if (given("--holdout")) config.holdouts = flags.holdouts;
   if (given("--rezero")) config.rezero = flags.rezero;
   if (given("--models") || given("--model")) config.models = flags.models;

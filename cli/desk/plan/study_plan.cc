@@ -83,6 +83,8 @@ class ComponentPlanner {
     plan.comparison.rezero = Rezero(plan.comparison);
     const data::Dataset& dataset = plan.comparison.data.dataset;
     const data::Unit& unit = dataset.target().unit;
+    plan.comparison.choose = study_.choose;
+    plan.comparison.prefer = study_.prefer;
     plan.comparison.goal = SizeOf("goal", component_.goal, study_.goal, dataset)
                                .value_or(models::DefaultGoal(unit));
     plan.comparison.indifference =

@@ -43,6 +43,8 @@ class StudyFileReader {
     keys.AllowOnly({"seed",
                     "goal",
                     "indifference",
+                    "choose",
+                    "prefer",
                     "holdouts",
                     "models",
                     "rezero",
@@ -53,6 +55,15 @@ class StudyFileReader {
     keys.TakeSeed(&config.seed);
     keys.TakeError("goal", false, &config.goal);
     keys.TakeError("indifference", true, &config.indifference);
+    TakeChoice(
+        keys,
+        "choose",
+        {models::Choose::kAuto, models::Choose::kBest, models::Choose::kBlend},
+        &config.choose);
+    TakeChoice(keys,
+               "prefer",
+               {models::Prefer::kLeastError, models::Prefer::kSmall},
+               &config.prefer);
     keys.TakeList("holdouts", &config.holdouts, [](const std::string& spec) {
       stats::ParseHoldout(spec);
     });

@@ -157,6 +157,10 @@ void ComponentScreen::Leaderboard() {
   if (!view_.neighbours.empty()) {
     where += fmt::format(", and next to known rows ({})", view_.neighbours);
   }
+  if (!view_.later.empty()) {
+    where += fmt::format(", and later ones foretold from those before ({})",
+                         view_.later);
+  }
   if (std::isfinite(record_.goal)) {
     where += fmt::format("; goal {:g}{}{} (--goal)",
                          record_.goal * record_.display.scale,

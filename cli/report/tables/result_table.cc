@@ -399,6 +399,10 @@ Table TerminalLeaderboard(const ReportView& view, std::size_t most_rows) {
   if (component.rezero) {
     Append(SlotsOf({"never_rezeroed"}, view.decisive), &slots);
   }
+  const std::size_t later_at = slots.size();
+  if (!view.later.empty()) {
+    Append(SlotsOf({"test_rmse"}, view.later), &slots);
+  }
   if (std::isfinite(component.goal)) {
     Append(SlotsOf({"goal"}, view.decisive), &slots);
   }
@@ -415,6 +419,8 @@ Table TerminalLeaderboard(const ReportView& view, std::size_t most_rows) {
       }
     } else if (!view.neighbours.empty() && i == 4) {
       shown.name = Squeezed(view.neighbours, 12);
+    } else if (!view.later.empty() && i == later_at) {
+      shown.name = "later";
     }
     table.columns.push_back(std::move(shown));
   }

@@ -99,8 +99,9 @@ std::string SimplestSentence(const ComponentNumbers& component,
   switch (remark.kind) {
     case RemarkKind::kAveragesMaps:
       return fmt::format(
-          "It averages maps that see the inputs differently, which gambles "
-          "less than the choice of one; the {} single map is {} ({}).",
+          "No single map is proven better by separate days, and an average of "
+          "maps that see the inputs differently gambles less than the choice "
+          "of one; the {} single map is {} ({}).",
           std::ranges::find(component.Advice().first_tier, model) ==
                   component.Advice().first_tier.end()
               ? "best"
@@ -169,26 +170,17 @@ std::string BestNetSentence(const ComponentNumbers& component,
   return text + (pair->established ? "." : ", which is not proven.");
 }
 
-// Few sessions were held out whole, and something else decided.
+// Few sessions were held out whole: what they promise is little known.
 std::string FewSessionsSentence(const ComponentNumbers& component,
-                                const std::string& name) {
-  const HoldoutRecord& held = component.Holdout(name);
-  const std::string& model = component.Advice().model;
-  const auto verdict = std::ranges::find(
-      component.record.verdict, name, &VerdictRecord::holdout);
+                                const std::string& decided_by) {
+  const RecommendationRecord& advice = component.Advice();
   return fmt::format(
-      "Held out whole ({}) it has {}{}; {} are too few to decide by: measure "
-      "{} or more.",
-      name,
-      component.error.WithUnit(component.Rmse(model, name)),
-      verdict != component.record.verdict.end() && verdict->model != model
-          ? fmt::format(
-                ", {} {}",
-                verdict->model,
-                component.error.WithUnit(component.Rmse(verdict->model, name)))
-          : "",
-      CountOfUnits(component.record.data.sessions, held),
-      models::kFewestSessionsToDecide);
+      "{} tell little of another{}.",
+      CountOfUnits(component.record.data.sessions,
+                   component.Holdout(advice.holdout)),
+      decided_by == advice.holdout
+          ? ""
+          : fmt::format(", so the map was chosen by {}", decided_by));
 }
 
 std::string GoalSentence(const ComponentNumbers& component) {
@@ -347,6 +339,26 @@ std::string RemarkText(const ComponentNumbers& component,
     case RemarkKind::kSimplestNearLowest:
     case RemarkKind::kSimplestOfTier:
       return SimplestSentence(component, remark);
+    case RemarkKind::kOnlyGrows:
+      return fmt::format(
+          "{} hardly ever returns to values it had: {} to come lie beyond all "
+          "that were held out{}.",
+          fmt::join(*remark.columns, ", "),
+          PluralOfUnit(holdout),
+          remark.holdouts
+              ? fmt::format("; foretold from those before ({}) it has {}",
+                            remark.holdouts->front(),
+                            component.error.WithUnit(component.Rmse(
+                                advice.model, remark.holdouts->front())))
+              : "");
+    case RemarkKind::kProvenBetter:
+      return fmt::format(
+          "{} prove it better than the average of maps that is used else, {} "
+          "({}).",
+          CountOfUnits(holdout.units, holdout),
+          *remark.model,
+          component.error.WithUnit(
+              component.Rmse(*remark.model, advice.holdout)));
     case RemarkKind::kRemoves:
       return fmt::format(
           "It removes {:.0f} % of the error ({} without a map).",

@@ -56,10 +56,17 @@ std::string ObstacleText(const models::ObstacleRecord& obstacle) {
   return "";
 }
 
-// "on cycles it never saw", "on another file (test.csv)", ...
-std::string WhereJudged(const HoldoutRecord& holdout) {
-  if (holdout.whole_groups || holdout.whole_sessions) {
-    return fmt::format("on {} it never saw", PluralOfUnit(holdout));
+// "on another day", "on cycles it never saw", "on another file (test.csv)"...
+std::string WhereJudged(const ComponentNumbers& component,
+                        const HoldoutRecord& holdout) {
+  if (holdout.whole_sessions) {
+    return fmt::format("on another {}", holdout.unit_of_analysis);
+  }
+  if (holdout.whole_groups) {
+    return fmt::format(
+        "on {} it never saw{}",
+        PluralOfUnit(holdout),
+        component.record.data.sessions == 1 ? ", of one run only" : "");
   }
   if (holdout.another_file) {
     return fmt::format("on another file ({})", holdout.name);
@@ -184,7 +191,7 @@ std::string AdviceSentence(const ComponentNumbers& component) {
       fmt::format("Use {}: {} {}.",
                   advice.model,
                   component.RmseWithInterval(advice.model, advice.holdout),
-                  WhereJudged(component.Holdout(advice.holdout)));
+                  WhereJudged(component, component.Holdout(advice.holdout)));
   const bool sure = !advice.against_baseline ||
                     There(advice.against_baseline) == Confidence::kEstablished;
   if (advice.choice == Choice::kBaseline) {
@@ -196,7 +203,7 @@ std::string AdviceSentence(const ComponentNumbers& component) {
           "No map is worth its effort here{}. Compensate with nothing: {} {}.",
           proven,
           component.RmseWithInterval(advice.model, advice.holdout),
-          WhereJudged(component.Holdout(advice.holdout)));
+          WhereJudged(component, component.Holdout(advice.holdout)));
     }
     return fmt::format("{} here{}. {}",
                        advice.sensors.empty()

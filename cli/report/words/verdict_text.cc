@@ -121,7 +121,6 @@ std::string MeasureNext(const models::ComponentRecord& record) {
       wanted.push_back(std::move(what));
     }
   };
-  bool wants_days = false;
   const RecommendationRecord& advice = *record.recommendation;
   const HoldoutRecord* holdout = FindNamed(record.holdouts, advice.holdout);
   const auto verdict = std::ranges::find(
@@ -132,11 +131,7 @@ std::string MeasureNext(const models::ComponentRecord& record) {
     switch (doubt.kind) {
       case RemarkKind::kOneRunOnly:
       case RemarkKind::kUnitsCorrelated:
-        if (!wants_days) want("other days");
-        break;
-      case RemarkKind::kFewSessions:
-        wants_days = true;
-        want(fmt::format("{} days or more", models::kFewestSessionsToDecide));
+        want("other days");
         break;
       case RemarkKind::kTooFewUnits:
       case RemarkKind::kTooManyMaps:

@@ -1,7 +1,9 @@
 #include "models/study/judgement/verdict.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <tuple>
 
 #include "models/study/judgement/extrapolated_rows.h"
@@ -10,6 +12,8 @@ namespace errmap::models {
 namespace {
 
 using Eigen::Index;
+
+using IsMap = std::function<bool(std::size_t)>;
 
 double RmseOf(const HoldoutComparison& comparison, std::size_t model) {
   return comparison.tests.rmse[*comparison.PlaceOf(model)];
@@ -127,34 +131,72 @@ Verdict JudgeHoldout(const HoldoutComparison& comparison,
   return verdict;
 }
 
-// How much a hold-out tells of another day, from 0: enough whole sessions,
-// whole groups, another file, whole blocks, few sessions, rows.
-int RankOf(const Holdout& holdout, const HoldoutComparison& comparison) {
-  if (comparison.units.are_sessions &&
-      static_cast<Index>(comparison.units.labels.size()) >=
-          kFewestSessionsToDecide) {
-    return 0;
-  }
-  if (holdout.whole_groups && holdout.test_data == nullptr) return 1;
-  if (holdout.test_data != nullptr) return 2;
-  if (holdout.inner == InnerHoldout::kBlocks) return 3;
-  if (holdout.whole_sessions) return 4;
-  return 5;
+// How much a hold-out tells of another day, from 0: whole sessions, whole
+// groups, another file, whole blocks, few sessions, rows. Of the same kind one
+// that judges all sessions comes before one that judges the later ones alone.
+// Sessions count as such from `fewest` on.
+std::pair<int, bool> RankOf(const Holdout& holdout,
+                            const HoldoutComparison& comparison,
+                            Index fewest) {
+  const auto kind = [&] {
+    if (comparison.units.are_sessions &&
+        static_cast<Index>(comparison.units.labels.size()) >= fewest) {
+      return 0;
+    }
+    if (holdout.whole_groups && holdout.test_data == nullptr) return 1;
+    if (holdout.test_data != nullptr) return 2;
+    if (holdout.inner == InnerHoldout::kBlocks) return 3;
+    if (holdout.whole_sessions) return 4;
+    return 5;
+  };
+  return {kind(), holdout.forward};
 }
 
-// The hold-out to go by: the first of those that tell most.
+// The first of the hold-outs that tell most.
+std::optional<std::size_t> HoldoutThatTellsMost(
+    const std::vector<Holdout>& holdouts,
+    const std::vector<HoldoutComparison>& comparisons,
+    Index fewest_sessions) {
+  std::optional<std::size_t> most;
+  for (std::size_t h = 0; h < holdouts.size(); ++h) {
+    if (comparisons[h].models.empty()) continue;
+    if (!most ||
+        RankOf(holdouts[h], comparisons[h], fewest_sessions) <
+            RankOf(holdouts[*most], comparisons[*most], fewest_sessions)) {
+      most = h;
+    }
+  }
+  return most;
+}
+
+// What a promise is made by: two sessions say more of a third than any number
+// of groups of the same days.
+std::optional<std::size_t> StrictestHoldout(
+    const std::vector<Holdout>& holdouts,
+    const std::vector<HoldoutComparison>& comparisons) {
+  constexpr Index kFewestSessions = 2;
+  return HoldoutThatTellsMost(holdouts, comparisons, kFewestSessions);
+}
+
+// Null where no later sessions were foretold.
+const HoldoutComparison* ForwardOverSessions(
+    const std::vector<Holdout>& holdouts,
+    const std::vector<HoldoutComparison>& comparisons) {
+  for (std::size_t h = 0; h < holdouts.size(); ++h) {
+    if (holdouts[h].forward && comparisons[h].units.are_sessions &&
+        !comparisons[h].models.empty()) {
+      return &comparisons[h];
+    }
+  }
+  return nullptr;
+}
+
+// What a map is chosen by: with fewer sessions a fold lacks too much of what
+// all rows have, and its errors tell maps apart less well than groups do.
 std::optional<std::size_t> DecisiveHoldout(
     const std::vector<Holdout>& holdouts,
     const std::vector<HoldoutComparison>& comparisons) {
-  std::optional<std::size_t> decisive;
-  for (std::size_t h = 0; h < holdouts.size(); ++h) {
-    if (comparisons[h].models.empty()) continue;
-    if (!decisive || RankOf(holdouts[h], comparisons[h]) <
-                         RankOf(holdouts[*decisive], comparisons[*decisive])) {
-      decisive = h;
-    }
-  }
-  return decisive;
+  return HoldoutThatTellsMost(holdouts, comparisons, kFewestSessionsToDecide);
 }
 
 std::optional<InterpolationGap> MeasureGap(
@@ -165,7 +207,7 @@ std::optional<InterpolationGap> MeasureGap(
     if (comparisons[h].models.empty()) continue;
     if (!neighbours && holdouts[h].among_neighbours) neighbours = h;
   }
-  const auto unseen = DecisiveHoldout(holdouts, comparisons);
+  const auto unseen = StrictestHoldout(holdouts, comparisons);
   if (!unseen ||
       !(holdouts[*unseen].whole_groups || holdouts[*unseen].whole_sessions)) {
     return std::nullopt;
@@ -213,44 +255,86 @@ std::vector<std::size_t> NearTheBest(
   return near;
 }
 
+// The geometric mean over sessions: one that errs far more than the others, as
+// the first may that were foretold from few, does not decide alone.
+double TypicalRmse(const HoldoutComparison& comparison, std::size_t model) {
+  const auto of_units = comparison.unit_rmse.col(*comparison.PlaceOf(model));
+  return std::exp(
+      of_units.array().max(std::numeric_limits<double>::min()).log().mean());
+}
+
+// The model of least typical error where later sessions are foretold.
+std::optional<std::size_t> BestForeseeing(const HoldoutComparison& forward,
+                                          const IsMap& wanted) {
+  std::optional<std::size_t> best;
+  for (const std::size_t model : forward.models) {
+    if (wanted(model) &&
+        (!best || TypicalRmse(forward, model) < TypicalRmse(forward, *best))) {
+      best = model;
+    }
+  }
+  return best;
+}
+
+// Whether a map holds where later sessions are foretold from earlier ones: no
+// baseline does better, and it errs less than three times what it does when
+// sessions lie between those that it knows.
+bool Foresees(std::size_t model,
+              const HoldoutComparison& sideways,
+              const HoldoutComparison& forward,
+              const IsMap& is_baseline) {
+  constexpr double kMostGrowth = 3.0;
+  if (!forward.PlaceOf(model)) return true;
+  const double typical = TypicalRmse(forward, model);
+  const auto baseline = BestForeseeing(forward, is_baseline);
+  if (!baseline) return true;
+  return typical <= TypicalRmse(forward, *baseline) &&
+         typical <= kMostGrowth * TypicalRmse(sideways, model);
+}
+
 // One choice among near-equals is a gamble, which an average of maps that see
-// the inputs differently is not: it is used unless a single map's error is
-// lower by more than what never matters. Of a few days, or of pieces of one
-// run, the lowest of many errors is chance: they never speak for a single map.
-// An average that a baseline beats is no map at all.
-std::optional<std::size_t> BlendToUse(
-    const Holdout& holdout,
-    const HoldoutComparison& comparison,
-    const StudyResult& study,
-    const std::function<bool(std::size_t)>& is_map,
-    double indifference) {
+// the inputs differently is not: it is used unless a single map is established
+// to be better by days that are separate. An average that a baseline beats,
+// among all sessions or in the later ones, is no map at all. Nothing where
+// there is no average to be had.
+std::optional<std::size_t> BlendOrBetter(const HoldoutComparison& comparison,
+                                         const HoldoutComparison* forward,
+                                         const StudyResult& study,
+                                         const IsMap& is_map,
+                                         const JudgeOptions& options) {
   const auto is_blend = [&](std::size_t model) {
     return ChoiceOf(study.models[model]) == Choice::kBlend;
   };
+  const auto best = BestWhere(comparison, is_map);
+  if (options.choose == Choose::kBest) return best;
   const auto blend = BestWhere(comparison, [&](std::size_t model) {
     return is_blend(model) && is_map(model);
   });
-  if (!blend) return std::nullopt;
-  const auto baseline = BestOf(comparison, study, Choice::kBaseline);
-  if (baseline && RmseOf(comparison, *baseline) < RmseOf(comparison, *blend)) {
-    return std::nullopt;
-  }
-  const auto single = BestWhere(comparison, [&](std::size_t model) {
-    return !is_blend(model) && is_map(model);
+  if (!blend || options.choose == Choose::kBlend) return blend;
+  const IsMap is_baseline = [&](std::size_t model) {
+    return is_map(model) && ChoiceOf(study.models[model]) == Choice::kBaseline;
+  };
+  const auto foresees = [&](std::size_t model) {
+    return forward == nullptr ||
+           Foresees(model, comparison, *forward, is_baseline);
+  };
+  const auto proven = BestWhere(comparison, [&](std::size_t model) {
+    return is_map(model) && model != *blend &&
+           comparison.units.separate_sessions && foresees(model) &&
+           comparison.ThatItIsBetter(model, *blend) == Confidence::kEstablished;
   });
-  const bool can_tell = (holdout.whole_groups || holdout.whole_sessions) &&
-                        comparison.tests.num_units >= kFewestUnits;
-  if (single && can_tell &&
-      RmseOf(comparison, *single) + indifference < RmseOf(comparison, *blend)) {
-    return std::nullopt;
+  const auto baseline = BestWhere(comparison, is_baseline);
+  const std::size_t use = proven.value_or(*blend);
+  if (baseline && RmseOf(comparison, *baseline) < RmseOf(comparison, use)) {
+    return baseline;
   }
-  return blend;
+  return foresees(use) ? use : BestForeseeing(*forward, is_baseline);
 }
 
 // The first tier that holds a map: predictions alone cannot be run. Nothing is
 // left in advice->first_tier where there is none.
 void TakeFirstTier(const HoldoutComparison& comparison,
-                   const std::function<bool(std::size_t)>& is_map,
+                   const IsMap& is_map,
                    double indifference,
                    Recommendation* advice) {
   for (const std::vector<Index>& tier : comparison.tests.tiers) {
@@ -327,41 +411,97 @@ void WeighAgainstOthers(const HoldoutComparison& comparison,
   }
 }
 
+// The cheapest map that loses at most the margin to `model`, which it is where
+// that can be said of no other: fewest sensors, then fewest parameters.
+std::size_t CheapestNear(std::size_t model,
+                         const HoldoutComparison& comparison,
+                         const StudyResult& study,
+                         const IsMap& is_map,
+                         double indifference) {
+  const double margin =
+      stats::Margin{.indifference = indifference}.Of(RmseOf(comparison, model));
+  std::vector<std::size_t> near{model};
+  for (const std::size_t other : comparison.models) {
+    if (other != model && is_map(other) &&
+        comparison.tests.ExcessAtMost(*comparison.PlaceOf(other),
+                                      *comparison.PlaceOf(model)) <= margin) {
+      near.push_back(other);
+    }
+  }
+  return SimplestOf(near, comparison, study);
+}
+
 std::optional<Recommendation> Recommend(
     const data::Dataset& dataset,
     const std::vector<Holdout>& holdouts,
     const StudyResult& study,
     const std::vector<HoldoutComparison>& comparisons,
-    double indifference) {
+    const JudgeOptions& options) {
+  const auto strictest = StrictestHoldout(holdouts, comparisons);
   const auto decisive = DecisiveHoldout(holdouts, comparisons);
-  if (!decisive) return std::nullopt;
-  const HoldoutComparison& comparison = comparisons[*decisive];
-  const auto is_map = [&](std::size_t model) {
-    return study.models[model].final_fit.has_value();
+  if (!strictest || !decisive) return std::nullopt;
+  const HoldoutComparison& comparison = comparisons[*strictest];
+  const HoldoutComparison& decides = comparisons[*decisive];
+  const IsMap is_map = [&](std::size_t model) {
+    return study.models[model].final_fit.has_value() &&
+           comparison.PlaceOf(model) && decides.PlaceOf(model);
   };
   Recommendation advice;
-  advice.holdout = *decisive;
-  TakeFirstTier(comparison, is_map, indifference, &advice);
-  if (advice.first_tier.empty()) return std::nullopt;
-  advice.model = SimplestOf(advice.first_tier, comparison, study);
-  if (const auto blend = BlendToUse(
-          holdouts[*decisive], comparison, study, is_map, indifference)) {
-    advice.single = advice.model;
-    // Alone in its tier: the best of the others.
-    if (ChoiceOf(study.models[advice.model]) == Choice::kBlend) {
-      advice.single = BestWhere(comparison, [&](std::size_t model) {
-        return is_map(model) && ChoiceOf(study.models[model]) != Choice::kBlend;
-      });
-    }
-    advice.model = *blend;
+  advice.holdout = *strictest;
+  advice.decided_by = *decisive;
+  // What decides may be another hold-out than what is promised by.
+  Recommendation decided;
+  TakeFirstTier(decides, is_map, options.indifference, &decided);
+  TakeFirstTier(comparison, is_map, options.indifference, &advice);
+  if (advice.first_tier.empty() || decided.first_tier.empty()) {
+    return std::nullopt;
   }
-  WeighAgainstOthers(comparison, study, indifference, &advice);
+  const std::size_t simplest = SimplestOf(decided.first_tier, decides, study);
+  const auto is_blend = [&](std::size_t model) {
+    return ChoiceOf(study.models[model]) == Choice::kBlend;
+  };
+  const auto blend = BestWhere(decides, [&](std::size_t model) {
+    return is_map(model) && is_blend(model);
+  });
+  advice.model = BlendOrBetter(decides,
+                               ForwardOverSessions(holdouts, comparisons),
+                               study,
+                               is_map,
+                               options)
+                     .value_or(simplest);
+  if (options.prefer == Prefer::kSmall) {
+    advice.model = CheapestNear(
+        advice.model, decides, study, is_map, options.indifference);
+  }
+  if (is_blend(advice.model)) {
+    // Alone in its tier: the best of the others.
+    advice.single = !is_blend(simplest)
+                        ? simplest
+                        : BestWhere(decides, [&](std::size_t model) {
+                            return is_map(model) && !is_blend(model);
+                          });
+  } else if (blend && decides.units.separate_sessions &&
+             decides.ThatItIsBetter(advice.model, *blend) ==
+                 Confidence::kEstablished) {
+    advice.proven_better_than = blend;
+  }
+  WeighAgainstOthers(comparison, study, options.indifference, &advice);
   advice.extrapolated_share = ExtrapolatedShare(
-      dataset, holdouts[*decisive], *study.models[advice.model].final_fit);
+      dataset, holdouts[*strictest], *study.models[advice.model].final_fit);
   return advice;
 }
 
 }  // namespace
+
+std::string_view ToString(Choose choose) {
+  return choose == Choose::kBest    ? "best"
+         : choose == Choose::kBlend ? "blend"
+                                    : "auto";
+}
+
+std::string_view ToString(Prefer prefer) {
+  return prefer == Prefer::kSmall ? "small" : "least-error";
+}
 
 std::string_view ToString(Choice choice) {
   switch (choice) {
@@ -417,8 +557,8 @@ Judgement JudgeStudy(const data::Dataset& dataset,
                   JudgeHoldout(comparison, study, options.indifference)));
   }
   judgement.gap = MeasureGap(holdouts, judgement.comparisons);
-  judgement.recommendation = Recommend(
-      dataset, holdouts, study, judgement.comparisons, options.indifference);
+  judgement.recommendation =
+      Recommend(dataset, holdouts, study, judgement.comparisons, options);
   for (const ModelResult& model : study.models) {
     std::vector<GoalJudgement>& goals = judgement.goals.emplace_back();
     for (const HoldoutResult& result : model.holdouts) {

@@ -65,7 +65,9 @@ struct InterpolationGap {
 
 /// The map to use.
 struct Recommendation {
-  std::size_t holdout = 0;  // that it follows
+  /// The strictest that was measured: every figure, goal and promise is its.
+  std::size_t holdout = 0;
+  std::size_t decided_by = 0;  // the hold-out that the map was chosen by
   std::size_t model = 0;
   Choice choice = Choice::kBaseline;
   /// By RMSE; where there is one unit only, the models within the margin.
@@ -80,6 +82,8 @@ struct Recommendation {
   /// Where a blend is to be used, the simplest single map of the first tier,
   /// or the best one where there is none.
   std::optional<std::size_t> single;
+  /// Of a single map, the blend than which separate days prove it better.
+  std::optional<std::size_t> proven_better_than;
   /// Predictions without a map that were better than every map, if any.
   std::optional<std::size_t> better_but_no_map;
   /// Of the held-out rows, those with an input of the model outside what the
@@ -96,23 +100,43 @@ struct Judgement {
   std::vector<std::vector<GoalJudgement>> goals;  // (models x hold-outs)
 };
 
+/// Which map is recommended.
+enum class Choose {
+  kAuto,   // the blend, unless a baseline errs less or a map is proven better
+  kBest,   // the lowest error
+  kBlend,  // the blend wherever there is one
+};
+
+std::string_view ToString(Choose choose);  // "auto", "best", "blend"
+
+/// What a map is to have besides little error.
+enum class Prefer {
+  kLeastError,
+  kSmall,  // the cheapest map that loses at most the margin to the one chosen
+};
+std::string_view ToString(Prefer prefer);  // "least-error", "small"
+
 struct JudgeOptions {
   /// The difference in RMSE that never matters; target's unit, at least 0.
   double indifference = 0.0;
   double goal = GoalJudgement::kNaN;  // target's unit; NaN: none
   std::uint64_t seed = 1;
+  Choose choose = Choose::kAuto;
+  Prefer prefer = Prefer::kLeastError;
 };
 
 /// Judges a study.
 ///
-/// The recommendation follows the first hold-out of kFewestSessionsToDecide
-/// whole sessions or more, else of whole unseen groups, else of another file,
-/// else of blocks, else of fewer sessions, else the first; within its first
-/// tier the simplest map wins: fewest sensors (inputs other than position),
-/// then fewest parameters, then the lower RMSE. Where a baseline is in the
-/// first tier it is the simplest baseline there: nothing better is known. A
-/// blend comes before all of these, unless a single map's RMSE is lower by more
-/// than the indifference over six whole groups or sessions at least.
+/// What is promised follows the first hold-out of two or more whole sessions,
+/// else of whole unseen groups, else of another file, else of blocks, else the
+/// first; the map is chosen by the same, but by fewer than
+/// kFewestSessionsToDecide sessions only where nothing else is. Where there is
+/// a blend it is recommended, unless the best baseline's RMSE is lower, or its
+/// typical error in later sessions where these were foretold (forward:K), or a
+/// single map is established to be better by separate sessions. Else the
+/// simplest map of the first tier: fewest sensors (inputs other than position),
+/// then fewest parameters, then the lower RMSE; the simplest baseline where one
+/// is there: nothing better is known.
 Judgement JudgeStudy(const data::Dataset& dataset,
                      const std::vector<Holdout>& holdouts,
                      const StudyResult& study,

@@ -23,6 +23,8 @@ struct ComponentStudy {
   double indifference = 0.0;  // target's unit
   /// How maps are re-zeroed where they are judged; nothing: not.
   std::optional<RezeroRule> rezero = {};
+  Choose choose = Choose::kAuto;
+  Prefer prefer = Prefer::kLeastError;
   data::PreparedDataset data;
   std::vector<Holdout> holdouts;
   StudyResult study;

@@ -34,6 +34,9 @@ IntervalRecord IntervalOf(const stats::Bounds95& bounds) {
 }
 
 IntervalRecord RmseInterval(const HoldoutComparison& tests, std::size_t model) {
+  // Two bound nothing: a factor of ten thousand either way is no statement.
+  constexpr Index kFewestUnits = 3;
+  if (tests.tests.num_units < kFewestUnits) return {kNotKnown, kNotKnown};
   stats::Bounds95 bounds =
       tests.tests.rmse_bounds[static_cast<std::size_t>(*tests.PlaceOf(model))];
   bounds.lower = std::max(bounds.lower, 0.0);
@@ -492,6 +495,7 @@ std::optional<RecommendationRecord> JudgementRecord::Advice() const {
   record.choice = advice->choice;
   record.model = model.name;
   record.holdout = study_.holdouts[advice->holdout].name;
+  record.decided_by = study_.holdouts[advice->decided_by].name;
   record.rmse = result.test.rmse;
   record.ci95 =
       RmseInterval(judgement_.comparisons[advice->holdout], advice->model);

@@ -58,6 +58,8 @@ struct ConfigurationRecord {
   std::uint64_t seed = 0;
   LeftOut<double> goal;
   LeftOut<double> indifference;
+  LeftOut<std::string> choose;  // where it is not "auto"
+  LeftOut<std::string> prefer;  // where it is not "least-error"
   LeftOut<std::vector<std::string>> holdouts;
   LeftOut<std::vector<std::string>> models;
   LeftOut<std::string> rezero;
@@ -67,6 +69,8 @@ ERRMAP_RECORD(ConfigurationRecord,
               seed,
               goal,
               indifference,
+              choose,
+              prefer,
               holdouts,
               models,
               rezero,

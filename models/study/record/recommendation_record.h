@@ -91,7 +91,8 @@ ERRMAP_RECORD(ImportanceRecord, rows, rmse, alike, one_by_one, together)
 struct RecommendationRecord {
   Choice choice = Choice::kBaseline;
   std::string model;
-  std::string holdout;
+  std::string holdout;     // the strictest, of which all figures are
+  std::string decided_by;  // the one that the map was chosen by
   double rmse = kNotKnown;
   IntervalRecord ci95 = {kNotKnown, kNotKnown};
   std::vector<std::string> first_tier;
@@ -125,6 +126,7 @@ ERRMAP_RECORD(RecommendationRecord,
               choice,
               model,
               holdout,
+              decided_by,
               rmse,
               ci95,
               first_tier,

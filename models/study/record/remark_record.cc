@@ -42,6 +42,10 @@ std::string_view ToString(RemarkKind kind) {
       return "no groups";
     case RemarkKind::kFewSessions:
       return "few sessions";
+    case RemarkKind::kOnlyGrows:
+      return "only grows";
+    case RemarkKind::kProvenBetter:
+      return "proven better";
     case RemarkKind::kBlocksForUnits:
       return "blocks for units";
     case RemarkKind::kTooFewUnits:

@@ -45,7 +45,9 @@ enum class RemarkKind {
   kOtherCuts,
   kBetterWithoutMap,  // model: the predictions
   kBestNet,           // model: beside a map that is none
-  kFewSessions,       // holdouts: the one that holds them out whole
+  kFewSessions,       // holdouts: what the map was chosen by
+  kProvenBetter,      // model: the blend, by separate sessions
+  kOnlyGrows,         // columns; holdouts: that which looks forward, if any
 };
 /// "averages maps", ...: the enumerator's words.
 std::string_view ToString(RemarkKind kind);

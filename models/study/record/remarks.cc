@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "models/history/view.h"
 #include "models/study/judgement/extrapolated_rows.h"
 
 namespace errmap::models {
@@ -23,6 +24,7 @@ constexpr double kExtrapolationWorthSaying = 0.05;
 constexpr std::array kToldFirst = {RemarkKind::kInterrupted,
                                    RemarkKind::kRemoves,
                                    RemarkKind::kAveragesMaps,
+                                   RemarkKind::kProvenBetter,
                                    RemarkKind::kGoal,
                                    RemarkKind::kBetterWithoutMap,
                                    RemarkKind::kOneRunOnly,
@@ -30,6 +32,7 @@ constexpr std::array kToldFirst = {RemarkKind::kInterrupted,
                                    RemarkKind::kNoGroupsHeldOut,
                                    RemarkKind::kNoGroups,
                                    RemarkKind::kFewSessions,
+                                   RemarkKind::kOnlyGrows,
                                    RemarkKind::kTooFewUnits,
                                    RemarkKind::kTooManyMaps,
                                    RemarkKind::kNotNoise,
@@ -111,6 +114,7 @@ class Remarks {
   void AddBestNet();
   void AddNotNoise();
   void AddUnseen();
+  void AddGrowing();
   void AddUnits();
   void AddFlattered();
   void AddDisagreement();
@@ -120,7 +124,9 @@ class Remarks {
 
 void Remarks::AddSimplest() {
   const std::size_t lowest = advice_.first_tier.front();
-  if (advice_.single) {
+  if (advice_.proven_better_than) {
+    Add(RemarkKind::kProvenBetter, *advice_.proven_better_than);
+  } else if (advice_.single) {
     RemarkRecord& remark = Add(RemarkKind::kAveragesMaps, *advice_.single);
     // Who sees a lower error in the table asks why it is not used.
     if (RmseOf(advice_.model) <= RmseOf(*advice_.single)) remark.rank.reset();
@@ -206,14 +212,10 @@ void Remarks::AddUnseen() {
     Add(RemarkKind::kOneRunOnly);
     return;
   }
-  if (holdout.whole_sessions) return;
-  for (std::size_t h = 0; h < study_.holdouts.size(); ++h) {
-    if (!study_.holdouts[h].whole_sessions ||
-        !study_.judgement.comparisons[h].PlaceOf(advice_.model)) {
-      continue;
-    }
+  if (holdout.whole_sessions) {
+    if (record_.data.sessions >= kFewestSessionsToDecide) return;
     Add(RemarkKind::kFewSessions).holdouts =
-        std::vector<std::string>{study_.holdouts[h].name};
+        std::vector<std::string>{study_.holdouts[advice_.decided_by].name};
     return;
   }
   if (holdout.whole_groups) return;
@@ -222,6 +224,30 @@ void Remarks::AddUnseen() {
   } else {
     Add(record_.data.group ? RemarkKind::kNoGroupsHeldOut
                            : RemarkKind::kNoGroups);
+  }
+}
+
+// What is held out lies between other sessions, what is to come does not.
+void Remarks::AddGrowing() {
+  const data::Dataset& dataset = study_.data.dataset;
+  const std::vector<bool> only_grow = ColumnsThatOnlyGrow(dataset);
+  std::vector<std::string> columns;
+  for (const TrainedInput& input :
+       study_.study.models[advice_.model].final_fit->inputs) {
+    const Eigen::Index at = dataset.FindInput(input.column.name);
+    if (at >= 0 && only_grow[static_cast<std::size_t>(at)]) {
+      columns.push_back(input.column.name);
+    }
+  }
+  if (columns.empty()) return;
+  RemarkRecord& remark = Add(RemarkKind::kOnlyGrows);
+  remark.columns = std::move(columns);
+  for (std::size_t h = 0; h < study_.holdouts.size(); ++h) {
+    if (study_.holdouts[h].forward &&
+        study_.judgement.comparisons[h].PlaceOf(advice_.model)) {
+      remark.holdouts = std::vector<std::string>{study_.holdouts[h].name};
+      return;
+    }
   }
 }
 
@@ -257,11 +283,7 @@ void Remarks::AddDisagreement() {
   for (std::size_t h = 0; h < study_.holdouts.size(); ++h) {
     if (h == advice_.holdout || study_.holdouts[h].among_neighbours ||
         !study_.judgement.verdicts[h] ||
-        study_.judgement.comparisons[h].TierOf(advice_.model) < 2 ||
-        std::ranges::any_of(remarks_, [&](const RemarkRecord& remark) {
-          return remark.kind == RemarkKind::kFewSessions &&
-                 remark.holdouts->front() == study_.holdouts[h].name;
-        })) {
+        study_.judgement.comparisons[h].TierOf(advice_.model) < 2) {
       continue;
     }
     others.push_back(study_.holdouts[h].name);
@@ -311,6 +333,7 @@ void Remarks::AddExtrapolation() {
 std::vector<RemarkRecord> Remarks::Doubts() {
   if (record_.interrupted) Add(RemarkKind::kInterrupted);
   AddUnseen();
+  AddGrowing();
   AddUnits();
   AddFlattered();
   AddDisagreement();

@@ -69,7 +69,7 @@ TEST(FitInView, AFormulaNamesDerivedInputs) {
       "poly:formula=\"ema(t1_degC,600s)\":view=history:history=600", dataset);
   EXPECT_LT(RmseOf(fitted, dataset), 1e-9);
   EXPECT_EQ(fitted.model->num_parameters(), 2);
-  EXPECT_FALSE(fitted.guards.has_value());
+  EXPECT_TRUE(fitted.guards.has_value());
   EXPECT_THROW(MakeRecipe("poly:formula=t1_degC:view=auto"),
                std::invalid_argument);
   EXPECT_THROW(

@@ -181,7 +181,7 @@ data::Dataset GroupedQuadratic(Index groups) {
 
 TEST(PromiseOf, ComesFromWholeUnitsAndTellsWhich) {
   const data::Dataset dataset = GroupedQuadratic(12);
-  EXPECT_EQ(DecisiveDefaultHoldout(dataset), "groups:5");
+  EXPECT_EQ(StrictestDefaultHoldout(dataset), "groups:5");
   FittedModel fitted = MakeRecipe("mean")->Fit(dataset, {});
   AddPromise(dataset, MakeRecipe("mean"), {}, &fitted);
   const auto& promise = fitted.interval;

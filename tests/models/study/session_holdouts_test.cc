@@ -20,6 +20,7 @@ using Eigen::Index;
 using errmap::testing::MakeHoldouts;
 using errmap::testing::MakeRecipes;
 using ::testing::ElementsAre;
+using ::testing::Pair;
 
 // `days` of 24 rows, each of four cycles, whose offset differs by the day.
 data::Dataset DaysInSessionHoldouts(Index days, bool with_cycles) {
@@ -55,20 +56,22 @@ data::Dataset DaysInSessionHoldouts(Index days, bool with_cycles) {
   return data::Dataset(std::move(parts));
 }
 
-std::string Decisive(const data::Dataset& dataset,
-                     const std::vector<std::string>& specs) {
+// What the map is chosen by, and what it promises by.
+std::pair<std::string, std::string> Decisive(
+    const data::Dataset& dataset, const std::vector<std::string>& specs) {
   const auto holdouts = MakeHoldouts(dataset, specs);
   const StudyResult study = RunStudy(
       dataset, holdouts, MakeRecipes({"mean", "poly:temperature"}), {});
   const Judgement judgement = JudgeStudy(dataset, holdouts, study, {});
-  return holdouts[judgement.recommendation->holdout].name;
+  const Recommendation& advice = *judgement.recommendation;
+  return {holdouts[advice.decided_by].name, holdouts[advice.holdout].name};
 }
 
 TEST(DefaultHoldouts, HoldOutWhateverCanBeHeldOutWhole) {
   EXPECT_THAT(DefaultHoldouts(DaysInSessionHoldouts(3, true)),
               ElementsAre("every:3", "groups:5", "sessions:3"));
   EXPECT_THAT(DefaultHoldouts(DaysInSessionHoldouts(6, false)),
-              ElementsAre("every:3", "sessions:5"));
+              ElementsAre("every:3", "sessions:5", "forward:3"));
   EXPECT_THAT(DefaultHoldouts(DaysInSessionHoldouts(2, false)),
               ElementsAre("every:3", "sessions:2", "blocks:5"));
 }
@@ -82,17 +85,38 @@ TEST(StudyDefaults, GiveLengthsAGoalAndAnIndifference) {
   EXPECT_EQ(DefaultIndifference(arcsec), 0.0);
 }
 
-TEST(SessionHoldouts, DecideFromFourSessionsOn) {
+TEST(SessionHoldouts, PromiseFromTwoSessionsOnAndDecideFromFour) {
   const std::vector<std::string> grouped = {
-      "every:3", "groups:5", "sessions:3"};
-  EXPECT_EQ(Decisive(DaysInSessionHoldouts(3, true), grouped), "groups:5");
-  EXPECT_EQ(Decisive(DaysInSessionHoldouts(4, true), grouped), "sessions:3");
+      "every:3", "groups:5", "sessions:2"};
+  EXPECT_THAT(Decisive(DaysInSessionHoldouts(2, true), grouped),
+              Pair("groups:5", "sessions:2"));
+  EXPECT_THAT(Decisive(DaysInSessionHoldouts(3, true), grouped),
+              Pair("groups:5", "sessions:2"));
+  EXPECT_THAT(Decisive(DaysInSessionHoldouts(4, true), grouped),
+              Pair("sessions:2", "sessions:2"));
   const std::vector<std::string> plain = {"every:3", "sessions:3", "blocks:5"};
-  EXPECT_EQ(Decisive(DaysInSessionHoldouts(3, false), plain), "blocks:5");
-  EXPECT_EQ(Decisive(DaysInSessionHoldouts(4, false), plain), "sessions:3");
-  EXPECT_EQ(
+  EXPECT_THAT(Decisive(DaysInSessionHoldouts(3, false), plain),
+              Pair("blocks:5", "sessions:3"));
+  EXPECT_THAT(Decisive(DaysInSessionHoldouts(4, false), plain),
+              Pair("sessions:3", "sessions:3"));
+  EXPECT_THAT(
       Decisive(DaysInSessionHoldouts(3, false), {"every:3", "sessions:3"}),
-      "sessions:3");
+      Pair("sessions:3", "sessions:3"));
+}
+
+// What looks back over all sessions tells more than what looks forward only.
+TEST(SessionHoldouts, LookForwardOverWholeSessionsBesideThem) {
+  const data::Dataset dataset = DaysInSessionHoldouts(5, true);
+  EXPECT_THAT(Decisive(dataset, {"forward:3", "sessions:5"}),
+              Pair("sessions:5", "sessions:5"));
+  const auto holdouts = MakeHoldouts(dataset, {"forward:3"});
+  EXPECT_TRUE(holdouts[0].forward);
+  EXPECT_TRUE(holdouts[0].whole_sessions);
+  const std::vector<Index> days = dataset.session_codes();
+  for (const stats::Fold& fold : holdouts[0].folds) {
+    EXPECT_LT(days[static_cast<std::size_t>(fold.train.back())],
+              days[static_cast<std::size_t>(fold.test.front())]);
+  }
 }
 
 TEST(SessionHoldouts, CountSessionsInTheTests) {
