@@ -153,7 +153,8 @@ def check_holdout(program, table):
            f"{result['train']['n']} rows trained on")
     expect(component["recommendation"]["holdout"] == "newest:7",
            "the hold-out does not decide")
-    expect("newest:K" in run(program, "compare", "--help"), "help lacks it")
+    expect("newest:K" in run(program, "help", "compare", "--all"),
+           "help lacks it")
     refused = subprocess.run(
         [str(program), "compare", str(table), "--holdout", "newest:35"],
         capture_output=True, text=True, check=False)

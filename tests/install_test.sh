@@ -154,7 +154,9 @@ cat >"$scratch/same.py" <<'SCRIPT'
 import json, sys
 
 def figures(value):
-    """Less what is measured of the machine."""
+    """Less what is measured of the machine; keep_dead is --keep-dead."""
+    if isinstance(value, str):
+        return value.replace("--", "").replace("-", "_")
     if isinstance(value, list):
         return [figures(one) for one in value]
     if not isinstance(value, dict):

@@ -1,38 +1,42 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <initializer_list>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+namespace CLI {
+class App;
+}
 
 namespace errmap::cli {
 
+/// An option that takes one of `words`; `choose` is told which.
+void AddWordOption(CLI::App* command,
+                   const std::string& flag,
+                   const std::string& what,
+                   const std::vector<std::string>& words,
+                   const std::string& usual,
+                   std::function<void(std::size_t)> choose);
+
 /// An option of words, each of which stands for a value that ToString names.
 template <typename Value>
-CLI::Option* AddChoice(CLI::App* command,
-                       const std::string& flag,
-                       const std::string& what,
-                       std::initializer_list<Value> values,
-                       Value* chosen) {
+void AddChoice(CLI::App* command,
+               const std::string& flag,
+               const std::string& what,
+               std::initializer_list<Value> values,
+               Value* chosen) {
   std::vector<std::string> words;
   for (const Value value : values) words.emplace_back(ToString(value));
-  const std::vector<Value> meant(values);
-  return command
-      ->add_option_function<std::string>(
-          flag,
-          [words, meant, chosen](const std::string& word) {
-            *chosen = meant[static_cast<std::size_t>(
-                std::ranges::find(words, word) - words.begin())];
-          },
-          what)
-      ->check(CLI::IsMember(words))
-      ->type_name(fmt::format("{}", fmt::join(words, "|")))
-      ->default_str(std::string(ToString(*chosen)));
+  AddWordOption(command,
+                flag,
+                what,
+                words,
+                std::string(ToString(*chosen)),
+                [meant = std::vector<Value>(values), chosen](std::size_t i) {
+                  *chosen = meant[i];
+                });
 }
 
 }  // namespace errmap::cli

@@ -171,10 +171,11 @@ void JudgeSensors(const SensorRelations& relations,
   Index worst = 0;
   double largest = 0.0;
   for (Index i = 0; i < squares.size(); ++i) {
+    const double within = missing > 0.0 ? missing * relations.within[i] : 0.0;
     const double variance =
         widening[i] *
         ((n * squares[i] + kPriorSessions * common) / (n + kPriorSessions) +
-         missing * relations.within[i]);
+         within);
     const double t =
         std::abs(shifts.shift[i]) / (kSensorWidening * std::sqrt(variance));
     if (t <= largest) continue;

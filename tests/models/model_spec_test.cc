@@ -80,7 +80,7 @@ TEST(RecipeCatalog, NamesTheOptionsOfEveryTypeAndNoOthers) {
     }
     return all;
   };
-  EXPECT_THAT(names("poly:eq8"), ElementsAre("position", "T"));
+  EXPECT_THAT(names("poly:eq8"), ElementsAre("position", "T", "clip"));
   EXPECT_THAT(names("net:scg"), ::testing::Contains("wfactor"));
   EXPECT_THAT(names("zero"), ::testing::IsEmpty());
   EXPECT_THROW(names("poly:eq10"), std::invalid_argument);

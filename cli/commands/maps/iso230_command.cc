@@ -477,8 +477,7 @@ void AddIso230Command(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<Iso230Arguments>();
   CLI::App* command = app->add_subcommand(
       "iso230",
-      "Figures of a positioning test by ISO 230-2, with and without "
-      "a map");
+      "Figures of a positioning test (ISO 230-2), with a map or without");
   command
       ->add_option("DATA",
                    arguments->files,

@@ -35,18 +35,15 @@ void AddJudgingOptions(CLI::App* command, CompareArguments* arguments) {
   AddChoice(
       command,
       "--choose",
-      "The map to recommend: auto (the blend, unless a baseline errs less "
-      "or a single map is proven better by separate days), best (the "
-      "lowest error) or blend",
+      "The map to recommend\nauto: the blend, unless a baseline errs less or a "
+      "single map is proven better by separate days. best: the lowest error",
       {models::Choose::kAuto, models::Choose::kBest, models::Choose::kBlend},
       &arguments->choose);
-  AddChoice(
-      command,
-      "--prefer",
-      "least-error, or small: the fewest sensors that lose at most 5 % to "
-      "it",
-      {models::Prefer::kLeastError, models::Prefer::kSmall},
-      &arguments->prefer);
+  AddChoice(command,
+            "--prefer",
+            "small: fewest sensors, at most 5 % worse",
+            {models::Prefer::kLeastError, models::Prefer::kSmall},
+            &arguments->prefer);
   command
       ->add_option("--probes-per-session",
                    arguments->probes.numbers,

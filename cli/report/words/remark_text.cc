@@ -71,7 +71,11 @@ std::string CostSentence(const RecommendationRecord& advice) {
   if (!advice.sensors.empty()) {
     sensors = Count(std::ssize(advice.sensors), "sensor");
     if (advice.sensors.size() <= kMostSensorsNamed) {
-      sensors += fmt::format(" ({})", fmt::join(advice.sensors, ", "));
+      std::vector<std::string> names;
+      for (const std::string& sensor : advice.sensors) {
+        names.push_back(data::Printable(sensor, std::string_view::npos));
+      }
+      sensors += fmt::format(" ({})", fmt::join(names, ", "));
     }
   }
   std::string cost = Count(advice.cost.multiplications, "multiplication");

@@ -174,7 +174,8 @@ TEST_F(CliMemory, ComparesByWholeSessions) {
   EXPECT_EQ(component["data"]["time"], "time_s");
   EXPECT_EQ(component["data"]["sessions"], 5);
   EXPECT_EQ(component["data"]["inputs"], Json({"t1_degC"}));
-  ASSERT_EQ(component["holdouts"].size(), 2U);
+  ASSERT_EQ(component["holdouts"].size(), 3U);
+  EXPECT_EQ(component["holdouts"][2]["name"], "forward:3");
   const Json& sessions = component["holdouts"][1];
   EXPECT_EQ(sessions["name"], "sessions:5");
   EXPECT_EQ(sessions["unit_of_analysis"], "day");

@@ -57,7 +57,7 @@ TEST(ManPage, NamesEveryModelWithItsOptionsAndEveryExitStatus) {
   for (const std::string& type : models::ModelTypes()) {
     EXPECT_THAT(page, HasSubstr("\\fB" + type + "\\fR\n")) << type;
   }
-  EXPECT_THAT(page, HasSubstr(": position, T\n"));
+  EXPECT_THAT(page, HasSubstr(": position, T, clip\n"));
   EXPECT_THAT(page, HasSubstr("hidden=20"));
   for (const char* status : {"0", "1", "2", "3", "4", "130"}) {
     EXPECT_THAT(page, HasSubstr(std::string("\\fB") + status + "\\fR\n"));

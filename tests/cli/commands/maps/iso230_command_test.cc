@@ -88,7 +88,9 @@ TEST_F(Iso230, AMapIsJudgedByTheSameFigures) {
   ASSERT_EQ(Run({"fit",
                  "both.csv",
                  "--model",
-                 "poly:position:degree=1",
+                 "poly:full:degree=1",
+                 "--inputs",
+                 "position_mm",
                  "--no-interval",
                  "-o",
                  "map.json"})
