@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "models/row_scratch.h"
 
@@ -56,7 +58,6 @@ Index AveragedModel::num_parameters() const {
 ModelDescription AveragedModel::Describe() const {
   BlendForm form{num_inputs_, rule_, {}};
   for (const AveragedMember& member : members_) {
-    const ModelDescription description = member.model->Describe();
     BlendForm::Member described{member.name,
                                 member.weight,
                                 member.inputs,
@@ -64,13 +65,15 @@ ModelDescription AveragedModel::Describe() const {
                                 member.highest,
                                 member.model->num_parameters(),
                                 {}};
-    if (const auto* polynomial = std::get_if<PolynomialForm>(&description)) {
-      described.form = *polynomial;
-    } else if (std::holds_alternative<OpaqueForm>(description)) {
-      return OpaqueForm{num_inputs_, {}};
-    } else {
-      described.form = std::get<NetForm>(description);
-    }
+    const bool is_told = std::visit(
+        [&described]<typename Form>(const Form& known) {
+          constexpr bool kCanBeMember =
+              std::is_assignable_v<decltype(described.form)&, Form>;
+          if constexpr (kCanBeMember) described.form = known;
+          return kCanBeMember;
+        },
+        member.model->Describe());
+    if (!is_told) return OpaqueForm{num_inputs_, {}};
     form.members.push_back(std::move(described));
   }
   return form;

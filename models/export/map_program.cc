@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 #include "models/export/nested_polynomial.h"
 #include "models/history/history.h"
@@ -289,15 +290,7 @@ class FormWriter {
   }
 
   void Form(const ModelDescription& form, const std::vector<Operand>& inputs) {
-    if (const auto* blend = std::get_if<BlendForm>(&form)) {
-      Blend(*blend, inputs);
-    } else if (const auto* net = std::get_if<NetForm>(&form)) {
-      Add({.op = Op::kCopy, .to = kError, .a = Net(*net, inputs)});
-    } else {
-      Add({.op = Op::kCopy,
-           .to = kError,
-           .a = Polynomial(std::get<PolynomialForm>(form), inputs)});
-    }
+    std::visit([&](const auto& known) { ErrorOf(known, inputs); }, form);
   }
 
  private:
@@ -306,6 +299,17 @@ class FormWriter {
 
   void Add(const Instruction& instruction) {
     program_->evaluate.push_back(instruction);
+  }
+
+  // One for each form: a new one does not compile without its own.
+  void ErrorOf(const PolynomialForm& form, const std::vector<Operand>& inputs) {
+    Add({.op = Op::kCopy, .to = kError, .a = OutputOf(form, inputs)});
+  }
+  void ErrorOf(const NetForm& form, const std::vector<Operand>& inputs) {
+    Add({.op = Op::kCopy, .to = kError, .a = OutputOf(form, inputs)});
+  }
+  void ErrorOf(const OpaqueForm& form, const std::vector<Operand>& /*inputs*/) {
+    RequireFormula(form, "an exported map");
   }
 
   void Clip(Operand to, const Bounds& bounds, bool guards) {
@@ -317,8 +321,8 @@ class FormWriter {
     }
   }
 
-  Operand Polynomial(const PolynomialForm& form,
-                     const std::vector<Operand>& inputs) {
+  Operand OutputOf(const PolynomialForm& form,
+                   const std::vector<Operand>& inputs) {
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       const bool is_read = std::ranges::any_of(
           form.terms,
@@ -339,7 +343,7 @@ class FormWriter {
 
   // The scales become part of the weights. The offsets do not: 20 degC that
   // vary by 0.1 K would cancel in the bias, and single precision with them.
-  Operand Net(const NetForm& form, const std::vector<Operand>& inputs) {
+  Operand OutputOf(const NetForm& form, const std::vector<Operand>& inputs) {
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       Add({.op = Op::kShift,
            .to = {Space::kScaled, AsInt(i)},
@@ -372,7 +376,7 @@ class FormWriter {
     return kOutput;
   }
 
-  void Blend(const BlendForm& form, const std::vector<Operand>& inputs) {
+  void ErrorOf(const BlendForm& form, const std::vector<Operand>& inputs) {
     Add({.op = Op::kSet, .to = kError, .c = 0.0});
     for (const BlendForm::Member& member : form.members) {
       std::vector<Operand> read;
@@ -380,9 +384,8 @@ class FormWriter {
         read.push_back(inputs[static_cast<std::size_t>(input)]);
       }
       const Operand output =
-          std::holds_alternative<NetForm>(member.form)
-              ? Net(std::get<NetForm>(member.form), read)
-              : Polynomial(std::get<PolynomialForm>(member.form), read);
+          std::visit([&](const auto& known) { return OutputOf(known, read); },
+                     member.form);
       Clip(output, {member.lowest, member.highest}, false);
       Add({.op = Op::kAccumulate,
            .to = kError,
@@ -453,9 +456,7 @@ MapProgram MakeMapProgram(const FittedModel& fitted) {
   std::vector<Operand> inputs = layout.form();
   FormWriter writer(&program);
   if (fitted.guards) writer.ClipInputs(*fitted.guards, &inputs);
-  const ModelDescription form = fitted.model->Describe();
-  RequireFormula(form, "an exported map");
-  writer.Form(form, inputs);
+  writer.Form(fitted.model->Describe(), inputs);
   if (fitted.guards) writer.ClipError(*fitted.guards);
   MeasureSpaces(&program);
   return program;

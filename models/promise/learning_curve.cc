@@ -71,6 +71,18 @@ std::vector<Index> RowsOfUnits(const Units& units, const std::set<Index>& of) {
   return rows;
 }
 
+// How often `size` of a fold's smallest pool can be drawn anew, up to `most`.
+Index DifferentDraws(Index pool, Index size, Index most) {
+  double ways = 1.0;
+  for (Index i = 0; i < std::min(size, pool - size); ++i) {
+    ways *= static_cast<double>(pool - i) / static_cast<double>(i + 1);
+  }
+  constexpr double kHalf = 0.5;  // of rounding
+  return ways + kHalf < static_cast<double>(most)
+             ? static_cast<Index>(ways + kHalf)
+             : most;
+}
+
 Holdout MakeHoldout(const Units& units,
                     Index size,
                     Index folds,
@@ -81,8 +93,10 @@ Holdout MakeHoldout(const Units& units,
   holdout.name = fmt::format("{} of {} ({})", size, units.count, units.name);
   holdout.whole_groups = !by_sessions;
   holdout.whole_sessions = by_sessions;
-  holdout.repeats = repeats;
-  for (Index repeat = 0; repeat < repeats; ++repeat) {
+  const Index smallest_pool = units.count - (units.count + folds - 1) / folds;
+  holdout.repeats = DifferentDraws(smallest_pool, size, repeats);
+  std::vector<std::set<std::set<Index>>> drawn(static_cast<std::size_t>(folds));
+  for (Index repeat = 0; repeat < holdout.repeats; ++repeat) {
     for (Index fold = 0; fold < folds; ++fold) {
       std::set<Index> tested;
       std::vector<Index> pool;
@@ -93,15 +107,13 @@ Holdout MakeHoldout(const Units& units,
           pool.push_back(unit);
         }
       }
-      random->Shuffle(pool);
-      const auto kept =
-          std::min<std::size_t>(static_cast<std::size_t>(size), pool.size());
-      holdout.folds.push_back(
-          {.train =
-               RowsOfUnits(units,
-                           {pool.begin(),
-                            pool.begin() + static_cast<std::ptrdiff_t>(kept)}),
-           .test = RowsOfUnits(units, tested)});
+      std::set<Index> trained;
+      do {  // the same rows again would be the same fit
+        random->Shuffle(pool);
+        trained = {pool.begin(), pool.begin() + size};
+      } while (!drawn[static_cast<std::size_t>(fold)].insert(trained).second);
+      holdout.folds.push_back({.train = RowsOfUnits(units, trained),
+                               .test = RowsOfUnits(units, tested)});
     }
   }
   return holdout;

@@ -98,7 +98,8 @@ TEST(PlanLearning, TestsWholeUnitsThatTheFoldHasNotSeen) {
   EXPECT_EQ(plan.sizes, (std::vector<Index>{2, 3, 4}));
   const std::vector<Index> sessions = days.session_codes();
   for (std::size_t i = 0; i < plan.sizes.size(); ++i) {
-    ASSERT_EQ(plan.holdouts[i].folds.size(), 10U);
+    // Twice five folds; four of a pool of four can be drawn once.
+    ASSERT_EQ(plan.holdouts[i].folds.size(), plan.sizes[i] < 4 ? 10U : 5U);
     for (const stats::Fold& fold : plan.holdouts[i].folds) {
       std::set<Index> train;
       std::set<Index> test;
@@ -114,6 +115,25 @@ TEST(PlanLearning, TestsWholeUnitsThatTheFoldHasNotSeen) {
   }
   EXPECT_THROW(PlanLearning(SimulatedDays(1, 3, 4), LearnBy::kSessions, 1, 1),
                std::invalid_argument);
+}
+
+TEST(PlanLearning, NeverTrainsOnTheSameRowsTwiceWhateverTheRepeats) {
+  for (Index units = 4; units <= 9; ++units) {
+    const data::Dataset days = SimulatedDays(1, units, 4);
+    for (const Index repeats : {1, 3, 40}) {
+      for (const Holdout& holdout :
+           PlanLearning(days, LearnBy::kSessions, repeats, 7).holdouts) {
+        std::set<std::pair<std::vector<Index>, std::vector<Index>>> fits;
+        for (const stats::Fold& fold : holdout.folds) {
+          EXPECT_TRUE(fits.emplace(fold.train, fold.test).second)
+              << holdout.name << ", " << repeats << " repeats";
+        }
+        const Index folds = std::min<Index>(units, 5);
+        EXPECT_EQ(static_cast<Index>(fits.size()), folds * holdout.repeats);
+        EXPECT_LE(holdout.repeats, repeats);
+      }
+    }
+  }
 }
 
 TEST(CurvesOf, FallsWithTheNumberOfDaysAndNamesWhatFails) {
