@@ -206,6 +206,16 @@ class StepsApart {
   bool in_rows_ = false;
 };
 
+// The column that `name` is, or is derived from in the end.
+std::string RootOf(const History& history, std::string name) {
+  // Backwards, since each derived input builds on earlier ones only.
+  for (auto input = history.derived.rbegin(); input != history.derived.rend();
+       ++input) {
+    if (input->column.name == name) name = input->of;
+  }
+  return name;
+}
+
 DerivedInput Unitless(const data::ColumnInfo& of,
                       const char* name,
                       Filter filter) {
@@ -262,17 +272,24 @@ bool History::needs_sessions() const {
 
 std::vector<std::string> History::columns() const {
   std::vector<std::string> names;
-  // The column that `name` is, or is derived from in the end.
-  const auto add_root = [&](std::string name) {
-    // Backwards, since each derived input builds on earlier ones only.
-    for (auto input = derived.rbegin(); input != derived.rend(); ++input) {
-      if (input->column.name == name) name = input->of;
-    }
-    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  const auto add_root = [&](const std::string& name) {
+    const std::string root = RootOf(*this, name);
+    if (std::ranges::find(names, root) == names.end()) names.push_back(root);
   };
   for (const std::string& name : form_inputs) add_root(name);
   for (const DerivedInput& input : derived) add_root(input.of);
   return names;
+}
+
+std::vector<Index> History::remembered() const {
+  const std::vector<std::string> names = columns();
+  std::set<Index> found;
+  for (const DerivedInput& input : derived) {
+    if (input.filter != Filter::kEma && input.filter != Filter::kZero) continue;
+    found.insert(std::ranges::find(names, RootOf(*this, input.of)) -
+                 names.begin());
+  }
+  return {found.begin(), found.end()};
 }
 
 DerivedInput Ema(const data::ColumnInfo& of,

@@ -77,6 +77,9 @@ struct History {
   /// Columns of the data that it reads, in order of their first use by
   /// `form_inputs`, then by `derived`.
   std::vector<std::string> columns() const;
+  /// Which of columns() filters run through or are zeroed: a log of what was
+  /// before needs no others.
+  std::vector<Eigen::Index> remembered() const;
 };
 
 /// Derived inputs with their names and units.

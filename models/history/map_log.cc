@@ -1,6 +1,6 @@
 #include "models/history/map_log.h"
 
-#include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -110,6 +110,39 @@ void WarnOfSessions(const History& history,
   }
 }
 
+// A table of rows before others.
+struct Earlier {
+  data::CsvTable table;
+  Eigen::MatrixXd
+      readings;  // (rows x inputs); NaN where nothing remembers them
+  std::vector<std::string> remarks;
+};
+
+// Positions are not known between measurements, and no filter reads them.
+Earlier ReadEarlier(const FittedModel& fitted, const std::string& file) {
+  std::vector<data::ColumnInfo> needed;
+  const std::vector<Index> remembered = fitted.history->remembered();
+  for (const Index input : remembered) {
+    needed.push_back(fitted.inputs[static_cast<std::size_t>(input)].column);
+  }
+  data::TableForMap read = data::InMapUnits(data::ReadCsv(file), needed);
+  std::vector<Index> rows(read.table.num_rows);
+  std::iota(rows.begin(), rows.end(), Index{0});
+  Earlier earlier{.table = std::move(read.table),
+                  .readings = Eigen::MatrixXd::Constant(
+                      std::ssize(rows),
+                      std::ssize(fitted.inputs),
+                      std::numeric_limits<double>::quiet_NaN()),
+                  .remarks = std::move(read.remarks)};
+  for (std::size_t i = 0; i < needed.size(); ++i) {
+    const std::size_t at =
+        data::RequireColumn(earlier.table, needed[i].name, "");
+    earlier.readings.col(remembered[i]) =
+        data::ValuesOfRows(earlier.table.columns[at], rows);
+  }
+  return earlier;
+}
+
 }  // namespace
 
 data::FoundSessions FindSessionsFor(const History& history,
@@ -159,38 +192,31 @@ MapLog MakeMapLog(const FittedModel& fitted,
   const History& history = *fitted.history;
   data::DatasetSelection selection = SelectionFor(history, table, arguments);
   data::FoundSessions found = FindAll(history, table, selection);
-  data::CsvTable joined;
+  auto log = std::make_shared<data::SessionLog>();
+  log->input_values = ReadingsOf(fitted, table);
   if (!arguments.after.empty()) {
+    Earlier earlier = ReadEarlier(fitted, arguments.after);
+    map.warnings = std::move(earlier.remarks);
     // Each by itself first, so that what is wrong is said of its file.
+    FindAll(history, earlier.table, selection);
     std::vector<std::string> columns;
-    std::vector<data::ColumnInfo> of_map;
-    for (const TrainedInput& input : fitted.inputs) {
-      columns.push_back(input.column.name);
-      of_map.push_back(input.column);
+    if (!found.sessions.column.empty()) {
+      columns.push_back(found.sessions.column);
     }
-    const data::TableForMap read =
-        data::InMapUnits(data::ReadCsv(arguments.after), of_map);
-    const data::CsvTable& earlier = read.table;
-    map.warnings = read.remarks;
-    FindAll(history, earlier, selection);
-    const auto add = [&](const std::string& name) {
-      if (std::ranges::find(columns, name) == columns.end()) {
-        columns.push_back(name);
-      }
-    };
-    if (!found.sessions.column.empty()) add(found.sessions.column);
     if (found.time_column >= 0) {
       selection.time = table.At(found.time_column).name;
-      add(selection.time);
+      columns.push_back(selection.time);
     }
-    joined = data::AppendedTable(earlier, table, columns);
-    found = FindAll(history, joined, selection);
-    map.first_row = static_cast<Index>(earlier.num_rows);
+    found = FindAll(
+        history, data::AppendedTable(earlier.table, table, columns), selection);
+    map.first_row = static_cast<Index>(earlier.table.num_rows);
+    Eigen::MatrixXd all(map.first_row + log->input_values.rows(),
+                        log->input_values.cols());
+    all << earlier.readings, log->input_values;
+    log->input_values = std::move(all);
   }
-  const data::CsvTable& all = arguments.after.empty() ? table : joined;
-  auto log = std::make_shared<data::SessionLog>();
-  log->input_values = ReadingsOf(fitted, all);
-  log->first_rows = data::FirstRows(found.sessions, log->input_values);
+  log->first_rows = data::FirstRows(
+      found.sessions, log->input_values(Eigen::all, history.remembered()));
   log->sessions = std::move(found.sessions);
   log->time = std::move(found.time);
   log->time_unit = std::move(found.time_unit);

@@ -44,9 +44,10 @@ Eigen::MatrixXd ReadingsOf(const FittedModel& fitted,
 Eigen::MatrixXd InputsOf(const FittedModel& fitted,
                          const data::CsvTable& table);
 
-/// Of every row of the table, whether it has a target or not. Throws
-/// data::InputError where the tables lack the column of sessions or times that
-/// the map needs, or where those will not do (data/measurements/sessions.h).
+/// Of every row of the table, whether it has a target or not; of earlier rows
+/// what the map remembers. Throws data::InputError where the tables lack the
+/// column of sessions or times that the map needs, or where those will not do
+/// (data/measurements/sessions.h).
 MapLog MakeMapLog(const FittedModel& fitted,
                   const data::CsvTable& table,
                   const MapLogArguments& arguments);

@@ -144,7 +144,8 @@ PointLog MakePointLog(const History& history,
         (row.is_point ? points.inputs : log->inputs).row(row.index);
     if (row.is_point) result.rows[static_cast<std::size_t>(row.index)] = i;
   }
-  merged->first_rows = data::FirstRows(merged->sessions, merged->input_values);
+  merged->first_rows = data::FirstRows(
+      merged->sessions, merged->input_values(Eigen::all, history.remembered()));
   const std::vector<Missing> missing = FindMissing(*merged, history);
   for (const Index row : result.rows) {
     result.missing.push_back(missing[static_cast<std::size_t>(row)]);

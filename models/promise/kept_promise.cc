@@ -27,10 +27,11 @@ double ShareWithin(const FittedModel& fitted,
 }
 
 // Above kOffRatio times the promise the map is off here, as in CheckSession.
-ErrorShape ShapeOf(const KeptPromise& kept, double scatter) {
+ErrorShape ShapeOf(const KeptPromise& kept) {
   if (kept.found <= kOffRatio * kept.promised) return ErrorShape::kWithin;
-  return scatter <= kOffRatio * kept.promised ? ErrorShape::kOffset
-                                              : ErrorShape::kShape;
+  return OffsetExplains(kept.mean, kept.found, kept.promised)
+             ? ErrorShape::kOffset
+             : ErrorShape::kShape;
 }
 
 }  // namespace
@@ -66,8 +67,7 @@ KeptPromise HoldToPromise(const FittedModel& fitted,
       kept.found > 0.0 ? std::pow(kept.mean / kept.found, 2) : 0.0;
   if (fitted.held_out) {
     kept.promised = fitted.held_out->rmse;
-    kept.shape =
-        ShapeOf(kept, stats::RootMeanSquare(residuals.array() - kept.mean));
+    kept.shape = ShapeOf(kept);
   }
   return kept;
 }

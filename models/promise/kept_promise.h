@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -33,6 +35,10 @@ struct KeptPromise {
   double offset_share = 0.0;   // of the mean square that its mean is
   std::optional<ErrorShape> shape;  // nothing without a promise
 
+  /// What is left without the mean.
+  double scatter() const {
+    return std::sqrt(std::max(0.0, found * found - mean * mean));
+  }
   /// Whether the map is of use on these rows.
   bool better_than_nothing() const { return found < uncompensated; }
   bool better_than_constant() const { return found < constant; }

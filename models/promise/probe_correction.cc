@@ -52,17 +52,12 @@ ProbeCorrection CorrectByProbes(const FittedModel& fitted,
   std::iota(rows.begin(), rows.end(), Index{0});
   ProbeCorrection correction{.num_probes = predicted.size(),
                              .model = FitOffset(*fitted.held_out),
-                             .track = {},
-                             .narrowing = {}};
+                             .track = {}};
   correction.track =
       TrackOffset(correction.model,
                   MomentsOf(fitted, probes.table, probes.dataset.rows(), log),
                   probes.dataset.target_values() - predicted,
                   MomentsOf(fitted, today.table, rows, log));
-  correction.narrowing = correction.track.variance;
-  for (double& value : correction.narrowing) {
-    value = correction.model.Narrowing(value);
-  }
   return correction;
 }
 

@@ -15,7 +15,6 @@ struct ProbeCorrection {
   Eigen::Index num_probes = 0;
   OffsetModel model;
   OffsetTrack track;  // of the rows; its offset is to be added, target's unit
-  Eigen::VectorXd narrowing;  // (rows) of intervals: at most 1
 };
 
 /// How the probes' own rows are to be made: without a target they are readings

@@ -29,9 +29,6 @@ constexpr int kDrawsPerUnit = 100;
 // Rows of a unit that stand for one time: positions differ among them.
 constexpr Index kNearest = 6;
 constexpr Index kMostMoreProbes = 12;
-// Three probes with a common offset and the promised scatter have this ratio
-// or less of scatter to promise.
-constexpr double kScatterOfOffset = 1.25;
 constexpr std::uint64_t kSeed = 17;
 
 // Rows of the unit with the elapsed time nearest to `time`, all of them where
@@ -116,7 +113,7 @@ std::optional<Index> ProbesToSettle(const HeldOutErrors& errors,
 Remedy RemedyOf(const SessionCheck& check) {
   if (check.status != SessionStatus::kOff) return Remedy::kNone;
   if (check.probes < 2) return Remedy::kUnknown;
-  return check.probe_scatter <= kScatterOfOffset * check.promised
+  return OffsetExplains(check.probe_mean, check.probe_rms, check.promised)
              ? Remedy::kRezero
              : Remedy::kRefit;
 }
@@ -163,6 +160,11 @@ std::string_view ToString(Remedy remedy) {
       return "unknown";
   }
   return "";
+}
+
+bool OffsetExplains(double mean, double rms, double promised) {
+  constexpr double kShare = 0.75;
+  return mean * mean >= kShare * (rms * rms - promised * promised);
 }
 
 SessionCheck CheckSession(const HeldOutErrors& errors,

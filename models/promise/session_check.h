@@ -29,6 +29,11 @@ std::string_view ToString(Remedy remedy);
 /// A session is off where its RMSE is above so many times the one promised.
 inline constexpr double kOffRatio = 1.5;
 
+/// Whether an offset explains errors of this mean and RMS: it is three quarters
+/// or more of what their mean square has beyond the promised one. Re-zeroing
+/// then halves the error, or leaves no more than was promised.
+bool OffsetExplains(double mean, double rms, double promised);
+
 struct SessionCheck {
   /// What the map's memory lacks before a probe: what it says here is not what
   /// it says in use, so nothing is known.

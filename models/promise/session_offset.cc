@@ -6,6 +6,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "stats/distributions.h"
+
 namespace errmap::models {
 namespace {
 
@@ -96,7 +98,9 @@ OffsetModel FitOffset(const HeldOutErrors& errors) {
   }
   const double total =
       std::max(MeanSquare(errors), std::numeric_limits<double>::min());
-  best.variance = std::min(best.variance, (1.0 - kLeastNoise) * total);
+  const double least = total / static_cast<double>(errors.units.size() + 1);
+  best.variance =
+      std::min(std::max(best.variance, least), (1.0 - kLeastNoise) * total);
   return {.variance = best.variance,
           .memory = best.memory,
           .noise = total - best.variance};
@@ -111,26 +115,74 @@ void OffsetFilter::Advance(double time) {
       throw std::invalid_argument("OffsetFilter: time went back");
     }
     const double kept = std::exp(-(time - time_) / model_.memory);
-    offset_ *= kept;
-    variance_ = model_.variance + kept * kept * (variance_ - model_.variance);
+    if (moved_) {  // a machine that was moved stays where it is
+      variance_ += 2.0 * model_.variance * (1.0 - kept);
+    } else {
+      offset_ *= kept;
+      variance_ = model_.variance + kept * kept * (variance_ - model_.variance);
+    }
   }
   started_ = true;
   time_ = time;
 }
 
 void OffsetFilter::Update(double residual) {
-  // What no held-out session showed does not fade as their offsets did: a
-  // machine that was moved stays where it is.
   constexpr double kSurprise = 9.0;  // three standard deviations, squared
   const double miss = (residual - offset_) * (residual - offset_);
-  if (miss > kSurprise * (variance_ + model_.noise)) {
+  const double foretold = variance_ + model_.noise;
+  const bool is_surprise = miss > kSurprise * foretold;
+  if (moved_ || !is_surprise) {
+    misses_ += miss / foretold;
+    ++num_misses_;
+  }
+  if (is_surprise) {
     variance_ = miss;
-    model_.variance = std::max(model_.variance, miss);
-    model_.memory = kUnbounded;
+    moved_ = true;
   }
   const double gain = variance_ / (variance_ + model_.noise);
   offset_ += gain * (residual - offset_);
   variance_ *= 1.0 - gain;
+  ++count_;
+  const double from_mean = residual - mean_;
+  mean_ += from_mean / count_;
+  squares_ += from_mean * (residual - mean_);
+}
+
+double OffsetFilter::MeanVariance() const {
+  return count_ < 2 ? 0.0 : squares_ / (count_ - 1) / count_;
+}
+
+double OffsetFilter::variance() const {
+  return std::max(variance_, MeanVariance());
+}
+
+bool OffsetFilter::contradicted() const {
+  constexpr double kSure = 0.95;
+  return num_misses_ > 0 &&
+         misses_ > stats::ChiSquaredQuantile(kSure, num_misses_);
+}
+
+double OffsetFilter::Widening() const {
+  constexpr double kUpper = 0.95;  // of 90 %
+  const double model_square = model_.variance + model_.noise;
+  const double widening = model_.Narrowing(variance());
+  if (count_ == 0) return 1.0;
+  if (count_ == 1) {
+    // An offset or a wrong shape: elsewhere the error may be none, or twice.
+    return std::max(
+        widening,
+        std::sqrt(1.0 + (moved_ ? mean_ * mean_ / model_square : 0.0)));
+  }
+  if (!contradicted()) return widening;
+  const double off_mean = mean_ - offset_;
+  const double scatter =
+      (squares_ + count_ * off_mean * off_mean) / (count_ - 1);
+  const double for_few = stats::StudentQuantile(kUpper, count_ - 1.0) /
+                         stats::NormalQuantile(kUpper);
+  return std::max(
+      {1.0,
+       widening,
+       for_few * std::sqrt((scatter + MeanVariance()) / model_square)});
 }
 
 OffsetTrack TrackOffset(const OffsetModel& model,
@@ -144,6 +196,8 @@ OffsetTrack TrackOffset(const OffsetModel& model,
   });
   OffsetTrack track{.offset = VectorXd(static_cast<Index>(moments.size())),
                     .variance = VectorXd(static_cast<Index>(moments.size())),
+                    .widening = VectorXd(static_cast<Index>(moments.size())),
+                    .contradicted = {},
                     .used = {}};
   for (std::size_t row = 0; row < moments.size(); ++row) {
     OffsetFilter filter(model);
@@ -161,6 +215,8 @@ OffsetTrack TrackOffset(const OffsetModel& model,
     if (used > 0) filter.Advance(moments[row].time);
     track.offset[static_cast<Index>(row)] = filter.offset();
     track.variance[static_cast<Index>(row)] = filter.variance();
+    track.widening[static_cast<Index>(row)] = filter.Widening();
+    track.contradicted.push_back(filter.contradicted());
     track.used.push_back(used);
   }
   return track;

@@ -108,7 +108,15 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
         arguments.file,
         report::CheckText(check, errors, sites, elapsed, fitted.target.unit)));
   }
-  return check.status == models::SessionStatus::kOff ? kEveryFitFailed : kDone;
+  switch (check.status) {
+    case models::SessionStatus::kHolds:
+      return kDone;
+    case models::SessionStatus::kOff:
+      return kEveryFitFailed;
+    case models::SessionStatus::kUnknown:
+      return kNothingJudged;
+  }
+  return kOtherFailure;
 }
 
 }  // namespace
@@ -134,10 +142,11 @@ void AddCheckCommand(CLI::App* app, Run* run) {
   command->footer(
       "A session is off where its RMSE is above 1.5 times the promised one. "
       "What so many\nprobes at these times tell of a session is taken from "
-      "the map's held-out days.\nExit status: 0 the map holds, or it is not "
-      "yet known; 4 it does not hold.\nRows without a target are readings "
+      "the map's held-out days.\nExit status: 0 the map holds, 4 it does not "
+      "hold, 5 it is not known.\nRows without a target are readings "
       "between the probes, through which a map's memory\nruns; readings before "
-      "the first row come by --after.");
+      "the first row come by --after, "
+      "which needs\nno positions.");
   command->callback([arguments, run] {
     run->status = RunCheck(*arguments, run->command_line);
   });

@@ -82,7 +82,7 @@ double HalfWidth(const models::FittedModel& fitted,
                  Eigen::Index row) {
   if (!fitted.interval) return std::numeric_limits<double>::quiet_NaN();
   return fitted.interval->levels[level].half_width *
-         (probes ? probes->narrowing[row] : 1.0);
+         (probes ? probes->track.widening[row] : 1.0);
 }
 
 // What is known of the rows of a file.
@@ -260,8 +260,8 @@ void AddPredictCommand(CLI::App* app, Run* run) {
       ->add_option("--probes",
                    arguments->probes,
                    "Measurements of the same session: the map is moved by the "
-                   "offset that they show up to each row, and the interval "
-                   "narrows")
+                   "offset that they show up to each row; the interval "
+                   "narrows, or widens where they contradict an offset")
       ->type_name("PROBES.csv");
   AddMapLogArguments(command, &arguments->log);
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");

@@ -76,8 +76,10 @@ std::string RemedyText(const models::SessionCheck& check,
       return "";
     case models::Remedy::kRezero:
       return fmt::format(
-          "An offset explains it: re-zero by {} (errmap predict --probes).\n",
-          error.WithUnit(check.probe_mean));
+          "An offset explains it: re-zero by {} (errmap predict --probes); {} "
+          "of scatter is left.\n",
+          error.WithUnit(check.probe_mean),
+          error.WithUnit(check.probe_scatter));
     case models::Remedy::kRefit:
       return "An offset does not explain it: the shape is wrong; measure this "
              "state and fit again (errmap update).\n";

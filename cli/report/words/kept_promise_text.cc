@@ -49,10 +49,11 @@ std::string KeptPromiseText(const models::KeptPromise& kept,
   text += BaselineText(kept, error) + "\n";
   if (kept.shape == models::ErrorShape::kOffset) {
     text += fmt::format(
-        "an offset of {} is {:.0f} % of its mean square: re-zero, the map's "
-        "shape holds\n",
+        "an offset of {} is {:.0f} % of its mean square: re-zero, which leaves "
+        "{}\n",
         error.WithUnit(kept.mean),
-        kPercent * kept.offset_share);
+        kPercent * kept.offset_share,
+        error.WithUnit(kept.scatter()));
   } else if (kept.shape == models::ErrorShape::kShape) {
     text += "no offset explains what it errs by: measure here and fit again\n";
   }
@@ -97,13 +98,24 @@ std::string OffsetLine(const models::ProbeCorrection& correction,
   const Eigen::Index last = track.offset.size() - 1;
   const double known = std::sqrt(track.variance[last]);
   const ErrorText error(unit, std::sqrt(correction.model.noise));
-  return fmt::format(
-      "{} move {} of {}; the offset in the last is {}, known to {}",
-      Count(correction.num_probes, "probe"),
-      corrected,
-      Count(track.offset.size(), "row"),
-      error.WithUnit(track.offset[last]),
-      error.WithUnit(known));
+  std::string line =
+      fmt::format("{} move {} of {}; the offset in the last is {}, known to {}",
+                  Count(correction.num_probes, "probe"),
+                  corrected,
+                  Count(track.offset.size(), "row"),
+                  error.WithUnit(track.offset[last]),
+                  error.WithUnit(known));
+  if (track.contradicted.back()) {
+    line += fmt::format(
+        "; warning: the probes contradict an offset, so the map's shape is "
+        "wrong today, and the interval is {:.2g} times as wide",
+        track.widening[last]);
+  } else if (track.used.back() == 1) {
+    line +=
+        "; one probe cannot tell an offset from a wrong shape, so the interval "
+        "does not narrow";
+  }
+  return line;
 }
 
 std::string SensitivityLine(const models::Sensitivity& sensitivity,

@@ -168,7 +168,7 @@ TEST_F(CliPromise, CheckAndProbesKnowWhereTheSessionBegan) {
   EXPECT_FALSE(check["begins_inside"].get<bool>());
 
   const Outcome only = Run({"check", "zero.json", "only.csv"});
-  EXPECT_EQ(only.status, 0);
+  EXPECT_EQ(only.status, kNothingJudged);
   EXPECT_THAT(only.out, HasSubstr("Not known whether the map holds"));
   EXPECT_THAT(only.err, HasSubstr("warning: session '11' begins inside"));
 
@@ -199,12 +199,12 @@ TEST_F(CliPromise, CheckKnowsNothingWhereReadingsBetweenProbesAreMissing) {
   const Json all =
       RunJson({"check", "lag.json", "all.csv", "--format", "json"});
   EXPECT_FALSE(all["readings_missing"].get<bool>());
-  const Json only =
-      RunJson({"check", "lag.json", "only.csv", "--format", "json"});
+  const Json only = Json::parse(
+      Run({"check", "lag.json", "only.csv", "--format", "json"}).out);
   EXPECT_TRUE(only["readings_missing"].get<bool>());
   EXPECT_EQ(only["status"], "unknown");
   const Outcome text = Run({"check", "lag.json", "only.csv"});
-  EXPECT_EQ(text.status, 0);
+  EXPECT_EQ(text.status, kNothingJudged);
   EXPECT_THAT(text.out, HasSubstr("the readings between the probes"));
   EXPECT_THAT(
       text.err,
@@ -215,6 +215,44 @@ TEST_F(CliPromise, CheckKnowsNothingWhereReadingsBetweenProbesAreMissing) {
     why.push_back(row.at("why"));
   }
   EXPECT_THAT(why, ElementsAre("", "gap", "gap", "gap"));
+}
+
+// Between measurements no axis has a position worth logging.
+TEST_F(CliPromise, TheLogOfTemperaturesNeedsNoPositions) {
+  ASSERT_EQ(Run({"fit",
+                 "train.csv",
+                 "--model",
+                 "poly:ridge:view=history+zero:history=120",
+                 "-o",
+                 "lag.json"})
+                .status,
+            0);
+  const std::vector<std::string> lines = SplitLines(DaysInCliPromise(11, 11));
+  std::string log;
+  std::string earlier = lines[0] + "\n";
+  std::string probes = lines[0] + "\n";
+  constexpr std::size_t kLogged = 20;
+  for (std::size_t row = 0; row < lines.size(); ++row) {
+    if (row > kLogged) {
+      probes += lines[row] + "\n";
+      continue;
+    }
+    if (row > 0) earlier += lines[row] + "\n";
+    // day,time_s,position_mm,...
+    const std::size_t position = lines[row].find(',', lines[row].find(',') + 1);
+    log += lines[row].substr(0, position) +
+           lines[row].substr(lines[row].find(',', position + 1)) + "\n";
+  }
+  Write("log.csv", log);
+  Write("earlier.csv", earlier);
+  Write("probes.csv", probes);
+  const Outcome with =
+      Run({"check", "lag.json", "probes.csv", "--after", "earlier.csv"});
+  const Outcome without =
+      Run({"check", "lag.json", "probes.csv", "--after", "log.csv"});
+  EXPECT_THAT(with.out, HasSubstr("20 probes")) << with.err;
+  EXPECT_EQ(without.status, with.status) << without.err;
+  EXPECT_EQ(without.out, with.out);
 }
 
 TEST_F(CliPromise, CheckNeedsHeldOutErrors) {

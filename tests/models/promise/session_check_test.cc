@@ -1,7 +1,9 @@
 #include "models/promise/session_check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -231,6 +233,136 @@ TEST(TrackOffset, LowersTheErrorOfLaterRows) {
     after += (rest - track.offset).squaredNorm();
   }
   EXPECT_LT(after, 0.95 * before);
+}
+
+TEST(FitOffset, NeverTakesFewUnitsForProofThatThereIsNoOffset) {
+  // Alternating errors: neighbours pull the fitted variance below 0.
+  HeldOutErrors errors = DaysInSessionCheck(4, 10);
+  for (HeldOutErrors::Unit& unit : errors.units) {
+    for (Index i = 0; i < kRows; ++i) unit.residuals[i] = i % 2 == 0 ? 1 : -1;
+  }
+  const OffsetModel model = FitOffset(errors);
+  EXPECT_NEAR(model.variance, 0.2, 1e-12);
+  EXPECT_NEAR(model.noise, 0.8, 1e-12);
+}
+
+// Probes whose mean is 0.33 moved nothing, "known to 0.00".
+TEST(OffsetFilter, NeverKnowsAnOffsetBetterThanProbesScatter) {
+  OffsetFilter filter({.variance = 1e-6, .memory = 1e9, .noise = 1e-4});
+  const VectorXd probes{{0.01, 0.65, 0.31, 0.36}};
+  for (const double probe : probes) {
+    filter.Advance(0.0);
+    filter.Update(probe);
+  }
+  const double scatter =
+      std::sqrt((probes.array() - probes.mean()).square().sum() / 3.0);
+  EXPECT_GE(std::sqrt(filter.variance()), 0.999 * scatter / 2.0);
+  EXPECT_TRUE(filter.contradicted());
+  EXPECT_GT(filter.Widening(), 1.0);
+}
+
+TEST(OffsetFilter, HoldsNothingFromOneProbe) {
+  const OffsetModel model{.variance = 3.0, .memory = 1e9, .noise = 1.0};
+  OffsetFilter filter(model);
+  EXPECT_EQ(filter.Widening(), 1.0);
+  filter.Update(1.0);
+  EXPECT_EQ(filter.Widening(), 1.0);
+  filter.Update(1.2);
+  EXPECT_LT(filter.Widening(), 0.8);
+  EXPECT_FALSE(filter.contradicted());
+}
+
+// Shares of later rows within 90 % of the model's errors, so widened.
+struct WithinAndWide {
+  double within = 0.0;    // share of all later rows
+  double widening = 0.0;  // median of the days
+};
+
+// 200 days of which so many rows of the first half are probes; `disturb` adds
+// what is wrong today.
+template <typename Disturb>
+WithinAndWide AfterProbes(Index num_probes, Disturb disturb) {
+  constexpr double kWide = 1.645;
+  constexpr int kDays = 200;
+  const OffsetModel model = FitOffset(DaysInSessionCheck(6, 11));
+  const double sd = std::sqrt(model.variance + model.noise);
+  stats::Random random(12);
+  WithinAndWide found;
+  std::vector<double> widenings;
+  for (int day = 0; day < kDays; ++day) {
+    HeldOutErrors::Unit unit = Day(&random);
+    disturb(&random, &unit);
+    std::vector<Moment> moments;
+    VectorXd probes(num_probes);
+    for (Index k = 0; k < num_probes; ++k) {
+      const Index part = kRows / 2 / num_probes;
+      const auto row =
+          k * part +
+          static_cast<Index>(random.Below(static_cast<std::uint64_t>(part)));
+      moments.push_back({"d", unit.elapsed[row]});
+      probes[k] = unit.residuals[row];
+    }
+    std::vector<Moment> later;
+    for (Index i = kRows / 2; i < kRows; ++i) {
+      later.push_back({"d", unit.elapsed[i]});
+    }
+    const OffsetTrack track = TrackOffset(model, moments, probes, later);
+    const VectorXd left =
+        (unit.residuals.tail(kRows / 2) - track.offset).cwiseAbs();
+    found.within += (left.array() <= kWide * sd * track.widening.array())
+                        .cast<double>()
+                        .mean() /
+                    kDays;
+    widenings.push_back(track.widening.mean());
+  }
+  std::ranges::nth_element(widenings, widenings.begin() + kDays / 2);
+  found.widening = widenings[kDays / 2];
+  return found;
+}
+
+TEST(TrackOffset, HoldsItsIntervalWhateverIsWrongToday) {
+  const auto well = [](stats::Random*, HeldOutErrors::Unit*) {};
+  const auto moved = [](stats::Random* random, HeldOutErrors::Unit* unit) {
+    unit->residuals.array() += 10.0 * random->Uniform() - 5.0;
+  };
+  // What the map predicts grows over the day and differs by place.
+  const auto gain = [](stats::Random* random, HeldOutErrors::Unit* unit) {
+    const double size = 10.0 + 10.0 * random->Uniform();
+    for (Index i = 0; i < kRows; ++i) {
+      unit->residuals[i] += size * (unit->position[i] + 0.3) *
+                            (0.5 + static_cast<double>(i) / kRows);
+    }
+  };
+  for (const Index probes : {3, 5, 8}) {
+    SCOPED_TRACE(probes);
+    EXPECT_GE(AfterProbes(probes, well).within, 0.8);
+    EXPECT_LT(AfterProbes(probes, well).widening, 1.0);
+    EXPECT_GE(AfterProbes(probes, moved).within, 0.8);
+    EXPECT_LT(AfterProbes(probes, moved).widening, 2.0);
+    EXPECT_GE(AfterProbes(probes, gain).within, 0.8);
+  }
+}
+
+// Three probes and all rows of one day said otherwise: re-zero, and fit again.
+TEST(OffsetExplains, DecidesAlikeForFewRowsAndMany) {
+  FittedModel fitted =
+      MakeRecipe("mean")->Fit(errmap::testing::ShippedMeasurements(), {});
+  const HeldOutErrors errors = DaysInSessionCheck(10, 13);
+  fitted.held_out = std::make_shared<HeldOutErrors>(errors);
+  stats::Random random(14);
+  for (int i = 0; i < 20; ++i) {
+    HeldOutErrors::Unit day = Day(&random);
+    // 99 % of the mean square, and more scatter than was promised.
+    day.residuals = 1.6 * day.residuals.array() + 20.0;
+    const KeptPromise kept =
+        HoldToPromise(fitted, day.residuals, VectorXd::Zero(kRows));
+    EXPECT_GT(kept.offset_share, 0.97);
+    EXPECT_EQ(kept.shape, ErrorShape::kOffset);
+    const std::vector<Index> few = {4, 18, 35};
+    EXPECT_EQ(CheckAt(errors, day, few).remedy, Remedy::kRezero);
+    EXPECT_EQ(CheckSession(errors, day.elapsed, day.residuals).remedy,
+              Remedy::kRezero);
+  }
 }
 
 TEST(HoldToPromise, TellsAnOffsetFromAWrongShape) {
