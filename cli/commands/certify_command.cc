@@ -12,6 +12,7 @@
 #include "cli/report/number_text.h"
 #include "cli/report/words/certify_text.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
 #include "models/certification/certification.h"
 #include "models/certification/certification_json.h"
 
@@ -50,7 +51,7 @@ int RunCertify(const CertifyArguments& arguments,
         ProvenanceJson(command_line, {{"part", arguments.part}}, {});
     PrintResult(DumpJson(document));
   } else {
-    PrintResult(
+    PrintFitted(
         report::CertificationText(certification, floors, arguments.details));
   }
   if (certification.passed()) return kDone;

@@ -278,17 +278,17 @@ int RunResiduals(const ResidualsArguments& arguments,
       inputs.order,
       inputs.group_column.empty() ? "" : ", groups " + inputs.group_column));
   if (arguments.as_printed_1995) {
-    PrintResult(report::Report1995Text(printed, r_squared_1995, unit) +
+    PrintFitted(report::Report1995Text(printed, r_squared_1995, unit) +
                 "\ncorrect:\n");
   }
-  PrintResult(fmt::format(
+  PrintFitted(fmt::format(
       "{}\n{}\n{}\n{}\n",
       report::SampleText(metrics, values, report.normality.shape, unit),
       report::NormalityText(report, values.size()),
       report::RandomnessText(report),
       report::WrapText(sentences, kWidth)));
   if (arguments.details) {
-    PrintResult(report::DetailsText(
+    PrintFitted(report::DetailsText(
         report, values, unit, static_cast<Index>(arguments.bins)));
   }
   return kDone;

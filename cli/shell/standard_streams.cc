@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/shell/terminal.h"
+
 namespace errmap::cli {
 namespace {
 
@@ -95,7 +97,7 @@ void WriteMessage(std::string_view text) {
   for (std::size_t at = 0; (at = line.find('\n', at)) != std::string::npos;) {
     line.replace(at, 1, "\\n");
   }
-  DrawOnTerminal("errmap: " + line + "\n");
+  DrawOnTerminal(MessageLines("errmap: " + line));
 }
 
 void DrawOnTerminal(std::string_view text) {

@@ -25,28 +25,34 @@ std::size_t Wanted(const char* name, long least) {
   return static_cast<std::size_t>(number);
 }
 
+// Columns of a stream that is a terminal; 80 of any other. COLUMNS comes first.
+std::size_t ColumnsOf(int stream) {
+  if (const std::size_t wanted = Wanted("COLUMNS", kFewestColumns)) {
+    return wanted;
+  }
+  winsize size{};
+  return isatty(stream) == 1 && ioctl(stream, TIOCGWINSZ, &size) == 0 &&
+                 size.ws_col >= kFewestColumns
+             ? size.ws_col
+             : report::Terminal{}.columns;
+}
+
 bool IsSet(const char* name) {
   const char* const text = std::getenv(name);
   return text != nullptr && *text != '\0';
 }
 
 // `text` with its lines of more than `width` columns broken at blanks; what
-// goes on stands below what it goes on with, in the second column of a list of
-// options.
+// goes on stands below what it goes on with.
 std::string FitLines(std::string_view text, std::size_t width) {
-  constexpr std::size_t kSecondColumn = 30;  // of CLI11's help
   constexpr std::size_t kNarrowest = 20;
   std::string fitted;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
-    const std::size_t first = line.find_first_not_of(' ');
-    const bool is_option = first > 0 && line.size() > kSecondColumn &&
-                           line[kSecondColumn - 1] == ' ' &&
-                           line[kSecondColumn] != ' ';
-    const std::size_t indent = is_option ? kSecondColumn : first;
-    if (report::WidthOf(line) <= width || first == std::string_view::npos ||
+    const std::size_t indent = line.find_first_not_of(' ');
+    if (report::WidthOf(line) <= width || indent == std::string_view::npos ||
         indent + kNarrowest > width) {
       fitted.append(line).append("\n");
       continue;
@@ -66,19 +72,16 @@ std::string FitLines(std::string_view text, std::size_t width) {
 
 report::Terminal OutputTerminal() {
   constexpr long kFewestRows = 5;
-  report::Terminal terminal;
+  report::Terminal terminal{.columns = ColumnsOf(STDOUT_FILENO)};
   winsize size{};
   if (isatty(STDOUT_FILENO) == 1) {
     const char* const kind = std::getenv("TERM");
     terminal.colour = !IsSet("NO_COLOR") && kind != nullptr &&
                       std::string_view(kind) != "dumb";
-    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0) {
-      if (size.ws_col >= kFewestColumns) terminal.columns = size.ws_col;
-      if (size.ws_row >= kFewestRows) terminal.rows = size.ws_row;
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 &&
+        size.ws_row >= kFewestRows) {
+      terminal.rows = size.ws_row;
     }
-  }
-  if (const std::size_t columns = Wanted("COLUMNS", kFewestColumns)) {
-    terminal.columns = columns;
   }
   if (const std::size_t rows = Wanted("LINES", kFewestRows)) {
     terminal.rows = rows;
@@ -86,12 +89,20 @@ report::Terminal OutputTerminal() {
   return terminal;
 }
 
+std::string MessageLines(std::string_view line) {
+  if (isatty(STDERR_FILENO) != 1) return std::string(line) + "\n";
+  constexpr const char* kIndent = "        ";
+  const std::size_t width = ColumnsOf(STDERR_FILENO);
+  std::string text;
+  for (const std::string& part :
+       report::WrapLines(line, width - std::string_view(kIndent).size())) {
+    text += (text.empty() ? "" : kIndent) + part + "\n";
+  }
+  return text;
+}
+
 void PrintFitted(std::string_view text) {
-  const report::Terminal terminal = OutputTerminal();
-  PrintResult(isatty(STDOUT_FILENO) == 1 ||
-                      Wanted("COLUMNS", kFewestColumns) > 0
-                  ? FitLines(text, terminal.columns)
-                  : std::string(text));
+  PrintResult(FitLines(text, OutputTerminal().columns));
 }
 
 void PrintScreen(const report::Screen& screen) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "cli/report/screen.h"
@@ -13,8 +14,11 @@ report::Terminal OutputTerminal();
 /// PrintResult, the strong lines bold where standard output has colours.
 void PrintScreen(const report::Screen& screen);
 
-/// PrintResult of text that is read; where standard output is a terminal, or
-/// COLUMNS says how wide it is, no line is wider.
+/// A message with a line feed; where standard error is a terminal, broken at
+/// blanks to fit it.
+std::string MessageLines(std::string_view line);
+
+/// PrintResult of text that is read: no line is wider than OutputTerminal().
 void PrintFitted(std::string_view text);
 
 }  // namespace errmap::cli

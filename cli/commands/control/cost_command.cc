@@ -10,6 +10,7 @@
 #include "cli/commands/format_option.h"
 #include "cli/json_blocks.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
 #include "data/input_error.h"
 #include "data/text.h"
 #include "models/export/export_map.h"
@@ -97,7 +98,7 @@ std::string CostText(const models::MapExport& map,
                     "median           {:>9.1f} ns\n"
                     "99.9 % below     {:>9.0f} ns\n"
                     "CPU time of 100000 steps measured here, {}; the slowest, "
-                    "{:.0f} ns, has\nthis system's interrupts in it\n",
+                    "{:.0f} ns, has this system's interrupts in it\n",
                     measured->code_bytes,
                     measured->constant_bytes,
                     measured->median_ns,
@@ -112,9 +113,11 @@ int RunCost(const CostArguments& arguments) {
   std::string why;
   const std::optional<models::MeasuredCost> measured =
       models::MeasureCost(map, &why);
-  PrintResult(arguments.format == "json"
-                  ? DumpJson(CostJson(map, counted, measured))
-                  : CostText(map, counted, measured, why));
+  if (arguments.format == "json") {
+    PrintResult(DumpJson(CostJson(map, counted, measured)));
+  } else {
+    PrintFitted(CostText(map, counted, measured, why));
+  }
   return kDone;
 }
 

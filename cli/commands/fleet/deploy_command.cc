@@ -19,6 +19,7 @@
 #include "cli/fleet/store/store.h"
 #include "cli/report/number_text.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
 #include "data/prepare_folder.h"
@@ -251,7 +252,7 @@ int RunDeploy(const DeployArguments& arguments) {
       fleet::WriteDeployment(copy, deployed.deployment);
     }
   });
-  PrintResult(DeployedText(paths, all));
+  PrintFitted(DeployedText(paths, all));
   SayNotWatched(all);
   return kDone;
 }

@@ -9,6 +9,7 @@
 #include "cli/fleet/store/fleet_table.h"
 #include "cli/fleet/store/merge.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
 
 namespace errmap::cli {
 namespace {
@@ -22,7 +23,8 @@ int RunMerge(const MergeArguments& arguments) {
   const fleet::FleetSummaries found =
       fleet::MergeStore(fleet::StorePaths{arguments.store});
   if (!found.missing.empty()) Say(fleet::MissingWords(found));
-  PrintResult(fleet::FormattedFleet(found.summaries, arguments.format));
+  PrintResult(fleet::FormattedFleet(
+      found.summaries, arguments.format, OutputTerminal().columns));
   return found.missing.empty() ? kDone : kEveryFitFailed;
 }
 

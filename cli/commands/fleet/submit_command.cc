@@ -18,6 +18,7 @@
 #include "cli/fleet/run/fleet_plan.h"
 #include "cli/fleet/run/fleet_run.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
 #include "data/atomic_file.h"
 #include "data/prepare_folder.h"
 #include "data/text.h"
@@ -78,7 +79,7 @@ int RunSubmit(const SubmitArguments& arguments,
   if (arguments.now) {
     return RunScript(folder + "/submit.sh") == 0 ? kDone : kOtherFailure;
   }
-  PrintResult(fmt::format(
+  PrintFitted(fmt::format(
       "{0}/shards.sh, merge.sh and submit.sh are written; look them over, then "
       "sh {0}/submit.sh\n",
       data::PrintablePath(folder)));

@@ -16,6 +16,7 @@
 #include "cli/report/words/kept_promise_text.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
 #include "data/atomic_file.h"
 #include "data/measurements/column_checks.h"
 #include "data/shown_path.h"
@@ -209,7 +210,7 @@ int RunUpdate(const UpdateArguments& arguments,
     PrintResult(
         DumpJson(UpdateJson(arguments, old_map, trial, better, provenance)));
   } else {
-    PrintResult(fmt::format(
+    PrintFitted(fmt::format(
         "{}{}\n",
         report::TrialText(trial, old_map.target.unit),
         better ? "the new map is better and stands in " + arguments.out

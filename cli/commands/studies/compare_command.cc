@@ -216,7 +216,7 @@ int RunCompare(const CompareArguments& arguments) {
   desk::StudyPlan plan = PlanOf(arguments, machine);
   const int jobs = JobsOf(arguments.jobs);
   if (arguments.dry_run) {
-    PrintResult(PlanText(plan, jobs, arguments.out));
+    PrintFitted(PlanText(plan, jobs, arguments.out));
     return kDone;
   }
   const std::vector<std::string> inputs = plan.InputPaths();

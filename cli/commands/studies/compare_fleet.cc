@@ -19,6 +19,7 @@
 #include "cli/report/number_text.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
 
 namespace errmap::cli {
 namespace {
@@ -61,7 +62,7 @@ int RunCompareFleet(CompareFleetArguments arguments) {
   }
   const desk::StudyFile study = fleet::ExpandFleet(std::move(arguments.study));
   if (arguments.dry_run) {
-    PrintResult(FleetPlanText(fleet::PlanFleet(study.config),
+    PrintFitted(FleetPlanText(fleet::PlanFleet(study.config),
                               share.count,
                               arguments.jobs,
                               arguments.out));
@@ -101,7 +102,8 @@ int RunCompareFleet(CompareFleetArguments arguments) {
   if (arguments.shard) return kDone;
   const fleet::FleetSummaries found = fleet::MergeStore(store);
   if (!found.missing.empty()) Say(fleet::MissingWords(found));
-  PrintResult(fleet::FormattedFleet(found.summaries, arguments.format));
+  PrintResult(fleet::FormattedFleet(
+      found.summaries, arguments.format, OutputTerminal().columns));
   return StatusOfFleet(found);
 }
 

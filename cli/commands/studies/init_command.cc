@@ -13,6 +13,7 @@
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
 #include "data/atomic_file.h"
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
@@ -46,8 +47,9 @@ int RunInitFleet(const InitArguments& arguments) {
                          "errmap compare --config THIS_FILE --out STORE");
   data::WriteFileAtomically(arguments.out, proposal.text);
   const std::string path = data::PrintablePath(arguments.out);
-  PrintResult(fmt::format(
-      "{}: {}{}; look it over, then errmap compare --config {} --out STORE\n",
+  PrintFitted(fmt::format(
+      "{}: {}{}; look it over, then\n"
+      "errmap compare --config {} --out STORE\n",
       path,
       report::Count(proposal.files, "file"),
       proposal.left_out.empty()
@@ -80,9 +82,8 @@ int RunInit(const InitArguments& arguments) {
       desk::StudyFileText(plan,
                           PathFrom(arguments.out, arguments.data),
                           "errmap compare --config THIS_FILE [--out DIR]"));
-  PrintResult(fmt::format(
-      "{}: {} component{}; look it over, then errmap compare --config "
-      "{}\n",
+  PrintFitted(fmt::format(
+      "{}: {} component{}; look it over, then\nerrmap compare --config {}\n",
       data::PrintablePath(arguments.out),
       plan.components.size(),
       plan.components.size() == 1 ? "" : "s",

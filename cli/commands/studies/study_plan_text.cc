@@ -38,9 +38,21 @@ std::string HoldoutList(const std::vector<models::Holdout>& holdouts) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+// "  hold-outs every:3 (1 fold), ...", what follows below its beginning.
+std::string ListLine(const char* what, const std::string& list) {
+  constexpr std::size_t kWidth = 78;
+  constexpr std::size_t kIndent = 12;
+  std::string text;
+  std::string begin = fmt::format("  {:<10}", what);
+  for (const std::string& line : report::WrapLines(list, kWidth - kIndent)) {
+    text += begin + line + "\n";
+    begin.assign(kIndent, ' ');
+  }
+  return text;
+}
+
 std::string ComponentText(const models::ComponentPlan& component,
                           const desk::ComponentConfig& config) {
-  constexpr std::size_t kWidth = 78;
   const data::Dataset& dataset = component.comparison.data.dataset;
   std::vector<std::string> models;
   for (const auto& recipe : component.recipes) {
@@ -62,14 +74,8 @@ std::string ComponentText(const models::ComponentPlan& component,
         fmt::format("  goal      {}\n",
                     InUnit(component.comparison.goal, dataset.target().unit));
   }
-  text += fmt::format("  hold-outs {}\n",
-                      HoldoutList(component.comparison.holdouts));
-  std::string list =
-      report::WrapText(fmt::format("{}", fmt::join(models, ", ")), kWidth - 12);
-  for (std::size_t at = 0; (at = list.find('\n', at)) != list.npos; ++at) {
-    list.insert(at + 1, "            ");
-  }
-  text += fmt::format("  models    {}\n", list);
+  text += ListLine("hold-outs", HoldoutList(component.comparison.holdouts));
+  text += ListLine("models", fmt::format("{}", fmt::join(models, ", ")));
   text += fmt::format("  fits      {}\n", component.num_fits());
   return text;
 }

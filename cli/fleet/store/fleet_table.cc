@@ -86,7 +86,8 @@ report::Table FleetTable(const std::vector<ComponentSummary>& summaries) {
 }  // namespace
 
 std::string FormattedFleet(const std::vector<ComponentSummary>& summaries,
-                           const std::string& format) {
+                           const std::string& format,
+                           std::size_t columns) {
   if (auto text = report::TableText(FleetTable(summaries), format)) {
     return *std::move(text);
   }
@@ -105,7 +106,8 @@ std::string FormattedFleet(const std::vector<ComponentSummary>& summaries,
     worst.resize(kMostShown);
     note = fmt::format("The worst {} against their goals:\n", kMostShown);
   }
-  return Headline(summaries) + note + report::TerminalTable(FleetTable(worst));
+  return Headline(summaries) + note +
+         report::TerminalTable(FleetTable(worst), columns);
 }
 
 }  // namespace errmap::fleet

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -8,9 +9,10 @@
 namespace errmap::fleet {
 
 /// What compare --format prints of a fleet; on a terminal, of a large one, the
-/// numbers and the components that failed or do worst.
+/// numbers and the components that failed or do worst, `columns` wide.
 std::string FormattedFleet(
     const std::vector<models::ComponentSummary>& summaries,
-    const std::string& format);
+    const std::string& format,
+    std::size_t columns);
 
 }  // namespace errmap::fleet

@@ -42,9 +42,9 @@ std::string SummaryText(const stats::ErrorMetrics& metrics,
   }
   if (std::isfinite(ks_d)) {
     text += fmt::format(
-        "  {:<10} {:.5f}, p {:.4g} (Eq. 140: assumes that mean and sd were "
-        "given,\n  {:<10} not estimated from these values as they are here, "
-        "so p is too large)\n",
+        "  {:<10} {:.5f}, p {:.4g} (Eq. 140, for a given mean and sd; here "
+        "both\n  {:<10} are estimated from these values, so p is too "
+        "large)\n",
         "K-S D",
         ks_d,
         ks_p_given,

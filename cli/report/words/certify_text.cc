@@ -26,30 +26,31 @@ std::string Stops(const Certification& certification,
 }
 
 std::string SolversText(const Certification& certification,
-                        const CertificationFloors& floors) {
+                        const CertificationFloors& floors,
+                        bool details) {
   std::string text =
       "NIST StRD, nonlinear: 27 problems from both starts; digits (LRE, at "
       "most 11)\n";
-  text += fmt::format("{:<30}{:>7}{:>7}{:>7}{:>7}  {}\n",
+  text += fmt::format("{:<30}{:>7}{:>7}{:>7}{:>7}{}\n",
                       "solver",
                       "solved",
                       "mean",
                       "least",
                       "sd",
-                      "runs ended with");
+                      details ? "  runs ended with" : "");
   for (const auto& row : certification.nonlinear_summary) {
-    text += fmt::format("{:<30}{:>7}{:>7.2f}{:>7.2f}{:>7.2f}  {}\n",
+    text += fmt::format("{:<30}{:>7}{:>7.2f}{:>7.2f}{:>7.2f}{}\n",
                         row.solver,
                         fmt::format("{}/{}", row.solved, row.runs),
                         row.mean_lre_parameters,
                         row.least_lre_parameters,
                         row.mean_lre_sd,
-                        Stops(certification, row.solver));
+                        details ? "  " + Stops(certification, row.solver) : "");
   }
   return text +
          fmt::format(
              "Floors of {}: {} solved, mean {:.1f}, every run's parameters "
-             "{:.1f}, sd {:.1f}, sum of squares {:.1f}\n",
+             "{:.1f},\nsd {:.1f}, sum of squares {:.1f}\n",
              models::kDefaultSolver,
              floors.nonlinear_solved,
              floors.nonlinear_mean_parameters,
@@ -58,19 +59,21 @@ std::string SolversText(const Certification& certification,
              floors.nonlinear_rss) +
          fmt::format(
              "{} is the library's (fitting/nonlinear/nonlinear_regression.h); "
-             "no command fits formulas by it. The\ncommands fit nets, by the "
-             "solvers below it: net:lm, net:scg, net:cg, net:ceres, "
+             "no command\nfits formulas by it. The commands fit nets, by the "
+             "solvers below it: net:lm,\nnet:scg, net:cg, net:ceres, "
              "net:nlopt.\n",
              models::kDefaultSolver);
 }
 
 // The default solver's runs; with `details` everybody's.
 std::string RunsText(const Certification& certification, bool details) {
+  const int widest = details ? 30 : 6;
   std::string text =
-      fmt::format("\n{:<10}{:>5} {:<30}{:>8}{:>7}{:>7}{:>7}  {}\n",
+      fmt::format("\n{:<10}{:>5} {:<{}}{:>8}{:>7}{:>7}{:>7}  {}\n",
                   "problem",
                   "start",
                   "solver",
+                  widest,
                   "param.",
                   "sd",
                   "RSS",
@@ -78,10 +81,11 @@ std::string RunsText(const Certification& certification, bool details) {
                   "stop");
   for (const auto& row : certification.nonlinear) {
     if (!details && row.solver != models::kDefaultSolver) continue;
-    text += fmt::format("{:<10}{:>5} {:<30}{:>8.2f}{:>7.2f}{:>7.2f}{:>7}  {}\n",
+    text += fmt::format("{:<10}{:>5} {:<{}}{:>8.2f}{:>7.2f}{:>7.2f}{:>7}  {}\n",
                         row.problem,
                         row.start,
                         row.solver,
+                        widest,
                         row.lre_parameters,
                         row.lre_sd,
                         row.lre_rss,
@@ -95,7 +99,7 @@ std::string LinearText(const Certification& certification,
                        const CertificationFloors& floors) {
   std::string text = fmt::format(
       "\nNIST StRD, linear, as errmap fit --model "
-      "poly:formula=...:centred=no fits the data's CSV; digits (LRE,\nat most "
+      "poly:formula=...:centred=no fits\nthe data's CSV; digits (LRE, at most "
       "15; floors {:.0f})\n"
       "{:<10}{:>8}{:>7}{:>7}{:>12}{:>6}\n",
       floors.linear_coefficients,
@@ -162,7 +166,7 @@ std::string GradientsText(const Certification& certification,
   const std::size_t shown =
       details ? rows.size() : std::min(kShown, rows.size());
   std::string text = fmt::format(
-      "\nGradients and Jacobians against Ridders extrapolation: {} checks, "
+      "\nGradients and Jacobians against Ridders extrapolation: {} checks,\n"
       "relative error at most {:.0e}\n",
       rows.size(),
       floors.gradient_relative_error);
@@ -181,25 +185,25 @@ std::string AgreementText(const Certification& certification,
                           const CertificationFloors& floors) {
   std::string text = fmt::format(
       "\nAgreement on one well-damped net from one start: objective within "
-      "{:.0e}, predictions\nwithin {:.0e} of the target range\n"
-      "{:<30}{:>20}{:>10}{:>13}{:>8}  {}\n",
+      "{:.0e},\npredictions within {:.0e} of the target range (*: no floor)\n"
+      "{:<30}{:>12}{:>9}{:>10}{:>6} {}\n",
       floors.agreement_objective,
       floors.agreement_predictions,
       "solver",
       "objective",
       "relative",
-      "predictions",
+      "predicted",
       "steps",
       "stop");
   for (const auto& row : certification.agreement) {
-    text += fmt::format("{:<30}{:>20.13g}{:>10.0e}{:>13.0e}{:>8}  {}{}\n",
+    text += fmt::format("{:<30}{:>12.8g}{:>9.0e}{:>10.0e}{:>6} {}{}\n",
                         row.solver,
                         row.objective,
                         row.difference,
                         row.prediction_difference,
                         row.iterations,
                         row.stop,
-                        row.judged ? "" : " (no floor)");
+                        row.judged ? "" : " *");
   }
   return text;
 }
@@ -211,7 +215,7 @@ std::string CertificationText(const Certification& certification,
                               bool details) {
   std::string text;
   if (!certification.nonlinear.empty()) {
-    text += SolversText(certification, floors);
+    text += SolversText(certification, floors, details);
     text += RunsText(certification, details);
   }
   if (!certification.linear.empty()) text += LinearText(certification, floors);

@@ -101,7 +101,7 @@ TEST_F(CliPromise, EvaluateHoldsTheMapToItsPromise) {
   EXPECT_TRUE(well["changed_relation"].is_null());
   Write("moved.csv", DaysInCliPromise(11, 12, 9.0));
   const Outcome moved = Run({"evaluate", "map.json", "moved.csv"});
-  EXPECT_THAT(moved.out,
+  EXPECT_THAT(OneLine(moved.out),
               AllOf(HasSubstr("promised"),
                     HasSubstr("no compensation"),
                     HasSubstr("re-zero")));
@@ -118,7 +118,7 @@ TEST_F(CliPromise, CheckTellsWhetherTheMapHolds) {
   Write("moved.csv", DaysInCliPromise(11, 11, 9.0, 0.0, 13));
   const Outcome moved = Run({"check", "map.json", "moved.csv"});
   EXPECT_EQ(moved.status, kEveryFitFailed);
-  EXPECT_THAT(moved.out,
+  EXPECT_THAT(OneLine(moved.out),
               AllOf(HasSubstr("does not hold"),
                     HasSubstr("re-zero by"),
                     HasSubstr("0 to 39 min after the session began")));
@@ -205,7 +205,7 @@ TEST_F(CliPromise, CheckKnowsNothingWhereReadingsBetweenProbesAreMissing) {
   EXPECT_EQ(only["status"], "unknown");
   const Outcome text = Run({"check", "lag.json", "only.csv"});
   EXPECT_EQ(text.status, kNothingJudged);
-  EXPECT_THAT(text.out, HasSubstr("the readings between the probes"));
+  EXPECT_THAT(OneLine(text.out), HasSubstr("the readings between the probes"));
   EXPECT_THAT(
       text.err,
       HasSubstr("warning: 3 of 4 rows come after a gap in the readings"));

@@ -60,7 +60,7 @@ TEST_F(Fleet, InitProposesAStudyOfAFolder) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out,
               HasSubstr("8 files; left out, since they cannot be mapped: "
-                        "'notes', 'yaw_up'; look it over"));
+                        "'notes', 'yaw_up';\nlook it over"));
   EXPECT_THAT(
       Read("study.toml"),
       AllOf(HasSubstr("name = \"{machine}/{component}, {direction}\""),

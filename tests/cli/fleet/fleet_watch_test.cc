@@ -1,6 +1,7 @@
 // Maps that are deployed and watched, as a user does it.
 
 #include "tests/cli/fleet/fleet_fixture.h"
+#include "tests/cli/one_line.h"
 
 namespace errmap {
 namespace {
@@ -68,7 +69,8 @@ class Watch : public FleetTest {
 TEST_F(Watch, TellsHealthyWorseAndDriftingApart) {
   const Outcome deployed = Run({"deploy", "store", kName});
   ASSERT_EQ(deployed.status, 0) << deployed.err;
-  EXPECT_THAT(deployed.out, AllOf(HasSubstr("since 20"), HasSubstr("um RMSE")));
+  EXPECT_THAT(OneLine(deployed.out),
+              AllOf(HasSubstr("since 20"), HasSubstr("um RMSE")));
   Simulate("healthy", 12);
   WriteNewDays("healthy", "new");
   const Json healthy = Watched("new", 0);
@@ -140,7 +142,7 @@ TEST_F(Watch, PartsOfADay) {
   give(3);
   const Outcome few = Run({"watch", "store", "new"});
   EXPECT_EQ(few.status, kNothingJudged);
-  EXPECT_THAT(few.out,
+  EXPECT_THAT(OneLine(few.out),
               AllOf(HasSubstr("1 too few rows"),
                     HasSubstr("errmap check store/maps/")));
   EXPECT_THAT(few.err, HasSubstr("none of the maps could be judged"));
