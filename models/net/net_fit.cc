@@ -7,8 +7,8 @@
 #include <utility>
 
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
+#include "models/jobs_arena.h"
 #include "models/net/feedforward_net.h"
 #include "models/net/training_sample.h"
 
@@ -27,8 +27,8 @@ void RunJobs(std::size_t count, int threads, const Job& job) {
     for (std::size_t i = 0; i < count; ++i) job(i);
     return;
   }
-  oneapi::tbb::task_arena arena(threads);
-  arena.execute([&] { oneapi::tbb::parallel_for(std::size_t{0}, count, job); });
+  InJobsArena(threads,
+              [&] { oneapi::tbb::parallel_for(std::size_t{0}, count, job); });
 }
 
 ColumnScaling ScalingOf(InputScaling kind, const Eigen::MatrixXd& inputs) {

@@ -10,13 +10,13 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for_each.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include "data/csv.h"
 #include "data/formats/pattern_file.h"
 #include "data/input_error.h"
 #include "data/measurements/dataset.h"
 #include "data/text.h"
+#include "models/jobs_arena.h"
 
 namespace errmap::models {
 namespace {
@@ -432,9 +432,9 @@ NetcgStudy RunReportStudy(const std::string& folder,
     return s.patterns * s.num_weights();
   });
   const auto begin = std::chrono::steady_clock::now();
-  tbb::task_arena arena(options.jobs > 0 ? options.jobs
-                                         : tbb::info::default_concurrency());
-  arena.execute([&] {
+  const int jobs =
+      options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();
+  InJobsArena(jobs, [&] {
     tbb::parallel_for_each(order, [&](NetcgStudyRun* run) {
       Train(run->report.down ? down : up, options.netcg.precision, run);
     });

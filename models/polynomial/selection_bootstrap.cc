@@ -5,8 +5,8 @@
 #include <mutex>
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
+#include "models/jobs_arena.h"
 #include "models/regression_report.h"
 #include "stats/random.h"
 
@@ -45,8 +45,7 @@ VectorXd BootstrapInclusion(const DictionaryRows& rows,
   VectorXd shares = VectorXd::Zero(rows.candidates->cols());
   std::mutex mutex;
   bool stopped = false;
-  tbb::task_arena arena(context.threads);
-  arena.execute([&] {
+  InJobsArena(context.threads, [&] {
     tbb::parallel_for(0, repetitions, [&](int i) {
       if (context.stop != nullptr && context.stop->load()) {
         const std::lock_guard lock(mutex);

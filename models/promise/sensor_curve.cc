@@ -10,7 +10,6 @@
 #include <utility>
 
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include "fitting/fold_codes.h"
 #include "fitting/interruption.h"
@@ -18,6 +17,7 @@
 #include "models/error_model.h"
 #include "models/history/view.h"
 #include "models/inner_folds.h"
+#include "models/jobs_arena.h"
 #include "models/scaling.h"
 #include "stats/random.h"
 
@@ -470,9 +470,9 @@ SensorCurve LearnSensors(const data::Dataset& dataset,
     }
     if (search.progress) search.progress(++done, static_cast<int>(folds) + 1);
   };
-  oneapi::tbb::task_arena arena(search.jobs);
-  arena.execute(
-      [&] { oneapi::tbb::parallel_for(Index{0}, folds + 1, choose_in); });
+  InJobsArena(search.jobs, [&] {
+    oneapi::tbb::parallel_for(Index{0}, folds + 1, choose_in);
+  });
 
   const VectorXd rmse =
       (squares.rowwise().sum() / static_cast<double>(dataset.num_rows()))

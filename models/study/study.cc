@@ -10,12 +10,11 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include "data/argument_name.h"
 #include "fitting/interruption.h"
+#include "models/jobs_arena.h"
 #include "models/recipe_catalog.h"
 #include "models/shared_work.h"
 #include "models/study/fold_pool.h"
@@ -249,11 +248,7 @@ class StudyRun {
   StudyResult Run() {
     // Each worker takes the next task, so that they start in their order.
     std::atomic<std::size_t> next{0};
-    const oneapi::tbb::global_control allow_jobs(
-        oneapi::tbb::global_control::max_allowed_parallelism,
-        static_cast<std::size_t>(options_.jobs));
-    oneapi::tbb::task_arena arena(options_.jobs);
-    arena.execute([&] {
+    InJobsArena(options_.jobs, [&] {
       oneapi::tbb::parallel_for(0, options_.jobs, [&](int /*worker*/) {
         for (std::size_t i = next++; i < tasks_.size(); i = next++) {
           RunTask(tasks_[i]);

@@ -99,6 +99,17 @@ MatrixXd MeanByBlocks(const MatrixXd& mean_squares) {
   return means;
 }
 
+// Losses are sums of squares of what differs by the last digits of a fit.
+bool AreTied(const UnitLosses& losses, const PairComparison& pair) {
+  constexpr double kRounding = 1e-9;
+  if (losses.num_units() == 0) return false;
+  const VectorXd one = losses.mean_squares.col(pair.a);
+  const VectorXd other = losses.mean_squares.col(pair.b);
+  return ((one - other).array().abs() <=
+          kRounding * one.array().max(other.array()))
+      .all();
+}
+
 void TestUnits(const UnitLosses& losses,
                const ComparisonOptions& options,
                std::vector<PairComparison>* pairs) {
@@ -113,8 +124,11 @@ void TestUnits(const UnitLosses& losses,
     const VectorXd d = differences.col(static_cast<Index>(i));
     PairComparison& pair = (*pairs)[i];
     pair.sign_flip = flipped[i];
-    p.push_back(pair.sign_flip.test.p);
-    p_memory.push_back(pair.memory.test.p);
+    pair.tied = AreTied(losses, pair);
+    if (!pair.tied) {
+      p.push_back(pair.sign_flip.test.p);
+      p_memory.push_back(pair.memory.test.p);
+    }
     pair.wilcoxon = TestSignedRanks(d);
     pair.block_t = CorrectedResampledT(of_blocks.col(static_cast<Index>(i)),
                                        kBlocksTestToTrain);
@@ -126,9 +140,27 @@ void TestUnits(const UnitLosses& losses,
   }
   const std::vector<double> adjusted = AdjustByHolm(p);
   const std::vector<double> memory_adjusted = AdjustByHolm(p_memory);
-  for (std::size_t i = 0; i < pairs->size(); ++i) {
-    (*pairs)[i].p_holm = adjusted[i];
-    (*pairs)[i].p_memory_holm = memory_adjusted[i];
+  std::size_t next = 0;
+  for (PairComparison& pair : *pairs) {
+    if (pair.tied) continue;
+    pair.p_holm = adjusted[next];
+    pair.p_memory_holm = memory_adjusted[next];
+    ++next;
+  }
+}
+
+void ForgetTests(PairComparison* pair) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (double* p : {&pair->sign_flip.test.p,
+                    &pair->p_holm,
+                    &pair->memory.test.p,
+                    &pair->p_memory_holm,
+                    &pair->block_t.test.p,
+                    &pair->wilcoxon.test.p}) {
+    *p = kNone;
+  }
+  for (auto* test : {&pair->corrected_t, &pair->diebold_mariano}) {
+    if (*test) (*test)->test.p = kNone;
   }
 }
 
@@ -175,6 +207,10 @@ void ComparisonOptions::Validate() const {
   margin.Validate();
 }
 
+Index Comparison::num_tested() const {
+  return std::ranges::count(pairs, false, &PairComparison::tied);
+}
+
 const PairComparison& Comparison::Pair(Index one, Index other) const {
   const Index models = rmse.size();
   const auto [a, b] = std::minmax(one, other);
@@ -209,6 +245,9 @@ Comparison CompareModels(const UnitLosses& losses,
   BoundErrors(losses, options, &comparison);
   TestUnits(losses, options, &comparison.pairs);
   if (folds != nullptr) TestFolds(*folds, &comparison.pairs);
+  for (PairComparison& pair : comparison.pairs) {
+    if (pair.tied) ForgetTests(&pair);
+  }
   if (losses.num_units() > 0) {
     comparison.tiers =
         FormTiers(comparison.rmse, ExcessBounds(comparison), options.margin);

@@ -47,9 +47,12 @@ struct PairComparison {
   Eigen::Index a = 0;
   Eigen::Index b = 0;
   double difference = 0.0;  // pooled RMSE of a less that of b
-  Bounds95 bounds;          // of `difference`, bootstrap over units
-  SignFlipTest sign_flip;   // of d
-  double p_holm = 1.0;      // sign_flip's p among all pairs
+  /// No unit's losses differ by more than rounding: one map twice. Then nothing
+  /// is tested, every p is NaN, and the pair does not count in Holm's.
+  bool tied = false;
+  Bounds95 bounds;         // of `difference`, bootstrap over units
+  SignFlipTest sign_flip;  // of d
+  double p_holm = 1.0;     // sign_flip's p among all pairs that are not tied
   /// Of `difference`, with the memory from unit to unit that their order cannot
   /// exclude, and its p among all pairs.
   MemoryTest memory;
@@ -76,6 +79,8 @@ struct Comparison {
   std::vector<PairComparison> pairs;  // (0,1), (0,2), ..., (1,2), ...
   std::vector<std::vector<Eigen::Index>> tiers;  // see FormTiers
 
+  /// Pairs that are not tied: those that Holm's adjustment counts.
+  Eigen::Index num_tested() const;
   /// The pair of two different models, whichever is a. Throws
   /// std::out_of_range where there is none.
   const PairComparison& Pair(Eigen::Index one, Eigen::Index other) const;

@@ -58,6 +58,7 @@ class global_control {
  public:
   enum parameter { max_allowed_parallelism };
   global_control(parameter /*what*/, std::size_t /*value*/) {}
+  static std::size_t active_value(parameter /*what*/) { return 1; }
 };
 
 /// work(i) for every i of [begin, end), on as many threads as the arena has.

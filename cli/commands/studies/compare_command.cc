@@ -118,6 +118,12 @@ std::optional<int> RunIfFleet(const CompareArguments& arguments) {
       (arguments.out.empty() || !fleet::IsStore(arguments.out))) {
     return std::nullopt;
   }
+  if (!arguments.page.empty()) {
+    throw UsageError(
+        "-o writes the page of one study, and this is one of many components; "
+        "leave it out: each has its page in --out, and report.html there is "
+        "of all");
+  }
   return RunCompareFleet({.study = std::move(study),
                           .out = arguments.out,
                           .shard = arguments.shard,

@@ -14,6 +14,7 @@
 #include "cli/report/documents/report_html.h"
 #include "cli/report/figures/figures.h"
 #include "cli/report/report.h"
+#include "cli/report/words/data_words.h"
 #include "cli/shell/standard_streams.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
@@ -118,6 +119,7 @@ models::StudyRecord OfComponent(models::StudyRecord record,
 int RunReport(const ReportArguments& arguments) {
   if (fleet::IsStore(arguments.folder)) return RunStoreReport(arguments);
   models::StudyRecord results = ReadResults(arguments.folder);
+  if (results.doubt) Say("warning: " + report::DoubtText(results));
   const std::string& component = arguments.component;
   if (!component.empty()) results = OfComponent(std::move(results), component);
   if (arguments.format == "md") {

@@ -14,6 +14,7 @@
 #include "cli/report/tables/machine_tables.h"
 #include "cli/report/tables/report_tables.h"
 #include "cli/report/tables/result_table.h"
+#include "cli/report/words/data_words.h"
 #include "cli/report/words/next_steps.h"
 #include "cli/report/words/verdict_text.h"
 
@@ -189,6 +190,9 @@ std::string Page::Notices() const {
         "<p class=\"notice\">The run was interrupted: only what was "
         "finished is shown, and models that are missing were not "
         "fitted.</p>\n";
+  }
+  if (const std::string doubt = DoubtText(record_); !doubt.empty()) {
+    html += "<p class=\"notice\">" + doubt + "</p>\n";
   }
   if (NumComponents() == 0) {
     html +=

@@ -7,6 +7,7 @@
 #include "cli/report/tables/machine_tables.h"
 #include "cli/report/tables/report_tables.h"
 #include "cli/report/tables/result_table.h"
+#include "cli/report/words/data_words.h"
 
 namespace errmap::report {
 namespace {
@@ -77,6 +78,7 @@ std::string ReportMarkdown(const models::StudyRecord& record) {
   if (record.interrupted) {
     text += "The run was interrupted: only what was finished is shown.\n\n";
   }
+  if (record.doubt) text += DoubtText(record) + "\n\n";
   if (record.components.empty()) {
     text += "results.json holds no component: there is nothing to report.\n\n";
   }

@@ -82,7 +82,7 @@ std::string RemedyText(const models::SessionCheck& check,
           error.WithUnit(check.probe_scatter));
     case models::Remedy::kRefit:
       return "An offset does not explain it: the shape is wrong; measure this "
-             "state and fit again (errmap update).\n";
+             "state in two sessions or more and fit again (errmap update).\n";
     case models::Remedy::kUnknown:
       return "One probe cannot tell an offset from a wrong shape: take a "
              "second one elsewhere.\n";

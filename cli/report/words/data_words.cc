@@ -53,4 +53,14 @@ std::string TargetWords(const data::Dataset& dataset) {
   return Target(dataset.target().name, dataset.align());
 }
 
+std::string DoubtText(const models::StudyRecord& record) {
+  if (!record.doubt) return "";
+  return *record.doubt == models::Doubt::kChanged
+             ? "results.json was changed after errmap wrote it: its content is "
+               "not that of its hash, so these figures may not be what was "
+               "found. Run errmap compare again."
+             : "results.json holds no hash of its content, as errmap wrote "
+               "them formerly: whether it was changed is not known.";
+}
+
 }  // namespace errmap::report

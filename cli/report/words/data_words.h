@@ -3,7 +3,7 @@
 #include <string>
 
 #include "data/measurements/dataset.h"
-#include "models/study/record/data_record.h"
+#include "models/study/record/study_record.h"
 
 namespace errmap::report {
 
@@ -15,5 +15,9 @@ std::string UnitsWords(const data::Dataset& dataset);
 /// The target's name, and what was taken off it.
 std::string TargetWords(const models::DataRecord& data);
 std::string TargetWords(const data::Dataset& dataset);
+
+/// Why a results.json that was read is perhaps not what a run found; "" where
+/// there is no doubt.
+std::string DoubtText(const models::StudyRecord& record);
 
 }  // namespace errmap::report

@@ -99,14 +99,20 @@ std::string TestSentence(const ComponentNumbers& component,
     text += fmt::format(
         " (95 % {} to {})", component.error(low), component.error(high));
   }
-  text += fmt::format("; sign-flip p {} over {}, {} after Holm for {}",
-                      PWords(pair.p),
-                      CountOfUnits(pair.units, held),
-                      PWords(pair.p_holm),
-                      Count(std::ranges::count(component.record.comparisons,
-                                               verdict.holdout,
-                                               &PairRecord::holdout),
-                            "pair"));
+  if (!std::isfinite(pair.p)) {
+    return text + "; they are one map but for rounding: nothing to establish.";
+  }
+  text += fmt::format(
+      "; sign-flip p {} over {}, {} after Holm for {}",
+      PWords(pair.p),
+      CountOfUnits(pair.units, held),
+      PWords(pair.p_holm),
+      Count(std::ranges::count_if(component.record.comparisons,
+                                  [&](const PairRecord& other) {
+                                    return other.holdout == verdict.holdout &&
+                                           std::isfinite(other.p);
+                                  }),
+            "pair"));
   switch (There(verdict.against_rival)) {
     case Confidence::kEstablished:
       return text + ": established.";

@@ -73,13 +73,13 @@ std::string_view ToString(Obstacle::Kind kind) {
 Obstacle FindObstacle(const stats::Comparison& tests, bool separate_sessions) {
   Obstacle obstacle{.kind = UnitsObstacle(tests.num_units, separate_sessions),
                     .units = tests.num_units,
-                    .pairs = static_cast<Index>(tests.pairs.size())};
+                    .pairs = tests.num_tested()};
   if (obstacle.kind == Kind::kTooFewUnits) {
     obstacle.needed = kFewestUnits;
   } else if (obstacle.kind == Kind::kPerhapsOneSession) {
     obstacle.needed = kFewestUnitsOfOneSession;
   }
-  if (obstacle.exists() || tests.pairs.empty()) return obstacle;
+  if (obstacle.exists() || obstacle.pairs == 0) return obstacle;
   const double pairs = static_cast<double>(obstacle.pairs);
   if (tests.num_units > stats::kMostForExactFlips) {
     const double smallest =

@@ -6,12 +6,12 @@
 #include <cstddef>
 
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include "models/export/map_program.h"
 #include "models/export/program_cost.h"
 #include "models/history/history.h"
 #include "models/inner_folds.h"
+#include "models/jobs_arena.h"
 #include "models/study/judgement/units_of_analysis.h"
 #include "models/study/record/fit_blocks.h"
 #include "models/study/record/held_out_residuals.h"
@@ -619,7 +619,7 @@ ComponentRecord MakeComponentRecord(const ComponentStudy& study, int jobs) {
   }
   record.models.resize(study.study.models.size());
   // The tests of a million residuals take seconds.
-  oneapi::tbb::task_arena(jobs).execute([&] {
+  InJobsArena(jobs, [&] {
     oneapi::tbb::parallel_for(
         std::size_t{0}, record.models.size(), [&](std::size_t i) {
           record.models[i] = MakeModel(study, i);

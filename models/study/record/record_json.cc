@@ -6,6 +6,15 @@
 
 namespace errmap::models::record_json {
 
+namespace {
+
+// Bytes that are no UTF-8 are replaced, as in the file.
+std::string OneLine(const RecordJson& json) {
+  return json.dump(-1, ' ', false, RecordJson::error_handler_t::replace);
+}
+
+}  // namespace
+
 void SetNull(RecordJson* json) { *json = nullptr; }
 void Set(double value, RecordJson* json) {
   *json = std::isfinite(value) ? RecordJson(value) : RecordJson();
@@ -43,6 +52,25 @@ void ForMembers(const RecordJson& object,
   for (const auto& [name, value] : object.items()) {
     visit(data::AsUtf8(name), value);
   }
+}
+
+void ForText(const RecordJson& json,
+             const std::function<bool(std::string_view key)>& kept,
+             const std::function<void(std::string_view text)>& take) {
+  if (!json.is_structured()) {
+    take(OneLine(json));
+    return;
+  }
+  take(json.is_object() ? "{" : "[");
+  bool is_first = true;
+  for (auto at = json.begin(); at != json.end(); ++at) {
+    if (json.is_object() && !kept(at.key())) continue;
+    if (!is_first) take(",");
+    is_first = false;
+    if (json.is_object()) take(OneLine(RecordJson(at.key())) + ":");
+    ForText(*at, kept, take);
+  }
+  take(json.is_object() ? "}" : "]");
 }
 
 bool Get(const RecordJson& json, double* value) {

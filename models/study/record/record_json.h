@@ -47,6 +47,10 @@ const RecordJson* Find(const RecordJson& json, std::string_view key);
 void ForMembers(const RecordJson& object,
                 const std::function<void(std::string name,
                                          const RecordJson& value)>& visit);
+/// The text in one line, piece by piece, without members that are not `kept`.
+void ForText(const RecordJson& json,
+             const std::function<bool(std::string_view key)>& kept,
+             const std::function<void(std::string_view text)>& take);
 // Whether it is of the type; what is not leaves *value as it is.
 bool Get(const RecordJson& json, double* value);
 bool Get(const RecordJson& json, bool* value);

@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include "fitting/interruption.h"
+#include "models/jobs_arena.h"
 
 namespace errmap::models {
 namespace {
@@ -86,8 +86,7 @@ std::optional<SessionWorth> WorthOfASession(const Dataset& dataset,
                      .indifference = options.indifference};
   context.inner_holdout = holdout.inner;
   std::vector<Loss> losses(holdout.folds.size());
-  oneapi::tbb::task_arena arena(options.jobs);
-  arena.execute([&] {
+  InJobsArena(options.jobs, [&] {
     oneapi::tbb::parallel_for(
         std::size_t{0}, losses.size(), [&](std::size_t i) {
           losses[i] = LossOfFold(dataset,

@@ -7,9 +7,37 @@
 #include "data/argument_name.h"
 #include "data/formats/nesting.h"
 #include "data/input_error.h"
+#include "data/sha256.h"
 #include "models/study/record/record_json.h"
 
 namespace errmap::models {
+namespace {
+
+constexpr std::string_view kHash = "content_sha256";
+
+std::string HashOf(const RecordJson& results) {
+  data::Sha256Stream stream;
+  record_json::ForText(
+      results,
+      [](std::string_view key) {
+        return key != kHash && !key.ends_with("_ns") &&
+               key.find("seconds") == std::string_view::npos;
+      },
+      [&](std::string_view text) { stream.Add(text); });
+  return data::Hexadecimal(stream.Finish());
+}
+
+LeftOut<Doubt> DoubtOf(const RecordJson& results) {
+  const RecordJson* provenance = record_json::Find(results, "provenance");
+  const RecordJson* stated =
+      provenance == nullptr ? nullptr : record_json::Find(*provenance, kHash);
+  std::string hash;
+  if (stated == nullptr || !FromJson(*stated, &hash)) return Doubt::kNoHash;
+  if (hash != HashOf(results)) return Doubt::kChanged;
+  return {};
+}
+
+}  // namespace
 
 const PairRecord* FindPair(const ComponentRecord& component,
                            std::string_view holdout,
@@ -23,9 +51,25 @@ const PairRecord* FindPair(const ComponentRecord& component,
   return found == component.comparisons.end() ? nullptr : &*found;
 }
 
+std::string_view ToString(Doubt doubt) {
+  switch (doubt) {
+    case Doubt::kNoHash:
+      return "no hash";
+    case Doubt::kChanged:
+      return "changed";
+  }
+  return "";
+}
+
 std::string ToJsonText(const StudyRecord& record) {
   constexpr int kIndent = 1;
-  return JsonText(record, kIndent) + "\n";
+  record_json::Tree json;
+  record_json::Write(record, json.root());
+  const std::string hash = HashOf(*json.root());
+  record_json::Set(std::string_view(hash),
+                   record_json::Member(
+                       kHash, record_json::Member("provenance", json.root())));
+  return json.Text(kIndent) + "\n";
 }
 
 StudyRecord FromJsonText(std::string_view text) {
@@ -37,6 +81,7 @@ StudyRecord FromJsonText(std::string_view text) {
   }
   StudyRecord record;
   FromJson(*json.root(), &record);
+  if (!record.doubt) record.doubt = DoubtOf(*json.root());
   constexpr std::string_view kSchema = kResultsSchema;
   if (record.schema != kSchema) {
     throw data::InputError(fmt::format(

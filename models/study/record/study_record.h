@@ -81,6 +81,14 @@ ERRMAP_RECORD(ComponentRecord,
 
 inline constexpr std::string_view kResultsSchema = "errmap-results-1";
 
+/// Why a file is perhaps not what a run found.
+enum class Doubt {
+  kNoHash,   // an older program wrote it, or the hash was taken out
+  kChanged,  // its content is not that of its hash
+};
+/// "no hash", "changed".
+std::string_view ToString(Doubt doubt);
+
 struct StudyRecord {
   std::string schema;
   std::string version;
@@ -89,6 +97,7 @@ struct StudyRecord {
   ProvenanceRecord provenance;
   std::vector<ComponentRecord> components;
   LeftOut<MachineRecord> machine;  // where they were put together
+  LeftOut<Doubt> doubt;            // by who read it
 };
 ERRMAP_RECORD(StudyRecord,
               schema,
@@ -97,7 +106,8 @@ ERRMAP_RECORD(StudyRecord,
               interrupted,
               provenance,
               components,
-              machine)
+              machine,
+              doubt)
 
 /// Two models under a hold-out, either way round, or null.
 const PairRecord* FindPair(const ComponentRecord& component,
@@ -105,12 +115,15 @@ const PairRecord* FindPair(const ComponentRecord& component,
                            std::string_view one,
                            std::string_view other);
 
-/// results.json; what is no UTF-8 in names is replaced.
+/// results.json; what is no UTF-8 in names is replaced. Its content_sha256, in
+/// provenance, is of all else but measured times (keys with "seconds" or that
+/// end in _ns): the same of the same study, however the file is indented.
 std::string ToJsonText(const StudyRecord& record);
 
 /// What ToJsonText wrote: Same(FromJsonText(ToJsonText(r)), r). Of a document
 /// that is older, incomplete or of a failed run what is missing, null or of
-/// another type is as in a new record. Throws data::InputError where the text
+/// another type is as in a new record; `doubt` says whether its hash agrees.
+/// Throws data::InputError where the text
 /// is no JSON or of another schema.
 StudyRecord FromJsonText(std::string_view text);
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -171,6 +172,65 @@ TEST_F(CliOutputs, FilesInTheWayAreReplacedByForceOnly) {
   Write("study/errmap-files.json", "[]");
   EXPECT_THAT(RefusalOf(Run(compare), kWrongCommandLine),
               HasSubstr("errmap-files.json"));
+}
+
+TEST_F(CliOutputs, AReportOfAResultThatWasChangedByHandSaysSo) {
+  ASSERT_EQ(Run({"compare",
+                 kDown,
+                 "--models",
+                 "mean,poly:eq8",
+                 "--out",
+                 "study",
+                 "--quiet"})
+                .status,
+            0);
+  EXPECT_THAT(Run({"report", "study"}).err, Not(HasSubstr("warning")));
+  Json results = Json::parse(Read("study/results.json"));
+  Json& rmse = results["components"][0]["models"][1]["results"]["groups:5"]
+                      ["test"]["rmse"];
+  rmse = 0.1 * rmse.get<double>();
+  Write("study/results.json", results.dump(1));
+  const Outcome changed = Run({"report", "study", "--force"});
+  EXPECT_EQ(changed.status, 0);
+  EXPECT_THAT(changed.err, HasSubstr("was changed after errmap wrote it"));
+  EXPECT_THAT(Read("study/report.html"), HasSubstr("was changed after errmap"));
+  EXPECT_THAT(Read("study/report.md"), HasSubstr("was changed after errmap"));
+  results["provenance"].erase("content_sha256");
+  Write("study/results.json", results.dump(1));
+  EXPECT_THAT(Run({"report", "study", "--force"}).err,
+              HasSubstr("holds no hash"));
+}
+
+// It was written for a single study only, and not at all here, with status 0.
+TEST_F(CliOutputs, OnePageOfManyComponentsIsRefused) {
+  std::filesystem::create_directory(scratch_ / "in");
+  Write("in/a.csv", Process::TextOf(kDown));
+  Write("in/b.csv", Process::TextOf(kDown));
+  Write("study.toml", "[[component]]\ndata = \"in/*.csv\"\n");
+  EXPECT_THAT(RefusalOf(Run({"compare",
+                             "--config",
+                             "study.toml",
+                             "--out",
+                             "store",
+                             "-o",
+                             "page.html"}),
+                        kWrongCommandLine),
+              HasSubstr("-o writes the page of one study"));
+}
+
+TEST_F(CliOutputs, MoreJobsThanCoresAreTakenWithoutAWord) {
+  const std::string jobs =
+      std::to_string(std::thread::hardware_concurrency() + 1);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{
+            "compare", kDown, "--models", "mean,poly:eq8,net:scg:iterations=5"},
+        {"learn", kDown, "--by", "cycles"}}) {
+    std::vector<std::string> with_jobs = words;
+    with_jobs.insert(with_jobs.end(), {"--jobs", jobs, "--quiet"});
+    const Outcome outcome = Run(with_jobs);
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_THAT(outcome.err, Not(HasSubstr("TBB")));
+  }
 }
 
 TEST_F(CliOutputs, ARunBrokenOffWhileItWritesMayBeRepeated) {

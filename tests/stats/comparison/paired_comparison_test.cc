@@ -183,17 +183,39 @@ TEST(CompareModels, CallsEqualModelsEqual) {
   const Comparison found = CompareModels(losses, &folds, {});
   const PairComparison& pair = found.pairs[0];
   EXPECT_EQ(pair.difference, 0.0);
-  EXPECT_EQ(pair.sign_flip.test.p, 1.0);
-  EXPECT_EQ(pair.p_holm, 1.0);
-  EXPECT_EQ(pair.wilcoxon.test.p, 1.0);
-  EXPECT_EQ(pair.corrected_t->test.p, 1.0);
-  EXPECT_EQ(pair.block_t.test.p, 1.0);
-  EXPECT_EQ(pair.diebold_mariano->test.p, 1.0);
+  EXPECT_TRUE(pair.tied);
+  for (const double p : {pair.sign_flip.test.p,
+                         pair.p_holm,
+                         pair.wilcoxon.test.p,
+                         pair.corrected_t->test.p,
+                         pair.block_t.test.p,
+                         pair.diebold_mariano->test.p,
+                         pair.memory.test.p,
+                         pair.p_memory_holm}) {
+    EXPECT_TRUE(std::isnan(p));
+  }
+  EXPECT_EQ(found.num_tested(), 0);
   EXPECT_EQ(pair.bounds.upper, 0.0);
   EXPECT_FALSE(pair.lag1.ok());
   EXPECT_FALSE(pair.correlated);
-  EXPECT_EQ(pair.p_memory_holm, 1.0);
   EXPECT_THAT(found.tiers, ElementsAre(ElementsAre(0, 1)));
+}
+
+// Two fits of one map by different orders of arithmetic.
+TEST(CompareModels, TestsNothingBetweenMapsThatDifferByRounding) {
+  const UnitLosses two = MakeLossesInPairedComparison(12, VectorXd{{1.0, 2.0}});
+  UnitLosses three = two;
+  three.mean_squares.conservativeResize(Eigen::NoChange, 3);
+  three.mean_squares.col(2) = (1.0 + 1e-13) * two.mean_squares.col(0);
+  const Comparison found = CompareModels(three, nullptr, {});
+  EXPECT_TRUE(found.Pair(0, 2).tied);
+  EXPECT_TRUE(std::isnan(found.Pair(0, 2).p_holm));
+  EXPECT_EQ(found.num_tested(), 2);
+  // Of two tests the smaller p counts twice, not three times.
+  const PairComparison& pair = found.Pair(0, 1);
+  EXPECT_FALSE(pair.tied);
+  EXPECT_EQ(pair.p_holm, 2.0 * pair.sign_flip.test.p);
+  EXPECT_EQ(found.tiers, (std::vector<std::vector<Index>>{{0, 2}, {1}}));
 }
 
 TEST(CompareModels, WarnsOfUnitsThatResembleTheirNeighbours) {
