@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <numeric>
 #include <set>
 #include <string>
 #include <unordered_map>
@@ -105,35 +107,71 @@ void LeaveReferences(const MeasuredColumns& measured,
   }
 }
 
+double SpreadOfMisses(const MeasuredColumns& measured,
+                      const VectorXd& predicted,
+                      const std::vector<Index>& rows) {
+  constexpr double kNormalMad = 1.4826;
+  std::vector<double> misses;
+  for (const Index row : rows) {
+    misses.push_back(std::abs(measured.target_values[row] - predicted[row]));
+  }
+  return kNormalMad * MedianOf(std::move(misses));
+}
+
+// Whether a target is exactly 0 more often than its resolution makes it: by
+// three and by four times what the values next to 0 have in the mean.
+bool AreInExcess(const std::vector<Index>& zeros,
+                 const std::map<double, Index>& counts) {
+  constexpr int kNeighbours = 4;  // on each side
+  constexpr double kTimes = 4.0;
+  constexpr double kMore = 3.0;
+  double sum = 0.0;
+  double number = 0.0;
+  const auto zero = counts.find(0.0);
+  auto above = zero;
+  for (int i = 0; i < kNeighbours && ++above != counts.end(); ++i) {
+    sum += static_cast<double>(above->second);
+    number += 1.0;
+  }
+  auto below = zero;
+  for (int i = 0; i < kNeighbours && below != counts.begin(); ++i) {
+    sum += static_cast<double>((--below)->second);
+    number += 1.0;
+  }
+  const double usual = number > 0.0 ? sum / number : 0.0;
+  return static_cast<double>(zeros.size()) >= kTimes * usual + kMore;
+}
+
 void LookForZeros(const MeasuredColumns& measured,
                   std::vector<ColumnFault>* faults) {
-  constexpr double kFar = 8.0;  // robust standard deviations, of the worst
+  constexpr double kFar = 8.0;          // robust standard deviations, of the
+  constexpr double kFarInExcess = 4.0;  // worst
+  constexpr double kOfEach = 3.0;       // where rows may be 0 by resolution
   const VectorXd& target = measured.target_values;
   const Index m = target.size();
   std::vector<Index> zeros;
   std::vector<Index> others;
-  std::set<double> levels;
+  std::map<double, Index> counts;
   for (Index row = 0; row < m; ++row) {
     (target[row] == 0.0 ? zeros : others).push_back(row);
-    levels.insert(target[row]);
+    ++counts[target[row]];
   }
-  // Where values are few a zero is one of them.
-  if (zeros.empty() || static_cast<Index>(4 * zeros.size()) > m ||
-      2 * levels.size() < others.size()) {
-    return;
-  }
+  if (zeros.empty() || static_cast<Index>(2 * zeros.size()) > m) return;
   const VectorXd predicted = LinearPrediction(measured, others);
   if (predicted.size() == 0) return;
-  std::vector<double> misses;
-  for (const Index row : others) {
-    misses.push_back(std::abs(target[row] - predicted[row]));
-  }
-  constexpr double kNormalMad = 1.4826;
-  const double sd = kNormalMad * MedianOf(std::move(misses));
+  const double sd = SpreadOfMisses(measured, predicted, others);
+  const bool in_excess = AreInExcess(zeros, counts);
   LeaveReferences(measured, &zeros);
+  // Where values are few, some of these are errors that are small.
+  if (2 * counts.size() < others.size()) {
+    std::erase_if(zeros, [&](Index row) {
+      return !(std::abs(predicted[row]) > kOfEach * sd);
+    });
+  }
   const auto worst = std::ranges::max_element(
       zeros, {}, [&](Index row) { return std::abs(predicted[row]); });
-  if (worst == zeros.end() || !(std::abs(predicted[*worst]) > kFar * sd)) {
+  if (worst == zeros.end() ||
+      !(std::abs(predicted[*worst]) > (in_excess ? kFarInExcess : kFar) * sd)) {
     return;
   }
   faults->push_back({.kind = FaultKind::kZero,
@@ -145,57 +183,118 @@ void LookForZeros(const MeasuredColumns& measured,
                      .high = sd});
 }
 
-// The cut that parts the targets best by their size, zeros apart, and how many
-// times larger those before it are, by the means of their logarithms: single
-// wrong values count little. 0: no part is hundreds of times smaller.
-Index CutOfSizes(const VectorXd& target, double* ratio) {
-  constexpr double kLeastShare = 0.2;
-  constexpr double kLeastRatio = 200.0;
-  constexpr double kMostRatio = 5000.0;
+// Rows one after another whose targets are of another size than the others'.
+struct RowRun {
+  std::size_t begin = 0;  // into the rows looked at
+  std::size_t end = 0;
+  double ratio = 1.0;  // of the others' sizes to theirs
+};
+
+// The rows from begin to end, and the others.
+std::array<std::vector<Index>, 2> PartedBy(const std::vector<Index>& rows,
+                                           const RowRun& run) {
+  std::array<std::vector<Index>, 2> parts;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    parts[i >= run.begin && i < run.end ? 0 : 1].push_back(rows[i]);
+  }
+  return parts;
+}
+
+// Of the targets that are not 0; 0 where all are. Other such runs among the
+// others do not move it as they move their mean.
+double MedianSize(const VectorXd& target, const std::vector<Index>& rows) {
+  std::vector<double> sizes;
+  for (const Index row : rows) {
+    if (target[row] != 0.0) sizes.push_back(std::abs(target[row]));
+  }
+  return sizes.empty() ? 0.0 : MedianOf(std::move(sizes));
+}
+
+// The run that departs most from the mean of the logarithms of sizes: between
+// the extremes of their running sum (Levin & Kline 1985), which may lie at an
+// end. Logarithms, so that single wrong values count little; zeros do not.
+RowRun RunOfOtherSize(const VectorXd& target, const std::vector<Index>& rows) {
   double all = 0.0;
   double count = 0.0;
-  for (const double value : target) {
-    if (value == 0.0) continue;
-    all += std::log(std::abs(value));
+  for (const Index row : rows) {
+    if (target[row] == 0.0) continue;
+    all += std::log(std::abs(target[row]));
     count += 1.0;
   }
   double sum = 0.0;
-  double before = 0.0;
-  double best = 0.0;
-  Index cut = 0;
-  for (Index row = 0; row + 1 < target.size(); ++row) {
-    if (target[row] == 0.0) continue;
-    sum += std::log(std::abs(target[row]));
-    before += 1.0;
-    const double after = count - before;
-    if (std::min(before, after) < kLeastShare * count) continue;
-    const double difference = sum / before - (all - sum) / after;
-    const double parted = before * after * difference * difference;
-    if (!(parted > best)) continue;
-    best = parted;
-    *ratio = std::exp(difference);
-    cut = row + 1;
+  double least = 0.0;
+  double most = 0.0;
+  std::size_t at_least = 0;
+  std::size_t at_most = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double value = target[rows[i]];
+    if (value != 0.0) sum += std::log(std::abs(value)) - all / count;
+    if (sum < least) {
+      least = sum;
+      at_least = i + 1;
+    }
+    if (sum > most) {
+      most = sum;
+      at_most = i + 1;
+    }
   }
-  const double size = std::max(*ratio, 1.0 / *ratio);
-  return size >= kLeastRatio && size <= kMostRatio ? cut : 0;
+  RowRun run{.begin = std::min(at_least, at_most),
+             .end = std::max(at_least, at_most)};
+  const auto [inside, outside] = PartedBy(rows, run);
+  run.ratio = MedianSize(target, outside) / MedianSize(target, inside);
+  return run;
 }
 
+// Whether these targets are what the others foretell when they are taken for
+// thousandths: a cold machine's errors are small, too, and stay so.
+bool AreThousandths(const MeasuredColumns& measured,
+                    const std::vector<Index>& small,
+                    const std::vector<Index>& large) {
+  constexpr double kThousand = 1000.0;
+  constexpr double kBetter = 0.25;  // of the squares
+  const VectorXd predicted = LinearPrediction(measured, large);
+  if (predicted.size() == 0) return false;
+  const VectorXd target = measured.target_values(small);
+  const VectorXd wanted = predicted(small);
+  return (kThousand * target - wanted).squaredNorm() <
+         kBetter * (target - wanted).squaredNorm();
+}
+
+// Every run of rows in another unit, the clearest first: sessions by turns
+// make several.
 void LookForOtherUnit(const MeasuredColumns& measured,
                       std::vector<ColumnFault>* faults) {
-  double ratio = 1.0;
-  const Index cut = CutOfSizes(measured.target_values, &ratio);
-  if (cut == 0) return;
-  const Index first = ratio < 1.0 ? 0 : cut;
-  const Index last = ratio < 1.0 ? cut : measured.target_values.size();
-  std::vector<Index> rows;
-  for (Index row = first; row < last; ++row) rows.push_back(row);
-  faults->push_back({.kind = FaultKind::kOtherUnit,
-                     .input = -1,
-                     .rows = std::move(rows),
-                     .of_cells = true,
-                     .value = std::max(ratio, 1.0 / ratio),
-                     .low = 0.0,
-                     .high = 0.0});
+  constexpr std::size_t kMostRuns = 20;
+  constexpr std::size_t kFewestRows = 5;
+  constexpr double kLeastRatio = 200.0;
+  constexpr double kMostRatio = 5000.0;
+  // A part as large as this needs no map to be in another unit.
+  constexpr double kLargePart = 0.2;
+  std::vector<Index> rows(
+      static_cast<std::size_t>(measured.target_values.size()));
+  std::iota(rows.begin(), rows.end(), Index{0});
+  const auto number = static_cast<double>(rows.size());
+  while (faults->size() < kMostRuns) {
+    const RowRun run = RunOfOtherSize(measured.target_values, rows);
+    const double ratio = std::max(run.ratio, 1.0 / run.ratio);  // NaN: neither
+    if (!(ratio >= kLeastRatio && ratio <= kMostRatio)) return;
+    auto [small, large] = PartedBy(rows, run);
+    if (run.ratio < 1.0) std::swap(small, large);
+    const auto shorter = std::min(small.size(), large.size());
+    if (shorter < kFewestRows ||
+        (static_cast<double>(shorter) < kLargePart * number &&
+         !AreThousandths(measured, small, large))) {
+      return;
+    }
+    faults->push_back({.kind = FaultKind::kOtherUnit,
+                       .input = -1,
+                       .rows = std::move(small),
+                       .of_cells = true,
+                       .value = ratio,
+                       .low = 0.0,
+                       .high = 0.0});
+    rows = std::move(large);
+  }
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ std::vector<Eigen::Index> RepeatedRows(const CsvTable& table,
                                        const std::vector<bool>& passes);
 
 /// Targets that are no measurement though each looks like one: zeros where all
-/// other rows say that there is an error (kZero, a lost beam), and a first or
-/// last part of the rows in another unit (kOtherUnit). Rows count from 0.
+/// other rows say that there is an error (kZero, a lost beam), and runs of rows
+/// in another unit (kOtherUnit, a fault each). Rows count from 0.
 std::vector<ColumnFault> FindTargetFaults(const MeasuredColumns& measured);
 
 }  // namespace errmap::data

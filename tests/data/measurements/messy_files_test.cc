@@ -406,6 +406,61 @@ TEST(MessyFiles, RowsThatAreNoMeasurementsAreNamedAndLeftOutByAnOption) {
         one.left)
         << ToString(one.kind);
   }
+  // A block in the middle, and days by turns, in millimetres.
+  const auto in_mm = [&](const auto& where) {
+    return changed([&](int i, auto* cells) {
+      if (where(i)) {
+        (*cells)[kError] = CsvNumber(Number((*cells)[kError]) / 1000.0);
+      }
+    });
+  };
+  const auto rows_in_mm = [](const PreparedDataset& made) {
+    std::vector<Eigen::Index> found;
+    for (const ColumnFault& fault : made.faults) {
+      EXPECT_EQ(fault.kind, FaultKind::kOtherUnit);
+      found.insert(found.end(), fault.rows.begin(), fault.rows.end());
+    }
+    std::ranges::sort(found);
+    return found;
+  };
+  const std::function<bool(int)> blocks[] = {
+      [](int i) { return i >= 50 && i < 62; },
+      [](int i) { return i >= 40 && i < 80; },
+      [](int i) { return i / 20 % 2 == 1; },
+      [](int i) { return i >= 112; }};
+  for (const auto& block : blocks) {
+    std::vector<Eigen::Index> expected;
+    for (int i = 0; i < 120; ++i) {
+      if (block(i)) expected.push_back(i);
+    }
+    EXPECT_EQ(rows_in_mm(Make(in_mm(block))), expected);
+  }
+  // A machine that errs by nothing while it is cold is in one unit.
+  EXPECT_THAT(Make(changed([](int i, auto* cells) {
+                const double warm = i % 40 < 6 ? 0.001 : 1.0;
+                (*cells)[kError] = CsvNumber(warm * Number((*cells)[kError]));
+                if (warm < 1.0) (*cells)[kT1] = "20";
+              })).faults,
+              ::testing::Each(::testing::Field(
+                  &ColumnFault::kind, ::testing::Ne(FaultKind::kOtherUnit))));
+  // To 0.1 um so many rows have few values; a third of them without a beam.
+  Rows many = {rows.front()};
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      many.push_back(rows[i]);
+      auto& cells = many.back();
+      cells[kDay] = std::to_string(3 * repeat + std::stoi(cells[kDay]));
+      cells[kCycle] = std::to_string(24 * repeat + std::stoi(cells[kCycle]));
+      cells[kT1] = Fixed(Number(cells[kT1]) + 0.01 * Noise(repeat));
+      const double error = Number(cells[kError]) + 0.015 * Noise(repeat);
+      cells[kError] = CsvNumber(std::round(10.0 * error) / 10.0);
+      if (i % 3 == 0) cells[kError] = "0";
+    }
+  }
+  const PreparedDataset lost = Make(Joined(many));
+  ASSERT_EQ(lost.faults.size(), 1U);
+  EXPECT_EQ(lost.faults[0].kind, FaultKind::kZero);
+  EXPECT_EQ(lost.faults[0].rows.size(), 800U);
   // Zeros where each is one: the position that errors are measured from.
   const std::string reference = changed([](int, auto* cells) {
     if ((*cells)[kPosition] == "200") (*cells)[kError] = "0";
