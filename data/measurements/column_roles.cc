@@ -42,6 +42,12 @@ std::string CounterStem(std::string_view name) {
   return stem;
 }
 
+constexpr auto kCounters = std::to_array<std::string_view>(
+    {"cycle",   "zyklus",  "takt",      "lauf",  "session", "day",    "tag",
+     "run",     "segment", "record",    "index", "row",     "id",     "sample",
+     "messung", "versuch", "durchgang", "nr",    "no",      "number", "nummer",
+     "zeile",   "test",    "trial",     "repeat"});
+
 bool IsOneOf(std::span<const std::string_view> names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
@@ -393,15 +399,27 @@ class InputChooser {
 }  // namespace
 
 bool KeepsRecord(std::string_view name) {
-  constexpr auto kNames = std::to_array<std::string_view>(
-      {"cycle",   "zyklus",    "takt", "lauf",    "session",
-       "day",     "tag",       "run",  "segment", "record",
-       "index",   "row",       "id",   "sample",  "messung",
-       "versuch", "durchgang", "nr",   "no",      "number",
-       "nummer",  "zeile",     "test", "trial",   "repeat"});
-  return IsOneOf(kNames, CounterStem(name)) ||
+  return IsOneOf(kCounters, CounterStem(name)) ||
          StartsWithIgnoringCase(name, "time") ||
          StartsWithIgnoringCase(name, "truth");
+}
+
+bool IsSensor(const ColumnInfo& column) {
+  if (NamesPosition(column.name)) return false;
+  if (!column.unit.symbol.empty()) return true;
+  std::string_view rest = column.name;
+  while (!rest.empty()) {
+    const std::size_t end =
+        std::min(rest.find_first_of("_ -.#:()"), rest.size());
+    std::string word = CounterStem(rest.substr(0, end));
+    if (word.ends_with('s')) word.pop_back();
+    // "no" and "test" are words of other names, too.
+    if (word.size() > 2 && word != "test" && IsOneOf(kCounters, word)) {
+      return false;
+    }
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return true;
 }
 
 bool PartsComponents(const CsvTable& table, const CsvColumn& column) {

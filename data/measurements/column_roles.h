@@ -47,6 +47,10 @@ ChosenInputs ChooseInputs(const CsvTable& table,
 /// "Takt", "time_s"), or holds what no controller has.
 bool KeepsRecord(std::string_view name);
 
+/// Whether an input is read by a sensor: it is no position and, having no unit,
+/// counts no cycles, runs or alike ("elapsed_cycles", "n_runs").
+bool IsSensor(const ColumnInfo& column);
+
 /// Whether the values of a column make errors of their own, as up and down
 /// motion differ by hysteresis: named direction, axis, machine or alike, with 2
 /// to 24

@@ -7,7 +7,7 @@
 
 #include "data/formats/nesting.h"
 #include "data/input_error.h"
-#include "data/text.h"
+#include "data/measurements/column_roles.h"
 #include "fitting/least_squares/decompositions.h"
 #include "models/study/record/record_json.h"
 
@@ -49,9 +49,7 @@ std::vector<Index> SensorsOf(const data::Dataset& dataset) {
   std::vector<Index> sensors;
   for (Index i = 0; i < dataset.num_inputs(); ++i) {
     const data::ColumnInfo& column = dataset.inputs()[std::size_t(i)];
-    if (!data::StartsWithIgnoringCase(column.name, "position")) {
-      sensors.push_back(i);
-    }
+    if (data::IsSensor(column)) sensors.push_back(i);
   }
   return sensors;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "data/measurements/column_roles.h"
 #include "models/study/judgement/extrapolated_rows.h"
 
 namespace errmap::models {
@@ -572,7 +573,7 @@ Judgement JudgeStudy(const data::Dataset& dataset,
 std::vector<std::string> SensorsOf(const FittedModel& fitted) {
   std::vector<std::string> sensors;
   for (const TrainedInput& input : fitted.inputs) {
-    if (!data::NamesPosition(input.column.name)) {
+    if (data::IsSensor(input.column)) {
       sensors.push_back(input.column.name);
     }
   }

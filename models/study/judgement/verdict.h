@@ -134,7 +134,7 @@ struct JudgeOptions {
 /// a blend it is recommended, unless the best baseline's RMSE is lower, or its
 /// typical error in later sessions where these were foretold (forward:K), or a
 /// single map is established to be better by separate sessions. Else the
-/// simplest map of the first tier: fewest sensors (inputs other than position),
+/// simplest map of the first tier: fewest sensors (data::IsSensor),
 /// then fewest parameters, then the lower RMSE; the simplest baseline where one
 /// is there: nothing better is known.
 Judgement JudgeStudy(const data::Dataset& dataset,
@@ -142,7 +142,7 @@ Judgement JudgeStudy(const data::Dataset& dataset,
                      const StudyResult& study,
                      const JudgeOptions& options);
 
-/// Inputs of the model other than positions, in its order.
+/// Inputs of the model that are sensors (data::IsSensor), in its order.
 std::vector<std::string> SensorsOf(const FittedModel& fitted);
 
 }  // namespace errmap::models

@@ -1,5 +1,7 @@
 // Which column is what: data/measurements/column_roles.h by MakeDataset.
 
+#include "data/measurements/column_roles.h"
+
 #include <string>
 #include <vector>
 
@@ -237,6 +239,28 @@ TEST(ColumnRoles, LeavesOutColumnsWithoutAName) {
   EXPECT_EQ(Make(",error_um\n0,1\n1,2\n", {.inputs = {"column_1"}})
                 .dataset.num_inputs(),
             1);
+}
+
+// A count of warm-up cycles needs no sensor.
+TEST(ColumnRoles, TellSensorsFromPositionsAndCounters) {
+  for (const char* name : {"position_mm",
+                           "elapsed_cycles",
+                           "n_runs",
+                           "Lauf",
+                           "Cycle No.",
+                           "sample index"}) {
+    EXPECT_FALSE(IsSensor({.name = name, .unit = UnitOfColumn(name)})) << name;
+  }
+  for (const char* name : {"t1_degC",
+                           "run_degC",
+                           "humidity",
+                           "no_load",
+                           "T",
+                           "elapsed_s",
+                           "bicycle",
+                           "test_stand"}) {
+    EXPECT_TRUE(IsSensor({.name = name, .unit = UnitOfColumn(name)})) << name;
+  }
 }
 
 }  // namespace
