@@ -25,12 +25,23 @@ struct PolynomialTerm {
   double coefficient = 0.0;
 };
 
+/// Where an input may bend a polynomial.
+struct BendRange {
+  Eigen::Index input = 0;
+  double min = 0.0;  // unit of the input
+  double max = 0.0;
+};
+
 /// error = intercept + sum of terms in scaled inputs (x - offset) * scale.
 struct PolynomialForm {
   Eigen::VectorXd input_offset;  // (p) unit of the input
   Eigen::VectorXd input_scale;   // (p) per unit of the input
   double intercept = 0.0;        // unit of the target
   std::vector<PolynomialTerm> terms;
+  /// A term whose powers of the inputs named here add up to more than one sees
+  /// these held within their range, so that the map goes on straight beyond it
+  /// (polynomial/polynomial_model.h). Empty: every term goes on as it is.
+  std::vector<BendRange> bends_within = {};
 };
 
 enum class OutputFunction { kSigmoid, kLinear };

@@ -60,6 +60,7 @@ InnerFolds MakeInnerFolds(const data::Dataset& training,
   const Index count = std::min(kFolds, units);
   InnerFolds inner;
   inner.whole_sessions = kind == InnerHoldout::kWholeSessions;
+  inner.units = of.empty() ? count : units;
   switch (kind) {
     case InnerHoldout::kForward:
       // Blocks in order need one more to start from.

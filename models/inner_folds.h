@@ -19,6 +19,8 @@ struct InnerFolds {
   fitting::FoldCodes folds;  // of the rows of `training`
   std::string text;  // "sessions:5 of day", "groups:5 of cycle", "kfold:5"
   bool whole_sessions = false;
+  /// Sessions or groups that are held out whole; else the folds.
+  Eigen::Index units = 0;
 };
 
 /// What a choice on inner hold-outs minimises.

@@ -24,10 +24,16 @@ Json FormToJson(const PolynomialForm& form, const std::string& equation) {
     terms.push_back(
         {{"powers", term.powers}, {"coefficient", term.coefficient}});
   }
+  Json bends = Json::array();
+  for (const BendRange& range : form.bends_within) {
+    bends.push_back(
+        {{"input", range.input}, {"min", range.min}, {"max", range.max}});
+  }
   return {{"input_offset", NumbersToJson(form.input_offset)},
           {"input_scale", NumbersToJson(form.input_scale)},
           {"intercept", form.intercept},
           {"terms", std::move(terms)},
+          {"bends_within", std::move(bends)},
           {"equation", equation}};
 }
 
@@ -81,6 +87,13 @@ PolynomialForm ReadPolynomial(const Node& node) {
     }
     term.coefficient = element.At("coefficient").Number();
     form.terms.push_back(std::move(term));
+  }
+  if (const auto bends = node.Find("bends_within")) {
+    for (const Node& element : bends->Elements()) {
+      form.bends_within.push_back({element.At("input").Count(),
+                                   element.At("min").Number(),
+                                   element.At("max").Number()});
+    }
   }
   return form;
 }

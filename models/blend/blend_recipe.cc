@@ -32,7 +32,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 const std::vector<std::string>& RuleWords() {
-  static const std::vector<std::string> words = {"power4", "within20", "stack"};
+  static const std::vector<std::string> words = {
+      "likelihood", "power4", "within20", "stack"};
   return words;
 }
 
@@ -42,7 +43,29 @@ struct Score {
   const VectorXd* held_out = nullptr;  // null where not known
 };
 
+// The power of the errors' inverse. Units of one run resemble each other, so
+// that many of them say less than they are many.
+double PowerOf(WeightRule rule, const InnerFolds& folds) {
+  constexpr Index kMost = 8;
+  constexpr double kAlways = 4.0;
+  return rule == WeightRule::kLikelihood
+             ? static_cast<double>(std::min(folds.units, kMost))
+             : kAlways;
+}
+
+std::string TextOf(WeightRule rule, const InnerFolds& folds) {
+  switch (rule) {
+    case WeightRule::kWithin20:
+      return "equal weights within 20 % of the best";
+    case WeightRule::kStack:
+      return "stacking";
+    default:
+      return fmt::format("error^-{:.0f}", PowerOf(rule, folds));
+  }
+}
+
 VectorXd WeightsFrom(WeightRule rule,
+                     const InnerFolds& folds,
                      const std::vector<Score>& scores,
                      const VectorXd& targets) {
   const auto count = static_cast<Index>(scores.size());
@@ -62,12 +85,12 @@ VectorXd WeightsFrom(WeightRule rule,
   const double floor = std::max(least, std::numeric_limits<double>::min());
   for (Index i = 0; i < count; ++i) {
     const double ratio = scores[static_cast<std::size_t>(i)].rmse / floor;
-    if (rule == WeightRule::kPower4) {
-      constexpr double kPower = -4.0;
-      weights[i] = std::isnan(ratio) ? 0.0 : std::pow(ratio, kPower);
-    } else {
+    if (rule == WeightRule::kWithin20) {
       constexpr double kNear = 1.2;
       weights[i] = ratio <= kNear ? 1.0 : 0.0;
+    } else {
+      weights[i] =
+          std::isnan(ratio) ? 0.0 : std::pow(ratio, -PowerOf(rule, folds));
     }
   }
   return weights / weights.sum();
@@ -128,7 +151,7 @@ class BlendRecipe final : public ModelRecipe {
       scores.push_back({net->inner_rmse, nullptr});
     }
     const VectorXd weights =
-        WeightsFrom(options_.rule, scores, training.target_values());
+        WeightsFrom(options_.rule, folds, scores, training.target_values());
 
     std::vector<Part> parts = CollapseBases(training, bases, weights);
     if (net && weights[weights.size() - 1] > kLeastWeight) {
@@ -144,11 +167,7 @@ class BlendRecipe final : public ModelRecipe {
     fitted.summary.message =
         fmt::format("{} candidates weighted by {} on inner hold-outs ({})",
                     scores.size(),
-                    options_.rule == WeightRule::kPower4 ? "error^-4"
-                    : options_.rule == WeightRule::kWithin20
-                        ? "equal weights within 20 % of the "
-                          "best"
-                        : "stacking",
+                    TextOf(options_.rule, folds),
                     folds.text);
     return fitted;
   }

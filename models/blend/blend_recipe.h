@@ -10,17 +10,18 @@
 
 namespace errmap::models {
 
-/// Where weights come from: error^-4, equal ones within 20 % of the best,
-/// stacking.
-enum class WeightRule { kPower4, kWithin20, kStack };
+/// Where weights come from: error^-n for n units of the inner hold-outs, as
+/// their likelihood would have it were each unit one error, error^-4, equal
+/// ones within 20 % of the best, stacking.
+enum class WeightRule { kLikelihood, kPower4, kWithin20, kStack };
 
 /// blend: the weighted average of candidates (family x view x terms, each at
 /// its best penalty, and a net), with weights from the inner hold-outs of the
 /// training rows alone. One choice among near-equals is a gamble; averages of
 /// maps that see the inputs differently are not.
 struct BlendOptions {
-  WeightRule rule = WeightRule::kPower4;
-  bool net = false;  // with NetInViews(), but for kStack
+  WeightRule rule = WeightRule::kLikelihood;
+  bool net = true;  // with NetInViews(), but for kStack
   /// Views are what averaging lives on: without a `view` it is auto.
   BasisOptions bases = {.view = ViewOptions()};
 

@@ -11,6 +11,7 @@
 
 #include "models/export/nested_polynomial.h"
 #include "models/history/history.h"
+#include "models/polynomial/polynomial_model.h"
 
 namespace errmap::models {
 namespace {
@@ -23,6 +24,22 @@ struct Bounds {
   double low = 0.0;
   double high = 0.0;
 };
+
+// The same terms in as many inputs more as are held within a range, which the
+// terms that bend read in place of those.
+PolynomialForm WithHeldInputs(const PolynomialForm& form) {
+  PolynomialForm spread = form;
+  for (PolynomialTerm& term : spread.terms) {
+    const bool bends = Bends(form.bends_within, term.powers);
+    for (const BendRange& range : form.bends_within) {
+      int& power = term.powers[static_cast<std::size_t>(range.input)];
+      const int held = bends ? power : 0;
+      if (bends) power = 0;
+      term.powers.push_back(held);
+    }
+  }
+  return spread;
+}
 
 // As the guards of a prediction widen a range, to the last bit.
 Bounds Widened(double min, double max, double margin) {
@@ -323,19 +340,38 @@ class FormWriter {
 
   Operand OutputOf(const PolynomialForm& form,
                    const std::vector<Operand>& inputs) {
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
-      const bool is_read = std::ranges::any_of(
-          form.terms,
-          [i](const PolynomialTerm& term) { return term.powers[i] > 0; });
-      if (!is_read) continue;
-      const auto at = static_cast<Index>(i);
+    const PolynomialForm spread = WithHeldInputs(form);
+    const auto is_read = [&](std::size_t place) {
+      return std::ranges::any_of(spread.terms,
+                                 [place](const PolynomialTerm& term) {
+                                   return term.powers[place] > 0;
+                                 });
+    };
+    const auto scale = [&](std::size_t input, std::size_t place) {
+      const auto at = static_cast<Index>(input);
       Add({.op = Op::kScale,
-           .to = {Space::kScaled, AsInt(i)},
-           .a = inputs[i],
+           .to = {Space::kScaled, AsInt(place)},
+           .a = inputs[input],
            .c = form.input_offset[at],
            .d = form.input_scale[at]});
+    };
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      if (is_read(i)) scale(i, i);
     }
-    for (const Instruction& instruction : NestedPolynomial(form)) {
+    for (std::size_t h = 0; h < form.bends_within.size(); ++h) {
+      const std::size_t place = inputs.size() + h;
+      if (!is_read(place)) continue;
+      const BendRange& range = form.bends_within[h];
+      scale(static_cast<std::size_t>(range.input), place);
+      const auto scaled = [&](double value) {
+        return (value - form.input_offset[range.input]) *
+               form.input_scale[range.input];
+      };
+      const auto [low, high] =
+          std::minmax({scaled(range.min), scaled(range.max)});
+      Clip({Space::kScaled, AsInt(place)}, {low, high}, false);
+    }
+    for (const Instruction& instruction : NestedPolynomial(spread)) {
       Add(instruction);
     }
     return kOutput;

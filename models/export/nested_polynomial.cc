@@ -84,8 +84,9 @@ class Nesting {
 
 Instructions NestedPolynomial(const PolynomialForm& form) {
   Terms terms;
-  const auto num_inputs = static_cast<std::size_t>(form.input_offset.size());
   if (form.intercept != 0.0 || form.terms.empty()) {
+    const std::size_t num_inputs =
+        form.terms.empty() ? 0 : form.terms.front().powers.size();
     terms.push_back({std::vector<int>(num_inputs, 0), form.intercept});
   }
   for (const PolynomialTerm& term : form.terms) terms.push_back(term);

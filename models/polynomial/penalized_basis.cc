@@ -13,6 +13,7 @@
 #include "fitting/matrix_product.h"
 #include "models/history/with_history.h"
 #include "models/polynomial/polynomial_fit.h"
+#include "models/polynomial/polynomial_model.h"
 
 namespace errmap::models {
 namespace {
@@ -76,7 +77,7 @@ void ClipColumns(const VectorXd& min,
 
 // Whether a term is more than a straight line of an input that only grows: what
 // bends is foretold by nothing where such an input has never been.
-bool Bends(const TermPowers& powers, const ViewedRows& viewed) {
+bool BendsWhatGrows(const TermPowers& powers, const ViewedRows& viewed) {
   int degree = 0;
   bool grows = false;
   for (std::size_t i = 0; i < powers.size(); ++i) {
@@ -108,7 +109,7 @@ std::vector<bool> ExcludedTerms(const PenalizedBasis& basis,
     excluded[static_cast<std::size_t>(at - design.terms().begin())] = true;
   }
   for (std::size_t i = 0; basis.guarded && i < excluded.size(); ++i) {
-    excluded[i] = excluded[i] || Bends(design.terms()[i], viewed);
+    excluded[i] = excluded[i] || BendsWhatGrows(design.terms()[i], viewed);
   }
   return excluded;
 }
@@ -224,25 +225,29 @@ class SummedBasis {
     }
     const double widened =
         margins.error_margin * (trained.error_max - trained.error_min);
-    ForBlocks(
-        members_[static_cast<std::size_t>(fold)],
-        [&](const std::vector<Index>& block) {
-          MatrixXd inputs = Inputs(block);
-          if (guarded_) {
-            ClipColumns(trained.input_min,
-                        trained.input_max,
-                        margins.input_margin,
-                        &inputs);
-          }
-          MatrixXd predicted(inputs.rows(), solutions.coefficients.cols());
-          fitting::Multiply(Terms(inputs), solutions.coefficients, predicted);
-          predicted.rowwise() += solutions.intercepts.transpose();
-          if (guarded_) {
-            predicted = predicted.cwiseMax(trained.error_min - widened)
-                            .cwiseMin(trained.error_max + widened);
-          }
-          take(block, predicted);
-        });
+    ForBlocks(members_[static_cast<std::size_t>(fold)],
+              [&](const std::vector<Index>& block) {
+                MatrixXd inputs = Inputs(block);
+                MatrixXd terms;
+                if (guarded_) {
+                  ClipColumns(trained.input_min,
+                              trained.input_max,
+                              margins.input_margin,
+                              &inputs);
+                  terms = GuardedTerms(inputs, trained);
+                } else {
+                  terms = Terms(inputs);
+                }
+                MatrixXd predicted(inputs.rows(),
+                                   solutions.coefficients.cols());
+                fitting::Multiply(terms, solutions.coefficients, predicted);
+                predicted.rowwise() += solutions.intercepts.transpose();
+                if (guarded_) {
+                  predicted = predicted.cwiseMax(trained.error_min - widened)
+                                  .cwiseMin(trained.error_max + widened);
+                }
+                take(block, predicted);
+              });
   }
 
   VectorXd Targets(const std::vector<Index>& rows) const {
@@ -266,6 +271,37 @@ class SummedBasis {
     for (Index j = 0; j < terms.cols(); ++j) {
       if (excluded_[static_cast<std::size_t>(j)]) terms.col(j).setZero();
     }
+    return terms;
+  }
+
+  // Terms that bend see inputs held near where the fold was trained, as in
+  // MapOfTerms.
+  MatrixXd GuardedTerms(const MatrixXd& inputs, const Ranges& trained) const {
+    MatrixXd held = inputs;
+    std::vector<BendRange> ranges;
+    for (Index j = 0; j < held.cols(); ++j) {
+      const double low = trained.input_min[j];  // scaled: centred at 0
+      const double high = trained.input_max[j];
+      if (viewed_->is_position[static_cast<std::size_t>(j)] || low > 0.0 ||
+          high < 0.0) {
+        continue;
+      }
+      const double room = kBendMargin * (high - low);
+      held.col(j) = held.col(j).cwiseMax(low - room).cwiseMin(high + room);
+      ranges.push_back({.input = j});
+    }
+    MatrixXd terms = Terms(held);
+    std::vector<Index> straight;
+    std::vector<TermPowers> powers;
+    for (Index j = 0; j < terms.cols(); ++j) {
+      const TermPowers& term = design_->terms()[static_cast<std::size_t>(j)];
+      if (Bends(ranges, term) || excluded_[static_cast<std::size_t>(j)]) {
+        continue;
+      }
+      straight.push_back(j);
+      powers.push_back(term);
+    }
+    terms(Eigen::all, straight) = TermMatrix(inputs, powers);
     return terms;
   }
 
@@ -443,8 +479,8 @@ FittedModel MapOfCandidate(const std::string& name,
                            const PolynomialDesign& design,
                            const PenalizedCandidate& candidate,
                            bool guarded) {
-  FittedModel fitted =
-      MapOfTerms(name, design, candidate.intercept, candidate.coefficients);
+  FittedModel fitted = MapOfTerms(
+      name, design, candidate.intercept, candidate.coefficients, guarded);
   fitted.inner_rmse = candidate.held_out_rmse;
   if (guarded) {
     fitted.guards = MakeGuards(fitted.inputs, raw.target_values());

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "fitting/interruption.h"
+#include "models/history/view.h"
 #include "models/polynomial/polynomial_model.h"
 
 namespace errmap::models {
@@ -282,6 +283,8 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
   fitted.inputs = DescribeInputs(training, inputs);
   FittedTerms kept = TermsOf(design, terms, solution);
   PolynomialForm& form = kept.form;
+  if (guarded_)
+    form.bends_within = BendsWithin(fitted.inputs, form.input_offset);
   RemarkOnTerms(kept, terms.size(), solution, rows, &fitted);
   fitted.summary.message =
       fmt::format("solved by QR in {} bits", solution.bits);
@@ -377,10 +380,27 @@ void FillCoefficientTable(const PolynomialDesign& design,
   }
 }
 
+std::vector<BendRange> BendsWithin(const std::vector<TrainedInput>& inputs,
+                                   const VectorXd& offset) {
+  std::vector<BendRange> ranges;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const double centre = offset[static_cast<Index>(i)];
+    if (IsPosition(inputs[i].column) || centre < inputs[i].min ||
+        centre > inputs[i].max) {
+      continue;
+    }
+    const double room = kBendMargin * (inputs[i].max - inputs[i].min);
+    ranges.push_back(
+        {static_cast<Index>(i), inputs[i].min - room, inputs[i].max + room});
+  }
+  return ranges;
+}
+
 FittedModel MapOfTerms(const std::string& name,
                        const PolynomialDesign& design,
                        double intercept,
-                       const VectorXd& coefficients) {
+                       const VectorXd& coefficients,
+                       bool guarded) {
   std::vector<Index> chosen;
   for (Index j = 0; j < coefficients.size(); ++j) {
     if (coefficients[j] != 0.0) chosen.push_back(j);
@@ -402,6 +422,8 @@ FittedModel MapOfTerms(const std::string& name,
     form.terms.push_back({used.terms[i], coefficients[chosen[i]]});
   }
   fitted.inputs = DescribeInputs(design.dataset(), columns);
+  if (guarded)
+    form.bends_within = BendsWithin(fitted.inputs, form.input_offset);
   const Index parameters = static_cast<Index>(chosen.size()) + 1;
   fitted.model = std::make_shared<PolynomialModel>(form, parameters);
   const VectorXd residual =

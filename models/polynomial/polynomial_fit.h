@@ -54,12 +54,25 @@ class PolynomialRecipe : public ModelRecipe {
   bool guarded_;
 };
 
+/// How much of its trained range an input may leave it by before a map stops
+/// bending in it. Beyond, a parabola foretells nothing, while a straight line
+/// of the same data still holds: measured in promise/measured.md.
+inline constexpr double kBendMargin = 0.1;
+
+/// That of every input but positions, in which machines bend and which stay
+/// within their travel. What is left of a term that stops to bend is its slope
+/// at `offset` (p), which must lie where the input was trained: an input with
+/// another, as of terms that are not centred, bends everywhere.
+std::vector<BendRange> BendsWithin(const std::vector<TrainedInput>& inputs,
+                                   const Eigen::VectorXd& offset);
+
 /// A map of given coefficients of the scaled terms, zeros left out, that reads
-/// only the inputs which it needs.
+/// only the inputs which it needs. `guarded`: it bends within BendsWithin only.
 FittedModel MapOfTerms(const std::string& name,
                        const PolynomialDesign& design,
                        double intercept,
-                       const Eigen::VectorXd& coefficients);
+                       const Eigen::VectorXd& coefficients,
+                       bool guarded);
 
 /// The terms `chosen` of a design over all inputs, over only those inputs that
 /// one of them has.

@@ -12,6 +12,15 @@ namespace errmap::models {
 
 using Eigen::Index;
 
+bool Bends(const std::vector<BendRange>& within,
+           const std::vector<int>& powers) {
+  int degree = 0;
+  for (const BendRange& range : within) {
+    degree += powers[static_cast<std::size_t>(range.input)];
+  }
+  return degree > 1;
+}
+
 PolynomialModel::PolynomialModel(PolynomialForm form, Index num_parameters)
     : form_(std::move(form)), num_parameters_(num_parameters) {
   constexpr int kMostPower = 64;
@@ -47,12 +56,30 @@ PolynomialModel::PolynomialModel(PolynomialForm form, Index num_parameters)
       highest_power_ = std::max(highest_power_, power);
     }
   }
+  std::vector<Index> held_at(static_cast<std::size_t>(p), -1);
+  for (const BendRange& range : form_.bends_within) {
+    const Index input = range.input;
+    if (input < 0 || input >= p || !(range.min <= range.max)) {
+      refuse("bends_within names an input that is not there, or no range");
+    }
+    // As a program scales: (x - offset) * scale.
+    const auto scaled = [&](double value) {
+      return (value - form_.input_offset[input]) * form_.input_scale[input];
+    };
+    const auto [lowest, highest] =
+        std::minmax({scaled(range.min), scaled(range.max)});
+    held_at[static_cast<std::size_t>(input)] =
+        p + static_cast<Index>(held_.size());
+    held_.push_back({input, lowest, highest});
+  }
   for (const PolynomialTerm& term : form_.terms) {
     SparseTerm sparse{{}, term.coefficient};
+    const bool bends = Bends(form_.bends_within, term.powers);
     for (std::size_t i = 0; i < term.powers.size(); ++i) {
       if (term.powers[i] > 0) {
-        sparse.factors.push_back(static_cast<Index>(i) * highest_power_ +
-                                 term.powers[i] - 1);
+        const Index place =
+            bends && held_at[i] >= 0 ? held_at[i] : static_cast<Index>(i);
+        sparse.factors.push_back(place * highest_power_ + term.powers[i] - 1);
       }
     }
     sparse_terms_.push_back(std::move(sparse));
@@ -61,16 +88,26 @@ PolynomialModel::PolynomialModel(PolynomialForm form, Index num_parameters)
 
 double PolynomialModel::DoPredictRow(const double* inputs) const {
   const Index num_inputs = form_.input_offset.size();
-  // powers[i * highest + k - 1] = k-th power of scaled input i.
-  RowScratch powers(static_cast<std::size_t>(num_inputs * highest_power_));
-  for (Index i = 0; i < num_inputs; ++i) {
-    const double scaled =
-        (inputs[i] - form_.input_offset[i]) * form_.input_scale[i];
+  const auto num_held = static_cast<Index>(held_.size());
+  // powers[i * highest + k - 1] = k-th power of scaled input i; after all of
+  // them those of the inputs that are held.
+  RowScratch powers(
+      static_cast<std::size_t>((num_inputs + num_held) * highest_power_));
+  const auto raise = [&](Index place, double scaled) {
     double power = 1.0;
     for (int k = 0; k < highest_power_; ++k) {
       power *= scaled;
-      powers[static_cast<std::size_t>(i * highest_power_ + k)] = power;
+      powers[static_cast<std::size_t>(place * highest_power_ + k)] = power;
     }
+  };
+  const auto scaled = [&](Index i) {
+    return (inputs[i] - form_.input_offset[i]) * form_.input_scale[i];
+  };
+  for (Index i = 0; i < num_inputs; ++i) raise(i, scaled(i));
+  for (Index h = 0; h < num_held; ++h) {
+    const HeldInput& held = held_[static_cast<std::size_t>(h)];
+    raise(num_inputs + h,
+          std::min(std::max(scaled(held.input), held.lowest), held.highest));
   }
   double sum = form_.intercept;
   for (const SparseTerm& term : sparse_terms_) {

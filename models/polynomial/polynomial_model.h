@@ -1,8 +1,15 @@
 #pragma once
 
+#include <vector>
+
 #include "models/error_model.h"
 
 namespace errmap::models {
+
+/// Whether a term of these powers is more than a straight line of the inputs
+/// that bend within a range; such a term sees them held within it.
+bool Bends(const std::vector<BendRange>& within,
+           const std::vector<int>& powers);
 
 /// Polynomial map (NISTIR 5367, Eq. 7-9 and beyond); without terms, a constant.
 class PolynomialModel final : public ErrorModel {
@@ -28,8 +35,15 @@ class PolynomialModel final : public ErrorModel {
   double DoPredictRow(const double* inputs) const override;
 
   PolynomialForm form_;
+  struct HeldInput {
+    Eigen::Index input;
+    double lowest;  // scaled
+    double highest;
+  };
+
   Eigen::Index num_parameters_;
   int highest_power_ = 0;
+  std::vector<HeldInput> held_;
   std::vector<SparseTerm> sparse_terms_;
 };
 

@@ -355,6 +355,11 @@ std::string RemarkText(const ComponentNumbers& component,
                             component.error.WithUnit(component.Rmse(
                                 advice.model, remark.holdouts->front())))
               : "");
+    case RemarkKind::kSimpleHolds:
+      return fmt::format(
+          "It is simple: under {} the average of maps typically errs more than "
+          "twice as much.",
+          remark.holdouts->front());
     case RemarkKind::kProvenBetter:
       return fmt::format(
           "{} prove it better than the average of maps that is used else, {} "

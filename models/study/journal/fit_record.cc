@@ -47,7 +47,9 @@ ERRMAP_MEMBERS(data::ColumnInfo, name, unit)
 ERRMAP_MEMBERS(data::ColumnFilter, column, value)
 ERRMAP_MEMBERS(TrainedInput, column, min, max, mean, sd)
 ERRMAP_MEMBERS(PolynomialTerm, powers, coefficient)
-ERRMAP_MEMBERS(PolynomialForm, input_offset, input_scale, intercept, terms)
+ERRMAP_MEMBERS(BendRange, input, min, max)
+ERRMAP_MEMBERS(
+    PolynomialForm, input_offset, input_scale, intercept, terms, bends_within)
 ERRMAP_MEMBERS(NetForm,
                input_offset,
                input_scale,

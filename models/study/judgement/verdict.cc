@@ -4,7 +4,9 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <tuple>
+#include <variant>
 
 #include "data/measurements/column_roles.h"
 #include "models/study/judgement/extrapolated_rows.h"
@@ -264,73 +266,104 @@ double TypicalRmse(const HoldoutComparison& comparison, std::size_t model) {
       of_units.array().max(std::numeric_limits<double>::min()).log().mean());
 }
 
-// The model of least typical error where later sessions are foretold.
-std::optional<std::size_t> BestForeseeing(const HoldoutComparison& forward,
-                                          const IsMap& wanted) {
+// The model of least typical error.
+std::optional<std::size_t> MostTypical(const HoldoutComparison& comparison,
+                                       const IsMap& wanted) {
   std::optional<std::size_t> best;
-  for (const std::size_t model : forward.models) {
-    if (wanted(model) &&
-        (!best || TypicalRmse(forward, model) < TypicalRmse(forward, *best))) {
+  for (const std::size_t model : comparison.models) {
+    if (wanted(model) && (!best || TypicalRmse(comparison, model) <
+                                       TypicalRmse(comparison, *best))) {
       best = model;
     }
   }
   return best;
 }
 
-// Whether a map holds where later sessions are foretold from earlier ones: no
-// baseline does better, and it errs less than three times what it does when
-// sessions lie between those that it knows.
-bool Foresees(std::size_t model,
-              const HoldoutComparison& sideways,
-              const HoldoutComparison& forward,
-              const IsMap& is_baseline) {
-  constexpr double kMostGrowth = 3.0;
-  if (!forward.PlaceOf(model)) return true;
-  const double typical = TypicalRmse(forward, model);
-  const auto baseline = BestForeseeing(forward, is_baseline);
-  if (!baseline) return true;
-  return typical <= TypicalRmse(forward, *baseline) &&
-         typical <= kMostGrowth * TypicalRmse(sideways, model);
+// A constant, a line of one column or a plane of all: what a map must not lose
+// to where it has never been.
+bool IsSimple(const ModelResult& model) {
+  if (model.baseline) return true;
+  if (!model.final_fit || model.final_fit->history != nullptr) return false;
+  const ModelDescription form = model.final_fit->model->Describe();
+  const auto* polynomial = std::get_if<PolynomialForm>(&form);
+  return polynomial != nullptr &&
+         std::ranges::all_of(polynomial->terms, [](const PolynomialTerm& term) {
+           return std::accumulate(term.powers.begin(), term.powers.end(), 0) ==
+                  1;
+         });
 }
 
-// One choice among near-equals is a gamble, which an average of maps that see
-// the inputs differently is not: it is used unless a single map is established
-// to be better by days that are separate. An average that a baseline beats,
-// among all sessions or in the later ones, is no map at all. Nothing where
-// there is no average to be had.
-std::optional<std::size_t> BlendOrBetter(const HoldoutComparison& comparison,
-                                         const HoldoutComparison* forward,
-                                         const StudyResult& study,
-                                         const IsMap& is_map,
-                                         const JudgeOptions& options) {
-  const auto is_blend = [&](std::size_t model) {
-    return ChoiceOf(study.models[model]) == Choice::kBlend;
-  };
-  const auto best = BestWhere(comparison, is_map);
-  if (options.choose == Choose::kBest) return best;
-  const auto blend = BestWhere(comparison, [&](std::size_t model) {
-    return is_blend(model) && is_map(model);
-  });
-  if (!blend || options.choose == Choose::kBlend) return blend;
-  const IsMap is_baseline = [&](std::size_t model) {
-    return is_map(model) && ChoiceOf(study.models[model]) == Choice::kBaseline;
-  };
-  const auto foresees = [&](std::size_t model) {
-    return forward == nullptr ||
-           Foresees(model, comparison, *forward, is_baseline);
-  };
-  const auto proven = BestWhere(comparison, [&](std::size_t model) {
-    return is_map(model) && model != *blend &&
-           comparison.units.separate_sessions && foresees(model) &&
-           comparison.ThatItIsBetter(model, *blend) == Confidence::kEstablished;
-  });
-  const auto baseline = BestWhere(comparison, is_baseline);
-  const std::size_t use = proven.value_or(*blend);
-  if (baseline && RmseOf(comparison, *baseline) < RmseOf(comparison, use)) {
-    return baseline;
+// A choice between the average of maps and what is simpler.
+class BlendOrSimpler {
+ public:
+  /// `decides` chooses; `strictest` and `forward`, which may be null, veto.
+  BlendOrSimpler(const HoldoutComparison& decides,
+                 const std::vector<HoldoutComparison>& all,
+                 std::size_t strictest,
+                 const HoldoutComparison* forward,
+                 const StudyResult& study,
+                 const IsMap& is_map)
+      : decides_(decides), forward_(forward), study_(study), is_map_(is_map) {
+    vetoes_.push_back(&all[strictest]);
+    if (forward != nullptr) vetoes_.push_back(forward);
   }
-  return foresees(use) ? use : BestForeseeing(*forward, is_baseline);
-}
+
+  // One choice among near-equals is a gamble, which an average of maps that
+  // see the inputs differently is not: it is used unless a single map is
+  // established to be better by days that are separate. An average that a
+  // baseline beats, in the later sessions as well where these were foretold, is
+  // no map at all. Folds lack sessions, so that a map of many columns looks
+  // worse there than it is: a veto takes twice the error.
+  std::size_t Choose(std::size_t blend,
+                     const HoldoutComparison** vetoed_by) const {
+    const auto proven = BestWhere(decides_, [&](std::size_t model) {
+      return is_map_(model) && model != blend &&
+             decides_.units.separate_sessions && !IsVetoed(model) &&
+             decides_.ThatItIsBetter(model, blend) == Confidence::kEstablished;
+    });
+    const std::size_t use = proven.value_or(blend);
+    for (const HoldoutComparison* veto : vetoes_) {
+      if (const auto simple = FarBetter(*veto, use)) {
+        *vetoed_by = veto;
+        return *simple;
+      }
+    }
+    const auto baseline = BestWhere(decides_, [&](std::size_t model) {
+      return is_map_(model) && study_.models[model].baseline;
+    });
+    const bool beaten =
+        baseline && RmseOf(decides_, *baseline) < RmseOf(decides_, use) &&
+        (forward_ == nullptr || !forward_->PlaceOf(*baseline) ||
+         !forward_->PlaceOf(use) ||
+         TypicalRmse(*forward_, *baseline) < TypicalRmse(*forward_, use));
+    return beaten ? *baseline : use;
+  }
+
+ private:
+  std::optional<std::size_t> FarBetter(const HoldoutComparison& veto,
+                                       std::size_t model) const {
+    constexpr double kFar = 2.0;
+    const auto simple = MostTypical(veto, [&](std::size_t other) {
+      return is_map_(other) && IsSimple(study_.models[other]);
+    });
+    return simple && veto.PlaceOf(model) &&
+                   TypicalRmse(veto, model) > kFar * TypicalRmse(veto, *simple)
+               ? simple
+               : std::nullopt;
+  }
+
+  bool IsVetoed(std::size_t model) const {
+    return std::ranges::any_of(vetoes_, [&](const HoldoutComparison* veto) {
+      return FarBetter(*veto, model).has_value();
+    });
+  }
+
+  const HoldoutComparison& decides_;
+  const HoldoutComparison* forward_;
+  const StudyResult& study_;
+  const IsMap& is_map_;
+  std::vector<const HoldoutComparison*> vetoes_;
+};
 
 // The first tier that holds a map: predictions alone cannot be run. Nothing is
 // left in advice->first_tier where there is none.
@@ -464,12 +497,23 @@ std::optional<Recommendation> Recommend(
   const auto blend = BestWhere(decides, [&](std::size_t model) {
     return is_map(model) && is_blend(model);
   });
-  advice.model = BlendOrBetter(decides,
-                               ForwardOverSessions(holdouts, comparisons),
-                               study,
-                               is_map,
-                               options)
-                     .value_or(simplest);
+  advice.model = simplest;
+  if (options.choose == Choose::kBest) {
+    advice.model = *BestWhere(decides, is_map);
+  } else if (blend) {
+    advice.model = *blend;
+    if (options.choose == Choose::kAuto) {
+      const HoldoutComparison* vetoed_by = nullptr;
+      advice.model = BlendOrSimpler(decides,
+                                    comparisons,
+                                    *strictest,
+                                    ForwardOverSessions(holdouts, comparisons),
+                                    study,
+                                    is_map)
+                         .Choose(*blend, &vetoed_by);
+      if (vetoed_by != nullptr) advice.fails_in = vetoed_by->holdout;
+    }
+  }
   if (options.prefer == Prefer::kSmall) {
     advice.model = CheapestNear(
         advice.model, decides, study, is_map, options.indifference);

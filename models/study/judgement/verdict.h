@@ -84,6 +84,9 @@ struct Recommendation {
   std::optional<std::size_t> single;
   /// Of a single map, the blend than which separate days prove it better.
   std::optional<std::size_t> proven_better_than;
+  /// Of a simple map, the hold-out where the blend errs more than twice as
+  /// much; "" where it does not.
+  std::string fails_in;
   /// Predictions without a map that were better than every map, if any.
   std::optional<std::size_t> better_but_no_map;
   /// Of the held-out rows, those with an input of the model outside what the
@@ -131,9 +134,11 @@ struct JudgeOptions {
 /// else of whole unseen groups, else of another file, else of blocks, else the
 /// first; the map is chosen by the same, but by fewer than
 /// kFewestSessionsToDecide sessions only where nothing else is. Where there is
-/// a blend it is recommended, unless the best baseline's RMSE is lower, or its
+/// a blend it is recommended, unless the best baseline's RMSE is lower, and its
 /// typical error in later sessions where these were foretold (forward:K), or a
-/// single map is established to be better by separate sessions. Else the
+/// single map is established to be better by separate sessions, or a simple one
+/// (a baseline, a plane) typically errs less than half as much by the first of
+/// these hold-outs or in later sessions. Else the
 /// simplest map of the first tier: fewest sensors (data::IsSensor),
 /// then fewest parameters, then the lower RMSE; the simplest baseline where one
 /// is there: nothing better is known.

@@ -42,6 +42,8 @@ std::string_view ToString(RemarkKind kind) {
       return "no groups";
     case RemarkKind::kFewSessions:
       return "few sessions";
+    case RemarkKind::kSimpleHolds:
+      return "simple holds";
     case RemarkKind::kOnlyGrows:
       return "only grows";
     case RemarkKind::kProvenBetter:

@@ -47,6 +47,7 @@ enum class RemarkKind {
   kBestNet,           // model: beside a map that is none
   kFewSessions,       // holdouts: what the map was chosen by
   kProvenBetter,      // model: the blend, by separate sessions
+  kSimpleHolds,       // holdouts: where the blend errs twice as much
   kOnlyGrows,         // columns; holdouts: that which looks forward, if any
 };
 /// "averages maps", ...: the enumerator's words.

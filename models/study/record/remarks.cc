@@ -21,27 +21,18 @@ constexpr double kSignificance = 0.05;
 constexpr double kExtrapolationWorthSaying = 0.05;
 
 // What a screen has room for is told in this order; all else on request.
-constexpr std::array kToldFirst = {RemarkKind::kInterrupted,
-                                   RemarkKind::kRemoves,
-                                   RemarkKind::kAveragesMaps,
-                                   RemarkKind::kProvenBetter,
-                                   RemarkKind::kGoal,
-                                   RemarkKind::kBetterWithoutMap,
-                                   RemarkKind::kOneRunOnly,
-                                   RemarkKind::kGroupFitsFailed,
-                                   RemarkKind::kNoGroupsHeldOut,
-                                   RemarkKind::kNoGroups,
-                                   RemarkKind::kFewSessions,
-                                   RemarkKind::kOnlyGrows,
-                                   RemarkKind::kTooFewUnits,
-                                   RemarkKind::kTooManyMaps,
-                                   RemarkKind::kNotNoise,
-                                   RemarkKind::kIgnoreNeighbours,
-                                   RemarkKind::kNoiseLearning,
-                                   RemarkKind::kUnitsCorrelated,
-                                   RemarkKind::kHoldoutsDisagree,
-                                   RemarkKind::kNotConverged,
-                                   RemarkKind::kCost};
+constexpr std::array kToldFirst = {
+    RemarkKind::kInterrupted,      RemarkKind::kRemoves,
+    RemarkKind::kAveragesMaps,     RemarkKind::kProvenBetter,
+    RemarkKind::kSimpleHolds,      RemarkKind::kGoal,
+    RemarkKind::kBetterWithoutMap, RemarkKind::kOneRunOnly,
+    RemarkKind::kGroupFitsFailed,  RemarkKind::kNoGroupsHeldOut,
+    RemarkKind::kNoGroups,         RemarkKind::kFewSessions,
+    RemarkKind::kOnlyGrows,        RemarkKind::kTooFewUnits,
+    RemarkKind::kTooManyMaps,      RemarkKind::kNotNoise,
+    RemarkKind::kIgnoreNeighbours, RemarkKind::kNoiseLearning,
+    RemarkKind::kUnitsCorrelated,  RemarkKind::kHoldoutsDisagree,
+    RemarkKind::kNotConverged,     RemarkKind::kCost};
 
 // Columns named as those that more should be measured of.
 constexpr std::size_t kMostColumns = 3;
@@ -126,6 +117,9 @@ void Remarks::AddSimplest() {
   const std::size_t lowest = advice_.first_tier.front();
   if (advice_.proven_better_than) {
     Add(RemarkKind::kProvenBetter, *advice_.proven_better_than);
+  } else if (!advice_.fails_in.empty()) {
+    RemarkRecord& remark = Add(RemarkKind::kSimpleHolds);
+    remark.holdouts = std::vector<std::string>{advice_.fails_in};
   } else if (advice_.single) {
     RemarkRecord& remark = Add(RemarkKind::kAveragesMaps, *advice_.single);
     // Who sees a lower error in the table asks why it is not used.

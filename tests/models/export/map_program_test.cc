@@ -156,6 +156,25 @@ TEST(MapProgram, AgreesWithPolynomials) {
   }
 }
 
+TEST(MapProgram, AgreesWithPolynomialsThatBendWithinARange) {
+  PolynomialForm form = Cubic(3);
+  form.bends_within = {{.input = 2, .min = 13.0, .max = 16.0},
+                       {.input = 0, .min = 12.0, .max = 17.0}};
+  const auto parameters = static_cast<Index>(form.terms.size()) + 1;
+  const FittedModel held =
+      Map(std::make_shared<PolynomialModel>(form, parameters));
+  EXPECT_LT(DeviationOf(held), 1e-14);
+  // The rows that both are shown lie beyond these ranges, too.
+  const std::vector<SelfTestRow> rows =
+      SelfTestRows(held, MakeMapProgram(held));
+  EXPECT_GT(FindDeviations(MakeMapProgram(PolynomialMap(3)),
+                           Precision::kDouble,
+                           rows,
+                           ErrorRange(held, rows))
+                .anywhere,
+            0.1);
+}
+
 TEST(MapProgram, AgreesWithAThousandTerms) {
   const FittedModel fitted = PolynomialMap(17);  // 1139 terms
   ASSERT_GT(fitted.model->num_parameters(), 1000);

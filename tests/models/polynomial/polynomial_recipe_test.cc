@@ -1,5 +1,7 @@
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,6 +15,7 @@
 namespace errmap::models {
 namespace {
 
+using Eigen::Index;
 using errmap::testing::QuadraticData;
 using errmap::testing::ShippedMeasurements;
 using ::testing::ElementsAre;
@@ -57,6 +60,57 @@ TEST(PolynomialRecipe, RecoversAKnownPolynomialAndItsTemperature) {
       (fitted.Predict(dataset) - dataset.target_values()).cwiseAbs().maxCoeff(),
       1e-15);
   EXPECT_EQ(fitted.model->num_parameters(), 5);
+}
+
+// An error that is quadratic in a temperature from 0 to 10 and goes with it
+// times a position from 0 to 1.
+data::Dataset BentRows(double lowest, double highest) {
+  constexpr Index kRows = 200;
+  data::Dataset::Parts parts;
+  parts.source = "bent";
+  parts.inputs = {{"position_mm", data::UnitOfColumn("position_mm")},
+                  {"t_degC", data::UnitOfColumn("t_degC")}};
+  parts.input_values.resize(kRows, 2);
+  parts.input_values.col(0) =
+      Eigen::VectorXd::LinSpaced(kRows, 0.0, 60.0).array().sin().abs();
+  parts.input_values.col(1) =
+      Eigen::VectorXd::LinSpaced(kRows, lowest, highest);
+  parts.target = {"error_um", data::UnitOfColumn("error_um")};
+  const Eigen::ArrayXd x = parts.input_values.col(0);
+  const Eigen::ArrayXd t = parts.input_values.col(1);
+  parts.target_values = 0.1 * t.square() + 0.7 * x * t;
+  return data::Dataset(std::move(parts));
+}
+
+TEST(PolynomialRecipe, GoesOnStraightBeyondATenthOfWhereItWasTrained) {
+  const data::Dataset training = BentRows(0.0, 10.0);
+  const data::Dataset near = BentRows(-1.0, 11.0);
+  for (const std::string spec : {"poly:full:degree=2",
+                                 "poly:stepwise:degree=2",
+                                 "poly:ridge:terms=full:degree=2:penalty=1e-9",
+                                 "poly:formula=t_degC+t_degC^2+"
+                                 "position_mm*t_degC"}) {
+    const FittedModel fitted = FitSpecInPolynomialRecipe(spec, training);
+    const Eigen::VectorXd within = fitted.Predict(near) - near.target_values();
+    EXPECT_LT(within.cwiseAbs().maxCoeff(), 1e-4) << spec;
+    // At one position equal steps of temperature are equal steps of error,
+    // which the position still decides.
+    const auto at = [&](double position, double temperature) {
+      return fitted.PredictForm(Eigen::RowVector2d(position, temperature))
+          .errors[0];
+    };
+    for (const double position : {0.2, 0.9}) {
+      const double step = at(position, 13.0) - at(position, 12.0);
+      EXPECT_NEAR(at(position, 14.0) - at(position, 13.0), step, 1e-9) << spec;
+      EXPECT_NEAR(step, 1.0 + 0.7 * position, 0.15) << spec;
+    }
+    EXPECT_NEAR(FitSpecInPolynomialRecipe(spec + ":clip=none", training)
+                    .PredictForm(Eigen::RowVector2d(0.5, 30.0))
+                    .errors[0],
+                0.1 * 900.0 + 0.7 * 15.0,
+                1e-2)
+        << spec;
+  }
 }
 
 TEST(PolynomialRecipe, TakesTheTemperatureThatIsNamed) {
