@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -25,7 +24,7 @@ template <typename Value>
 void AddChoice(CLI::App* command,
                const std::string& flag,
                const std::string& what,
-               std::initializer_list<Value> values,
+               const std::vector<Value>& values,
                Value* chosen) {
   std::vector<std::string> words;
   for (const Value value : values) words.emplace_back(ToString(value));
@@ -34,9 +33,7 @@ void AddChoice(CLI::App* command,
                 what,
                 words,
                 std::string(ToString(*chosen)),
-                [meant = std::vector<Value>(values), chosen](std::size_t i) {
-                  *chosen = meant[i];
-                });
+                [values, chosen](std::size_t i) { *chosen = values[i]; });
 }
 
 }  // namespace errmap::cli

@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <initializer_list>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
+#include <type_traits>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "cli/command.h"
-#include "cli/commands/choice_option.h"
 #include "cli/report/words/fault_text.h"
 #include "cli/shell/command_reference.h"
 #include "cli/shell/standard_streams.h"
@@ -47,68 +46,67 @@ std::vector<std::string> SplitNames(const std::string& flag,
   return names;
 }
 
-void AddNames(CLI::App* command,
-              const std::string& flag,
-              const std::string& what,
-              std::vector<std::string>* names) {
-  command
-      ->add_option_function<std::string>(
-          flag,
-          [flag, names](const std::string& list) {
-            *names = SplitNames(flag, list);
-          },
-          what)
-      ->type_name("A,B,...");
-}
-
 }  // namespace
 
+void FlagAdder::operator()(const desk::StudyOption& option,
+                           std::string& text) const {
+  if (option.check == nullptr) {
+    command_->add_option(option.flag, text, option.help);
+  } else {
+    command_->add_option_function<std::string>(
+        option.flag,
+        [&text, flag = option.flag, check = option.check](
+            const std::string& given) {
+          try {
+            check(given);
+          } catch (const std::invalid_argument& error) {
+            throw UsageError(fmt::format("{} {}", flag, error.what()));
+          }
+          text = given;
+        },
+        option.help);
+  }
+  Finish(option);
+}
+
+void FlagAdder::operator()(const desk::StudyOption& option,
+                           std::vector<std::string>& names) const {
+  command_->add_option_function<std::string>(
+      option.flag,
+      [&names, flag = option.flag](const std::string& list) {
+        names = SplitNames(flag, list);
+      },
+      option.help);
+  Finish(option);
+}
+
+void FlagAdder::operator()(const desk::StudyOption& option, bool& flag) const {
+  command_->add_flag(option.flag, flag, option.help);
+  if (option.seldom) MarkSeldom(command_, {option.flag});
+}
+
+void FlagAdder::operator()(const desk::StudyOption& option,
+                           desk::GivenError& error) const {
+  command_->add_option_function<std::string>(
+      option.flag,
+      [&error, flag = option.flag, may_be_zero = option.may_be_zero](
+          const std::string& text) {
+        error = ErrorOfFlag(flag, text, may_be_zero);
+      },
+      option.help);
+  Finish(option);
+}
+
+void FlagAdder::Finish(const desk::StudyOption& option) const {
+  command_->get_option(option.flag)->type_name(option.value);
+  if (option.seldom) MarkSeldom(command_, {option.flag});
+}
+
 void AddDataArguments(CLI::App* command, DataArguments* arguments) {
-  data::DatasetSelection& selection = arguments->selection;
   command->add_option("DATA", arguments->file, "CSV file, one row per sample")
       ->required()
       ->type_name("FILE.csv");
-  command
-      ->add_option("--target",
-                   selection.target,
-                   "Column to be mapped (default: the only one named error*)")
-      ->type_name("COL");
-  AddNames(command,
-           "--inputs",
-           "Columns to map from (default: all other numeric)",
-           &selection.inputs);
-  AddNames(
-      command, "--exclude", "Columns never to map from", &selection.exclude);
-  command
-      ->add_option("--group",
-                   selection.group,
-                   "Column of warm-up cycles (default: cycle)\nor of days or "
-                   "segments: what tells groups of rows apart")
-      ->type_name("COL");
-  command
-      ->add_option("--time",
-                   selection.time,
-                   "Column of times (default: the only time*)\nor of dates; "
-                   "none: the number of the row counts")
-      ->type_name("COL");
-  command
-      ->add_option("--session",
-                   selection.session,
-                   "Column of sessions (default: session, day or run)\nthat "
-                   "is, uninterrupted runs; none: cut where time breaks off")
-      ->type_name("COL");
-  AddChoice(command,
-            "--align",
-            "first: take each session's first value off the target",
-            {data::Alignment::kFirst, data::Alignment::kNone},
-            &selection.align);
-  command->add_option("--weight", selection.weight, "Column of row weights > 0")
-      ->type_name("COL");
-  AddRowOptions(command, &selection.missing, &selection.faults);
-  command->add_flag("--keep-dead",
-                    selection.keep_dead,
-                    "Keep inputs that hold one value only (failed sensors)");
-  MarkSeldom(command, {"--align", "--weight", "--keep-dead"});
+  desk::ForSelectionOptions(arguments->selection, FlagAdder(command));
   command->add_flag(
       "--quiet", arguments->quiet, "No remarks and no progress on stderr");
 }
@@ -116,20 +114,19 @@ void AddDataArguments(CLI::App* command, DataArguments* arguments) {
 void AddRowOptions(CLI::App* command,
                    data::MissingPolicy* missing,
                    data::FaultPolicy* faults) {
-  AddChoice(command,
-            "--missing",
-            "What cells without a number do (empty, NA, #N/A, -): error or "
-            "drop-rows",
-            {data::MissingPolicy::kError, data::MissingPolicy::kDropRows},
-            missing);
-  AddChoice(command,
-            "--faults",
-            "What becomes of rows with failed readings (9999, jumps of a "
-            "thermometer, zeros of a lost beam) or that stand twice, which "
-            "are named: keep or drop-rows",
-            {data::FaultPolicy::kKeep, data::FaultPolicy::kDropRows},
-            faults);
-  MarkSeldom(command, {"--missing", "--faults"});
+  const data::DatasetSelection all;
+  desk::ForSelectionOptions(
+      all,
+      [&]<typename Member>(const desk::StudyOption& option,
+                           const Member& /*said*/,
+                           const auto&... values) {
+        const FlagAdder add(command);
+        if constexpr (std::is_same_v<Member, data::MissingPolicy>) {
+          add(option, *missing, values...);
+        } else if constexpr (std::is_same_v<Member, data::FaultPolicy>) {
+          add(option, *faults, values...);
+        }
+      });
 }
 
 void AddMapLogArguments(CLI::App* command, models::MapLogArguments* arguments) {

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "cli/commands/choice_option.h"
 #include "cli/desk/given_error.h"
+#include "cli/desk/study_options.h"
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/history/map_log.h"
@@ -18,11 +20,41 @@ class App;
 
 namespace errmap::cli {
 
+/// Leaves options that are there already to help COMMAND --all.
+void MarkSeldom(CLI::App* command, const std::vector<const char*>& names);
+
 /// What a command is told about the data file.
 struct DataArguments {
   std::string file;
   data::DatasetSelection selection;
   bool quiet = false;
+};
+
+/// Visitor of a list of cli/desk/study_options.h: adds the flag of each option
+/// to a command. The members must outlive it.
+class FlagAdder {
+ public:
+  explicit FlagAdder(CLI::App* command) : command_(command) {}
+
+  void operator()(const desk::StudyOption& option, std::string& text) const;
+  /// Separated by commas.
+  void operator()(const desk::StudyOption& option,
+                  std::vector<std::string>& names) const;
+  void operator()(const desk::StudyOption& option, bool& flag) const;
+  void operator()(const desk::StudyOption& option,
+                  desk::GivenError& error) const;
+  template <typename Value>
+  void operator()(const desk::StudyOption& option,
+                  Value& chosen,
+                  const std::vector<Value>& values) const {
+    AddChoice(command_, option.flag, option.help, values, &chosen);
+    if (option.seldom) MarkSeldom(command_, {option.flag});
+  }
+
+ private:
+  void Finish(const desk::StudyOption& option) const;
+
+  CLI::App* command_;
 };
 
 /// Adds DATA.csv and its options to a command.
@@ -59,9 +91,6 @@ void SayUnless(bool quiet, const std::vector<std::string>& lines);
 std::function<void(const std::string&)> Sayer(bool quiet);
 
 /// --keep-paths, which the program looks for before any command does.
-/// Leaves options that are there already to help COMMAND --all.
-void MarkSeldom(CLI::App* command, const std::vector<const char*>& names);
-
 void AddKeepPathsFlag(CLI::App* command);
 
 /// --force, which lets a command replace files that errmap did not write.

@@ -1,5 +1,11 @@
 #include "cli/desk/configuration_record.h"
 
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "cli/desk/study_options.h"
 #include "data/shown_path.h"
 
 namespace errmap::desk {
@@ -10,17 +16,52 @@ models::LeftOut<std::string> Text(const std::string& text) {
   return text;
 }
 
-models::LeftOut<std::vector<std::string>> List(
-    const std::vector<std::string>& list) {
-  if (list.empty()) return {};
-  return list;
+// How what is said stands in a record; nothing where it was left to the
+// defaults, unless the record always has it.
+void Put(const std::string& text, models::LeftOut<std::string>* field) {
+  *field = Text(text);
+}
+
+void Put(const std::vector<std::string>& list,
+         models::LeftOut<std::vector<std::string>>* field) {
+  if (!list.empty()) *field = list;
 }
 
 // In the target's unit; one that has a unit of its own is among those of the
 // components in theirs.
-models::LeftOut<double> Number(const GivenError& given) {
-  if (!given.is_given() || given.has_unit()) return {};
-  return given.value;
+void Put(const GivenError& given, models::LeftOut<double>* field) {
+  if (given.is_given() && !given.has_unit()) *field = given.value;
+}
+
+template <typename Value>
+requires std::is_enum_v<Value>
+void Put(Value word, models::LeftOut<Value>* field) {
+  if (word != Value{}) *field = word;
+}
+
+template <typename Value>
+requires std::is_enum_v<Value>
+void Put(Value word, models::LeftOut<std::string>* field) {
+  if (word != Value{}) *field = std::string(ToString(word));
+}
+
+template <typename Value>
+void Put(Value value, Value* field) {
+  *field = value;
+}
+
+// Takes each option to the member of the record that has its key.
+template <typename Record>
+auto RecordIn(Record* record) {
+  return [record](const StudyOption& option,
+                  const auto& said,
+                  const auto&... /*values*/) {
+    models::VisitMembers(*record, [&](std::string_view key, auto& field) {
+      if constexpr (requires { Put(said, &field); }) {
+        if (key == option.key) Put(said, &field);
+      }
+    });
+  };
 }
 
 models::ComponentConfigurationRecord ComponentOf(
@@ -36,21 +77,7 @@ models::ComponentConfigurationRecord ComponentOf(
           filter.value);
     }
   }
-  record.target = Text(component.selection.target);
-  record.inputs = List(component.selection.inputs);
-  record.exclude = List(component.selection.exclude);
-  record.group = Text(component.selection.group);
-  record.time = Text(component.selection.time);
-  record.session = Text(component.selection.session);
-  if (component.selection.align != data::Alignment::kNone) {
-    record.align = component.selection.align;
-  }
-  record.weight = Text(component.selection.weight);
-  record.missing = component.selection.missing;
-  record.faults = component.selection.faults;
-  record.keep_dead = component.selection.keep_dead;
-  record.goal = Number(component.goal);
-  record.indifference = Number(component.indifference);
+  ForComponentOptions(component, RecordIn(&record));
   if (!component.options.empty()) record.options = component.options;
   return record;
 }
@@ -60,17 +87,9 @@ models::ComponentConfigurationRecord ComponentOf(
 models::ConfigurationRecord EffectiveConfiguration(const StudyConfig& config) {
   models::ConfigurationRecord record;
   record.seed = config.seed;
-  record.goal = Number(config.goal);
-  record.indifference = Number(config.indifference);
-  if (config.choose != models::Choose::kAuto) {
-    record.choose = std::string(ToString(config.choose));
-  }
-  if (config.prefer != models::Prefer::kLeastError) {
-    record.prefer = std::string(ToString(config.prefer));
-  }
-  record.holdouts = List(config.holdouts);
-  record.models = List(config.models);
-  record.rezero = Text(config.rezero);
+  ForStudyOptions(config, RecordIn(&record));
+  Put(config.holdouts, &record.holdouts);
+  Put(config.models, &record.models);
   for (const ComponentConfig& component : config.components) {
     record.component.push_back(ComponentOf(component));
   }

@@ -1,31 +1,56 @@
 #include "cli/desk/data_options.h"
 
-#include "cli/desk/study_config.h"
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "cli/desk/study_options.h"
 
 namespace errmap::desk {
 
+namespace {
+
+// As a flag takes it; nothing where it is the default.
+std::optional<std::string> Word(const std::string& text,
+                                const std::string& by_default) {
+  if (text == by_default) return {};
+  return text;
+}
+
+std::optional<std::string> Word(const std::vector<std::string>& names,
+                                const std::vector<std::string>& by_default) {
+  if (names == by_default) return {};
+  return NameList(names);
+}
+
+std::optional<std::string> Word(bool flag, bool by_default) {
+  if (flag == by_default) return {};
+  return "";
+}
+
+template <typename Value>
+requires std::is_enum_v<Value> std::optional<std::string> Word(
+    Value word, Value by_default) {
+  if (word == by_default) return {};
+  return std::string(ToString(word));
+}
+
+}  // namespace
+
 models::ByName<std::string> DataOptions(const data::DatasetSelection& selection,
                                         std::uint64_t seed) {
-  const data::DatasetSelection defaults;
   models::ByName<std::string> options;
-  const auto add = [&](const char* name, std::string value) {
-    if (!value.empty()) options.emplace_back(name, std::move(value));
-  };
-  const auto add_choice = [&](const char* name, auto value, auto by_default) {
-    if (value != by_default) add(name, std::string(ToString(value)));
-  };
-  add("target", selection.target);
-  add("inputs", NameList(selection.inputs));
-  add("exclude", NameList(selection.exclude));
-  add("group", selection.group);
-  add("session", selection.session);
-  add("time", selection.time);
-  add_choice("align", selection.align, defaults.align);
-  add("weight", selection.weight);
-  add_choice("missing", selection.missing, defaults.missing);
-  add_choice("faults", selection.faults, defaults.faults);
-  if (selection.keep_dead) options.emplace_back("keep_dead", "");
-  if (seed != StudyConfig{}.seed) add("seed", std::to_string(seed));
+  ForSelectionOptions(selection,
+                      [&]<typename Member>(const StudyOption& option,
+                                           const Member& said,
+                                           const auto&... /*values*/) {
+                        if (auto word = Word(said, Member{})) {
+                          options.emplace_back(option.key, std::move(*word));
+                        }
+                      });
+  if (seed != StudyConfig{}.seed) {
+    options.emplace_back("seed", std::to_string(seed));
+  }
   return options;
 }
 

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include "cli/command.h"
-#include "cli/commands/choice_option.h"
 #include "cli/commands/format_option.h"
 #include "models/recipe_catalog.h"
 #include "stats/holdout.h"
@@ -26,24 +25,6 @@ std::string KnownModels() {
 }
 
 void AddJudgingOptions(CLI::App* command, CompareArguments* arguments) {
-  command
-      ->add_option("--indifference",
-                   arguments->indifference,
-                   "Difference in RMSE that never matters, as --goal (default "
-                   "for lengths: 0.02 um)")
-      ->type_name("X");
-  AddChoice(
-      command,
-      "--choose",
-      "The map to recommend\nauto: the blend, unless a baseline errs less or a "
-      "single map is proven better by separate days. best: the lowest error",
-      {models::Choose::kAuto, models::Choose::kBest, models::Choose::kBlend},
-      &arguments->choose);
-  AddChoice(command,
-            "--prefer",
-            "small: fewest sensors, at most 5 % worse",
-            {models::Prefer::kLeastError, models::Prefer::kSmall},
-            &arguments->prefer);
   command
       ->add_option("--probes-per-session",
                    arguments->probes.numbers,
@@ -137,22 +118,8 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
                    "One model, may be repeated: net:scg:hidden=60:wfactor=1e-3")
       ->type_name("SPEC")
       ->allow_extra_args(false);
-  command
-      ->add_option("--goal",
-                   arguments->goal,
-                   "RMSE wanted: 2um (default for lengths: 0.5 um)\nof "
-                   "held-out rows; without a unit in that of the target")
-      ->type_name("X");
-  command
-      ->add_option("--rezero",
-                   arguments->rezero,
-                   "Judge maps with their offset set anew then\nfrom the true "
-                   "error: at an interval (2h, 90min; 5 of a time column that "
-                   "counts cycles), session (where one begins) or probe (with "
-                   "every cycle, every row where there are none), beside no "
-                   "map re-zeroed alike; by probes of this noise")
-      ->type_name("2h|session|probe[:noise=X]");
-  AddSeedOption(command, &arguments->seed);
+  desk::ForStudyOptions(arguments->study, FlagAdder(command));
+  AddSeedOption(command, &arguments->study.seed);
   command
       ->add_option("--jobs",
                    arguments->jobs,
@@ -212,7 +179,6 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
              {"--set",
               "--seed",
               "--shard",
-              "--indifference",
               "--probes-per-session",
               "--probe-spacing",
               "--split",

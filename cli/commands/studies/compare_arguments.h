@@ -22,11 +22,7 @@ struct CompareArguments {
   std::vector<std::string> holdouts;
   std::string model_list;
   std::vector<std::string> models;
-  std::optional<std::string> goal = {};
-  std::optional<std::string> indifference = {};
-  std::string rezero;
-  models::Choose choose = models::Choose::kAuto;
-  models::Prefer prefer = models::Prefer::kLeastError;
+  desk::StudyConfig study;  // what desk::ForStudyOptions lists, and the seed
   std::string split;
   std::string save_split;
   std::vector<desk::PredictionsFile> predictions;
@@ -40,7 +36,6 @@ struct CompareArguments {
   bool details = false;
   std::string page;
   std::set<std::string> given;  // flags that stand on the command line
-  std::uint64_t seed = 1;
   int jobs = 0;
   std::string out;
   std::optional<std::string> shard;

@@ -212,7 +212,7 @@ int RunCompare(const CompareArguments& arguments) {
   if (arguments.resume && arguments.out.empty()) {
     throw UsageError("--resume needs the folder of the earlier run: --out DIR");
   }
-  if (!arguments.rezero.empty() && !arguments.probes.numbers.empty()) {
+  if (!arguments.study.rezero.empty() && !arguments.probes.numbers.empty()) {
     throw UsageError(
         "--rezero and --probes-per-session exclude each other: both move the "
         "same rows");

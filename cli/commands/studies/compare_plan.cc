@@ -1,15 +1,18 @@
 #include "cli/commands/studies/compare_plan.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/desk/study_options.h"
 #include "cli/report/shell_word.h"
 #include "data/input_error.h"
 #include "data/text.h"
@@ -71,17 +74,7 @@ std::vector<std::string> ModelSpecs(const CompareArguments& arguments) {
 
 // Without a study file the command line asks for one component.
 desk::StudyConfig ConfigOf(const CompareArguments& arguments) {
-  const desk::GivenError goal = ErrorOfFlag("--goal", arguments.goal, false);
-  const desk::GivenError indifference =
-      ErrorOfFlag("--indifference", arguments.indifference, true);
   CheckHoldouts(arguments.holdouts);
-  if (!arguments.rezero.empty()) {
-    try {
-      desk::CheckRezero(arguments.rezero);
-    } catch (const std::invalid_argument& error) {
-      throw UsageError(fmt::format("--rezero {}", error.what()));
-    }
-  }
   const DataArguments& data = arguments.data;
   desk::ComponentConfig component;
   component.data = data.file;
@@ -99,15 +92,11 @@ desk::StudyConfig ConfigOf(const CompareArguments& arguments) {
                        "; give the --predictions another name");
     }
   }
-  return {.seed = arguments.seed,
-          .goal = goal,
-          .indifference = indifference,
-          .choose = arguments.choose,
-          .prefer = arguments.prefer,
-          .holdouts = arguments.holdouts,
-          .models = std::move(specs),
-          .rezero = arguments.rezero,
-          .components = {std::move(component)}};
+  desk::StudyConfig config = arguments.study;
+  config.holdouts = arguments.holdouts;
+  config.models = std::move(specs);
+  config.components = {std::move(component)};
+  return config;
 }
 
 desk::StudyFile ReadChanged(const CompareArguments& arguments) {
@@ -118,47 +107,45 @@ desk::StudyFile ReadChanged(const CompareArguments& arguments) {
   }
 }
 
-// Of how many components the word of a flag may be true.
-enum class Reach {
-  kOne,
-  kMachine,  // one, or all of a machine
-  kAll,
-};
+// Flags of one component that are no keys of study files.
+constexpr std::array kFilesOfOne = {"--split", "--save-split", "--predictions"};
 
-// A flag that says something of components, and takes its word to them.
-struct ComponentFlag {
-  const char* name;
-  Reach reach;
-  void (*copy)(const desk::ComponentConfig& from, desk::ComponentConfig* to);
-};
-
-template <auto kMember>
-void Copy(const desk::ComponentConfig& from, desk::ComponentConfig* to) {
-  if constexpr (requires { to->*kMember; }) {
-    to->*kMember = from.*kMember;
-  } else {
-    to->selection.*kMember = from.selection.*kMember;
-  }
+// Puts what was given on the command line in the place of what a file says;
+// both are visited in one order.
+template <typename ForOptions, typename Config>
+void Override(const std::set<std::string>& given,
+              const ForOptions& for_options,
+              const Config& flags,
+              Config* config) {
+  for_options(flags,
+              [&]<typename Member>(const desk::StudyOption& option,
+                                   const Member& said,
+                                   const auto&... /*values*/) {
+                if (!given.contains(option.flag)) return;
+                for_options(*config,
+                            [&]<typename Other>(const desk::StudyOption& other,
+                                                Other& member,
+                                                const auto&... /*values*/) {
+                              if constexpr (std::is_same_v<Member, Other>) {
+                                if (other.key == option.key) member = said;
+                              }
+                            });
+              });
 }
 
-const std::vector<ComponentFlag>& ComponentFlags() {
-  using desk::ComponentConfig;
-  using Selection = data::DatasetSelection;
-  static const std::vector<ComponentFlag> flags = {
-      {"--target", Reach::kOne, Copy<&Selection::target>},
-      {"--inputs", Reach::kOne, Copy<&Selection::inputs>},
-      {"--exclude", Reach::kMachine, Copy<&Selection::exclude>},
-      {"--group", Reach::kMachine, Copy<&Selection::group>},
-      {"--time", Reach::kMachine, Copy<&Selection::time>},
-      {"--session", Reach::kMachine, Copy<&Selection::session>},
-      {"--weight", Reach::kOne, Copy<&Selection::weight>},
-      {"--split", Reach::kOne, Copy<&ComponentConfig::split>},
-      {"--save-split", Reach::kOne, Copy<&ComponentConfig::save_split>},
-      {"--predictions", Reach::kOne, Copy<&ComponentConfig::predictions>},
-      {"--align", Reach::kAll, Copy<&Selection::align>},
-      {"--missing", Reach::kAll, Copy<&Selection::missing>},
-      {"--faults", Reach::kAll, Copy<&Selection::faults>},
-      {"--keep-dead", Reach::kAll, Copy<&Selection::keep_dead>}};
+// The flags that were given and are not true of more components than `reach`.
+std::vector<const char*> GivenOfFewer(const CompareArguments& arguments,
+                                      desk::Reach reach) {
+  std::vector<const char*> flags;
+  const auto add = [&](const char* flag) {
+    if (arguments.given.contains(flag)) flags.push_back(flag);
+  };
+  desk::ForSelectionOptions(
+      arguments.data.selection,
+      [&](const desk::StudyOption& option, const auto&... /*said*/) {
+        if (option.reach < reach) add(option.flag);
+      });
+  for (const char* flag : kFilesOfOne) add(flag);
   return flags;
 }
 
@@ -189,37 +176,33 @@ desk::StudyFile ConfigOfFile(const CompareArguments& arguments) {
   desk::StudyConfig& config = file.config;
   const desk::StudyConfig flags = ConfigOf(arguments);
   if (given("--seed")) config.seed = flags.seed;
-  if (given("--goal")) {
-    config.goal = flags.goal;
-    for (desk::ComponentConfig& component : config.components) {
-      component.goal = flags.goal;
-    }
-  }
-  if (given("--indifference")) {
-    config.indifference = flags.indifference;
-    for (desk::ComponentConfig& component : config.components) {
-      component.indifference = flags.indifference;
-    }
-  }
-  if (given("--choose")) config.choose = flags.choose;
-  if (given("--prefer")) config.prefer = flags.prefer;
   if (given("--holdout")) config.holdouts = flags.holdouts;
-  if (given("--rezero")) config.rezero = flags.rezero;
   if (given("--models") || given("--model")) config.models = flags.models;
-  const desk::ComponentConfig& from = flags.components.front();
-  for (const ComponentFlag& flag : ComponentFlags()) {
-    if (!given(flag.name)) continue;
-    if (flag.reach != Reach::kAll && config.components.size() != 1) {
+  const auto of_study = [](auto& of, const auto& visit) {
+    desk::ForStudyOptions(of, visit);
+  };
+  const auto of_component = [](auto& of, const auto& visit) {
+    desk::ForComponentOptions(of, visit);
+  };
+  Override(arguments.given, of_study, flags, &config);
+  if (config.components.size() != 1) {
+    for (const char* flag : GivenOfFewer(arguments, desk::Reach::kAll)) {
       throw UsageError(
           fmt::format("{} is for one component, and {} has {}; write --set "
                       "component.0.KEY=VALUE",
-                      flag.name,
+                      flag,
                       data::PrintablePath(arguments.config),
                       config.components.size()));
     }
-    for (desk::ComponentConfig& component : config.components) {
-      flag.copy(from, &component);
-    }
+  }
+  desk::ComponentConfig from = flags.components.front();
+  from.goal = flags.goal;
+  from.indifference = flags.indifference;
+  for (desk::ComponentConfig& component : config.components) {
+    Override(arguments.given, of_component, from, &component);
+    if (given("--split")) component.split = from.split;
+    if (given("--save-split")) component.save_split = from.save_split;
+    if (given("--predictions")) component.predictions = from.predictions;
   }
   return file;
 }
@@ -231,15 +214,14 @@ std::optional<desk::MachineStudy> MachineOf(const CompareArguments& arguments) {
     }
     return std::nullopt;
   }
-  std::vector<const char*> of_one = {"--config", "--rezero"};
-  for (const ComponentFlag& flag : ComponentFlags()) {
-    if (flag.reach == Reach::kOne) of_one.push_back(flag.name);
+  std::vector<const char*> of_one =
+      GivenOfFewer(arguments, desk::Reach::kMachine);
+  for (const char* flag : {"--rezero", "--config"}) {
+    if (arguments.given.contains(flag)) of_one.insert(of_one.begin(), flag);
   }
   for (const char* flag : of_one) {
-    if (arguments.given.contains(flag)) {
-      throw UsageError(fmt::format(
-          "{} is for one component, and --machine has several", flag));
-    }
+    throw UsageError(fmt::format(
+        "{} is for one component, and --machine has several", flag));
   }
   if (!arguments.given.contains("DATA")) {
     throw UsageError(

@@ -1,7 +1,6 @@
 #include "cli/desk/toml/study_file.h"
 
 #include <filesystem>
-#include <initializer_list>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -9,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/desk/study_options.h"
 #include "cli/desk/toml/component_pattern.h"
 #include "cli/desk/toml/toml_keys.h"
 #include "cli/desk/toml/toml_text.h"
@@ -33,6 +33,55 @@ std::string Quoted(const std::string& text) {
              : '"' + text + '"';
 }
 
+// Reads what stands in a table of each option.
+class Taker {
+ public:
+  explicit Taker(const Keys& keys) : keys_(keys) {}
+
+  void operator()(const StudyOption& option, std::string& text) const {
+    keys_.TakeText(option.key, &text, option.check);
+  }
+  void operator()(const StudyOption& option,
+                  std::vector<std::string>& names) const {
+    keys_.TakeList(option.key, &names);
+  }
+  void operator()(const StudyOption& option, bool& flag) const {
+    keys_.TakeFlag(option.key, &flag);
+  }
+  void operator()(const StudyOption& option, GivenError& error) const {
+    keys_.TakeError(option.key, option.may_be_zero, &error);
+  }
+
+  template <typename Value>
+  void operator()(const StudyOption& option,
+                  Value& chosen,
+                  const std::vector<Value>& values) const {
+    std::string word(ToString(chosen));
+    keys_.TakeText(option.key, &word);
+    std::vector<std::string> words;
+    for (const Value value : values) {
+      if (word == ToString(value)) {
+        chosen = value;
+        return;
+      }
+      words.push_back(fmt::format("\"{}\"", ToString(value)));
+    }
+    keys_.RefuseType(option.key,
+                     *keys_.Find(option.key),
+                     fmt::format("{}", fmt::join(words, " or ")));
+  }
+
+ private:
+  const Keys& keys_;
+};
+
+// Collects the keys.
+auto NameOf(std::vector<std::string>* keys) {
+  return [keys](const StudyOption& option, const auto&... /*member*/) {
+    keys->emplace_back(option.key);
+  };
+}
+
 class StudyFileReader {
  public:
   explicit StudyFileReader(const std::string& file)
@@ -40,30 +89,14 @@ class StudyFileReader {
 
   StudyFile Read(const toml::table& root) const {
     const Keys keys(root, "the study", file_);
-    keys.AllowOnly({"seed",
-                    "goal",
-                    "indifference",
-                    "choose",
-                    "prefer",
-                    "holdouts",
-                    "models",
-                    "rezero",
-                    "model",
-                    "component"});
     StudyFile study;
     StudyConfig& config = study.config;
+    std::vector<std::string> known = {
+        "seed", "holdouts", "models", "model", "component"};
+    ForStudyOptions(config, NameOf(&known));
+    keys.AllowOnly(known);
     keys.TakeSeed(&config.seed);
-    keys.TakeError("goal", false, &config.goal);
-    keys.TakeError("indifference", true, &config.indifference);
-    TakeChoice(
-        keys,
-        "choose",
-        {models::Choose::kAuto, models::Choose::kBest, models::Choose::kBlend},
-        &config.choose);
-    TakeChoice(keys,
-               "prefer",
-               {models::Prefer::kLeastError, models::Prefer::kSmall},
-               &config.prefer);
+    ForStudyOptions(config, Taker(keys));
     keys.TakeList("holdouts", &config.holdouts, [](const std::string& spec) {
       stats::ParseHoldout(spec);
     });
@@ -76,16 +109,6 @@ class StudyFileReader {
     keys.TakeList("models", &config.models, [](const std::string& spec) {
       models::MakeRecipe(spec);
     });
-    keys.TakeText("rezero", &config.rezero);
-    if (!config.rezero.empty()) {
-      try {
-        CheckRezero(config.rezero);
-      } catch (const std::invalid_argument& error) {
-        Refuse(file_,
-               keys.Find("rezero")->source(),
-               fmt::format("'rezero' {}", error.what()));
-      }
-    }
     for (const toml::table* table : keys.Tables("model")) {
       config.models.push_back(ReadModel(*table, config.models));
     }
@@ -109,23 +132,10 @@ class StudyFileReader {
   ComponentConfig ReadComponent(const toml::table& table,
                                 std::vector<ComponentSource>* sources) const {
     const Keys keys(table, "[[component]]", file_);
-    keys.AllowOnly({"name",
-                    "data",
-                    "where",
-                    "target",
-                    "inputs",
-                    "exclude",
-                    "group",
-                    "time",
-                    "session",
-                    "align",
-                    "weight",
-                    "missing",
-                    "faults",
-                    "keep_dead",
-                    "goal",
-                    "indifference"});
     ComponentConfig component;
+    std::vector<std::string> known = {"name", "data", "where"};
+    ForComponentOptions(component, NameOf(&known));
+    keys.AllowOnly(known);
     keys.TakeText("name", &component.name);
     keys.TakeText("data", &component.data);
     if (component.data.empty()) {
@@ -135,28 +145,7 @@ class StudyFileReader {
     component.data = BesideStudyFile(component.data);
     TakePattern(keys, &component, &sources->back());
     component.selection.where = ReadWhere(keys);
-    keys.TakeText("target", &component.selection.target);
-    keys.TakeList("inputs", &component.selection.inputs);
-    keys.TakeList("exclude", &component.selection.exclude);
-    keys.TakeText("group", &component.selection.group);
-    keys.TakeText("time", &component.selection.time);
-    keys.TakeText("session", &component.selection.session);
-    TakeChoice(keys,
-               "align",
-               {data::Alignment::kFirst, data::Alignment::kNone},
-               &component.selection.align);
-    keys.TakeText("weight", &component.selection.weight);
-    TakeChoice(keys,
-               "missing",
-               {data::MissingPolicy::kError, data::MissingPolicy::kDropRows},
-               &component.selection.missing);
-    TakeChoice(keys,
-               "faults",
-               {data::FaultPolicy::kKeep, data::FaultPolicy::kDropRows},
-               &component.selection.faults);
-    keys.TakeFlag("keep_dead", &component.selection.keep_dead);
-    keys.TakeError("goal", false, &component.goal);
-    keys.TakeError("indifference", true, &component.indifference);
+    ForComponentOptions(component, Taker(keys));
     return component;
   }
 
@@ -184,26 +173,6 @@ class StudyFileReader {
     source->is_pattern = true;
     source->path = is_absolute ? path.substr(1) : path;
     component->data = is_absolute ? "/" : folder_.string();
-  }
-
-  // One of `values`, by the words that ToString has for them.
-  template <typename Value>
-  static void TakeChoice(const Keys& keys,
-                         std::string_view key,
-                         std::initializer_list<Value> values,
-                         Value* chosen) {
-    std::string word(ToString(*chosen));
-    keys.TakeText(key, &word);
-    std::vector<std::string> words;
-    for (const Value value : values) {
-      if (word == ToString(value)) {
-        *chosen = value;
-        return;
-      }
-      words.push_back(fmt::format("\"{}\"", ToString(value)));
-    }
-    keys.RefuseType(
-        key, *keys.Find(key), fmt::format("{}", fmt::join(words, " or ")));
   }
 
   std::vector<data::ColumnFilter> ReadWhere(const Keys& keys) const {

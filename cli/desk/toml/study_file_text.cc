@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/desk/study_options.h"
 #include "cli/desk/toml/toml_text.h"
 #include "cli/report/number_text.h"
 #include "cli/report/words/data_words.h"
@@ -115,21 +117,31 @@ std::string FoundText(const models::ComponentPlan& component) {
   return text;
 }
 
-// What tells sessions and times, or what might.
-std::string SessionKeys(const data::PreparedDataset& prepared) {
-  const auto key =
-      [](const char* name, const std::string& found, const char* example) {
-        return found.empty() ? fmt::format("# {} = \"{}\"\n", name, example)
-                             : fmt::format("{} = {}\n", name, TomlText(found));
-      };
+// By key the lines of what the data were found to be; the others get examples.
+std::map<std::string_view, std::string> FoundKeys(
+    const data::PreparedDataset& prepared) {
   const data::Dataset& dataset = prepared.dataset;
-  const bool aligned = dataset.align() == data::Alignment::kFirst;
-  return key("session", dataset.log()->sessions.column, "day") +
-         key("time", prepared.time_column, "time_s") +
-         fmt::format(
-             "{}align = \"first\"   # each session's first value off "
-             "the target\n",
-             aligned ? "" : "# ");
+  std::vector<std::string> inputs;
+  for (const data::ColumnInfo& input : dataset.inputs()) {
+    inputs.push_back(input.name);
+  }
+  std::map<std::string_view, std::string> lines = {
+      {"inputs",
+       "# All that were found; without # exactly these.\n" +
+           Commented("inputs = " + TomlList(inputs))}};
+  const auto add = [&](const char* key, const std::string& column) {
+    if (column.empty()) return;
+    lines[key] = fmt::format("{} = {}", key, TomlText(column));
+  };
+  add("target", dataset.target().name);
+  if (dataset.has_groups()) add("group", dataset.groups().column);
+  add("session", dataset.log()->sessions.column);
+  add("time", prepared.time_column);
+  if (dataset.align() == data::Alignment::kFirst) {
+    lines["align"] =
+        "align = \"first\"   # each session's first value off the target";
+  }
+  return lines;
 }
 
 std::string LengthKey(const char* key,
@@ -162,22 +174,15 @@ std::string ComponentText(const models::ComponentPlan& component,
                     "# where = { direction = \"down\" }   # only rows "
                     "with this value\n")
               : "where = " + WhereText(config.selection.where) + "\n";
-  text += "target = " + TomlText(dataset.target().name) + "\n";
-  std::vector<std::string> inputs;
-  for (const data::ColumnInfo& input : dataset.inputs()) {
-    inputs.push_back(input.name);
-  }
-  text += "# All that were found; without # exactly these.\n" +
-          Commented("inputs = " + TomlList(inputs)) + "\n";
-  text += "# exclude = [\"humidity\"]\n";
-  text += dataset.has_groups()
-              ? "group = " + TomlText(dataset.groups().column) + "\n"
-              : std::string("# group = \"cycle\"\n");
-  text += SessionKeys(component.comparison.data);
-  text += "# weight = \"weight\"\n";
-  text += "# missing = \"error\"   # or \"drop-rows\"\n";
-  text += "# faults = \"keep\"   # or \"drop-rows\": 9999, jumps of sensors\n";
-  text += "# keep_dead = false   # true keeps sensors that hold one value\n";
+  const std::map<std::string_view, std::string> found =
+      FoundKeys(component.comparison.data);
+  ForSelectionOptions(config.selection,
+                      [&](const StudyOption& option, const auto&... /*said*/) {
+                        const auto at = found.find(option.key);
+                        text += at == found.end()
+                                    ? fmt::format("# {}\n", option.example)
+                                    : at->second + "\n";
+                      });
   text += LengthKey("goal",
                     component.comparison.goal,
                     kExampleGoal,

@@ -110,7 +110,9 @@ void Keys::AllowOnly(const std::vector<std::string>& known) const {
   }
 }
 
-void Keys::TakeText(std::string_view key, std::string* text) const {
+void Keys::TakeText(std::string_view key,
+                    std::string* text,
+                    void (*check)(const std::string&)) const {
   const toml::node* const node = Find(key);
   if (node == nullptr) return;
   const auto* const value = node->as_string();
@@ -120,6 +122,11 @@ void Keys::TakeText(std::string_view key, std::string* text) const {
            node->source(),
            fmt::format("'{}' must not be empty; leave it out for the default",
                        key));
+  }
+  try {
+    if (check != nullptr) check(value->get());
+  } catch (const std::invalid_argument& error) {
+    Refuse(file_, node->source(), fmt::format("'{}' {}", key, error.what()));
   }
   *text = value->get();
 }

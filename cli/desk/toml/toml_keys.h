@@ -45,7 +45,10 @@ class Keys {
   const toml::node* Find(std::string_view key) const { return table_.get(key); }
 
   // Each leaves what it is given where the key is absent.
-  void TakeText(std::string_view key, std::string* text) const;
+  /// `check` may be null; it refuses by throwing std::invalid_argument.
+  void TakeText(std::string_view key,
+                std::string* text,
+                void (*check)(const std::string&) = nullptr) const;
   void TakeFlag(std::string_view key, bool* flag) const;
   /// A number above 0, or at least 0, or a text of one with its unit.
   void TakeError(std::string_view key,

@@ -1,7 +1,14 @@
 #include "cli/desk/data_options.h"
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "cli/desk/study_options.h"
+#include "cli/desk/toml/study_file.h"
 
 namespace errmap::desk {
 namespace {
@@ -32,6 +39,44 @@ TEST(DataOptions, AreThoseThatReadTheSameMeasurements) {
                           Pair("missing", "drop-rows"),
                           Pair("keep_dead", ""),
                           Pair("seed", "7")));
+}
+
+// A value of each kind that is not the default, for a study file.
+std::string Given(const std::string& /*text*/) { return "\"a\""; }
+std::string Given(const std::vector<std::string>& /*names*/) {
+  return "[\"a\"]";
+}
+std::string Given(bool by_default) { return by_default ? "false" : "true"; }
+
+TEST(StudyOptions, OfTheListAreReadFromFilesAndPrinted) {
+  const data::DatasetSelection defaults;
+  ForSelectionOptions(
+      defaults,
+      [](const StudyOption& option,
+         const auto& by_default,
+         const auto&... values) {
+        std::string value;
+        if constexpr (sizeof...(values) == 0) {
+          value = Given(by_default);
+        } else {
+          for (const auto& word : (values, ...)) {
+            if (word != by_default) {
+              value = "\"" + std::string(ToString(word)) + "\"";
+            }
+          }
+        }
+        const StudyFile study =
+            ParseStudyFile("[[component]]\ndata = \"x.csv\"\n" +
+                               std::string(option.key) + " = " + value,
+                           "study.toml",
+                           {});
+        const ComponentConfig& component = study.config.components.front();
+        EXPECT_THAT(DataOptions(component.selection, kDefaultSeed),
+                    ElementsAre(Pair(option.key, ::testing::_)));
+        std::string flag = "--" + std::string(option.key);
+        std::ranges::replace(flag, '_', '-');
+        EXPECT_EQ(flag, option.flag);
+      });
 }
 
 TEST(NameList, DoublesQuotesInNames) {

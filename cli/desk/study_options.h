@@ -1,0 +1,196 @@
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/desk/study_config.h"
+
+namespace errmap::desk {
+
+/// Of how many components the word of a flag may be true.
+enum class Reach {
+  kOne,
+  kMachine,  // one, or all of a machine
+  kAll,
+};
+
+/// An option of a study, wherever it is given.
+struct StudyOption {
+  const char* key;         // of study files, --set and results.json
+  const char* flag;        // of the command line
+  const char* value = "";  // what help calls its value; words name themselves
+  const char* help;
+  Reach reach = Reach::kAll;
+  bool seldom = false;       // leaves short help
+  bool may_be_zero = false;  // of a size of errors
+  const char* example = "";  // a line of errmap init where nothing was found
+  /// Throws std::invalid_argument where a text (of a list) is wrong without
+  /// data; may be null.
+  void (*check)(const std::string& text) = nullptr;
+};
+
+/// The options of how a file's rows and columns are read: calls
+/// visit(option, member), of words visit(option, member, values), which
+/// ToString names. This is the one list from which flags, help, completion,
+/// study files and --set, what errmap init writes, the printed next command
+/// and the configuration in results.json are made; `selection` is a
+/// data::DatasetSelection, const or not.
+template <typename Selection, typename Visit>
+void ForSelectionOptions(Selection& selection, const Visit& visit) {
+  visit(
+      StudyOption{
+          .key = "target",
+          .flag = "--target",
+          .value = "COL",
+          .help = "Column to be mapped (default: the only one named error*)",
+          .reach = Reach::kOne},
+      selection.target);
+  visit(StudyOption{.key = "inputs",
+                    .flag = "--inputs",
+                    .value = "A,B,...",
+                    .help = "Columns to map from (default: all other numeric)",
+                    .reach = Reach::kOne},
+        selection.inputs);
+  visit(StudyOption{.key = "exclude",
+                    .flag = "--exclude",
+                    .value = "A,B,...",
+                    .help = "Columns never to map from",
+                    .reach = Reach::kMachine,
+                    .example = "exclude = [\"humidity\"]"},
+        selection.exclude);
+  visit(StudyOption{.key = "group",
+                    .flag = "--group",
+                    .value = "COL",
+                    .help = "Column of warm-up cycles (default: cycle)\nor of "
+                            "days or segments: what tells groups of rows apart",
+                    .reach = Reach::kMachine,
+                    .example = "group = \"cycle\""},
+        selection.group);
+  visit(StudyOption{.key = "time",
+                    .flag = "--time",
+                    .value = "COL",
+                    .help = "Column of times (default: the only time*)\nor of "
+                            "dates; none: the number of the row counts",
+                    .reach = Reach::kMachine,
+                    .example = "time = \"time_s\""},
+        selection.time);
+  visit(StudyOption{.key = "session",
+                    .flag = "--session",
+                    .value = "COL",
+                    .help = "Column of sessions (default: session, day or "
+                            "run)\nthat is, uninterrupted runs; none: cut "
+                            "where time breaks off",
+                    .reach = Reach::kMachine,
+                    .example = "session = \"day\""},
+        selection.session);
+  visit(StudyOption{.key = "align",
+                    .flag = "--align",
+                    .help = "first: take each session's first value off the "
+                            "target",
+                    .seldom = true,
+                    .example = "align = \"first\"   # each session's first "
+                               "value off the target"},
+        selection.align,
+        std::vector{data::Alignment::kFirst, data::Alignment::kNone});
+  visit(StudyOption{.key = "weight",
+                    .flag = "--weight",
+                    .value = "COL",
+                    .help = "Column of row weights > 0",
+                    .reach = Reach::kOne,
+                    .seldom = true,
+                    .example = "weight = \"weight\""},
+        selection.weight);
+  visit(
+      StudyOption{.key = "missing",
+                  .flag = "--missing",
+                  .help = "What cells without a number do (empty, NA, #N/A, "
+                          "-): error or drop-rows",
+                  .seldom = true,
+                  .example = "missing = \"error\"   # or \"drop-rows\""},
+      selection.missing,
+      std::vector{data::MissingPolicy::kError, data::MissingPolicy::kDropRows});
+  visit(StudyOption{.key = "faults",
+                    .flag = "--faults",
+                    .help = "What becomes of rows with failed readings (9999, "
+                            "jumps of a thermometer, zeros of a lost beam) or "
+                            "that stand twice, which are named: keep or "
+                            "drop-rows",
+                    .seldom = true,
+                    .example = "faults = \"keep\"   # or \"drop-rows\": 9999, "
+                               "jumps of sensors"},
+        selection.faults,
+        std::vector{data::FaultPolicy::kKeep, data::FaultPolicy::kDropRows});
+  visit(StudyOption{.key = "keep_dead",
+                    .flag = "--keep-dead",
+                    .help = "Keep inputs that hold one value only (failed "
+                            "sensors)",
+                    .seldom = true,
+                    .example = "keep_dead = false   # true keeps sensors that "
+                               "hold one value"},
+        selection.keep_dead);
+}
+
+/// The sizes of errors, of a study for the components without their own, or
+/// of a component.
+template <typename Config, typename Visit>
+void ForErrorOptions(Config& config, const Visit& visit) {
+  visit(StudyOption{.key = "goal",
+                    .flag = "--goal",
+                    .value = "X",
+                    .help = "RMSE wanted: 2um (default for lengths: 0.5 um)\n"
+                            "of held-out rows; without a unit in that of the "
+                            "target"},
+        config.goal);
+  visit(StudyOption{.key = "indifference",
+                    .flag = "--indifference",
+                    .value = "X",
+                    .help = "Difference in RMSE that never matters, as --goal "
+                            "(default for lengths: 0.02 um)",
+                    .seldom = true,
+                    .may_be_zero = true},
+        config.indifference);
+}
+
+/// All that a component of a study is told by one word.
+template <typename Component, typename Visit>
+void ForComponentOptions(Component& component, const Visit& visit) {
+  ForSelectionOptions(component.selection, visit);
+  ForErrorOptions(component, visit);
+}
+
+/// What a study is told of all its components, in the same way; its seed
+/// (AddSeedOption, Keys::TakeSeed) and its models stand beside them.
+template <typename Config, typename Visit>
+void ForStudyOptions(Config& config, const Visit& visit) {
+  ForErrorOptions(config, visit);
+  visit(StudyOption{.key = "choose",
+                    .flag = "--choose",
+                    .help = "The map to recommend\nauto: the blend, unless a "
+                            "baseline errs less or a single map is proven "
+                            "better by separate days. best: the lowest error"},
+        config.choose,
+        std::vector{models::Choose::kAuto,
+                    models::Choose::kBest,
+                    models::Choose::kBlend});
+  visit(StudyOption{.key = "prefer",
+                    .flag = "--prefer",
+                    .help = "small: fewest sensors, at most 5 % worse"},
+        config.prefer,
+        std::vector{models::Prefer::kLeastError, models::Prefer::kSmall});
+  visit(
+      StudyOption{.key = "rezero",
+                  .flag = "--rezero",
+                  .value = "2h|session|probe[:noise=X]",
+                  .help = "Judge maps with their offset set anew then\nfrom "
+                          "the true error: at an interval (2h, 90min; 5 of a "
+                          "time column that counts cycles), session (where "
+                          "one begins) or probe (with every cycle, every row "
+                          "where there are none), beside no map re-zeroed "
+                          "alike; by probes of this noise",
+                  .check = [](const std::string& text) { CheckRezero(text); }},
+      config.rezero);
+}
+
+}  // namespace errmap::desk
