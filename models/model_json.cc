@@ -14,6 +14,20 @@ namespace errmap::models {
 using Eigen::Index;
 using Node = ModelJsonNode;
 
+namespace {
+
+// "'a', 'b' or 'c'"
+std::string EitherOf(const std::vector<std::string>& words) {
+  std::string list;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) list += i + 1 < words.size() ? ", " : " or ";
+    list += "'" + words[i] + "'";
+  }
+  return list;
+}
+
+}  // namespace
+
 ModelJson NumbersToJson(const Eigen::VectorXd& vector) {
   return std::vector<double>(vector.begin(), vector.end());
 }
@@ -37,6 +51,15 @@ void Node::Refuse(const std::string& why) const {
                   source_,
                   path_.empty() ? "" : "key '" + path_ + "': ",
                   why));
+}
+
+void Node::RefuseWord(const std::vector<std::string>& words,
+                      const std::string& found) const {
+  Refuse(fmt::format("must be {}, found '{}'", EitherOf(words), found));
+}
+
+void Node::RefuseWithout(const std::vector<std::string>& keys) const {
+  Refuse("has no key " + EitherOf(keys));
 }
 
 Node Node::At(const std::string& key) const {

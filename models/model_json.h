@@ -42,6 +42,11 @@ class ModelJsonNode {
                 const std::string& source);
 
   [[noreturn]] void Refuse(const std::string& why) const;
+  /// "must be 'a', 'b' or 'c', found 'd'".
+  [[noreturn]] void RefuseWord(const std::vector<std::string>& words,
+                               const std::string& found) const;
+  /// "has no key 'a', 'b' or 'c'".
+  [[noreturn]] void RefuseWithout(const std::vector<std::string>& keys) const;
 
   ModelJsonNode At(const std::string& key) const;
   /// Nothing where the key is not there, as in older files, or null.

@@ -12,26 +12,25 @@
 #include "models/history/history.h"
 #include "models/history/history_state.h"
 #include "models/map_experience.h"
+#include "models/map_members_json.h"
 #include "models/model_file.h"
 #include "models/model_json.h"
 
 namespace errmap::models {
+
+data::ColumnInfo ReadColumn(const ModelJsonNode& node) {
+  return {node.At("name").Text(), data::UnitOfSymbol(node.At("unit").Text())};
+}
+
 namespace {
 
 using Eigen::Index;
 using Json = ModelJson;
 using Node = ModelJsonNode;
 
-data::ColumnInfo ReadColumn(const Node& node) {
-  return {node.At("name").Text(), data::UnitOfSymbol(node.At("unit").Text())};
-}
-
 TrainedInput ReadInput(const Node& node) {
-  TrainedInput input{ReadColumn(node),
-                     node.At("min").Number(),
-                     node.At("max").Number(),
-                     node.At("mean").Number(),
-                     node.At("sd").Number()};
+  TrainedInput input;
+  ReadMembers(node, &input);
   if (input.min > input.max) node.At("min").Refuse("is above max");
   if (input.sd < 0.0) node.At("sd").Refuse("must be at least 0");
   return input;
@@ -46,26 +45,6 @@ ModelKind ReadKind(const Node& node) {
     if (kind == ToString(known) && known != ModelKind::kFile) return known;
   }
   node.Refuse("unknown kind of model '" + kind + "'");
-}
-
-Filter ReadFilter(const Node& node) {
-  const std::string filter = node.Text();
-  for (const Filter known :
-       {Filter::kEma, Filter::kZero, Filter::kSine, Filter::kCosine}) {
-    if (filter == ToString(known)) return known;
-  }
-  node.Refuse("must be 'ema', 'zero', 'sine' or 'cosine', found '" + filter +
-              "'");
-}
-
-// The first maps held the later reading and do not say so.
-Between ReadBetween(const std::optional<Node>& node) {
-  if (!node) return Between::kHeld;
-  const std::string between = node->Text();
-  for (const Between known : {Between::kLinear, Between::kHeld}) {
-    if (between == ToString(known)) return known;
-  }
-  node->Refuse("must be 'linear' or 'held', found '" + between + "'");
 }
 
 double ReadPositive(const Node& node) {
@@ -114,16 +93,16 @@ History ReadHistory(const Node& node, const std::vector<TrainedInput>& inputs) {
     DerivedInput input;
     input.column = ReadColumn(element);
     input.of = element.At("of").Text();
-    input.filter = ReadFilter(element.At("filter"));
+    input.filter = ReadWord<Filter>(element.At("filter"));
     if (input.filter == Filter::kEma) {
       input.tau = element.At("tau").Number();
-      input.between = ReadBetween(element.Find("between"));
+      // The first maps held the later reading and do not say so.
+      const auto between = element.Find("between");
+      input.between = between ? ReadWord<Between>(*between) : Between::kHeld;
     }
     history.derived.push_back(std::move(input));
   }
-  for (const Node& name : node.At("form_inputs").Elements()) {
-    history.form_inputs.push_back(name.Text());
-  }
+  ReadMembers(node.At("form_inputs"), &history.form_inputs);
   std::vector<data::ColumnInfo> columns;
   for (const TrainedInput& input : inputs) columns.push_back(input.column);
   try {
@@ -139,12 +118,7 @@ History ReadHistory(const Node& node, const std::vector<TrainedInput>& inputs) {
 
 Guards ReadGuards(const Node& node, Index num_inputs) {
   Guards guards;
-  guards.input_margin = node.At("input_margin").Number();
-  guards.error_margin = node.At("error_margin").Number();
-  guards.input_min = node.At("input_min").Vector();
-  guards.input_max = node.At("input_max").Vector();
-  guards.error_min = node.At("error_min").Number();
-  guards.error_max = node.At("error_max").Number();
+  ReadMembers(node, &guards);
   if (guards.input_min.size() != num_inputs ||
       guards.input_max.size() != num_inputs) {
     node.Refuse(
@@ -153,18 +127,17 @@ Guards ReadGuards(const Node& node, Index num_inputs) {
   return guards;
 }
 
-Eigen::VectorXd ReadVector(const Node& node, Index size) {
-  Eigen::VectorXd values = node.Vector();
+void RequireSize(const Node& node, const Eigen::VectorXd& values, Index size) {
   if (values.size() != size) {
     node.Refuse(fmt::format("needs {} numbers, has {}", size, values.size()));
   }
-  return values;
 }
 
-Eigen::VectorXd ReadPositive(const Node& node, Index size) {
-  Eigen::VectorXd values = ReadVector(node, size);
+void RequirePositive(const Node& node,
+                     const Eigen::VectorXd& values,
+                     Index size) {
+  RequireSize(node, values, size);
   if (!(values.array() > 0.0).all()) node.Refuse("must be above 0");
-  return values;
 }
 
 std::vector<Index> ReadColumnsOf(const Node& node,
@@ -183,26 +156,24 @@ std::vector<Index> ReadColumnsOf(const Node& node,
 
 Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
   Applicability trained;
-  for (const Node& element : node.At("derived").Elements()) {
-    trained.derived.push_back({.column = ReadColumn(element),
-                               .min = element.At("min").Number(),
-                               .max = element.At("max").Number()});
+  ReadMembers(node, &trained, {"columns"});
+  for (std::size_t i = 0; i < trained.derived.size(); ++i) {
     if (fitted.history == nullptr ||
         std::ranges::find(fitted.history->form_inputs,
-                          trained.derived.back().column.name) ==
+                          trained.derived[i].column.name) ==
             fitted.history->form_inputs.end()) {
-      element.Refuse("is no input of the form");
+      node.At("derived").Elements()[i].Refuse("is no input of the form");
     }
   }
   trained.columns = ReadColumnsOf(node.At("columns"), fitted.inputs);
   const auto size = static_cast<Index>(trained.columns.size());
-  trained.rows = node.At("rows").Count();
   if (trained.rows < 2) node.At("rows").Refuse("must be at least 2");
-  trained.mean = ReadVector(node.At("mean"), size);
-  trained.scale = ReadPositive(node.At("scale"), size);
-  trained.directions = node.At("directions").Matrix();
-  trained.rest = ReadPositive(node.At("rest"), size);
-  trained.states = node.At("states").Matrix();
+  RequireSize(node.At("mean"), trained.mean, size);
+  RequirePositive(node.At("scale"), trained.scale, size);
+  RequirePositive(node.At("rest"), trained.rest, size);
+  RequirePositive(node.At("relation_limit"), trained.relation_limit, size);
+  ReadPositive(node.At("distance_limit"));
+  ReadPositive(node.At("leverage_limit"));
   if (trained.directions.rows() != size || trained.directions.cols() < 1) {
     node.At("directions").Refuse(fmt::format("needs {} rows", size));
   }
@@ -211,28 +182,20 @@ Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
     node.At("states").Refuse(
         fmt::format("needs rows of {} numbers", trained.directions.cols()));
   }
-  trained.distance_limit = ReadPositive(node.At("distance_limit"));
-  trained.leverage_limit = ReadPositive(node.At("leverage_limit"));
-  trained.relation_limit = ReadPositive(node.At("relation_limit"), size);
   return trained;
 }
 
 HeldOutErrors ReadHeldOut(const Node& node) {
   HeldOutErrors errors;
-  errors.time_unit = node.At("time_unit").Text();
-  errors.position = node.At("position").Text();
-  errors.rmse = node.At("rmse").Number();
-  for (const Node& element : node.At("units").Elements()) {
-    HeldOutErrors::Unit unit;
-    unit.label = element.At("label").Text();
-    unit.rmse = element.At("rmse").Number();
-    unit.residuals = element.At("residuals").Vector();
-    if (unit.residuals.size() == 0) element.Refuse("has no residuals");
-    unit.elapsed = ReadVector(element.At("elapsed"), unit.residuals.size());
-    unit.position =
-        ReadVector(element.At("position"),
-                   errors.position.empty() ? 0 : unit.residuals.size());
-    errors.units.push_back(std::move(unit));
+  ReadMembers(node, &errors);
+  const std::vector<Node> elements = node.At("units").Elements();
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const HeldOutErrors::Unit& unit = errors.units[i];
+    if (unit.residuals.size() == 0) elements[i].Refuse("has no residuals");
+    RequireSize(elements[i].At("elapsed"), unit.elapsed, unit.residuals.size());
+    RequireSize(elements[i].At("position"),
+                unit.position,
+                errors.position.empty() ? 0 : unit.residuals.size());
   }
   if (errors.units.size() < 2) node.At("units").Refuse("needs two units");
   return errors;

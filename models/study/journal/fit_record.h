@@ -8,9 +8,8 @@
 
 namespace errmap::models {
 
-/// An outcome as one line of JSON without a line break: every number, text and
-/// list of it, so that it reads back to the same bits. Numbers that are not
-/// finite are their 16 hexadecimal digits, vectors base64 of their bytes.
+/// An outcome as a text of JSON without a line break: base64 of the bytes of
+/// its members, as this build of the program has them.
 std::string FitToText(const FitOutcome& outcome);
 
 /// What FitToText wrote; its model predicts the same bits. Throws

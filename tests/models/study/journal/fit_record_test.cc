@@ -1,6 +1,7 @@
 #include "models/study/journal/fit_record.h"
 
 #include <bit>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "data/base64.h"
 #include "data/input_error.h"
 #include "models/history/history.h"
 #include "models/polynomial/polynomial_model.h"
@@ -323,13 +325,39 @@ TEST(FitRecord, RefusesWhatIsNoRecordOfThisVersion) {
   }
 }
 
+TEST(FitRecord, RefusesOrReadsWhateverPieceOfOneThereIs) {
+  const std::string text = FitToText(FullOutcome());
+  const std::string bytes = data::FromBase64(text.substr(1, text.size() - 2));
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_THROW(FitFromText('"' + data::ToBase64(bytes.substr(0, size)) + '"'),
+                 data::InputError)
+        << size;
+  }
+  for (std::size_t at = 0; at < bytes.size(); ++at) {
+    std::string changed = bytes;
+    changed[at] = '\xff';
+    try {
+      FitFromText('"' + data::ToBase64(changed) + '"');
+    } catch (const data::InputError&) {
+    }
+  }
+}
+
 TEST(FitRecord, RefusesAModelThatCannotBe) {
   // The only power of the model, which must not be negative.
-  std::string text = FitToText(FullOutcome());
-  const std::size_t powers = text.find("[[2],0.25]");
-  ASSERT_NE(powers, std::string::npos);
-  text.replace(powers, 4, "[[-2]");
-  EXPECT_THAT([&] { FitFromText(text); },
+  const auto term = [](int power) {
+    std::string bytes(sizeof power + sizeof(double), '\0');
+    constexpr double kCoefficient = 0.25;
+    std::memcpy(bytes.data(), &power, sizeof power);
+    std::memcpy(bytes.data() + sizeof power, &kCoefficient, sizeof(double));
+    return bytes;
+  };
+  const std::string text = FitToText(FullOutcome());
+  std::string bytes = data::FromBase64(text.substr(1, text.size() - 2));
+  const std::size_t at = bytes.find(term(2));
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, term(2).size(), term(-2));
+  EXPECT_THAT([&] { FitFromText('"' + data::ToBase64(bytes) + '"'); },
               ThrowsMessage<data::InputError>(HasSubstr("power")));
 }
 

@@ -1,0 +1,128 @@
+#pragma once
+
+// What a map consists of as JSON of model files and back, member by member
+// (map_members.h); not for public headers. A column stands as its name and
+// unit beside the other members. What a file has otherwise is written and read
+// by those who call this.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "models/map_members.h"
+#include "models/model_json.h"
+
+namespace errmap::models {
+
+data::ColumnInfo ReadColumn(const ModelJsonNode& node);
+
+/// Calls visit(key, member) for what stands in a file by its own key.
+template <typename T, typename Visit>
+void VisitKeys(T& record, const Visit& visit) {
+  VisitMembers(record, [&](std::string_view key, auto& member) {
+    using Member = std::decay_t<decltype(member)>;
+    constexpr bool kIsForm =
+        std::is_same_v<Member, decltype(BlendForm::Member::form)>;
+    if constexpr (!kIsForm) visit(std::string(key), member);
+  });
+}
+
+/// What is not finite, which JSON has no word for, becomes null. Numbers go
+/// through `shown` before.
+template <typename T>
+ModelJson MembersToJson(const T& value, double (*shown)(double) = nullptr) {
+  if constexpr (Record<T>) {
+    ModelJson json = ModelJson::object();
+    VisitKeys(value, [&](const std::string& key, const auto& member) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(member)>,
+                                   data::ColumnInfo>) {
+        json["name"] = member.name;
+        json["unit"] = member.unit.symbol;
+      } else {
+        json[key] = MembersToJson(member, shown);
+      }
+    });
+    return json;
+  } else if constexpr (std::is_floating_point_v<T>) {
+    if (!std::isfinite(value)) return nullptr;
+    return shown == nullptr ? value : shown(value);
+  } else if constexpr (std::is_enum_v<T>) {
+    return ToString(value);
+  } else if constexpr (requires { value.array(); }) {
+    return NumbersToJson(
+        shown == nullptr
+            ? value
+            : T(value.unaryExpr([&](double number) { return shown(number); })));
+  } else if constexpr (requires { value.front(); } &&
+                       !std::is_same_v<T, std::string>) {
+    ModelJson json = ModelJson::array();
+    for (const auto& element : value) {
+      json.push_back(MembersToJson(element, shown));
+    }
+    return json;
+  } else {
+    return value;
+  }
+}
+
+/// The enumerator that ToString names so.
+template <typename T>
+T ReadWord(const ModelJsonNode& node) {
+  const std::string word = node.Text();
+  std::vector<std::string> words;
+  for (int i = 0;; ++i) {
+    const auto known = static_cast<T>(i);
+    const std::string name(ToString(known));
+    if (name == word) return known;
+    // Of what is no enumerator more ToString says "", or the last word again.
+    if (name.empty() || std::ranges::count(words, name) > 0) break;
+    words.push_back(name);
+  }
+  node.RefuseWord(words, word);
+}
+
+/// Every member but those of the keys `except`, which the caller reads.
+template <typename T>
+void ReadMembers(const ModelJsonNode& node,
+                 T* value,
+                 const std::vector<std::string_view>& except = {}) {
+  if constexpr (Record<T>) {
+    VisitKeys(*value, [&](const std::string& key, auto& member) {
+      if (std::ranges::count(except, key) > 0) return;
+      if constexpr (std::is_same_v<std::decay_t<decltype(member)>,
+                                   data::ColumnInfo>) {
+        member = ReadColumn(node);
+      } else {
+        ReadMembers(node.At(key), &member);
+      }
+    });
+  } else if constexpr (std::is_floating_point_v<T>) {
+    *value = node.Number();
+  } else if constexpr (std::is_enum_v<T>) {
+    *value = ReadWord<T>(node);
+  } else if constexpr (std::is_integral_v<T>) {
+    const Eigen::Index count = node.Count();
+    if (std::cmp_greater(count, std::numeric_limits<T>::max())) {
+      node.Refuse("is too large");
+    }
+    *value = static_cast<T>(count);
+  } else if constexpr (std::is_same_v<T, Eigen::VectorXd>) {
+    *value = node.Vector();
+  } else if constexpr (std::is_same_v<T, Eigen::MatrixXd>) {
+    *value = node.Matrix();
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    *value = node.Text();
+  } else {
+    for (const ModelJsonNode& element : node.Elements()) {
+      ReadMembers(element, &value->emplace_back());
+    }
+  }
+}
+
+}  // namespace errmap::models
