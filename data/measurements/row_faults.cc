@@ -183,66 +183,73 @@ void LookForZeros(const MeasuredColumns& measured,
                      .high = sd});
 }
 
-// Rows one after another whose targets are of another size than the others'.
-struct RowRun {
-  std::size_t begin = 0;  // into the rows looked at
-  std::size_t end = 0;
-  double ratio = 1.0;  // of the others' sizes to theirs
+// Rows whose targets are not 0, and the logarithms of their sizes, each the
+// median of five rows: single small errors part nothing.
+struct Sizes {
+  std::vector<Index> rows;
+  std::vector<double> logs;
 };
 
-// The rows from begin to end, and the others.
-std::array<std::vector<Index>, 2> PartedBy(const std::vector<Index>& rows,
-                                           const RowRun& run) {
-  std::array<std::vector<Index>, 2> parts;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    parts[i >= run.begin && i < run.end ? 0 : 1].push_back(rows[i]);
-  }
-  return parts;
-}
-
-// Of the targets that are not 0; 0 where all are. Other such runs among the
-// others do not move it as they move their mean.
-double MedianSize(const VectorXd& target, const std::vector<Index>& rows) {
-  std::vector<double> sizes;
-  for (const Index row : rows) {
-    if (target[row] != 0.0) sizes.push_back(std::abs(target[row]));
-  }
-  return sizes.empty() ? 0.0 : MedianOf(std::move(sizes));
-}
-
-// The run that departs most from the mean of the logarithms of sizes: between
-// the extremes of their running sum (Levin & Kline 1985), which may lie at an
-// end. Logarithms, so that single wrong values count little; zeros do not.
-RowRun RunOfOtherSize(const VectorXd& target, const std::vector<Index>& rows) {
-  double all = 0.0;
-  double count = 0.0;
-  for (const Index row : rows) {
+Sizes SmoothedSizes(const VectorXd& target) {
+  constexpr std::size_t kReach = 2;  // rows on each side
+  Sizes sizes;
+  std::vector<double> logs;
+  for (Index row = 0; row < target.size(); ++row) {
     if (target[row] == 0.0) continue;
-    all += std::log(std::abs(target[row]));
-    count += 1.0;
+    sizes.rows.push_back(row);
+    logs.push_back(std::log(std::abs(target[row])));
   }
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const std::size_t from = i < kReach ? 0 : i - kReach;
+    const std::size_t to = std::min(logs.size(), i + kReach + 1);
+    sizes.logs.push_back(MedianOf({logs.begin() + std::ptrdiff_t(from),
+                                   logs.begin() + std::ptrdiff_t(to)}));
+  }
+  return sizes;
+}
+
+// Two sizes that part the rows: the middle between them, and how many times
+// larger the larger is; 1 where they are no units apart, or sizes lie between.
+struct TwoSizes {
+  double middle = 0.0;  // logarithm
+  double ratio = 1.0;
+};
+
+TwoSizes PartSizes(std::vector<double> logs) {
+  constexpr double kLeastRatio = 200.0;
+  constexpr double kMostRatio = 5000.0;
+  constexpr double kMostBetween = 0.1;  // of the rows, in the middle half
+  if (logs.size() < 2) return {};
+  std::ranges::sort(logs);
+  // The cut with the most variance between the parts (Otsu 1979).
+  const auto count = static_cast<double>(logs.size());
+  const double all = std::accumulate(logs.begin(), logs.end(), 0.0);
   double sum = 0.0;
-  double least = 0.0;
-  double most = 0.0;
-  std::size_t at_least = 0;
-  std::size_t at_most = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double value = target[rows[i]];
-    if (value != 0.0) sum += std::log(std::abs(value)) - all / count;
-    if (sum < least) {
-      least = sum;
-      at_least = i + 1;
-    }
-    if (sum > most) {
-      most = sum;
-      at_most = i + 1;
+  double best = -1.0;
+  std::size_t cut = 1;
+  for (std::size_t i = 1; i < logs.size(); ++i) {
+    sum += logs[i - 1];
+    const auto before = static_cast<double>(i);
+    const double difference = sum / before - (all - sum) / (count - before);
+    const double between = before * (count - before) * difference * difference;
+    if (between > best) {
+      best = between;
+      cut = i;
     }
   }
-  RowRun run{.begin = std::min(at_least, at_most),
-             .end = std::max(at_least, at_most)};
-  const auto [inside, outside] = PartedBy(rows, run);
-  run.ratio = MedianSize(target, outside) / MedianSize(target, inside);
-  return run;
+  const double small = logs[cut / 2];
+  const double large = logs[cut + (logs.size() - cut) / 2];
+  const double apart = large - small;
+  const double ratio = std::exp(apart);
+  const auto num_between =
+      static_cast<double>(std::ranges::count_if(logs, [&](double size) {
+        return size > small + apart / 4.0 && size < large - apart / 4.0;
+      }));
+  if (!(ratio >= kLeastRatio && ratio <= kMostRatio) ||
+      num_between > kMostBetween * count) {
+    return {};
+  }
+  return {.middle = 0.5 * (small + large), .ratio = ratio};
 }
 
 // Whether these targets are what the others foretell when they are taken for
@@ -260,40 +267,42 @@ bool AreThousandths(const MeasuredColumns& measured,
          kBetter * (target - wanted).squaredNorm();
 }
 
-// Every run of rows in another unit, the clearest first: sessions by turns
-// make several.
+// Rows in another unit, a fault for each run of them: any block, and sessions
+// by turns.
 void LookForOtherUnit(const MeasuredColumns& measured,
                       std::vector<ColumnFault>* faults) {
-  constexpr std::size_t kMostRuns = 20;
   constexpr std::size_t kFewestRows = 5;
-  constexpr double kLeastRatio = 200.0;
-  constexpr double kMostRatio = 5000.0;
   // A part as large as this needs no map to be in another unit.
   constexpr double kLargePart = 0.2;
-  std::vector<Index> rows(
-      static_cast<std::size_t>(measured.target_values.size()));
-  std::iota(rows.begin(), rows.end(), Index{0});
-  const auto number = static_cast<double>(rows.size());
-  while (faults->size() < kMostRuns) {
-    const RowRun run = RunOfOtherSize(measured.target_values, rows);
-    const double ratio = std::max(run.ratio, 1.0 / run.ratio);  // NaN: neither
-    if (!(ratio >= kLeastRatio && ratio <= kMostRatio)) return;
-    auto [small, large] = PartedBy(rows, run);
-    if (run.ratio < 1.0) std::swap(small, large);
-    const auto shorter = std::min(small.size(), large.size());
-    if (shorter < kFewestRows ||
-        (static_cast<double>(shorter) < kLargePart * number &&
-         !AreThousandths(measured, small, large))) {
-      return;
+  const Sizes sizes = SmoothedSizes(measured.target_values);
+  const TwoSizes two = PartSizes(sizes.logs);
+  if (two.ratio == 1.0) return;
+  std::vector<std::vector<Index>> runs;
+  std::vector<Index> small;
+  std::vector<Index> large;
+  for (std::size_t i = 0; i < sizes.rows.size(); ++i) {
+    if (sizes.logs[i] >= two.middle) {
+      large.push_back(sizes.rows[i]);
+      continue;
     }
+    if (i == 0 || sizes.logs[i - 1] >= two.middle) runs.emplace_back();
+    runs.back().push_back(sizes.rows[i]);
+    small.push_back(sizes.rows[i]);
+  }
+  if (static_cast<double>(small.size()) <
+          kLargePart * static_cast<double>(sizes.rows.size()) &&
+      !AreThousandths(measured, small, large)) {
+    return;
+  }
+  for (std::vector<Index>& run : runs) {
+    if (run.size() < kFewestRows) continue;
     faults->push_back({.kind = FaultKind::kOtherUnit,
                        .input = -1,
-                       .rows = std::move(small),
+                       .rows = std::move(run),
                        .of_cells = true,
-                       .value = ratio,
+                       .value = two.ratio,
                        .low = 0.0,
                        .high = 0.0});
-    rows = std::move(large);
   }
 }
 

@@ -437,9 +437,10 @@ TEST(MessyFiles, RowsThatAreNoMeasurementsAreNamedAndLeftOutByAnOption) {
   }
   // A machine that errs by nothing while it is cold is in one unit.
   EXPECT_THAT(Make(changed([](int i, auto* cells) {
-                const double warm = i % 40 < 6 ? 0.001 : 1.0;
-                (*cells)[kError] = CsvNumber(warm * Number((*cells)[kError]));
-                if (warm < 1.0) (*cells)[kT1] = "20";
+                const bool is_cold = i % 40 < 6;
+                if (is_cold) (*cells)[kT1] = Fixed(20.002 + 0.001 * (i % 3));
+                (*cells)[kError] = CsvNumber(
+                    1.5 * (Number((*cells)[kT1]) - 20.0) + 0.0001 * Noise(i));
               })).faults,
               ::testing::Each(::testing::Field(
                   &ColumnFault::kind, ::testing::Ne(FaultKind::kOtherUnit))));
@@ -454,7 +455,7 @@ TEST(MessyFiles, RowsThatAreNoMeasurementsAreNamedAndLeftOutByAnOption) {
       cells[kT1] = Fixed(Number(cells[kT1]) + 0.01 * Noise(repeat));
       const double error = Number(cells[kError]) + 0.015 * Noise(repeat);
       cells[kError] = CsvNumber(std::round(10.0 * error) / 10.0);
-      if (i % 3 == 0) cells[kError] = "0";
+      if ((i + static_cast<std::size_t>(repeat)) % 3 == 0) cells[kError] = "0";
     }
   }
   const PreparedDataset lost = Make(Joined(many));
