@@ -344,6 +344,14 @@ class DatasetBuilder {
                " times smaller than the others, as if in another unit";
       } else if (fault.kind == FaultKind::kZero) {
         what = " rows have a target of 0 where the others say otherwise";
+      } else if (fault.kind == FaultKind::kImpossible ||
+                 (fault.kind == FaultKind::kOutlying && fault.input < 0)) {
+        const std::string& name =
+            fault.input < 0
+                ? parts_.target.name
+                : parts_.inputs[static_cast<std::size_t>(fault.input)].name;
+        what = " rows have " + NameInRemark(name) + " " + Rounded(fault.value) +
+               ", which is no reading";
       } else {
         continue;
       }

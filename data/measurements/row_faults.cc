@@ -85,7 +85,8 @@ VectorXd LinearPrediction(const MeasuredColumns& measured,
 }
 
 // Takes out zeros of an error that is measured from there, as at the position
-// of reference: all rows of that value of an input are zero.
+// of reference: all rows of that value of an input are zero. Of inputs whose
+// values come again by design: two lost rows may read alike by chance.
 void LeaveReferences(const MeasuredColumns& measured,
                      std::vector<Index>* zeros) {
   const VectorXd& target = measured.target_values;
@@ -100,6 +101,8 @@ void LeaveReferences(const MeasuredColumns& measured,
       ++count.same;
       count.zero += target[row] == 0.0 ? 1 : 0;
     }
+    constexpr Index kRowsPerValue = 3;
+    if (kRowsPerValue * std::ssize(counts) > target.size()) continue;
     std::erase_if(*zeros, [&](Index row) {
       const Count& count = counts[measured.input_values(row, j)];
       return count.same > 1 && count.same == count.zero;

@@ -406,6 +406,22 @@ TEST(MessyFiles, RowsThatAreNoMeasurementsAreNamedAndLeftOutByAnOption) {
         one.left)
         << ToString(one.kind);
   }
+  // Codes for "no reading" change every figure: the answer says so.
+  for (const std::size_t i : {3U, 4U}) {
+    EXPECT_THAT(Make(cases[i].text).doubts,
+                ElementsAre(HasSubstr("-999, which is no reading; ")));
+  }
+  // Two lost rows whose thermometer reads alike are no reference.
+  const PreparedDataset alike = Make(changed([](int i, auto* cells) {
+    if (i == 38 || i == 39 || i == 118) {
+      (*cells)[kError] = "0";
+      (*cells)[kT2] = "22.5";
+    }
+  }));
+  const auto zero =
+      std::ranges::find(alike.faults, FaultKind::kZero, &ColumnFault::kind);
+  ASSERT_NE(zero, alike.faults.end());
+  EXPECT_EQ(zero->rows, (std::vector<Eigen::Index>{38, 39, 118}));
   // A block in the middle, and days by turns, in millimetres.
   const auto in_mm = [&](const auto& where) {
     return changed([&](int i, auto* cells) {
