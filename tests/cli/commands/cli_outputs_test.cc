@@ -206,7 +206,8 @@ TEST_F(CliOutputs, OnePageOfManyComponentsIsRefused) {
   std::filesystem::create_directory(scratch_ / "in");
   Write("in/a.csv", Process::TextOf(kDown));
   Write("in/b.csv", Process::TextOf(kDown));
-  Write("study.toml", "[[component]]\ndata = \"in/*.csv\"\n");
+  Write("study.toml",
+        "[[component]]\nname = \"{machine}\"\ndata = \"in/{machine}.csv\"\n");
   EXPECT_THAT(RefusalOf(Run({"compare",
                              "--config",
                              "study.toml",
