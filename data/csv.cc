@@ -33,9 +33,13 @@ std::size_t CsvTable::LineOfRow(std::size_t row) const {
 }
 
 std::string CsvTable::Where(std::size_t row, std::string_view column) const {
-  return PrintablePath(file) + ": line " + std::to_string(LineOfRow(row)) +
-         " (data row " + std::to_string(row) + "), column " +
-         QuotedName(column);
+  const auto next = std::ranges::upper_bound(
+      parts, row, {}, &std::pair<std::size_t, std::string>::first);
+  const bool is_one = next == parts.begin();
+  const std::size_t first = is_one ? 0 : std::prev(next)->first;
+  return PrintablePath(is_one ? file : std::prev(next)->second) + ": line " +
+         std::to_string(LineOfRow(row)) + " (data row " +
+         std::to_string(row - first) + "), column " + QuotedName(column);
 }
 
 std::string CsvTable::CellText(const CsvColumn& column, std::size_t row) const {

@@ -29,7 +29,7 @@ struct CsvColumn {
   bool is_text() const { return exceptions.size() == values.size(); }
 };
 
-/// A CSV file: named columns of equal length.
+/// A CSV file, or several as one: named columns of equal length.
 struct CsvTable {
   std::string file;  // as given; begins every message about it
   std::vector<CsvColumn> columns;
@@ -52,13 +52,16 @@ struct CsvTable {
   /// Runs of rows on successive lines: (first row, its line), ascending; rows
   /// after comments, quoted line breaks or the header start a new run.
   std::vector<std::pair<std::size_t, std::size_t>> line_runs;
+  /// Of several files: (first row, file as given), ascending; else empty.
+  std::vector<std::pair<std::size_t, std::string>> parts;
 };
 
 /// Reads a CSV file: RFC 4180 quotes; `,` `;` or tab, found from the header;
 /// decimal comma where the delimiter is `;` or tab; UTF-8 byte order mark,
 /// CRLF, lines starting with `#`, and blank lines at the end are passed over.
 /// An unnamed column is called column_N (`has_name` is false). Text that is no
-/// valid UTF-8 is taken for Latin-1 and converted. Linear time, about twice the
+/// valid UTF-8 is taken for Latin-1 and converted; what begins as gzip does is
+/// unpacked first, up to kMostTextOfPrograms. Linear time, about twice the
 /// file's memory; never looks at the locale.
 ///
 /// Throws InputError: unreadable file, empty file, no header (a number where a

@@ -11,7 +11,9 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "data/atomic_file.h"
 #include "data/csv.h"
+#include "data/formats/gzip.h"
 #include "data/formula_text.h"
 #include "data/text.h"
 #include "data/text_encoding.h"
@@ -674,6 +676,15 @@ class Parser {
 }  // namespace
 
 CsvTable ParseCsv(std::string_view text, const std::string& name) {
+  if (IsGzip(text)) {
+    std::string unpacked;
+    try {
+      unpacked = Gunzip(text, kMostTextOfPrograms);
+    } catch (const InputError& error) {
+      throw InputError(PrintablePath(name) + ": " + error.what());
+    }
+    return ParseCsv(IsGzip(unpacked) ? "" : unpacked, name);
+  }
   const std::string converted = TextOfFile(text, name);
   return Parser(converted.empty() ? text : converted, name).Parse();
 }

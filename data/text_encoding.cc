@@ -21,7 +21,6 @@ constexpr auto kFormats = std::to_array<KnownFormat>(
     {{"PK\x03\x04",
       "a spreadsheet (xlsx, ods) or an archive; save it as CSV, one sheet"},
      {"\xD0\xCF\x11\xE0", "a spreadsheet (xls); save it as CSV"},
-     {"\x1F\x8B", "compressed (gzip); unpack it with gunzip"},
      {"BZh", "compressed (bzip2); unpack it with bunzip2"},
      {"\xFD"
       "7zXZ",

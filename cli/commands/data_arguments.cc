@@ -16,6 +16,7 @@
 #include "cli/report/words/fault_text.h"
 #include "cli/shell/command_reference.h"
 #include "cli/shell/standard_streams.h"
+#include "data/measurements/joined_tables.h"
 #include "data/shown_path.h"
 #include "models/model_spec.h"
 #include "models/recipe_catalog.h"
@@ -103,12 +104,22 @@ void FlagAdder::Finish(const desk::StudyOption& option) const {
 }
 
 void AddDataArguments(CLI::App* command, DataArguments* arguments) {
-  command->add_option("DATA", arguments->file, "CSV file, one row per sample")
+  command
+      ->add_option("DATA",
+                   arguments->files,
+                   "CSV file, one row per sample; several, or a folder, are "
+                   "days of one component")
       ->required()
       ->type_name("FILE.csv");
   desk::ForSelectionOptions(arguments->selection, FlagAdder(command));
   command->add_flag(
       "--quiet", arguments->quiet, "No remarks and no progress on stderr");
+}
+
+std::vector<std::string> DataArguments::PathsWith(
+    std::vector<std::string> others) const {
+  others.insert(others.begin(), files.begin(), files.end());
+  return others;
 }
 
 void AddRowOptions(CLI::App* command,
@@ -150,8 +161,11 @@ void AddMapLogArguments(CLI::App* command, models::MapLogArguments* arguments) {
 }
 
 data::PreparedDataset ReadData(const DataArguments& arguments) {
+  const data::JoinedTable read =
+      data::ReadTables(arguments.files, arguments.selection);
+  SayUnless(arguments.quiet, read.remarks);
   data::PreparedDataset prepared =
-      data::MakeDataset(data::ReadCsv(arguments.file), arguments.selection);
+      data::MakeDataset(read.table, arguments.selection);
   SayUnless(arguments.quiet, prepared.remarks);
   SayUnless(arguments.quiet,
             report::FaultLines(

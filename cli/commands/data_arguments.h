@@ -23,11 +23,14 @@ namespace errmap::cli {
 /// Leaves options that are there already to help COMMAND --all.
 void MarkSeldom(CLI::App* command, const std::vector<const char*>& names);
 
-/// What a command is told about the data file.
+/// What a command is told about the data files.
 struct DataArguments {
-  std::string file;
+  std::vector<std::string> files;  // or folders
   data::DatasetSelection selection;
   bool quiet = false;
+
+  /// What the command reads: these files and `others`.
+  std::vector<std::string> PathsWith(std::vector<std::string> others) const;
 };
 
 /// Visitor of a list of cli/desk/study_options.h: adds the flag of each option
@@ -60,7 +63,7 @@ class FlagAdder {
 /// Adds DATA.csv and its options to a command.
 void AddDataArguments(CLI::App* command, DataArguments* arguments);
 
-/// Reads the file and picks its columns; remarks go to stderr unless quiet.
+/// Reads the files and picks their columns; remarks go to stderr unless quiet.
 data::PreparedDataset ReadData(const DataArguments& arguments);
 
 /// --missing and --faults, as commands that read measurements have them.

@@ -69,6 +69,11 @@ models::ComponentConfigurationRecord ComponentOf(
   models::ComponentConfigurationRecord record;
   record.name = Text(component.name);
   record.data = Text(data::ShownPath(component.data));
+  std::vector<std::string> more;
+  for (const std::string& file : component.more_data) {
+    more.push_back(data::ShownPath(file));
+  }
+  record.more_data = List(more);
   if (!component.selection.where.empty()) {
     auto& where = record.where.emplace();
     for (const data::ColumnFilter& filter : component.selection.where) {

@@ -3,8 +3,10 @@
 #include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "data/atomic_file.h"
+#include "data/measurements/measured_files.h"
 #include "data/sha256.h"
 #include "data/shown_path.h"
 #include "models/study/record/make_provenance.h"
@@ -23,6 +25,22 @@ std::string DataKey(std::size_t index) {
 
 InputFile HashInput(const std::string& file) {
   return {file, data::Sha256(data::ReadFile(file))};
+}
+
+std::vector<InputFile> HashInputs(const std::vector<std::string>& given,
+                                  const std::vector<std::string>& first) {
+  std::vector<InputFile> inputs;
+  for (const std::string& file : first) inputs.push_back(HashInput(file));
+  for (const std::string& file : data::FindFiles(given).paths) {
+    inputs.push_back(HashInput(file));
+  }
+  return inputs;
+}
+
+std::string ShownNames(const std::vector<std::string>& files) {
+  std::vector<std::string> shown;
+  for (const std::string& file : files) shown.push_back(data::ShownPath(file));
+  return fmt::format("{}", fmt::join(shown, ", "));
 }
 
 models::ProvenanceRecord MakeProvenance(const std::string& command_line,

@@ -19,6 +19,13 @@ struct InputFile {
 /// Reads `file` for its hash; throws data::InputError where it cannot.
 InputFile HashInput(const std::string& file);
 
+/// `first`, then the files that `given` names (data::FindFiles).
+std::vector<InputFile> HashInputs(const std::vector<std::string>& given,
+                                  const std::vector<std::string>& first = {});
+
+/// The names of files as results have them (data::ShownPath).
+std::string ShownNames(const std::vector<std::string>& files);
+
 /// models::MakeProvenance of a run, paths as they are shown.
 models::ProvenanceRecord MakeProvenance(const std::string& command_line,
                                         const std::vector<InputFile>& inputs);

@@ -21,8 +21,9 @@ struct PredictionsFile {
 /// NaN leave the choice to the defaults (models/study/study_defaults.h).
 struct ComponentConfig {
   std::string name;  // default: the data file's name without its ending
-  std::string data;  // path as it can be opened
-  data::DatasetSelection selection;  // of the file's rows and columns
+  std::string data;  // path as it can be opened, of a file or a folder
+  std::vector<std::string> more_data;  // further files of the same component
+  data::DatasetSelection selection;    // of the file's rows and columns
   GivenError goal;  // RMSE wanted on held-out rows; default: the study's
   /// RMSE that makes no practical difference; default: the study's.
   GivenError indifference;
@@ -30,6 +31,12 @@ struct ComponentConfig {
   std::string save_split;  // file that gets the folds
   std::vector<PredictionsFile> predictions;
   std::vector<std::string> later;  // sessions that no fit may see
+  /// All that `data` and `more_data` name; may be folders.
+  std::vector<std::string> AllData() const {
+    std::vector<std::string> all{data};
+    all.insert(all.end(), more_data.begin(), more_data.end());
+    return all;
+  }
   /// Of a plan: the options by which a command reads the same measurements.
   models::ByName<std::string> options = {};
 };

@@ -21,7 +21,7 @@ models::StudyRecord MakeRecord(
   record.seed = seed;
   for (const models::ComponentStudy& component : components) {
     record.interrupted |= component.study.interrupted;
-    inputs.push_back({.file = component.file, .sha256 = component.sha256});
+    inputs.insert(inputs.end(), component.files.begin(), component.files.end());
     record.components.push_back(models::MakeComponentRecord(component, jobs));
     AddSentences(&record.components.back());
   }

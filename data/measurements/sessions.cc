@@ -8,6 +8,7 @@
 
 #include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/joined_tables.h"
 #include "data/measurements/text_times.h"
 #include "data/text.h"
 
@@ -218,7 +219,12 @@ class SessionFinder {
                    true);
       return;
     }
-    for (const char* name : {"session", "day", "run"}) {
+    if (const std::ptrdiff_t file = table_.Find(kFileColumn);
+        file >= 0 && table_.parts.size() > 1) {
+      TakeSessions(static_cast<std::size_t>(file), false);
+      return;
+    }
+    for (const char* name : kSessionColumns) {
       for (std::size_t i = 0; i < table_.columns.size(); ++i) {
         if (!EqualsIgnoringCase(table_.columns[i].name, name) ||
             IsMeasured(i)) {
@@ -406,33 +412,6 @@ std::vector<Index> FirstRows(const Grouping& sessions,
     if (complete[session] != kNone) first[session] = complete[session];
   }
   return first;
-}
-
-CsvTable AppendedTable(const CsvTable& earlier,
-                       const CsvTable& later,
-                       const std::vector<std::string>& columns) {
-  CsvTable table;
-  table.file = earlier.file + ", then " + later.file;
-  table.num_rows = earlier.num_rows + later.num_rows;
-  table.line_runs = earlier.line_runs;
-  for (const auto& [row, line] : later.line_runs) {
-    table.line_runs.emplace_back(earlier.num_rows + row, line);
-  }
-  for (const std::string& name : columns) {
-    CsvColumn column =
-        earlier.columns[RequireColumn(earlier, name, ArgumentName("after"))];
-    const CsvColumn& more = later.columns[RequireColumn(later, name, "DATA")];
-    column.values.insert(
-        column.values.end(), more.values.begin(), more.values.end());
-    const auto shift = static_cast<std::uint32_t>(column.texts.size());
-    for (const auto& [row, text] : more.exceptions) {
-      column.exceptions.emplace_back(earlier.num_rows + row, shift + text);
-    }
-    column.texts.insert(
-        column.texts.end(), more.texts.begin(), more.texts.end());
-    table.columns.push_back(std::move(column));
-  }
-  return table;
 }
 
 FoundSessions FindSessions(const CsvTable& table,

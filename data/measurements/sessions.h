@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -8,6 +9,10 @@
 #include "data/measurements/dataset.h"
 
 namespace errmap::data {
+
+/// What a column of sessions is called where nobody names one, in this order.
+inline constexpr auto kSessionColumns =
+    std::to_array<const char*>({"session", "day", "run"});
 
 /// A step of time of more than this many median ones is a break.
 inline constexpr double kLeapSteps = 20.0;
@@ -20,12 +25,6 @@ double MedianStep(std::vector<double> steps);
 /// (n x p) are all numbers, measured there or not, else its first.
 std::vector<Eigen::Index> FirstRows(const Grouping& sessions,
                                     const Eigen::MatrixXd& input_values);
-
-/// `later` below `earlier`, the columns of `columns` alone. Throws InputError
-/// where a column is in one of them only.
-CsvTable AppendedTable(const CsvTable& earlier,
-                       const CsvTable& later,
-                       const std::vector<std::string>& columns);
 
 /// What a table says of sessions and times in the rows asked for (n).
 struct FoundSessions {
@@ -46,11 +45,11 @@ struct FoundSessions {
 /// else the only one that holds nothing but times of day: numbers in seconds by
 /// its unit (s, ms, min, h), or what ParseDateTime reads; else the number of
 /// the row. Sessions are the column named, else `session`, else `day`, else
-/// `run`, else, where time has no dates, the only column that holds nothing but
-/// dates; without one they are cut where time goes back or leaps by more than
-/// 20 median steps. A column that nobody named
-/// and that will not do is passed over with a remark; "none" names none, save
-/// where a column is called so. The target and the weight are neither.
+/// `run`, else of several files kFileColumn, else, where time has no dates, the
+/// only column that holds nothing but dates; without one they are cut where
+/// time goes back or leaps by more than 20 median steps. A column that nobody
+/// named and that will not do is passed over with a remark; "none" names none,
+/// save where a column is called so. The target and the weight are neither.
 ///
 /// Throws InputError, with row and remedy, where a named column is not there,
 /// is the target or the weight, holds no times, lacks a cell (kDropRows: such

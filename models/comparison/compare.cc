@@ -32,8 +32,7 @@ ComponentStudy CompareMaps(const std::string& file,
   const std::string text = data::ReadFile(file);
   ComponentStudy component{
       .name = std::filesystem::path(file).stem().string(),
-      .file = file,
-      .sha256 = data::Sha256(text),
+      .files = {{.file = file, .sha256 = data::Sha256(text)}},
       .data = data::MakeDataset(data::ParseCsv(text, file), selection),
       .holdouts = {},
       .study = {},

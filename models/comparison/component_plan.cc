@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "data/input_error.h"
+#include "data/text.h"
 #include "models/promise/promise.h"
 #include "models/recipe_catalog.h"
 #include "models/study/rezero/rezeroed_study.h"
@@ -27,7 +28,7 @@ Eigen::Index FewestTrainingRows(const ComponentStudy& component) {
     throw data::InputError(fmt::format(
         "{}: too few rows for every model: a fold trains on {}; more data or "
         "another hold-out are needed",
-        component.file,
+        data::PrintablePath(component.data.dataset.source()),
         fewest));
   }
   return static_cast<Eigen::Index>(fewest);

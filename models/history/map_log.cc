@@ -10,6 +10,7 @@
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_match.h"
+#include "data/measurements/joined_tables.h"
 #include "data/text.h"
 
 namespace errmap::models {
@@ -197,6 +198,11 @@ MapLog MakeMapLog(const FittedModel& fitted,
   if (!arguments.after.empty()) {
     Earlier earlier = ReadEarlier(fitted, arguments.after);
     map.warnings = std::move(earlier.remarks);
+    // Rows before those of a file that is a session belong to it.
+    if (found.sessions.column == data::kFileColumn &&
+        earlier.table.Find(data::kFileColumn) < 0) {
+      data::AddFileColumn(found.sessions.labels[0], &earlier.table);
+    }
     // Each by itself first, so that what is wrong is said of its file.
     FindAll(history, earlier.table, selection);
     std::vector<std::string> columns;

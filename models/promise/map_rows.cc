@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "data/measurements/column_checks.h"
+#include "data/measurements/joined_tables.h"
+#include "data/measurements/measured_files.h"
 #include "data/measurements/sessions.h"
 
 namespace errmap::models {
@@ -85,14 +87,26 @@ std::string MadeForText(const FittedModel& fitted,
 }
 
 data::TableForMap ReadForMap(const FittedModel& fitted,
-                             const std::string& file,
+                             const std::vector<std::string>& files,
                              MapColumns columns) {
   std::vector<data::ColumnInfo> of_map;
   for (const TrainedInput& input : fitted.inputs) {
     of_map.push_back(input.column);
   }
   if (columns == MapColumns::kInputsAndTarget) of_map.push_back(fitted.target);
-  return data::InMapUnits(data::ReadCsv(file), of_map);
+  data::DatasetSelection selection;
+  if (fitted.history != nullptr) selection.session = fitted.history->session;
+  const bool by_file = selection.session == data::kFileColumn;
+  // Another column is looked for later, where --session may name it.
+  if (!by_file) selection.session.clear();
+  data::JoinedTable read = data::ReadTables(files, selection);
+  if (by_file && read.table.Find(data::kFileColumn) < 0) {
+    data::AddFileColumn(data::FileLabel(read.table.file), &read.table);
+  }
+  data::TableForMap result = data::InMapUnits(std::move(read.table), of_map);
+  result.remarks.insert(
+      result.remarks.begin(), read.remarks.begin(), read.remarks.end());
+  return result;
 }
 
 std::vector<Moment> MomentsOf(const FittedModel& fitted,

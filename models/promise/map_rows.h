@@ -31,9 +31,11 @@ std::string MadeForText(const FittedModel& fitted,
 
 enum class MapColumns { kInputs, kInputsAndTarget };
 
-/// Reads a file in the names and units of the map (data::InMapUnits).
+/// Reads files (data::ReadTables) in the names and units of the map
+/// (data::InMapUnits). Where the map knows its sessions by the file, one file
+/// is one session.
 data::TableForMap ReadForMap(const FittedModel& fitted,
-                             const std::string& file,
+                             const std::vector<std::string>& files,
                              MapColumns columns);
 
 /// Which measured rows of a table a map is held against: of those that it is

@@ -194,8 +194,7 @@ TEST(OpaqueModel, TakesPartInAStudyAndIsFittedAgainOnResume) {
   EXPECT_TRUE(judgement.recommendation);
   ComponentStudy component{
       .name = "x",
-      .file = "x.csv",
-      .sha256 = "",
+      .files = {{.file = "x.csv", .sha256 = ""}},
       .data = {.dataset = training, .dropped = {}, .remarks = {}, .faults = {}},
       .holdouts = holdouts,
       .study = study,

@@ -15,12 +15,12 @@
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/fleet/fleet_commands.h"
 #include "cli/fleet/store/deployments.h"
-#include "cli/fleet/store/gzip.h"
 #include "cli/fleet/store/store.h"
 #include "cli/report/number_text.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/atomic_file.h"
+#include "data/formats/gzip.h"
 #include "data/input_error.h"
 #include "data/prepare_folder.h"
 #include "data/sha256.h"
@@ -46,7 +46,7 @@ std::string Unpacked(const fleet::StorePaths& paths,
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return "";
   try {
-    return fleet::Gunzip(data::ReadFile(path), data::kMostTextOfPrograms);
+    return data::Gunzip(data::ReadFile(path), data::kMostTextOfPrograms);
   } catch (const data::InputError& error) {
     throw data::InputError(data::PrintablePath(path) + ": " + error.what());
   }

@@ -14,7 +14,7 @@
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/input_error.h"
-#include "data/shown_path.h"
+#include "data/measurements/measured_files.h"
 #include "data/text.h"
 #include "models/model_file.h"
 #include "models/promise/map_rows.h"
@@ -25,7 +25,7 @@ namespace {
 
 struct CheckArguments {
   std::string model;
-  std::string file;
+  std::vector<std::string> files;
   // Rows without a target are readings between the probes.
   models::MapRowsOptions rows{.missing = data::MissingPolicy::kDropRows};
   std::string format = "table";
@@ -73,11 +73,13 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
   }
   const models::HeldOutErrors& errors = *fitted.held_out;
   const models::MapRows rows =
-      ReadMapRows(fitted, arguments.file, arguments.rows, arguments.quiet);
+      ReadMapRows(fitted, arguments.files, arguments.rows, arguments.quiet);
   const RowsJudged judged = JudgeMapRows(fitted, rows, arguments.quiet);
   const Eigen::VectorXd predicted =
       fitted.PredictForm(judged.form_inputs).errors;
-  if (SayNotFinite(predicted, rows.dataset.rows(), arguments.file)) {
+  if (SayNotFinite(predicted,
+                   rows.dataset.rows(),
+                   data::NamesOfFiles(arguments.files))) {
     return kEveryFitFailed;
   }
   const Eigen::VectorXd elapsed =
@@ -88,16 +90,16 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
   if (arguments.format == "json") {
     Json document = {{"schema", "errmap-check-1"},
                      {"model", fitted.name},
-                     {"file", data::ShownPath(arguments.file)},
+                     {"file", desk::ShownNames(arguments.files)},
                      {"target", fitted.target.name},
                      {"unit", fitted.target.unit.symbol}};
     document.update(CheckJson(check));
     document["sites"] = SitesJson(sites);
-    document["provenance"] = ProvenanceJson(
-        command_line,
-        {{"missing", ToString(arguments.rows.missing)},
-         {"faults", ToString(arguments.rows.faults)}},
-        {desk::HashInput(arguments.model), desk::HashInput(arguments.file)});
+    document["provenance"] =
+        ProvenanceJson(command_line,
+                       {{"missing", ToString(arguments.rows.missing)},
+                        {"faults", ToString(arguments.rows.faults)}},
+                       desk::HashInputs(arguments.files, {arguments.model}));
     PrintResult(DumpJson(document));
   } else {
     PrintFitted(fmt::format(
@@ -105,7 +107,7 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
         arguments.model,
         fitted.name,
         report::Count(check.probes, "probe"),
-        arguments.file,
+        data::NamesOfFiles(arguments.files),
         report::CheckText(check, errors, sites, elapsed, fitted.target.unit)));
   }
   switch (check.status) {
@@ -130,9 +132,9 @@ void AddCheckCommand(CLI::App* app, Run* run) {
       ->type_name("FILE.json");
   command
       ->add_option("PROBES",
-                   arguments->file,
-                   "CSV file of a few measurements of one session: inputs and "
-                   "target")
+                   arguments->files,
+                   "CSV file of a few measurements of one session, inputs and "
+                   "target; or several")
       ->required()
       ->type_name("PROBES.csv");
   AddRowOptions(command, &arguments->rows.missing, &arguments->rows.faults);

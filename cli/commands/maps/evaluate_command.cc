@@ -17,7 +17,7 @@
 #include "cli/report/words/kept_promise_text.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
-#include "data/shown_path.h"
+#include "data/measurements/measured_files.h"
 #include "data/text.h"
 #include "models/model_file.h"
 #include "models/promise/kept_promise.h"
@@ -35,7 +35,7 @@ namespace {
 
 struct EvaluateArguments {
   std::string model;
-  std::string file;
+  std::vector<std::string> files;
   models::MapRowsOptions rows;
   std::string format = "table";
   bool quiet = false;
@@ -136,7 +136,7 @@ Json EvaluationJson(const Evaluation& found,
   return {
       {"schema", "errmap-evaluate-1"},
       {"model", fitted.name},
-      {"file", data::ShownPath(arguments.file)},
+      {"file", desk::ShownNames(arguments.files)},
       {"target", fitted.target.name},
       {"unit", fitted.target.unit.symbol},
       {"align", data::ToString(fitted.align)},
@@ -156,8 +156,7 @@ Json EvaluationJson(const Evaluation& found,
        ProvenanceJson(command_line,
                       {{"missing", ToString(arguments.rows.missing)},
                        {"faults", ToString(arguments.rows.faults)}},
-                      {desk::HashInput(arguments.model),
-                       desk::HashInput(arguments.file)})}};
+                      desk::HashInputs(arguments.files, {arguments.model}))}};
 }
 
 // Rows that a map learnt from say nothing of others.
@@ -184,7 +183,7 @@ std::string EvaluationText(const Evaluation& found,
   return fmt::format("{} ({}) on {}: target - predicted of {}\n{}{}{}{}",
                      arguments.model,
                      found.fitted.name,
-                     arguments.file,
+                     data::NamesOfFiles(arguments.files),
                      report::TargetWords(found.rows.dataset),
                      LearntText(found.learnt, found.rows.dataset.num_rows()),
                      report::SummaryText(found.metrics,
@@ -200,12 +199,13 @@ int RunEvaluate(const EvaluateArguments& arguments,
                 const std::string& command_line) {
   const models::FittedModel fitted = models::LoadModel(arguments.model);
   const models::MapRows rows =
-      ReadMapRows(fitted, arguments.file, arguments.rows, arguments.quiet);
+      ReadMapRows(fitted, arguments.files, arguments.rows, arguments.quiet);
   const data::Dataset& dataset = rows.dataset;
   const RowsJudged judged = JudgeMapRows(fitted, rows, arguments.quiet);
   const models::Prediction prediction = fitted.PredictForm(judged.form_inputs);
   const Eigen::VectorXd& predicted = prediction.errors;
-  if (SayNotFinite(predicted, dataset.rows(), arguments.file)) {
+  const std::string files = data::NamesOfFiles(arguments.files);
+  if (SayNotFinite(predicted, dataset.rows(), files)) {
     return kEveryFitFailed;
   }
   const Evaluation found{
@@ -215,7 +215,7 @@ int RunEvaluate(const EvaluateArguments& arguments,
       .clipped = prediction.clipped.count(),
       .change = models::ChangedRelation(fitted, dataset.input_values()),
       .kept = models::HoldToPromise(fitted, dataset.target_values(), predicted),
-      .learnt = FindRowsLearnt(fitted, arguments.model, arguments.file, rows),
+      .learnt = FindRowsLearnt(fitted, arguments.model, arguments.files, rows),
       .residuals = dataset.target_values() - predicted,
       .metrics = models::Judge(dataset, predicted)};
   if (found.clipped > 0 && !arguments.quiet) {
@@ -226,7 +226,7 @@ int RunEvaluate(const EvaluateArguments& arguments,
     Say(
         fmt::format("{}: the predictions err by {:.3g} RMSE, too much to be "
                     "squared; the map does not serve there",
-                    data::PrintablePath(arguments.file),
+                    data::PrintablePath(files),
                     found.metrics.rmse));
     return kEveryFitFailed;
   }
@@ -248,7 +248,10 @@ void AddEvaluateCommand(CLI::App* app, Run* run) {
       ->required()
       ->type_name("FILE.json");
   command
-      ->add_option("DATA", arguments->file, "CSV file with inputs and target")
+      ->add_option("DATA",
+                   arguments->files,
+                   "CSV file with inputs and target, or several: days of one "
+                   "component")
       ->required()
       ->type_name("FILE.csv");
   AddRowOptions(command, &arguments->rows.missing, &arguments->rows.faults);

@@ -158,7 +158,7 @@ void ReadWithMap(const std::string& file,
                  const Iso230Arguments& arguments,
                  Approached* all) {
   const models::FittedModel fitted = models::LoadModel(map);
-  const models::MapRows rows = ReadMapRows(fitted, file, {}, arguments.quiet);
+  const models::MapRows rows = ReadMapRows(fitted, {file}, {}, arguments.quiet);
   const VectorXd& measured = rows.dataset.target_values();
   Take(rows.table,
        rows.dataset.rows(),

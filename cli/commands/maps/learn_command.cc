@@ -145,7 +145,7 @@ Eigen::MatrixXd ReadCandidates(const std::string& file,
     columns.inputs.push_back({.column = input});
   }
   const data::CsvTable table =
-      ReadForMap(columns, file, models::MapColumns::kInputs, quiet);
+      ReadForMap(columns, {file}, models::MapColumns::kInputs, quiet);
   Eigen::MatrixXd values(static_cast<Index>(table.num_rows),
                          dataset.num_inputs());
   for (Index i = 0; i < values.cols(); ++i) {
@@ -214,7 +214,8 @@ std::string ComparisonOfChosen(const models::SensorCurveRecord& curve,
   data::DatasetSelection selection = arguments.data.selection;
   selection.inputs = std::move(inputs);
   selection.exclude.clear();
-  std::vector<std::string> words{"errmap", "compare", arguments.data.file};
+  std::vector<std::string> words{"errmap", "compare"};
+  std::ranges::copy(arguments.data.files, std::back_inserter(words));
   report::AddOptions(desk::DataOptions(selection, arguments.seed), &words);
   return "With these alone:\n  " +
          report::ShellCommand(words, OutputTerminal().columns, 2) + "\n";
@@ -277,7 +278,7 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
     folder.emplace(
         arguments.out,
         std::vector{Stem(arguments) + ".json", Stem(arguments) + ".svg"},
-        std::vector{arguments.data.file, arguments.candidates},
+        arguments.data.PathsWith({arguments.candidates}),
         arguments.force);
   }
   const data::PreparedDataset prepared = ReadData(arguments.data);
@@ -298,7 +299,7 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
     return kInterrupted;
   }
   models::LearningRecord& record = learned.record;
-  record.file = data::ShownPath(arguments.data.file);
+  record.file = desk::ShownNames(arguments.data.files);
   record.target = dataset.target().name;
   record.unit = dataset.target().unit.symbol;
   if (!arguments.by.empty()) record.by = arguments.by;
@@ -309,7 +310,7 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
                       {"repeats", arguments.repeats},
                       {"sensors", arguments.sensors},
                       {"seed", arguments.seed}},
-                     {desk::HashInput(arguments.data.file)});
+                     desk::HashInputs(arguments.data.files));
   if (arguments.format == "json") {
     PrintResult(DumpJson(document));
   } else {

@@ -1,5 +1,6 @@
 #include "cli/commands/maps/map_warnings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -50,13 +51,17 @@ models::Provenance ProvenanceOf(const std::string& model) {
 
 RowsLearnt FindRowsLearnt(const models::FittedModel& fitted,
                           const std::string& model,
-                          const std::string& file,
+                          const std::vector<std::string>& files,
                           const models::MapRows& rows) {
+  const std::vector<desk::InputFile> all = desk::DataOf(ProvenanceOf(model));
   RowsLearnt learnt;
-  const std::string sha256 = desk::HashInput(file).sha256;
+  learnt.file = std::ranges::all_of(
+      desk::HashInputs(files), [&](const desk::InputFile& file) {
+        return std::ranges::find(all, file.sha256, &desk::InputFile::sha256) !=
+               all.end();
+      });
   std::set<std::vector<double>> known;
-  for (const desk::InputFile& named : desk::DataOf(ProvenanceOf(model))) {
-    learnt.file = learnt.file || named.sha256 == sha256;
+  for (const desk::InputFile& named : all) {
     if (learnt.file || !std::filesystem::exists(named.file) ||
         desk::HashInput(named.file) != named) {
       continue;
@@ -65,7 +70,7 @@ RowsLearnt FindRowsLearnt(const models::FittedModel& fitted,
       const models::MapRows trained = models::MakeMapRows(
           fitted,
           models::ReadForMap(
-              fitted, named.file, models::MapColumns::kInputsAndTarget)
+              fitted, {named.file}, models::MapColumns::kInputsAndTarget)
               .table,
           {.missing = data::MissingPolicy::kDropRows, .with_memory = false});
       for (auto& values : ValuesOf(trained.prepared.dataset)) {
@@ -86,22 +91,30 @@ RowsLearnt FindRowsLearnt(const models::FittedModel& fitted,
 }
 
 data::CsvTable ReadForMap(const models::FittedModel& fitted,
-                          const std::string& file,
+                          const std::vector<std::string>& files,
                           models::MapColumns columns,
                           bool quiet) {
-  data::TableForMap read = models::ReadForMap(fitted, file, columns);
+  data::TableForMap read = models::ReadForMap(fitted, files, columns);
   SayUnless(quiet, read.remarks);
   return std::move(read.table);
 }
 
 models::MapRows ReadMapRows(const models::FittedModel& fitted,
-                            const std::string& file,
+                            const std::vector<std::string>& files,
                             const models::MapRowsOptions& options,
                             bool quiet) {
-  models::MapRows rows = models::MakeMapRows(
+  return RowsForMap(
       fitted,
-      ReadForMap(fitted, file, models::MapColumns::kInputsAndTarget, quiet),
-      options);
+      ReadForMap(fitted, files, models::MapColumns::kInputsAndTarget, quiet),
+      options,
+      quiet);
+}
+
+models::MapRows RowsForMap(const models::FittedModel& fitted,
+                           data::CsvTable table,
+                           const models::MapRowsOptions& options,
+                           bool quiet) {
+  models::MapRows rows = models::MakeMapRows(fitted, std::move(table), options);
   SayUnless(quiet, rows.prepared.remarks);
   SayUnless(quiet,
             report::FaultLines(

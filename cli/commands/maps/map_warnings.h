@@ -15,23 +15,28 @@ namespace errmap::cli {
 
 /// models::ReadForMap; says what was converted, unless quiet.
 data::CsvTable ReadForMap(const models::FittedModel& fitted,
-                          const std::string& file,
+                          const std::vector<std::string>& files,
                           models::MapColumns columns,
                           bool quiet);
 
-/// The measured rows of a file; remarks and warnings go to stderr unless quiet.
-/// Throws data::InputError as MakeMapRows does.
+/// The measured rows of a table that ReadForMap gave, or of files; remarks and
+/// warnings go to stderr unless quiet. Throws data::InputError as MakeMapRows
+/// does.
+models::MapRows RowsForMap(const models::FittedModel& fitted,
+                           data::CsvTable table,
+                           const models::MapRowsOptions& options,
+                           bool quiet);
 models::MapRows ReadMapRows(const models::FittedModel& fitted,
-                            const std::string& file,
+                            const std::vector<std::string>& files,
                             const models::MapRowsOptions& options,
                             bool quiet);
 
 /// What a model file says of where it comes from.
 models::Provenance ProvenanceOf(const std::string& model);
 
-/// Of the rows of a file that a map is judged on, what it learnt from.
+/// Of the rows of files that a map is judged on, what it learnt from.
 struct RowsLearnt {
-  bool file = false;      // the file itself is one that the map names
+  bool file = false;      // each file is one that the map names
   Eigen::Index rows = 0;  // value for value in the files that it names
 };
 
@@ -39,7 +44,7 @@ struct RowsLearnt {
 /// that it names and that are still there as they were.
 RowsLearnt FindRowsLearnt(const models::FittedModel& fitted,
                           const std::string& model,
-                          const std::string& file,
+                          const std::vector<std::string>& files,
                           const models::MapRows& rows);
 
 struct RowsJudged {

@@ -21,6 +21,8 @@
 #include "data/formula_text.h"
 #include "data/input_error.h"
 #include "data/measurements/dataset.h"
+#include "data/measurements/joined_tables.h"
+#include "data/measurements/measured_files.h"
 #include "models/history/map_log.h"
 #include "models/model_file.h"
 #include "models/promise/probe_correction.h"
@@ -31,7 +33,7 @@ namespace {
 
 struct PredictArguments {
   std::string model;
-  std::string file;
+  std::vector<std::string> files;
   std::string out;
   std::string probes;
   models::MapLogArguments log;
@@ -67,11 +69,20 @@ models::ProbeCorrection Correct(const models::FittedModel& fitted,
         "the map holds no errors of unseen days to weigh probes by; fit it "
         "with compare, or with fit and without --no-interval");
   }
+  data::CsvTable table = ReadForMap(fitted,
+                                    {arguments.probes},
+                                    models::MapColumns::kInputsAndTarget,
+                                    arguments.quiet);
+  // Where a file is a session, probes are of that of the rows.
+  if (const std::ptrdiff_t file = today.table.Find(data::kFileColumn);
+      file >= 0 && arguments.files.size() == 1) {
+    data::AddFileColumn(today.table.CellText(today.table.At(file), 0), &table);
+  }
   const models::MapRows probes =
-      ReadMapRows(fitted,
-                  arguments.probes,
-                  models::ProbeRowsOptions(fitted, arguments.log),
-                  arguments.quiet);
+      RowsForMap(fitted,
+                 std::move(table),
+                 models::ProbeRowsOptions(fitted, arguments.log),
+                 arguments.quiet);
   return models::CorrectByProbes(fitted, probes, today, arguments.log);
 }
 
@@ -194,13 +205,15 @@ void SayClipped(const models::Prediction& prediction) {
 }
 
 int RunPredict(const PredictArguments& arguments) {
-  CheckOutputName(
-      "-o",
-      arguments.out,
-      {arguments.model, arguments.file, arguments.log.after, arguments.probes});
+  CheckOutputName("-o", arguments.out, [&] {
+    std::vector<std::string> read = arguments.files;
+    read.insert(read.end(),
+                {arguments.model, arguments.log.after, arguments.probes});
+    return read;
+  }());
   const models::FittedModel fitted = models::LoadModel(arguments.model);
   const data::CsvTable table = ReadForMap(
-      fitted, arguments.file, models::MapColumns::kInputs, arguments.quiet);
+      fitted, arguments.files, models::MapColumns::kInputs, arguments.quiet);
   const Eigen::MatrixXd inputs = models::InputsOf(fitted, table);
   const models::MapLog map = models::MakeMapLog(fitted, table, arguments.log);
   const data::Dataset rows = RowsToPredict(fitted, table, inputs, map);
@@ -235,7 +248,9 @@ int RunPredict(const PredictArguments& arguments) {
       Say("warning: " + made_for);
     }
   }
-  return SayNotFinite(found.prediction.errors, all_rows, arguments.file)
+  return SayNotFinite(found.prediction.errors,
+                      all_rows,
+                      data::NamesOfFiles(arguments.files))
              ? kEveryFitFailed
              : kDone;
 }
@@ -249,7 +264,11 @@ void AddPredictCommand(CLI::App* app, Run* run) {
   command->add_option("MODEL", arguments->model, "Model file")
       ->required()
       ->type_name("FILE.json");
-  command->add_option("DATA", arguments->file, "CSV file with its inputs")
+  command
+      ->add_option(
+          "DATA",
+          arguments->files,
+          "CSV file with its inputs, or several: days of one component")
       ->required()
       ->type_name("FILE.csv");
   command

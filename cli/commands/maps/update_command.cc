@@ -59,7 +59,7 @@ data::Dataset ReadRows(const models::FittedModel& map,
     selection.inputs.push_back(input.column.name);
   }
   const data::CsvTable table = ReadForMap(
-      map, file, models::MapColumns::kInputsAndTarget, arguments.quiet);
+      map, {file}, models::MapColumns::kInputsAndTarget, arguments.quiet);
   selection.where = models::FiltersFor(map, table);
   data::PreparedDataset prepared = data::MakeDataset(table, selection);
   SayUnless(arguments.quiet, prepared.remarks);

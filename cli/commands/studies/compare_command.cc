@@ -135,12 +135,12 @@ std::optional<int> RunIfFleet(const CompareArguments& arguments) {
                           .quiet = arguments.data.quiet});
 }
 
-// The file, where fit can read the same rows of it.
-std::string DataForFit(const desk::StudyRun& run) {
+// The files, where fit can read the same rows of them.
+std::vector<std::string> DataForFit(const desk::StudyRun& run) {
   const desk::ComponentConfig& component = run.config.components.front();
   return component.selection.where.empty() && component.later.empty()
-             ? component.data
-             : "";
+             ? component.AllData()
+             : std::vector<std::string>();
 }
 
 report::Screen Formatted(const desk::StudyRun& run,

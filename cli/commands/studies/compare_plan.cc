@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -13,7 +12,6 @@
 
 #include "cli/command.h"
 #include "cli/desk/study_options.h"
-#include "cli/report/shell_word.h"
 #include "data/input_error.h"
 #include "data/text.h"
 #include "models/model_spec.h"
@@ -77,7 +75,10 @@ desk::StudyConfig ConfigOf(const CompareArguments& arguments) {
   CheckHoldouts(arguments.holdouts);
   const DataArguments& data = arguments.data;
   desk::ComponentConfig component;
-  component.data = data.file;
+  if (!data.files.empty()) {
+    component.data = data.files.front();
+    component.more_data.assign(data.files.begin() + 1, data.files.end());
+  }
   component.selection = data.selection;
   component.split = arguments.split;
   component.save_split = arguments.save_split;
@@ -149,19 +150,6 @@ std::vector<const char*> GivenOfFewer(const CompareArguments& arguments,
   return flags;
 }
 
-// A folder of files is a study, of which somebody must say what belongs
-// together.
-void RefuseFolder(const std::string& data) {
-  if (!std::filesystem::is_directory(data)) return;
-  const std::string folder = data::PrintablePath(data);
-  throw data::InputError(fmt::format(
-      "{}: is a folder; name one CSV file in it, or have a study of all of "
-      "them proposed: errmap init {} -o study.toml, then errmap compare "
-      "--config study.toml --out STUDY",
-      folder,
-      report::ShellWord(folder)));
-}
-
 }  // namespace
 
 desk::StudyFile ConfigOfFile(const CompareArguments& arguments) {
@@ -228,8 +216,11 @@ std::optional<desk::MachineStudy> MachineOf(const CompareArguments& arguments) {
         "--machine needs the folder of its components' data: errmap compare "
         "--machine machine.toml DIR");
   }
+  if (arguments.data.files.size() != 1) {
+    throw UsageError("--machine needs one folder as DATA");
+  }
   return desk::ReadMachineStudy(arguments.machine,
-                                arguments.data.file,
+                                arguments.data.files.front(),
                                 arguments.later,
                                 arguments.data.selection.session);
 }
@@ -247,7 +238,6 @@ desk::StudyPlan PlanOf(const CompareArguments& arguments,
     if (!arguments.changes.empty()) {
       throw UsageError("--set changes a study file; name it with --config");
     }
-    RefuseFolder(arguments.data.file);
     return desk::PlanStudy(ConfigOf(arguments), remark);
   }
   return desk::PlanStudy(ConfigOfFile(arguments), remark);

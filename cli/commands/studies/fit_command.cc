@@ -219,9 +219,10 @@ void AddInterval(const data::Dataset& dataset,
 }
 
 int RunFit(const FitArguments& arguments, const std::string& command_line) {
-  CheckOutputName("-o",
-                  arguments.out,
-                  {arguments.data.file, models::FileOfSpec(arguments.model)});
+  CheckOutputName(
+      "-o",
+      arguments.out,
+      arguments.data.PathsWith({models::FileOfSpec(arguments.model)}));
   RequirePlaceFor(arguments.out);
   auto recipe = RecipeFromArgument(arguments.model);
   const data::PreparedDataset prepared = ReadData(arguments.data);
@@ -256,11 +257,12 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
   if (!arguments.no_interval && !stop.load()) {
     AddInterval(dataset, std::move(recipe), context, &fitted);
   }
-  const desk::InputFile input = desk::HashInput(arguments.data.file);
+  const std::vector<desk::InputFile> inputs =
+      desk::HashInputs(arguments.data.files);
   models::SaveModel(
       fitted,
       desk::ModelProvenance(
-          command_line, {input}, dataset.num_rows(), arguments.seed),
+          command_line, inputs, dataset.num_rows(), arguments.seed),
       arguments.out);
   const models::Sensitivity sensitivity =
       models::MeasureSensitivity(fitted, dataset);
@@ -269,7 +271,7 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
     Json document =
         FitJson(fitted, fit.seconds, sensitivity, train, prepared, arguments);
     document["provenance"] =
-        ProvenanceJson(command_line, configuration, {input});
+        ProvenanceJson(command_line, configuration, inputs);
     PrintResult(DumpJson(document));
   } else {
     PrintResult(FitText(fitted, sensitivity, train, dataset, arguments));

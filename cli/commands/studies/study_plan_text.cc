@@ -59,7 +59,7 @@ std::string ComponentText(const models::ComponentPlan& component,
     models.push_back(Shown(recipe->name()));
   }
   std::string text = fmt::format("component {}\n", Shown(config.name));
-  text += "  data      " + Shown(config.data);
+  text += "  data      " + Shown(desk::ShownNames(config.AllData()));
   for (const data::ColumnFilter& filter : config.selection.where) {
     text += fmt::format(
         " where {} = {}", Shown(filter.column), Shown(ValueText(filter)));

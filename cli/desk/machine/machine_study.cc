@@ -56,7 +56,7 @@ void RequireQuantities(const MachineStudy& study, const StudyPlan& plan) {
         throw data::InputError(fmt::format(
             "{}: {} is in {}, and {} of {} is {}; an error in another quantity "
             "has its unit in the column's name",
-            data::PrintablePath(component.comparison.file),
+            data::PrintablePath(component.comparison.data.dataset.source()),
             data::QuotedName(target.name),
             target.unit.symbol.empty() ? "no unit" : target.unit.symbol,
             machine.errors[k].name,
@@ -80,7 +80,7 @@ void RequireSharedSessions(const MachineStudy& study, const StudyPlan& plan) {
     throw data::InputError(fmt::format(
         "{}: none of its sessions ({}) is one of {} ({}), so those that judge "
         "cannot be kept from the fits; name them alike",
-        data::PrintablePath(component.comparison.file),
+        data::PrintablePath(component.comparison.data.dataset.source()),
         data::ListOfNames(labels),
         data::PrintablePath(study.points.file),
         data::ListOfNames(of_points)));

@@ -92,12 +92,15 @@ std::string MapFileText(const StudyRun& run,
                         const models::ModelResult& model) {
   models::FittedModel map = *model.final_fit;
   map.where = component.data.where;
-  return models::ModelToJson(
-      map,
-      ModelProvenance(run.command_line,
-                      {{component.file, component.sha256}},
-                      component.data.dataset.num_rows(),
-                      run.seed));
+  std::vector<InputFile> files;
+  for (const models::InputFileRecord& file : component.files) {
+    files.push_back({file.file, file.sha256});
+  }
+  return models::ModelToJson(map,
+                             ModelProvenance(run.command_line,
+                                             files,
+                                             component.data.dataset.num_rows(),
+                                             run.seed));
 }
 
 std::vector<std::string> RunFileNames(const StudyPlan& plan) {

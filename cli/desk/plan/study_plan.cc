@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -14,6 +15,8 @@
 #include "data/argument_name.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
+#include "data/measurements/joined_tables.h"
+#include "data/measurements/measured_files.h"
 #include "data/sha256.h"
 #include "data/shown_path.h"
 #include "data/text.h"
@@ -39,6 +42,21 @@ class TableReader {
     return tables_.emplace(file, data::ParseCsv(text, file)).first->second;
   }
 
+  /// The rows of one component: of one file, or of several as one table. What
+  /// is told of the files goes to `tell`, which may be empty.
+  const data::CsvTable& ReadAll(const std::vector<std::string>& files,
+                                const data::DatasetSelection& selection,
+                                const Remark& tell) {
+    if (files.size() == 1) return Read(files[0]);
+    std::vector<data::CsvTable> tables;
+    for (const std::string& file : files) tables.push_back(Read(file));
+    data::JoinedTable joined = data::JoinTables(std::move(tables), selection);
+    for (const std::string& line : joined.remarks) {
+      if (tell) tell(line);
+    }
+    return joined_.emplace_back(std::move(joined.table));
+  }
+
   const std::string& Sha256Of(const std::string& file) const {
     return std::ranges::find(*inputs_, file, &InputFile::file)->sha256;
   }
@@ -46,6 +64,7 @@ class TableReader {
  private:
   std::vector<InputFile>* inputs_;
   std::map<std::string, data::CsvTable> tables_;
+  std::deque<data::CsvTable> joined_;
 };
 
 // Makes one component ready; remarks tell which where there are several.
@@ -58,7 +77,8 @@ class ComponentPlanner {
       : study_(study),
         component_(component),
         remark_(remark),
-        reader_(reader) {}
+        reader_(reader),
+        files_(data::FindFiles(component.AllData())) {}
 
   models::ComponentPlan Plan() const {
     data::PreparedDataset prepared = PrepareData();
@@ -70,8 +90,7 @@ class ComponentPlanner {
     std::vector<std::string> left_out;
     models::ComponentPlan plan =
         models::PlanModels({.name = component_.name,
-                            .file = data::ShownPath(component_.data),
-                            .sha256 = reader_->Sha256Of(component_.data),
+                            .files = FilesRead(),
                             .data = std::move(prepared),
                             .holdouts = std::move(holdouts),
                             .study = {},
@@ -106,13 +125,27 @@ class ComponentPlanner {
   }
 
   data::PreparedDataset PrepareData() const {
+    for (const std::string& line : files_.remarks) Tell(line);
+    const data::CsvTable& table = reader_->ReadAll(
+        files_.paths, component_.selection, [this](const std::string& line) {
+          Tell(line);
+        });
     data::PreparedDataset prepared =
-        data::MakeDataset(reader_->Read(component_.data), component_.selection);
+        data::MakeDataset(table, component_.selection);
     TellWhatWasFound(prepared, report::FaultUse::kFit);
     if (!component_.later.empty()) {
       prepared.dataset = WithoutLater(prepared.dataset);
     }
     return prepared;
+  }
+
+  std::vector<models::InputFileRecord> FilesRead() const {
+    std::vector<models::InputFileRecord> files;
+    for (const std::string& path : files_.paths) {
+      files.push_back(
+          {.file = data::ShownPath(path), .sha256 = reader_->Sha256Of(path)});
+    }
+    return files;
   }
 
   // Less the sessions that are to judge maps put together.
@@ -254,6 +287,7 @@ class ComponentPlanner {
   const ComponentConfig& component_;
   const Remark& remark_;
   TableReader* reader_;
+  data::MeasuredFiles files_;
 };
 
 // What defaults became, so that a study with these words would do the same.

@@ -129,6 +129,22 @@ class StudyFileReader {
     return (folder_ / path).lexically_normal().string();
   }
 
+  // One file, or a list of those that are days of one component.
+  void TakeData(const Keys& keys, ComponentConfig* component) const {
+    const toml::node* const data = keys.Find("data");
+    if (data == nullptr || !data->is_array()) {
+      keys.TakeText("data", &component->data);
+      return;
+    }
+    keys.TakeList("data", &component->more_data);
+    if (component->more_data.empty()) return;
+    component->data = component->more_data.front();
+    component->more_data.erase(component->more_data.begin());
+    for (std::string& file : component->more_data) {
+      file = BesideStudyFile(file);
+    }
+  }
+
   ComponentConfig ReadComponent(const toml::table& table,
                                 std::vector<ComponentSource>* sources) const {
     const Keys keys(table, "[[component]]", file_);
@@ -137,7 +153,7 @@ class StudyFileReader {
     ForComponentOptions(component, NameOf(&known));
     keys.AllowOnly(known);
     keys.TakeText("name", &component.name);
-    keys.TakeText("data", &component.data);
+    TakeData(keys, &component);
     if (component.data.empty()) {
       keys.RefuseTable("needs data = \"FILE.csv\"");
     }

@@ -19,8 +19,8 @@
 #include "cli/desk/plan/study_plan.h"
 #include "cli/desk/plan/study_run.h"
 #include "cli/desk/provenance.h"
-#include "cli/fleet/store/gzip.h"
 #include "data/atomic_file.h"
+#include "data/formats/gzip.h"
 #include "data/input_error.h"
 #include "data/prepare_folder.h"
 #include "data/sha256.h"
@@ -81,7 +81,7 @@ std::string Replaced(std::string text,
 void NameDataAsAsked(const std::string& path,
                      const ComponentSource& source,
                      StudyRun* run) {
-  run->components.front().file = data::ShownPath(source.path);
+  run->components.front().files.front().file = data::ShownPath(source.path);
   run->config.components.front().data = source.path;
   for (desk::InputFile& input : run->inputs) {
     if (input.file == path) input.file = source.path;
@@ -93,7 +93,7 @@ void NameDataAsAsked(const std::string& path,
 std::string KeyOf(const std::string& asked,
                   const StudyConfig& fleet,
                   const ComponentConfig& component) {
-  std::vector<std::string> files{component.data};
+  std::vector<std::string> files = component.AllData();
   for (const std::string& holdout : fleet.holdouts) {
     files.push_back(stats::ParseHoldout(holdout).file);
   }
@@ -267,12 +267,12 @@ class FleetRunner {
       summary->map = models::SummaryMapRecord{
           .sha256 = data::Sha256(map),
           .bytes = static_cast<std::int64_t>(map.size())};
-      files.Write(kMapFile, Gzip(map));
+      files.Write(kMapFile, data::Gzip(map));
     }
     const auto relations =
         models::LearnRelations(run.components.front().data.dataset);
     if (relations) {
-      files.Write(kRelationsFile, Gzip(relations->ToJsonText()));
+      files.Write(kRelationsFile, data::Gzip(relations->ToJsonText()));
     } else {
       files.Remove(kRelationsFile);
     }

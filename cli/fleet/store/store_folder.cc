@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/fleet/store/gzip.h"
 #include "data/atomic_file.h"
+#include "data/formats/gzip.h"
 #include "data/formats/nesting.h"
 #include "data/input_error.h"
 #include "data/sha256.h"
@@ -169,7 +169,7 @@ std::string PackResults(models::StudyRecord record) {
       if (restores && RowsOf(without) == all) holdout.train_rows.clear();
     }
   }
-  return Gzip(models::JsonText(record, -1));
+  return data::Gzip(models::JsonText(record, -1));
 }
 
 std::string WhyNoMap(const std::string& component, const std::string& why) {
@@ -200,8 +200,8 @@ models::StudyRecord ReadResultsOf(const StorePaths& paths,
   const std::string path = paths.InFolder(component, kResultsFile);
   const std::string compressed = data::ReadFile(path);
   try {
-    models::StudyRecord record =
-        models::FromJsonText(Gunzip(compressed, data::kMostTextOfPrograms));
+    models::StudyRecord record = models::FromJsonText(
+        data::Gunzip(compressed, data::kMostTextOfPrograms));
     for (models::ComponentRecord& of : record.components) {
       for (models::HoldoutRecord& holdout : of.holdouts) {
         if (holdout.another_file || !holdout.train_rows.empty()) continue;

@@ -61,7 +61,8 @@ class Examiner {
   std::vector<Check> Examine(const std::string& file) const {
     const models::MapRows rows = models::MakeMapRows(
         fitted_,
-        models::ReadForMap(fitted_, file, models::MapColumns::kInputsAndTarget)
+        models::ReadForMap(
+            fitted_, {file}, models::MapColumns::kInputsAndTarget)
             .table,
         {});
     std::vector<Check> checks;

@@ -264,10 +264,11 @@ std::string Page::Index(const std::vector<ReportView>& views) const {
 
 std::string Page::Next(std::size_t index) const {
   const auto& configs = record_.provenance.configuration.component;
-  const std::string data =
-      index < configs.size() && configs[index].data && !configs[index].where
-          ? *configs[index].data
-          : "";
+  std::vector<std::string> data;
+  if (index < configs.size() && configs[index].data && !configs[index].where) {
+    data = configs[index].more_data.value_or(std::vector<std::string>());
+    data.insert(data.begin(), *configs[index].data);
+  }
   const auto& models = Components()[index].models;
   const bool written = std::ranges::any_of(
       models, [](const ModelRecord& model) { return model.file.has_value(); });

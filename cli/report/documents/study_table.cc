@@ -71,7 +71,7 @@ class ComponentScreen {
 
   // What to use, of which data, and the table.
   void Answer();
-  void Next(const std::string& data);
+  void Next(const std::vector<std::string>& data);
   void Details();
 
  private:
@@ -191,7 +191,7 @@ void ComponentScreen::Leaderboard() {
   }
 }
 
-void ComponentScreen::Next(const std::string& data) {
+void ComponentScreen::Next(const std::vector<std::string>& data) {
   constexpr std::size_t kIndent = 16;
   std::vector<NextStep> steps =
       NextSteps(study_, index_, data, options_.folder);
@@ -347,7 +347,7 @@ Screen StudyTable(const models::StudyRecord& record,
       screen.Add("== " + data::Printable(name, name.size()) + " ==\n", true);
       ComponentScreen one = component(i);
       one.Answer();
-      one.Next("");
+      one.Next({});
       one.Details();
       screen.Add("\n");
     }

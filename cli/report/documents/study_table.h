@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cli/report/screen.h"
 #include "models/study/record/study_record.h"
@@ -11,9 +12,9 @@ struct StudyTableOptions {
   bool all = false;         // every row of tables
   bool details = false;     // p values, gaps, times, every sentence
   std::string folder = {};  // that the maps are written to; "" none
-  /// The measurements as fit can open them, "" where it cannot have the same
+  /// The measurements as fit can open them, empty where it cannot have the same
   /// rows.
-  std::string data = {};
+  std::vector<std::string> data = {};
   Terminal terminal = {};
 };
 

@@ -15,8 +15,6 @@
 namespace errmap::report {
 namespace {
 
-using Words = std::vector<std::string>;
-
 // The rows held out, beside the map "models/x.json" or "models/NAME/x.json".
 std::string HeldOutRows(const std::string& folder, const std::string& map) {
   namespace fs = std::filesystem;
@@ -64,6 +62,12 @@ void AddAnswers(const models::RecommendationRecord& advice,
   }
 }
 
+Words CommandOn(const char* command, const Words& data) {
+  Words words{"errmap", command};
+  words.insert(words.end(), data.begin(), data.end());
+  return words;
+}
+
 }  // namespace
 
 void AddOptions(const models::ByName<std::string>& options, Words* words) {
@@ -77,7 +81,7 @@ void AddOptions(const models::ByName<std::string>& options, Words* words) {
 
 std::vector<NextStep> NextSteps(const models::StudyRecord& record,
                                 std::size_t component,
-                                const std::string& data,
+                                const Words& data,
                                 const std::string& folder) {
   const models::ComponentRecord& of = record.components[component];
   std::vector<NextStep> steps;
@@ -102,7 +106,8 @@ std::vector<NextStep> NextSteps(const models::StudyRecord& record,
       steps.push_back(
           {"write the map", {}, "the same command with --out STUDY"});
     } else {
-      Words words{"errmap", "fit", data, "--model", model.name};
+      Words words = CommandOn("fit", data);
+      words.insert(words.end(), {"--model", model.name});
       AddDataOptions(record, component, &words);
       words.insert(words.end(), {"-o", map});
       steps.push_back({"write the map", std::move(words)});
@@ -130,7 +135,7 @@ std::vector<NextStep> NextSteps(const models::StudyRecord& record,
 
 std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
                                    std::size_t component,
-                                   const std::string& data,
+                                   const Words& data,
                                    const std::string& folder) {
   constexpr std::size_t kMostNamed = 6;
   const auto& advice = record.components[component].recommendation;
@@ -152,7 +157,8 @@ std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
     }
     steps.push_back({"its sensors", {}, data::Printable(text, text.size())});
     if (all > 1 && !data.empty()) {
-      Words words{"errmap", "learn", data, "--by", "sensors"};
+      Words words = CommandOn("learn", data);
+      words.insert(words.end(), {"--by", "sensors"});
       AddDataOptions(record, component, &words);
       if (!folder.empty()) words.insert(words.end(), {"--out", folder});
       steps.push_back({"fewer of them", std::move(words)});

@@ -12,20 +12,22 @@ void AddOptions(const models::ByName<std::string>& options,
                 std::vector<std::string>* words);
 
 /// What to do with a recommendation.
+using Words = std::vector<std::string>;  // of a command
+
 struct NextStep {
-  std::string purpose;             // "write the map", at most 14 characters
-  std::vector<std::string> words;  // of the command; none: `text` says it
+  std::string purpose;  // "write the map", at most 14 characters
+  Words words;          // of the command; none: `text` says it
   std::string text = {};
 };
 
 /// The file of the map, or the command that makes it; that checks it, runs it,
 /// exports it; what to measure next; which rows it extrapolated; why not a net.
 /// `data`: the measurements as fit can open
-/// them, "" where it cannot have the same rows; `folder`: where compare --out
-/// has written the maps, "" nowhere.
+/// them, empty where it cannot have the same rows; `folder`: where compare
+/// --out has written the maps, "" nowhere.
 std::vector<NextStep> NextSteps(const models::StudyRecord& record,
                                 std::size_t component,
-                                const std::string& data,
+                                const Words& data,
                                 const std::string& folder);
 
 /// What the recommended map reads, the most needed sensor first where the
@@ -33,7 +35,7 @@ std::vector<NextStep> NextSteps(const models::StudyRecord& record,
 /// `folder`.
 std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
                                    std::size_t component,
-                                   const std::string& data,
+                                   const Words& data,
                                    const std::string& folder);
 
 }  // namespace errmap::report

@@ -7,6 +7,7 @@
 
 #include "data/measurements/dataset.h"
 #include "models/study/judgement/verdict.h"
+#include "models/study/record/provenance_record.h"
 #include "models/study/record/sensor_importance.h"
 #include "models/study/record/session_worth.h"
 #include "models/study/rezero/rezeroed_study.h"
@@ -16,11 +17,10 @@ namespace errmap::models {
 
 /// One component's study with all that its outputs need.
 struct ComponentStudy {
-  std::string name;  // of the component
-  std::string file;
-  std::string sha256;
-  double goal = 0.0;          // target's unit; NaN: none
-  double indifference = 0.0;  // target's unit
+  std::string name;                    // of the component
+  std::vector<InputFileRecord> files;  // of the measurements, in their order
+  double goal = 0.0;                   // target's unit; NaN: none
+  double indifference = 0.0;           // target's unit
   /// How maps are re-zeroed where they are judged; nothing: not.
   std::optional<RezeroRule> rezero = {};
   Choose choose = Choose::kAuto;

@@ -7,6 +7,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "data/sha256.h"
 #include "models/export/map_program.h"
 #include "models/export/program_cost.h"
 #include "models/history/history.h"
@@ -53,10 +54,23 @@ std::optional<bool> MeetsGoal(GoalStanding standing) {
   }
 }
 
+// Of several files their names and the hash of their hashes.
+InputFileRecord SourceOf(const std::vector<InputFileRecord>& files) {
+  if (files.size() == 1) return files[0];
+  InputFileRecord all;
+  for (const InputFileRecord& file : files) {
+    all.file += (all.file.empty() ? "" : ", ") + file.file;
+    all.sha256 += file.sha256;
+  }
+  all.sha256 = data::Sha256(all.sha256);
+  return all;
+}
+
 DataRecord MakeData(const ComponentStudy& study) {
   const data::Dataset& dataset = study.data.dataset;
-  DataRecord record{.file = study.file,
-                    .sha256 = study.sha256,
+  const InputFileRecord source = SourceOf(study.files);
+  DataRecord record{.file = source.file,
+                    .sha256 = source.sha256,
                     .rows = dataset.num_rows(),
                     .target = dataset.target().name,
                     .unit = dataset.target().unit.symbol,

@@ -16,6 +16,7 @@ namespace errmap::models {
 struct ComponentConfigurationRecord {
   LeftOut<std::string> name;
   LeftOut<std::string> data;
+  LeftOut<std::vector<std::string>> more_data;  // further files of it
   LeftOut<ByName<std::variant<std::int64_t, double, std::string>>> where;
   LeftOut<std::string> target;
   LeftOut<std::vector<std::string>> inputs;
@@ -37,6 +38,7 @@ struct ComponentConfigurationRecord {
 ERRMAP_RECORD(ComponentConfigurationRecord,
               name,
               data,
+              more_data,
               where,
               target,
               inputs,

@@ -212,7 +212,7 @@ TEST(MessyFiles, AllElseIsOneLineThatSaysWhatToDo) {
       {"PK\x03\x04 rest of a sheet", "spreadsheet (xlsx, ods)"},
       {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"s,
        "spreadsheet (xls); save it as CSV"},
-      {"\x1F\x8B\x08\0"s, "gunzip"},
+      {"\x1F\x8B\x08\0"s, "is no gzip, or is cut off"},
       {"%PDF-1.4\n", "PDF"},
       {"<!doctype html><table></table>\n", "web page"},
       {"Machine 7\n" + text, "start the lines above them with #"},

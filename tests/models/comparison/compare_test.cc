@@ -100,8 +100,7 @@ TEST(PlanModels, CountsFitsToAllRowsAndToEveryFold) {
   const data::CsvTable table =
       data::ParseCsv("x_mm,error_mm\n1,1\n2,3\n3,2\n4,5\n5,4\n6,7\n", "x.csv");
   ComponentStudy component{.name = "x",
-                           .file = "x.csv",
-                           .sha256 = "",
+                           .files = {{.file = "x.csv", .sha256 = ""}},
                            .data = data::MakeDataset(table, {}),
                            .holdouts = {},
                            .study = {},

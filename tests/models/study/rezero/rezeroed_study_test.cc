@@ -103,8 +103,7 @@ TEST_F(RezeroedDays, PromiseWhatHoldsWithoutRezeroing) {
   for (const bool rezero : {false, true}) {
     ComponentPlan plan = PlanModels(
         {.name = "days",
-         .file = "days.csv",
-         .sha256 = "",
+         .files = {{.file = "days.csv", .sha256 = ""}},
          .indifference = 0.0,
          .data =
              {.dataset = dataset, .dropped = {}, .remarks = {}, .faults = {}},

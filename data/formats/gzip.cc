@@ -1,4 +1,4 @@
-#include "cli/fleet/store/gzip.h"
+#include "data/formats/gzip.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "data/input_error.h"
 
-namespace errmap::fleet {
+namespace errmap::data {
 namespace {
 
 constexpr int kGzipWindow = 15 + 16;  // zlib's word for gzip's own header
@@ -23,7 +23,31 @@ void Feed(std::string_view* rest, z_stream* stream) {
   rest->remove_prefix(count);
 }
 
+std::string Unpacked(std::string_view compressed,
+                     std::size_t most,
+                     int window,
+                     const char* what_is_wrong) {
+  z_stream stream{};
+  if (inflateInit2(&stream, window) != Z_OK) throw std::bad_alloc();
+  std::string text;
+  std::array<char, 1U << 16U> buffer{};
+  int state = Z_OK;
+  while (state == Z_OK && text.size() <= most) {
+    if (stream.avail_in == 0) Feed(&compressed, &stream);
+    stream.next_out = reinterpret_cast<Bytef*>(buffer.data());
+    stream.avail_out = static_cast<unsigned>(buffer.size());
+    state = inflate(&stream, Z_NO_FLUSH);
+    text.append(buffer.data(), buffer.size() - stream.avail_out);
+  }
+  inflateEnd(&stream);
+  if (text.size() > most) throw InputError("is too long when unpacked");
+  if (state != Z_STREAM_END) throw InputError(what_is_wrong);
+  return text;
+}
+
 }  // namespace
+
+bool IsGzip(std::string_view bytes) { return bytes.starts_with("\x1F\x8B"); }
 
 std::string Gzip(std::string_view text) {
   z_stream stream{};
@@ -51,24 +75,12 @@ std::string Gzip(std::string_view text) {
 }
 
 std::string Gunzip(std::string_view compressed, std::size_t most) {
-  z_stream stream{};
-  if (inflateInit2(&stream, kGzipWindow) != Z_OK) throw std::bad_alloc();
-  std::string text;
-  std::array<char, 1U << 16U> buffer{};
-  int state = Z_OK;
-  while (state == Z_OK && text.size() <= most) {
-    if (stream.avail_in == 0) Feed(&compressed, &stream);
-    stream.next_out = reinterpret_cast<Bytef*>(buffer.data());
-    stream.avail_out = static_cast<unsigned>(buffer.size());
-    state = inflate(&stream, Z_NO_FLUSH);
-    text.append(buffer.data(), buffer.size() - stream.avail_out);
-  }
-  inflateEnd(&stream);
-  if (state != Z_STREAM_END) {
-    throw data::InputError(text.size() > most ? "is too long"
-                                              : "is no gzip, or is cut off");
-  }
-  return text;
+  return Unpacked(compressed, most, kGzipWindow, "is no gzip, or is cut off");
 }
 
-}  // namespace errmap::fleet
+std::string Inflate(std::string_view compressed, std::size_t most) {
+  constexpr int kRaw = -15;  // zlib's word for no header
+  return Unpacked(compressed, most, kRaw, "is damaged");
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,331 @@
+#include "data/measurements/joined_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "data/argument_name.h"
+#include "data/measurements/column_checks.h"
+#include "data/measurements/measured_files.h"
+#include "data/measurements/sessions.h"
+#include "data/text.h"
+
+namespace errmap::data {
+namespace {
+
+using Eigen::Index;
+
+// A column of text, a label per row.
+CsvColumn TextColumn(const std::string& name,
+                     const std::vector<std::string>& labels,
+                     const std::vector<Index>& codes) {
+  CsvColumn column{
+      .name = name, .values = {}, .exceptions = {}, .texts = labels};
+  column.values.assign(codes.size(), std::nan(""));
+  for (std::size_t row = 0; row < codes.size(); ++row) {
+    column.exceptions.emplace_back(row, static_cast<std::uint32_t>(codes[row]));
+  }
+  return column;
+}
+
+void Append(const CsvColumn& more, CsvColumn* column) {
+  const std::size_t rows = column->values.size();
+  column->values.insert(
+      column->values.end(), more.values.begin(), more.values.end());
+  const auto shift = static_cast<std::uint32_t>(column->texts.size());
+  for (const auto& [row, text] : more.exceptions) {
+    column->exceptions.emplace_back(rows + row, shift + text);
+  }
+  column->texts.insert(
+      column->texts.end(), more.texts.begin(), more.texts.end());
+  // Each file has its own way of writing decimals: a mixture in one is a doubt.
+  if (more.first_decimal_comma >= 0 && more.first_decimal_point >= 0) {
+    const auto shift_rows = static_cast<std::ptrdiff_t>(rows);
+    column->first_decimal_comma = shift_rows + more.first_decimal_comma;
+    column->first_decimal_point = shift_rows + more.first_decimal_point;
+  }
+}
+
+// The rows of `later` below those of `table`, but for the columns.
+void AppendRows(const CsvTable& later, CsvTable* table) {
+  for (const auto& [row, line] : later.line_runs) {
+    table->line_runs.emplace_back(table->num_rows + row, line);
+  }
+  table->parts.emplace_back(table->num_rows, later.file);
+  table->num_rows += later.num_rows;
+}
+
+CsvTable Begun(const CsvTable& first) {
+  CsvTable table;
+  table.file = first.file;
+  AppendRows(first, &table);
+  return table;
+}
+
+class Joiner {
+ public:
+  Joiner(std::vector<CsvTable> tables, const DatasetSelection& selection)
+      : tables_(std::move(tables)),
+        selection_(selection),
+        by_file_(selection.session == kFileColumn) {}
+
+  JoinedTable Join() {
+    for (CsvTable& table : tables_) LeaveOutFileColumn(&table);
+    for (std::size_t i = 1; i < tables_.size(); ++i) {
+      for (const CsvColumn& column : tables_[0].columns) {
+        NameLike(column.name, &tables_[i]);
+      }
+    }
+    LeaveOutWhatIsNotInAll();
+    FindSessionsOfFiles();
+    NameSessions();
+    Append();
+    return std::move(joined_);
+  }
+
+ private:
+  const std::string& FileOf(std::size_t i) const { return tables_[i].file; }
+
+  void Note(const std::string& line) {
+    if (std::ranges::find(joined_.remarks, line) == joined_.remarks.end()) {
+      joined_.remarks.push_back(line);
+    }
+  }
+
+  // The name is ours to give.
+  void LeaveOutFileColumn(CsvTable* table) {
+    if (table->Find(kFileColumn) < 0) return;
+    std::erase_if(table->columns, [](const CsvColumn& column) {
+      return column.name == kFileColumn;
+    });
+    Note(PrintablePath(table->file) + ": the column " +
+         QuotedName(kFileColumn) + " is left out, since so the files are told");
+  }
+
+  // Gives the column of `table` that is called `name` in other letters or in
+  // another unit that name and unit.
+  void NameLike(const std::string& name, CsvTable* table) {
+    if (table->Find(name) >= 0) return;
+    const std::string base = ReadHeader(name).base;
+    CsvColumn* found = nullptr;
+    for (CsvColumn& column : table->columns) {
+      if (!EqualsIgnoringCase(ReadHeader(column.name).base, base)) continue;
+      if (tables_[0].Find(column.name) >= 0) continue;  // it is another's
+      if (found != nullptr) return;
+      found = &column;
+    }
+    if (found == nullptr) return;
+    const Unit from = UnitOfColumn(found->name);
+    const Unit to = UnitOfColumn(name);
+    if (!AreConvertible(from, to)) {
+      throw InputError(PrintablePath(table->file) + ": column " +
+                       QuotedName(found->name) + " is not in the unit of " +
+                       QuotedName(name) + " in " + PrintablePath(FileOf(0)) +
+                       ", nor to be converted; name both with their units");
+    }
+    const bool converts = from.symbol != to.symbol;
+    Note(PrintablePath(table->file) + ": " + QuotedName(found->name) +
+         " is read as " + QuotedName(name) +
+         (converts ? ", from " + from.symbol + " to " + to.symbol : ""));
+    found->name = name;
+    if (!converts) return;
+    for (double& value : found->values) value = Converted(value, from, to);
+  }
+
+  bool MayBeLeftOut(const std::string& name) const {
+    const auto named = [&](const std::vector<std::string>& names) {
+      return std::ranges::find(names, name) != names.end();
+    };
+    return !StartsWithIgnoringCase(name, "error") &&
+           name != selection_.target && name != selection_.weight &&
+           name != selection_.group && name != selection_.session &&
+           name != selection_.time && !named(selection_.inputs);
+  }
+
+  void LeaveOutWhatIsNotInAll() {
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < tables_.size(); ++i) {
+      for (const CsvColumn& column : tables_[i].columns) {
+        const auto lacking = std::ranges::find_if(
+            tables_,
+            [&](const CsvTable& table) { return table.Find(column.name) < 0; });
+        if (lacking == tables_.end()) {
+          if (i == 0) names_.push_back(column.name);
+          continue;
+        }
+        if (!MayBeLeftOut(column.name)) {
+          throw InputError(
+              PrintablePath(lacking->file) + ": no column " +
+              QuotedName(column.name) + ", which " + PrintablePath(FileOf(i)) +
+              " has; files that are joined measure the same error");
+        }
+        const std::string line = QuotedName(column.name) + " (not in " +
+                                 PrintablePath(lacking->file) + ")";
+        if (std::ranges::find(lines, line) == lines.end()) {
+          lines.push_back(line);
+        }
+      }
+    }
+    if (names_.empty()) {
+      throw InputError(PrintablePath(FileOf(1)) + ": no column of it is in " +
+                       PrintablePath(FileOf(0)) +
+                       ", so the files cannot be joined");
+    }
+    if (lines.empty()) return;
+    std::string list;
+    constexpr std::size_t kMost = 5;
+    for (std::size_t i = 0; i < std::min(lines.size(), kMost); ++i) {
+      list += (i == 0 ? "" : ", ") + lines[i];
+    }
+    if (lines.size() > kMost) {
+      list += " and " + std::to_string(lines.size() - kMost) + " more";
+    }
+    Note("columns that not all files have are left out: " + list);
+  }
+
+  void FindSessionsOfFiles() {
+    for (const CsvTable& table : tables_) {
+      if (by_file_) {
+        sessions_.push_back({.column = "",
+                             .labels = {""},
+                             .codes = std::vector<Index>(table.num_rows, 0)});
+        continue;
+      }
+      std::vector<Index> rows(table.num_rows);
+      std::iota(rows.begin(), rows.end(), Index{0});
+      sessions_.push_back(FindSessions(table, selection_, rows).sessions);
+    }
+  }
+
+  // A column that FindSessions would take by its name.
+  bool IsTaken(const std::string& column) const {
+    if (column.empty()) return false;
+    return column == selection_.session ||
+           std::ranges::any_of(kSessionColumns, [&](const char* name) {
+             return EqualsIgnoringCase(column, name);
+           });
+  }
+
+  // Whether one column names all sessions, none of them twice.
+  bool AreTold() const {
+    const std::string& column = sessions_[0].column;
+    std::set<std::string> seen;
+    for (const Grouping& sessions : sessions_) {
+      if (sessions.column.empty() || sessions.column != column) return false;
+      for (const std::string& label : sessions.labels) {
+        if (!seen.insert(label).second) return false;
+      }
+    }
+    return true;
+  }
+
+  std::vector<std::string> Labels() const {
+    std::vector<std::string> labels;
+    for (const CsvTable& table : tables_) {
+      labels.push_back(FileLabel(table.file));
+    }
+    if (std::set(labels.begin(), labels.end()).size() < labels.size()) {
+      for (std::size_t i = 0; i < labels.size(); ++i) {
+        labels[i] = PrintablePath(FileOf(i));
+      }
+    }
+    return labels;
+  }
+
+  void NameSessions() {
+    if (AreTold()) return;
+    const std::vector<std::string> files = Labels();
+    std::string column = sessions_[0].column;
+    for (const Grouping& sessions : sessions_) {
+      if (sessions.column != column) column.clear();
+    }
+    if (!IsTaken(column)) {
+      column = kFileColumn;
+      names_.emplace_back(kFileColumn);
+    }
+    for (std::size_t i = 0; i < tables_.size(); ++i) {
+      std::vector<std::string> labels;
+      for (const std::string& label : sessions_[i].labels) {
+        labels.push_back(sessions_[i].labels.size() == 1
+                             ? files[i]
+                             : files[i] + ", " + label);
+      }
+      std::erase_if(tables_[i].columns,
+                    [&](const CsvColumn& old) { return old.name == column; });
+      tables_[i].columns.push_back(
+          TextColumn(column, labels, sessions_[i].codes));
+    }
+  }
+
+  void Append() {
+    joined_.table = Begun(tables_[0]);
+    for (std::size_t i = 1; i < tables_.size(); ++i) {
+      AppendRows(tables_[i], &joined_.table);
+    }
+    std::vector<std::string> files;
+    for (const CsvTable& table : tables_) files.push_back(table.file);
+    joined_.table.file = NamesOfFiles(files);
+    for (const std::string& name : names_) {
+      CsvColumn column = tables_[0].At(tables_[0].Find(name));
+      for (std::size_t i = 1; i < tables_.size(); ++i) {
+        data::Append(tables_[i].At(tables_[i].Find(name)), &column);
+      }
+      joined_.table.columns.push_back(std::move(column));
+    }
+  }
+
+  std::vector<CsvTable> tables_;
+  const DatasetSelection& selection_;
+  bool by_file_;                    // whatever else tells sessions
+  std::vector<std::string> names_;  // of the columns that all have
+  std::vector<Grouping> sessions_;  // of each file
+  JoinedTable joined_;
+};
+
+}  // namespace
+
+JoinedTable JoinTables(std::vector<CsvTable> tables,
+                       const DatasetSelection& selection) {
+  if (tables.size() == 1) return {.table = std::move(tables[0]), .remarks = {}};
+  return Joiner(std::move(tables), selection).Join();
+}
+
+JoinedTable ReadTables(const std::vector<std::string>& given,
+                       const DatasetSelection& selection) {
+  const MeasuredFiles files = FindFiles(given);
+  std::vector<CsvTable> tables;
+  for (const std::string& path : files.paths) tables.push_back(ReadCsv(path));
+  JoinedTable joined = JoinTables(std::move(tables), selection);
+  joined.remarks.insert(
+      joined.remarks.begin(), files.remarks.begin(), files.remarks.end());
+  return joined;
+}
+
+void AddFileColumn(const std::string& label, CsvTable* table) {
+  std::erase_if(table->columns, [](const CsvColumn& column) {
+    return column.name == kFileColumn;
+  });
+  table->columns.push_back(
+      TextColumn(kFileColumn, {label}, std::vector<Index>(table->num_rows, 0)));
+}
+
+CsvTable AppendedTable(const CsvTable& earlier,
+                       const CsvTable& later,
+                       const std::vector<std::string>& columns) {
+  CsvTable table = Begun(earlier);
+  table.file = earlier.file + ", then " + later.file;
+  AppendRows(later, &table);
+  for (const std::string& name : columns) {
+    CsvColumn column =
+        earlier.columns[RequireColumn(earlier, name, ArgumentName("after"))];
+    Append(later.columns[RequireColumn(later, name, "DATA")], &column);
+    table.columns.push_back(std::move(column));
+  }
+  return table;
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,231 @@
+#include "data/measurements/measured_files.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+
+#include "data/input_error.h"
+#include "data/measurements/column_checks.h"
+#include "data/text.h"
+
+namespace errmap::data {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool IsDigit(char c) {
+  return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+
+std::string NameWithoutEndings(const std::string& path) {
+  const fs::path name = fs::path(path).filename();
+  return (name.extension() == ".gz" ? name.stem() : name).stem().string();
+}
+
+// Of eight digits in groups of 4, 2, 2 with one separator or none between.
+std::optional<std::string> DateIn(const std::string& name) {
+  for (std::size_t at = 0; at + 8 <= name.size(); ++at) {
+    if (at > 0 && IsDigit(name[at - 1])) continue;
+    std::string digits;
+    std::size_t next = at;
+    while (next < name.size() && digits.size() < 8) {
+      const bool between = digits.size() == 4 || digits.size() == 6;
+      if (between && next > at && IsDigit(name[next - 1]) &&
+          (name[next] == '-' || name[next] == '_')) {
+        ++next;
+        continue;
+      }
+      if (!IsDigit(name[next])) break;
+      digits += name[next++];
+    }
+    if (digits.size() < 8 || (next < name.size() && IsDigit(name[next]))) {
+      continue;
+    }
+    const int month = std::stoi(digits.substr(4, 2));
+    const int day = std::stoi(digits.substr(6, 2));
+    const std::string century = digits.substr(0, 2);
+    if (month < 1 || month > 12 || day < 1 || day > 31 ||
+        (century != "19" && century != "20")) {
+      continue;
+    }
+    return digits.substr(0, 4) + "-" + digits.substr(4, 2) + "-" +
+           digits.substr(6, 2);
+  }
+  return std::nullopt;
+}
+
+// By the numbers where both have digits, else by the characters.
+bool ComesBefore(const std::string& a, const std::string& b) {
+  std::size_t i = 0;
+  std::size_t j = 0;
+  const auto number = [](const std::string& text, std::size_t* at) {
+    const std::size_t from = text.find_first_not_of('0', *at);
+    while (*at < text.size() && IsDigit(text[*at])) ++*at;
+    return from < *at ? text.substr(from, *at - from) : std::string();
+  };
+  while (i < a.size() && j < b.size()) {
+    if (IsDigit(a[i]) && IsDigit(b[j])) {
+      const std::string first = number(a, &i);
+      const std::string second = number(b, &j);
+      if (first == second) continue;
+      return first.size() == second.size() ? first < second
+                                           : first.size() < second.size();
+    }
+    if (a[i] != b[j]) return a[i] < b[j];
+    ++i;
+    ++j;
+  }
+  return a.size() - i < b.size() - j;
+}
+
+void PutInOrder(std::vector<std::string>* paths) {
+  std::map<std::string, std::string> by_date;
+  for (const std::string& path : *paths) {
+    if (const auto date = DateIn(NameWithoutEndings(path))) {
+      by_date.emplace(*date, path);
+    }
+  }
+  if (by_date.size() == paths->size()) {
+    std::ranges::transform(by_date, paths->begin(), [](const auto& dated) {
+      return dated.second;
+    });
+  } else if (std::ranges::is_sorted(*paths)) {
+    // As a shell has them from *.csv; any other order is somebody's own.
+    std::ranges::stable_sort(*paths, ComesBefore);
+  }
+}
+
+bool IsTable(const fs::path& path) {
+  constexpr auto kEndings =
+      std::to_array<std::string_view>({".csv", ".tsv", ".csv.gz", ".tsv.gz"});
+  const std::string name = path.filename().string();
+  return std::ranges::any_of(kEndings, [&](std::string_view ending) {
+    return name.size() > ending.size() &&
+           EqualsIgnoringCase(
+               std::string_view(name).substr(name.size() - ending.size()),
+               ending);
+  });
+}
+
+// What a name says besides dates and numbers: days differ in those only.
+std::string KindOf(const std::string& path) {
+  constexpr auto kDays = std::to_array<std::string_view>(
+      {"monday",  "tuesday", "wednesday", "thursday", "friday",     "saturday",
+       "sunday",  "montag",  "dienstag",  "mittwoch", "donnerstag", "freitag",
+       "samstag", "sonntag", "mon",       "tue",      "wed",        "thu",
+       "fri",     "sat",     "sun",       "jan",      "feb",        "mar",
+       "apr",     "may",     "jun",       "jul",      "aug",        "sep",
+       "oct",     "nov",     "dec"});
+  std::string kind;
+  std::string word;
+  for (const char c : NameWithoutEndings(path) + "_") {
+    if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
+      word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      continue;
+    }
+    if (!word.empty() && std::ranges::find(kDays, word) == kDays.end()) {
+      kind += word + " ";
+    }
+    word.clear();
+  }
+  return kind;
+}
+
+std::vector<std::string> TablesOf(const std::string& folder,
+                                  const std::string& command,
+                                  std::vector<std::string>* remarks) {
+  const std::string shown = PrintablePath(folder);
+  std::error_code error;
+  std::vector<std::string> tables;
+  std::vector<std::string> others;
+  std::set<std::string> kinds;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path& path = entry->path();
+    std::error_code ignored;
+    if (path.filename().string().starts_with('.') ||
+        !entry->is_regular_file(ignored)) {
+      continue;
+    }
+    if (!IsTable(path)) {
+      others.push_back(path.filename().string());
+      continue;
+    }
+    tables.push_back(path.string());
+    kinds.insert(KindOf(path.string()));
+  }
+  if (error) {
+    throw InputError(shown + ": cannot be read: " + error.message());
+  }
+  const std::string init = "errmap init " + shown + " -o study.toml";
+  if (tables.empty()) {
+    throw InputError(shown +
+                     ": is a folder without CSV files; for the files "
+                     "in folders below it: " +
+                     init);
+  }
+  std::ranges::sort(tables);
+  if (kinds.size() > 1) {
+    throw InputError(
+        shown + ": is a folder of several components, by the names of its " +
+        std::to_string(tables.size()) + " files; map each: " + init +
+        ", then errmap compare --config study.toml --out STUDY. If they are "
+        "days of one: errmap " +
+        command + " " + shown + "/*");
+  }
+  if (!others.empty()) {
+    std::ranges::sort(others);
+    remarks->push_back(shown + ": left out, since they are no CSV files: " +
+                       ListOfNames(others));
+  }
+  return tables;
+}
+
+}  // namespace
+
+MeasuredFiles FindFiles(const std::vector<std::string>& given,
+                        const std::string& command) {
+  MeasuredFiles found;
+  for (const std::string& path : given) {
+    std::error_code ignored;
+    if (!fs::is_directory(path, ignored)) {
+      found.paths.push_back(path);
+      continue;
+    }
+    const std::vector<std::string> tables =
+        TablesOf(path, command, &found.remarks);
+    found.paths.insert(found.paths.end(), tables.begin(), tables.end());
+  }
+  std::set<std::string> seen;
+  for (const std::string& path : found.paths) {
+    if (seen.insert(fs::path(path).lexically_normal().string()).second)
+      continue;
+    throw InputError(PrintablePath(path) +
+                     ": is named twice; its rows would count twice");
+  }
+  if (found.paths.size() > 1) PutInOrder(&found.paths);
+  return found;
+}
+
+std::string FileLabel(const std::string& path) {
+  const std::string name = NameWithoutEndings(path);
+  return DateIn(name).value_or(name);
+}
+
+std::string NamesOfFiles(const std::vector<std::string>& paths) {
+  constexpr std::size_t kMostNamed = 3;
+  const std::size_t named = paths.size() > kMostNamed ? 1 : paths.size();
+  std::string names;
+  for (std::size_t i = 0; i < named; ++i) {
+    names += (i == 0 ? "" : ", ") + paths[i];
+  }
+  if (named == paths.size()) return names;
+  return names + " and " + std::to_string(paths.size() - named) + " more";
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "data/measurements/dataset.h"
+
+namespace errmap::data {
+
+/// Files of one component, as somebody names them, in order of time.
+struct MeasuredFiles {
+  std::vector<std::string> paths;    // files, at least one
+  std::vector<std::string> remarks;  // what was left out, one line each
+};
+
+/// The files that `given` (at least one) names; a folder stands for the tables
+/// in it. They are put in the order of the dates in their names where all have
+/// one, else those in alphabetical order by the numbers in them (day2 before
+/// day10). Throws InputError where a folder has no tables, or tables of several
+/// components by their names; `command` is then what the message goes on with
+/// ("compare").
+MeasuredFiles FindFiles(const std::vector<std::string>& given,
+                        const std::string& command = "compare");
+
+/// The date in a file's name ("2024-03-01", also 20240301 and 2024_03_01), else
+/// its name without its ending.
+std::string FileLabel(const std::string& path);
+
+/// "a.csv", "a.csv, b.csv", "a.csv and 3 more": what messages call the files.
+std::string NamesOfFiles(const std::vector<std::string>& paths);
+
+}  // namespace errmap::data

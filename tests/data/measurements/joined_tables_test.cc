@@ -1,0 +1,156 @@
+#include "data/measurements/joined_tables.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace errmap::data {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::ThrowsMessage;
+
+JoinedTable Join(const std::vector<std::pair<std::string, std::string>>& files,
+                 const DatasetSelection& selection = {}) {
+  std::vector<CsvTable> tables;
+  for (const auto& [name, text] : files) {
+    tables.push_back(ParseCsv(text, name));
+  }
+  return JoinTables(std::move(tables), selection);
+}
+
+std::vector<std::string> Cells(const CsvTable& table, const char* name) {
+  std::vector<std::string> cells;
+  for (std::size_t row = 0; row < table.num_rows; ++row) {
+    cells.push_back(table.CellText(table.At(table.Find(name)), row));
+  }
+  return cells;
+}
+
+TEST(AppendedTable, GoesOnWithTheRowsOfTheLater) {
+  const CsvTable table =
+      AppendedTable(ParseCsv("a,b\n1,x\n2,y\n", "one.csv"),
+                    ParseCsv("b,c,a\n,0,3\nz,0,4\n", "two.csv"),
+                    {"b", "a"});
+  ASSERT_EQ(table.num_rows, 4U);
+  ASSERT_EQ(table.columns.size(), 2U);
+  EXPECT_THAT(table.columns[1].values, ElementsAre(1, 2, 3, 4));
+  std::vector<std::string> cells;
+  for (std::size_t row = 0; row < 4; ++row) {
+    cells.push_back(table.CellText(table.columns[0], row));
+  }
+  EXPECT_THAT(cells, ElementsAre("x", "y", "", "z"));
+  EXPECT_EQ(table.Where(2, "a"), "two.csv: line 2 (data row 0), column 'a'");
+}
+
+TEST(JoinTables, MakesASessionOfEachFileWhereNothingElseTellsThemApart) {
+  const JoinedTable joined =
+      Join({{"a/2024-03-01.csv", "t_degC,error_um\n20,1\n21,2\n"},
+            {"a/2024-03-02.csv", "error_um,t_degC\n3,22\n"}});
+  EXPECT_THAT(joined.remarks, IsEmpty());
+  EXPECT_THAT(Cells(joined.table, "t_degC"), ElementsAre("20", "21", "22"));
+  EXPECT_THAT(Cells(joined.table, "error_um"), ElementsAre("1", "2", "3"));
+  EXPECT_THAT(Cells(joined.table, kFileColumn),
+              ElementsAre("2024-03-01", "2024-03-01", "2024-03-02"));
+  EXPECT_EQ(joined.table.Where(2, "t_degC"),
+            "a/2024-03-02.csv: line 2 (data row 0), column 't_degC'");
+  const PreparedDataset prepared =
+      MakeDataset(Join({{"a.csv", "t_degC,error_um\n20,1\n21,2\n22,4\n"},
+                        {"b.csv", "t_degC,error_um\n23,3\n24,2\n"}})
+                      .table,
+                  {});
+  EXPECT_EQ(prepared.dataset.num_sessions(), 2);
+  EXPECT_EQ(prepared.dataset.log()->sessions.column, kFileColumn);
+}
+
+TEST(JoinTables, LeavesSessionsAsTheyAreWhereNoTwoFilesNameThemAlike) {
+  const CsvTable table = Join({{"a.csv", "day,error_um\n1,1\n2,2\n"},
+                               {"b.csv", "day,error_um\n3,1\n3,2\n"}})
+                             .table;
+  EXPECT_LT(table.Find(kFileColumn), 0);
+  EXPECT_THAT(Cells(table, "day"), ElementsAre("1", "2", "3", "3"));
+}
+
+TEST(JoinTables, NamesSessionsByTheirFileWhereTwoHaveTheSameName) {
+  const CsvTable table = Join({{"a.csv", "day,error_um\n1,1\n1,2\n"},
+                               {"b.csv", "day,error_um\n1,1\n1,2\n2,3\n2,3\n"}})
+                             .table;
+  EXPECT_LT(table.Find(kFileColumn), 0);
+  EXPECT_THAT(Cells(table, "day"),
+              ElementsAre("a", "a", "b, 1", "b, 1", "b, 2", "b, 2"));
+}
+
+TEST(JoinTables, CutsAFileWhereItsTimeBreaksOff) {
+  const CsvTable table =
+      Join({{"a.csv", "time_s,error_um\n0,1\n1,2\n2,3\n3,3\n0,1\n1,2\n"},
+            {"b.csv", "time_s,error_um\n0,1\n1,2\n"}})
+          .table;
+  EXPECT_THAT(
+      Cells(table, kFileColumn),
+      ElementsAre("a, 1", "a, 1", "a, 1", "a, 1", "a, 2", "a, 2", "b", "b"));
+}
+
+TEST(JoinTables, ReadsNamesAndUnitsAsTheFirstFileHasThem) {
+  const JoinedTable joined = Join({{"a.csv", "T_degC,error_um\n20,1\n"},
+                                   {"b.csv", "t_K,error_mm\n293.15,0.002\n"}});
+  EXPECT_THAT(Cells(joined.table, "T_degC"), ElementsAre("20", "20"));
+  EXPECT_THAT(Cells(joined.table, "error_um"), ElementsAre("1", "2"));
+  EXPECT_THAT(
+      joined.remarks,
+      ElementsAre("b.csv: 't_K' is read as 'T_degC', from K to degC",
+                  "b.csv: 'error_mm' is read as 'error_um', from mm to um"));
+}
+
+TEST(JoinTables, LeavesOutWhatNotAllFilesHaveAndSaysSo) {
+  const JoinedTable joined =
+      Join({{"a.csv", "t_degC,humidity,error_um\n20,40,1\n"},
+            {"b.csv", "t_degC,u,error_um\n21,3,2\n"}});
+  EXPECT_LT(joined.table.Find("humidity"), 0);
+  EXPECT_THAT(joined.remarks,
+              ElementsAre("columns that not all files have are left out: "
+                          "'humidity' (not in b.csv), 'u' (not in a.csv)"));
+}
+
+TEST(JoinTables, RefusesFilesThatContradict) {
+  EXPECT_THAT(
+      [] {
+        Join({{"a.csv", "t_degC,error_x_um\n20,1\n"},
+              {"b.csv", "t_degC,error_y_um\n20,1\n"}});
+      },
+      ThrowsMessage<InputError>(
+          "b.csv: no column 'error_x_um', which a.csv has; files that are "
+          "joined measure the same error"));
+  EXPECT_THAT(
+      [] {
+        Join({{"a.csv", "t_degC,error_um\n20,1\n"},
+              {"b.csv", "t_degC,error_urad\n20,1\n"}});
+      },
+      ThrowsMessage<InputError>(
+          "b.csv: column 'error_urad' is not in the unit of 'error_um' in "
+          "a.csv, nor to be converted; name both with their units"));
+  EXPECT_THAT(
+      [] {
+        Join({{"a.csv", "t_degC,h,error_um\n20,1,1\n"},
+              {"b.csv", "t_degC,error_um\n20,1\n"}},
+             {.inputs = {"h"}});
+      },
+      ThrowsMessage<InputError>(
+          HasSubstr("b.csv: no column 'h', which a.csv")));
+}
+
+TEST(JoinTables, KnowsAMixtureOfDecimalsInOneFileOnly) {
+  const std::string comma = "t_degC;error_um\n20,5;1,5\n21,5;2,5\n22,0;1,0\n";
+  const std::string point = "t_degC;error_um\n20.5;1.5\n21.5;2.5\n22.0;1.5\n";
+  EXPECT_EQ(MakeDataset(Join({{"a.csv", comma}, {"b.csv", point}}).table, {})
+                .dataset.num_rows(),
+            6);
+}
+
+}  // namespace
+}  // namespace errmap::data
