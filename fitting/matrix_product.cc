@@ -16,6 +16,14 @@ void dpotrf_(const char* uplo,
              const int* lda,
              int* info,
              std::size_t uplo_length);
+void dtrtri_(const char* uplo,
+             const char* diag,
+             const int* n,
+             double* a,
+             const int* lda,
+             int* info,
+             std::size_t uplo_length,
+             std::size_t diag_length);
 void dgesdd_(const char* jobz,
              const int* m,
              const int* n,
@@ -169,6 +177,22 @@ void SolveCholesky(const MatrixView<double>& factor, Eigen::VectorXd* b) {
                 b->data(),
                 1);
   }
+}
+
+Eigen::VectorXd DiagonalOfInverse(MutableMatrixView<double> factor) {
+  assert(factor.rows() == factor.cols());
+  UseOneThreadPerCall();
+  const char lower = 'L';
+  const char not_unit = 'N';
+  const int size = static_cast<int>(factor.rows());
+  const int leading = static_cast<int>(factor.outerStride());
+  int info = 0;
+  dtrtri_(&lower, &not_unit, &size, factor.data(), &leading, &info, 1, 1);
+  Eigen::VectorXd diagonal(factor.cols());
+  for (Eigen::Index j = 0; j < diagonal.size(); ++j) {
+    diagonal[j] = factor.col(j).tail(diagonal.size() - j).squaredNorm();
+  }
+  return diagonal;
 }
 
 void DivideByUpperTriangle(const MatrixView<double>& r,

@@ -68,6 +68,10 @@ bool FactorizeCholesky(MutableMatrixView<double> a);
 /// place of b (m).
 void SolveCholesky(const MatrixView<double>& factor, Eigen::VectorXd* b);
 
+/// (m) Diagonal of (L L')^-1, with L as FactorizeCholesky leaves it, whose
+/// content is then lost.
+Eigen::VectorXd DiagonalOfInverse(MutableMatrixView<double> factor);
+
 /// b = b r^-1: r (k x k) upper triangular with no zero on its diagonal, b (m x
 /// k).
 void DivideByUpperTriangle(const MatrixView<double>& r,

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 """The same tuned study by errmap and by scikit-learn, on the same folds.
 
-    peer_study.py ERRMAP DATA.csv [--target NAME] [--group NAME]
+    peer_study.py ERRMAP DATA.csv [--target NAME] [--group NAME] [--seed N]
 
 Outside, groups:5 (errmap deals whole groups, in order; the same folds are given
-to scikit-learn by --split); inside, each choice by whole groups of the training
-rows, as a practitioner would: GridSearchCV over penalties of ridge on quadratic
-terms of standardised inputs, LassoCV on the same terms, forward selection of
-inputs (SequentialFeatureSelector), and MLPRegressor by L-BFGS over the same
-decays with 10 nodes. One core each; CPU seconds of both and their ratio, and
-the held-out RMSE of each family with the ratio of errmap's to its peer's.
+to scikit-learn by --save-split); inside, each choice by whole groups of the
+training rows, as a practitioner would: GridSearchCV over usual grids of
+penalties, for Ridge on standardised inputs, for Ridge and Lasso on them and
+their squares and products, for MLPRegressor of 10 nodes by L-BFGS; and
+SequentialFeatureSelector. One core each; CPU seconds of both and their ratio,
+and the held-out RMSE of each family with the ratio of errmap's to its peer's.
 """
 
 import argparse
@@ -29,19 +29,19 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
 import numpy as np
 from sklearn.compose import TransformedTargetRegressor
 from sklearn.feature_selection import SequentialFeatureSelector
-from sklearn.linear_model import LassoCV, LinearRegression, Ridge
+from sklearn.linear_model import Lasso, LinearRegression, Ridge
 from sklearn.model_selection import GridSearchCV, GroupKFold
 from sklearn.neural_network import MLPRegressor
 from sklearn.pipeline import make_pipeline
 from sklearn.preprocessing import PolynomialFeatures, StandardScaler
 
 FAMILIES = {
-    "ridge": "poly:ridge:view=raw:terms=full:degree=2",
-    "lasso": "poly:lasso:view=raw:terms=full:degree=2",
-    "forward": "poly:stepwise:degree=1",
+    "ridge1": "poly:ridge:view=raw:terms=full:degree=1",
+    "ridge2": "poly:ridge:view=raw:terms=full:degree=2",
+    "lasso2": "poly:lasso:view=raw:terms=full:degree=2",
     "net": "net:scg:hidden=10:output=linear:wfactor=cv",
+    "forward": "poly:stepwise:degree=1",
 }
-WFACTORS = [10.0 ** (-half / 2.0) for half in range(15)]
 
 
 def cpu_of_children():
@@ -51,8 +51,9 @@ def cpu_of_children():
 
 def by_errmap(errmap, given, folder, model):
     words = [errmap, "compare", given.data, "--models", model, "--holdout",
-             "groups:5", "--jobs", "1", "--quiet", "--out",
-             f"{folder}/out", "--force", "--save-split", f"{folder}/split.csv"]
+             "groups:5", "--jobs", "1", "--quiet", "--seed", str(given.seed),
+             "--out", f"{folder}/out", "--force",
+             "--save-split", f"{folder}/split.csv"]
     for option in ("target", "group"):
         if getattr(given, option):
             words += [f"--{option}", getattr(given, option)]
@@ -74,7 +75,9 @@ def read(given, component, folder):
     data = component["data"]
     x = np.array([[float(r[n]) for n in data["inputs"]] for r in rows])
     y = np.array([float(r[data["target"]]) for r in rows])
-    groups = np.array([r[data["group"]] for r in rows])
+    # A cycle of another day is another one, though it has the same number.
+    labels = np.array([r[data["group"]] for r in rows])
+    groups = np.cumsum(np.append(0, labels[1:] != labels[:-1]))
     fold = np.empty(len(y), dtype=int)
     with open(f"{folder}/split.csv", newline="", encoding="utf-8") as file:
         for row in csv.DictReader(file):
@@ -92,32 +95,36 @@ def forward(x, y, cv):
         LinearRegression())
 
 
-def quadratic():
-    return [StandardScaler(), PolynomialFeatures(2, include_bias=False),
-            StandardScaler()]
+def searched(steps, alphas, cv):
+    """The alpha of the last step by GridSearchCV, for a target of variance 1."""
+    name = type(steps[-1]).__name__.lower()
+    return GridSearchCV(
+        TransformedTargetRegressor(make_pipeline(*steps),
+                                   transformer=StandardScaler()),
+        {f"regressor__{name}__alpha": alphas}, cv=cv,
+        scoring="neg_mean_squared_error")
 
 
-def peer(family, x, y, groups):
+def peer(family, x, y, groups, seed):
     """A fitted estimator, tuned on whole groups of these rows."""
-    cv = list(GroupKFold(5).split(x, y, groups))
-    scoring = "neg_mean_squared_error"
-    if family == "ridge":
-        grid = {"ridge__alpha": len(y) * np.logspace(1, -9, 41)}
-        return GridSearchCV(make_pipeline(*quadratic(), Ridge()), grid,
-                            cv=cv, scoring=scoring).fit(x, y)
-    if family == "lasso":
-        return make_pipeline(*quadratic(), LassoCV(cv=cv, n_alphas=100)).fit(
-            x, y)
+    few = min(5, len(set(groups)))
+    cv = list(GroupKFold(few).split(x, y, groups))
     if family == "forward":
         return forward(x, y, cv).fit(x, y)
-    net = make_pipeline(StandardScaler(), MLPRegressor(
-        (10,), activation="logistic", solver="lbfgs", max_iter=1500,
-        max_fun=10 ** 6, random_state=1))
-    grid = {"regressor__mlpregressor__alpha":
-            [w * 100 for w in WFACTORS]}
-    return GridSearchCV(
-        TransformedTargetRegressor(net, transformer=StandardScaler()), grid,
-        cv=cv, scoring=scoring).fit(x, y)
+    steps, alphas = [StandardScaler()], np.logspace(-6, 4, 21)
+    if family.endswith("2"):
+        steps.append(PolynomialFeatures(2, include_bias=False))
+    if family == "lasso2":
+        steps.append(Lasso())
+        alphas = np.logspace(-5, 0, 11)
+    elif family == "net":
+        steps.append(MLPRegressor((10,), activation="logistic", solver="lbfgs",
+                                  max_iter=1500, max_fun=10 ** 6,
+                                  random_state=seed))
+        alphas = np.logspace(-5, 2, 15)
+    else:
+        steps.append(Ridge())
+    return searched(steps, alphas, cv).fit(x, y)
 
 
 def main():
@@ -126,6 +133,7 @@ def main():
     parser.add_argument("data")
     parser.add_argument("--target")
     parser.add_argument("--group")
+    parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--families", default=",".join(FAMILIES))
     given = parser.parse_args()
     warnings.filterwarnings("ignore")
@@ -141,9 +149,10 @@ def main():
         residuals = np.empty(len(y))
         for k in np.unique(fold):
             train = fold != k
-            fitted = peer(family, x[train], y[train], groups[train])
+            fitted = peer(family, x[train], y[train], groups[train],
+                          given.seed)
             residuals[~train] = y[~train] - fitted.predict(x[~train])
-        peer(family, x, y, groups)  # the map that is handed over
+        peer(family, x, y, groups, given.seed)  # the map that is handed over
         of_peer = time.process_time() - start
         peer_rmse = math.sqrt(np.mean(residuals ** 2))
         ours, theirs = ours + seconds, theirs + of_peer

@@ -70,12 +70,18 @@ TEST(PenalizedPath, LassoMeetsItsOptimalityConditionsAlongThePath) {
   for (const auto& [rows, cols, weighted] :
        {std::tuple<Index, Index, bool>{40, 8, false},
         {40, 8, true},
-        {20, 50, false}}) {
+        {20, 50, false},
+        {90, 120, true}}) {  // hundreds of knots, many where a column leaves
     const Sample sample = MakeSample(rows, cols, weighted, 20);
     const PenalizedPath path(Penalty::kLasso, SumsOf(sample), true);
     const double largest = path.Grid().front();
-    const std::vector<double> strengths = {
-        largest, 0.9 * largest, 0.3 * largest, 0.05 * largest, 0.01 * largest};
+    const std::vector<double> strengths = {largest,
+                                           0.9 * largest,
+                                           0.3 * largest,
+                                           0.05 * largest,
+                                           0.01 * largest,
+                                           1e-3 * largest,
+                                           1e-4 * largest};
     const auto solutions = path.Solve(strengths);
     EXPECT_TRUE(solutions.coefficients.col(0).isZero());
     for (Index s = 1; s < solutions.coefficients.cols(); ++s) {
@@ -120,6 +126,33 @@ TEST(PenalizedPath, RidgeSolvesItsNormalEquations) {
       const VectorXd gradient = x.transpose() * w.cwiseProduct(residual) -
                                 strength * coefficients.cwiseProduct(spread);
       EXPECT_LT(gradient.cwiseAbs().maxCoeff(), kSlack);
+    }
+  }
+}
+
+TEST(PenalizedPath, RidgeHasTheDegreesOfFreedomOfItsEigenvalues) {
+  constexpr double kSlack = 1e-6;
+  for (const auto& [rows, cols] :
+       {std::pair<Index, Index>{40, 8}, {20, 50}, {60, 30}}) {
+    Sample sample = MakeSample(rows, cols, true, 40);
+    sample.terms.col(2).setConstant(3.0);
+    const PenalizedPath path(Penalty::kRidge, SumsOf(sample), true);
+    MatrixXd x;
+    VectorXd residual;
+    VectorXd w;
+    VectorXd spread;
+    Standardise(sample, VectorXd::Zero(cols), &x, &residual, &w, &spread);
+    const VectorXd squares = MatrixXd(w.cwiseSqrt().asDiagonal() * x)
+                                 .jacobiSvd()
+                                 .singularValues()
+                                 .cwiseAbs2();
+    for (const double strength : {10.0, 0.1, 1e-4, 1e-9}) {
+      const double expected =
+          1.0 + (squares.array() / (squares.array() + strength)).sum();
+      EXPECT_NEAR(path.DegreesOfFreedom(strength, VectorXd()),
+                  expected,
+                  kSlack * expected)
+          << strength;
     }
   }
 }
