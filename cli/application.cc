@@ -224,7 +224,7 @@ const std::vector<Purpose>& Purposes() {
         AddCostCommand,
         AddIso230Command,
         AddVolumetricCommand}},
-      {"Another day", {AddCheckCommand, AddUpdateCommand}},
+      {"Another day", {AddCheckCommand, AddWhenCommand, AddUpdateCommand}},
       {"A fleet of machines",
        {AddSubmitCommand,
         AddMergeCommand,

@@ -46,6 +46,7 @@ void AddResidualsCommand(CLI::App* app, Run* run);
 void AddReportCommand(CLI::App* app, Run* run);
 void AddCertifyCommand(CLI::App* app, Run* run);
 void AddCheckCommand(CLI::App* app, Run* run);
+void AddWhenCommand(CLI::App* app, Run* run);
 void AddSimulateCommand(CLI::App* app, Run* run);
 void AddNetcgCommand(CLI::App* app, Run* run);
 void AddConvertCommand(CLI::App* app, Run* run);

@@ -54,11 +54,15 @@ struct HeldOutErrors {
     Eigen::VectorXd elapsed;    // (n) since the session began, in time_unit
     Eigen::VectorXd position;   // (n) of the first position input, or (0)
     Eigen::VectorXd residuals;  // (n) target less prediction, target's unit
+    Eigen::VectorXd temperature = {};  // (n) of that input, or (0)
   };
   /// "s", "rows", or "" where nothing is known of times: elapsed is then 0.
   std::string time_unit;
   std::string position;  // column; "" where there is none
-  double rmse = 0.0;     // of all units together: the error promised
+  /// The input whose changes tell most of the errors': column; "" for none.
+  std::string temperature = {};
+  bool of_sessions = false;  // whether the units are whole sessions
+  double rmse = 0.0;         // of all units together: the error promised
   std::vector<Unit> units;
 };
 

@@ -180,8 +180,10 @@ ERRMAP_RECORD(Applicability,
               distance_limit,
               leverage_limit,
               relation_limit)
-ERRMAP_RECORD(HeldOutErrors::Unit, label, rmse, elapsed, position, residuals)
-ERRMAP_RECORD(HeldOutErrors, time_unit, position, rmse, units)
+ERRMAP_RECORD(
+    HeldOutErrors::Unit, label, rmse, elapsed, position, residuals, temperature)
+ERRMAP_RECORD(
+    HeldOutErrors, time_unit, position, temperature, of_sessions, rmse, units)
 ERRMAP_RECORD(FittedModel,
               name,
               kind,

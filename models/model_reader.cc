@@ -187,15 +187,26 @@ Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
 
 HeldOutErrors ReadHeldOut(const Node& node) {
   HeldOutErrors errors;
-  ReadMembers(node, &errors);
-  const std::vector<Node> elements = node.At("units").Elements();
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    const HeldOutErrors::Unit& unit = errors.units[i];
-    if (unit.residuals.size() == 0) elements[i].Refuse("has no residuals");
-    RequireSize(elements[i].At("elapsed"), unit.elapsed, unit.residuals.size());
-    RequireSize(elements[i].At("position"),
+  // Files of before know of neither temperature nor sessions.
+  ReadMembers(node, &errors, {"temperature", "of_sessions", "units"});
+  if (const auto column = node.Find("temperature")) {
+    errors.temperature = column->Text();
+  }
+  const auto whole = node.Find("whole");
+  errors.of_sessions = whole && whole->Text() == kWholeSessions;
+  for (const Node& element : node.At("units").Elements()) {
+    HeldOutErrors::Unit& unit = errors.units.emplace_back();
+    ReadMembers(element, &unit, {"temperature"});
+    const Index rows = unit.residuals.size();
+    if (rows == 0) element.Refuse("has no residuals");
+    RequireSize(element.At("elapsed"), unit.elapsed, rows);
+    RequireSize(element.At("position"),
                 unit.position,
-                errors.position.empty() ? 0 : unit.residuals.size());
+                errors.position.empty() ? 0 : rows);
+    if (!errors.temperature.empty()) {
+      ReadMembers(element.At("temperature"), &unit.temperature);
+      RequireSize(element.At("temperature"), unit.temperature, rows);
+    }
   }
   if (errors.units.size() < 2) node.At("units").Refuse("needs two units");
   return errors;

@@ -61,6 +61,13 @@ Json ToJson(const Applicability& trained,
   return json;
 }
 
+Json ToJson(const HeldOutErrors& errors) {
+  Json json = MembersToJson(errors, Rounded);
+  json.erase("of_sessions");
+  if (errors.of_sessions) json["whole"] = kWholeSessions;
+  return json;
+}
+
 Json ToJson(const std::vector<data::ColumnFilter>& where) {
   Json filters = Json::array();
   for (const data::ColumnFilter& filter : where) {
@@ -99,9 +106,8 @@ std::string ModelToJson(const FittedModel& fitted,
   document["applicability"] = fitted.applicability != nullptr
                                   ? ToJson(*fitted.applicability, fitted.inputs)
                                   : Json();
-  document["held_out"] = fitted.held_out != nullptr
-                             ? MembersToJson(*fitted.held_out, Rounded)
-                             : Json();
+  document["held_out"] =
+      fitted.held_out != nullptr ? ToJson(*fitted.held_out) : Json();
   document["provenance"] = Json::object();
   for (const auto& [key, value] : provenance) {
     document["provenance"][key] = value;

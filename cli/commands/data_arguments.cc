@@ -20,6 +20,7 @@
 #include "data/shown_path.h"
 #include "models/model_spec.h"
 #include "models/recipe_catalog.h"
+#include "models/study/study_defaults.h"
 
 namespace errmap::cli {
 
@@ -181,6 +182,17 @@ desk::GivenError ErrorOfFlag(const char* flag,
     return desk::ParseGivenError(*text, may_be_zero);
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("{} {}", flag, error.what()));
+  }
+}
+
+double GoalOrDefault(const std::optional<std::string>& goal,
+                     const data::Unit& target) {
+  const desk::GivenError given = ErrorOfFlag("--goal", goal, false);
+  if (!given.is_given()) return models::DefaultGoal(target);
+  try {
+    return desk::InUnitOf(target, given);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--goal {}", error.what()));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "models/error_model.h"
+#include "models/promise/zero_schedule.h"
 #include "models/study/judgement/units_of_analysis.h"
 #include "stats/error_metrics.h"
 #include "stats/spread_sample.h"
@@ -44,6 +45,33 @@ std::vector<Index> Renumbered(std::vector<Index> codes) {
   return codes;
 }
 
+// Kept rows of each unit.
+using KeptRows = std::vector<std::vector<Index>>;
+
+// Of the inputs the temperature that tells most, beside the errors it is of.
+void AddTemperature(const HeldOutRows& held,
+                    const VectorXd& residuals,
+                    const KeptRows& kept,
+                    HeldOutErrors* errors) {
+  std::vector<Index> columns;
+  const std::vector<data::ColumnInfo>& inputs = held.source->inputs();
+  for (std::size_t j = 0; j < inputs.size(); ++j) {
+    if (inputs[j].unit.quantity == data::Quantity::kTemperature) {
+      columns.push_back(static_cast<Index>(j));
+    }
+  }
+  const Eigen::MatrixXd temperatures =
+      held.source->input_values()(held.rows, columns);
+  const Index telling = TellingTemperature(temperatures, residuals, kept);
+  if (telling < 0) return;
+  errors->temperature = inputs[static_cast<std::size_t>(
+                                   columns[static_cast<std::size_t>(telling)])]
+                            .name;
+  for (std::size_t u = 0; u < kept.size(); ++u) {
+    errors->units[u].temperature = temperatures.col(telling)(kept[u]);
+  }
+}
+
 }  // namespace
 
 VectorXd ElapsedOf(const data::Dataset& dataset) {
@@ -74,15 +102,18 @@ std::optional<HeldOutErrors> HeldOutErrorsOf(const data::Dataset& dataset,
   const Index position = FindPosition(source, "");
   HeldOutErrors errors;
   errors.rmse = stats::RootMeanSquare(residuals);
+  errors.of_sessions = units.are_sessions;
   if (source.log() != nullptr) errors.time_unit = source.log()->time_unit;
   if (position >= 0) {
     errors.position = source.inputs()[static_cast<std::size_t>(position)].name;
   }
   const auto places = PlacesOfUnits(codes, units.labels.size(), elapsed);
+  KeptRows kept_of;
   for (const Index u :
        stats::SpreadSample(static_cast<Index>(places.size()), kMostUnits)) {
     const std::vector<Index>& all = places[static_cast<std::size_t>(u)];
-    const std::vector<Index> kept = stats::SpreadSample(all, kMostRows);
+    const std::vector<Index>& kept =
+        kept_of.emplace_back(stats::SpreadSample(all, kMostRows));
     HeldOutErrors::Unit unit{.label = units.labels[static_cast<std::size_t>(u)],
                              .rmse = stats::RootMeanSquare(residuals(all)),
                              .elapsed = elapsed(kept),
@@ -97,6 +128,7 @@ std::optional<HeldOutErrors> HeldOutErrorsOf(const data::Dataset& dataset,
     }
     errors.units.push_back(std::move(unit));
   }
+  if (errors.of_sessions) AddTemperature(held, residuals, kept_of, &errors);
   return errors;
 }
 

@@ -226,6 +226,12 @@ def documents(program):
     yield "iso230", program.json("iso230", "grouped.csv", "--map", "stepwise.json")
 
     yield "check", program.json("check", "stepwise.json", "grouped.csv", statuses=(0, 4, 5))
+    days = [(d, 600 * i, 20.0 + i % 5, 0.01 * i + d) for d in range(4)
+            for i in range(50)]
+    program.write("days.csv", "day,time_s,t1_degC,error_um", days)
+    program.run("fit", "days.csv", "--model", "mean", "-o", "days.json")
+    yield "when", program.json("when", "days.json", "--goal", "0.1um", "--after",
+                               "days.csv", "--session", "day", statuses=(0, 4))
 
     yield "learn", program.json(
         "learn", "grouped.csv", "--by", "cycles", "--models", "mean,poly:eq8",

@@ -257,17 +257,6 @@ void LearnNext(const LearnArguments& arguments,
   learned->text += report::NextText(*learned->record.next);
 }
 
-// In the target's unit.
-double GoalOf(const LearnArguments& arguments, const data::Unit& target) {
-  const desk::GivenError given = ErrorOfFlag("--goal", arguments.goal, false);
-  if (!given.is_given()) return models::DefaultGoal(target);
-  try {
-    return desk::InUnitOf(target, given);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("--goal {}", error.what()));
-  }
-}
-
 std::string Stem(const LearnArguments& arguments) {
   return arguments.by.empty() ? "learn-next" : LearningStem(arguments.by);
 }
@@ -283,7 +272,7 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
   }
   const data::PreparedDataset prepared = ReadData(arguments.data);
   const data::Dataset& dataset = prepared.dataset;
-  const double goal = GoalOf(arguments, dataset.target().unit);
+  const double goal = GoalOrDefault(arguments.goal, dataset.target().unit);
   Learned learned;
   if (arguments.by == "sensors") {
     LearnBySensors(arguments, dataset, &learned);

@@ -1,0 +1,200 @@
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/commands/data_arguments.h"
+#include "cli/commands/format_option.h"
+#include "cli/desk/provenance.h"
+#include "cli/json_blocks.h"
+#include "cli/report/number_text.h"
+#include "cli/report/words/when_text.h"
+#include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
+#include "data/input_error.h"
+#include "data/shown_path.h"
+#include "data/text.h"
+#include "models/model_file.h"
+#include "models/promise/map_rows.h"
+#include "models/promise/zero_schedule.h"
+
+namespace errmap::cli {
+namespace {
+
+struct WhenArguments {
+  std::string model;
+  std::optional<std::string> goal;
+  models::MapLogArguments log;  // `after`: from the last probe to now
+  std::string format = "table";
+};
+
+// What happened since the last probe.
+struct SinceProbe {
+  double age = 0.0;     // s
+  double change = 0.0;  // of the temperature that the rule goes by, its unit
+};
+
+SinceProbe ReadSinceProbe(const models::FittedModel& fitted,
+                          const WhenArguments& arguments,
+                          const models::ZeroTrigger& advised) {
+  const data::CsvTable table =
+      models::ReadForMap(
+          fitted, arguments.log.after, models::MapColumns::kInputs)
+          .table;
+  std::vector<Eigen::Index> rows(table.num_rows);
+  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
+  const std::vector<models::Moment> moments =
+      models::MomentsOf(fitted, table, rows, arguments.log);
+  SinceProbe since{.age = moments.back().time - moments.front().time};
+  if (!(since.age >= 0.0)) {
+    throw data::InputError(fmt::format(
+        "{}: its last row is before its first; give the readings from the last "
+        "probe to now, in their order",
+        data::ShownPath(arguments.log.after)));
+  }
+  if (advised.is_clock()) return since;
+  const std::string& column = fitted.held_out->temperature;
+  const std::ptrdiff_t at = table.Find(column);
+  if (at < 0) {
+    throw data::InputError(
+        fmt::format("{}: has no column {}, by which this "
+                    "map is best re-zeroed",
+                    data::ShownPath(arguments.log.after),
+                    column));
+  }
+  const std::vector<double>& values = table.At(at).values;
+  since.change = values.back() - values.front();
+  if (!std::isfinite(since.change)) {
+    throw data::InputError(
+        fmt::format("{}: column {} holds no number in its first or last row",
+                    data::ShownPath(arguments.log.after),
+                    column));
+  }
+  return since;
+}
+
+Json SecondsJson(double seconds) {
+  return std::isfinite(seconds) ? Json(seconds) : Json();
+}
+
+Json ErrorsJson(const models::ZeroedErrors& errors) {
+  return {{"interval_s", SecondsJson(errors.trigger.time)},
+          {"probes", errors.probes},
+          {"rmse", errors.rmse},
+          {"within_90", errors.within_90}};
+}
+
+Json TriggerJson(const models::ZeroTrigger& trigger) {
+  return {{"time_s", SecondsJson(trigger.time)},
+          {"temperature", SecondsJson(trigger.temperature)}};
+}
+
+Json WhenJson(const models::FittedModel& fitted,
+              const models::ZeroSchedule& schedule,
+              double goal) {
+  Json clocks = Json::array();
+  for (const models::ZeroedErrors& clock : schedule.clocks) {
+    clocks.push_back(ErrorsJson(clock));
+  }
+  Json json = {{"schema", "errmap-when-1"},
+               {"model", fitted.name},
+               {"target", fitted.target.name},
+               {"unit", fitted.target.unit.symbol},
+               {"goal", std::isnan(goal) ? Json() : Json(goal)},
+               {"sessions", schedule.sessions},
+               {"temperature", fitted.held_out->temperature},
+               {"clocks", std::move(clocks)},
+               {"clock", schedule.clock ? ErrorsJson(*schedule.clock) : Json()},
+               {"rule", Json()},
+               {"advised", TriggerJson(schedule.advised())}};
+  if (schedule.rule) {
+    json["rule"] = {{"trigger", TriggerJson(schedule.rule->trigger)},
+                    {"rmse", schedule.rule->rmse},
+                    {"clock_rmse", schedule.rule->clock_rmse},
+                    {"better", schedule.rule->better},
+                    {"established", schedule.rule->established}};
+  }
+  return json;
+}
+
+int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
+  const models::FittedModel fitted = models::LoadModel(arguments.model);
+  if (fitted.held_out == nullptr || !models::KnowsAges(*fitted.held_out)) {
+    throw data::InputError(fmt::format(
+        "{}: holds no errors of unseen sessions with times; fit the map to two "
+        "sessions or more and a column of times (without --no-interval)",
+        data::PrintablePath(arguments.model)));
+  }
+  const models::HeldOutErrors& errors = *fitted.held_out;
+  const data::Unit& unit = fitted.target.unit;
+  const double goal = GoalOrDefault(arguments.goal, unit);
+  const models::ZeroSchedule schedule = models::ScheduleZeros(errors, goal);
+  const models::ZeroTrigger advised = schedule.advised();
+  std::optional<SinceProbe> since;
+  if (!arguments.log.after.empty() && schedule.clock) {
+    since = ReadSinceProbe(fitted, arguments, advised);
+  }
+  const bool due = since && advised.Spent(since->age, since->change) >= 1.0;
+  if (arguments.format == "json") {
+    Json document = WhenJson(fitted, schedule, goal);
+    if (since) {
+      document["now"] = {{"age_s", since->age},
+                         {"change", since->change},
+                         {"spent", advised.Spent(since->age, since->change)},
+                         {"due", due}};
+    }
+    document["provenance"] = ProvenanceJson(
+        command_line, Json::object(), {desk::HashInput(arguments.model)});
+    PrintResult(DumpJson(document));
+  } else {
+    PrintFitted(fmt::format(
+        "{} ({}), re-zeroed by probes: its errors on {} it never saw\n\n{}{}",
+        arguments.model,
+        fitted.name,
+        report::Count(static_cast<long long>(schedule.sessions), "session"),
+        report::WhenText(schedule, errors, unit, goal),
+        since ? report::ZeroDueText(advised, errors, since->age, since->change)
+              : ""));
+  }
+  return due ? kEveryFitFailed : kDone;
+}
+
+}  // namespace
+
+void AddWhenCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<WhenArguments>();
+  CLI::App* command =
+      app->add_subcommand("when", "Tell when a map wants its next probe");
+  command->add_option("MODEL", arguments->model, "Model file")
+      ->required()
+      ->type_name("FILE.json");
+  command
+      ->add_option("--goal",
+                   arguments->goal,
+                   "What 90 % of the errors are to stay within: 2um\n"
+                   "(default for lengths: 0.5 um)")
+      ->type_name("X");
+  AddMapLogArguments(command, &arguments->log);
+  command->get_option("--after")
+      ->description("Readings from the last probe to now")
+      ->type_name("LOG.csv");
+  AddFormatOption(command, &arguments->format);
+  command->footer(
+      "Probes are played through on the map's held-out sessions, as compare "
+      "--rezero does:\na session's first row is a probe, a later one is judged "
+      "by the last probe before it.\nA rule with a temperature is advised "
+      "where "
+      "it errs at least 5 % less than the best\nclock with no more probes, in "
+      "two thirds of the sessions, none of which chose it.\nExit status: 0; 4 "
+      "where --after says that a probe is due now.");
+  command->callback([arguments, run] {
+    run->status = RunWhen(*arguments, run->command_line);
+  });
+}
+
+}  // namespace errmap::cli

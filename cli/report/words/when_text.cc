@@ -1,0 +1,148 @@
+#include "cli/report/words/when_text.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cli/report/number_text.h"
+#include "cli/report/words/rezero_text.h"
+#include "data/text.h"
+
+namespace errmap::report {
+namespace {
+
+using models::ZeroSchedule;
+using models::ZeroTrigger;
+
+std::string EveryText(const ZeroTrigger& clock) {
+  return std::isfinite(clock.time) ? "every " + DurationText(clock.time)
+                                   : "where a session begins";
+}
+
+std::string TemperatureText(const models::HeldOutErrors& errors) {
+  return data::Printable(errors.temperature, errors.temperature.size());
+}
+
+// "1.5 degC of t11_degC".
+std::string ChangeText(const models::HeldOutErrors& errors, double change) {
+  const std::string& symbol =
+      data::UnitOfColumn(errors.temperature).display_symbol;
+  return fmt::format("{:.2g}{}{} of {}",
+                     change,
+                     symbol.empty() ? "" : " ",
+                     symbol,
+                     TemperatureText(errors));
+}
+
+std::string RuleText(const ZeroTrigger& trigger,
+                     const models::HeldOutErrors& errors) {
+  const std::string change = ChangeText(errors, trigger.temperature);
+  if (!std::isfinite(trigger.time)) {
+    return fmt::format("a probe with each change by {}", change);
+  }
+  return fmt::format(
+      "a probe after {} or a change by {}, or where the shares of the two come "
+      "to 1",
+      DurationText(trigger.time),
+      change);
+}
+
+std::string RuleSentence(const ZeroSchedule& schedule,
+                         const models::HeldOutErrors& errors,
+                         const ErrorText& error) {
+  const ZeroSchedule::Rule& rule = *schedule.rule;
+  const std::string figures = fmt::format(
+      "{} RMSE against {} with no more probes, on sessions that had no part "
+      "in the rule",
+      error(rule.rmse),
+      error.WithUnit(rule.clock_rmse));
+  if (!rule.established) {
+    return fmt::format(
+        "A rule with the temperature ({}) is not shown to do better: {}. Keep "
+        "to the clock.",
+        TemperatureText(errors),
+        figures);
+  }
+  return fmt::format("Better: {}. {}; it errs less in {} of {}.",
+                     RuleText(rule.trigger, errors),
+                     figures,
+                     rule.better,
+                     schedule.sessions);
+}
+
+std::string TableRow(const models::ZeroedErrors& clock,
+                     const ErrorText& error) {
+  return fmt::format("{:<24} {:>17.1f} {:>9} {:>11}\n",
+                     EveryText(clock.trigger),
+                     clock.probes,
+                     error(clock.rmse),
+                     error(clock.within_90));
+}
+
+ErrorText ErrorTextFor(const ZeroSchedule& schedule, const data::Unit& unit) {
+  return ErrorText(unit, schedule.clocks.front().rmse);
+}
+
+}  // namespace
+
+std::string ZeroAdvice(const ZeroSchedule& schedule,
+                       const models::HeldOutErrors& errors,
+                       const data::Unit& unit,
+                       double goal) {
+  if (std::isnan(goal)) return "";
+  const ErrorText error = ErrorTextFor(schedule, unit);
+  if (!schedule.clock) {
+    const models::ZeroedErrors& shortest = schedule.clocks.front();
+    return fmt::format(
+        "No interval keeps 90 % of the errors within {}: a probe {} leaves "
+        "{}.\n",
+        error.WithUnit(goal),
+        EveryText(shortest.trigger),
+        error.WithUnit(shortest.within_90));
+  }
+  std::string text = fmt::format(
+      "A probe {} keeps 90 % of the errors within {} ({}).",
+      EveryText(schedule.clock->trigger),
+      error.WithUnit(goal),
+      Count(static_cast<Eigen::Index>(schedule.sessions), "unseen session"));
+  if (schedule.rule) text += " " + RuleSentence(schedule, errors, error);
+  return text + "\n";
+}
+
+std::string WhenText(const ZeroSchedule& schedule,
+                     const models::HeldOutErrors& errors,
+                     const data::Unit& unit,
+                     double goal) {
+  const ErrorText error = ErrorTextFor(schedule, unit);
+  std::string text = fmt::format("{:<24} {:>17} {:>9} {:>11}\n",
+                                 "a probe",
+                                 "probes a session",
+                                 "RMSE, " + error.symbol(),
+                                 "90 % within");
+  for (const models::ZeroedErrors& clock : schedule.clocks) {
+    text += TableRow(clock, error);
+  }
+  return text + "\n" + ZeroAdvice(schedule, errors, unit, goal);
+}
+
+std::string ZeroDueText(const ZeroTrigger& advised,
+                        const models::HeldOutErrors& errors,
+                        double age,
+                        double change) {
+  std::string since = DurationText(age) + " since the last probe";
+  if (!advised.is_clock()) {
+    since += fmt::format(", a change by {}", ChangeText(errors, change));
+  }
+  const double spent = advised.Spent(age, change);
+  if (spent >= 1.0) return since + ": probe now.\n";
+  if (!std::isfinite(advised.time)) {
+    return since + ": no probe is due yet.\n";
+  }
+  return fmt::format(
+      "{}: probe in {}{}.\n",
+      since,
+      DurationText((1.0 - spent) * advised.time),
+      advised.is_clock() ? "" : ", sooner if the temperature moves on");
+}
+
+}  // namespace errmap::report

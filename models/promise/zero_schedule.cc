@@ -1,0 +1,272 @@
+#include "models/promise/zero_schedule.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <stdexcept>
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using ProbedSession = HeldOutErrors::Unit;
+using ProbedSessions = std::vector<const ProbedSession*>;
+
+// Times are sums of steps: what is due to the last digit is due.
+constexpr double kDue = 1.0 - 1e-9;
+constexpr double kHour = 3600.0;
+constexpr std::array<double, 16> kHours = {1.0 / 12,
+                                           1.0 / 6,
+                                           0.25,
+                                           1.0 / 3,
+                                           0.5,
+                                           0.75,
+                                           1.0,
+                                           1.5,
+                                           2.0,
+                                           3.0,
+                                           4.0,
+                                           6.0,
+                                           8.0,
+                                           12.0,
+                                           24.0,
+                                           48.0};
+
+// What one session errs by, row by row.
+struct Zeroed {
+  Index probes = 0;
+  std::vector<double> errors;
+};
+
+Zeroed ZeroSession(const ProbedSession& unit, const ZeroTrigger& trigger) {
+  Zeroed zeroed{.probes = 1, .errors = {}};
+  const bool has_temperature = unit.temperature.size() > 0;
+  Index zero = 0;
+  for (Index i = 1; i < unit.residuals.size(); ++i) {
+    zeroed.errors.push_back(unit.residuals[i] - unit.residuals[zero]);
+    const double change =
+        has_temperature ? unit.temperature[i] - unit.temperature[zero] : 0.0;
+    if (trigger.Spent(unit.elapsed[i] - unit.elapsed[zero], change) < kDue) {
+      continue;
+    }
+    zero = i;
+    ++zeroed.probes;
+  }
+  return zeroed;
+}
+
+double SumOfSquares(const std::vector<double>& errors) {
+  return std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0);
+}
+
+ZeroedErrors ZeroAll(const ProbedSessions& units, const ZeroTrigger& trigger) {
+  constexpr double kShare = 0.9;
+  std::vector<double> errors;
+  Index probes = 0;
+  for (const ProbedSession* unit : units) {
+    const Zeroed zeroed = ZeroSession(*unit, trigger);
+    probes += zeroed.probes;
+    errors.insert(errors.end(), zeroed.errors.begin(), zeroed.errors.end());
+  }
+  ZeroedErrors all{.trigger = trigger};
+  const auto count = static_cast<double>(errors.size());
+  all.probes = static_cast<double>(probes) / static_cast<double>(units.size());
+  all.rmse = std::sqrt(SumOfSquares(errors) / count);
+  for (double& error : errors) error = std::abs(error);
+  const auto place = errors.begin() +
+                     static_cast<std::ptrdiff_t>(std::ceil(kShare * count)) - 1;
+  std::ranges::nth_element(errors, place);
+  all.within_90 = *place;
+  return all;
+}
+
+double LongestOf(const ProbedSessions& units) {
+  double longest = 0.0;
+  for (const ProbedSession* unit : units) {
+    longest = std::max(longest, unit->elapsed.maxCoeff());
+  }
+  return longest;
+}
+
+// The usual time from one row to the next.
+double StepOf(const ProbedSessions& units) {
+  std::vector<double> steps;
+  for (const ProbedSession* unit : units) {
+    for (Index i = 1; i < unit->elapsed.size(); ++i) {
+      steps.push_back(unit->elapsed[i] - unit->elapsed[i - 1]);
+    }
+  }
+  const auto middle =
+      steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::ranges::nth_element(steps, middle);
+  return *middle;
+}
+
+// Intervals that people keep to: none within two rows, none beyond a session.
+std::vector<ZeroTrigger> ClocksFor(const ProbedSessions& units) {
+  constexpr double kRowsApart = 2.0;
+  std::vector<ZeroTrigger> clocks;
+  for (const double hours : kHours) {
+    const double interval = hours * kHour;
+    if (interval >= kRowsApart * StepOf(units) && interval < LongestOf(units)) {
+      clocks.push_back({.time = interval});
+    }
+  }
+  clocks.push_back({});
+  return clocks;
+}
+
+// Of least error among those of a time that take no more probes than `clock`.
+ZeroTrigger FitTrigger(const ProbedSessions& units, const ZeroTrigger& clock) {
+  constexpr std::array<double, 6> kTimes = {
+      1.5, 2.0, 3.0, 4.0, 8.0, std::numeric_limits<double>::infinity()};
+  constexpr int kHalvings = 14;
+  const ZeroedErrors by_clock = ZeroAll(units, clock);
+  double widest = 0.0;
+  for (const ProbedSession* unit : units) {
+    widest = std::max(
+        widest, unit->temperature.maxCoeff() - unit->temperature.minCoeff());
+  }
+  if (!(widest > 0.0)) return clock;
+  ZeroedErrors best = by_clock;
+  for (const double times : kTimes) {
+    // Smaller changes cost more probes.
+    ZeroTrigger trigger{.time = times * clock.time, .temperature = widest};
+    double few = std::log(widest);
+    double many = few - std::log(1e3);
+    for (int i = 0; i < kHalvings; ++i) {
+      trigger.temperature = std::exp(0.5 * (few + many));
+      const ZeroedErrors found = ZeroAll(units, trigger);
+      const bool affordable = found.probes <= by_clock.probes;
+      if (affordable && found.rmse < best.rmse) best = found;
+      (affordable ? few : many) = std::log(trigger.temperature);
+    }
+  }
+  return best.trigger;
+}
+
+// The least error of a clock with no more probes.
+double BestClockRmse(const ProbedSessions& units, double probes) {
+  constexpr int kPerOctave = 4;
+  const double longest = LongestOf(units);
+  double least = ZeroAll(units, {}).rmse;
+  for (int i = 0; longest * std::exp2(-i / double{kPerOctave}) >= StepOf(units);
+       ++i) {
+    const ZeroedErrors clock =
+        ZeroAll(units, {.time = longest * std::exp2(-i / double{kPerOctave})});
+    if (clock.probes <= probes) least = std::min(least, clock.rmse);
+  }
+  return least;
+}
+
+ZeroSchedule::Rule JudgeRule(const ProbedSessions& units,
+                             const ZeroTrigger& clock) {
+  constexpr double kWorthIt = 0.95;
+  constexpr std::size_t kFewestSessions = 4;
+  ZeroSchedule::Rule rule{.trigger = FitTrigger(units, clock)};
+  double squares = 0.0;
+  std::size_t rows = 0;
+  Index probes = 0;
+  for (const ProbedSession* left_out : units) {
+    ProbedSessions others = units;
+    std::erase(others, left_out);
+    const Zeroed by_rule = ZeroSession(*left_out, FitTrigger(others, clock));
+    const double of_rule = SumOfSquares(by_rule.errors);
+    if (of_rule < SumOfSquares(ZeroSession(*left_out, clock).errors)) {
+      ++rule.better;
+    }
+    squares += of_rule;
+    rows += by_rule.errors.size();
+    probes += by_rule.probes;
+  }
+  rule.rmse = std::sqrt(squares / static_cast<double>(rows));
+  rule.clock_rmse = BestClockRmse(
+      units, static_cast<double>(probes) / static_cast<double>(units.size()));
+  rule.established =
+      units.size() >= kFewestSessions && 3 * rule.better >= 2 * units.size() &&
+      rule.rmse < kWorthIt * rule.clock_rmse && !rule.trigger.is_clock();
+  return rule;
+}
+
+ProbedSessions ProbedSessionsOf(const HeldOutErrors& errors) {
+  ProbedSessions units;
+  for (const ProbedSession& unit : errors.units) {
+    if (unit.residuals.size() > 1) units.push_back(&unit);
+  }
+  return units;
+}
+
+}  // namespace
+
+bool ZeroTrigger::is_clock() const { return !std::isfinite(temperature); }
+
+double ZeroTrigger::Spent(double age, double change) const {
+  return age / time + std::abs(change) / temperature;
+}
+
+ZeroTrigger ZeroSchedule::advised() const {
+  if (rule && rule->established) return rule->trigger;
+  return clock ? clock->trigger : ZeroTrigger{};
+}
+
+bool KnowsAges(const HeldOutErrors& errors) {
+  if (!errors.of_sessions || errors.time_unit != "s") return false;
+  return ProbedSessionsOf(errors).size() >= 2;
+}
+
+ZeroSchedule ScheduleZeros(const HeldOutErrors& errors, double goal) {
+  if (!KnowsAges(errors)) {
+    throw std::invalid_argument(
+        "ScheduleZeros: needs held-out sessions with times");
+  }
+  const ProbedSessions units = ProbedSessionsOf(errors);
+  ZeroSchedule schedule{
+      .sessions = units.size(), .clocks = {}, .clock = {}, .rule = {}};
+  for (const ZeroTrigger& clock : ClocksFor(units)) {
+    schedule.clocks.push_back(ZeroAll(units, clock));
+    if (schedule.clocks.back().within_90 <= goal) {
+      schedule.clock = schedule.clocks.back();
+    }
+  }
+  if (schedule.clock && !errors.temperature.empty() &&
+      std::isfinite(schedule.clock->trigger.time)) {
+    schedule.rule = JudgeRule(units, schedule.clock->trigger);
+  }
+  return schedule;
+}
+
+Index TellingTemperature(const Eigen::MatrixXd& temperatures,
+                         const VectorXd& residuals,
+                         const std::vector<std::vector<Index>>& sessions) {
+  Index best = -1;
+  double closest = 0.0;
+  for (Index column = 0; column < temperatures.cols(); ++column) {
+    // About zero: no change of the one goes with none of the other.
+    double both = 0.0;
+    double of_residual = 0.0;
+    double of_temperature = 0.0;
+    for (const std::vector<Index>& rows : sessions) {
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        for (std::size_t j = i + 1; j < rows.size(); ++j) {
+          const double error =
+              std::abs(residuals[rows[j]] - residuals[rows[i]]);
+          const double change = std::abs(temperatures(rows[j], column) -
+                                         temperatures(rows[i], column));
+          both += error * change;
+          of_residual += error * error;
+          of_temperature += change * change;
+        }
+      }
+    }
+    const double cosine = both / std::sqrt(of_residual * of_temperature);
+    if (!(cosine > closest)) continue;
+    closest = cosine;
+    best = column;
+  }
+  return best;
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,80 @@
+// When to probe again, as a user asks for it.
+
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/cli_fixture.h"
+
+namespace errmap {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+// Five days of ten hours on which the error grows by 1 um an hour from a
+// position's own; a temperature that tells nothing of it.
+class When : public CliTest {
+ protected:
+  void SetUp() override {
+    std::string text = "day,time_s,position_mm,t1_degC,error_um\n";
+    for (int day = 1; day <= 5; ++day) {
+      for (int i = 0; i < 60; ++i) text += Row(day, 600 * i, 3 * day * i);
+    }
+    Write("days.csv", text);
+    Run({"fit", "days.csv", "--model", "poly:position", "-o", "map.json"});
+  }
+
+  static std::string Row(int day, int time, int draw) {
+    const int position = 100 * (time / 600 % 3);
+    return std::to_string(day) + "," + std::to_string(time) + "," +
+           std::to_string(position) + "," + std::to_string(20 + draw % 5) +
+           "," + std::to_string(0.01 * position + time / 3600.0) + "\n";
+  }
+};
+
+TEST_F(When, NamesTheLongestIntervalThatKeepsTheGoal) {
+  const Json found =
+      RunJson({"when", "map.json", "--goal", "2um", "--format", "json"});
+  EXPECT_EQ(found["sessions"], 5);
+  EXPECT_EQ(found["clock"]["interval_s"], 7200.0);
+  EXPECT_LE(found["clock"]["within_90"], 2.0);
+  EXPECT_EQ(found["advised"]["time_s"], 7200.0);
+  EXPECT_EQ(found["advised"]["temperature"], nullptr);
+  const Outcome text = Run({"when", "map.json", "--goal", "2um"});
+  EXPECT_EQ(text.status, 0);
+  EXPECT_THAT(text.out,
+              AllOf(StartsWith("map.json (poly:position), re-zeroed by probes: "
+                               "its errors on 5 sessions it never saw\n"),
+                    HasSubstr("A probe every 2 h keeps 90 % of the errors "
+                              "within 2.00 um (5 unseen sessions).")));
+}
+
+TEST_F(When, SaysWhenTheNextProbeIsDue) {
+  const std::string header = "day,time_s,position_mm,t1_degC,error_um\n";
+  Write("soon.csv", header + Row(6, 1200, 0) + Row(6, 4800, 0));
+  Write("now.csv", header + Row(6, 1200, 0) + Row(6, 9000, 0));
+  const Outcome soon =
+      Run({"when", "map.json", "--goal", "2um", "--after", "soon.csv"});
+  EXPECT_EQ(soon.status, 0) << soon.err;
+  EXPECT_THAT(soon.out,
+              HasSubstr("\n1 h since the last probe: probe in 1 h.\n"));
+  const Outcome now =
+      Run({"when", "map.json", "--goal", "2um", "--after", "now.csv"});
+  EXPECT_EQ(now.status, kEveryFitFailed) << now.err;
+  EXPECT_THAT(now.out, HasSubstr("since the last probe: probe now.\n"));
+}
+
+TEST_F(When, RefusesMapsOfOneSession) {
+  Run({"fit", kDown, "--model", "poly:position", "-o", "one.json"});
+  const Outcome found = Run({"when", "one.json"});
+  EXPECT_EQ(found.status, kUnusable);
+  EXPECT_THAT(found.err,
+              HasSubstr("one.json: holds no errors of unseen sessions with "
+                        "times; fit the map to two sessions or more"));
+}
+
+}  // namespace
+}  // namespace errmap
