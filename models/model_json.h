@@ -53,6 +53,7 @@ class ModelJsonNode {
   std::optional<ModelJsonNode> Find(const std::string& key) const;
   std::vector<ModelJsonNode> Elements() const;
 
+  bool Flag() const;
   std::string Text() const;
   /// Finite.
   double Number() const;

@@ -73,7 +73,7 @@ models::ComponentConfigurationRecord ComponentOf(
   for (const std::string& file : component.more_data) {
     more.push_back(data::ShownPath(file));
   }
-  record.more_data = List(more);
+  if (!more.empty()) record.more_data = more;
   if (!component.selection.where.empty()) {
     auto& where = record.where.emplace();
     for (const data::ColumnFilter& filter : component.selection.where) {

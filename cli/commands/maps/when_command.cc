@@ -44,7 +44,7 @@ SinceProbe ReadSinceProbe(const models::FittedModel& fitted,
                           const models::ZeroTrigger& advised) {
   const data::CsvTable table =
       models::ReadForMap(
-          fitted, arguments.log.after, models::MapColumns::kInputs)
+          fitted, {arguments.log.after}, models::MapColumns::kInputs)
           .table;
   std::vector<Eigen::Index> rows(table.num_rows);
   std::iota(rows.begin(), rows.end(), Eigen::Index{0});
