@@ -160,6 +160,7 @@ struct StartResult {
 struct History;
 struct Applicability;
 struct HeldOutErrors;
+struct LearntRows;
 
 /// Bounds within which a map was trained: what goes beyond is clipped to them.
 /// A column that hardly moved in training may move far on another day.
@@ -218,6 +219,8 @@ struct FittedModel {
   std::shared_ptr<const Applicability> applicability;
   /// The errors behind the interval, or null.
   std::shared_ptr<const HeldOutErrors> held_out;
+  /// The rows of training, or null.
+  std::shared_ptr<const LearntRows> learnt;
 
   /// How many of the rows that it was given: a net draws some of very many.
   Eigen::Index RowsLearntFrom(const data::Dataset& training) const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,19 @@ struct HeldOutErrors {
   bool of_sessions = false;  // whether the units are whole sessions
   double rmse = 0.0;         // of all units together: the error promised
   std::vector<Unit> units;
+};
+
+/// The rows that a map learnt from, to know them again where its training file
+/// is not at hand: Bloom filters (1970) of 16 bits a row, by which one other
+/// row in 2000 seems known, too (models/promise/learnt_rows.h).
+struct LearntRows {
+  struct Filter {
+    double alike = 0.0;  // share of rows that stand in another session, too
+    std::string bits;    // four in each hexadecimal digit
+  };
+  Eigen::Index every = 1;          // one row of so many is kept, by its hash
+  std::optional<Filter> measured;  // of readings with their error
+  std::optional<Filter> readings;  // of readings alone, a sensor's among them
 };
 
 }  // namespace errmap::models

@@ -184,6 +184,8 @@ ERRMAP_RECORD(
     HeldOutErrors::Unit, label, rmse, elapsed, position, residuals, temperature)
 ERRMAP_RECORD(
     HeldOutErrors, time_unit, position, temperature, of_sessions, rmse, units)
+ERRMAP_RECORD(LearntRows::Filter, alike, bits)
+ERRMAP_RECORD(LearntRows, every, measured, readings)
 ERRMAP_RECORD(FittedModel,
               name,
               kind,
@@ -203,7 +205,8 @@ ERRMAP_RECORD(FittedModel,
               inner_rmse,
               interval,
               applicability,
-              held_out)
+              held_out,
+              learnt)
 
 /// The key of a form in model files; what has none cannot stand in them.
 constexpr const char* FileKeyOf(const PolynomialForm* /*form*/) {

@@ -261,6 +261,27 @@ Json ParseUniqueKeys(const std::string& text) {
                          " twice in one object");
 }
 
+std::optional<LearntRows::Filter> ReadFilter(const Node& node,
+                                             const char* key) {
+  const auto found = node.Find(key);
+  if (!found) return std::nullopt;
+  LearntRows::Filter filter;
+  ReadMembers(*found, &filter);
+  if (filter.bits.empty() ||
+      filter.bits.find_first_not_of("0123456789abcdef") != std::string::npos) {
+    found->At("bits").Refuse("must be hexadecimal digits");
+  }
+  return filter;
+}
+
+LearntRows ReadLearntRows(const Node& node) {
+  LearntRows learnt{.every = node.At("every").Count(),
+                    .measured = ReadFilter(node, "measured"),
+                    .readings = ReadFilter(node, "readings")};
+  if (learnt.every < 1) node.At("every").Refuse("must be at least 1");
+  return learnt;
+}
+
 data::ColumnFilter ReadColumnFilter(const Node& node) {
   data::ColumnFilter filter{.column = node.At("column").Text(), .value = {}};
   if (const auto number = node.Find("number")) {
@@ -328,6 +349,9 @@ FittedModel ReadModel(const Node& root) {
   }
   if (const auto held_out = root.Find("held_out")) {
     fitted.held_out = std::make_shared<HeldOutErrors>(ReadHeldOut(*held_out));
+  }
+  if (const auto learnt = root.Find("learnt")) {
+    fitted.learnt = std::make_shared<LearntRows>(ReadLearntRows(*learnt));
   }
   if (fitted.model->num_parameters() != parameters.Count()) {
     parameters.Refuse(fmt::format("is {}, the model has {}",

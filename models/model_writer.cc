@@ -68,6 +68,15 @@ Json ToJson(const HeldOutErrors& errors) {
   return json;
 }
 
+Json ToJson(const LearntRows& learnt) {
+  const auto filter = [](const std::optional<LearntRows::Filter>& one) {
+    return one ? MembersToJson(*one) : Json();
+  };
+  return {{"every", learnt.every},
+          {"measured", filter(learnt.measured)},
+          {"readings", filter(learnt.readings)}};
+}
+
 Json ToJson(const std::vector<data::ColumnFilter>& where) {
   Json filters = Json::array();
   for (const data::ColumnFilter& filter : where) {
@@ -108,6 +117,8 @@ std::string ModelToJson(const FittedModel& fitted,
                                   : Json();
   document["held_out"] =
       fitted.held_out != nullptr ? ToJson(*fitted.held_out) : Json();
+  document["learnt"] =
+      fitted.learnt != nullptr ? ToJson(*fitted.learnt) : Json();
   document["provenance"] = Json::object();
   for (const auto& [key, value] : provenance) {
     document["provenance"][key] = value;

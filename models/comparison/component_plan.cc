@@ -142,7 +142,7 @@ void RunComponent(ComponentPlan* plan,
     const std::size_t h = component.judgement.recommendation->holdout;
     for (ModelResult& model : component.study.models) {
       if (!model.final_fit) continue;
-      AddApplicability(dataset, &*model.final_fit);
+      AddExperience(dataset, &*model.final_fit);
       // What a map promises holds where nobody re-zeroes it.
       const auto m =
           static_cast<std::size_t>(&model - component.study.models.data());

@@ -6,15 +6,19 @@
 
 #include "models/promise/applicability.h"
 #include "models/promise/held_out_errors.h"
+#include "models/promise/learnt_rows.h"
 #include "models/promise/unit_interval.h"
 #include "models/study/study_defaults.h"
 
 namespace errmap::models {
 
-void AddApplicability(const data::Dataset& dataset, FittedModel* fitted) {
+void AddExperience(const data::Dataset& dataset, FittedModel* fitted) {
   if (auto trained = MakeApplicability(*fitted, dataset)) {
     fitted->applicability =
         std::make_shared<const Applicability>(std::move(*trained));
+  }
+  if (auto learnt = MakeLearntRows(*fitted, dataset)) {
+    fitted->learnt = std::make_shared<const LearntRows>(std::move(*learnt));
   }
 }
 

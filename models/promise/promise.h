@@ -8,9 +8,10 @@
 
 namespace errmap::models {
 
-/// Gives a map that was fitted to `dataset` where it was trained; it stays
-/// empty where MakeApplicability has nothing.
-void AddApplicability(const data::Dataset& dataset, FittedModel* fitted);
+/// Gives a map that was fitted to `dataset` where it was trained, and on which
+/// rows; they stay empty where MakeApplicability and MakeLearntRows have
+/// nothing.
+void AddExperience(const data::Dataset& dataset, FittedModel* fitted);
 
 /// Gives a map that was fitted to `dataset` what it may promise, from its
 /// predictions of `holdout`'s held-out rows: the interval and the errors behind

@@ -86,6 +86,8 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
       models::ElapsedSinceStart(fitted, rows, arguments.rows.log);
   const models::SessionCheck check = models::CheckSession(
       errors, elapsed, rows.dataset.target_values() - predicted, rows.missing);
+  const RowsLearnt learnt =
+      FindRowsLearnt(fitted, arguments.model, arguments.file, rows);
   const std::vector<models::ProbeSite> sites = models::RankProbeSites(errors);
   if (arguments.format == "json") {
     Json document = {{"schema", "errmap-check-1"},
@@ -93,6 +95,7 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
                      {"file", desk::ShownNames(arguments.files)},
                      {"target", fitted.target.name},
                      {"unit", fitted.target.unit.symbol}};
+    document["learnt_from"] = LearntJson(learnt);
     document.update(CheckJson(check));
     document["sites"] = SitesJson(sites);
     document["provenance"] =
@@ -103,7 +106,8 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
     PrintResult(DumpJson(document));
   } else {
     PrintFitted(fmt::format(
-        "{} ({}) on {} of {}{}",
+        "{}{} ({}) on {} of {}{}",
+        LearntText(learnt),
         arguments.model,
         fitted.name,
         report::Count(check.probes, "probe"),

@@ -141,8 +141,7 @@ Json EvaluationJson(const Evaluation& found,
       {"unit", fitted.target.unit.symbol},
       {"align", data::ToString(fitted.align)},
       {"clipped", found.clipped},
-      {"learnt_from",
-       {{"file", found.learnt.file}, {"rows", found.learnt.rows}}},
+      {"learnt_from", LearntJson(found.learnt)},
       {"summary", models::ToJson(models::MakeRecord(found.metrics))},
       {"promise", PromiseJson(found.kept)},
       {"outside", OutsideJson(fitted.inputs, dataset.input_values())},
@@ -159,21 +158,6 @@ Json EvaluationJson(const Evaluation& found,
                       desk::HashInputs(arguments.files, {arguments.model}))}};
 }
 
-// Rows that a map learnt from say nothing of others.
-std::string LearntText(const RowsLearnt& learnt, long long rows) {
-  if (learnt.file) {
-    return "The map was fitted to this file: what follows is no promise for "
-           "new rows.\n";
-  }
-  return learnt.rows == 0
-             ? ""
-             : fmt::format(
-                   "The map was fitted to {} of these {} rows: what follows is "
-                   "no promise for new ones.\n",
-                   learnt.rows,
-                   rows);
-}
-
 std::string EvaluationText(const Evaluation& found,
                            const EvaluateArguments& arguments) {
   const data::Unit& unit = found.fitted.target.unit;
@@ -185,7 +169,7 @@ std::string EvaluationText(const Evaluation& found,
                      found.fitted.name,
                      data::NamesOfFiles(arguments.files),
                      report::TargetWords(found.rows.dataset),
-                     LearntText(found.learnt, found.rows.dataset.num_rows()),
+                     LearntText(found.learnt),
                      report::SummaryText(found.metrics,
                                          unit,
                                          ks_d,

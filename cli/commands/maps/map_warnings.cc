@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -18,26 +16,11 @@
 #include "data/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "models/promise/learnt_rows.h"
 
 namespace errmap::cli {
 
 using Eigen::Index;
-
-namespace {
-
-// Inputs and target of each row.
-std::vector<std::vector<double>> ValuesOf(const data::Dataset& dataset) {
-  std::vector<std::vector<double>> values;
-  for (Index row = 0; row < dataset.num_rows(); ++row) {
-    const Eigen::VectorXd inputs = dataset.input_values().row(row);
-    std::vector<double>& all =
-        values.emplace_back(inputs.begin(), inputs.end());
-    all.push_back(dataset.target_values()[row]);
-  }
-  return values;
-}
-
-}  // namespace
 
 models::Provenance ProvenanceOf(const std::string& model) {
   const Json document = Json::parse(data::ReadFile(model));
@@ -54,40 +37,36 @@ RowsLearnt FindRowsLearnt(const models::FittedModel& fitted,
                           const std::vector<std::string>& files,
                           const models::MapRows& rows) {
   const std::vector<desk::InputFile> all = desk::DataOf(ProvenanceOf(model));
-  RowsLearnt learnt;
+  const data::Dataset& dataset = rows.prepared.dataset;
+  RowsLearnt learnt{.of = dataset.num_rows()};
   learnt.file = std::ranges::all_of(
       desk::HashInputs(files), [&](const desk::InputFile& file) {
         return std::ranges::find(all, file.sha256, &desk::InputFile::sha256) !=
                all.end();
       });
-  std::set<std::vector<double>> known;
-  for (const desk::InputFile& named : all) {
-    if (learnt.file || !std::filesystem::exists(named.file) ||
-        desk::HashInput(named.file) != named) {
-      continue;
-    }
-    try {
-      const models::MapRows trained = models::MakeMapRows(
-          fitted,
-          models::ReadForMap(
-              fitted, {named.file}, models::MapColumns::kInputsAndTarget)
-              .table,
-          {.missing = data::MissingPolicy::kDropRows, .with_memory = false});
-      for (auto& values : ValuesOf(trained.prepared.dataset)) {
-        known.insert(std::move(values));
-      }
-    } catch (const data::InputError&) {
-      // A file that no longer serves tells nothing of these rows.
-    }
-  }
-  if (learnt.file) {
-    learnt.rows = rows.prepared.dataset.num_rows();
-    return learnt;
-  }
-  for (const auto& values : ValuesOf(rows.prepared.dataset)) {
-    learnt.rows += known.contains(values) ? 1 : 0;
-  }
+  learnt.rows = learnt.file ? learnt.of
+                            : models::CountLearntRows(fitted,
+                                                      dataset.input_values(),
+                                                      &dataset.target_values());
   return learnt;
+}
+
+Json LearntJson(const RowsLearnt& learnt) {
+  return {{"file", learnt.file}, {"rows", learnt.rows}};
+}
+
+std::string LearntText(const RowsLearnt& learnt) {
+  if (learnt.file) {
+    return "The map was fitted to this file: what follows is no promise for "
+           "new rows.\n";
+  }
+  return learnt.rows == 0
+             ? ""
+             : fmt::format(
+                   "{} of {} rows are ones that the map was trained on: what "
+                   "follows is no promise for new ones.\n",
+                   learnt.rows,
+                   learnt.of);
 }
 
 data::CsvTable ReadForMap(const models::FittedModel& fitted,

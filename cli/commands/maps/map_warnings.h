@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "cli/json_blocks.h"
 #include "data/csv.h"
 #include "models/error_model.h"
 #include "models/model_file.h"
@@ -37,15 +38,19 @@ models::Provenance ProvenanceOf(const std::string& model);
 /// Of the rows of files that a map is judged on, what it learnt from.
 struct RowsLearnt {
   bool file = false;      // each file is one that the map names
-  Eigen::Index rows = 0;  // value for value in the files that it names
+  Eigen::Index rows = 0;  // known again by their values
+  Eigen::Index of = 0;    // all of them
 };
 
-/// By the hashes in the model file `model`; rows are looked for in the files
-/// that it names and that are still there as they were.
+/// By the hashes of files in the model file `model`, and of rows in the map.
 RowsLearnt FindRowsLearnt(const models::FittedModel& fitted,
                           const std::string& model,
                           const std::vector<std::string>& files,
                           const models::MapRows& rows);
+
+Json LearntJson(const RowsLearnt& learnt);
+/// A line for people; "" where nothing was learnt from these rows.
+std::string LearntText(const RowsLearnt& learnt);
 
 struct RowsJudged {
   Eigen::MatrixXd form_inputs;  // (rows x inputs of the form)

@@ -25,6 +25,7 @@
 #include "data/measurements/measured_files.h"
 #include "models/history/map_log.h"
 #include "models/model_file.h"
+#include "models/promise/learnt_rows.h"
 #include "models/promise/probe_correction.h"
 #include "models/trained_range.h"
 
@@ -242,6 +243,15 @@ int RunPredict(const PredictArguments& arguments) {
     SayWhatIsPredicted(found);
     SayOutside(fitted.inputs, inputs, found.flags, all_rows, false);
     SayClipped(found.prediction);
+    if (const Eigen::Index learnt =
+            models::CountLearntRows(fitted, inputs, nullptr);
+        learnt > 0) {
+      Say(
+          fmt::format("warning: the readings of {} of {} are ones that the map "
+                      "was trained on: on new ones it errs more",
+                      learnt,
+                      report::Count(inputs.rows(), "row")));
+    }
     if (const std::string made_for =
             models::MadeForText(fitted, table, found.made_for);
         !made_for.empty()) {

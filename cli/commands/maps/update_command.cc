@@ -140,7 +140,7 @@ models::FittedModel FitSuccessor(const models::FittedModel& old_map,
   models::FittedModel fitted =
       RecipeFromArgument(old_map.name)->Fit(all, context);
   fitted.where = old_map.where;
-  models::AddApplicability(all, &fitted);
+  models::AddExperience(all, &fitted);
   models::AddPromise(all,
                      RecipeFromArgument(old_map.name),
                      {.seed = context.seed,

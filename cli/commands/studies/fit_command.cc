@@ -253,7 +253,7 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
     return kEveryFitFailed;
   }
   const Json configuration = ConfigurationJson(*recipe, dataset, arguments);
-  models::AddApplicability(dataset, &fitted);
+  models::AddExperience(dataset, &fitted);
   if (!arguments.no_interval && !stop.load()) {
     AddInterval(dataset, std::move(recipe), context, &fitted);
   }

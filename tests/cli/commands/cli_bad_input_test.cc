@@ -287,14 +287,26 @@ TEST_F(CliBadInput, EvaluateKnowsWhatTheMapLearntFrom) {
                            .out)["learnt_from"];
   };
   EXPECT_EQ(learnt("f.csv"), Json::parse(R"({"file": true, "rows": 6})"));
-  EXPECT_EQ(learnt("more.csv"), Json::parse(R"({"file": false, "rows": 6})"));
-  EXPECT_EQ(learnt("new.csv"), Json::parse(R"({"file": false, "rows": 0})"));
   EXPECT_THAT(Run({"evaluate", "m.json", "f.csv"}).out,
               HasSubstr("The map was fitted to this file"));
-  EXPECT_THAT(Run({"evaluate", "m.json", "more.csv"}).out,
-              HasSubstr("The map was fitted to 6 of these 8 rows"));
-  EXPECT_THAT(Run({"evaluate", "m.json", "new.csv"}).out,
-              Not(HasSubstr("The map was fitted to")));
+  ASSERT_EQ(
+      Run({"fit", "f.csv", "--model", "poly:full:degree=1", "-o", "t.json"})
+          .status,
+      0);
+  // The map knows its rows without the file.
+  std::filesystem::remove(scratch_ / "f.csv");
+  EXPECT_EQ(learnt("more.csv"), Json::parse(R"({"file": false, "rows": 6})"));
+  EXPECT_EQ(learnt("new.csv"), Json::parse(R"({"file": false, "rows": 0})"));
+  const char* known = "6 of 8 rows are ones that the map was trained on";
+  EXPECT_THAT(Run({"evaluate", "m.json", "more.csv"}).out, HasSubstr(known));
+  EXPECT_THAT(Run({"check", "t.json", "more.csv"}).out, HasSubstr(known));
+  EXPECT_THAT(OneLine(Run({"predict", "t.json", "more.csv"}).err),
+              HasSubstr("the readings of 6 of 8 rows are ones that the map was "
+                        "trained on"));
+  for (const std::string command : {"evaluate", "check", "predict"}) {
+    const Outcome fresh = Run({command, "t.json", "new.csv"});
+    EXPECT_THAT(fresh.out + fresh.err, Not(HasSubstr("trained on")));
+  }
 }
 
 TEST_F(CliBadInput, KeepDeadKeepsThemAndSaysSo) {

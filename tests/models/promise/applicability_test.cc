@@ -36,7 +36,7 @@ class FlagsOfAThermalMachine : public ::testing::Test {
     }
     const data::Dataset training = days.SelectRows(even);
     map_ = new FittedModel(MakeRecipe("poly:full:degree=1")->Fit(training, {}));
-    AddApplicability(training, map_);
+    AddExperience(training, map_);
     between_ = new MatrixXd(days.SelectRows(odd).input_values());
   }
   static void TearDownTestSuite() {
@@ -192,7 +192,7 @@ TEST(FlagRows, KnowsTheRangesOfWhatIsDerived) {
   const data::Dataset derived = DeriveDataset(days, history);
   FittedModel fitted = WithHistory(
       MakeRecipe("poly:full:degree=1")->Fit(derived, {}), days, history);
-  AddApplicability(days, &fitted);
+  AddExperience(days, &fitted);
   ASSERT_EQ(fitted.applicability->derived.size(), 2U);
   const MatrixXd inputs = days.input_values().topRows(1);
   MatrixXd form = fitted.FormInputs(days).topRows(1);

@@ -1,0 +1,172 @@
+#include "models/promise/learnt_rows.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "data/measurements/column_roles.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+
+// 16 bits a row and 11 hashes: (1 - exp(-11 / 16))^11 of other rows seem known.
+constexpr std::uint64_t kBitsPerRow = 16;
+constexpr std::uint64_t kHashes = 11;
+constexpr double kFalseHits = 0.0005;
+// Rows kept, 64 KiB in the file.
+constexpr Index kMostRows = 16384;
+// Of rows of other sessions, what may be alike for a filter to tell anything.
+constexpr double kMostAlike = 0.2;
+constexpr unsigned kBitsPerDigit = 4;
+constexpr std::string_view kDigits = "0123456789abcdef";
+
+// In single precision: conversions of units change last digits.
+std::uint64_t HashOf(const Eigen::MatrixXd& inputs,
+                     const Eigen::VectorXd* targets,
+                     Index row) {
+  std::uint64_t hash = 0;
+  const auto mix = [&](double value) {
+    const float rounded = static_cast<float>(value) + 0.0F;  // no -0
+    hash = (hash ^ std::bit_cast<std::uint32_t>(rounded)) * 0x9E3779B97F4A7C15U;
+    hash ^= hash >> 29U;
+  };
+  for (Index i = 0; i < inputs.cols(); ++i) mix(inputs(row, i));
+  if (targets != nullptr) mix((*targets)[row]);
+  hash *= 0xBF58476D1CE4E5B9U;
+  return hash ^ (hash >> 32U);
+}
+
+std::vector<std::uint64_t> HashesOf(const Eigen::MatrixXd& inputs,
+                                    const Eigen::VectorXd* targets) {
+  std::vector<std::uint64_t> hashes;
+  for (Index row = 0; row < inputs.rows(); ++row) {
+    hashes.push_back(HashOf(inputs, targets, row));
+  }
+  return hashes;
+}
+
+bool IsKept(std::uint64_t hash, Index every) {
+  // Other bits than those of the places in the filter.
+  return (hash * 0x94D049BB133111EBU >> 40U) %
+             static_cast<std::uint64_t>(every) ==
+         0;
+}
+
+// Calls `visit` with each place of a hash among so many bits (Kirsch &
+// Mitzenmacher 2006).
+template <typename Visit>
+void ForPlaces(std::uint64_t hash, std::size_t digits, const Visit& visit) {
+  const std::uint64_t bits = kBitsPerDigit * digits;
+  const std::uint64_t step = (hash >> 32U) | 1U;
+  for (std::uint64_t i = 0; i < kHashes; ++i) {
+    const std::uint64_t bit = ((hash & 0xFFFFFFFFU) + i * step) % bits;
+    visit(static_cast<std::size_t>(bit / kBitsPerDigit),
+          1U << static_cast<unsigned>(bit % kBitsPerDigit));
+  }
+}
+
+unsigned ValueOf(char digit) {
+  return static_cast<unsigned>(kDigits.find(digit));
+}
+
+// The share of rows that stand in another session too, or in another group
+// where there is one session: what new rows share by chance.
+double ShareAlike(const data::Dataset& training,
+                  const std::vector<std::uint64_t>& hashes) {
+  std::vector<Index> codes;
+  if (training.num_sessions() > 1) {
+    codes = training.session_codes();
+  } else if (training.has_groups()) {
+    codes = training.groups().codes;
+  } else {
+    for (Index row = 0; row < training.num_rows(); ++row) codes.push_back(row);
+  }
+  constexpr Index kSeveral = -1;
+  std::unordered_map<std::uint64_t, Index> where;
+  for (std::size_t i = 0; i < hashes.size(); ++i) {
+    const auto [at, is_new] = where.try_emplace(hashes[i], codes[i]);
+    if (!is_new && at->second != codes[i]) at->second = kSeveral;
+  }
+  const auto alike = std::ranges::count_if(
+      hashes, [&](std::uint64_t hash) { return where.at(hash) == kSeveral; });
+  return static_cast<double>(alike) / static_cast<double>(hashes.size());
+}
+
+std::optional<LearntRows::Filter> MakeFilter(
+    const data::Dataset& training,
+    const std::vector<std::uint64_t>& hashes,
+    Index every) {
+  LearntRows::Filter filter{.alike = ShareAlike(training, hashes), .bits = {}};
+  if (filter.alike > kMostAlike) return std::nullopt;
+  const auto kept = static_cast<std::size_t>(std::ranges::count_if(
+      hashes, [&](std::uint64_t hash) { return IsKept(hash, every); }));
+  std::vector<unsigned> digits(1 + kept * kBitsPerRow / kBitsPerDigit);
+  for (const std::uint64_t hash : hashes) {
+    if (!IsKept(hash, every)) continue;
+    ForPlaces(hash, digits.size(), [&](std::size_t digit, unsigned bit) {
+      digits[digit] |= bit;
+    });
+  }
+  for (const unsigned digit : digits) filter.bits += kDigits[digit];
+  return filter;
+}
+
+}  // namespace
+
+std::optional<LearntRows> MakeLearntRows(const FittedModel& fitted,
+                                         const data::Dataset& training) {
+  LearntRows learnt;
+  learnt.every = 1 + (training.num_rows() - 1) / kMostRows;
+  Eigen::MatrixXd inputs(training.num_rows(), std::ssize(fitted.inputs));
+  bool has_sensor = false;
+  for (Index i = 0; i < inputs.cols(); ++i) {
+    const data::ColumnInfo& column =
+        fitted.inputs[static_cast<std::size_t>(i)].column;
+    inputs.col(i) =
+        training.input_values().col(training.FindInput(column.name));
+    has_sensor = has_sensor || data::IsSensor(column);
+  }
+  learnt.measured = MakeFilter(
+      training, HashesOf(inputs, &training.target_values()), learnt.every);
+  // Positions and counts come again in every session.
+  if (has_sensor) {
+    learnt.readings =
+        MakeFilter(training, HashesOf(inputs, nullptr), learnt.every);
+  }
+  if (!learnt.measured && !learnt.readings) return std::nullopt;
+  return learnt;
+}
+
+Index CountLearntRows(const FittedModel& fitted,
+                      const Eigen::MatrixXd& inputs,
+                      const Eigen::VectorXd* targets) {
+  if (fitted.learnt == nullptr) return 0;
+  const LearntRows& learnt = *fitted.learnt;
+  const auto& filter = targets != nullptr ? learnt.measured : learnt.readings;
+  if (!filter) return 0;
+  double looked = 0.0;
+  double found = 0.0;
+  for (const std::uint64_t hash : HashesOf(inputs, targets)) {
+    if (!IsKept(hash, learnt.every)) continue;
+    bool all = true;
+    ForPlaces(hash, filter->bits.size(), [&](std::size_t digit, unsigned bit) {
+      all = all && (ValueOf(filter->bits[digit]) & bit) != 0;
+    });
+    looked += 1.0;
+    found += all ? 1.0 : 0.0;
+  }
+  constexpr double kSure = 3.0;  // standard deviations
+  const double by_chance = looked * (filter->alike + kFalseHits);
+  if (!(found > by_chance + kSure * std::sqrt(by_chance))) return 0;
+  return static_cast<Index>(
+      std::llround(found / looked * static_cast<double>(inputs.rows())));
+}
+
+}  // namespace errmap::models
