@@ -22,11 +22,13 @@ std::string GoalWords(const models::LearningCurvesRecord& curves,
   const double never = law.never_reaches_goal;
   const std::string wanted = error.WithUnit(curves.goal);
   if (never >= kSure) {
+    constexpr double kMostSure = 99.0;  // that the law itself holds is not
     return fmt::format(
-        "{} is not reached however many are measured ({:.0f} % "
-        "sure)",
+        "{} is not reached however many are measured ({}{:.0f} % sure, if the "
+        "curve goes on like this)",
         wanted,
-        kPercent * never);
+        kPercent * never > kMostSure ? "over " : "",
+        std::min(kMostSure, kPercent * never));
   }
   const auto [low, median, high] = *law.units_for_goal;
   const auto have = static_cast<double>(curves.units);

@@ -136,15 +136,34 @@ VectorXd UnitMeanSquares(const std::vector<Index>& codes,
 
 // With Student's t over units of the logarithm by the delta method: the RMSE is
 // above 0 and skewed.
+// (draws) The logarithm of the RMSE of each draw of units, over its folds.
+VectorXd LogOfDraws(const Holdout& holdout,
+                    const HeldOutRows& held,
+                    const VectorXd& residuals) {
+  const auto draws =
+      std::max<std::size_t>(1, static_cast<std::size_t>(holdout.repeats));
+  const std::size_t folds = holdout.folds.size() / draws;
+  VectorXd squares = VectorXd::Zero(static_cast<Index>(draws));
+  VectorXd rows = squares;
+  for (std::size_t i = 0; i < held.fold_of.size(); ++i) {
+    const auto draw = static_cast<Index>(held.fold_of[i] / folds);
+    squares[draw] += std::pow(residuals[static_cast<Index>(i)], 2);
+    rows[draw] += 1.0;
+  }
+  constexpr double kLeast = 1e-300;
+  return 0.5 * (squares.cwiseQuotient(rows)).cwiseMax(kLeast).array().log();
+}
+
+// The draws' RMSE are averaged as logarithms, so that one from which a map
+// explodes is one of several; how they scatter counts with the units.
 LearningCurve::Point PointOf(Index size,
                              const VectorXd& squares,
-                             const VectorXd& residuals) {
+                             const VectorXd& log_of_draws) {
   constexpr double kUpper = 0.95;
   const auto units = static_cast<double>(squares.size());
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   LearningCurve::Point point{.size = size, .low = kUnknown, .high = kUnknown};
-  point.rmse = std::sqrt(residuals.squaredNorm() /
-                         static_cast<double>(residuals.size()));
+  point.rmse = std::exp(log_of_draws.mean());
   if (squares.size() < 2) {
     point.relative_error = 1.0;
     return point;
@@ -153,6 +172,14 @@ LearningCurve::Point PointOf(Index size,
       (squares.array() - squares.mean()).square().sum() / (units - 1.0);
   point.relative_error =
       0.5 * std::sqrt(variance / units) / std::max(squares.mean(), 1e-300);
+  if (const auto draws = static_cast<double>(log_of_draws.size());
+      draws > 1.0) {
+    const double scatter =
+        (log_of_draws.array() - log_of_draws.mean()).square().sum() /
+        (draws - 1.0) / draws;
+    point.relative_error =
+        std::sqrt(std::pow(point.relative_error, 2) + scatter);
+  }
   if (squares.size() < 3) return point;
   const double wide = std::exp(stats::StudentQuantile(kUpper, units - 1.0) *
                                point.relative_error);
@@ -179,7 +206,9 @@ LearningCurve CurveOf(const data::Dataset& dataset,
     const VectorXd residuals = ResidualsOf(held, result);
     if (!residuals.allFinite()) continue;
     curve.points.push_back(
-        PointOf(plan.sizes[i], UnitMeanSquares(codes, residuals), residuals));
+        PointOf(plan.sizes[i],
+                UnitMeanSquares(codes, residuals),
+                LogOfDraws(plan.holdouts[i], held, residuals)));
   }
   std::vector<LearningPoint> points;
   for (const LearningCurve::Point& point : curve.points) {

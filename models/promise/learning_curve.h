@@ -14,9 +14,12 @@
 namespace errmap::models {
 
 /// The models whose curves are drawn where none are named: one family each of
-/// what is simple and linear, and the quickest of those that are recommended.
+/// what is simple and linear, the quickest of those that are recommended, and
+/// the blend, which mostly is, where the data have no more than
+/// kMostForBlend cells of inputs.
 inline constexpr const char* kLearningModels =
-    "mean,poly:temperature,poly:full:degree=1,poly:ridge:view=auto";
+    "mean,poly:temperature,poly:full:degree=1,poly:ridge:view=auto,blend";
+inline constexpr Eigen::Index kMostForBlend = 20000;
 
 /// What is learnt from, one after another.
 enum class LearnBy { kSessions, kGroups };
@@ -42,7 +45,7 @@ LearningPlan PlanLearning(const data::Dataset& dataset,
 struct LearningCurve {
   struct Point {
     Eigen::Index size = 0;
-    double rmse = 0.0;  // pooled over folds and draws, target's unit
+    double rmse = 0.0;  // geometric mean of the draws', target's unit
     double low = 0.0;   // 90 % interval over units; NaN below 3 of them
     double high = 0.0;
     double relative_error = 0.0;  // of rmse, by the units' scatter

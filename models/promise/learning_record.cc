@@ -68,8 +68,10 @@ SensorCurveRecord MakeRecord(const SensorCurve& curve) {
   }
   if (curve.enough >= 0) record.enough = curve.enough;
   for (const SensorCurve::Chosen& chosen : curve.chosen) {
-    record.chosen.push_back(
-        {chosen.sensor, chosen.stability, chosen.substitutes});
+    record.chosen.push_back({chosen.sensor,
+                             chosen.stability,
+                             chosen.replaced_cost,
+                             chosen.substitutes});
   }
   return record;
 }

@@ -69,9 +69,10 @@ ERRMAP_RECORD(SensorPointRecord, sensors, rmse)
 struct ChosenSensorRecord {
   std::string sensor;
   double stability = kNotKnown;
+  double replaced_cost = kNotKnown;
   std::vector<std::string> substitutes;
 };
-ERRMAP_RECORD(ChosenSensorRecord, sensor, stability, substitutes)
+ERRMAP_RECORD(ChosenSensorRecord, sensor, stability, replaced_cost, substitutes)
 
 struct SensorCurveRecord {
   std::string held_out;

@@ -370,29 +370,39 @@ double Correlation(const VectorXd& a, const VectorXd& b) {
   return u.dot(v) / std::max(u.norm() * v.norm(), 1e-300);
 }
 
-std::vector<std::string> SubstitutesFor(const Design& design,
-                                        const Training& training,
-                                        const std::vector<Index>& chosen,
-                                        std::size_t place) {
+// What would stand in the place of a chosen sensor.
+void LookForSubstitutes(const Design& design,
+                        const Training& training,
+                        const std::vector<Index>& chosen,
+                        std::size_t place,
+                        SensorCurve::Chosen* found) {
   constexpr double kAlike = 0.9;
-  const double limit = SensorCurve::kTolerance * SensorCurve::kTolerance *
-                       JudgeSensors(design, training, chosen).squares;
-  std::vector<std::pair<double, std::string>> found;
+  const double squares = JudgeSensors(design, training, chosen).squares;
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<double, std::string>> alike;
   for (Index other = 0; other < static_cast<Index>(design.names.size());
        ++other) {
     if (std::ranges::find(chosen, other) != chosen.end()) continue;
-    const double alike = std::abs(Correlation(design.sensors.col(chosen[place]),
-                                              design.sensors.col(other)));
-    if (!(alike >= kAlike)) continue;
     std::vector<Index> swapped = chosen;
     swapped[place] = other;
-    if (JudgeSensors(design, training, swapped).squares > limit) continue;
-    found.emplace_back(-alike, design.names[static_cast<std::size_t>(other)]);
+    const double with_other = JudgeSensors(design, training, swapped).squares;
+    least = std::min(least, with_other);
+    const double correlation = std::abs(Correlation(
+        design.sensors.col(chosen[place]), design.sensors.col(other)));
+    if (correlation >= kAlike && with_other <= SensorCurve::kTolerance *
+                                                   SensorCurve::kTolerance *
+                                                   squares) {
+      alike.emplace_back(-correlation,
+                         design.names[static_cast<std::size_t>(other)]);
+    }
   }
-  std::ranges::sort(found);
-  std::vector<std::string> names;
-  for (auto& [alike, name] : found) names.push_back(std::move(name));
-  return names;
+  if (std::isfinite(least) && squares > 0.0) {
+    found->replaced_cost = std::sqrt(least / squares) - 1.0;
+  }
+  std::ranges::sort(alike);
+  for (auto& [correlation, name] : alike) {
+    found->substitutes.push_back(std::move(name));
+  }
 }
 
 // The view with the lowest error of all sensors on units held out.
@@ -493,11 +503,11 @@ SensorCurve LearnSensors(const data::Dataset& dataset,
     const auto among = std::ranges::count_if(choices, [&](const auto& fold) {
       return std::ranges::find(fold[number], chosen[i]) != fold[number].end();
     });
-    curve.chosen.push_back(
-        {.sensor = design.names[static_cast<std::size_t>(chosen[i])],
-         .stability =
-             static_cast<double>(among) / static_cast<double>(choices.size()),
-         .substitutes = SubstitutesFor(design, of_all, chosen, i)});
+    SensorCurve::Chosen& one = curve.chosen.emplace_back();
+    one.sensor = design.names[static_cast<std::size_t>(chosen[i])];
+    one.stability =
+        static_cast<double>(among) / static_cast<double>(choices.size());
+    LookForSubstitutes(design, of_all, chosen, i, &one);
   }
   return curve;
 }

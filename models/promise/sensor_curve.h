@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ struct SensorCurve {
   struct Chosen {
     std::string sensor;
     double stability = 0.0;  // share of the outer folds that choose it too
+    /// By how much the held-out error rises where the best of all others takes
+    /// its place: sensors that read alike are chosen by turns, and missed by
+    /// nobody. NaN where there is no other.
+    double replaced_cost = std::numeric_limits<double>::quiet_NaN();
     /// Sensors that could stand in its place at no more than kTolerance of the
     /// error, the most alike first.
     std::vector<std::string> substitutes;

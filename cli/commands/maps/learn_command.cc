@@ -53,7 +53,7 @@ struct LearnArguments {
   std::string by;
   std::string model_list = models::kLearningModels;
   std::string candidates;
-  int repeats = 2;
+  int repeats = 4;
   int sensors = 8;
   int next = 5;
   std::optional<std::string> goal = {};
@@ -78,6 +78,16 @@ std::vector<std::unique_ptr<models::ModelRecipe>> RecipesOf(
     auto recipe = RecipeFromArgument(spec);
     if (const auto missing = recipe->WhatIsMissing(dataset)) {
       Say(fmt::format("{} is left out: it needs {}", spec, *missing));
+      continue;
+    }
+    if (recipe->kind() == models::ModelKind::kBlend &&
+        arguments.model_list == models::kLearningModels &&
+        dataset.num_rows() * dataset.num_inputs() > models::kMostForBlend) {
+      Say(
+          fmt::format("{} is left out: so many curves of so many rows take "
+                      "long; --models {} draws it",
+                      spec,
+                      spec));
       continue;
     }
     recipes.push_back(std::move(recipe));

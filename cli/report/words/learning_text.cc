@@ -1,6 +1,7 @@
 #include "cli/report/words/learning_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -82,9 +83,11 @@ std::string SensorsText(const models::SensorCurveRecord& curve,
                     "of so many:\n",
                     curve.chosen.size());
   for (const models::ChosenSensorRecord& chosen : curve.chosen) {
-    text += fmt::format("  {} (in {:.0f} % of the folds)",
-                        data::Printable(chosen.sensor, chosen.sensor.size()),
-                        kPercent * chosen.stability);
+    text += "  " + data::Printable(chosen.sensor, chosen.sensor.size());
+    if (std::isfinite(chosen.replaced_cost)) {
+      text += fmt::format(" ({:+.0f} % with another in its place)",
+                          kPercent * chosen.replaced_cost);
+    }
     for (std::size_t s = 0;
          s < std::min(kMostSubstitutes, chosen.substitutes.size());
          ++s) {

@@ -19,6 +19,7 @@
 #include "models/promise/power_law.h"
 #include "models/promise/sensor_curve.h"
 #include "models/recipe_catalog.h"
+#include "models/study/judgement/units_of_analysis.h"
 #include "stats/distributions.h"
 #include "stats/random.h"
 #include "tests/models/promise/simulated_days.h"
@@ -157,6 +158,43 @@ TEST(CurvesOf, FallsWithTheNumberOfDaysAndNamesWhatFails) {
   EXPECT_NE(curves[1].why_failed, "");
 }
 
+// One draw of days from which a rich map explodes made the curve jump.
+TEST(CurvesOf, IsThatOfTheTypicalDraw) {
+  const data::Dataset days = SimulatedDays(2, 8, 6);
+  const LearningPlan plan = PlanLearning(days, LearnBy::kSessions, 4, 1);
+  std::vector<std::unique_ptr<ModelRecipe>> recipes;
+  recipes.push_back(MakeRecipe("poly:full:degree=1:clip=none"));
+  const StudyResult study =
+      RunStudy(days, plan.holdouts, recipes, {.fit_all_rows = false});
+  const std::vector<LearningCurve> curves = CurvesOf(days, plan, study);
+  ASSERT_EQ(curves[0].points.size(), plan.sizes.size());
+  for (std::size_t i = 0; i < plan.sizes.size(); ++i) {
+    const HeldOutRows held = GatherHeldOut(days, plan.holdouts[i]);
+    const VectorXd residuals = ResidualsOf(held, study.models[0].holdouts[i]);
+    VectorXd logs = VectorXd::Zero(plan.holdouts[i].repeats);
+    const std::size_t folds =
+        plan.holdouts[i].folds.size() / static_cast<std::size_t>(logs.size());
+    for (Index draw = 0; draw < logs.size(); ++draw) {
+      double squares = 0.0;
+      double rows = 0.0;
+      for (std::size_t k = 0; k < held.fold_of.size(); ++k) {
+        if (static_cast<Index>(held.fold_of[k] / folds) != draw) continue;
+        squares += std::pow(residuals[static_cast<Index>(k)], 2);
+        rows += 1.0;
+      }
+      logs[draw] = 0.5 * std::log(squares / rows);
+    }
+    EXPECT_NEAR(std::log(curves[0].points[i].rmse), logs.mean(), 1e-9);
+    if (logs.size() < 2) continue;
+    // What the draws scatter bounds what is known of their mean.
+    const double scatter =
+        std::sqrt((logs.array() - logs.mean()).square().sum() /
+                  static_cast<double>(logs.size() - 1) /
+                  static_cast<double>(logs.size()));
+    EXPECT_GE(curves[0].points[i].relative_error, scatter);
+  }
+}
+
 // The data with a target made of some of its sensors.
 data::Dataset WithTruthOf(
     const data::Dataset& days,
@@ -197,6 +235,48 @@ TEST(LearnSensors, FindsTheTwoSensorsThatTheTruthUses) {
   EXPECT_EQ(NamesOfInLearning(curve),
             (std::set<std::string>{"t12_degC", "t27_degC"}));
   EXPECT_EQ(curve.chosen[0].stability, 1.0);
+  for (const SensorCurve::Chosen& chosen : curve.chosen) {
+    EXPECT_GT(chosen.replaced_cost, 0.1) << chosen.sensor;
+  }
+}
+
+// Either is chosen in about half of the folds, and neither is missed.
+TEST(LearnSensors, TellsThatASensorThatIsThereTwiceIsMissedByNobody) {
+  const data::Dataset days = WithTruthOf(
+      SimulatedDays(4, 6, 8), {{"t12_degC", 1.0}, {"t27_degC", -1.5}});
+  data::Dataset::Parts parts{.source = "one sensor twice",
+                             .inputs = days.inputs(),
+                             .input_values = days.input_values(),
+                             .target = days.target(),
+                             .target_values = days.target_values(),
+                             .groups = days.groups(),
+                             .weights = {},
+                             .rows = days.rows(),
+                             .log = days.log(),
+                             .log_rows = days.log_rows()};
+  const Index p = days.num_inputs();
+  stats::Random random(5);
+  parts.inputs.push_back(
+      {.name = "again_degC", .unit = data::UnitOfSymbol("degC")});
+  parts.input_values.conservativeResize(Eigen::NoChange, p + 1);
+  parts.input_values.col(p) =
+      days.input_values().col(days.FindInput("t12_degC"));
+  for (double& value : parts.input_values.col(p)) {
+    value += 0.002 * (random.Uniform() - 0.5);
+  }
+  // The log's inputs would have to be as many.
+  parts.log = nullptr;
+  parts.log_rows.clear();
+  const SensorCurve curve =
+      LearnSensors(data::Dataset(std::move(parts)), {.most_sensors = 2});
+  ASSERT_EQ(curve.chosen.size(), 2U);
+  for (const SensorCurve::Chosen& chosen : curve.chosen) {
+    if (chosen.sensor == "t27_degC") {
+      EXPECT_GT(chosen.replaced_cost, 0.1);
+    } else {
+      EXPECT_LT(chosen.replaced_cost, 0.05) << chosen.sensor;
+    }
+  }
 }
 
 TEST(LearnSensors, FindsSensorsToWhichNoSingleStepLeads) {
