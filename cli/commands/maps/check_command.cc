@@ -87,7 +87,7 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
   const models::SessionCheck check = models::CheckSession(
       errors, elapsed, rows.dataset.target_values() - predicted, rows.missing);
   const RowsLearnt learnt =
-      FindRowsLearnt(fitted, arguments.model, arguments.file, rows);
+      FindRowsLearnt(fitted, arguments.model, arguments.files, rows);
   const std::vector<models::ProbeSite> sites = models::RankProbeSites(errors);
   if (arguments.format == "json") {
     Json document = {{"schema", "errmap-check-1"},
