@@ -20,6 +20,7 @@
 #include <sys/resource.h>
 
 #include "cli/command.h"
+#include "cli/commands/data_arguments.h"
 #include "cli/commands/fleet/fleet_commands.h"
 #include "cli/report/shell_word.h"
 #include "cli/shell/command_reference.h"
@@ -375,8 +376,7 @@ bool HasRoomForProducts() {
 // "keep_dead" is "--keep-dead" here; what only a study can say is its key.
 std::string FlagOf(std::string_view member, std::string_view value) {
   if (member == "where") return "where in a study (errmap init writes one)";
-  std::string flag = "--" + std::string(member);
-  std::ranges::replace(flag, '_', '-');
+  std::string flag = cli::FlagOf(member);
   if (!value.empty()) flag.append(" ").append(value);
   return flag;
 }

@@ -50,14 +50,20 @@ std::vector<std::string> SplitNames(const std::string& flag,
 
 }  // namespace
 
+std::string FlagOf(std::string_view key) {
+  std::string flag = "--" + std::string(key);
+  std::ranges::replace(flag, '_', '-');
+  return flag;
+}
+
 void FlagAdder::operator()(const desk::StudyOption& option,
                            std::string& text) const {
   if (option.check == nullptr) {
-    command_->add_option(option.flag, text, option.help);
+    command_->add_option(FlagOf(option.key), text, option.help);
   } else {
     command_->add_option_function<std::string>(
-        option.flag,
-        [&text, flag = option.flag, check = option.check](
+        FlagOf(option.key),
+        [&text, flag = FlagOf(option.key), check = option.check](
             const std::string& given) {
           try {
             check(given);
@@ -74,8 +80,8 @@ void FlagAdder::operator()(const desk::StudyOption& option,
 void FlagAdder::operator()(const desk::StudyOption& option,
                            std::vector<std::string>& names) const {
   command_->add_option_function<std::string>(
-      option.flag,
-      [&names, flag = option.flag](const std::string& list) {
+      FlagOf(option.key),
+      [&names, flag = FlagOf(option.key)](const std::string& list) {
         names = SplitNames(flag, list);
       },
       option.help);
@@ -83,25 +89,26 @@ void FlagAdder::operator()(const desk::StudyOption& option,
 }
 
 void FlagAdder::operator()(const desk::StudyOption& option, bool& flag) const {
-  command_->add_flag(option.flag, flag, option.help);
-  if (option.seldom) MarkSeldom(command_, {option.flag});
+  command_->add_flag(FlagOf(option.key), flag, option.help);
+  Finish(option);
 }
 
 void FlagAdder::operator()(const desk::StudyOption& option,
                            desk::GivenError& error) const {
   command_->add_option_function<std::string>(
-      option.flag,
-      [&error, flag = option.flag, may_be_zero = option.may_be_zero](
+      FlagOf(option.key),
+      [&error, flag = FlagOf(option.key), may_be_zero = option.may_be_zero](
           const std::string& text) {
-        error = ErrorOfFlag(flag, text, may_be_zero);
+        error = ErrorOfFlag(flag.c_str(), text, may_be_zero);
       },
       option.help);
   Finish(option);
 }
 
 void FlagAdder::Finish(const desk::StudyOption& option) const {
-  command_->get_option(option.flag)->type_name(option.value);
-  if (option.seldom) MarkSeldom(command_, {option.flag});
+  CLI::Option* const added = command_->get_option(FlagOf(option.key));
+  if (*option.value != '\0') added->type_name(option.value);
+  if (option.seldom) added->group(kSeldom);
 }
 
 void AddDataArguments(CLI::App* command, DataArguments* arguments) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/commands/choice_option.h"
@@ -33,6 +34,9 @@ struct DataArguments {
   std::vector<std::string> PathsWith(std::vector<std::string> others) const;
 };
 
+/// "--keep-dead" of "keep_dead".
+std::string FlagOf(std::string_view key);
+
 /// Visitor of a list of cli/desk/study_options.h: adds the flag of each option
 /// to a command. The members must outlive it.
 class FlagAdder {
@@ -50,8 +54,8 @@ class FlagAdder {
   void operator()(const desk::StudyOption& option,
                   Value& chosen,
                   const std::vector<Value>& values) const {
-    AddChoice(command_, option.flag, option.help, values, &chosen);
-    if (option.seldom) MarkSeldom(command_, {option.flag});
+    AddChoice(command_, FlagOf(option.key), option.help, values, &chosen);
+    Finish(option);
   }
 
  private:

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,8 +17,8 @@ enum class Reach {
 
 /// An option of a study, wherever it is given.
 struct StudyOption {
-  const char* key;         // of study files, --set and results.json
-  const char* flag;        // of the command line
+  /// Of study files and results.json; its flag has - for _.
+  const char* key;
   const char* value = "";  // what help calls its value; words name themselves
   const char* help;
   Reach reach = Reach::kAll;
@@ -42,26 +41,22 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
   visit(
       StudyOption{
           .key = "target",
-          .flag = "--target",
           .value = "COL",
           .help = "Column to be mapped (default: the only one named error*)",
           .reach = Reach::kOne},
       selection.target);
   visit(StudyOption{.key = "inputs",
-                    .flag = "--inputs",
                     .value = "A,B,...",
                     .help = "Columns to map from (default: all other numeric)",
                     .reach = Reach::kOne},
         selection.inputs);
   visit(StudyOption{.key = "exclude",
-                    .flag = "--exclude",
                     .value = "A,B,...",
                     .help = "Columns never to map from",
                     .reach = Reach::kMachine,
                     .example = "exclude = [\"humidity\"]"},
         selection.exclude);
   visit(StudyOption{.key = "group",
-                    .flag = "--group",
                     .value = "COL",
                     .help = "Column of warm-up cycles (default: cycle)\nor of "
                             "days or segments: what tells groups of rows apart",
@@ -69,7 +64,6 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
                     .example = "group = \"cycle\""},
         selection.group);
   visit(StudyOption{.key = "time",
-                    .flag = "--time",
                     .value = "COL",
                     .help = "Column of times (default: the only time*)\nor of "
                             "dates; none: the number of the row counts",
@@ -77,7 +71,6 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
                     .example = "time = \"time_s\""},
         selection.time);
   visit(StudyOption{.key = "session",
-                    .flag = "--session",
                     .value = "COL",
                     .help = "Column of sessions (default: session, day or "
                             "run)\nthat is, uninterrupted runs; none: cut "
@@ -86,7 +79,6 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
                     .example = "session = \"day\""},
         selection.session);
   visit(StudyOption{.key = "align",
-                    .flag = "--align",
                     .help = "first: take each session's first value off the "
                             "target",
                     .seldom = true,
@@ -95,7 +87,6 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
         selection.align,
         std::vector{data::Alignment::kFirst, data::Alignment::kNone});
   visit(StudyOption{.key = "weight",
-                    .flag = "--weight",
                     .value = "COL",
                     .help = "Column of row weights > 0",
                     .reach = Reach::kOne,
@@ -104,7 +95,6 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
         selection.weight);
   visit(
       StudyOption{.key = "missing",
-                  .flag = "--missing",
                   .help = "What cells without a number do (empty, NA, #N/A, "
                           "-): error or drop-rows",
                   .seldom = true,
@@ -112,7 +102,6 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
       selection.missing,
       std::vector{data::MissingPolicy::kError, data::MissingPolicy::kDropRows});
   visit(StudyOption{.key = "faults",
-                    .flag = "--faults",
                     .help = "What becomes of rows with failed readings (9999, "
                             "jumps of a thermometer, zeros of a lost beam) or "
                             "that stand twice, which are named: keep or "
@@ -123,7 +112,6 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
         selection.faults,
         std::vector{data::FaultPolicy::kKeep, data::FaultPolicy::kDropRows});
   visit(StudyOption{.key = "keep_dead",
-                    .flag = "--keep-dead",
                     .help = "Keep inputs that hold one value only (failed "
                             "sensors)",
                     .seldom = true,
@@ -137,20 +125,19 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
 template <typename Config, typename Visit>
 void ForErrorOptions(Config& config, const Visit& visit) {
   visit(StudyOption{.key = "goal",
-                    .flag = "--goal",
                     .value = "X",
                     .help = "RMSE wanted: 2um (default for lengths: 0.5 um)\n"
                             "of held-out rows; without a unit in that of the "
                             "target"},
         config.goal);
-  visit(StudyOption{.key = "indifference",
-                    .flag = "--indifference",
-                    .value = "X",
-                    .help = "Difference in RMSE that never matters, as --goal "
-                            "(default for lengths: 0.02 um)",
-                    .seldom = true,
-                    .may_be_zero = true},
-        config.indifference);
+  visit(
+      StudyOption{.key = "indifference",
+                  .value = "X",
+                  .help = "Difference in RMSE that never matters, as the goal "
+                          "(default for lengths: 0.02 um)",
+                  .seldom = true,
+                  .may_be_zero = true},
+      config.indifference);
 }
 
 /// All that a component of a study is told by one word.
@@ -166,7 +153,6 @@ template <typename Config, typename Visit>
 void ForStudyOptions(Config& config, const Visit& visit) {
   ForErrorOptions(config, visit);
   visit(StudyOption{.key = "choose",
-                    .flag = "--choose",
                     .help = "The map to recommend\nauto: the blend, unless a "
                             "baseline errs less or a single map is proven "
                             "better by separate days. best: the lowest error"},
@@ -175,13 +161,11 @@ void ForStudyOptions(Config& config, const Visit& visit) {
                     models::Choose::kBest,
                     models::Choose::kBlend});
   visit(StudyOption{.key = "prefer",
-                    .flag = "--prefer",
                     .help = "small: fewest sensors, at most 5 % worse"},
         config.prefer,
         std::vector{models::Prefer::kLeastError, models::Prefer::kSmall});
   visit(
       StudyOption{.key = "rezero",
-                  .flag = "--rezero",
                   .value = "2h|session|probe[:noise=X]",
                   .help = "Judge maps with their offset set anew then\nfrom "
                           "the true error: at an interval (2h, 90min; 5 of a "

@@ -122,29 +122,30 @@ void Override(const std::set<std::string>& given,
               [&]<typename Member>(const desk::StudyOption& option,
                                    const Member& said,
                                    const auto&... /*values*/) {
-                if (!given.contains(option.flag)) return;
+                if (!given.contains(FlagOf(option.key))) return;
                 for_options(*config,
                             [&]<typename Other>(const desk::StudyOption& other,
                                                 Other& member,
                                                 const auto&... /*values*/) {
                               if constexpr (std::is_same_v<Member, Other>) {
-                                if (other.key == option.key) member = said;
+                                if (std::string_view(other.key) == option.key)
+                                  member = said;
                               }
                             });
               });
 }
 
 // The flags that were given and are not true of more components than `reach`.
-std::vector<const char*> GivenOfFewer(const CompareArguments& arguments,
+std::vector<std::string> GivenOfFewer(const CompareArguments& arguments,
                                       desk::Reach reach) {
-  std::vector<const char*> flags;
-  const auto add = [&](const char* flag) {
+  std::vector<std::string> flags;
+  const auto add = [&](const std::string& flag) {
     if (arguments.given.contains(flag)) flags.push_back(flag);
   };
   desk::ForSelectionOptions(
       arguments.data.selection,
       [&](const desk::StudyOption& option, const auto&... /*said*/) {
-        if (option.reach < reach) add(option.flag);
+        if (option.reach < reach) add(FlagOf(option.key));
       });
   for (const char* flag : kFilesOfOne) add(flag);
   return flags;
@@ -174,7 +175,7 @@ desk::StudyFile ConfigOfFile(const CompareArguments& arguments) {
   };
   Override(arguments.given, of_study, flags, &config);
   if (config.components.size() != 1) {
-    for (const char* flag : GivenOfFewer(arguments, desk::Reach::kAll)) {
+    for (const std::string& flag : GivenOfFewer(arguments, desk::Reach::kAll)) {
       throw UsageError(
           fmt::format("{} is for one component, and {} has {}; write --set "
                       "component.0.KEY=VALUE",
@@ -202,12 +203,12 @@ std::optional<desk::MachineStudy> MachineOf(const CompareArguments& arguments) {
     }
     return std::nullopt;
   }
-  std::vector<const char*> of_one =
+  std::vector<std::string> of_one =
       GivenOfFewer(arguments, desk::Reach::kMachine);
   for (const char* flag : {"--rezero", "--config"}) {
     if (arguments.given.contains(flag)) of_one.insert(of_one.begin(), flag);
   }
-  for (const char* flag : of_one) {
+  for (const std::string& flag : of_one) {
     throw UsageError(fmt::format(
         "{} is for one component, and --machine has several", flag));
   }
