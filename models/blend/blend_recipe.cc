@@ -141,12 +141,18 @@ class BlendRecipe final : public ModelRecipe {
                    folds,
                    context);
     std::vector<Score> scores;
+    std::vector<std::string> growing;
     for (const BasisCandidate& basis : bases) {
       scores.push_back(
           {basis.fit->candidate.held_out_rmse, &basis.fit->candidate.held_out});
+      for (std::string& name : NamesOfGrowing(*basis.viewed)) {
+        growing.push_back(std::move(name));
+      }
     }
+    // What only grows is to go on in a straight line, which no net does.
     std::optional<FittedModel> net;
-    if (options_.net && options_.rule != WeightRule::kStack) {
+    if (options_.net && options_.rule != WeightRule::kStack &&
+        growing.empty()) {
       net = FitNet(training, context);
       scores.push_back({net->inner_rmse, nullptr});
     }
@@ -156,12 +162,6 @@ class BlendRecipe final : public ModelRecipe {
     std::vector<Part> parts = CollapseBases(training, bases, weights);
     if (net && weights[weights.size() - 1] > kLeastWeight) {
       parts.push_back({net->name, weights[weights.size() - 1], *net});
-    }
-    std::vector<std::string> growing;
-    for (const BasisCandidate& basis : bases) {
-      for (std::string& name : NamesOfGrowing(*basis.viewed)) {
-        growing.push_back(std::move(name));
-      }
     }
     FittedModel fitted = Average(training, growing, std::move(parts));
     fitted.summary.message =
@@ -176,12 +176,15 @@ class BlendRecipe final : public ModelRecipe {
   // Less than this changes no digit that anyone prints.
   static constexpr double kLeastWeight = 1e-4;
 
-  static FittedModel FitNet(const Dataset& training,
-                            const FitContext& context) {
+  // By default NetInViews, which a comparison fits, too.
+  FittedModel FitNet(const Dataset& training, const FitContext& context) const {
     FitContext alone = context;
     alone.explain = false;
     alone.keep_trace = false;
-    return MakeRecipe(NetInViews())->Fit(training, alone);
+    NetOptions net = NetInViews();
+    net.view = options_.bases.view;
+    net.clip = options_.bases.clip;
+    return MakeRecipe(net)->Fit(training, alone);
   }
 
   // Members of one basis are polynomials of the same terms: one equation.

@@ -21,7 +21,8 @@ enum class WeightRule { kLikelihood, kPower4, kWithin20, kStack };
 /// maps that see the inputs differently are not.
 struct BlendOptions {
   WeightRule rule = WeightRule::kLikelihood;
-  bool net = true;  // with NetInViews(), but for kStack
+  /// With a net in its views, but for kStack and where an input only grows.
+  bool net = false;
   /// Views are what averaging lives on: without a `view` it is auto.
   BasisOptions bases = {.view = ViewOptions()};
 

@@ -97,7 +97,9 @@ VectorXd AgesOf(Index sessions) {
 
 TEST(NeverExplodes, BeyondWhatOnlyGrows) {
   constexpr double kMost = 2.0;
-  constexpr int kDesigns = 24;
+  constexpr int kDesigns = 200;
+  int above_better = 0;
+  double worst = 0.0;
   for (int i = 0; i < kDesigns; ++i) {
     stats::Random random(static_cast<std::uint64_t>(100 + i));
     const Design design{.ageing = static_cast<Ageing>(i % 4),
@@ -128,11 +130,17 @@ TEST(NeverExplodes, BeyondWhatOnlyGrows) {
     const double mean = LaterRmse(*MakeRecipe("mean"), training, later);
     const double plane =
         LaterRmse(*MakeRecipe("poly:full:degree=1:clip=none"), training, later);
-    EXPECT_LE(LaterRmse(*recipes[chosen], training, later),
-              kMost * std::max(mean, plane))
+    const double found = LaterRmse(*recipes[chosen], training, later);
+    above_better += found > kMost * std::min(mean, plane) ? 1 : 0;
+    worst = std::max(worst, found / std::min(mean, plane));
+    EXPECT_LE(found, kMost * std::max(mean, plane))
         << "design " << i << ": " << study.models[chosen].name << ", mean "
         << mean << ", plane " << plane;
   }
+  // Which of the two it will be nobody can tell in each of them.
+  RecordProperty("above_better", above_better);
+  RecordProperty("worst_percent", static_cast<int>(100.0 * worst));
+  EXPECT_LE(above_better, kDesigns / 10) << "worst " << worst;
 }
 
 }  // namespace
