@@ -148,7 +148,8 @@ double ErrorCurve::After(double dt, const Eigen::VectorXd& readings) const {
   if ((run.Step(dt, readings, &error) & kMapInvalid) != 0) {
     throw std::domain_error("its error is not finite there");
   }
-  return error;
+  const double most = program_->limits.max_error;
+  return std::clamp(error, -most, most);
 }
 
 double Tidied(double value) {

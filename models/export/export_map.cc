@@ -17,7 +17,8 @@ double MapExport::tolerance() const {
 
 MapExport PrepareExport(const FittedModel& fitted,
                         const std::string& name,
-                        Precision precision) {
+                        Precision precision,
+                        const LimitOptions& limits) {
   const std::string safe = SafeIdentifier(name, kLongestMapName);
   if (safe != name) {
     throw std::invalid_argument(fmt::format(
@@ -28,10 +29,13 @@ MapExport PrepareExport(const FittedModel& fitted,
   }
   MapExport made{
       .name = name, .precision = precision, .program = MakeMapProgram(fitted)};
-  made.rows = SelfTestRows(fitted, made.program);
-  made.error_range = ErrorRange(fitted, made.rows);
+  AddController(fitted, limits, &made.program);
+  const std::vector<SelfTestRow> rows = SelfTestRows(fitted, made.program);
+  made.num_checked = rows.size();
+  made.error_range = ErrorRange(fitted, rows);
   made.deviations =
-      FindDeviations(made.program, precision, made.rows, made.error_range);
+      FindDeviations(made.program, precision, rows, made.error_range);
+  made.rows = ControllerSession(fitted, made.program, precision);
   if (precision == Precision::kSingle &&
       !(made.deviations.inside <= AllowedDeviation(precision))) {
     throw std::invalid_argument(

@@ -14,9 +14,10 @@ struct MapExport {
   std::string name;  // a safe identifier
   Precision precision = Precision::kDouble;
   MapProgram program = {};
-  std::vector<SelfTestRow> rows = {};
-  double error_range = 0.0;    // target's unit
-  Deviations deviations = {};  // from the map
+  std::vector<SelfTestRow> rows = {};  // ControllerSession
+  std::size_t num_checked = 0;         // rows held against the map itself
+  double error_range = 0.0;            // target's unit
+  Deviations deviations = {};          // from the map
 
   /// What a file may differ from the map by when it tests itself (target's
   /// unit): AllowedDeviation, or twice what was found where a map's own sums
@@ -27,12 +28,13 @@ struct MapExport {
 /// Longest name of an exported map.
 inline constexpr std::size_t kLongestMapName = 40;
 
-/// Makes the program and holds it against the map. Throws
-/// std::invalid_argument as MakeMapProgram, on a name that is no safe
-/// identifier of at most kLongestMapName characters, and where single
+/// Makes the program with its controller and holds it against the map. Throws
+/// std::invalid_argument as MakeMapProgram and AddController, on a name that is
+/// no safe identifier of at most kLongestMapName characters, and where single
 /// precision loses more than AllowedDeviation within the trained range.
 MapExport PrepareExport(const FittedModel& fitted,
                         const std::string& name,
-                        Precision precision);
+                        Precision precision,
+                        const LimitOptions& limits = {});
 
 }  // namespace errmap::models

@@ -38,9 +38,11 @@ std::vector<std::string> PinIdentifiers(const MapProgram& program,
 constexpr const char* kHalDeclarations = R"(component {0} "{1}";
 description """
 offset = compensation = -error, in {2}: the motor goes to the commanded position
-plus it. A reading that is not finite, or outside of its trained range by more
-than the map's guard, is missing: offset keeps its last value and valid is
-false. Before the first valid step the offset is 0.
+plus it, never by more than max-offset, and never faster than max-rate but for
+the axis' own motion. Readings that are dead, no number, far outside of what was
+trained, frozen or contradicted by the others are not taken: offset keeps its
+last value for a minute, then goes to 0, and valid is false. Before the first
+valid step the offset is 0.
 """;
 author "errmap";
 license "GPL";
@@ -51,84 +53,63 @@ pin in bit step "Rising edge: a step of step-s seconds";
 pin in float step_s = 0.0 "0: a step in every period of the thread";
 pin in bit machine_on = 1 "For external offsets: on and homed";
 pin out float offset "-error, {2}";
-pin out bit valid "The last step had all its readings";
+pin out bit valid "The last step had all its readings, and they were believed";
 pin out bit outside "A reading is outside of its trained range";
+pin out u32 status "Bits; the source says which";
 pin out u32 steps "Steps made since it was loaded, missing readings or not";
 pin out s32 counts "offset / counts-scale while machine-on, else 0";
 pin out bit counts_enable "machine-on, a little later";
-param rw float max_offset = {4} "Largest offset, {2}; 0: no limit";
-param rw float max_rate = {5} "Largest change, {2}/s; 0: no limit";
+param rw float max_offset = {4} "Largest offset, {2}";
+param rw float max_rate = {5} "Largest change, {2}/s";
 param rw float counts_scale = {6} "One count, {2}";
 function _ fp;
 ;;
 )";
 
 constexpr const char* kBody = R"(
-{1}static double waited;       /* s since the last step that was made */
-static double wanted;       /* offset before the limits */
-static int begun, was_step, was_zero, zero_due, periods_on;
+static {0}_state map_state;
+static double silent;       /* s since the last edge of step */
+static int begun, was_step, was_zero, periods_on, of_reading;
 static unsigned made;
 
-/* One step of dt seconds. */
-static void errmap_step(const double x[], double dt) {{
-  double error = 0.0;
-  int status = {0}_check(x);
-  ++made;
-{2}  if ((status & ({0}_INVALID | {0}_FAR)) != 0) {{
-    errmap_valid = 0;
-    return;
-  }}
-{3}  waited = 0.0;
-  errmap_valid = (status & {0}_INVALID) == 0;
-  if (errmap_valid) wanted = -{4} * error;
-}}
-
-/* What the offset may be one period on. */
-static double errmap_limited(double from, double to, double most, double rate,
-                             double period) {{
-  if (most > 0.0) to = fmin(fmax(to, -most), most);
-  if (rate > 0.0) {{
-    to = fmin(fmax(to, from - rate * period), from + rate * period);
-  }}
-  return to;
-}}
-
 FUNCTION(_) {{
-  double x[{5}];
-{6}  if (zero && !was_zero) zero_due = 1;
+  double x[{2}];
+  double error = 0.0;
+  int of_moving;
+{3}  if (!begun) {0}_init(&map_state);
+  begun = 1;
+  map_state.max_error = fmax(max_offset, 0.0) / {1};
+  map_state.max_rate = fmax(max_rate, 0.0) / {1};
+  if (zero && !was_zero) {0}_zero(&map_state);
   was_zero = zero;
-  if (step_s > 0.0) {{
-    if (step && !was_step) errmap_step(x, step_s);
+  silent += fperiod;
+  if (step_s > 0.0 && !(step && !was_step)) {{
+    /* Who gives the edges has stopped: no reading is believed. */
+    if (made > 0 && silent > 3.0 * step_s) {{
+      x[0] = NAN;
+      of_reading = {0}_read(&map_state, silent, x);
+      silent = 0.0;
+    }}
   }} else {{
-    errmap_step(x, fperiod);
+    of_reading = {0}_read(&map_state, step_s > 0.0 ? step_s : fperiod, x);
+    silent = 0.0;
+    ++made;
   }}
   was_step = step;
+  of_moving = {0}_move(&map_state, fperiod, &error);
   steps = made;
-  valid = errmap_valid;
-  outside = ({0}_check(x) & {0}_OUTSIDE) != 0;
-  offset = errmap_limited(offset, wanted, max_offset, max_rate, fperiod);
+  status = (unsigned)(of_reading | of_moving);
+  valid = made > 0 && (of_reading & {0}_NOT_TAKEN) == 0;
+  outside = (of_reading & {0}_OUTSIDE) != 0;
+  offset = -{1} * error;
 
   /* LinuxCNC takes counts for relative to the moment of enabling, and forgets
    * them at machine off: they are 0 until it has seen the enable. */
   if (!machine_on) periods_on = 0;
-  else if (periods_on < {7}) ++periods_on;
+  else if (periods_on < {4}) ++periods_on;
   counts_enable = periods_on > 1;
-  counts = periods_on < {7} ? 0 : (int)floor(offset / counts_scale + 0.5);
+  counts = periods_on < {4} ? 0 : (int)floor(offset / counts_scale + 0.5);
 }}
-)";
-
-constexpr const char* kStepWithMemory = R"(  if (!begun) {{
-    (void){0}_init(&map_state, x);
-    begun = 1;
-  }}
-  if (zero_due) (void){0}_zero(&map_state, x);
-  zero_due = 0;
-  status = {0}_step(&map_state, waited, x, &error);
-)";
-
-constexpr const char* kStepWithoutMemory = R"(  begun = 1;
-  zero_due = 0;
-  status = {0}_error(x, &error);
 )";
 
 class HalWriter {
@@ -199,7 +180,6 @@ class HalWriter {
 
 std::string HalWriter::Component() const {
   const MapProgram& program = map_.program;
-  const bool memory = program.has_memory();
   std::string pins;
   std::string readings;
   for (std::size_t i = 0; i < pins_.size(); ++i) {
@@ -209,37 +189,25 @@ std::string HalWriter::Component() const {
                         CommentText(PinUnit(i)));
     readings += fmt::format("  x[{}] = {};\n", i, Reading(i));
   }
-  // 10 um/s, quick against heat and slow against any axis.
-  const data::Unit mm = data::UnitOfSymbol("mm");
-  const double rate = InMachine(0.01, mm);
-  const double count = InMachine(1e-6, mm);
+  const double scale = InMachine(1.0, program.target.unit);
+  const double count = InMachine(1e-6, data::UnitOfSymbol("mm"));
   const std::string map_name = SafeIdentifier(map_.name, kLongestMap);
-  std::string text =
-      fmt::format(kHalDeclarations,
-                  name_,
-                  fmt::format("Minus the error that the map {} predicts",
-                              CommentText(program.model)),
-                  options_.unit.symbol,
-                  pins,
-                  "0.0",
-                  RealText(rate),
-                  RealText(count));
-  text += CFragment(program, map_name);
-  text += fmt::format(
-      kBody,
-      map_name,
-      fmt::format(
-          "{}static int errmap_valid;\n",
-          memory ? fmt::format("static {}_state map_state;\n", map_name) : ""),
-      // A gap in the readings is one long step to the first that is there.
-      "  if (begun) waited += dt;\n",
-      fmt::format(fmt::runtime(memory ? kStepWithMemory : kStepWithoutMemory),
-                  map_name),
-      RealText(InMachine(1.0, program.target.unit)),
-      std::max<std::size_t>(pins_.size(), 1),
-      pins_.empty() ? "  x[0] = 0.0;\n" : readings,
-      10);
-  return text;
+  return fmt::format(kHalDeclarations,
+                     name_,
+                     fmt::format("Minus the error that the map {} predicts",
+                                 CommentText(program.model)),
+                     options_.unit.symbol,
+                     pins,
+                     RealText(scale * program.limits.max_error),
+                     RealText(scale * program.limits.max_rate),
+                     RealText(count)) +
+         CFragment(program, map_name) +
+         fmt::format(kBody,
+                     map_name,
+                     RealText(scale),
+                     std::max<std::size_t>(pins_.size(), 1),
+                     pins_.empty() ? "  x[0] = 0.0;\n" : readings,
+                     10);
 }
 
 std::string HalWriter::SensorComments() const {

@@ -1,5 +1,6 @@
 #include "models/export/language.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -15,36 +16,53 @@ std::string UnitText(const data::Unit& unit) {
   return unit.symbol.empty() ? "no unit" : CommentText(unit.symbol);
 }
 
-// The array of a space; '\0' of those that are one number.
+// The array of a space that is no single number.
 char ArrayOf(Space space) {
-  switch (space) {
-    case Space::kReading:
-      return 'x';
-    case Space::kState:
-      return 's';
-    case Space::kGain:
-      return 'g';
-    case Space::kDerived:
-      return 'v';
-    case Space::kForm:
-      return 'u';
-    case Space::kScaled:
-      return 'z';
-    case Space::kHidden:
-      return 'h';
-    case Space::kTerm:
-      return 't';
-    case Space::kTime:
-    case Space::kError:
-      break;
+  if (space == Space::kReading) return 'x';
+  if (space == Space::kState) return 's';
+  return std::ranges::find(kLocalArrays, space, &LocalArray::space)->name;
+}
+
+// What the controller around the map does, for the head of a file.
+Lines AboutLimits(const MapProgram& program) {
+  const ControllerLimits& limits = program.limits;
+  const std::string unit = UnitText(program.target.unit);
+  Lines lines{
+      fmt::format("Limits: the error given is at most {:.6g} {} in size and "
+                  "changes by at most",
+                  limits.max_error,
+                  unit),
+      fmt::format(
+          "{:.6g} {} per second, which no heat does.", limits.max_rate, unit)};
+  for (const ProgramReading& reading : program.readings) {
+    if (!(reading.slope > 0.0)) continue;
+    lines.push_back(fmt::format(
+        "Motion of the axis adds up to {:.3g} {} for each {} of {}.",
+        reading.slope,
+        unit,
+        UnitText(reading.column.unit),
+        CommentText(reading.column.name)));
   }
-  return '\0';
+  for (const char* line :
+       {"A step is not taken where a sensor is dead (0, -127, 85 or 850 "
+        "outside "
+        "of what",
+        "was trained), is no number, is far beyond its trained range, stands "
+        "still while",
+        "the others move, or contradicts them. The filters keep their state "
+        "then, and the"}) {
+    lines.emplace_back(line);
+  }
+  lines.push_back(fmt::format(
+      "last good error is held for {:g} s. After that it goes to 0.",
+      limits.hold));
+  return lines;
 }
 
 }  // namespace
 
 std::string Language::Place(Operand operand) const {
-  if (operand.space == Space::kTime) return "dt_s";
+  if (operand.space == Space::kTime) return CellName(Cell::kWaited);
   if (operand.space == Space::kError) return "e";
   return fmt::format("{}[{}]", ArrayOf(operand.space), operand.index);
 }
@@ -143,6 +161,140 @@ std::string Language::Plus(double value, bool single) const {
          Number(std::fabs(value), single);
 }
 
+Lines Language::Write(const MapProgram& program, const Routine& routine) const {
+  Lines lines;
+  for (const Statement& statement : routine) {
+    for (std::string& line : WriteOne(program, statement)) {
+      lines.push_back(std::move(line));
+    }
+  }
+  return lines;
+}
+
+Lines Language::Block(const MapProgram& program,
+                      const std::string& first,
+                      const Routine& body) const {
+  Lines lines{first};
+  for (const std::string& line : Write(program, body)) {
+    lines.push_back(syntax_.indent + line);
+  }
+  return lines;
+}
+
+Lines Language::WriteOne(const MapProgram& program, const Statement& it) const {
+  const auto end = [](Lines lines, const std::string& last) {
+    if (!last.empty()) lines.push_back(last);
+    return lines;
+  };
+  switch (it.kind) {
+    case Statement::Kind::kAssign:
+      return {Assign(Text(it.sides[0]), Text(it.sides[1]), false)};
+    case Statement::Kind::kFlag:
+      return {Flag(it.flag)};
+    case Statement::Kind::kRun:
+      return Write(program, program.part(it.part));
+    case Statement::Kind::kEachReading: {
+      const int count = program.size(Space::kReading);
+      return end(
+          Block(program,
+                fmt::format(fmt::runtime(syntax_.loop), count, count - 1),
+                it.body),
+          syntax_.end_loop);
+    }
+    case Statement::Kind::kIf:
+      break;
+  }
+  Lines lines =
+      Block(program,
+            fmt::format(fmt::runtime(syntax_.when), Text(it.sides[0])),
+            it.body);
+  if (!it.otherwise.empty()) {
+    for (std::string& line : Block(program, syntax_.otherwise, it.otherwise)) {
+      lines.push_back(std::move(line));
+    }
+  }
+  return end(std::move(lines), syntax_.end_when);
+}
+
+// As part of another expression.
+std::string Language::Inner(const Expression& it) const {
+  using Kind = Expression::Kind;
+  const bool stands_alone = it.kind == Kind::kNumber ||
+                            it.kind == Kind::kCell ||
+                            it.kind == Kind::kAbsolute;
+  return stands_alone ? Text(it) : "(" + Text(it) + ")";
+}
+
+std::string Language::Text(const Expression& it) const {
+  using Kind = Expression::Kind;
+  const auto both = [&](const char* sign) {
+    return fmt::format(
+        "{} {} {}", Inner(it.parts[0]), sign, Inner(it.parts[1]));
+  };
+  switch (it.kind) {
+    case Kind::kNumber:
+      return Number(it.number, false);
+    case Kind::kCell: {
+      const std::string name = CellName(it.cell);
+      if (!InfoOf(it.cell).is_array) return name;
+      return it.index == Expression::kLoop
+                 ? fmt::format("{}[{}]", name, syntax_.index)
+                 : fmt::format("{}[{}]", name, it.index);
+    }
+    case Kind::kAny:
+      return HasAny(it.mask);
+    case Kind::kNot:
+      return syntax_.negation + Inner(it.parts[0]);
+    case Kind::kNegative:
+      return "-" + Inner(it.parts[0]);
+    case Kind::kAbsolute:
+      return fmt::format("{}({})", syntax_.absolute, Text(it.parts[0]));
+    case Kind::kAnd:
+      return both(syntax_.conjunction);
+    case Kind::kOr:
+      return both(syntax_.disjunction);
+    case Kind::kLess:
+      return both("<");
+    case Kind::kMore:
+      return both(">");
+    case Kind::kAtLeast:
+      return both(">=");
+    case Kind::kAtMost:
+      return both("<=");
+    case Kind::kEqual:
+      return both(syntax_.equal);
+    case Kind::kPlus:
+      return both("+");
+    case Kind::kMinus:
+      return both("-");
+    case Kind::kTimes:
+      return both("*");
+  }
+  return "";
+}
+
+std::vector<CellInfo> KeptCells(const MapProgram& program) {
+  std::vector<CellInfo> kept;
+  for (int i = 0; i < kNumCells; ++i) {
+    const CellInfo& info = InfoOf(static_cast<Cell>(i));
+    if (info.kind == CellKind::kKept && program.Uses(info.cell)) {
+      kept.push_back(info);
+    }
+  }
+  return kept;
+}
+
+std::string StatusNames(int mask,
+                        const std::string& before,
+                        const std::string& between) {
+  std::string names;
+  for (const StatusBit& bit : StatusBits()) {
+    if ((mask & bit.bit) == 0) continue;
+    names += (names.empty() ? "" : between) + before + bit.name;
+  }
+  return names;
+}
+
 Lines AboutMap(const MapProgram& program,
                const std::string& name,
                Precision precision) {
@@ -172,12 +324,14 @@ Lines AboutMap(const MapProgram& program,
                                 reading.trained_max));
   }
   lines.push_back("");
+  for (std::string& line : AboutLimits(program)) {
+    lines.push_back(std::move(line));
+  }
+  lines.push_back("");
   const int states = program.size(Space::kState);
-  lines.push_back(states > 0 ? fmt::format("Its state: {} doubles, {} bytes.",
-                                           states,
-                                           static_cast<std::size_t>(states) *
-                                               sizeof(double))
-                             : "It has no memory.");
+  lines.push_back(
+      states > 0 ? fmt::format("Its filters and zeros: {} doubles.", states)
+                 : "It has no memory but for what holds the error.");
   if (single) {
     lines.push_back("Single precision; the state stays double.");
   }

@@ -442,23 +442,65 @@ class FormWriter {
   MapProgram* program_;
 };
 
-// How many numbers each space holds, from the places that are written.
-void MeasureSpaces(MapProgram* program) {
+}  // namespace
+
+void MapProgram::MeasureSpaces() {
   const auto grow = [&](Space space, int size) {
-    int& known = program->sizes[static_cast<std::size_t>(space)];
+    int& known = sizes[static_cast<std::size_t>(space)];
     known = std::max(known, size);
   };
-  grow(Space::kReading, AsInt(program->readings.size()));
+  grow(Space::kReading, AsInt(readings.size()));
   grow(Space::kTime, 1);
   grow(Space::kError, 1);
-  for (const Instructions* part : program->parts()) {
+  for (const Instructions* part : parts()) {
     for (const Instruction& instruction : *part) {
       grow(instruction.to.space, instruction.to.index + instruction.count);
     }
   }
 }
 
-}  // namespace
+double TableValue(const ProgramReading& reading, Cell cell) {
+  switch (cell) {
+    case Cell::kLow:
+      return reading.low;
+    case Cell::kHigh:
+      return reading.high;
+    case Cell::kFarLow:
+      return reading.far_low;
+    case Cell::kFarHigh:
+      return reading.far_high;
+    case Cell::kWeight:
+      return reading.weight;
+    default:
+      return reading.believed;
+  }
+}
+
+const Instructions& MapProgram::part(Part part) const {
+  switch (part) {
+    case Part::kBegin:
+      return begin;
+    case Part::kAdvance:
+      return advance;
+    case Part::kZero:
+      return zero;
+    case Part::kEvaluate:
+      return evaluate;
+    case Part::kJudge:
+      break;
+  }
+  return judge;
+}
+
+bool MapProgram::IsTableDouble(std::size_t table) const {
+  return std::ranges::any_of(judge, [table](const Instruction& it) {
+    return it.op == Op::kAffine && it.table == table;
+  });
+}
+
+bool MapProgram::Uses(Cell cell) const {
+  return models::Uses(read, cell) || models::Uses(move, cell);
+}
 
 bool MapProgram::Uses(Op op) const {
   return std::ranges::any_of(parts(), [op](const Instructions* part) {
@@ -477,12 +519,10 @@ MapProgram MakeMapProgram(const FittedModel& fitted) {
   program.model = fitted.name;
   program.target = fitted.target;
   program.since_first_row = fitted.align == data::Alignment::kFirst;
-  const double margin =
-      fitted.guards ? fitted.guards->input_margin : Guards{}.input_margin;
   for (const TrainedInput& input : fitted.inputs) {
-    const Bounds far = Widened(input.min, input.max, margin);
-    program.readings.push_back(
-        {input.column, input.min, input.max, far.low, far.high});
+    program.readings.push_back({.column = input.column,
+                                .trained_min = input.min,
+                                .trained_max = input.max});
   }
   const Layout layout(fitted);
   program.begin = Derive(layout, Moment::kBegin);
@@ -494,7 +534,7 @@ MapProgram MakeMapProgram(const FittedModel& fitted) {
   if (fitted.guards) writer.ClipInputs(*fitted.guards, &inputs);
   writer.Form(fitted.model->Describe(), inputs);
   if (fitted.guards) writer.ClipError(*fitted.guards);
-  MeasureSpaces(&program);
+  program.MeasureSpaces();
   return program;
 }
 

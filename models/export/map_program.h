@@ -2,35 +2,43 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "models/error_model.h"
+#include "models/export/routine.h"
 
 namespace errmap::models {
 
 /// Where a number of a program lives.
 enum class Space {
-  kReading,  // an input as the sensor gives it
-  kTime,     // seconds since the step before
-  kState,    // kept from step to step: filters and zeros
-  kGain,     // of the filters of one time constant, in this step: two each
-  kDerived,  // computed from readings and state
-  kForm,     // an input of the form, clipped
-  kScaled,   // the same, scaled for a member
-  kHidden,   // hidden nodes of a net
-  kTerm,     // partial sums of a polynomial, output of a net
-  kError,    // the predicted error
+  kReading,   // an input as the sensor gives it
+  kTime,      // seconds since the step before
+  kState,     // kept from step to step: filters and zeros
+  kGain,      // of the filters of one time constant, in this step: two each
+  kDerived,   // computed from readings and state
+  kForm,      // an input of the form, clipped
+  kScaled,    // the same, scaled for a member
+  kHidden,    // hidden nodes of a net
+  kTerm,      // partial sums of a polynomial, output of a net
+  kError,     // the predicted error
+  kStanding,  // sensors less their trained means
+  kScore,     // of the thermal state that they tell together
+  kDoubt,     // how far each reading is from what others tell
 };
-inline constexpr std::size_t kNumSpaces = 10;
+inline constexpr std::size_t kNumSpaces = 13;
 
 /// Time, gains, states and what is derived from them stay double where all else
-/// is single: in single precision a slow filter stands still.
+/// is single: in single precision a slow filter stands still. So do the checks,
+/// which must not depend on it.
 constexpr bool IsAlwaysDouble(Space space) {
   return space == Space::kTime || space == Space::kState ||
-         space == Space::kGain || space == Space::kDerived;
+         space == Space::kGain || space == Space::kDerived ||
+         space == Space::kStanding || space == Space::kScore ||
+         space == Space::kDoubt;
 }
 
 struct Operand {
@@ -82,10 +90,40 @@ struct ProgramReading {
   data::ColumnInfo column;
   double trained_min = 0.0;
   double trained_max = 0.0;
-  /// The trained range widened by the guard's margin on each side: a reading
-  /// beyond it comes from a failed sensor sooner than from the machine.
-  double far_min = 0.0;
-  double far_max = 0.0;
+  /// A position comes from the control itself: it is no sensor that can fail.
+  bool is_position = false;
+  double low = 0.0;  // beyond these it is outside
+  double high = 0.0;
+  /// Beyond these it comes from a failed sensor sooner than from the machine.
+  double far_low = 0.0;
+  double far_high = 0.0;
+  /// What a sensor that is not connected reads, where that is not far.
+  std::vector<double> dead = {};
+  /// Its share of the common movement (per its unit); 0: it is not watched for
+  /// standing still.
+  double weight = 0.0;
+  /// Its kDoubt above which it contradicts the others.
+  double believed = 0.0;
+  /// Of a position: what the error may change by along it (target's unit per
+  /// its unit).
+  double slope = 0.0;
+};
+
+/// The cells of CellKind::kTable, and what a reading puts there.
+inline constexpr Cell kTables[] = {Cell::kLow,
+                                   Cell::kHigh,
+                                   Cell::kFarLow,
+                                   Cell::kFarHigh,
+                                   Cell::kWeight,
+                                   Cell::kBelieved};
+double TableValue(const ProgramReading& reading, Cell cell);
+
+/// What holds the error given, whatever the readings say.
+struct ControllerLimits {
+  /// Largest size, target's unit; infinite until a controller is added.
+  double max_error = std::numeric_limits<double>::infinity();
+  double max_rate = 0.0;  // largest change per s, but for the axis' own motion
+  double hold = 60.0;     // s for which the last good error is held
 };
 
 /// A map as the arithmetic that a controller does: what every exported
@@ -106,21 +144,36 @@ struct MapProgram {
   Instructions zero;
   /// From readings and state to the error.
   Instructions evaluate;
+  /// From readings to kDoubt, where 1 is as far as `predict` lets pass.
+  Instructions judge;
+  ControllerLimits limits;
+  /// What a controller does when readings come: believes them or not, and so
+  /// sets the error that is wanted.
+  Routine read;
+  /// What it does in every period: moves the error given towards it.
+  Routine move;
   std::array<int, kNumSpaces> sizes = {};  // numbers in each space
 
   int size(Space space) const { return sizes[static_cast<std::size_t>(space)]; }
   bool has_memory() const { return size(Space::kState) > 0; }
-  /// All four parts, in the order of the members.
-  std::array<const Instructions*, 4> parts() const {
-    return {&begin, &advance, &zero, &evaluate};
+  const Instructions& part(Part part) const;
+  /// All five parts, in the order of the members.
+  std::array<const Instructions*, 5> parts() const {
+    return {&begin, &advance, &zero, &evaluate, &judge};
   }
+  /// Whether a table is for numbers that are always double.
+  bool IsTableDouble(std::size_t table) const;
+  /// Whether a routine reads or writes the cell.
+  bool Uses(Cell cell) const;
+  /// Sets `sizes` from the places that are written.
+  void MeasureSpaces();
   /// Whether some part has this instruction.
   bool Uses(Op op) const;
 };
 
-/// The program of a map. Throws std::invalid_argument where a filter of its
-/// history runs in another unit of time than seconds: a controller knows no
-/// rows.
+/// The arithmetic of a map, without limits (controller.h adds them). Throws
+/// std::invalid_argument where a filter of its history runs in another unit of
+/// time than seconds: a controller knows no rows.
 MapProgram MakeMapProgram(const FittedModel& fitted);
 
 }  // namespace errmap::models

@@ -65,14 +65,15 @@ constexpr const char* kTimer = R"(#define _POSIX_C_SOURCE 199309L
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
-{6}
+{3}
 
 enum {{ ROWS = {1}, BATCH = 500, BATCHES = 301, SINGLES = 100000 }};
 static const double readings[ROWS][{0}_INPUTS + 1] = {{
 {2}}};
 static {0}_real rows[ROWS][{0}_INPUTS + 1];
 static {0}_real sum;
-{3}
+static {0}_state state;
+
 static double now(void) {{
   struct timespec t;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
@@ -81,7 +82,7 @@ static double now(void) {{
 
 static void step(int row) {{
   {0}_real error = 0;
-  (void){4};
+  (void){0}_step(&state, 1.0, rows[row], &error);
   sum += error;
 }}
 
@@ -97,7 +98,8 @@ int main(void) {{
   for (row = 0; row < ROWS; ++row) {{
     for (i = 0; i < {0}_INPUTS; ++i) rows[row][i] = ({0}_real)readings[row][i];
   }}
-{5}  for (k = 0; k < BATCHES; ++k) {{
+  {0}_init(&state);
+  for (k = 0; k < BATCHES; ++k) {{
     const double begin = now();
     for (i = 0; i < BATCH; ++i) step(i % ROWS);
     batches[k] = (now() - begin) / BATCH;
@@ -125,7 +127,7 @@ std::string TimerText(const MapExport& map) {
   // Within the trained range, where a controller is.
   std::size_t count = 0;
   for (const SelfTestRow& row : map.rows) {
-    if ((row.status & kMapOutside) != 0) continue;
+    if ((row.status & (kMapOutside | kMapNotTaken)) != 0) continue;
     std::string numbers;
     for (const double reading : row.readings) {
       numbers += RealText(reading) + ", ";
@@ -134,17 +136,7 @@ std::string TimerText(const MapExport& map) {
     ++count;
   }
   const std::string& name = map.name;
-  const bool memory = map.program.has_memory();
-  return fmt::format(
-      kTimer,
-      name,
-      count,
-      rows,
-      memory ? fmt::format("static {}_state state;\n", name) : "",
-      memory ? fmt::format("{}_step(&state, 1.0, rows[row], &error)", name)
-             : fmt::format("{}_error(rows[row], &error)", name),
-      memory ? fmt::format("  (void){}_init(&state, rows[0]);\n", name) : "",
-      fmt::format("#include \"{}.h\"", name));
+  return fmt::format(kTimer, name, count, rows, "#include \"" + name + ".h\"");
 }
 
 // Sizes of the sections of an object file whose name begins with `prefix`, as

@@ -67,18 +67,91 @@ void Count(const MapProgram& program,
   }
 }
 
+// Of an expression, `times`.
+void CountExpression(const Expression& it,
+                     std::int64_t times,
+                     ProgramCost* cost) {
+  using Kind = Expression::Kind;
+  for (const Expression& part : it.parts) CountExpression(part, times, cost);
+  switch (it.kind) {
+    case Kind::kLess:
+    case Kind::kMore:
+    case Kind::kAtLeast:
+    case Kind::kAtMost:
+    case Kind::kEqual:
+    case Kind::kAny:
+      cost->comparisons += times;
+      return;
+    case Kind::kPlus:
+    case Kind::kMinus:
+      cost->additions += times;
+      return;
+    case Kind::kTimes:
+      cost->multiplications += times;
+      return;
+    case Kind::kNumber:
+    case Kind::kCell:
+    case Kind::kNot:
+    case Kind::kNegative:
+    case Kind::kAbsolute:
+    case Kind::kAnd:
+    case Kind::kOr:
+      return;
+  }
+}
+
+// Both branches of every condition: what a step may cost at most, but for a
+// session's first and a new zero.
+void CountRoutine(const MapProgram& program,
+                  const Routine& routine,
+                  ProgramCost* cost,
+                  std::int64_t times = 1) {
+  for (const Statement& it : routine) {
+    for (const Expression& side : it.sides) {
+      CountExpression(side, times, cost);
+    }
+    switch (it.kind) {
+      case Statement::Kind::kRun:
+        if (it.part == Part::kBegin || it.part == Part::kZero) break;
+        for (const Instruction& step : program.part(it.part)) {
+          Count(program, step, cost);
+        }
+        break;
+      case Statement::Kind::kAssign:
+        cost->copies += times;
+        break;
+      case Statement::Kind::kFlag:
+        break;
+      case Statement::Kind::kIf:
+        CountRoutine(program, it.body, cost, times);
+        CountRoutine(program, it.otherwise, cost, times);
+        break;
+      case Statement::Kind::kEachReading:
+        CountRoutine(
+            program, it.body, cost, times * program.size(Space::kReading));
+        break;
+    }
+  }
+}
+
 }  // namespace
 
 ProgramCost CostOf(const MapProgram& program) {
   ProgramCost cost;
-  for (const Instructions* part : {&program.advance, &program.evaluate}) {
-    for (const Instruction& it : *part) Count(program, it, &cost);
+  if (program.read.empty()) {
+    for (const Instructions* part : {&program.advance, &program.evaluate}) {
+      for (const Instruction& it : *part) Count(program, it, &cost);
+    }
   }
-  // Finite, in the trained range, not far from it.
-  constexpr std::int64_t kChecks = 5;
-  cost.comparisons += kChecks * program.size(Space::kReading);
-  cost.state_bytes =
-      static_cast<std::int64_t>(sizeof(double)) * program.size(Space::kState);
+  CountRoutine(program, program.read, &cost);
+  CountRoutine(program, program.move, &cost);
+  std::int64_t kept = program.size(Space::kState);
+  for (int i = 0; i < kNumCells; ++i) {
+    const CellInfo& cell = InfoOf(static_cast<Cell>(i));
+    if (cell.kind != CellKind::kKept || !program.Uses(cell.cell)) continue;
+    kept += cell.is_array ? program.size(Space::kReading) : 1;
+  }
+  cost.state_bytes = static_cast<std::int64_t>(sizeof(double)) * kept;
   return cost;
 }
 

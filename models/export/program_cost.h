@@ -18,8 +18,9 @@ struct ProgramCost {
   std::int64_t state_bytes = 0;  // doubles kept from step to step
 };
 
-/// The cost of a step (`advance`, `evaluate` and the check of the readings);
-/// what depends on the readings is counted as if it always happened.
+/// The cost of a step: of the arithmetic (`advance`, `evaluate`), or where
+/// there is a controller of its routines, checks and limits included; what
+/// depends on the readings is counted as if it always happened.
 ProgramCost CostOf(const MapProgram& program);
 
 }  // namespace errmap::models

@@ -1,6 +1,7 @@
 #include "models/export/python_code.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -12,12 +13,52 @@ namespace {
 
 using Eigen::Index;
 
+constexpr Syntax kPython{.conjunction = "and",
+                         .disjunction = "or",
+                         .negation = "not ",
+                         .equal = "==",
+                         .absolute = "abs",
+                         .when = "if {}:",
+                         .otherwise = "else:",
+                         .end_when = "",
+                         .loop = "for i in range({0}):",
+                         .end_loop = "",
+                         .index = "i",
+                         .indent = "    "};
+
 // Lists, named as in C.
 class PythonLanguage final : public Language {
  public:
-  PythonLanguage() : Language(Precision::kDouble) {}
+  PythonLanguage() : Language(Precision::kDouble, kPython) {}
+
+  std::string CellName(Cell cell) const override {
+    const CellInfo& info = InfoOf(cell);
+    switch (info.kind) {
+      case CellKind::kKept:
+        return fmt::format("self.{}", info.name);
+      case CellKind::kTable: {
+        std::string name = info.name;
+        std::ranges::transform(name, name.begin(), [](char c) {
+          return c == '_' ? c : static_cast<char>(c - 'a' + 'A');
+        });
+        return "_" + name;
+      }
+      case CellKind::kLocal:
+        break;
+    }
+    return info.name;
+  }
+
+  std::string HasAny(int mask) const override {
+    return "status & " + (mask == kMapNotTaken ? std::string("NOT_TAKEN")
+                                               : StatusNames(mask, "", ""));
+  }
 
  private:
+  std::string Flag(int bit) const override {
+    return "status |= " + StatusNames(bit, "", "");
+  }
+
   std::string Assign(const std::string& to,
                      const std::string& value,
                      bool /*narrows*/) const override {
@@ -45,7 +86,7 @@ class PythonLanguage final : public Language {
               const std::string& value,
               bool guards) const override {
     Lines lines{"if " + condition + ":", "    " + to + " = " + value};
-    if (guards) lines.push_back("    status |= CLIPPED");
+    if (guards) lines.push_back("    " + Flag(kMapClipped));
     return lines;
   }
 
@@ -79,10 +120,9 @@ class PythonWriter {
                      double tolerance) const;
 
  private:
-  std::string Body(const Instructions& part) const;
   std::string Tables() const;
   std::string Helpers() const;
-  std::string Functions() const;
+  std::string MapClass() const;
   std::string SelfTest(const std::vector<SelfTestRow>& rows,
                        double tolerance) const;
 
@@ -98,17 +138,24 @@ std::string ListText(const std::vector<double>& values,
   return "[\n" + Joined(Wrapped(numbers, indent + "    "), "") + indent + "]";
 }
 
+// In a self-test, which has readings that are no number.
+std::string NumberText(double value) {
+  if (std::isnan(value)) return "math.nan";
+  if (std::isinf(value)) return value > 0.0 ? "math.inf" : "-math.inf";
+  return RealText(value);
+}
+
 std::string PythonWriter::Tables() const {
-  std::string text = "# Trained range of each input, and where it is far.\n";
-  text += "_RANGES = [\n";
-  for (const ProgramReading& reading : program_.readings) {
-    text += fmt::format("    ({}, {}, {}, {}),\n",
-                        RealText(reading.trained_min),
-                        RealText(reading.trained_max),
-                        RealText(reading.far_min),
-                        RealText(reading.far_max));
+  std::string text;
+  for (const Cell cell : kTables) {
+    if (!program_.Uses(cell)) continue;
+    std::vector<double> values;
+    for (const ProgramReading& reading : program_.readings) {
+      values.push_back(TableValue(reading, cell));
+    }
+    text += fmt::format(
+        "{} = {}\n", language_.CellName(cell), ListText(values, ""));
   }
-  text += "]\n";
   for (std::size_t k = 0; k < program_.tables.size(); ++k) {
     const Eigen::MatrixXd& table = program_.tables[k];
     const Index num_inputs = table.cols() - 1;
@@ -150,101 +197,78 @@ def _sigmoid(a):
   return text;
 }
 
-// What a part writes, and its instructions.
-std::string PythonWriter::Body(const Instructions& part) const {
-  struct List {
-    Space space;
-    char name;
+constexpr const char* kClass = R"(
+
+class Map:
+    """A session of the map: step() gives the error, within the limits."""
+
+    def __init__(self):
+        self.max_error = {max_error}
+        self.max_rate = {max_rate}
+        self.s = [0.0] * {states}
+{kept}
+    def begin(self):
+        """The next step taken begins a session: filters in the steady state of
+        its inputs, the zero taken there. The error goes on from where it is."""
+        self.begun = 0.0
+
+    def zero(self):
+        """The next step taken takes the zero anew."""
+        self.zero_due = 1.0
+
+    def step(self, dt_s, inputs):
+        """(error, status), dt_s seconds after the call before, at these
+        inputs. Time must go on while inputs fail."""
+        status = self.read(dt_s, inputs)
+        error, more = self.move(dt_s)
+        return error, status | more
+
+    def read(self, dt_s, inputs):
+        """Reads inputs that come more slowly than the control's cycle: status.
+        dt_s are the seconds since the call of read before."""
+        if len(inputs) != len(INPUTS):
+            raise ValueError("expected %d inputs" % len(INPUTS))
+        x = inputs
+        s = self.s
+        e = math.nan
+        passed = dt_s
+        status = 0
+{locals}{read}        return status
+
+    def move(self, dt_s):
+        """Moves the error, dt_s seconds after the call of move before:
+        (error, status)."""
+        passed = dt_s
+        status = 0
+{move}        return self.given, status
+)";
+
+std::string PythonWriter::MapClass() const {
+  std::string kept;
+  for (const CellInfo& cell : KeptCells(program_)) {
+    if (cell.cell == Cell::kMostError || cell.cell == Cell::kMostRate) continue;
+    kept += fmt::format("        self.{} = {}\n",
+                        cell.name,
+                        cell.is_array ? "[0.0] * len(INPUTS)" : "0.0");
+  }
+  if (program_.zero.empty()) kept += "        self.zero_due = 0.0\n";
+  std::string locals;
+  for (const LocalArray list : kLocalArrays) {
+    if (program_.size(list.space) == 0) continue;
+    locals += fmt::format(
+        "        {} = [0.0] * {}\n", list.name, program_.size(list.space));
+  }
+  const auto body = [&](const Routine& routine) {
+    return Joined(language_.Write(program_, routine), "        ");
   };
-  std::string text;
-  for (const List list : {List{Space::kGain, 'g'},
-                          List{Space::kDerived, 'v'},
-                          List{Space::kForm, 'u'},
-                          List{Space::kScaled, 'z'},
-                          List{Space::kHidden, 'h'},
-                          List{Space::kTerm, 't'}}) {
-    if (!std::ranges::any_of(part, [&](const Instruction& it) {
-          return it.to.space == list.space;
-        })) {
-      continue;
-    }
-    text += fmt::format(
-        "    {} = [0.0] * {}\n", list.name, program_.size(list.space));
-  }
-  return text + Joined(language_.Write(program_, part), "    ");
-}
-
-constexpr const char* kCheck = R"(
-
-def check(inputs):
-    """The status of these inputs: of the bits all but CLIPPED."""
-    if len(inputs) != len(INPUTS):
-        raise ValueError("expected %d inputs" % len(INPUTS))
-    status = 0
-    for value, (low, high, far_low, far_high) in zip(inputs, _RANGES):
-        if not math.isfinite(value):
-            return INVALID
-        if value < low or value > high:
-            status |= OUTSIDE
-        if value < far_low or value > far_high:
-            status |= FAR
-    return status
-)";
-
-std::string PythonWriter::Functions() const {
-  std::string text = kCheck;
-  const bool memory = program_.has_memory();
-  text += fmt::format("\n\ndef _evaluate({}x, status):\n{}",
-                      memory ? "s, " : "",
-                      Body(program_.evaluate));
-  text +=
-      "    if not math.isfinite(e):\n"
-      "        return None, status | INVALID\n"
-      "    return e, status\n";
-  if (!memory) {
-    return text + R"(
-
-def error(inputs):
-    """(error, status) at these inputs; None for an error where INVALID."""
-    status = check(inputs)
-    if status & INVALID:
-        return None, status
-    return _evaluate(inputs, status)
-)";
-  }
-  text += fmt::format(R"(
-
-def init(x):
-    """(state, status) of a session that begins with these inputs: filters in
-    their steady state, the zero taken here; no state where INVALID."""
-    status = check(x)
-    if status & INVALID:
-        return None, status
-    s = [0.0] * {}
-{}    return s, status
-
-
-def step(s, dt_s, x):
-    """Goes on by dt_s seconds to these inputs: (error, status). Where INVALID
-    the error is None and the state stays as it was."""
-    status = check(x)
-    if status & INVALID or not dt_s >= 0.0:
-        return None, status | INVALID
-{}    return _evaluate(s, x, status)
-
-
-def zero(s, x):
-    """Takes the zero anew, at these inputs: status."""
-    status = check(x)
-    if status & INVALID:
-        return status
-{}    return status
-)",
-                      program_.size(Space::kState),
-                      Body(program_.begin),
-                      Body(program_.advance),
-                      Body(program_.zero));
-  return text;
+  return fmt::format(kClass,
+                     fmt::arg("max_error", RealText(program_.limits.max_error)),
+                     fmt::arg("max_rate", RealText(program_.limits.max_rate)),
+                     fmt::arg("states", program_.size(Space::kState)),
+                     fmt::arg("kept", kept),
+                     fmt::arg("locals", locals),
+                     fmt::arg("read", body(program_.read)),
+                     fmt::arg("move", body(program_.move)));
 }
 
 std::string PythonWriter::SelfTest(const std::vector<SelfTestRow>& rows,
@@ -254,9 +278,9 @@ std::string PythonWriter::SelfTest(const std::vector<SelfTestRow>& rows,
       "inputs.\n_SESSION = [\n";
   for (const SelfTestRow& row : rows) {
     std::vector<std::string> numbers{
-        RealText(row.dt), RealText(row.error), fmt::format("{}", row.status)};
+        NumberText(row.dt), RealText(row.error), fmt::format("{}", row.status)};
     for (const double reading : row.readings) {
-      numbers.push_back(RealText(reading));
+      numbers.push_back(NumberText(reading));
     }
     text += "    [\n" + Joined(Wrapped(numbers, "        "), "") + "    ],\n";
   }
@@ -266,25 +290,20 @@ std::string PythonWriter::SelfTest(const std::vector<SelfTestRow>& rows,
 def _self_test():
     worst = 0.0
     wrong = False
-{0}    for dt_s, expected, expected_status, *inputs in _SESSION:
-{1}        deviation = math.inf if found is None else abs(found - expected)
+    session = Map()
+    for dt_s, expected, expected_status, *inputs in _SESSION:
+        found, status = session.step(dt_s, inputs)
+        deviation = abs(found - expected)
         worst = max(worst, deviation)
-        wrong = wrong or deviation > {2} or status != expected_status
-    print("{3}: %d rows, worst deviation %.2g (%.2g allowed): %s"
-          % (len(_SESSION), worst, {2}, "WRONG" if wrong else "right"))
+        wrong = (wrong or not deviation <= {0} or status != expected_status)
+    print("{1}: %d rows, worst deviation %.2g (%.2g allowed): %s"
+          % (len(_SESSION), worst, {0}, "WRONG" if wrong else "right"))
     return wrong
 
 
 if __name__ == "__main__":
     raise SystemExit(_self_test())
 )",
-                            program_.has_memory() ? "    state = None\n" : "",
-                            program_.has_memory()
-                                ? "        if state is None:\n"
-                                  "            state, status = init(inputs)\n"
-                                  "        found, status = step(state, dt_s, "
-                                  "inputs)\n"
-                                : "        found, status = error(inputs)\n",
                             RealText(tolerance),
                             name_);
 }
@@ -294,21 +313,17 @@ std::string PythonWriter::Module(const std::vector<SelfTestRow>& rows,
   std::string text = "\"\"\"" +
                      Joined(AboutMap(program_, name_, Precision::kDouble), "") +
                      "\"\"\"\n\nimport math\n\n";
-  text += fmt::format(
-      "# Bits of a status; 0: all is well.\n"
-      "OUTSIDE = {}  # an input left its trained range: extrapolated\n"
-      "FAR = {}  # ... so far that its sensor is to be doubted\n"
-      "CLIPPED = {}  # a guard clipped an input or the error\n"
-      "INVALID = {}  # an input, a step or the error is no number\n\n",
-      static_cast<int>(kMapOutside),
-      static_cast<int>(kMapFar),
-      static_cast<int>(kMapClipped),
-      static_cast<int>(kMapInvalid));
+  text += "# Bits of a status; 0: all is well.\n";
+  for (const StatusBit& bit : StatusBits()) {
+    text += fmt::format("{} = {}  # {}\n", bit.name, bit.bit, bit.what);
+  }
+  text += fmt::format("NOT_TAKEN = {}  # those of a step that is not taken\n\n",
+                      kMapNotTaken);
   text += "INPUTS = [\n";
   for (const ProgramReading& reading : program_.readings) {
     text += "    \"" + CommentText(reading.column.name) + "\",\n";
   }
-  text += "]\n" + Tables() + Helpers() + Functions();
+  text += "]\n" + Tables() + Helpers() + MapClass();
   return text + SelfTest(rows, tolerance);
 }
 

@@ -8,60 +8,42 @@ namespace errmap::models {
 
 using Eigen::Index;
 
-int StatusOfReadings(const MapProgram& program,
-                     const Eigen::VectorXd& readings) {
-  int status = 0;
-  for (std::size_t i = 0; i < program.readings.size(); ++i) {
-    const ProgramReading& trusted = program.readings[i];
-    const double value = readings[static_cast<Index>(i)];
-    if (!std::isfinite(value)) return kMapInvalid;
-    if (value < trusted.trained_min || value > trusted.trained_max) {
-      status |= kMapOutside;
-    }
-    if (value < trusted.far_min || value > trusted.far_max) status |= kMapFar;
-  }
-  return status;
-}
-
 ProgramRun::ProgramRun(const MapProgram& program, Precision precision)
-    : program_(program), precision_(precision) {
+    : program_(&program), precision_(precision) {
   for (std::size_t i = 0; i < kNumSpaces; ++i) {
     values_[i].assign(static_cast<std::size_t>(program.sizes[i]), 0.0);
   }
 }
 
 int ProgramRun::Begin(const Eigen::VectorXd& readings) {
-  const int status = StatusOfReadings(program_, readings);
-  if ((status & kMapInvalid) != 0) return status;
+  if (!readings.allFinite()) return kMapInvalid;
   Load(readings);
-  Execute(program_.begin);
-  return status;
+  Execute(program_->begin);
+  return 0;
 }
 
 int ProgramRun::Step(double dt,
                      const Eigen::VectorXd& readings,
                      double* error) {
-  const int status = StatusOfReadings(program_, readings);
-  if ((status & kMapInvalid) != 0 || (program_.has_memory() && !(dt >= 0.0))) {
-    return status | kMapInvalid;
+  if (!readings.allFinite() || (program_->has_memory() && !(dt >= 0.0))) {
+    return kMapInvalid;
   }
   Load(readings);
   At({Space::kTime, 0}) = dt;
-  Execute(program_.advance);
-  clipped_ = false;
-  Execute(program_.evaluate);
+  Execute(program_->advance);
+  ClearClipped();
+  Execute(program_->evaluate);
   const double found = At({Space::kError, 0});
-  if (!std::isfinite(found)) return status | kMapInvalid;
+  if (!std::isfinite(found)) return kMapInvalid;
   *error = found;
-  return status | (clipped_ ? kMapClipped : 0);
+  return clipped_ ? kMapClipped : 0;
 }
 
 int ProgramRun::Zero(const Eigen::VectorXd& readings) {
-  const int status = StatusOfReadings(program_, readings);
-  if ((status & kMapInvalid) != 0) return status;
+  if (!readings.allFinite()) return kMapInvalid;
   Load(readings);
-  Execute(program_.zero);
-  return status;
+  Execute(program_->zero);
+  return 0;
 }
 
 void ProgramRun::Load(const Eigen::VectorXd& readings) {
@@ -135,7 +117,7 @@ void ProgramRun::Apply(const Instruction& it) {
       return set(bound);
     }
     case Op::kAffine: {
-      const Eigen::MatrixXd& table = program_.tables[it.table];
+      const Eigen::MatrixXd& table = program_->tables[it.table];
       const auto num_inputs = static_cast<int>(table.cols()) - 1;
       for (int row = 0; row < it.count; ++row) {
         double sum = r(table(row, num_inputs));
@@ -153,6 +135,113 @@ void ProgramRun::Apply(const Instruction& it) {
       }
       return;
   }
+}
+
+ControllerRun::ControllerRun(const MapProgram& program, Precision precision)
+    : program_(&program), run_(program, precision) {
+  const auto count = program.readings.size();
+  for (int i = 0; i < kNumCells; ++i) {
+    const bool is_array = InfoOf(static_cast<Cell>(i)).is_array;
+    values_[static_cast<std::size_t>(i)].assign(is_array ? count : 1, 0.0);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto at = static_cast<int>(i);
+    for (const Cell cell : kTables) {
+      Value(cell, at) = TableValue(program.readings[i], cell);
+    }
+  }
+  Value(Cell::kMostError) = program.limits.max_error;
+  Value(Cell::kMostRate) = program.limits.max_rate;
+}
+
+int ControllerRun::Step(double dt,
+                        const Eigen::VectorXd& readings,
+                        double* error) {
+  status_ = 0;
+  run_.ClearClipped();
+  run_.Load(readings);
+  Value(Cell::kDt) = dt;
+  Run(program_->read);
+  Run(program_->move);
+  *error = run_.Rounded(Value(Cell::kGiven), Space::kError);
+  return status_ | (run_.clipped() ? kMapClipped : 0);
+}
+
+void ControllerRun::Run(const Routine& routine) {
+  for (const Statement& statement : routine) RunOne(statement);
+}
+
+void ControllerRun::RunOne(const Statement& it) {
+  switch (it.kind) {
+    case Statement::Kind::kAssign:
+      Place(it.sides[0]) = Of(it.sides[1]);
+      return;
+    case Statement::Kind::kIf:
+      return Run(Of(it.sides[0]) != 0.0 ? it.body : it.otherwise);
+    case Statement::Kind::kEachReading:
+      for (loop_ = 0; loop_ < program_->size(Space::kReading); ++loop_) {
+        Run(it.body);
+      }
+      return;
+    case Statement::Kind::kFlag:
+      status_ |= it.flag;
+      return;
+    case Statement::Kind::kRun:
+      run_.At({Space::kTime, 0}) = Value(Cell::kWaited);
+      return run_.Execute(program_->part(it.part));
+  }
+}
+
+double& ControllerRun::Place(const Expression& it) {
+  const bool is_array = InfoOf(it.cell).is_array;
+  const int index = !is_array                       ? 0
+                    : it.index == Expression::kLoop ? loop_
+                                                    : it.index;
+  if (it.cell == Cell::kReading) return run_.At({Space::kReading, index});
+  if (it.cell == Cell::kDoubt) return run_.At({Space::kDoubt, index});
+  if (it.cell == Cell::kError) return run_.At({Space::kError, 0});
+  return Value(it.cell, index);
+}
+
+double ControllerRun::Of(const Expression& it) {
+  using Kind = Expression::Kind;
+  const auto a = [&] { return Of(it.parts[0]); };
+  const auto b = [&] { return Of(it.parts[1]); };
+  switch (it.kind) {
+    case Kind::kNumber:
+      return it.number;
+    case Kind::kCell:
+      return Place(it);
+    case Kind::kAny:
+      return (status_ & it.mask) != 0 ? 1.0 : 0.0;
+    case Kind::kNot:
+      return a() != 0.0 ? 0.0 : 1.0;
+    case Kind::kNegative:
+      return -a();
+    case Kind::kAbsolute:
+      return std::fabs(a());
+    case Kind::kAnd:
+      return a() != 0.0 && b() != 0.0 ? 1.0 : 0.0;
+    case Kind::kOr:
+      return a() != 0.0 || b() != 0.0 ? 1.0 : 0.0;
+    case Kind::kLess:
+      return a() < b() ? 1.0 : 0.0;
+    case Kind::kMore:
+      return a() > b() ? 1.0 : 0.0;
+    case Kind::kAtLeast:
+      return a() >= b() ? 1.0 : 0.0;
+    case Kind::kAtMost:
+      return a() <= b() ? 1.0 : 0.0;
+    case Kind::kEqual:
+      return a() == b() ? 1.0 : 0.0;
+    case Kind::kPlus:
+      return a() + b();
+    case Kind::kMinus:
+      return a() - b();
+    case Kind::kTimes:
+      return a() * b();
+  }
+  return 0.0;
 }
 
 }  // namespace errmap::models

@@ -5,52 +5,78 @@
 
 #include <Eigen/Core>
 
+#include "models/export/controller.h"
 #include "models/export/map_program.h"
 
 namespace errmap::models {
 
 enum class Precision { kDouble, kSingle };
 
-/// What is to be said of an error beside its value; the exported maps return
-/// the same bits.
-enum MapStatus : int {
-  kMapOutside = 1,  // a reading left its trained range: extrapolated
-  kMapFar = 2,      // ... by more than the guard's margin (ProgramReading)
-  kMapClipped = 4,  // a guard clipped an input of the form, or the error
-  kMapInvalid = 8,  // a reading or the error is not finite: no error given
-};
-
-/// The status of readings: of the bits all but kMapClipped, or kMapInvalid.
-int StatusOfReadings(const MapProgram& program,
-                     const Eigen::VectorXd& readings);
-
-/// Runs a program as the exported map does, so that an export is checked
-/// against the map before anything is written.
+/// Runs the arithmetic of a program as the exported map does, without what a
+/// controller needs around it.
 class ProgramRun {
  public:
   /// `program` must outlive the run.
   ProgramRun(const MapProgram& program, Precision precision);
 
-  /// Begins a session; status bits, with kMapInvalid and nothing begun where
-  /// a reading is not finite.
+  /// Begins a session; kMapInvalid, and nothing begun, where a reading is not
+  /// finite.
   int Begin(const Eigen::VectorXd& readings);
   /// On by `dt` seconds (at least 0; without meaning where the map has no
-  /// memory). `error` is left alone where the status says kMapInvalid.
+  /// memory). `error` is left alone where the status says kMapInvalid; the
+  /// other bit is kMapClipped.
   int Step(double dt, const Eigen::VectorXd& readings, double* error);
   /// Takes the zero at these readings.
   int Zero(const Eigen::VectorXd& readings);
 
- private:
+  // The machine by itself.
   void Load(const Eigen::VectorXd& readings);
   void Execute(const Instructions& instructions);
-  void Apply(const Instruction& instruction);
   double& At(Operand operand);
+  bool clipped() const { return clipped_; }
+  void ClearClipped() { clipped_ = false; }
   double Rounded(double value, Space to) const;
 
-  const MapProgram& program_;
+ private:
+  void Apply(const Instruction& instruction);
+
+  const MapProgram* program_;
   Precision precision_;
   std::array<std::vector<double>, kNumSpaces> values_;
   bool clipped_ = false;
+};
+
+/// Runs the routines of a program, so that an export is checked, and knows what
+/// it must say, before anything is written.
+class ControllerRun {
+ public:
+  /// `program` must outlive the run.
+  ControllerRun(const MapProgram& program, Precision precision);
+
+  /// The next step taken begins a session; the error given goes on from where
+  /// it is.
+  void Begin() { Value(Cell::kBegun) = 0.0; }
+  /// The next step taken takes the zero.
+  void Zero() { Value(Cell::kZeroDue) = 1.0; }
+  /// Reads and moves, `dt` seconds after the call before: the error given, and
+  /// the status.
+  int Step(double dt, const Eigen::VectorXd& readings, double* error);
+
+ private:
+  double& Value(Cell cell, int index = 0) {
+    return values_[static_cast<std::size_t>(cell)]
+                  [static_cast<std::size_t>(index)];
+  }
+  void Run(const Routine& routine);
+  void RunOne(const Statement& statement);
+  double Of(const Expression& expression);
+  double& Place(const Expression& cell);
+
+  const MapProgram* program_;
+  ProgramRun run_;
+  std::array<std::vector<double>, kNumCells> values_;
+  int loop_ = 0;
+  int status_ = 0;
 };
 
 }  // namespace errmap::models

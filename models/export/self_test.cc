@@ -7,6 +7,7 @@
 
 #include "models/history/history.h"
 #include "models/history/history_state.h"
+#include "models/map_experience.h"
 
 namespace errmap::models {
 namespace {
@@ -70,7 +71,121 @@ Eigen::MatrixXd FormInputs(const FittedModel& fitted,
   return inputs;
 }
 
+bool IsInside(const MapProgram& program, const Eigen::VectorXd& readings) {
+  for (std::size_t i = 0; i < program.readings.size(); ++i) {
+    const ProgramReading& reading = program.readings[i];
+    const double value = readings[static_cast<Index>(i)];
+    if (value < reading.trained_min || value > reading.trained_max) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// How far each sensor goes with the others: along the first direction of the
+// thermal states, as far as all stay within their trained range.
+Eigen::VectorXd CommonSwing(const FittedModel& fitted) {
+  constexpr double kWithin = 0.9;
+  Eigen::VectorXd swing(static_cast<Index>(fitted.inputs.size()));
+  for (Index i = 0; i < swing.size(); ++i) {
+    const TrainedInput& input = fitted.inputs[static_cast<std::size_t>(i)];
+    swing[i] =
+        kWithin * std::min(input.max - input.mean, input.mean - input.min);
+  }
+  const Applicability* trained = fitted.applicability.get();
+  if (trained == nullptr) return swing;
+  const Eigen::VectorXd along =
+      trained->scale.cwiseProduct(trained->directions.col(0));
+  double share = std::numeric_limits<double>::infinity();
+  for (Index i = 0; i < along.size(); ++i) {
+    const Index column = trained->columns[static_cast<std::size_t>(i)];
+    if (along[i] != 0.0) {
+      share = std::min(share, swing[column] / std::fabs(along[i]));
+    }
+  }
+  if (!std::isfinite(share)) share = 0.0;
+  for (Index i = 0; i < along.size(); ++i) {
+    swing[trained->columns[static_cast<std::size_t>(i)]] = share * along[i];
+  }
+  return swing;
+}
+
+// Sensors that warm up and cool down together, positions that wander.
+Eigen::VectorXd CommonReadings(const FittedModel& fitted,
+                               const MapProgram& program,
+                               const Eigen::VectorXd& swing,
+                               int row) {
+  constexpr double kOwn = 0.01;  // of the range, each sensor by itself
+  Eigen::VectorXd readings = ReadingsOf(fitted.inputs, row, 0.98);
+  for (std::size_t i = 0; i < fitted.inputs.size(); ++i) {
+    if (program.readings[i].is_position) continue;
+    const auto at = static_cast<Index>(i);
+    const TrainedInput& input = fitted.inputs[i];
+    const double own = readings[at] - 0.5 * (input.min + input.max);
+    readings[at] = input.mean +
+                   swing[at] * std::sin(2.0 * std::numbers::pi * 0.07 * row) +
+                   kOwn * own;
+  }
+  return readings;
+}
+
+constexpr int kNumFailures = 5;
+constexpr int kNumHealthy = 14;
+
+// A row in which a sensor, or without one the position, fails; the last one is
+// so long after the others that the error fades.
+void Fail(const MapProgram& program, int failure, SelfTestRow* row) {
+  constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Index at = 0;
+  for (std::size_t i = 0; i < program.readings.size(); ++i) {
+    if (!program.readings[i].is_position) at = static_cast<Index>(i);
+  }
+  double none = 0.0;
+  double& reading = row->readings.size() > 0 ? row->readings[at] : none;
+  switch (failure) {
+    case 0:
+      reading = 0.0;
+      return;
+    case 1:
+      reading = kNotANumber;
+      return;
+    case 2:
+      row->dt = kInfinity;
+      return;
+    case 3:
+      reading = 850.0;
+      return;
+    default:
+      reading = -kInfinity;
+      row->dt = program.limits.hold + 1.0;
+      return;
+  }
+}
+
 }  // namespace
+
+std::vector<SelfTestRow> ControllerSession(const FittedModel& fitted,
+                                           const MapProgram& program,
+                                           Precision precision) {
+  const Eigen::VectorXd swing = CommonSwing(fitted);
+  std::vector<SelfTestRow> rows;
+  for (int i = 0; i < kNumHealthy + kNumFailures + 2; ++i) {
+    const int failure = i - kNumHealthy;
+    SelfTestRow& row = rows.emplace_back(
+        SelfTestRow{.dt = StepBefore(i + 1),
+                    .readings = CommonReadings(fitted, program, swing, i)});
+    if (failure >= 0 && failure < kNumFailures) Fail(program, failure, &row);
+  }
+  ControllerRun exact(program, Precision::kDouble);
+  ControllerRun run(program, precision);
+  for (SelfTestRow& row : rows) {
+    double rounded = 0.0;
+    row.status = run.Step(row.dt, row.readings, &rounded);
+    exact.Step(row.dt, row.readings, &row.error);
+  }
+  return rows;
+}
 
 std::vector<SelfTestRow> SelfTestRows(const FittedModel& fitted,
                                       const MapProgram& program) {
@@ -85,8 +200,7 @@ std::vector<SelfTestRow> SelfTestRows(const FittedModel& fitted,
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto at = static_cast<Index>(i);
     rows[i].error = prediction.errors[at];
-    rows[i].status = StatusOfReadings(program, rows[i].readings) |
-                     (prediction.clipped[at] ? kMapClipped : 0);
+    rows[i].status = IsInside(program, rows[i].readings) ? 0 : kMapOutside;
     // A map without guards may overflow; a session ends there.
     if (!std::isfinite(rows[i].error)) break;
     finite.push_back(rows[i]);

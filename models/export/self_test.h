@@ -9,18 +9,26 @@
 
 namespace errmap::models {
 
-/// What a map says of made-up readings, for an exported file to test itself.
+/// A made-up reading of all inputs and what is to be said of it.
 struct SelfTestRow {
   double dt = 0.0;  // s since the row before; 0 in the first
   Eigen::VectorXd readings;
-  double error = 0.0;  // as `errmap predict`
-  int status = 0;      // MapStatus
+  double error = 0.0;
+  int status = 0;  // MapStatus; in rows of the map itself kMapOutside alone
 };
 
 /// One session through the trained range, across it and beyond, the same for
-/// the same map. `error` comes from the map itself, not from its program.
+/// the same map. `error` comes from the map itself, as `errmap predict` gives
+/// it, not from its program: against it the arithmetic is held.
 std::vector<SelfTestRow> SelfTestRows(const FittedModel& fitted,
                                       const MapProgram& program);
+
+/// One session of readings that go together as in training, then fail in
+/// several ways and come back, with what a controller must say of each row: for
+/// an exported file to test itself. `program` with its controller.
+std::vector<SelfTestRow> ControllerSession(const FittedModel& fitted,
+                                           const MapProgram& program,
+                                           Precision precision);
 
 /// max - min of the errors that a map is about: of its training where its
 /// guards know, else of the rows within the trained range; at least the

@@ -12,24 +12,71 @@ namespace {
 
 using Eigen::Index;
 
-// Readings are inputs with a name of their own, all else arrays of the block.
+constexpr Syntax kStructuredText{.conjunction = "AND",
+                                 .disjunction = "OR",
+                                 .negation = "NOT ",
+                                 .equal = "=",
+                                 .absolute = "ABS",
+                                 .when = "IF {} THEN",
+                                 .otherwise = "ELSE",
+                                 .end_when = "END_IF;",
+                                 .loop = "FOR I := 0 TO {1} DO",
+                                 .end_loop = "END_FOR;",
+                                 .index = "I",
+                                 .indent = "  "};
+
+// "zero_due" -> "ZeroDue": every word of the language has capitals only.
+std::string CamelCase(const std::string& name) {
+  std::string text;
+  bool begins = true;
+  for (const char c : name) {
+    if (c != '_') text += begins ? static_cast<char>(c - 'a' + 'A') : c;
+    begins = c == '_';
+  }
+  return text;
+}
+
+std::string BitName(const StatusBit& bit) {
+  std::string name = bit.name;
+  std::ranges::transform(
+      name.begin() + 1, name.end(), name.begin() + 1, [](char c) {
+        return static_cast<char>(c - 'A' + 'a');
+      });
+  return name;
+}
+
+// Arrays and bits of the status are variables of the block.
 class StructuredTextLanguage final : public Language {
  public:
-  StructuredTextLanguage(std::string name, std::vector<std::string> inputs)
-      : Language(Precision::kDouble),
-        name_(std::move(name)),
-        inputs_(std::move(inputs)) {}
+  explicit StructuredTextLanguage(std::string name)
+      : Language(Precision::kDouble, kStructuredText), name_(std::move(name)) {}
+
+  std::string CellName(Cell cell) const override {
+    if (cell == Cell::kError) return "Found";
+    return CamelCase(InfoOf(cell).name);
+  }
+
+  std::string HasAny(int mask) const override {
+    std::string names;
+    for (const StatusBit& bit : StatusBits()) {
+      if ((mask & bit.bit) == 0) continue;
+      names += (names.empty() ? "" : " OR ") + BitName(bit);
+    }
+    return names;
+  }
 
  private:
   std::string Place(Operand operand) const override {
-    if (operand.space == Space::kReading) {
-      return inputs_[static_cast<std::size_t>(operand.index)];
-    }
-    if (operand.space == Space::kTime) return "DtSeconds";
-    if (operand.space == Space::kError) return "Found";
+    if (operand.space == Space::kError) return CellName(Cell::kError);
     std::string place = Language::Place(operand);
-    place.front() = static_cast<char>(place.front() - 'a' + 'A');
+    if (operand.space != Space::kTime) {
+      place.front() = static_cast<char>(place.front() - 'a' + 'A');
+    }
     return place;
+  }
+
+  std::string Flag(int bit) const override {
+    return Assign(HasAny(bit), "TRUE", false);
   }
 
   std::string Assign(const std::string& to,
@@ -62,7 +109,7 @@ class StructuredTextLanguage final : public Language {
                         condition,
                         to,
                         value,
-                        guards ? " Clipped := TRUE;" : "")};
+                        guards ? " " + Flag(kMapClipped) : "")};
   }
 
   // Three products a line: editors of controllers cut long ones.
@@ -100,7 +147,6 @@ class StructuredTextLanguage final : public Language {
   }
 
   std::string name_;
-  std::vector<std::string> inputs_;
 };
 
 std::vector<std::string> InputNames(const MapProgram& program) {
@@ -158,16 +204,36 @@ END_FUNCTION
   return text;
 }
 
-std::string Declarations(const MapProgram& program,
-                         const std::vector<std::string>& inputs) {
-  std::string text = "VAR_INPUT\n";
-  if (program.has_memory()) {
-    text +=
-        "  Start : BOOL; (* a session begins: filters in their steady state, "
-        "the zero taken *)\n"
-        "  TakeZero : BOOL; (* takes the zero anew *)\n"
-        "  DtSeconds : LREAL; (* since the call before *)\n";
+std::string ArrayText(const std::string& name, int size) {
+  return fmt::format("  {} : ARRAY[0..{}] OF LREAL", name, size - 1);
+}
+
+// Constants of the readings.
+std::string Tables(const MapProgram& program,
+                   const StructuredTextLanguage& language) {
+  std::string text;
+  for (const Cell cell : kTables) {
+    if (!program.Uses(cell)) continue;
+    std::vector<std::string> numbers;
+    for (const ProgramReading& reading : program.readings) {
+      numbers.push_back(RealText(TableValue(reading, cell)));
+    }
+    const Lines lines = Wrapped(numbers, "    ");
+    text += ArrayText(language.CellName(cell), program.size(Space::kReading)) +
+            " := [\n" + Joined(lines, "");
+    text.insert(text.size() - 1, "];");
   }
+  return text;
+}
+
+std::string Inputs(const MapProgram& program,
+                   const std::vector<std::string>& inputs) {
+  std::string text =
+      "VAR_INPUT\n"
+      "  Start : BOOL; (* the next step taken begins a session: filters in "
+      "their steady state, the zero taken *)\n"
+      "  TakeZero : BOOL; (* the next step taken takes the zero anew *)\n"
+      "  DtSeconds : LREAL; (* since the call before *)\n";
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const ProgramReading& reading = program.readings[i];
     text += fmt::format("  {} : LREAL; (* {}{}{} *)\n",
@@ -176,57 +242,66 @@ std::string Declarations(const MapProgram& program,
                         reading.column.unit.symbol.empty() ? "" : ", ",
                         CommentText(reading.column.unit.symbol));
   }
-  text += R"(END_VAR
-VAR_OUTPUT
-  Error : LREAL; (* the last one that was valid *)
-  Compensation : LREAL; (* -Error *)
-  Valid : BOOL; (* inputs and error are numbers *)
-  Outside : BOOL; (* an input left its trained range: extrapolated *)
-  Far : BOOL; (* ... so far that its sensor is to be doubted *)
-  Clipped : BOOL; (* a guard clipped an input or the error *)
-END_VAR
-VAR
-)";
-  struct Array {
-    Space space;
-    char name;
-  };
-  for (const Array array : {Array{Space::kState, 'S'},
-                            Array{Space::kGain, 'G'},
-                            Array{Space::kDerived, 'V'},
-                            Array{Space::kForm, 'U'},
-                            Array{Space::kScaled, 'Z'},
-                            Array{Space::kHidden, 'H'},
-                            Array{Space::kTerm, 'T'}}) {
-    if (program.size(array.space) == 0) continue;
-    text += fmt::format("  {} : ARRAY[0..{}] OF LREAL;\n",
-                        array.name,
-                        program.size(array.space) - 1);
-  }
-  if (program.has_memory()) text += "  Started : BOOL := FALSE;\n";
-  return text + "  Found : LREAL;\nEND_VAR\n";
+  return text + fmt::format(
+                    "  MaxError : LREAL := {}; (* limits *)\n"
+                    "  MaxRate : LREAL := {};\nEND_VAR\n",
+                    RealText(program.limits.max_error),
+                    RealText(program.limits.max_rate));
 }
 
-std::string Checks(const MapProgram& program,
-                   const std::vector<std::string>& inputs) {
-  std::string text =
-      "Valid := TRUE;\nOutside := FALSE;\nFar := FALSE;\nClipped := FALSE;\n";
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const ProgramReading& reading = program.readings[i];
-    // A comparison with what is no number is false.
-    text += fmt::format(
-        "IF NOT (({0} > -1.0E+300) AND ({0} < 1.0E+300)) THEN Valid := FALSE; "
-        "END_IF;\n"
-        "IF ({0} < {1}) OR ({0} > {2}) THEN Outside := TRUE; END_IF;\n"
-        "IF ({0} < {3}) OR ({0} > {4}) THEN Far := TRUE; END_IF;\n",
-        inputs[i],
-        RealText(reading.trained_min),
-        RealText(reading.trained_max),
-        RealText(reading.far_min),
-        RealText(reading.far_max));
+std::string Declarations(const MapProgram& program,
+                         const std::vector<std::string>& inputs,
+                         const StructuredTextLanguage& language) {
+  std::string text = Inputs(program, inputs) + R"(VAR_OUTPUT
+  Error : LREAL; (* within the limits *)
+  Compensation : LREAL; (* -Error *)
+  Valid : BOOL; (* the step was taken *)
+)";
+  for (const StatusBit& bit : StatusBits()) {
+    text += fmt::format("  {} : BOOL; (* {} *)\n", BitName(bit), bit.what);
   }
-  if (program.has_memory()) {
-    text += "IF NOT (DtSeconds >= 0.0) THEN Valid := FALSE; END_IF;\n";
+  text += "END_VAR\nVAR\n" + Tables(program, language);
+  const auto array = [&](const std::string& name, int size) {
+    if (size > 0) text += ArrayText(name, size) + ";\n";
+  };
+  array("X", program.size(Space::kReading));
+  array("S", program.size(Space::kState));
+  for (const LocalArray local : kLocalArrays) {
+    array({static_cast<char>(local.name - 'a' + 'A')},
+          program.size(local.space));
+  }
+  for (const CellInfo& cell : KeptCells(program)) {
+    if (cell.cell == Cell::kMostError || cell.cell == Cell::kMostRate) continue;
+    const std::string name = language.CellName(cell.cell);
+    if (cell.is_array) {
+      array(name, program.size(Space::kReading));
+    } else {
+      text += fmt::format("  {} : LREAL;\n", name);
+    }
+  }
+  for (const Cell cell :
+       {Cell::kDt, Cell::kCommon, Cell::kTarget, Cell::kError}) {
+    if (program.Uses(cell) || cell == Cell::kError) {
+      text += fmt::format("  {} : LREAL;\n", language.CellName(cell));
+    }
+  }
+  if (!inputs.empty()) text += "  I : INT;\n";
+  return text + "END_VAR\n";
+}
+
+// What stands before the routines.
+std::string Prelude(const MapProgram& program,
+                    const std::vector<std::string>& inputs) {
+  std::string text;
+  for (const StatusBit& bit : StatusBits()) {
+    text += BitName(bit) + " := FALSE;\n";
+  }
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    text += fmt::format("X[{}] := {};\n", i, inputs[i]);
+  }
+  text += "Passed := DtSeconds;\nIF Start THEN Begun := 0.0; END_IF;\n";
+  if (!program.zero.empty()) {
+    text += "IF TakeZero THEN ZeroDue := 1.0; END_IF;\n";
   }
   return text;
 }
@@ -236,32 +311,18 @@ std::string Checks(const MapProgram& program,
 std::vector<ExportedFile> StructuredText(const MapProgram& program,
                                          const std::string& name) {
   const std::vector<std::string> inputs = InputNames(program);
-  const StructuredTextLanguage language(name, inputs);
-  const auto write = [&](const Instructions& part, const char* indent) {
-    return Joined(language.Write(program, part), indent);
-  };
-  std::string text = Comment(AboutMap(program, name, Precision::kDouble)) +
-                     Functions(program, name) +
-                     fmt::format("\nFUNCTION_BLOCK {}_map\n", name) +
-                     Declarations(program, inputs) + "\n" +
-                     Checks(program, inputs) + "IF Valid THEN\n";
-  if (program.has_memory()) {
-    text += "  IF Start OR NOT Started THEN\n" + write(program.begin, "    ") +
-            "    Started := TRUE;\n  ELSE\n" + write(program.advance, "    ") +
-            "  END_IF;\n";
-    if (!program.zero.empty()) {
-      text +=
-          "  IF TakeZero THEN\n" + write(program.zero, "    ") + "  END_IF;\n";
-    }
-  }
-  text += write(program.evaluate, "  ");
-  text +=
-      "  Valid := (Found > -1.0E+300) AND (Found < 1.0E+300);\n"
-      "  IF Valid THEN\n"
-      "    Error := Found;\n"
-      "    Compensation := -Found;\n"
-      "  END_IF;\n"
-      "END_IF;\n"
+  const StructuredTextLanguage language(name);
+  const std::string text =
+      Comment(AboutMap(program, name, Precision::kDouble)) +
+      Functions(program, name) +
+      fmt::format("\nFUNCTION_BLOCK {}_map\n", name) +
+      Declarations(program, inputs, language) + "\n" +
+      Prelude(program, inputs) +
+      Joined(language.Write(program, program.read), "") +
+      Joined(language.Write(program, program.move), "") +
+      fmt::format(
+          "Error := Given;\nCompensation := -Given;\nValid := NOT ({});\n",
+          language.HasAny(kMapNotTaken)) +
       "END_FUNCTION_BLOCK\n";
   return {{name + ".st", text}};
 }

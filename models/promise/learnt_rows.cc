@@ -21,7 +21,7 @@ constexpr std::uint64_t kBitsPerRow = 16;
 constexpr std::uint64_t kHashes = 11;
 constexpr double kFalseHits = 0.0005;
 // Rows kept, 64 KiB in the file.
-constexpr Index kMostRows = 16384;
+constexpr Index kMostRowsHashed = 16384;
 // Of rows of other sessions, what may be alike for a filter to tell anything.
 constexpr double kMostAlike = 0.2;
 constexpr unsigned kBitsPerDigit = 4;
@@ -123,7 +123,7 @@ std::optional<LearntRows::Filter> MakeFilter(
 std::optional<LearntRows> MakeLearntRows(const FittedModel& fitted,
                                          const data::Dataset& training) {
   LearntRows learnt;
-  learnt.every = 1 + (training.num_rows() - 1) / kMostRows;
+  learnt.every = 1 + (training.num_rows() - 1) / kMostRowsHashed;
   Eigen::MatrixXd inputs(training.num_rows(), std::ssize(fitted.inputs));
   bool has_sensor = false;
   for (Index i = 0; i < inputs.cols(); ++i) {

@@ -29,7 +29,7 @@ loadrt integ
 addf {hal} servo-thread
 addf integ.0 servo-thread
 setp integ.0.in 1
-setp {hal}.max-rate 0
+setp {hal}.max-rate 1e9
 setp {hal}.step-s 1
 start
 loadusr -w {python} {here}/feed_component.py {hal} case.json result.json
@@ -333,7 +333,7 @@ def check_wiring(bench):
         f"setp errmap-up.in-{name.replace('_', '-')} {value}\n"
         for name, value in zip(SENSORS, row[2:]))
     (bench.folder / "sensors.hal").write_text(
-        setp + "setp errmap-up.max-rate 0\n")
+        setp + "setp errmap-up.max-rate 1e9\n")
     positions = [-200.0, -120.0, -40.0]
     predicted = bench.predict([[0.0, position] + row[2:]
                                for position in positions])

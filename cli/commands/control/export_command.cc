@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -10,13 +12,16 @@
 #include "cli/command.h"
 #include "cli/commands/control/export_tables.h"
 #include "cli/commands/data_arguments.h"
+#include "cli/desk/given_error.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
 #include "data/input_error.h"
+#include "data/measurements/column_checks.h"
 #include "data/text.h"
 #include "models/export/c_code.h"
 #include "models/export/compensation_table.h"
 #include "models/export/export_map.h"
+#include "models/export/failing_sensors.h"
 #include "models/export/hal_component.h"
 #include "models/export/python_code.h"
 #include "models/export/safe_names.h"
@@ -36,12 +41,32 @@ struct ExportArguments {
   bool linuxcnc = false;
   bool hal = false;
   int joint = 0;
+  std::string max_offset;
+  std::string max_rate;
   TableArguments tables;
   std::string out;
   std::string name;
   bool force = false;
   bool quiet = false;
 };
+
+// In the target's unit; nothing where the flag is not given.
+std::optional<double> LimitOf(const char* flag,
+                              const std::string& text,
+                              const data::Unit& target) {
+  if (text.empty()) return std::nullopt;
+  try {
+    return desk::InUnitOf(target, ErrorOfFlag(flag, text, false));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("{} {}", flag, error.what()));
+  }
+}
+
+models::LimitOptions LimitsOf(const ExportArguments& arguments,
+                              const data::Unit& target) {
+  return {.max_error = LimitOf("--max-offset", arguments.max_offset, target),
+          .max_rate = LimitOf("--max-rate", arguments.max_rate, target)};
+}
 
 models::MapExport Prepare(const ExportArguments& arguments,
                           const models::FittedModel& fitted) {
@@ -63,7 +88,8 @@ models::MapExport Prepare(const ExportArguments& arguments,
     return models::PrepareExport(fitted,
                                  name,
                                  arguments.single ? models::Precision::kSingle
-                                                  : models::Precision::kDouble);
+                                                  : models::Precision::kDouble,
+                                 LimitsOf(arguments, fitted.target.unit));
   } catch (const std::invalid_argument& error) {
     throw data::InputError(fmt::format(
         "{}: {}", data::PrintablePath(arguments.model), error.what()));
@@ -123,10 +149,33 @@ void SayWhatWasWritten(const models::MapExport& map,
       "its arithmetic agrees with errmap predict to {:.1e} of the "
       "error's range over {}",
       map.deviations.anywhere,
-      report::Count(static_cast<long long>(map.rows.size()), "row")));
+      report::Count(static_cast<long long>(map.num_checked), "row")));
   if (map.deviations.inside > models::AllowedDeviation(map.precision)) {
     Say("warning: the map's own sums cancel; a penalised map (poly:ridge) "
         "would be steadier");
+  }
+}
+
+// Those sensors that would do most.
+void SayWhatFailuresDo(const models::FittedModel& fitted,
+                       const models::MapProgram& program) {
+  constexpr std::size_t kMost = 3;
+  const data::Unit& unit = program.target.unit;
+  const models::ControllerLimits& limits = program.limits;
+  const report::ErrorText text(unit, limits.max_error);
+  Say(fmt::format(
+      "limits: {}, and {} each second",
+      text.WithUnit(limits.max_error),
+      report::ErrorText(unit, limits.max_rate).WithUnit(limits.max_rate)));
+  const std::vector<models::FailingSensor> sensors =
+      models::WorstOfFailing(fitted, program);
+  for (std::size_t i = 0; i < std::min(kMost, sensors.size()); ++i) {
+    Say(
+        fmt::format("{} failing to 0 would move it by {}; with checks and "
+                    "limits any failure by at most {}",
+                    data::NameInRemark(sensors[i].name),
+                    text.WithUnit(sensors[i].without),
+                    text.WithUnit(sensors[i].with)));
   }
 }
 
@@ -176,6 +225,7 @@ int RunExport(const ExportArguments& arguments) {
   folder.Finish();
   if (!arguments.quiet) {
     SayWhatWasWritten(map, files, arguments.out);
+    SayWhatFailuresDo(fitted, map.program);
     if (!of_table.empty()) Say(of_table);
   }
   return kDone;
@@ -268,6 +318,19 @@ void AddExportCommand(CLI::App* app, Run* run) {
   command->add_flag("--linuxcnc",
                     arguments->linuxcnc,
                     "A COMP_FILE of type 0 for a joint of LinuxCNC");
+  command
+      ->add_option(
+          "--max-offset",
+          arguments->max_offset,
+          "Largest compensation: 20um (default: 1.3 times the range of "
+          "the\ntrained errors)")
+      ->type_name("X");
+  command
+      ->add_option("--max-rate",
+                   arguments->max_rate,
+                   "Largest change of it per second: 1um (default: 10 um or "
+                   "10 urad)")
+      ->type_name("X");
   AddTableOptions(command, &arguments->tables);
   AddForceFlag(command, &arguments->force);
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");

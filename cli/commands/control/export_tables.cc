@@ -14,6 +14,7 @@
 #include "data/input_error.h"
 #include "data/text.h"
 #include "models/export/compensation_table.h"
+#include "models/export/controller.h"
 #include "models/export/error_curve.h"
 #include "models/export/thermal_state.h"
 #include "models/model_file.h"
@@ -56,6 +57,7 @@ TableMap LoadTableMap(const std::string& file) {
   TableMap map{.file = file, .fitted = models::LoadModel(file), .program = {}};
   try {
     map.program = models::MakeMapProgram(map.fitted);
+    models::AddController(map.fitted, {}, &map.program);
   } catch (const std::invalid_argument& error) {
     throw data::InputError(
         fmt::format("{}: {}", data::PrintablePath(file), error.what()));

@@ -1,6 +1,6 @@
 """A reader of the IEC 61131-3 structured text that errmap writes, and of no
-more: functions and one function block of LREAL, BOOL and arrays of LREAL,
-assignments and IF. Debian 12 has no parser of the language, so this one is
+more: functions and one function block of LREAL, BOOL, INT and arrays of LREAL,
+assignments, IF and FOR. Debian 12 has no parser of the language, so this one is
 written from the standard's grammar (IEC 61131-3:2013, Annex A) and strict: a
 word that it does not know, a type that does not fit, `__` or a trailing `_` in
 a name, a real literal without a point, a line over 200 characters ends it.
@@ -8,7 +8,8 @@ a name, a real literal without a point, a line over 200 characters ends it.
   read_structured_text.py FILE.st < ROWS
 
 Each row is `start dt inputs...`, start 1 where a session begins and 2 where the
-zero is taken anew; prints Error, Compensation, Valid, Outside,
+zero is taken anew; a session begins after so long a pause that no rate limits
+the first error. Prints Error, Compensation, Valid, Outside,
 Far and Clipped after each call.
 """
 
@@ -20,7 +21,8 @@ WORDS = {"FUNCTION", "END_FUNCTION", "FUNCTION_BLOCK", "END_FUNCTION_BLOCK",
          "VAR", "VAR_INPUT", "VAR_OUTPUT", "END_VAR", "ARRAY", "OF", "LREAL",
          "BOOL", "IF", "THEN", "ELSE", "ELSIF", "END_IF", "AND", "OR", "NOT",
          "TRUE", "FALSE", "EXP", "SIN", "COS", "FOR", "WHILE", "REPEAT", "INT",
-         "REAL", "XOR", "MOD", "CASE", "RETURN", "EXIT", "PROGRAM"}
+         "REAL", "XOR", "MOD", "CASE", "RETURN", "EXIT", "PROGRAM", "DT",
+         "ABS", "TO", "BY", "DO", "END_FOR"}
 TOKEN = re.compile(r"""
     (?P<space>\s+) | (?P<comment>\(\*.*?\*\))
   | (?P<real>[0-9][0-9_]*\.[0-9]+([eE][+-]?[0-9]+)?)
@@ -123,17 +125,32 @@ class Reader:
             self.take("word", "LREAL")
             self.scope[name] = size
             value = f"[0.0] * {size}"
+            if self.accept("sign", ":="):
+                value = self.initial_values(size)
         else:
             kind = self.take("word")
-            assert kind in ("LREAL", "BOOL"), kind
+            assert kind in ("LREAL", "BOOL", "INT"), kind
             self.scope[name] = kind
-            value = "0.0" if kind == "LREAL" else "False"
+            value = {"LREAL": "0.0", "BOOL": "False", "INT": "0"}[kind]
             if self.accept("sign", ":="):
-                value = str(self.take("word") == "TRUE")
+                value = (self.take("real") if kind == "LREAL"
+                         else str(self.take("word") == "TRUE"))
         self.take("sign", ";")
         if owner is not None:
             owner.append(f"        self.{name} = {value}")
         return name
+
+    def initial_values(self, size):
+        self.take("sign", "[")
+        values = []
+        while True:
+            sign = "-" if self.accept("sign", "-") else ""
+            values.append(sign + self.take("real"))
+            if not self.accept("sign", ","):
+                break
+        self.take("sign", "]")
+        assert len(values) == size, (len(values), size)
+        return "[" + ", ".join(values) + "]"
 
     def block(self):
         self.scope = {}
@@ -153,6 +170,8 @@ class Reader:
         while True:
             if self.accept("word", "IF"):
                 lines += self.condition()
+            elif self.accept("word", "FOR"):
+                lines += self.loop()
             elif self.peek()[0] == "name":
                 lines.append("    " + self.assignment())
             else:
@@ -169,6 +188,20 @@ class Reader:
         self.take("sign", ";")
         return lines
 
+    def loop(self):
+        place, kind = self.variable(self.take("name"))
+        assert kind == "INT", kind
+        self.take("sign", ":=")
+        first = int(self.take("integer"))
+        self.take("word", "TO")
+        last = int(self.take("integer"))
+        self.take("word", "DO")
+        lines = [f"    for {place} in range({first}, {last + 1}):"]
+        lines += ["    " + line for line in self.statements()]
+        self.take("word", "END_FOR")
+        self.take("sign", ";")
+        return lines
+
     def assignment(self):
         place, kind = self.variable(self.take("name"))
         self.take("sign", ":=")
@@ -180,8 +213,12 @@ class Reader:
         kind = self.scope[name]
         if isinstance(kind, int):
             self.take("sign", "[")
-            index = int(self.take("integer"))
-            assert index < kind, (name, index)
+            if self.peek()[0] == "integer":
+                index = int(self.take("integer"))
+                assert index < kind, (name, index)
+            else:
+                index, of = self.variable(self.take("name"))
+                assert of == "INT", of
             self.take("sign", "]")
             return f"self.{name}[{index}]", "LREAL"
         return f"self.{name}", kind
@@ -212,10 +249,11 @@ class Reader:
 
     def comparison(self):
         text, kind = self.sum()
-        for sign in ("<=", ">=", "<", ">"):
+        for sign in ("<=", ">=", "<", ">", "="):
             if self.accept("sign", sign):
                 other, other_kind = self.sum()
                 assert kind == other_kind == "LREAL"
+                sign = "==" if sign == "=" else sign
                 return f"({text} {sign} {other})", "BOOL"
         return text, kind
 
@@ -256,11 +294,12 @@ class Reader:
             return f"({text})", inner
         if kind == "word" and value in ("TRUE", "FALSE"):
             return value.capitalize(), "BOOL"
-        if kind == "word" and value in ("EXP", "SIN", "COS"):
+        if kind == "word" and value in ("EXP", "SIN", "COS", "ABS"):
             self.take("sign", "(")
             text = self.typed("LREAL")
             self.take("sign", ")")
-            return f"math.{value.lower()}({text})", "LREAL"
+            function = "abs" if value == "ABS" else "math." + value.lower()
+            return f"{function}({text})", "LREAL"
         assert kind == "name", (kind, value)
         if value in self.functions:
             self.take("sign", "(")
@@ -287,10 +326,10 @@ def main():
             if name == "START":
                 block.START = start == 1.0
             elif name == "DTSECONDS":
-                block.DTSECONDS = dt
+                block.DTSECONDS = 1e6 if start == 1.0 else dt
             elif name == "TAKEZERO":
                 block.TAKEZERO = start == 2.0
-            else:
+            elif name not in ("MAXERROR", "MAXRATE"):
                 setattr(block, name, next(values))
         assert next(values, None) is None
         block.call()

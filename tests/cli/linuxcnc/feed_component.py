@@ -120,7 +120,7 @@ def limits(component, case, result):
     component.set("max-offset", 0.002)
     component.row(1.0, case["rows"][0][1:])
     result["most"] = abs(component.get("offset"))
-    component.set("max-offset", 0.0)
+    component.set("max-offset", 1.0)
     component.periods()
     full = component.get("offset")
     result["unlimited"] = full + case["predicted"][0]

@@ -73,7 +73,7 @@ TEST(HalComponent, WiresTheJointAndItsAxis) {
 TEST(HalComponent, TurnsTheErrorIntoTheMachinesUnit) {
   EXPECT_THAT(
       HalComponent(MapOf({"position_mm"}), kMillimetres).files[0].content,
-      HasSubstr("wanted = -0.001 * error;"));
+      HasSubstr("offset = -0.001 * error;"));
   const HalOptions inches{.unit = data::UnitOfSymbol("in")};
   EXPECT_THAT(HalComponent(MapOf({"position_mm"}), inches).files[0].content,
               HasSubstr("x[0] = position * 25.4;"));

@@ -26,22 +26,29 @@ constexpr const char* kStrict =
     "-std=c99 -O2 -Wall -Wextra -Wconversion -pedantic -Werror";
 
 // Reads `start dt inputs...`, start 1 where a session begins and 2 where the
-// zero is taken anew, and prints the error and the status.
+// zero is taken anew, and prints the error and the status. A session begins
+// after so long a pause that no rate limits its first error.
 constexpr const char* kDriver = R"(
 #include <stdio.h>
-{3}
+{1}
 int main(void) {{
   double start, dt, value;
   {0}_real inputs[{0}_INPUTS + 1];
   {0}_real error = 0;
-  {2}
+  {0}_state state;
+  {0}_init(&state);
   while (scanf("%lf %lf", &start, &dt) == 2) {{
     int i, status;
     for (i = 0; i < {0}_INPUTS; ++i) {{
       if (scanf("%lf", &value) != 1) return 1;
       inputs[i] = ({0}_real)value;
     }}
-    {1}
+    if (start == 1.0) {{
+      {0}_begin(&state);
+      dt = 1e6;
+    }}
+    if (start == 2.0) {0}_zero(&state);
+    status = {0}_step(&state, dt, inputs, &error);
     printf("%.17g %d\n", (double)error, status);
   }}
   return 0;
@@ -51,18 +58,15 @@ int main(void) {{
 constexpr const char* kPythonDriver = R"(
 import sys
 import {0} as m
-state = None
+session = m.Map()
 for row in sys.stdin:
     start, dt, *inputs = map(float, row.split())
-    if hasattr(m, "step"):
-        if start == 1:
-            state, _ = m.init(inputs)
-        error, status = m.step(state, dt, inputs)
-        if start == 2:
-            m.zero(state, inputs)
-            error, status = m.step(state, 0.0, inputs)
-    else:
-        error, status = m.error(inputs)
+    if start == 1:
+        session.begin()
+        dt = 1e6
+    if start == 2:
+        session.zero()
+    error, status = session.step(dt, inputs)
     print(repr(error), status)
 )";
 
@@ -152,10 +156,11 @@ class CliExport : public Cli {
         has_memory ? Column(table, "day") : std::vector<double>{};
     for (std::size_t row = 0; row < table.num_rows; ++row) {
       const bool starts = row == 0 || (has_memory && day[row] != day[row - 1]);
-      session.rows +=
-          fmt::format("{} {}",
-                      starts ? 1 : 0,
-                      starts || !has_memory ? 0.0 : time[row] - time[row - 1]);
+      session.rows += fmt::format("{} {}",
+                                  starts ? 1 : 0,
+                                  starts       ? 0.0
+                                  : has_memory ? time[row] - time[row - 1]
+                                               : 60.0);
       for (const Json& input : document["inputs"]) {
         session.rows += fmt::format(
             " {}", Column(table, input["name"].get<std::string>())[row]);
@@ -177,23 +182,8 @@ class CliExport : public Cli {
   }
 
   void WriteCDriver(const std::string& name) const {
-    const bool memory = Read(name + ".h").find("_step") != std::string::npos;
-    Write(
-        "driver.c",
-        fmt::format(
-            kDriver,
-            name,
-            memory ? fmt::format("if (start == 1.0) (void){0}_init(&state, "
-                                 "inputs);\n    status = {0}_step(&state, dt, "
-                                 "inputs, &error);\n"
-                                 "    if (start == 2.0) {{\n"
-                                 "      (void){0}_zero(&state, inputs);\n"
-                                 "      status = {0}_step(&state, 0.0, inputs, "
-                                 "&error);\n    }}",
-                                 name)
-                   : fmt::format("status = {}_error(inputs, &error);", name),
-            memory ? name + "_state state;" : "",
-            "#include \"" + name + ".h\""));
+    Write("driver.c",
+          fmt::format(kDriver, name, "#include \"" + name + ".h\""));
   }
 
   // The first number of each line of `printed` against the predictions.
@@ -380,14 +370,15 @@ TEST_F(CliExport, LinksTwoMapsIntoOneProgramWithoutAHeap) {
   FitMap(Simulated("x_displacement_up.csv"), "poly:ridge:view=zero", "b.json");
   Export("a.json", {"--c"});
   Export("b.json", {"--c", "--name", "other"});
-  Write("both.c",
-        "#include \"a.h\"\n#include \"other.h\"\n"
-        "int main(void) {\n"
-        "  const double x[other_INPUTS] = {0};\n"
-        "  double error;\n  other_state state;\n"
-        "  if (a_error(x, &error) == a_INVALID) return 1;\n"
-        "  if (other_init(&state, x) == other_INVALID) return 1;\n"
-        "  return other_step(&state, 1.0, x, &error) == other_INVALID;\n}\n");
+  Write(
+      "both.c",
+      "#include \"a.h\"\n#include \"other.h\"\n"
+      "int main(void) {\n"
+      "  const double x[other_INPUTS] = {0};\n"
+      "  double error;\n  a_state a;\n  other_state other;\n"
+      "  a_init(&a);\n  other_init(&other);\n"
+      "  if (a_step(&a, 1.0, x, &error) & a_INVALID) return 1;\n"
+      "  return (other_step(&other, 1.0, x, &error) & other_DEAD) == 0;\n}\n");
   Good(fmt::format("gcc {} both.c a.c other.c -o both -lm && ./both", kStrict));
   const std::string needed =
       Good(fmt::format("gcc {} -c a.c other.c && nm -u a.o other.o", kStrict))

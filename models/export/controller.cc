@@ -1,0 +1,414 @@
+#include "models/export/controller.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "fitting/least_squares/decompositions.h"
+#include "models/export/controller_routines.h"
+#include "models/export/run_program.h"
+#include "models/history/view.h"
+#include "models/map_experience.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// What sensors read that are not connected or not ready: an open input, a
+// DS18B20 that is gone or has just woken, an open resistance thermometer.
+constexpr double kDeadValues[] = {0.0, -127.0, 85.0, 850.0};  // degC
+// As `predict` lets pass before a row is outside (applicability.cc).
+constexpr double kLittle = 0.02;
+// How far beyond its trained range a sensor is not believed: by half of that
+// range, and a thermometer by so much at least. Of ten simulated machines, what
+// further days brought beyond two or three days was up to 6 K and 4 ranges.
+constexpr double kFar = 0.5;
+constexpr double kFarKelvin = 8.0;
+// The limits of relations flag days that are merely new, most so after few of
+// them; a sensor that failed is far beyond. On 24,000 rows of further days of
+// six simulated machines, known by 2, 3 or 6 days, none was held by these.
+constexpr double kContradicts = 8.0;
+constexpr double kContradictsKelvin = 4.0;
+
+double Range(const ProgramReading& reading) {
+  return reading.trained_max - reading.trained_min;
+}
+
+bool IsThermometer(const ProgramReading& reading) {
+  return reading.column.unit.quantity == data::Quantity::kTemperature;
+}
+
+// A difference in K.
+double InUnitOf(const ProgramReading& thermometer, double kelvin) {
+  const data::Unit from = data::UnitOfSymbol("K");
+  const data::Unit& unit = thermometer.column.unit;
+  return data::Converted(kelvin, from, unit) - data::Converted(0.0, from, unit);
+}
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle =
+      values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+// Of the sensors in the same unit.
+double TypicalRange(const std::vector<ProgramReading>& readings,
+                    const data::Unit& unit) {
+  std::vector<double> ranges;
+  for (const ProgramReading& reading : readings) {
+    if (!reading.is_position && reading.column.unit == unit) {
+      ranges.push_back(Range(reading));
+    }
+  }
+  return Median(std::move(ranges));
+}
+
+std::vector<double> DeadValuesOf(const ProgramReading& reading) {
+  const data::Unit degrees = data::UnitOfSymbol("degC");
+  const data::Unit& unit = reading.column.unit;
+  std::vector<double> found;
+  const auto add = [&](double value) {
+    const bool is_trained = value >= reading.low && value <= reading.high;
+    const bool is_far = value < reading.far_low || value > reading.far_high;
+    if (is_trained || is_far) return;
+    if (std::ranges::find(found, value) == found.end()) found.push_back(value);
+  };
+  for (const double value : kDeadValues) {
+    add(value);
+    if (IsThermometer(reading) && data::AreConvertible(degrees, unit)) {
+      add(data::Converted(value, degrees, unit));
+    }
+  }
+  return found;
+}
+
+// Counts and times have no sensor, and go on beyond what was trained.
+bool IsCount(const data::Unit& unit) {
+  return unit.symbol.empty() || unit.quantity == data::Quantity::kTime;
+}
+
+void SetBounds(const FittedModel& fitted,
+               std::vector<ProgramReading>* readings) {
+  const double margin =
+      fitted.guards ? fitted.guards->input_margin : Guards{}.input_margin;
+  for (ProgramReading& reading : *readings) {
+    const double range = Range(reading);
+    const data::Unit& unit = reading.column.unit;
+    reading.is_position =
+        IsPosition(reading.column) || unit.quantity == data::Quantity::kAngle;
+    reading.low = reading.trained_min - kLittle * range;
+    reading.high = reading.trained_max + kLittle * range;
+    reading.far_low = -kHuge;
+    reading.far_high = kHuge;
+    if (reading.is_position) continue;
+    const bool is_count = IsCount(unit);
+    double width = (is_count ? margin : kFar) * range;
+    if (IsThermometer(reading)) {
+      width = std::max(width, InUnitOf(reading, kFarKelvin));
+    }
+    reading.far_low = reading.trained_min - width;
+    reading.far_high = reading.trained_max + width;
+    if (!is_count) reading.dead = DeadValuesOf(reading);
+  }
+}
+
+// Thermometers that moved in training as others did.
+void SetWeights(std::vector<ProgramReading>* readings) {
+  constexpr double kLeastShare = 0.25;
+  constexpr std::size_t kFewest = 3;
+  std::vector<ProgramReading*> watched;
+  for (ProgramReading& reading : *readings) {
+    const double range = Range(reading);
+    if (!reading.is_position && IsThermometer(reading) && range > 0.0 &&
+        range >= kLeastShare * TypicalRange(*readings, reading.column.unit)) {
+      watched.push_back(&reading);
+    }
+  }
+  if (watched.size() < kFewest) return;
+  const auto others = static_cast<double>(watched.size() - 1);
+  for (ProgramReading* reading : watched) {
+    reading->weight = 1.0 / (Range(*reading) * others);
+  }
+}
+
+// As MeasureStates in models/promise/applicability.cc: x_j less its mean given
+// the others is (P x)_j / P_jj with variance 1 / P_jj. The inverse of
+// diag(rest) + W W' is taken by way of the few directions (Woodbury), so that a
+// step costs sensors times directions.
+void AddJudgement(const Applicability& trained, MapProgram* program) {
+  const Index sensors = trained.mean.size();
+  const Index directions = trained.directions.cols();
+  if (sensors < 2) return;
+  const MatrixXd weighted =
+      trained.rest.cwiseInverse().asDiagonal() * trained.directions;
+  const MatrixXd inner =
+      Eigen::LLT<MatrixXd>(MatrixXd::Identity(directions, directions) +
+                           trained.directions.transpose() * weighted)
+          .solve(MatrixXd::Identity(directions, directions));
+  const VectorXd own =
+      trained.rest.cwiseInverse() -
+      (weighted * inner).cwiseProduct(weighted).rowwise().sum();
+  // (P x)_j / sqrt(P_jj) over its limit, that is 1 / rest_j (x_j - w_j v) of
+  // it.
+  const VectorXd per_limit = (trained.rest.array() * own.array().sqrt() *
+                              trained.relation_limit.array())
+                                 .inverse();
+
+  MatrixXd scores = MatrixXd::Zero(directions, sensors + 1);
+  scores.leftCols(sensors) =
+      inner * weighted.transpose() * trained.scale.cwiseInverse().asDiagonal();
+  // Readings that are no sensors, such as positions, have no doubt.
+  MatrixXd told = MatrixXd::Zero(static_cast<Index>(program->readings.size()),
+                                 directions + 1);
+  for (Index i = 0; i < sensors; ++i) {
+    told.row(trained.columns[static_cast<std::size_t>(i)]).head(directions) =
+        -per_limit[i] * trained.directions.row(i);
+  }
+
+  Instructions& judge = program->judge;
+  for (Index i = 0; i < sensors; ++i) {
+    const Index column = trained.columns[static_cast<std::size_t>(i)];
+    judge.push_back({.op = Op::kShift,
+                     .to = {Space::kStanding, static_cast<int>(i)},
+                     .a = {Space::kReading, static_cast<int>(column)},
+                     .c = trained.mean[i]});
+  }
+  const auto affine = [&](Space to, Space from, MatrixXd table) {
+    judge.push_back({.op = Op::kAffine,
+                     .to = {to, 0},
+                     .a = {from, 0},
+                     .table = program->tables.size(),
+                     .count = static_cast<int>(table.rows())});
+    program->tables.push_back(std::move(table));
+  };
+  affine(Space::kScore, Space::kStanding, std::move(scores));
+  affine(Space::kDoubt, Space::kScore, std::move(told));
+  for (Index i = 0; i < sensors; ++i) {
+    const Index column = trained.columns[static_cast<std::size_t>(i)];
+    ProgramReading& reading =
+        program->readings[static_cast<std::size_t>(column)];
+    reading.believed = kContradicts;
+    if (IsThermometer(reading)) {
+      const double limit =
+          trained.relation_limit[i] * trained.scale[i] / std::sqrt(own[i]);
+      reading.believed =
+          std::max(kContradicts, InUnitOf(reading, kContradictsKelvin) / limit);
+    }
+    judge.push_back({.op = Op::kAccumulate,
+                     .to = {Space::kDoubt, static_cast<int>(column)},
+                     .a = {Space::kStanding, static_cast<int>(i)},
+                     .c = per_limit[i] / trained.scale[i]});
+  }
+}
+
+// ---- Limits ----
+
+VectorXd MeanReadings(const FittedModel& fitted) {
+  VectorXd readings(static_cast<Index>(fitted.inputs.size()));
+  for (Index i = 0; i < readings.size(); ++i) {
+    readings[i] = fitted.inputs[static_cast<std::size_t>(i)].mean;
+  }
+  return readings;
+}
+
+// Readings of thermal states like those of training; positions at their mean.
+std::vector<VectorXd> TrainedStates(const FittedModel& fitted,
+                                    const MapProgram& program) {
+  const VectorXd mean = MeanReadings(fitted);
+  std::vector<VectorXd> states{mean};
+  if (const Applicability* trained = fitted.applicability.get()) {
+    for (Index k = 0; k < trained->states.rows(); ++k) {
+      const VectorXd scaled =
+          trained->directions * trained->states.row(k).transpose();
+      VectorXd& state = states.emplace_back(mean);
+      for (std::size_t i = 0; i < trained->columns.size(); ++i) {
+        const auto at = static_cast<Index>(i);
+        state[trained->columns[i]] =
+            trained->mean[at] + trained->scale[at] * scaled[at];
+      }
+    }
+  } else {
+    for (const double ProgramReading::*end :
+         {&ProgramReading::trained_min, &ProgramReading::trained_max}) {
+      VectorXd& state = states.emplace_back(mean);
+      for (std::size_t i = 0; i < program.readings.size(); ++i) {
+        if (program.readings[i].is_position) continue;
+        state[static_cast<Index>(i)] = program.readings[i].*end;
+      }
+    }
+  }
+  for (VectorXd& state : states) {
+    for (std::size_t i = 0; i < program.readings.size(); ++i) {
+      double& value = state[static_cast<Index>(i)];
+      value = std::clamp(value,
+                         program.readings[i].trained_min,
+                         program.readings[i].trained_max);
+    }
+  }
+  return states;
+}
+
+// Errors along one position, in one thermal state, at even steps.
+using Profile = std::vector<double>;
+constexpr int kProfileSteps = 64;
+
+Profile ProfileOf(const MapProgram& program,
+                  const VectorXd& begin,
+                  VectorXd state,
+                  std::size_t position) {
+  constexpr double kForEver = 1e8;  // s
+  const ProgramReading& reading = program.readings[position];
+  ProgramRun run(program, Precision::kDouble);
+  run.Begin(begin);
+  double error = 0.0;
+  run.Step(kForEver, state, &error);
+  Profile profile;
+  for (int k = 0; k <= kProfileSteps; ++k) {
+    state[static_cast<Index>(position)] =
+        reading.trained_min + Range(reading) * k / kProfileSteps;
+    if ((run.Step(0.0, state, &error) & kMapInvalid) != 0) continue;
+    profile.push_back(error);
+  }
+  return profile;
+}
+
+double LargestStep(const Profile& profile, double most) {
+  double largest = 0.0;
+  for (std::size_t k = 1; k < profile.size(); ++k) {
+    const double from = std::clamp(profile[k - 1], -most, most);
+    const double to = std::clamp(profile[k], -most, most);
+    largest = std::max(largest, std::fabs(to - from));
+  }
+  return largest;
+}
+
+// The range of the errors, 0 with them, times what a day beyond may add.
+double DefaultMaxError(const FittedModel& fitted,
+                       const std::vector<Profile>& profiles,
+                       double steady) {
+  constexpr double kBeyond = 1.3;
+  double low = std::min(steady, 0.0);
+  double high = std::max(steady, 0.0);
+  if (fitted.guards) {
+    low = std::min(0.0, fitted.guards->error_min);
+    high = std::max(0.0, fitted.guards->error_max);
+  } else {
+    for (const Profile& profile : profiles) {
+      for (const double error : profile) {
+        low = std::min(low, error);
+        high = std::max(high, error);
+      }
+    }
+  }
+  return kBeyond * (high - low);
+}
+
+double Limit(const std::optional<double>& given,
+             double otherwise,
+             const char* what) {
+  const double value = given.value_or(otherwise);
+  if (!std::isfinite(value) || !(value >= 0.0) || (given && value == 0.0)) {
+    throw std::invalid_argument(
+        fmt::format("the largest {} must be above 0 and finite", what));
+  }
+  return value;
+}
+
+void SetLimits(const FittedModel& fitted,
+               const LimitOptions& options,
+               MapProgram* program) {
+  // Slopes between grid points, and of states in between, are somewhat larger.
+  constexpr double kSteeper = 1.5;
+  const VectorXd begin = MeanReadings(fitted);
+  const std::vector<VectorXd> states = TrainedStates(fitted, *program);
+  std::vector<Profile> profiles;
+  std::vector<std::size_t> of;
+  for (std::size_t i = 0; i < program->readings.size(); ++i) {
+    // Without a position any reading will do: the states alone tell.
+    const bool stands_for_all =
+        i == 0 &&
+        std::ranges::none_of(program->readings, &ProgramReading::is_position);
+    if (!program->readings[i].is_position && !stands_for_all) continue;
+    for (const VectorXd& state : states) {
+      profiles.push_back(ProfileOf(*program, begin, state, i));
+      of.push_back(i);
+    }
+  }
+  double steady = 0.0;
+  ProgramRun run(*program, Precision::kDouble);
+  run.Begin(begin);
+  run.Step(0.0, begin, &steady);
+  ControllerLimits& limits = program->limits;
+  limits.max_error = Limit(
+      options.max_error, DefaultMaxError(fitted, profiles, steady), "error");
+  limits.max_rate =
+      Limit(options.max_rate,
+            DefaultMaxRate(program->target.unit, limits.max_error),
+            "rate");
+  for (std::size_t k = 0; k < profiles.size(); ++k) {
+    ProgramReading& reading = program->readings[of[k]];
+    if (!reading.is_position || !(Range(reading) > 0.0)) continue;
+    reading.slope =
+        std::max(reading.slope,
+                 kSteeper * LargestStep(profiles[k], limits.max_error) *
+                     kProfileSteps / Range(reading));
+  }
+}
+
+constexpr StatusBit kStatusBits[] = {
+    {kMapOutside, "OUTSIDE", "an input left its trained range: extrapolated"},
+    {kMapFar, "FAR", "... by more than this machine can: not taken"},
+    {kMapClipped, "CLIPPED", "a guard clipped an input or the error"},
+    {kMapInvalid,
+     "INVALID",
+     "an input, the time or the error is no number: not taken"},
+    {kMapDead, "DEAD", "a sensor reads as if not connected: not taken"},
+    {kMapFrozen,
+     "FROZEN",
+     "a sensor stands still while the others move: not taken"},
+    {kMapContradicts,
+     "CONTRADICTS",
+     "a sensor is not where the others tell: not taken"},
+    {kMapFaded, "FADED", "nothing taken for too long: the error goes to 0"},
+    {kMapLimited, "LIMITED", "the error is the largest allowed"},
+    {kMapRamping, "RAMPING", "the error is on its way, at the largest rate"},
+};
+
+}  // namespace
+
+std::span<const StatusBit> StatusBits() { return kStatusBits; }
+
+double DefaultMaxRate(const data::Unit& unit, double max_error) {
+  for (const char* symbol : {"um", "urad"}) {
+    const data::Unit known = data::UnitOfSymbol(symbol);
+    if (data::AreConvertible(known, unit)) {
+      return data::Converted(10.0, known, unit);
+    }
+  }
+  constexpr double kSeconds = 10.0;
+  return max_error / kSeconds;
+}
+
+void AddController(const FittedModel& fitted,
+                   const LimitOptions& options,
+                   MapProgram* program) {
+  SetBounds(fitted, &program->readings);
+  SetWeights(&program->readings);
+  if (fitted.applicability != nullptr) {
+    AddJudgement(*fitted.applicability, program);
+  }
+  SetLimits(fitted, options, program);
+  program->read = ReadRoutine(*program);
+  program->move = MoveRoutine();
+  program->MeasureSpaces();
+}
+
+}  // namespace errmap::models

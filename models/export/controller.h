@@ -1,0 +1,59 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "data/units.h"
+#include "models/error_model.h"
+#include "models/export/map_program.h"
+
+namespace errmap::models {
+
+/// What is to be said of a step beside its error; the exported maps return the
+/// same bits.
+enum MapStatus : int {
+  kMapOutside = 1,       // a reading left its trained range
+  kMapFar = 2,           // a sensor reads what this machine cannot be at
+  kMapClipped = 4,       // a guard clipped an input of the form, or the error
+  kMapInvalid = 8,       // a reading, the time or the error is no number
+  kMapDead = 16,         // a sensor reads as one that is not connected does
+  kMapFrozen = 32,       // a sensor stands still while the others move
+  kMapContradicts = 64,  // a sensor is not where the others tell
+  kMapFaded = 128,       // no good step for so long that the error goes to 0
+  kMapLimited = 256,     // the error is the largest allowed
+  kMapRamping = 512,     // the error is on its way, at the largest rate
+};
+/// A step with one of these is not taken: the filters keep their state, and the
+/// last good error is held.
+inline constexpr int kMapNotTaken =
+    kMapFar | kMapInvalid | kMapDead | kMapFrozen | kMapContradicts;
+
+/// A bit of the status as languages name and explain it.
+struct StatusBit {
+  int bit;
+  const char* name;  // "OUTSIDE"
+  const char* what;
+};
+std::span<const StatusBit> StatusBits();
+
+/// What a user sets of a controller's limits (target's unit); what he does not
+/// set follows from the map.
+struct LimitOptions {
+  std::optional<double> max_error = std::nullopt;
+  std::optional<double> max_rate = std::nullopt;  // per s
+};
+
+/// Adds to a program what a controller needs around its arithmetic: limits,
+/// which readings are not to be believed, and the routines that see to it.
+/// Throws std::invalid_argument where a limit is not above 0 and finite.
+void AddController(const FittedModel& fitted,
+                   const LimitOptions& options,
+                   MapProgram* program);
+
+/// Heat moves no machine so fast: 10 um/s, 10 urad/s; of an error in another
+/// unit, `max_error` in 10 s.
+double DefaultMaxRate(const data::Unit& unit, double max_error);
+
+}  // namespace errmap::models

@@ -1,0 +1,179 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+// A small language of numbers, conditions and loops over the readings. What a
+// controller does around the arithmetic of a map is written in it once
+// (controller.cc); C, Python and structured text print it, ControllerRun runs
+// it.
+
+namespace errmap::models {
+
+/// The numbers of a routine.
+enum class Cell {
+  kDt,       // s since the call before
+  kCommon,   // where the watched readings stand together
+  kTarget,   // kWanted within the limit
+  kReading,  // array
+  kDoubt,    // array
+  kError,    // of the map, before any limit
+  // Kept from step to step.
+  kBegun,      // 1 from the first step taken on
+  kZeroDue,    // 1: the zero is taken in the next step taken
+  kWaited,     // s since the last step taken
+  kMissed,     // s since the last good error
+  kWanted,     // the error that is moved to
+  kGiven,      // the error given
+  kRoom,       // what it may still change by
+  kMostError,  // limits
+  kMostRate,
+  kLast,   // array: of each reading, the one before
+  kSince,  // array: of each reading, kCommon when it last changed
+  kAlike,  // array: steps since then
+  // Constants of each reading (ProgramReading), arrays.
+  kLow,
+  kHigh,
+  kFarLow,
+  kFarHigh,
+  kWeight,
+  kBelieved,
+};
+inline constexpr int kNumCells = static_cast<int>(Cell::kBelieved) + 1;
+
+/// Where the number of a cell lives.
+enum class CellKind { kLocal, kKept, kTable };
+
+struct CellInfo {
+  Cell cell;
+  const char* name;  // as C and Python call it
+  CellKind kind;
+  bool is_array;
+};
+const CellInfo& InfoOf(Cell cell);
+
+/// The parts of a map's program that a routine runs.
+enum class Part { kBegin, kAdvance, kZero, kEvaluate, kJudge };
+
+struct Expression {
+  enum class Kind {
+    kNumber,
+    kCell,
+    kAny,  // whether the status has a bit of `mask`
+    kNot,
+    kNegative,
+    kAbsolute,
+    kAnd,
+    kOr,
+    kLess,
+    kMore,
+    kAtLeast,
+    kAtMost,
+    kEqual,
+    kPlus,
+    kMinus,
+    kTimes,
+  };
+  /// Index of an array's cell: the loop's own.
+  static constexpr int kLoop = -1;
+
+  Expression(double value) : number(value) {}  // NOLINT: reads as a number
+  Expression(Cell of, int at = kLoop)
+      : kind(Kind::kCell), cell(of), index(at) {}
+  Expression(Kind of, std::vector<Expression> from)
+      : kind(of), parts(std::move(from)) {}
+
+  Kind kind = Kind::kNumber;
+  double number = 0.0;
+  Cell cell = Cell::kDt;
+  int index = kLoop;
+  int mask = 0;
+  std::vector<Expression> parts = {};
+};
+
+struct Statement {
+  enum class Kind { kAssign, kIf, kEachReading, kFlag, kRun };
+
+  Kind kind = Kind::kAssign;
+  std::vector<Expression> sides = {};     // kAssign: to, value; kIf: condition
+  int flag = 0;                           // kFlag: a bit of the status
+  Part part = Part::kEvaluate;            // kRun
+  std::vector<Statement> body = {};       // kIf, loops
+  std::vector<Statement> otherwise = {};  // kIf
+};
+using Routine = std::vector<Statement>;
+
+/// Whether some statement reads or writes the cell.
+bool Uses(const Routine& routine, Cell cell);
+
+// ---- To write routines with ----
+
+/// Operators look at nothing but enumerations where no side is an Expression.
+inline Expression Read(Cell cell) { return {cell}; }
+inline Expression Any(int mask) {
+  Expression any(Expression::Kind::kAny, {});
+  any.mask = mask;
+  return any;
+}
+inline Expression Absolute(Expression a) {
+  return {Expression::Kind::kAbsolute, {std::move(a)}};
+}
+inline Expression operator!(Expression a) {
+  return {Expression::Kind::kNot, {std::move(a)}};
+}
+inline Expression operator-(Expression a) {
+  return {Expression::Kind::kNegative, {std::move(a)}};
+}
+inline Expression operator&&(Expression a, Expression b) {
+  return {Expression::Kind::kAnd, {std::move(a), std::move(b)}};
+}
+inline Expression operator||(Expression a, Expression b) {
+  return {Expression::Kind::kOr, {std::move(a), std::move(b)}};
+}
+inline Expression operator<(Expression a, Expression b) {
+  return {Expression::Kind::kLess, {std::move(a), std::move(b)}};
+}
+inline Expression operator>(Expression a, Expression b) {
+  return {Expression::Kind::kMore, {std::move(a), std::move(b)}};
+}
+inline Expression operator>=(Expression a, Expression b) {
+  return {Expression::Kind::kAtLeast, {std::move(a), std::move(b)}};
+}
+inline Expression operator<=(Expression a, Expression b) {
+  return {Expression::Kind::kAtMost, {std::move(a), std::move(b)}};
+}
+inline Expression operator==(Expression a, Expression b) {
+  return {Expression::Kind::kEqual, {std::move(a), std::move(b)}};
+}
+inline Expression operator+(Expression a, Expression b) {
+  return {Expression::Kind::kPlus, {std::move(a), std::move(b)}};
+}
+inline Expression operator-(Expression a, Expression b) {
+  return {Expression::Kind::kMinus, {std::move(a), std::move(b)}};
+}
+inline Expression operator*(Expression a, Expression b) {
+  return {Expression::Kind::kTimes, {std::move(a), std::move(b)}};
+}
+
+inline Statement Set(Cell to, Expression value) {
+  return {.kind = Statement::Kind::kAssign, .sides = {to, std::move(value)}};
+}
+inline Statement If(Expression condition,
+                    Routine body,
+                    Routine otherwise = {}) {
+  return {.kind = Statement::Kind::kIf,
+          .sides = {std::move(condition)},
+          .body = std::move(body),
+          .otherwise = std::move(otherwise)};
+}
+inline Statement EachReading(Routine body) {
+  return {.kind = Statement::Kind::kEachReading, .body = std::move(body)};
+}
+inline Statement Flag(int bit) {
+  return {.kind = Statement::Kind::kFlag, .flag = bit};
+}
+inline Statement Do(Part part) {
+  return {.kind = Statement::Kind::kRun, .part = part};
+}
+
+}  // namespace errmap::models

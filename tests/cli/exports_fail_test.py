@@ -1,0 +1,255 @@
+"""Sensors that fail under exported maps, in C, Python and structured text.
+
+  exports_fail_test.py ERRMAP [FAILURES]
+
+Each failure takes one input of one map, and from a random row on for a random
+while it reads 0, stands still, reads 50 more, no number, another input or
+itself some rows ago. Whatever it is: no error leaves the limit of the file, no
+step of it exceeds the rate and what the axis' own motion adds, and the languages
+agree, status and all. Of failures that are told, the filters are afterwards
+where they would be if the rows had never been. Healthy rows are believed and
+equal `errmap predict`. Needs a C compiler; skips (status 77) without.
+"""
+
+import csv
+import importlib.util
+import math
+import os
+import pathlib
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+READER = HERE / "commands" / "read_structured_text.py"
+LANGUAGES_AGREE = 1e-12  # of the error's limit
+RECOVERS = 1e-9  # mm
+PREDICTS = 1e-12  # mm
+LONG = 1e6  # s: no rate limits the first error
+
+MAPS = {
+    "ridge": ["poly:ridge:view=history+zero", "position_mm,t03_degC,t12_degC,"
+              "t15_degC,t30_degC"],
+    "net": ["net:scg:iterations=100:hidden=5", "position_mm,t03_degC,t12_degC,"
+            "t25_degC"],
+    # The one whose dead sensor asked for -166.8 mm.
+    "stepwise": ["poly:stepwise", "position_mm,t12_degC,t30_degC,t06_degC,"
+                 "t25_degC"],
+}
+
+DRIVER = """#include <stdio.h>
+#include "{0}.h"
+int main(void) {{
+  double start, dt;
+  {0}_real x[{0}_INPUTS], error;
+  {0}_state state;
+  while (scanf("%lf %lf", &start, &dt) == 2) {{
+    int i, status;
+    for (i = 0; i < {0}_INPUTS; ++i) if (scanf("%lf", &x[i]) != 1) return 1;
+    if (start == 1.0) {{ {0}_init(&state); dt = 1e6; }}
+    status = {0}_step(&state, dt, x, &error);
+    printf("%.17g %d\\n", error, status);
+  }}
+  return 0;
+}}
+"""
+
+failures = []
+
+
+def check(what, holds, found=None):
+    if not holds:
+        failures.append(what)
+        print(f"FAILED {what} (found {found})")
+
+
+def run(*words, text=None, folder=None):
+    return subprocess.run(words, capture_output=True, text=True, check=True,
+                          cwd=folder, input=text).stdout
+
+
+class Exported:
+    def __init__(self, name, folder, errmap, data):
+        spec, inputs = MAPS[name]
+        self.name = name
+        self.folder = folder
+        run(errmap, "fit", data, "--model", spec, "--inputs", inputs, "-o",
+            name + ".json", "--quiet", "--no-interval", folder=folder)
+        run(errmap, "export", name + ".json", "--c", "--python", "--st", "-o",
+            ".", "--quiet", folder=folder)
+        (folder / "driver.c").write_text(DRIVER.format(name))
+        run("cc", "-std=c99", "-O2", "driver.c", name + ".c", "-o",
+            name + ".exe", "-lm", folder=folder)
+        module = importlib.util.spec_from_file_location(
+            name, folder / (name + ".py"))
+        self.map = importlib.util.module_from_spec(module)
+        module.loader.exec_module(self.map)
+        slope = re.search(r"Motion of the axis adds up to (\S+) mm",
+                          (folder / (name + ".h")).read_text())
+        self.slope = 1.01 * float(slope[1])  # of three digits
+        self.position = self.map.INPUTS.index("position_mm")
+        with open(data, encoding="utf-8") as file:
+            self.days = {}
+            for row in csv.DictReader(file):
+                self.days.setdefault(row["day"], []).append(
+                    [float(row["time_s"])]
+                    + [float(row[column]) for column in self.map.INPUTS])
+        self.predicted = [float(row["predicted"]) for row in csv.DictReader(
+            run(errmap, "predict", name + ".json", data, "--quiet",
+                folder=folder).splitlines())]
+
+    def in_python(self, rows):
+        session = self.map.Map()
+        return [session.step(LONG if i == 0 else dt, inputs)
+                for i, (dt, *inputs) in enumerate(rows)]
+
+    @staticmethod
+    def lines(rows):
+        return "".join(
+            f"{1 if i == 0 else 0} " + " ".join(map(repr, row)) + "\n"
+            for i, row in enumerate(rows))
+
+    def in_c(self, rows):
+        out = run(str(self.folder / (self.name + ".exe")),
+                  text=self.lines(rows))
+        return [(float(error), int(status)) for error, status in
+                (line.split() for line in out.splitlines())]
+
+    def in_structured_text(self, rows):
+        out = run(sys.executable, "-B", str(READER),
+                  str(self.folder / (self.name + ".st")),
+                  text=self.lines(rows))
+        return [(float(line.split()[0]), line.split()[2] == "1")
+                for line in out.splitlines()]
+
+
+def steps_of(day):
+    rows = []
+    for i, (time, *inputs) in enumerate(day):
+        rows.append([0.0 if i == 0 else time - day[i - 1][0], *inputs])
+    return rows
+
+
+def fail(rows, kind, which, begin, end, other):
+    """The rows with input `which` (from 1) failing."""
+    failed = [list(row) for row in rows]
+    for i in range(begin, end):
+        failed[i][which] = {
+            "zero": 0.0,
+            "stuck": rows[begin][which],
+            "plus 50": rows[i][which] + 50.0,
+            "nan": math.nan,
+            "swapped": rows[i][other],
+            "delayed": rows[max(0, i - 10)][which]}[kind]
+        if kind == "swapped":
+            failed[i][other] = rows[i][which]
+    return failed
+
+
+def check_limits(exported, rows, found, what):
+    limits = exported.map.Map()
+    given, last = 0.0, None
+    for (dt, *inputs), (error, status) in zip(rows, found):
+        check(what + ": a number within the limit",
+              abs(error) <= limits.max_error, error)
+        allowed = limits.max_rate * (LONG if last is None else dt)
+        if not status & exported.map.NOT_TAKEN:
+            at = inputs[exported.position]
+            if last is not None:
+                allowed += exported.slope * abs(at - last)
+            last = at
+        check(what + ": no step beyond the rate",
+              abs(error - given) <= allowed * (1 + 1e-9) + 1e-15,
+              (error, given, allowed))
+        given = error
+
+
+def check_recovery(exported, rows, found, what):
+    """As without the rows that were not taken, each left out."""
+    spared, waited, kept = [], 0.0, []
+    for i, ((dt, *inputs), (_, status)) in enumerate(zip(rows, found)):
+        waited += dt
+        if status & exported.map.NOT_TAKEN:
+            continue
+        spared.append([waited, *inputs])
+        kept.append(i)
+        waited = 0.0
+    expected = exported.in_python(spared)
+    ramping = exported.map.RAMPING
+    for i, (error, status) in zip(kept, expected):
+        if (status | found[i][1]) & ramping:
+            continue
+        check(what + ": the filters as if the rows had not been",
+              abs(found[i][0] - error) <= RECOVERS, (i, found[i], error))
+
+
+def check_healthy(exported):
+    at, held, rows = 0, 0, 0
+    for day in exported.days.values():
+        for error, status in exported.in_python(steps_of(day)):
+            held += bool(status & exported.map.NOT_TAKEN)
+            check(exported.name + ": healthy rows are as predicted",
+                  abs(error - exported.predicted[at]) <= PREDICTS,
+                  (at, error, exported.predicted[at], status))
+            at += 1
+            rows += 1
+    check(exported.name + ": healthy rows are believed", held == 0, held)
+
+
+def check_failure(exported, chance, with_structured_text):
+    rows = steps_of(chance.choice(list(exported.days.values())))
+    kind = chance.choice(["zero", "stuck", "plus 50", "nan", "swapped",
+                          "delayed"])
+    which = chance.randrange(1, len(rows[0]))
+    other = chance.choice([i for i in range(1, len(rows[0])) if i != which])
+    begin = chance.randrange(1, len(rows) - 1)
+    end = min(len(rows), begin + chance.randrange(1, 30))
+    rows = fail(rows, kind, which, begin, end, other)
+    what = (f"{exported.name}, {exported.map.INPUTS[which - 1]} {kind} in rows "
+            f"{begin} to {end}")
+    found = exported.in_python(rows)
+    check_limits(exported, rows, found, what)
+    check_recovery(exported, rows, found, what)
+    allowed = LANGUAGES_AGREE * exported.map.Map().max_error
+    for mine, other in zip(found, exported.in_c(rows)):
+        check(what + ": C says the same",
+              abs(mine[0] - other[0]) <= allowed and mine[1] == other[1],
+              (mine, other))
+    if not with_structured_text:
+        return
+    for mine, other in zip(found, exported.in_structured_text(rows)):
+        taken = not mine[1] & exported.map.NOT_TAKEN
+        check(what + ": structured text says the same",
+              abs(mine[0] - other[0]) <= allowed and taken == other[1],
+              (mine, other))
+
+
+def main():
+    errmap = os.path.abspath(sys.argv[1])
+    count = int(sys.argv[2]) if len(sys.argv) > 2 else 500
+    if shutil.which("cc") is None:
+        print("skipped: no C compiler")
+        sys.exit(77)
+    chance = random.Random(7)
+    with tempfile.TemporaryDirectory(prefix="errmap_fail_") as name:
+        folder = pathlib.Path(name)
+        run(errmap, "simulate", "turning-centre", "-o", "sim", "--days", "3",
+            "--cycles", "4", "--seed", "3", "--quiet", folder=folder)
+        data = str(folder / "sim" / "x_displacement_down.csv")
+        maps = [Exported(name, folder, errmap, data) for name in MAPS]
+        for exported in maps:
+            check_healthy(exported)
+        for i in range(count):
+            check_failure(maps[i % len(maps)], chance, i % 10 < 3)
+            if len(failures) > 20:
+                break
+    print(f"{count} failures over {len(maps)} maps: "
+          + ("WRONG" if failures else "right"))
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
