@@ -364,10 +364,9 @@ double PenalizedPath::DegreesOfFreedom(double strength,
   MatrixXd factor = Shifted(strength);
   if (strength > 0.0 && FactorizeCholesky(factor)) {
     const VectorXd inverse = DiagonalOfInverse(factor);
-    return of_intercept +
-           (scales_.array() > 0.0)
-               .select(1.0 - strength * inverse.array(), 0.0)
-               .sum();
+    return of_intercept + (scales_.array() > 0.0)
+                              .select(1.0 - strength * inverse.array(), 0.0)
+                              .sum();
   }
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(correlation_,
                                                       Eigen::EigenvaluesOnly);

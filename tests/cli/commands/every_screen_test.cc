@@ -57,7 +57,7 @@ class EveryScreen : public FleetTest {
           "--all"});
     Show({"compare", "days.csv", "--dry-run"});
     Show({"report", "s"});
-      Show({"fit", "days.csv", "--model", "poly:eq8", "-o", "map.json"});
+    Show({"fit", "days.csv", "--model", "poly:eq8", "-o", "map.json"});
     Show({"fit",
           "days.csv",
           "--model",

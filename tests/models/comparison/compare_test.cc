@@ -52,7 +52,8 @@ TEST_F(CompareMapsTest, ChoosesWhatIsLeftEmptyAndJudges) {
   const ComponentStudy study =
       CompareMaps(Write("xdown.csv", 60), {}, {.models = {"poly:eq9"}});
   EXPECT_EQ(study.name, "xdown");
-  EXPECT_EQ(study.sha256.size(), 64U);
+  ASSERT_EQ(study.files.size(), 1U);
+  EXPECT_EQ(study.files.front().sha256.size(), 64U);
   ASSERT_EQ(study.holdouts.size(), 2U);
   EXPECT_EQ(study.holdouts[0].name, "every:3");
   EXPECT_EQ(study.holdouts[1].name, "groups:5");
