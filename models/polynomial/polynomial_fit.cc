@@ -283,8 +283,6 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
   fitted.inputs = DescribeInputs(training, inputs);
   FittedTerms kept = TermsOf(design, terms, solution);
   PolynomialForm& form = kept.form;
-  if (guarded_)
-    form.bends_within = BendsWithin(fitted.inputs, form.input_offset);
   RemarkOnTerms(kept, terms.size(), solution, rows, &fitted);
   fitted.summary.message =
       fmt::format("solved by QR in {} bits", solution.bits);

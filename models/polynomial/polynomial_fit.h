@@ -56,7 +56,9 @@ class PolynomialRecipe : public ModelRecipe {
 
 /// How much of its trained range an input may leave it by before a map stops
 /// bending in it. Beyond, a parabola foretells nothing, while a straight line
-/// of the same data still holds: measured in promise/measured.md.
+/// of the same data still holds: measured in promise/measured.md. Only shrunk
+/// maps do so: exact least squares (Eq. 7 to 9 and their kin) stay what they
+/// are as far as their guards let them.
 inline constexpr double kBendMargin = 0.1;
 
 /// That of every input but positions, in which machines bend and which stay

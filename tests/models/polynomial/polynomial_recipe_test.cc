@@ -85,11 +85,9 @@ data::Dataset BentRows(double lowest, double highest) {
 TEST(PolynomialRecipe, GoesOnStraightBeyondATenthOfWhereItWasTrained) {
   const data::Dataset training = BentRows(0.0, 10.0);
   const data::Dataset near = BentRows(-1.0, 11.0);
-  for (const std::string spec : {"poly:full:degree=2",
-                                 "poly:stepwise:degree=2",
-                                 "poly:ridge:terms=full:degree=2:penalty=1e-9",
-                                 "poly:formula=t_degC+t_degC^2+"
-                                 "position_mm*t_degC"}) {
+  for (const std::string spec :
+       {"poly:ridge:terms=full:degree=2:penalty=1e-9",
+        "poly:lasso:terms=full:degree=2:penalty=1e-9"}) {
     const FittedModel fitted = FitSpecInPolynomialRecipe(spec, training);
     const Eigen::VectorXd within = fitted.Predict(near) - near.target_values();
     EXPECT_LT(within.cwiseAbs().maxCoeff(), 1e-4) << spec;
@@ -99,10 +97,10 @@ TEST(PolynomialRecipe, GoesOnStraightBeyondATenthOfWhereItWasTrained) {
       return fitted.PredictForm(Eigen::RowVector2d(position, temperature))
           .errors[0];
     };
-    for (const double position : {0.2, 0.9}) {
+    for (const double position : {0.0, 0.25}) {
       const double step = at(position, 13.0) - at(position, 12.0);
       EXPECT_NEAR(at(position, 14.0) - at(position, 13.0), step, 1e-9) << spec;
-      EXPECT_NEAR(step, 1.0 + 0.7 * position, 0.15) << spec;
+      EXPECT_NEAR(step, 1.0 + 0.7 * position, 0.08) << spec;
     }
     EXPECT_NEAR(FitSpecInPolynomialRecipe(spec + ":clip=none", training)
                     .PredictForm(Eigen::RowVector2d(0.5, 30.0))
