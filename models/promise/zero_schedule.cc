@@ -212,24 +212,30 @@ ZeroTrigger ZeroSchedule::advised() const {
   return clock ? clock->trigger : ZeroTrigger{};
 }
 
-bool KnowsAges(const HeldOutErrors& errors) {
-  if (!errors.of_sessions || errors.time_unit != "s") return false;
-  return ProbedSessionsOf(errors).size() >= 2;
+bool KnowsAges(const FittedModel& fitted) {
+  return fitted.held_out != nullptr && fitted.held_out->time_unit == "s" &&
+         fitted.interval && fitted.interval->of_sessions &&
+         ProbedSessionsOf(*fitted.held_out).size() >= 2;
 }
 
 ZeroSchedule ScheduleZeros(const HeldOutErrors& errors, double goal) {
-  if (!KnowsAges(errors)) {
-    throw std::invalid_argument(
-        "ScheduleZeros: needs held-out sessions with times");
-  }
   const ProbedSessions units = ProbedSessionsOf(errors);
+  if (units.size() < 2) {
+    throw std::invalid_argument(
+        "ScheduleZeros: needs two sessions of two rows");
+  }
   ZeroSchedule schedule{
       .sessions = units.size(), .clocks = {}, .clock = {}, .rule = {}};
-  for (const ZeroTrigger& clock : ClocksFor(units)) {
-    schedule.clocks.push_back(ZeroAll(units, clock));
-    if (schedule.clocks.back().within_90 <= goal) {
-      schedule.clock = schedule.clocks.back();
+  for (const ZeroTrigger& trigger : ClocksFor(units)) {
+    const ZeroedErrors clock = ZeroAll(units, trigger);
+    // Of intervals that come to the same rows the longest.
+    if (!schedule.clocks.empty() &&
+        schedule.clocks.back().probes == clock.probes &&
+        schedule.clocks.back().rmse == clock.rmse) {
+      schedule.clocks.pop_back();
     }
+    schedule.clocks.push_back(clock);
+    if (clock.within_90 <= goal) schedule.clock = clock;
   }
   if (schedule.clock && !errors.temperature.empty() &&
       std::isfinite(schedule.clock->trigger.time)) {

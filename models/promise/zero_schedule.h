@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "models/error_model.h"
 #include "models/map_experience.h"
 
 namespace errmap::models {
@@ -52,11 +53,11 @@ struct ZeroSchedule {
   ZeroTrigger advised() const;
 };
 
-/// Whether the errors are of two whole sessions or more, with times in s.
-bool KnowsAges(const HeldOutErrors& errors);
+/// Whether the map's held-out errors are of whole sessions with times in s.
+bool KnowsAges(const FittedModel& fitted);
 
-/// `goal`: target's unit, above 0; NaN: the clocks alone. Throws
-/// std::invalid_argument unless KnowsAges.
+/// Of such errors. `goal`: target's unit, above 0; NaN: the clocks alone.
+/// Throws std::invalid_argument where fewer than two sessions have two rows.
 ZeroSchedule ScheduleZeros(const HeldOutErrors& errors, double goal);
 
 /// The temperature (n x columns) whose changes go best with those of the

@@ -9,7 +9,6 @@ that takes as many probes there. A line per seed (um, probes a day), then how
 often the advice errs no more than the clock.
 """
 
-import csv
 import json
 import math
 import os
@@ -58,14 +57,15 @@ def later_days(errmap, folder, header, rows, temperature):
     write(path, header, rows)
     run(errmap, "predict", os.path.join(folder, "map.json"), path, "-o",
         predicted, "--quiet")
+    found_header, found = read(predicted)
+    column = found_header.index("predicted")
     days = {}
-    with open(predicted, newline="", encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            name = next(n for n in row if n.startswith("predicted"))
-            days.setdefault(row["day"], []).append({
-                "time": float(row["time_s"]),
-                "temperature": float(row[temperature]),
-                "error": 1000 * (float(row["error_mm"]) - float(row[name]))})
+    for cells, of_map in zip(rows, found):
+        row = dict(zip(header, cells))
+        days.setdefault(row["day"], []).append({
+            "time": float(row["time_s"]),
+            "temperature": float(row[temperature]),
+            "error": 1000 * (float(row["error_mm"]) - float(of_map[column]))})
     return [sorted(day, key=lambda row: row["time"]) for day in days.values()]
 
 

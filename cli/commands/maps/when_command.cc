@@ -124,7 +124,7 @@ Json WhenJson(const models::FittedModel& fitted,
 
 int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
   const models::FittedModel fitted = models::LoadModel(arguments.model);
-  if (fitted.held_out == nullptr || !models::KnowsAges(*fitted.held_out)) {
+  if (!models::KnowsAges(fitted)) {
     throw data::InputError(fmt::format(
         "{}: holds no errors of unseen sessions with times; fit the map to two "
         "sessions or more and a column of times (without --no-interval)",
@@ -153,10 +153,11 @@ int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
     PrintResult(DumpJson(document));
   } else {
     PrintFitted(fmt::format(
-        "{} ({}), re-zeroed by probes: its errors on {} it never saw\n\n{}{}",
+        "{} ({}) on {}, re-zeroed by probes\n\n{}{}",
         arguments.model,
         fitted.name,
-        report::Count(static_cast<long long>(schedule.sessions), "session"),
+        report::Count(static_cast<long long>(schedule.sessions),
+                      "unseen session"),
         report::WhenText(schedule, errors, unit, goal),
         since ? report::ZeroDueText(advised, errors, since->age, since->change)
               : ""));

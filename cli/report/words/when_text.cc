@@ -52,10 +52,12 @@ std::string RuleSentence(const ZeroSchedule& schedule,
                          const ErrorText& error) {
   const ZeroSchedule::Rule& rule = *schedule.rule;
   const std::string figures = fmt::format(
-      "{} RMSE against {} with no more probes, on sessions that had no part "
-      "in the rule",
+      "{} against {} RMSE with no more probes, on sessions that had no part in "
+      "the rule; it errs less in {} of {}",
       error(rule.rmse),
-      error.WithUnit(rule.clock_rmse));
+      error.WithUnit(rule.clock_rmse),
+      rule.better,
+      schedule.sessions);
   if (!rule.established) {
     return fmt::format(
         "A rule with the temperature ({}) is not shown to do better: {}. Keep "
@@ -63,11 +65,8 @@ std::string RuleSentence(const ZeroSchedule& schedule,
         TemperatureText(errors),
         figures);
   }
-  return fmt::format("Better: {}. {}; it errs less in {} of {}.",
-                     RuleText(rule.trigger, errors),
-                     figures,
-                     rule.better,
-                     schedule.sessions);
+  return fmt::format(
+      "Better: {}. It has {}.", RuleText(rule.trigger, errors), figures);
 }
 
 std::string TableRow(const models::ZeroedErrors& clock,
@@ -100,11 +99,10 @@ std::string ZeroAdvice(const ZeroSchedule& schedule,
         EveryText(shortest.trigger),
         error.WithUnit(shortest.within_90));
   }
-  std::string text = fmt::format(
-      "A probe {} keeps 90 % of the errors within {} ({}).",
-      EveryText(schedule.clock->trigger),
-      error.WithUnit(goal),
-      Count(static_cast<Eigen::Index>(schedule.sessions), "unseen session"));
+  std::string text =
+      fmt::format("A probe {} keeps 90 % of the errors within {}.",
+                  EveryText(schedule.clock->trigger),
+                  error.WithUnit(goal));
   if (schedule.rule) text += " " + RuleSentence(schedule, errors, error);
   return text + "\n";
 }

@@ -1,6 +1,7 @@
 #include "models/promise/zero_schedule.h"
 
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -29,7 +30,6 @@ HeldOutErrors DaysToZero(int count, std::uint64_t seed, bool by_temperature) {
   HeldOutErrors errors{
       .time_unit = "s", .position = "", .rmse = 1.0, .units = {}};
   errors.temperature = "t_degC";
-  errors.of_sessions = true;
   for (int day = 0; day < count; ++day) {
     HeldOutErrors::Unit unit{.label = "day",
                              .rmse = 1.0,
@@ -125,13 +125,19 @@ TEST(ZeroSchedule, KeepsToTheClockWhereTheTemperatureTellsNothing) {
 
 TEST(ZeroSchedule, NeedsWholeSessionsWithTimes) {
   HeldOutErrors errors = DaysToZero(3, 1, false);
-  EXPECT_TRUE(KnowsAges(errors));
+  FittedModel fitted;
+  EXPECT_FALSE(KnowsAges(fitted));
+  fitted.held_out = std::make_shared<const HeldOutErrors>(errors);
+  fitted.interval.emplace().of_sessions = true;
+  EXPECT_TRUE(KnowsAges(fitted));
+  fitted.interval->of_sessions = false;
+  EXPECT_FALSE(KnowsAges(fitted));
+  fitted.interval->of_sessions = true;
   errors.time_unit = "rows";
-  EXPECT_FALSE(KnowsAges(errors));
+  fitted.held_out = std::make_shared<const HeldOutErrors>(errors);
+  EXPECT_FALSE(KnowsAges(fitted));
+  errors.units.resize(1);
   EXPECT_THROW(ScheduleZeros(errors, 1.0), std::invalid_argument);
-  errors.time_unit = "s";
-  errors.of_sessions = false;
-  EXPECT_FALSE(KnowsAges(errors));
 }
 
 TEST(ZeroSchedule, FindsTheTemperatureThatTheErrorsFollow) {

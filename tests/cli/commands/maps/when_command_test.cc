@@ -46,10 +46,10 @@ TEST_F(When, NamesTheLongestIntervalThatKeepsTheGoal) {
   const Outcome text = Run({"when", "map.json", "--goal", "2um"});
   EXPECT_EQ(text.status, 0);
   EXPECT_THAT(text.out,
-              AllOf(StartsWith("map.json (poly:position), re-zeroed by probes: "
-                               "its errors on 5 sessions it never saw\n"),
+              AllOf(StartsWith("map.json (poly:position) on 5 unseen sessions, "
+                               "re-zeroed by probes\n"),
                     HasSubstr("A probe every 2 h keeps 90 % of the errors "
-                              "within 2.00 um (5 unseen sessions).")));
+                              "within 2.000 um.")));
 }
 
 TEST_F(When, SaysWhenTheNextProbeIsDue) {
