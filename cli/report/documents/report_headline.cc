@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/report/tables/result_table.h"
+#include "cli/report/words/next_steps.h"
 #include "cli/report/words/remark_text.h"
 #include "cli/report/words/verdict_text.h"
 
@@ -117,9 +118,11 @@ Headline HeadlineOf(const ReportView& view) {
     }
     SayGoal(view, error, &line);
     line.cost = CostWords(advice);
-    line.sensors = SensorWords(advice.sensors);
+    line.sensors = SensorWords(SensorsByNeed(advice));
     line.sentence = advice.sentence;
-    constexpr std::size_t kMostTold = 5;
+    // With the recommendation three sentences: all others stand with the
+    // reasons.
+    constexpr std::size_t kMostTold = 2;
     line.told = view.component->data.doubts;
     for (const models::RemarkRecord* remark : ToldFirst(advice)) {
       // The goal has a line of its own.

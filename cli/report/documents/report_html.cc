@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/report/documents/report_glossary.h"
 #include "cli/report/documents/report_headline.h"
 #include "cli/report/documents/report_style.h"
 #include "cli/report/figures/row_pictures.h"
@@ -135,6 +136,19 @@ std::string WithFirstRows(Table table, std::size_t most) {
   const std::string title =
       Count(static_cast<long long>(more.rows.size()), "more model");
   return HtmlTable(table) + Collapsed(title, HtmlTable(more));
+}
+
+// What the map needs, and how it does next to known rows.
+std::string Needs(const Headline& line) {
+  std::string html;
+  if (!line.beside.empty()) {
+    html += Paragraph("Beside it: " + line.beside + ".");
+  }
+  if (!line.cost.empty()) html += Paragraph(line.cost + ".");
+  if (!line.sensors.empty()) {
+    html += Paragraph("Sensors, the most needed first: " + line.sensors + ".");
+  }
+  return html;
 }
 
 // The page and what it is made of.
@@ -306,13 +320,6 @@ std::string Page::Card(const ReportView& view) const {
                     HtmlText(line.goal));
   }
   for (const std::string& told : line.told) html += Paragraph(told);
-  if (!line.beside.empty()) {
-    html += Paragraph("Beside it: " + line.beside + ".", "small");
-  }
-  if (!line.cost.empty()) html += Paragraph(line.cost + ".", "small");
-  if (!line.sensors.empty()) {
-    html += Paragraph("Sensors: " + line.sensors + ".", "small");
-  }
   return html + "</div>\n";
 }
 
@@ -320,7 +327,8 @@ std::string Page::Answer(const ReportView& view,
                          std::size_t index,
                          const ComponentFigures& figures) const {
   std::string html = "<div class=\"answer\">\n<div>" + Card(view);
-  html += Paragraph(kSignConvention, "soft small") + "</div>\n<div>";
+  html += Paragraph(kSignConvention, "soft small") +
+          (index == 0 ? GlossaryLinks() : "") + "</div>\n<div>";
   html += FiguresHtml(figures, FigurePlace::kAnswer, "plain") + Next(index);
   return html + "</div>\n</div>\n";
 }
@@ -443,7 +451,7 @@ std::string Page::Component(const ReportView& view, std::size_t index) const {
     bool folded;
   };
   const Headline line = HeadlineOf(view);
-  std::string reasons = List("Reasons", line.reasons);
+  std::string reasons = Needs(line) + List("Reasons", line.reasons);
   reasons += List("Caveats", line.caveats);
   const std::string effect =
       FiguresHtml(figures, FigurePlace::kCompensation, "figures halves") +
@@ -456,11 +464,11 @@ std::string Page::Component(const ReportView& view, std::size_t index) const {
                        ? WithFirstRows(leaderboard, kMostRows)
                        : Paragraph(leaderboard.missing, "absent"),
                    false});
-  parts.push_back({"What the map does", effect, false});
   parts.push_back(
       {"Which sensors, and how many measurements",
        FiguresHtml(figures, FigurePlace::kSensors, "figures halves"),
        false});
+  parts.push_back({"What the map does", effect, false});
   parts.push_back({"Why this map, and what bounds its worth", reasons, true});
   parts.push_back({"Is it more than chance?", Evidence(view), true});
   parts.push_back({"Residuals", Residuals(view, figures), true});
@@ -541,6 +549,10 @@ std::string Page::Html() const {
   }
   html += Machine();
   html += Collapsed("Provenance", HtmlTable(ProvenanceTable(record_)));
+  if (!views.empty()) html += Glossary();
+  html +=
+      "<p class=\"printed\">What is folded on the screen is left out here; "
+      "open it before printing, or see report.md.</p>\n";
   html += "</main>\n<footer>";
   const std::string& version = record_.version;
   html += fmt::format(

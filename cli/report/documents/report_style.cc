@@ -40,6 +40,9 @@ td.long{white-space:normal;overflow-wrap:anywhere;min-width:15rem;max-width:34re
 td:first-child,th:first-child{position:sticky;left:0;background:#fff}
 th:first-child{background:var(--tint)}
 tr.mark td,tr.mark td:first-child{background:var(--mark);font-weight:600}
+tbody tr:hover td,tbody tr:hover td:first-child{background:#fff3d6}
+.printed{display:none}
+:target{background:var(--mark)}
 .figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,370px),1fr));gap:18px 22px;align-items:start}
 .figures.many{grid-template-columns:repeat(auto-fill,minmax(min(100%,260px),1fr));gap:14px}
 figure{margin:0;min-width:0;break-inside:avoid}
@@ -91,6 +94,7 @@ h2,h3,h4,summary{break-after:avoid}tr{break-inside:avoid}
 details.component:not([open])::details-content{content-visibility:visible;display:block}
 details:not(.component):not([open]){display:none}
 .contents,.back{display:none}
+.printed{display:block}
 details.component{border:0;padding:0;margin:0;break-before:page}
 a{color:inherit;text-decoration:none}
 .card,th,tr.mark td,.goal{-webkit-print-color-adjust:exact;print-color-adjust:exact}

@@ -13,6 +13,7 @@
 #include "cli/report/tables/result_table.h"
 #include "cli/report/words/component_numbers.h"
 #include "cli/report/words/data_words.h"
+#include "cli/report/words/mark_words.h"
 #include "cli/report/words/next_steps.h"
 #include "cli/report/words/rezero_text.h"
 #include "cli/report/words/verdict_text.h"
@@ -147,11 +148,7 @@ void ComponentScreen::Leaderboard() {
                           options_.all ? view_.models.size() : kMostRows));
   screen_->Add("\n");
   std::vector<std::string> legend;
-  if (!view_.recommended.empty()) {
-    legend.emplace_back(
-        "* recommended, = interchangeable with the best: at most 5 % worse, or "
-        "by what never matters (--indifference).");
-  }
+  if (!view_.recommended.empty()) legend.push_back(MarkWords(view_));
   std::string where =
       fmt::format("RMSE, {} ({})", UnseenWords(view_), view_.decisive);
   if (!view_.neighbours.empty()) {

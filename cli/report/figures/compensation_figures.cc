@@ -204,12 +204,12 @@ std::vector<Figure> OverTimeFigures(const ReportView& view,
                                 .mark = Mark::kPoints,
                                 .columns = {x, rows.target},
                                 .colour = kGrey,
-                                .size = 1.1});
+                                .size = 2.2});  // seen around the predicted
   figure.plot.series.push_back({.label = "predicted, row held out",
                                 .mark = Mark::kPoints,
                                 .columns = {x, rows.predicted},
                                 .colour = kVermillion,
-                                .size = 1.1});
+                                .size = 0.9});
   figure.note = fmt::format(
       "{}, {}: what the map says of rows that its fit has not seen.",
       view.recommended,
@@ -252,17 +252,24 @@ std::vector<Figure> SurfaceFigures(const ReportView& view,
                              Panel{"mapped", "Mapped error", &rows.predicted},
                              Panel{"left", "What is left", &rows.residual}};
   std::vector<Figure> figures;
-  double largest = 0.0;
+  // One scale for what is compared; what is left would be blank on it.
+  double compared = 0.0;
+  for (const auto* values : {&rows.target, &rows.predicted}) {
+    compared = std::max(compared, SurfaceOf(x, y, *values, across, up).largest);
+  }
   for (const Panel& panel : panels) {
     const Surface surface = SurfaceOf(x, y, *panel.values, across, up);
-    largest = std::max(largest, surface.largest);
+    const double largest =
+        panel.values == &rows.residual ? surface.largest : compared;
     Figure figure = Begin(view, prefix + "surface-" + panel.name, panel.title);
     figure.place = FigurePlace::kSurface;
     figure.plot.width = 390;
     figure.plot.height = 280;
     figure.plot.x = InputAxis(view, position, kLongName);
     figure.plot.y = InputAxis(view, sensor, kLongName);
-    figure.plot.colour = {.quantity = "error", .unit = view.shown_unit};
+    figure.plot.colour = {.quantity = "error",
+                          .unit = view.shown_unit,
+                          .high = largest > 0.0 ? largest : 1.0};
     figure.plot.series = {{.mark = Mark::kCells, .columns = surface.cells}};
     figure.description = fmt::format(
         "Mean error over the position and {}, in cells; the largest mean is {} "
@@ -271,12 +278,9 @@ std::vector<Figure> SurfaceFigures(const ReportView& view,
         WithUnit(Plain(surface.largest), view.shown_unit));
     figures.push_back(std::move(figure));
   }
-  for (Figure& figure : figures) {
-    figure.plot.colour.high = largest > 0.0 ? largest : 1.0;
-  }
   figures.front().note =
-      "Means of held-out rows, one scale for the three; hatched where nothing "
-      "was measured.";
+      "Means of held-out rows; measured and mapped on one scale, what is left "
+      "on its own. Hatched where nothing was measured.";
   return figures;
 }
 
@@ -357,16 +361,27 @@ std::vector<Figure> UnitFigures(const ReportView& view,
                                 const std::string& prefix) {
   const models::HoldoutRecord* holdout = HoldoutOf(view, view.decisive);
   if (holdout == nullptr || holdout->unit_labels.size() < 2) return {};
-  constexpr std::size_t kMostModels = 3;
+  // Bars of fewer pixels are no bars: then fewer models, then a line.
+  constexpr double kFewestPixels = 4.0;
+  constexpr double kUsed = 0.8;  // of a unit's room
+  const double pixels =
+      kUsed * kHalfWidth / static_cast<double>(holdout->unit_labels.size());
+  const bool as_line = pixels < kFewestPixels;
+  const auto most_models =
+      static_cast<std::size_t>(std::clamp(pixels / kFewestPixels, 1.0, 3.0));
   constexpr std::array kColours = {kBlue, kVermillion, kGreen};
+  std::vector<const ModelRecord*> shown = view.models;
+  std::ranges::stable_partition(shown, [&](const ModelRecord* model) {
+    return model->name == view.recommended;
+  });
   std::vector<const ModelRecord*> best;
-  for (const ModelRecord* model : view.models) {
+  for (const ModelRecord* model : shown) {
     const ResultRecord* result = ResultOf(*model, view.decisive);
     if (result == nullptr ||
         result->unit_rmse.size() != holdout->unit_labels.size()) {
       continue;
     }
-    if (best.size() < kMostModels) best.push_back(model);
+    if (best.size() < most_models) best.push_back(model);
   }
   if (best.empty()) return {};
   Figure figure =
@@ -379,19 +394,19 @@ std::vector<Figure> UnitFigures(const ReportView& view,
     figure.plot.x.names.emplace_back(Shortened(holdout->unit_labels[i], 10),
                                      static_cast<double>(i));
   }
-  const double width = 0.8 / static_cast<double>(best.size());
+  const double width = kUsed / static_cast<double>(best.size());
   double worst = 0.0;
   std::string where;
   for (std::size_t m = 0; m < best.size(); ++m) {
     const ResultRecord& result = *ResultOf(*best[m], view.decisive);
     Series bars{.label = Shortened(best[m]->name, 24),
-                .mark = Mark::kBars,
+                .mark = as_line ? Mark::kLine : Mark::kBars,
                 .columns = {{}, {}, {}},
                 .colour = kColours[m],
-                .size = 3.0};
+                .size = as_line ? 1.2 : 3.0};
     for (std::size_t i = 0; i < result.unit_rmse.size(); ++i) {
       const double rmse = result.unit_rmse[i] * view.scale;
-      bars.columns[0].push_back(static_cast<double>(i) - 0.4 +
+      bars.columns[0].push_back(static_cast<double>(i) - 0.5 * kUsed +
                                 width * (static_cast<double>(m) + 0.5));
       bars.columns[1].push_back(rmse);
       bars.columns[2].push_back(width);
@@ -400,11 +415,17 @@ std::vector<Figure> UnitFigures(const ReportView& view,
         where = holdout->unit_labels[i];
       }
     }
+    if (as_line) bars.columns.pop_back();
     figure.plot.series.push_back(std::move(bars));
   }
-  figure.note = fmt::format("The three of lowest error, {}.", view.decisive);
+  figure.note = best.size() == 1
+                    ? fmt::format("Of the recommended map, {}.", view.decisive)
+                    : fmt::format(
+                          "The recommended map beside the lowest "
+                          "errors, {}.",
+                          view.decisive);
   figure.description =
-      fmt::format("Bars of the error of {} units; {} is worst at {} with {}.",
+      fmt::format("The error of {} units; {} is worst at {} with {}.",
                   holdout->unit_labels.size(),
                   best.front()->name,
                   where,

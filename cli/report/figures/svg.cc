@@ -62,9 +62,11 @@ std::string PointPath(Shape shape, double x, double y, double radius) {
   const std::string r = Tenth(radius);
   switch (shape) {
     case Shape::kDot:
-    case Shape::kSquare:
       // The cap of a line without length.
       return "M" + At(x, y) + "h0";
+    case Shape::kSquare:
+      // An area: paper has no square caps of lines without length.
+      return RectanglePath(x - radius, y - radius, x + radius, y + radius);
     case Shape::kCircle:
       return fmt::format("M{}a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0 -{d} 0",
                          At(x - radius, y),
@@ -86,15 +88,14 @@ double PointRadius(const Series& series) {
 std::string PointStyle(const Series& series) {
   switch (series.shape) {
     case Shape::kDot:
-    case Shape::kSquare:
       return fmt::format(
-          "stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"{}\"",
+          "stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\"",
           series.colour,
-          Tenth(2.0 * PointRadius(series)),
-          series.shape == Shape::kDot ? "round" : "square");
+          Tenth(2.0 * PointRadius(series)));
     case Shape::kCircle:
       return fmt::format("fill=\"#fff\" stroke=\"{}\" stroke-width=\"1.4\"",
                          series.colour);
+    case Shape::kSquare:
     case Shape::kDiamond:
       return fmt::format("fill=\"{}\"", series.colour);
   }

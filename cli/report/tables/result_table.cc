@@ -261,7 +261,7 @@ const std::vector<ResultColumn>& Columns() {
         {.key = "goal",
          .cell = &Goal,
          .is_number = false,
-         .name = "meets goal",
+         .name = "goal",
          .page = "meets goal"},
         {.key = "never_rezeroed",
          .cell = &NeverRezeroed,

@@ -48,6 +48,11 @@ struct ComponentNumbers {
   double Rmse(const std::string& model, const std::string& holdout) const {
     return Result(model, holdout).test.rmse;
   }
+  /// Whether whole groups are held out, all of one run: the headline says so.
+  bool IsOfOneRun(const models::HoldoutRecord& holdout) const {
+    return holdout.whole_groups && !holdout.whole_sessions &&
+           record.data.sessions == 1;
+  }
   /// "0.938 um RMSE (95 % 0.786 to 1.093)"
   std::string RmseWithInterval(const std::string& model,
                                const std::string& holdout) const;

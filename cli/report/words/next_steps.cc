@@ -133,6 +133,16 @@ std::vector<NextStep> NextSteps(const models::StudyRecord& record,
   return steps;
 }
 
+std::vector<std::string> SensorsByNeed(
+    const models::RecommendationRecord& advice) {
+  if (!advice.importance) return advice.sensors;
+  Words sensors;
+  for (const auto& without : advice.importance->one_by_one) {
+    sensors.push_back(without.sensors.front());
+  }
+  return sensors;
+}
+
 std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
                                    std::size_t component,
                                    const Words& data,
@@ -141,13 +151,7 @@ std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
   const auto& advice = record.components[component].recommendation;
   std::vector<NextStep> steps;
   if (advice && !advice->sensors.empty()) {
-    Words sensors = advice->sensors;
-    if (advice->importance) {
-      sensors.clear();
-      for (const auto& without : advice->importance->one_by_one) {
-        sensors.push_back(without.sensors.front());
-      }
-    }
+    Words sensors = SensorsByNeed(*advice);
     const std::size_t all = sensors.size();
     sensors.resize(std::min(all, kMostNamed));
     std::string text = fmt::format("{}", fmt::join(sensors, ", "));

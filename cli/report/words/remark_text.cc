@@ -10,7 +10,9 @@
 
 #include "cli/report/number_text.h"
 #include "cli/report/words/interval_text.h"
+#include "cli/report/words/verdict_sentences.h"
 #include "data/text.h"
+#include "data/units.h"
 
 namespace errmap::report {
 namespace {
@@ -284,6 +286,40 @@ std::string OtherCutsSentence(const ComponentNumbers& component) {
   return fmt::format("{}.", fmt::join(parts, "; "));
 }
 
+// What a person does to bring a column below, or above, all its values so far.
+struct StatesBeyond {
+  const char* below;
+  const char* above;
+};
+
+StatesBeyond StatesOf(const std::string& column) {
+  const data::Unit unit = data::UnitOfColumn(column);
+  if (unit.symbol == "rpm") return {"a slower spindle", "a faster spindle"};
+  switch (unit.quantity) {
+    case data::Quantity::kTemperature:
+      return {"a cold start, or a cooler room",
+              "a longer run, or a hotter room"};
+    case data::Quantity::kTime:
+      return {"the first minutes", "a longer run"};
+    case data::Quantity::kLength:
+    case data::Quantity::kAngle:
+      return {"positions further down", "positions further up"};
+    default:
+      return {"lower values", "higher values"};
+  }
+}
+
+// What helps against an offset per unit that the sensors do not see. Who has so
+// many sensors gains little by one more.
+std::string RemedyText(const ComponentNumbers& component,
+                       const std::string& column) {
+  constexpr std::size_t kManySensors = 8;
+  if (component.Advice().goal_standing == GoalStanding::kMet) return "";
+  const bool many = component.record.data.inputs.size() > kManySensors;
+  return fmt::format(
+      " {} each {}.", many ? "Re-zero" : "Add a sensor, or re-zero", column);
+}
+
 // What is left is no noise where it has an offset per cycle, or repeats along
 // the position.
 std::string WhatIsLeftSentence(const ComponentNumbers& component,
@@ -299,11 +335,10 @@ std::string WhatIsLeftSentence(const ComponentNumbers& component,
     text += by_group && by_group->column == column
                 ? fmt::format(
                       "{:.0f} % of what is left is an offset per {}: a thermal "
-                      "state that the sensors do not see. Add a sensor, or "
-                      "re-zero each {}.",
+                      "state that the sensors do not see.{}",
                       percent,
                       column,
-                      column)
+                      RemedyText(component, column))
                 : fmt::format(
                       "{:.0f} % of what is left repeats along {}: the map is "
                       "too smooth there.",
@@ -374,10 +409,7 @@ std::string RemarkText(const ComponentNumbers& component,
           std::floor(kPercent * advice.removed_share),
           component.error.WithUnit(component.Rmse("zero", advice.holdout)));
     case RemarkKind::kBeatsBaseline:
-      return fmt::format("The best baseline, {}, has {}.",
-                         There(remark.model),
-                         component.error.WithUnit(component.Rmse(
-                             There(remark.model), advice.holdout)));
+      return AgainstBaselineSentence(component);
     case RemarkKind::kBestNet:
       return BestNetSentence(component, There(remark.model));
     case RemarkKind::kGap: {
@@ -403,7 +435,9 @@ std::string RemarkText(const ComponentNumbers& component,
     case RemarkKind::kInterrupted:
       return "The run was interrupted; fits are incomplete.";
     case RemarkKind::kOneRunOnly:
-      return "One run only: nothing is known of another day.";
+      return component.IsOfOneRun(holdout)
+                 ? "Nothing is known of another day."
+                 : "One run only: nothing is known of another day.";
     case RemarkKind::kGroupFitsFailed:
       return unknown_day("no fit for whole groups held out succeeded");
     case RemarkKind::kNoGroupsHeldOut:
@@ -431,10 +465,9 @@ std::string RemarkText(const ComponentNumbers& component,
       const std::string where = WhereToMeasure(remark);
       return fmt::format(
           "In {:.0f} % of the held-out rows an input lies outside what the "
-          "fold was trained on, and the map extrapolates: measure more thermal "
-          "states{}.",
+          "fold was trained on, and the map extrapolates{}.",
           kPercent * advice.extrapolated_share,
-          where.empty() ? "" : ", with " + where);
+          where.empty() ? "" : ": measure " + where);
     }
     case RemarkKind::kNotConverged:
       return fmt::format(
@@ -462,20 +495,32 @@ std::string WhereToMeasure(const RemarkRecord& remark) {
       remark.above->size() != remark.columns->size()) {
     return "";  // of an older record
   }
-  std::vector<std::string> parts;
+  // By what a person can do, the columns that would show it.
+  std::vector<std::pair<const char*, std::vector<std::string>>> states;
+  const auto add = [&](const char* state, std::string shown) {
+    auto found = std::ranges::find(
+        states, std::string_view(state), [](const auto& entry) {
+          return std::string_view(entry.first);
+        });
+    if (found == states.end()) found = states.insert(found, {state, {}});
+    found->second.push_back(std::move(shown));
+  };
   for (std::size_t i = 0; i < There(remark.columns).size(); ++i) {
-    const std::string& name = remark.columns->at(i);
-    const double below = remark.below->at(i);
-    const double above = remark.above->at(i);
-    std::string part = data::Printable(name, name.size());
-    if (std::isfinite(below)) part += fmt::format(" below {:.4g}", below);
-    if (std::isfinite(above)) {
-      part += fmt::format(
-          "{} above {:.4g}", std::isfinite(below) ? " or" : "", above);
+    const std::string& column = remark.columns->at(i);
+    const std::string name = data::Printable(column, column.size());
+    const StatesBeyond beyond = StatesOf(column);
+    if (const double below = remark.below->at(i); std::isfinite(below)) {
+      add(beyond.below, fmt::format("{} below {:.4g}", name, below));
     }
-    parts.push_back(std::move(part));
+    if (const double above = remark.above->at(i); std::isfinite(above)) {
+      add(beyond.above, fmt::format("{} above {:.4g}", name, above));
+    }
   }
-  return fmt::format("{}", fmt::join(parts, ", "));
+  std::vector<std::string> parts;
+  for (const auto& [state, shown] : states) {
+    parts.push_back(fmt::format("{} ({})", state, fmt::join(shown, ", ")));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 std::string GoalFigures(const models::ResultRecord& result,

@@ -33,7 +33,7 @@ std::string ObstacleText(const models::ObstacleRecord& obstacle) {
     case Kind::kTooFewUnits:
       return fmt::format(
           "{}, at least {} are needed: with fewer, no sign-flip p can be below "
-          "0.05",
+          "0.05 for so many maps",
           found,
           obstacle.needed);
     case Kind::kPerhapsOneSession:
@@ -66,7 +66,7 @@ std::string WhereJudged(const ComponentNumbers& component,
     return fmt::format(
         "on {} it never saw{}",
         PluralOfUnit(holdout),
-        component.record.data.sessions == 1 ? ", of one run only" : "");
+        component.IsOfOneRun(holdout) ? ", of one run only" : "");
   }
   if (holdout.another_file) {
     return fmt::format("on another file ({})", holdout.name);
@@ -191,6 +191,58 @@ std::string VerdictSentence(const ComponentNumbers& component,
   return text + "." + (choice.empty() ? "" : " " + choice);
 }
 
+std::string AgainstBaselineSentence(const ComponentNumbers& component) {
+  const RecommendationRecord& advice = component.Advice();
+  const std::string& baseline = There(advice.best_baseline);
+  const HoldoutRecord& holdout = component.Holdout(advice.holdout);
+  const double mine = component.Rmse(advice.model, advice.holdout);
+  const double its = component.Rmse(baseline, advice.holdout);
+  const double more = its - mine;
+  std::string text = fmt::format(
+      "The best baseline, {}, has {}", baseline, component.error.WithUnit(its));
+  constexpr double kTwice = 2.0;
+  if (more > 0.0 && its >= kTwice * mine) {
+    text += fmt::format(", {} times as much", RatioText(its / mine));
+  }
+  const PairRecord* const pair = models::FindPair(
+      component.record, advice.holdout, advice.model, baseline);
+  const bool known = pair != nullptr && std::isfinite(pair->ci95[0]);
+  bool surely_more = false;
+  if (known) {
+    const bool straight = pair->a == baseline;
+    const double low = straight ? pair->ci95[0] : -pair->ci95[1];
+    const double high = straight ? pair->ci95[1] : -pair->ci95[0];
+    surely_more = low > 0.0;
+    text += fmt::format(": {} {} (95 % {} to {})",
+                        component.error.WithUnit(std::abs(more)),
+                        more < 0.0 ? "less" : "more",
+                        component.error(more < 0.0 ? -high : low),
+                        component.error(more < 0.0 ? -low : high));
+  }
+  if (!surely_more) {
+    return text + (known ? "; that may be chance."
+                         : fmt::format("; how sure that is, {} cannot tell.",
+                                       CountOfUnits(holdout.units, holdout)));
+  }
+  switch (There(advice.against_baseline)) {
+    case Confidence::kEstablished:
+      return text + ".";
+    case Confidence::kOutOfReach:
+      return text + fmt::format("; only {}, so call it likely.",
+                                CountOfUnits(holdout.units, holdout));
+    case Confidence::kNotShown:
+      return text + "; with so many maps compared, call it likely.";
+    case Confidence::kUnitsCorrelated:
+    case Confidence::kMemoryNotExcluded:
+    case Confidence::kBlocksDisagree:
+      break;
+  }
+  return text + fmt::format(
+                    "; neighbouring {} may resemble each other, so "
+                    "call it likely.",
+                    PluralOfUnit(holdout));
+}
+
 std::string AdviceSentence(const ComponentNumbers& component) {
   const RecommendationRecord& advice = component.Advice();
   const std::string use =
@@ -225,11 +277,7 @@ std::string AdviceSentence(const ComponentNumbers& component) {
   text += use;
   // What the headline owes where the map is not surely worth its sensors.
   if (sure) return text;
-  return text + fmt::format(
-                    " That it beats {} ({}), the best baseline, is not proven.",
-                    There(advice.best_baseline),
-                    component.error.WithUnit(component.Rmse(
-                        There(advice.best_baseline), advice.holdout)));
+  return text + " " + AgainstBaselineSentence(component);
 }
 
 std::string GapSentence(const ComponentNumbers& component) {

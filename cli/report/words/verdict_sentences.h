@@ -13,6 +13,10 @@ std::string VerdictSentence(const ComponentNumbers& component,
 /// What to use, of a component with a recommendation.
 std::string AdviceSentence(const ComponentNumbers& component);
 
+/// The best baseline's error beside the recommended map's: the difference, its
+/// interval, and what it lacks where it is not established.
+std::string AgainstBaselineSentence(const ComponentNumbers& component);
+
 /// How much neighbours flatter, of a component with a gap; "" where they do
 /// not.
 std::string GapSentence(const ComponentNumbers& component);

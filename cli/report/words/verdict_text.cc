@@ -143,7 +143,7 @@ std::string MeasureNext(const models::ComponentRecord& record) {
         break;
       case RemarkKind::kExtrapolates:
         if (const std::string where = WhereToMeasure(doubt); !where.empty()) {
-          want("states with " + where);
+          want(where);
         }
         break;
       default:

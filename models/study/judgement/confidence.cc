@@ -25,6 +25,13 @@ double SmallestP(Index units) {
   return std::ldexp(2.0, -static_cast<int>(units));
 }
 
+// The fewest units that can establish a difference between two of so many.
+Index UnitsNeeded(Index pairs, bool separate_sessions) {
+  Index units = separate_sessions ? kFewestUnits : kFewestUnitsOfOneSession;
+  while (!IsSignificant(SmallestP(units) * static_cast<double>(pairs))) ++units;
+  return units;
+}
+
 // Whether bounds of a difference lie wholly on the side of `sign`.
 bool AreOnSide(const stats::Bounds95& bounds, double sign) {
   return sign > 0.0 ? bounds.lower > 0.0 : bounds.upper < 0.0;
@@ -74,30 +81,22 @@ Obstacle FindObstacle(const stats::Comparison& tests, bool separate_sessions) {
   Obstacle obstacle{.kind = UnitsObstacle(tests.num_units, separate_sessions),
                     .units = tests.num_units,
                     .pairs = tests.num_tested()};
-  if (obstacle.kind == Kind::kTooFewUnits) {
-    obstacle.needed = kFewestUnits;
-  } else if (obstacle.kind == Kind::kPerhapsOneSession) {
-    obstacle.needed = kFewestUnitsOfOneSession;
-  }
-  if (obstacle.exists() || obstacle.pairs == 0) return obstacle;
-  const double pairs = static_cast<double>(obstacle.pairs);
-  if (tests.num_units > stats::kMostForExactFlips) {
+  if (tests.num_units > stats::kMostForExactFlips && obstacle.pairs > 0) {
     const double smallest =
         std::ranges::min(tests.pairs, {}, [](const PairComparison& pair) {
           return pair.sign_flip.smallest_p;
         }).sign_flip.smallest_p;
-    if (!IsSignificant(smallest * pairs)) {
+    if (!IsSignificant(smallest * static_cast<double>(obstacle.pairs))) {
       obstacle.kind = Kind::kTooFewSignPatterns;
     }
     return obstacle;
   }
-  if (!IsSignificant(SmallestP(tests.num_units) * pairs)) {
+  // However few there are, the number that suffices is the same.
+  const Index needed = UnitsNeeded(obstacle.pairs, separate_sessions);
+  if (!obstacle.exists() && tests.num_units < needed) {
     obstacle.kind = Kind::kTooManyPairs;
-    obstacle.needed = tests.num_units;
-    while (!IsSignificant(SmallestP(obstacle.needed) * pairs)) {
-      ++obstacle.needed;
-    }
   }
+  if (obstacle.exists()) obstacle.needed = needed;
   return obstacle;
 }
 

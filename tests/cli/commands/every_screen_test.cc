@@ -1,11 +1,14 @@
-// What every command shows, in a pipe: no line is wider than 80 columns.
+// What every command shows, in a pipe: no line is wider than 80 columns; and
+// what one result is said to be, wherever it is told.
 
 #include <algorithm>
 #include <cstdlib>
+#include <regex>
 #include <set>
 
 #include "cli/report/wrap_text.h"
 #include "tests/cli/fleet/fleet_fixture.h"
+#include "tests/cli/one_line.h"
 
 namespace errmap {
 namespace {
@@ -140,5 +143,126 @@ TEST_F(EveryScreen, FitsEightyColumns) {
     EXPECT_TRUE(shown_.contains(command)) << command << " is not looked at";
   }
 }
+
+namespace {
+
+using ::testing::HasSubstr;
+
+class OneResult : public EveryScreen {
+ protected:
+  static inline const std::vector<std::string> kMaps = {
+      "--models", "mean,poly:eq8,poly:full:degree=1,blend", "--quiet"};
+
+  // "0.512" of "... 0.512 um RMSE ...", the first.
+  static std::string FigureIn(const std::string& text) {
+    std::smatch found;
+    return std::regex_search(text, found, std::regex(": ([0-9.]+) um RMSE"))
+               ? found[1].str()
+               : "";
+  }
+
+  // Screen, page, Markdown, map and results.json of one file say the same of
+  // the recommended map: what is promised, where, and whether the goal is met.
+  Json Agree(const std::string& file) {
+    std::vector<std::string> words{"compare", file, "--out", file + ".d"};
+    words.insert(words.end(), kMaps.begin(), kMaps.end());
+    const Outcome screen = Run(words);
+    EXPECT_EQ(screen.status, 0) << screen.err;
+    const std::string text = OneLine(screen.out);
+    const std::string folder = file + ".d/";
+    const Json component =
+        Json::parse(Read(folder + "results.json"))["components"][0];
+    const Json& advice = component["recommendation"];
+    const std::string figure = FigureIn(text);
+    const std::string holdout = advice["holdout"];
+    const std::string standing = advice["goal_standing"];
+    EXPECT_NEAR(std::stod(figure),
+                kUmPerMm * advice["rmse"].get<double>(),
+                5e-3 * std::stod(figure));
+    // The sentence of every document is that of the record.
+    EXPECT_EQ(FigureIn(advice["sentence"]), figure);
+    EXPECT_THAT(text, HasSubstr(advice["sentence"].get<std::string>()));
+    EXPECT_THAT(text, HasSubstr("(" + holdout + ")"));
+    EXPECT_THAT(text, HasSubstr(") is " + standing));
+    const std::string page = Read(folder + "report.html");
+    EXPECT_THAT(page, HasSubstr("class=\"number\">" + figure + " µm"));
+    EXPECT_THAT(page, HasSubstr("(" + holdout + ")"));
+    EXPECT_EQ(page.find("class=\"goal met\"") != page.npos, standing == "met");
+    EXPECT_THAT(Read(folder + "report.md"),
+                HasSubstr("- " + figure + " um RMSE"));
+    for (const Json& model : component["models"]) {
+      if (model["name"] != advice["model"]) continue;
+      EXPECT_NEAR(model["results"][holdout]["test"]["rmse"].get<double>(),
+                  advice["rmse"].get<double>(),
+                  1e-15);
+      const Json map = Json::parse(Read(folder + std::string(model["file"])));
+      if (map["interval"].is_null()) continue;
+      EXPECT_EQ(map["interval"]["holdout"], holdout);
+      for (const Json& held : component["holdouts"]) {
+        if (held["name"] != holdout) continue;
+        EXPECT_EQ(map["interval"]["unit"], held["unit_of_analysis"]);
+      }
+    }
+    return advice;
+  }
+};
+
+TEST_F(OneResult, IsTheSameOnEveryScreen) {
+  WriteComponent("two.csv", 3, 2);
+  WriteComponent("six.csv", 4, 6);
+  WriteComponent("run.csv", 5, 1);
+  EXPECT_EQ(Agree("two.csv")["holdout"], "sessions:2");
+  EXPECT_EQ(Agree("six.csv")["holdout"], "sessions:5");
+  EXPECT_THAT(Agree("run.csv")["holdout"].get<std::string>(),
+              HasSubstr("groups:"));
+  std::string rows = "position_mm,t1_degC,error_mm\n";
+  for (int i = 0; i < 60; ++i) {
+    rows += std::to_string(10 * (i % 12)) + "," +
+            std::to_string(20.0 + 0.1 * i) + "," +
+            std::to_string(1e-4 * i + 1e-5 * (i * 7 % 11)) + "\n";
+  }
+  Write("rows.csv", rows);
+  EXPECT_EQ(Agree("rows.csv")["holdout"], "blocks:5");
+}
+
+TEST_F(OneResult, IsTheSameInAFleet) {
+  WriteComponent("data/m01/x_down.csv", 3, 2);
+  WriteComponent("data/m01/x_up.csv", 4, 6);
+  Write("fleet.toml",
+        "models = [\"mean\", \"poly:eq8\", \"poly:full:degree=1\", "
+        "\"blend\"]\n[[component]]\nname = \"{machine}/{component}\"\n"
+        "data = \"data/{machine}/{component}_{direction}.csv\"\n");
+  const Json fleet = RunJson({"compare",
+                              "--config",
+                              "fleet.toml",
+                              "--out",
+                              "fleet",
+                              "--format",
+                              "json",
+                              "--quiet"})["components"];
+  ASSERT_EQ(fleet.size(), 2U);
+  const Json alone[] = {Agree("data/m01/x_down.csv"),
+                        Agree("data/m01/x_up.csv")};
+  for (const Json& advice : alone) {
+    const auto same = std::ranges::find_if(fleet, [&](const Json& component) {
+      return component["recommendation"]["holdout"] == advice["holdout"];
+    });
+    ASSERT_NE(same, fleet.end()) << advice["holdout"];
+    const Json& found = (*same)["recommendation"];
+    EXPECT_EQ(found["model"], advice["model"]);
+    EXPECT_EQ(found["rmse"], advice["rmse"]);
+    EXPECT_EQ(found["goal"], advice["goal_standing"]);
+    EXPECT_EQ(found["sentence"], advice["sentence"]);
+    const Json rows =
+        Rows("fleet",
+             "SELECT after, goal_standing FROM fleet WHERE abs(after - " +
+                 std::to_string(kUmPerMm * advice["rmse"].get<double>()) +
+                 ") < 1e-5");
+    ASSERT_EQ(rows.size(), 1U) << rows;
+    EXPECT_EQ(rows[0][1], advice["goal_standing"]);
+  }
+}
+
+}  // namespace
 
 }  // namespace errmap

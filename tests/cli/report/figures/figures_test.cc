@@ -1,5 +1,6 @@
 #include "cli/report/figures/figures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <regex>
 #include <set>
@@ -115,11 +116,32 @@ TEST(MakeFigures, DrawsWhatAResidualIs) {
 TEST(MakeFigures, ShowsSurfacesAndSmallOnesOnOneScale) {
   const FigureSet set = MakeFigures(Recorded(MakeReportDocument()));
   const double high = FigureNamed(set, "c1-surface-measured")->plot.colour.high;
-  for (const char* name : {"c1-surface-mapped", "c1-surface-left"}) {
-    EXPECT_EQ(FigureNamed(set, name)->plot.colour.high, high);
+  EXPECT_EQ(FigureNamed(set, "c1-surface-mapped")->plot.colour.high, high);
+  // What is left has a scale of its own: the whole error's leaves it blank.
+  const Plot& left = FigureNamed(set, "c1-surface-left")->plot;
+  double largest = 0.0;
+  for (const double value : left.series.front().columns[4]) {
+    largest = std::max(largest, std::abs(value));
   }
+  EXPECT_DOUBLE_EQ(left.colour.high, largest);
   EXPECT_EQ(FigureNamed(set, "c1-model-1")->plot.y.high,
             FigureNamed(set, "c1-model-3")->plot.y.high);
+}
+
+TEST(MakeFigures, DrawsNoBarsTooThinToBeSeen) {
+  DocumentSpec spec;
+  const auto units = [&](std::size_t groups) {
+    spec.groups = groups;
+    spec.rows = 2 * groups;
+    return FigureNamed(MakeFigures(Recorded(MakeReportDocument(spec))),
+                       "c1-units")
+        ->plot;
+  };
+  EXPECT_EQ(units(6).series.size(), 3U);
+  const Plot some = units(70);
+  EXPECT_EQ(some.series.size(), 1U);
+  EXPECT_EQ(some.series.front().mark, Mark::kBars);
+  EXPECT_EQ(units(300).series.front().mark, Mark::kLine);
 }
 
 TEST(MakeFigures, MarksRowsOutsideTheTrainedRange) {

@@ -172,10 +172,12 @@ TEST(Svg, DrawsEveryMarkAndShape) {
                            "#004b7a",
                            "#8c2d04",
                            "linecap=\"round\"",
-                           "linecap=\"square\"",
+                           // A square is an area, which a printer keeps.
+                           "Z\" fill=\"#0072B2\"",
                            "fill=\"#fff\" stroke=\"#0072B2\""}) {
     EXPECT_THAT(svg, HasSubstr(part));
   }
+  EXPECT_THAT(svg, Not(HasSubstr("linecap=\"square\"")));
 }
 
 TEST(Svg, ShowsHostileNamesAsText) {

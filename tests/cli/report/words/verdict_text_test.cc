@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cli/report/words/mark_words.h"
 #include "cli/report/wrap_text.h"
 #include "data/input_error.h"
 #include "tests/cli/report/report_document.h"
@@ -75,8 +76,73 @@ TEST(Headline, SaysWhereNothingBeatsTheBestBaselineForSure) {
   ComponentRecord record = Base();
   record.recommendation->against_baseline = Confidence::kNotShown;
   EXPECT_THAT(Headline(record),
-              EndsWith("That it beats zero (0.800 um), the best baseline, is "
-                       "not proven."));
+              EndsWith("The best baseline, zero, has 0.800 um; how sure that "
+                       "is, 6 cycles cannot tell."));
+}
+
+models::ResultRecord& Far(models::ModelRecord* model) {
+  for (auto& [holdout, result] : model->results) {
+    if (holdout == kFar) return result;
+  }
+  throw std::out_of_range(kFar);
+}
+
+// Of the best baseline's error, ten times the map's, less the map's.
+ComponentRecord BesideBaseline(double low, double high) {
+  ComponentRecord record = Base();
+  const double rmse = ResultOf(record.models[1], kFar)->test.rmse;
+  Far(&record.models[0]).test.rmse = 10.0 * rmse;
+  models::PairRecord pair;
+  pair.a = "poly:eq8";
+  pair.b = "zero";
+  pair.holdout = kFar;
+  pair.difference = -9.0 * rmse;
+  pair.ci95 = {-high * rmse, -low * rmse};
+  record.comparisons = {pair};
+  return record;
+}
+
+TEST(Headline, TellsTheDifferenceAndItsIntervalBeforeWhatItLacks) {
+  ComponentRecord record = BesideBaseline(8.0, 10.0);
+  record.recommendation->against_baseline = Confidence::kOutOfReach;
+  EXPECT_THAT(Headline(record),
+              EndsWith("The best baseline, zero, has 19.000 um, 10.0 times as "
+                       "much: 17.100 um more (95 % 15.200 to 19.000); only 6 "
+                       "cycles, so call it likely."));
+  record.recommendation->against_baseline = Confidence::kUnitsCorrelated;
+  EXPECT_THAT(Headline(record),
+              EndsWith("; neighbouring cycles may resemble each other, so call "
+                       "it likely."));
+  record = BesideBaseline(-1.0, 10.0);
+  record.recommendation->against_baseline = Confidence::kNotShown;
+  EXPECT_THAT(Headline(record),
+              EndsWith("(95 % -1.900 to 19.000); that may be chance."));
+}
+
+// --- The marks -------------------------------------------------------------
+
+TEST(Marks, SayWhyALowerErrorIsNotTaken) {
+  ComponentRecord record = BesideBaseline(8.0, 10.0);
+  EXPECT_THAT(MarkWords(ViewOf(record)),
+              StartsWith("* recommended: the lowest error"));
+  models::RecommendationRecord& advice = *record.recommendation;
+  advice.model = "net:scg";
+  advice.grounds = {{.kind = RemarkKind::kAveragesMaps}};
+  for (models::ModelRecord& model : record.models) {
+    Far(&model).tier = model.name == "poly:eq8" ? 1 : 2;
+  }
+  advice.decided_by = advice.holdout;
+  EXPECT_EQ(MarkWords(ViewOf(record)),
+            "* recommended, an average of maps: no single one is proven "
+            "better, and the average is the safer bet; = the lowest error "
+            "here.");
+  advice.decided_by = "every:3";
+  record.data.sessions = 2;
+  for (models::HoldoutRecord& holdout : record.holdouts) {
+    holdout.unit_of_analysis = "day";
+  }
+  EXPECT_THAT(MarkWords(ViewOf(record)),
+              HasSubstr("2 days do not choose between them"));
 }
 
 TEST(Headline, SaysWhereNoTemperatureMapEarnsItsSensors) {
@@ -154,6 +220,10 @@ TEST(Sentences, CallAnOffsetPerCycleAThermalStateThatNoSensorSees) {
             "the sensors do not see. Add a sensor, or re-zero each cycle. 31 % "
             "of what is left repeats along position_mm: the map is too smooth "
             "there.");
+  record.data.inputs.resize(40, "t");
+  EXPECT_THAT(GroundOf(record, remark), HasSubstr(" see. Re-zero each cycle."));
+  record.recommendation->goal_standing = models::GoalStanding::kMet;
+  EXPECT_THAT(GroundOf(record, remark), HasSubstr(" see. 31 %"));
 }
 
 TEST(Sentences, TellWhichColumnToIgnoreForAFlatteredModel) {
@@ -291,10 +361,18 @@ TEST(Sentences, TellWhatToMeasureWhereTheMapExtrapolates) {
   remark.above = std::vector<double>{27.0};
   EXPECT_EQ(DoubtOf(record, remark),
             "In 40 % of the held-out rows an input lies outside what the fold "
-            "was trained on, and the map extrapolates: measure more thermal "
-            "states, with t12_degC below 21.5 or above 27.");
+            "was trained on, and the map extrapolates: measure a cold start, "
+            "or a cooler room (t12_degC below 21.5); a longer run, or a hotter "
+            "room (t12_degC above 27).");
+  remark.columns = std::vector<std::string>{"t12_degC", "speed_rpm", "t3_degC"};
+  remark.below = std::vector<double>{21.5, models::kNotKnown, 20.0};
+  remark.above = std::vector<double>{models::kNotKnown, 3000.0, 31.0};
   record.recommendation->doubts = {remark};
-  EXPECT_EQ(MeasureNext(record), "states with t12_degC below 21.5 or above 27");
+  EXPECT_EQ(
+      MeasureNext(record),
+      "a cold start, or a cooler room (t12_degC below 21.5, t3_degC below "
+      "20); a faster spindle (speed_rpm above 3000); a longer run, or a "
+      "hotter room (t3_degC above 31)");
 }
 
 TEST(Sentences, TellThatNeighboursProveLittle) {

@@ -79,6 +79,25 @@ TEST(Confidence, EstablishesNothingBelowSixUnits) {
   }
 }
 
+// Who measures what was asked for is not asked for more.
+TEST(Confidence, AsksForTheSameNumberOfUnitsHoweverFewThereAre) {
+  for (const Index models : {2, 5, 9, 12}) {
+    VectorXd scale = VectorXd::LinSpaced(models, 1.0, 2.0);
+    Index needed = 0;
+    for (const Index units : {2, 4, 6, 8}) {
+      const Obstacle obstacle = FindObstacle(
+          stats::CompareModels(MakeLosses(units, scale), nullptr, {}), true);
+      if (!obstacle.exists()) continue;
+      if (needed == 0) needed = obstacle.needed;
+      EXPECT_EQ(obstacle.needed, needed) << units << " units";
+    }
+    EXPECT_FALSE(
+        FindObstacle(
+            stats::CompareModels(MakeLosses(needed, scale), nullptr, {}), true)
+            .exists());
+  }
+}
+
 TEST(Confidence, AsksForTwelveUnitsUnlessTheyAreSeparateSessions) {
   for (const Index units : {6, 11}) {
     const stats::Comparison found = stats::CompareModels(
