@@ -13,6 +13,7 @@
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
 #include "data/atomic_file.h"
 #include "data/prepare_folder.h"
 #include "data/text.h"
@@ -35,12 +36,14 @@ struct NetcgArguments {
   models::NetcgStudyOptions options;  // options.netcg of a run file, too
 };
 
+// `print`: how text is printed; a study's is that of its file, byte by byte.
 void Print(Json document,
            const std::string& text,
            bool as_json,
-           const std::string& command_line) {
+           const std::string& command_line,
+           void (*print)(std::string_view)) {
   if (!as_json) {
-    PrintResult(text);
+    print(text);
     return;
   }
   document["provenance"] = ProvenanceJson(command_line, {}, {});
@@ -100,7 +103,8 @@ int RunFile(const NetcgArguments& arguments, const std::string& command_line) {
   Print(as_json ? models::NetcgJson(arguments.file, records, options) : Json(),
         as_json ? "" : models::NetcgText(records, options),
         as_json,
-        command_line);
+        command_line,
+        PrintFitted);
   return kDone;
 }
 
@@ -131,7 +135,8 @@ int RunStudy(const NetcgArguments& arguments, const std::string& command_line) {
   Print(as_json ? models::NetcgStudyJson(study) : Json(),
         text,
         as_json,
-        command_line);
+        command_line,
+        PrintResult);
   return kDone;
 }
 

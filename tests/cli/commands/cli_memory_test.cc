@@ -214,7 +214,7 @@ TEST_F(CliMemory, SaysThatEachSessionsFirstValueIsTakenOff) {
                 .status,
             0);
   EXPECT_EQ(Json::parse(Read("m.json"))["target"]["align"], "first");
-  EXPECT_THAT(Run({"evaluate", "m.json", "days.csv"}).out,
+  EXPECT_THAT(OneLine(Run({"evaluate", "m.json", "days.csv"}).out),
               HasSubstr("error_um less each session's first value"));
   EXPECT_THAT(Run({"predict", "m.json", "days.csv"}).err,
               HasSubstr("since the session's first row"));

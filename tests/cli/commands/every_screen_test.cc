@@ -83,6 +83,21 @@ class EveryScreen : public FleetTest {
     Show({"models", "net:scg"});
   }
 
+  // An error that grows by 1 um an hour.
+  void ShowWhen() {
+    std::string days = "day,time_s,position_mm,error_um\n";
+    for (int i = 0; i < 300; ++i) {
+      const int time = 600 * (i % 60);
+      const int position = 100 * (i % 3);
+      days += std::to_string(i / 60) + "," + std::to_string(time) + "," +
+              std::to_string(position) + "," +
+              std::to_string(0.01 * position + time / 3600.0) + "\n";
+    }
+    Write("clock.csv", days);
+    Show({"fit", "clock.csv", "--model", "poly:position", "-o", "clock.json"});
+    Show({"when", "clock.json", "--goal", "2um"});
+  }
+
   void ShowMachine() {
     Write("machine.toml",
           "name = \"m\"\nlength = \"mm\"\nangle = \"rad\"\n[[link]]\n"
@@ -138,6 +153,7 @@ TEST_F(EveryScreen, FitsEightyColumns) {
   Show({"certify", "nist"});
   Show({"certify", "agreement"});
   ShowMachine();
+  ShowWhen();
   for (const std::string& command : Commands()) {
     Show({"help", command});
     EXPECT_TRUE(shown_.contains(command)) << command << " is not looked at";
