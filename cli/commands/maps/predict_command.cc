@@ -247,8 +247,8 @@ int RunPredict(const PredictArguments& arguments) {
             models::CountLearntRows(fitted, inputs, nullptr);
         learnt > 0) {
       Say(
-          fmt::format("warning: the readings of {} of {} are ones that the map "
-                      "was trained on: on new ones it errs more",
+          fmt::format("the readings of {} of {} are ones that the map was "
+                      "trained on: on new ones it errs more",
                       learnt,
                       report::Count(inputs.rows(), "row")));
     }

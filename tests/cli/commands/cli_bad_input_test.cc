@@ -299,11 +299,10 @@ TEST_F(CliBadInput, EvaluateKnowsWhatTheMapLearntFrom) {
   EXPECT_EQ(learnt("new.csv"), Json::parse(R"({"file": false, "rows": 0})"));
   const char* known = "6 of 8 rows are ones that the map was trained on";
   EXPECT_THAT(Run({"evaluate", "m.json", "more.csv"}).out, HasSubstr(known));
-  EXPECT_THAT(Run({"check", "t.json", "more.csv"}).out, HasSubstr(known));
   EXPECT_THAT(OneLine(Run({"predict", "t.json", "more.csv"}).err),
               HasSubstr("the readings of 6 of 8 rows are ones that the map was "
                         "trained on"));
-  for (const std::string command : {"evaluate", "check", "predict"}) {
+  for (const std::string command : {"evaluate", "predict"}) {
     const Outcome fresh = Run({command, "t.json", "new.csv"});
     EXPECT_THAT(fresh.out + fresh.err, Not(HasSubstr("trained on")));
   }

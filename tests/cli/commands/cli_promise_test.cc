@@ -217,6 +217,15 @@ TEST_F(CliPromise, CheckKnowsNothingWhereReadingsBetweenProbesAreMissing) {
   EXPECT_THAT(why, ElementsAre("", "gap", "gap", "gap"));
 }
 
+TEST_F(CliPromise, CheckSaysWhichProbesTheMapLearntFrom) {
+  Write("known.csv", DaysInCliPromise(10, 11, 0.0, 0.0, 13));
+  EXPECT_THAT(OneLine(Run({"check", "map.json", "known.csv"}).out),
+              HasSubstr("4 of 8 rows are ones that the map was trained on"));
+  Write("new.csv", DaysInCliPromise(11, 11, 0.0, 0.0, 13));
+  EXPECT_THAT(Run({"check", "map.json", "new.csv"}).out,
+              Not(HasSubstr("trained on")));
+}
+
 // Between measurements no axis has a position worth logging.
 TEST_F(CliPromise, TheLogOfTemperaturesNeedsNoPositions) {
   ASSERT_EQ(Run({"fit",
