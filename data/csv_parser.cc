@@ -13,8 +13,8 @@
 
 #include "data/atomic_file.h"
 #include "data/csv.h"
-#include "data/formats/gzip.h"
 #include "data/formula_text.h"
+#include "data/gzip.h"
 #include "data/text.h"
 #include "data/text_encoding.h"
 #include "data/units.h"

@@ -162,7 +162,7 @@ std::vector<std::string> TablesOf(const std::string& folder,
   if (error) {
     throw InputError(shown + ": cannot be read: " + error.message());
   }
-  const std::string init = "errmap init " + shown + " -o study.toml";
+  const std::string init = "errmap init " + shown;
   if (tables.empty()) {
     throw InputError(shown +
                      ": is a folder without CSV files; for the files "
@@ -174,9 +174,8 @@ std::vector<std::string> TablesOf(const std::string& folder,
     throw InputError(
         shown + ": is a folder of several components, by the names of its " +
         std::to_string(tables.size()) + " files; map each: " + init +
-        ", then errmap compare --config study.toml --out STUDY. If they are "
-        "days of one: errmap " +
-        command + " " + shown + "/*");
+        " writes a study of them. If they are days of one: errmap " + command +
+        " " + shown + "/*");
   }
   if (!others.empty()) {
     std::ranges::sort(others);

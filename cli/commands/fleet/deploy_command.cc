@@ -20,7 +20,7 @@
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/atomic_file.h"
-#include "data/formats/gzip.h"
+#include "data/gzip.h"
 #include "data/input_error.h"
 #include "data/prepare_folder.h"
 #include "data/sha256.h"

@@ -20,7 +20,7 @@
 #include "cli/desk/plan/study_run.h"
 #include "cli/desk/provenance.h"
 #include "data/atomic_file.h"
-#include "data/formats/gzip.h"
+#include "data/gzip.h"
 #include "data/input_error.h"
 #include "data/prepare_folder.h"
 #include "data/sha256.h"

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "data/atomic_file.h"
-#include "data/formats/gzip.h"
 #include "data/formats/nesting.h"
+#include "data/gzip.h"
 #include "data/input_error.h"
 #include "data/sha256.h"
 #include "data/text.h"

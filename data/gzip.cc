@@ -1,4 +1,4 @@
-#include "data/formats/gzip.h"
+#include "data/gzip.h"
 
 #include <algorithm>
 #include <array>
