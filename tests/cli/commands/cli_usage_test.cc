@@ -51,7 +51,6 @@ TEST_F(Cli, WrongCommandLinesGetOneLine) {
       {{"compare", kDown, "--seed", "x"}, "--seed"},
       {{"compare", kDown, "--seed", "18446744073709551616"},
        "a whole number from 0 to 18446744073709551615"},
-      {{"compare", kDown, "more"}, "more"},
       {{"fit", kDown, "-o", "m.json"}, "--model"},
       {{"fit", kDown, "--model", "mean"}, "--output"},
       {{"fit", kDown, "--model", "poly", "-o", "m.json"}, "poly"},
@@ -62,6 +61,9 @@ TEST_F(Cli, WrongCommandLinesGetOneLine) {
     SCOPED_TRACE(::testing::PrintToString(c.words));
     EXPECT_THAT(RefusalOf(Run(c.words), kWrongCommandLine), HasSubstr(c.says));
   }
+  // A further word is a further file.
+  EXPECT_THAT(RefusalOf(Run({"compare", kDown, "more"}), kUnusable),
+              HasSubstr("more: cannot be read"));
 }
 
 TEST_F(Cli, HelpAndVersionGoToStdout) {

@@ -70,11 +70,11 @@ TEST(JoinTables, MakesASessionOfEachFileWhereNothingElseTellsThemApart) {
 }
 
 TEST(JoinTables, LeavesSessionsAsTheyAreWhereNoTwoFilesNameThemAlike) {
-  const CsvTable table = Join({{"a.csv", "day,error_um\n1,1\n2,2\n"},
+  const CsvTable table = Join({{"a.csv", "day,error_um\n1,1\n1,2\n2,2\n2,3\n"},
                                {"b.csv", "day,error_um\n3,1\n3,2\n"}})
                              .table;
   EXPECT_LT(table.Find(kFileColumn), 0);
-  EXPECT_THAT(Cells(table, "day"), ElementsAre("1", "2", "3", "3"));
+  EXPECT_THAT(Cells(table, "day"), ElementsAre("1", "1", "2", "2", "3", "3"));
 }
 
 TEST(JoinTables, NamesSessionsByTheirFileWhereTwoHaveTheSameName) {
