@@ -187,17 +187,19 @@ class Joiner {
     Note("columns that not all files have are left out: " + list);
   }
 
+  // A column says where sessions are. A leap of time is a guess, and the file
+  // is what somebody calls a day.
   void FindSessionsOfFiles() {
     for (const CsvTable& table : tables_) {
-      if (by_file_) {
-        sessions_.push_back({.column = "",
-                             .labels = {""},
-                             .codes = std::vector<Index>(table.num_rows, 0)});
-        continue;
-      }
       std::vector<Index> rows(table.num_rows);
       std::iota(rows.begin(), rows.end(), Index{0});
-      sessions_.push_back(FindSessions(table, selection_, rows).sessions);
+      Grouping found;
+      if (!by_file_) found = FindSessions(table, selection_, rows).sessions;
+      if (found.column.empty()) {
+        found.labels = {""};
+        found.codes.assign(rows.size(), 0);
+      }
+      sessions_.push_back(std::move(found));
     }
   }
 

@@ -21,10 +21,11 @@ struct JoinedTable {
 /// that all have, in the names and units of the first: letters may be in
 /// another case, units in one that can be converted. One table stays as it is.
 ///
-/// Sessions are those that FindSessions sees in each file. Where two files give
-/// the same name to theirs, the names get the file's label (FileLabel); where
-/// no column has them, a column kFileColumn does. Where it is that column that
-/// `selection` names, each file is one session.
+/// Sessions are those of the column that FindSessions finds in each file; where
+/// it finds none, a file is one, whatever the leaps of its time. Where two
+/// files give the same name to theirs, the names get the file's label
+/// (FileLabel); where no column has them, a column kFileColumn does. Where it
+/// is that column that `selection` names, each file is one session.
 ///
 /// Throws InputError where units contradict, or where a column `error*` or one
 /// that `selection` names is not in all; and as FindSessions does.

@@ -86,14 +86,12 @@ TEST(JoinTables, NamesSessionsByTheirFileWhereTwoHaveTheSameName) {
               ElementsAre("a", "a", "b, 1", "b, 1", "b, 2", "b, 2"));
 }
 
-TEST(JoinTables, CutsAFileWhereItsTimeBreaksOff) {
-  const CsvTable table =
-      Join({{"a.csv", "time_s,error_um\n0,1\n1,2\n2,3\n3,3\n0,1\n1,2\n"},
-            {"b.csv", "time_s,error_um\n0,1\n1,2\n"}})
-          .table;
-  EXPECT_THAT(
-      Cells(table, kFileColumn),
-      ElementsAre("a, 1", "a, 1", "a, 1", "a, 1", "a, 2", "a, 2", "b", "b"));
+TEST(JoinTables, TakesAFileForOneSessionWhateverTheLeapsOfItsTime) {
+  const std::string cycles = "time_s,error_um\n0,1\n1,2\n2,3\n900,3\n901,1\n";
+  const CsvTable table = Join({{"a.csv", cycles}, {"b.csv", cycles}}).table;
+  const PreparedDataset prepared = MakeDataset(table, {});
+  EXPECT_EQ(prepared.dataset.num_sessions(), 2);
+  EXPECT_THAT(prepared.dataset.log()->sessions.labels, ElementsAre("a", "b"));
 }
 
 TEST(JoinTables, ReadsNamesAndUnitsAsTheFirstFileHasThem) {
