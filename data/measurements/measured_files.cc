@@ -202,8 +202,10 @@ MeasuredFiles FindFiles(const std::vector<std::string>& given,
   }
   std::set<std::string> seen;
   for (const std::string& path : found.paths) {
-    if (seen.insert(fs::path(path).lexically_normal().string()).second)
-      continue;
+    // Packed by gzip it holds the same rows.
+    fs::path unpacked = fs::path(path).lexically_normal();
+    if (unpacked.extension() == ".gz") unpacked.replace_extension();
+    if (seen.insert(unpacked.string()).second) continue;
     throw InputError(PrintablePath(path) +
                      ": is named twice; its rows would count twice");
   }

@@ -28,12 +28,14 @@ TEST(FindFiles, PutsFilesInTheOrderOfTheirDatesElseOfTheirNumbers) {
               ElementsAre("monday.csv", "friday.csv"));
 }
 
-TEST(FindFiles, RefusesAFileNamedTwice) {
-  EXPECT_THAT(
-      [] {
-        FindFiles({"a.csv", "./a.csv"});
-      },
-      ThrowsMessage<InputError>(HasSubstr("is named twice")));
+TEST(FindFiles, RefusesAFileNamedTwiceAndBesideItsPackedSelf) {
+  for (const char* again : {"./a.csv", "a.csv.gz"}) {
+    EXPECT_THAT(
+        [&] {
+          FindFiles({"a.csv", again});
+        },
+        ThrowsMessage<InputError>(HasSubstr("is named twice")));
+  }
 }
 
 TEST(FileLabel, IsTheDateElseTheName) {
