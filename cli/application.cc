@@ -405,4 +405,11 @@ int RunApplication(int argc, char** argv) {
                   std::generic_category().message(PrintError()));
 }
 
+int RunHosted(std::vector<std::string> words) {
+  words.insert(words.begin(), "errmap");
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  return RunCommand(static_cast<int>(argv.size()), argv.data());
+}
+
 }  // namespace errmap::cli

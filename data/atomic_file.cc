@@ -17,6 +17,7 @@
 #include <sys/stat.h>
 
 #include "data/file_descriptor.h"
+#include "data/files_in_memory.h"
 #include "data/input_error.h"
 #include "data/text.h"
 
@@ -271,6 +272,9 @@ void RemoveAbandonedFiles(const std::string& folder) {
 }
 
 std::string ReadFile(const std::string& path, std::size_t most) {
+  if (const std::string* const text = FilesInMemory::FindText(path)) {
+    return *text;
+  }
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) ThrowUnreadable(path, errno);
   // Before the opening, which would wait for a writer.

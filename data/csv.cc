@@ -7,7 +7,9 @@
 #include <iterator>
 
 #include "data/atomic_file.h"
+#include "data/files_in_memory.h"
 #include "data/formula_text.h"
+#include "data/sha256.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -37,9 +39,12 @@ std::string CsvTable::Where(std::size_t row, std::string_view column) const {
       parts, row, {}, &std::pair<std::size_t, std::string>::first);
   const bool is_one = next == parts.begin();
   const std::size_t first = is_one ? 0 : std::prev(next)->first;
-  return PrintablePath(is_one ? file : std::prev(next)->second) + ": line " +
-         std::to_string(LineOfRow(row)) + " (data row " +
-         std::to_string(row - first) + "), column " + QuotedName(column);
+  const std::string at = std::to_string(row - first);
+  return PrintablePath(is_one ? file : std::prev(next)->second) + ": " +
+         (line_runs.empty() ? "row " + at
+                            : "line " + std::to_string(LineOfRow(row)) +
+                                  " (data row " + at + ")") +
+         ", column " + QuotedName(column);
 }
 
 std::string CsvTable::CellText(const CsvColumn& column, std::size_t row) const {
@@ -55,7 +60,20 @@ std::string CsvTable::CellText(const CsvColumn& column, std::size_t row) const {
 }
 
 CsvTable ReadCsv(const std::string& path) {
+  if (const CsvTable* const table = FilesInMemory::FindTable(path)) {
+    return *table;
+  }
   return ParseCsv(ReadFile(path), path);
+}
+
+CsvTable ReadCsv(const std::string& path, std::string* sha256) {
+  if (FilesInMemory::FindTable(path) != nullptr) {
+    *sha256 = Sha256OfFile(path);
+    return ReadCsv(path);
+  }
+  const std::string text = ReadFile(path);
+  *sha256 = Sha256(text);
+  return ParseCsv(text, path);
 }
 
 std::string CsvField(std::string_view text) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "data/column_values.h"
 #include "data/input_error.h"
 
 namespace errmap::data {
@@ -16,8 +17,7 @@ namespace errmap::data {
 struct CsvColumn {
   std::string name;
   bool has_name = true;  // false: the header left it empty, `name` is ours
-  std::vector<double>
-      values;  // (rows) quiet NaN where `exceptions` has the row
+  ColumnValues values;   // (rows) quiet NaN where `exceptions` has the row
   /// Cells that are no finite number, ascending by row: (row, index in texts).
   std::vector<std::pair<std::size_t, std::uint32_t>> exceptions;
   std::vector<std::string> texts;  // distinct texts of those cells, trimmed
@@ -44,7 +44,8 @@ struct CsvTable {
   }
   /// 1-based line of the file on which data row `row` (0-based) starts.
   std::size_t LineOfRow(std::size_t row) const;
-  /// "xdown.csv: line 18 (data row 16), column 't3_degC'", to begin a message.
+  /// "xdown.csv: line 18 (data row 16), column 't3_degC'", to begin a message;
+  /// a table in memory has no lines.
   std::string Where(std::size_t row, std::string_view column) const;
   /// Text of a cell: its exception text, else the number in shortest form.
   std::string CellText(const CsvColumn& column, std::size_t row) const;
@@ -69,6 +70,9 @@ struct CsvTable {
 /// duplicate column name, quote never closed, text after a closing quote, NUL
 /// byte. Cells that are no numbers are not judged here (see MakeDataset).
 CsvTable ReadCsv(const std::string& path);
+
+/// The same, and what Sha256OfFile says of the file, which is read once.
+CsvTable ReadCsv(const std::string& path, std::string* sha256);
 
 /// The same from text in memory; `name` stands for the file in messages.
 CsvTable ParseCsv(std::string_view text, const std::string& name);

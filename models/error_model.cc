@@ -63,6 +63,10 @@ Eigen::VectorXd ErrorModel::Predict(const Eigen::MatrixXd& inputs) const {
         "Predict: the model reads " + std::to_string(num_inputs()) +
         " inputs, found " + std::to_string(inputs.cols()) + " columns");
   }
+  return DoPredict(inputs);
+}
+
+Eigen::VectorXd ErrorModel::DoPredict(const Eigen::MatrixXd& inputs) const {
   Eigen::VectorXd errors(inputs.rows());
   Eigen::VectorXd row(inputs.cols());
   for (Eigen::Index i = 0; i < inputs.rows(); ++i) {

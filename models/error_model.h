@@ -123,6 +123,9 @@ class ErrorModel {
  private:
   // Of num_inputs() numbers.
   virtual double DoPredictRow(const double* inputs) const = 0;
+  // Of rows of num_inputs() numbers; one by one, unless a model that others
+  // made knows a quicker way.
+  virtual Eigen::VectorXd DoPredict(const Eigen::MatrixXd& inputs) const;
 };
 
 /// kFile: a map, or predictions, made elsewhere.

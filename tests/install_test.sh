@@ -89,7 +89,7 @@ prints() {
 }
 cp "$table" "$scratch/elsewhere/data.csv"
 prints fit_predict_save data.csv map.json -- 'poly:full:degree=3 0.553'
-prints early_stopping 6 -- 'ended by the caller'
+prints early_stopping data.csv 6 -- 'ended by the caller'
 prints lilliefors -- 'D = 0.10095'
 prints one_row map.json -- '0 allocations'
 prints my_model data.csv -- 'mm by neighbours'
@@ -105,9 +105,20 @@ prints study study.toml study.json study.html -- 'poly:eq8'
 "$prefix/bin/errmap" simulate turning-centre -o "$scratch/elsewhere/s" \
   --days 6 --cycles 6 --points 40 --dead 3,4,16,19 --quiet
 prints machine s/machine.toml s machine.json -- 'recommended'
+"$prefix/bin/errmap" predict "$scratch/elsewhere/early.json" "$table" --quiet \
+  >"$log" || fail "predict does not know the net that was stopped early"
+# An older language is refused in words.
+if c++ -std=c++17 -fsyntax-only -isystem /usr/include/eigen3 \
+  -I "$prefix/include" -include errmap/errmap.h -x c++ /dev/null 2>"$log"; then
+  fail "C++17 compiles the headers"
+fi
+grep -Fq 'errmap needs C++20' "$log" || fail "C++17 is not refused in words"
 for source in "$root"/tests/outside_project/*.cc; do
   most=25
-  case $source in */my_model.cc) most=40 ;; esac
+  case $source in
+    */my_model.cc) most=40 ;;
+    */early_stopping.cc) most=35 ;;
+  esac
   # Programs as short as the library is said to make them.
   [ "$(grep -c '[^ ]' "$source")" -le "$most" ] ||
     fail "$(basename "$source") has more than $most lines"

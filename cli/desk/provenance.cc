@@ -5,9 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "data/atomic_file.h"
+#include "data/files_in_memory.h"
 #include "data/measurements/measured_files.h"
-#include "data/sha256.h"
 #include "data/shown_path.h"
 #include "models/study/record/make_provenance.h"
 
@@ -24,7 +23,7 @@ std::string DataKey(std::size_t index) {
 }  // namespace
 
 InputFile HashInput(const std::string& file) {
-  return {file, data::Sha256(data::ReadFile(file))};
+  return {file, data::Sha256OfFile(file)};
 }
 
 std::vector<InputFile> HashInputs(const std::vector<std::string>& given,

@@ -21,6 +21,11 @@ while(waiting)
     endif()
   endforeach()
   string(REGEX REPLACE "${own}" "#include \"errmap/\\1\"" text "${text}")
+  string(REPLACE "#pragma once\n" "#pragma once\n
+#if __cplusplus < 202002L
+#error errmap needs C++20: compile with -std=c++20
+#endif
+" text "${text}")
   file(WRITE ${ERRMAP_INCLUDE}/errmap/${header} "${text}")
 endwhile()
 

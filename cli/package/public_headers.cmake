@@ -2,7 +2,9 @@
 # headers include. Everything else is of the library's own business and may
 # change without notice.
 set(ERRMAP_PUBLIC_HEADERS
+  data/column_values.h
   data/csv.h
+  data/files_in_memory.h
   data/input_error.h
   data/measurements/dataset.h
   data/measurements/sessions.h

@@ -2,6 +2,8 @@
 
 #include <csignal>
 
+#include "cli/shell/host.h"
+
 namespace errmap::cli {
 namespace {
 
@@ -28,6 +30,9 @@ void Catch(int signal) {
 }  // namespace
 
 const std::atomic<bool>& InstallInterruptFlag() {
+  if (const Host* const host = CurrentHost()) {
+    return host->stop != nullptr ? *host->stop : interrupted;
+  }
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) Catch(signal);
   return interrupted;
 }

@@ -3,10 +3,13 @@
 #include <cerrno>
 #include <cstddef>
 #include <fcntl.h>
+#include <mutex>
 #include <unistd.h>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "cli/shell/host.h"
 #include "cli/shell/terminal.h"
 
 namespace errmap::cli {
@@ -80,6 +83,10 @@ void HoldStandardStreams() {
 }
 
 void PrintResult(std::string_view text) {
+  if (Host* const host = CurrentHost()) {
+    host->printed += WithoutControls(text);
+    return;
+  }
   if (print_error != 0) return;
   print_error = WriteAll(STDOUT_FILENO, WithoutControls(text));
 }
@@ -97,10 +104,17 @@ void WriteMessage(std::string_view text) {
   for (std::size_t at = 0; (at = line.find('\n', at)) != std::string::npos;) {
     line.replace(at, 1, "\\n");
   }
+  if (Host* const host = CurrentHost()) {
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
+    host->messages.push_back(std::move(line));
+    return;
+  }
   DrawOnTerminal(MessageLines("errmap: " + line));
 }
 
 void DrawOnTerminal(std::string_view text) {
+  if (CurrentHost() != nullptr) return;  // it has no terminal
   static_cast<void>(WriteAll(STDERR_FILENO, text));
 }
 

@@ -7,6 +7,7 @@
 #include <sys/ioctl.h>
 
 #include "cli/report/wrap_text.h"
+#include "cli/shell/host.h"
 #include "cli/shell/standard_streams.h"
 
 namespace errmap::cli {
@@ -72,6 +73,7 @@ std::string FitLines(std::string_view text, std::size_t width) {
 
 report::Terminal OutputTerminal() {
   constexpr long kFewestRows = 5;
+  if (CurrentHost() != nullptr) return {};
   report::Terminal terminal{.columns = ColumnsOf(STDOUT_FILENO)};
   winsize size{};
   if (isatty(STDOUT_FILENO) == 1) {

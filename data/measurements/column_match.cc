@@ -108,7 +108,7 @@ TableForMap InMapUnits(CsvTable table, const std::vector<ColumnInfo>& of_map) {
         table.columns[static_cast<std::size_t>(table.Find(match.of_file.name))];
     column.name = wanted.name;
     if (!match.is_converted()) continue;
-    for (double& value : column.values) value = match.InMapUnit(value);
+    for (double& value : column.values.Own()) value = match.InMapUnit(value);
   }
   result.table = std::move(table);
   return result;

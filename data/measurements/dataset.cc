@@ -85,7 +85,7 @@ void CheckAreAllRows(const std::vector<Eigen::Index>& log_rows) {
 
 // Numbers come out sorted and each with its shortest text.
 Grouping GroupByNumber(const std::string& column,
-                       const std::vector<double>& values,
+                       const ColumnValues& values,
                        const std::vector<Eigen::Index>& rows) {
   // Negative zero would compare equal to zero, yet be written "-0".
   const auto value_of = [&](Eigen::Index row) {

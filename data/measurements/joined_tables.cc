@@ -25,7 +25,7 @@ CsvColumn TextColumn(const std::string& name,
                      const std::vector<Index>& codes) {
   CsvColumn column{
       .name = name, .values = {}, .exceptions = {}, .texts = labels};
-  column.values.assign(codes.size(), std::nan(""));
+  column.values = std::vector<double>(codes.size(), std::nan(""));
   for (std::size_t row = 0; row < codes.size(); ++row) {
     column.exceptions.emplace_back(row, static_cast<std::uint32_t>(codes[row]));
   }
@@ -34,8 +34,7 @@ CsvColumn TextColumn(const std::string& name,
 
 void Append(const CsvColumn& more, CsvColumn* column) {
   const std::size_t rows = column->values.size();
-  column->values.insert(
-      column->values.end(), more.values.begin(), more.values.end());
+  for (const double value : more.values) column->values.push_back(value);
   const auto shift = static_cast<std::uint32_t>(column->texts.size());
   for (const auto& [row, text] : more.exceptions) {
     column->exceptions.emplace_back(rows + row, shift + text);
@@ -133,7 +132,8 @@ class Joiner {
          (converts ? ", from " + from.symbol + " to " + to.symbol : ""));
     found->name = name;
     if (!converts) return;
-    for (double& value : found->values) value = Converted(value, from, to);
+    for (double& value : found->values.Own())
+      value = Converted(value, from, to);
   }
 
   bool MayBeLeftOut(const std::string& name) const {

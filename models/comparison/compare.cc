@@ -4,9 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "data/atomic_file.h"
 #include "data/csv.h"
-#include "data/sha256.h"
 #include "models/comparison/component_plan.h"
 #include "models/study/study_defaults.h"
 
@@ -26,17 +24,12 @@ data::DatasetSelection SelectionLike(const data::Dataset& like,
   return selection;
 }
 
-ComponentStudy CompareMaps(const std::string& file,
-                           const data::DatasetSelection& selection,
-                           const ComparisonOptions& options) {
-  const std::string text = data::ReadFile(file);
-  ComponentStudy component{
-      .name = std::filesystem::path(file).stem().string(),
-      .files = {{.file = file, .sha256 = data::Sha256(text)}},
-      .data = data::MakeDataset(data::ParseCsv(text, file), selection),
-      .holdouts = {},
-      .study = {},
-      .judgement = {}};
+namespace {
+
+ComponentStudy Compare(ComponentStudy component,
+                       const data::DatasetSelection& selection,
+                       const ComparisonOptions& options,
+                       OwnRecipes own) {
   const data::Dataset& dataset = component.data.dataset;
   const data::Unit& unit = dataset.target().unit;
   component.goal = options.goal.value_or(DefaultGoal(unit));
@@ -56,13 +49,46 @@ ComponentStudy CompareMaps(const std::string& file,
         MakeHoldout(spec, dataset, options.seed, std::move(test_data)));
   }
   ComponentPlan plan =
-      PlanModels(std::move(component), options.models, nullptr);
+      PlanModels(std::move(component), options.models, nullptr, std::move(own));
   RunComponent(&plan,
                {.seed = options.seed,
                 .jobs = options.jobs,
                 .stop = options.stop,
                 .progress = options.progress});
   return std::move(plan.comparison);
+}
+
+}  // namespace
+
+ComponentStudy CompareMaps(const std::string& file,
+                           const data::DatasetSelection& selection,
+                           const ComparisonOptions& options) {
+  std::string sha256;
+  const data::CsvTable table = data::ReadCsv(file, &sha256);
+  return Compare({.name = std::filesystem::path(file).stem().string(),
+                  .files = {{.file = file, .sha256 = sha256}},
+                  .data = data::MakeDataset(table, selection),
+                  .holdouts = {},
+                  .study = {},
+                  .judgement = {}},
+                 selection,
+                 options,
+                 {});
+}
+
+ComponentStudy CompareMaps(const data::Dataset& dataset,
+                           const ComparisonOptions& options,
+                           OwnRecipes own) {
+  return Compare(
+      {.name = dataset.source(),
+       .files = {{.file = dataset.source(), .sha256 = {}}},
+       .data = {.dataset = dataset, .dropped = {}, .remarks = {}, .faults = {}},
+       .holdouts = {},
+       .study = {},
+       .judgement = {}},
+      {},
+      options,
+      std::move(own));
 }
 
 }  // namespace errmap::models

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "data/measurements/dataset.h"
+#include "models/comparison/component_plan.h"
 #include "models/study/record/component_study.h"
 #include "models/study/study.h"
 
@@ -38,6 +39,13 @@ struct ComparisonOptions {
 ComponentStudy CompareMaps(const std::string& file,
                            const data::DatasetSelection& selection,
                            const ComparisonOptions& options);
+
+/// The same of measurements in memory, beside others a caller's own recipes.
+/// The component has the name that the data set gives as its source, and a map
+/// may be held against a file (`file:TEST.csv`) by the columns of the data set.
+ComponentStudy CompareMaps(const data::Dataset& dataset,
+                           const ComparisonOptions& options,
+                           OwnRecipes own = {});
 
 /// What reads other rows with the columns of `like` (target, inputs, groups),
 /// else by `selection`, to be judged only.

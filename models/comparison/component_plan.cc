@@ -38,14 +38,16 @@ std::vector<std::unique_ptr<ModelRecipe>> MakeRecipes(
     const std::vector<std::string>& specs,
     const data::Dataset& dataset,
     Eigen::Index fewest_training_rows,
-    std::vector<std::string>* left_out) {
+    std::vector<std::string>* left_out,
+    OwnRecipes own) {
   std::vector<std::unique_ptr<ModelRecipe>> recipes;
-  if (specs.empty()) {
+  if (specs.empty() && (own.recipes.empty() || own.beside_defaults)) {
     DefaultRecipes defaults = MakeDefaultRecipes(dataset, fewest_training_rows);
     if (left_out != nullptr) *left_out = std::move(defaults.left_out);
     recipes = std::move(defaults.recipes);
   }
   for (const std::string& spec : specs) recipes.push_back(MakeRecipe(spec));
+  std::ranges::move(own.recipes, std::back_inserter(recipes));
   return recipes;
 }
 
@@ -95,10 +97,11 @@ int ComponentPlan::num_fits() const {
 
 ComponentPlan PlanModels(ComponentStudy component,
                          const std::vector<std::string>& specs,
-                         std::vector<std::string>* left_out) {
+                         std::vector<std::string>* left_out,
+                         OwnRecipes own) {
   const data::Dataset& dataset = component.data.dataset;
-  std::vector<std::unique_ptr<ModelRecipe>> recipes =
-      MakeRecipes(specs, dataset, FewestTrainingRows(component), left_out);
+  std::vector<std::unique_ptr<ModelRecipe>> recipes = MakeRecipes(
+      specs, dataset, FewestTrainingRows(component), left_out, std::move(own));
   component.first_added = recipes.size();
   auto baselines = MissingBaselines(dataset, recipes);
   component.num_added = baselines.size();

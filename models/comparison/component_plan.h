@@ -23,15 +23,23 @@ struct ComponentPlan {
   int num_fits() const;
 };
 
+/// Recipes of the caller's own that take part in a study.
+struct OwnRecipes {
+  std::vector<std::unique_ptr<ModelRecipe>> recipes = {};
+  /// Beside all that suit the data, where no others are named.
+  bool beside_defaults = false;
+};
+
 /// What is to be fitted to a component that has its data and hold-outs: the
-/// models of `specs`, or where there are none all that suit the data, and the
-/// baselines that any map must beat. `left_out` (may be null) is told in a line
-/// each which of the default ones do not suit, and why. Throws
+/// models of `specs` and `own`, or where there are none all that suit the data,
+/// and the baselines that any map must beat. `left_out` (may be null) is told
+/// in a line each which of the default ones do not suit, and why. Throws
 /// std::invalid_argument where a SPEC is wrong, data::InputError naming the
 /// component's file where a fold trains on fewer than two rows.
 ComponentPlan PlanModels(ComponentStudy component,
                          const std::vector<std::string>& specs,
-                         std::vector<std::string>* left_out);
+                         std::vector<std::string>* left_out,
+                         OwnRecipes own = {});
 
 /// Fits what is planned, judges it, and gives the maps what they may promise;
 /// of the recommended one also finds which sensors it needs and what another

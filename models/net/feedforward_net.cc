@@ -1,9 +1,11 @@
 #include "models/net/feedforward_net.h"
 
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "models/row_scratch.h"
 #include "stats/random.h"
@@ -89,6 +91,51 @@ Eigen::MatrixXd FirstLayer(const NetShape& shape, const Eigen::VectorXd& w) {
 Eigen::MatrixXd SecondLayer(const NetShape& shape, const Eigen::VectorXd& w) {
   return Eigen::Map<const Eigen::MatrixXd>(
       w.data() + shape.num_weights1(), shape.outputs, shape.hidden + 1);
+}
+
+NetForm FormOfWeights(const NetShape& shape,
+                      const Eigen::VectorXd& w,
+                      const ColumnScaling& inputs,
+                      const TargetScaling& target) {
+  // A slope c multiplies every sum that a sigmoid sees: so may the weights.
+  return {.input_offset = inputs.offset,
+          .input_scale = inputs.scale,
+          .w1 = shape.slope * FirstLayer(shape, w),
+          .w2 = OutputSlope(shape) * SecondLayer(shape, w),
+          .output = shape.output,
+          .target_slope = Eigen::VectorXd::Constant(1, target.slope),
+          .target_offset = Eigen::VectorXd::Constant(1, target.offset)};
+}
+
+FittedModel MapOfWeights(const NetShape& shape,
+                         const Eigen::VectorXd& w,
+                         const ColumnScaling& inputs,
+                         const TargetScaling& target,
+                         const data::Dataset& training,
+                         const std::string& name) {
+  if (w.size() != shape.num_weights() ||
+      shape.inputs != training.num_inputs()) {
+    throw std::invalid_argument(
+        "MapOfWeights: a net of " + std::to_string(shape.inputs) +
+        " inputs has " + std::to_string(shape.num_weights()) +
+        " weights, found " + std::to_string(w.size()) + " and " +
+        std::to_string(training.num_inputs()) + " inputs");
+  }
+  std::vector<Eigen::Index> columns(
+      static_cast<std::size_t>(training.num_inputs()));
+  std::iota(columns.begin(), columns.end(), Eigen::Index{0});
+  FittedModel map;
+  map.name = name;
+  map.kind = ModelKind::kNet;
+  map.target = training.target();
+  map.align = training.align();
+  map.inputs = DescribeInputs(training, columns);
+  map.model =
+      std::make_shared<FeedforwardNet>(FormOfWeights(shape, w, inputs, target));
+  map.guards = MakeGuards(map.inputs, training.target_values());
+  map.summary.termination = fitting::Termination::kDirect;
+  map.summary.message.clear();
+  return map;
 }
 
 PredictionCost CostOf(const NetForm& form) {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "models/error_model.h"
 #include "models/net/net_objective.h"
+#include "models/scaling.h"
 
 namespace errmap::models {
 
@@ -34,5 +36,21 @@ Eigen::VectorXd InitialWeights(const NetShape& shape, std::uint64_t seed);
 /// The two weight matrices of a weight vector (N).
 Eigen::MatrixXd FirstLayer(const NetShape& shape, const Eigen::VectorXd& w);
 Eigen::MatrixXd SecondLayer(const NetShape& shape, const Eigen::VectorXd& w);
+
+/// The net of the weights w (N) of a training on inputs and targets scaled so.
+NetForm FormOfWeights(const NetShape& shape,
+                      const Eigen::VectorXd& w,
+                      const ColumnScaling& inputs,
+                      const TargetScaling& target);
+
+/// Such a net as a map of the rows that it was trained on, with their columns
+/// and ranges: of a training of one's own, stopped when rows that it did not
+/// see grew worse, say. Throws std::invalid_argument as FeedforwardNet does.
+FittedModel MapOfWeights(const NetShape& shape,
+                         const Eigen::VectorXd& w,
+                         const ColumnScaling& inputs,
+                         const TargetScaling& target,
+                         const data::Dataset& training,
+                         const std::string& name = "net");
 
 }  // namespace errmap::models

@@ -153,15 +153,7 @@ double NetRows::TrainingRms(const Eigen::VectorXd& w) const {
 }
 
 NetForm NetRows::FormOf(const Eigen::VectorXd& w) const {
-  const NetShape& shape = training.shape;
-  // A slope c multiplies every sum that a sigmoid sees: so may the weights.
-  return {.input_offset = scaling.offset,
-          .input_scale = scaling.scale,
-          .w1 = shape.slope * FirstLayer(shape, w),
-          .w2 = OutputSlope(shape) * SecondLayer(shape, w),
-          .output = shape.output,
-          .target_slope = Eigen::VectorXd::Constant(1, target.slope),
-          .target_offset = Eigen::VectorXd::Constant(1, target.offset)};
+  return FormOfWeights(training.shape, w, scaling, target);
 }
 
 Eigen::VectorXd NetRows::WeightsOf(const NetForm& form) const {

@@ -34,9 +34,10 @@ struct NeighboursRecipe final : ModelRecipe {
 
 int main(int, char** argv) {
   const auto rows = data::MakeDataset(data::ReadCsv(argv[1]), {}).dataset;
-  std::vector<std::unique_ptr<ModelRecipe>> recipes;
-  recipes.push_back(std::make_unique<NeighboursRecipe>());
-  const auto fold = MakeHoldout(stats::ParseHoldout("groups:5"), rows, 1, {});
-  const auto study = RunStudy(rows, {fold}, recipes, {});
-  std::cout << study.models[0].holdouts[0].test.rmse << " mm by neighbours\n";
+  OwnRecipes own;
+  own.recipes.push_back(std::make_unique<NeighboursRecipe>());
+  const auto study = CompareMaps(
+      rows, {.holdouts = {"groups:5"}, .models = {"mean"}}, std::move(own));
+  std::cout << study.study.models[1].holdouts[0].test.rmse
+            << " mm by neighbours\n";
 }

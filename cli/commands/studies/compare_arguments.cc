@@ -1,5 +1,8 @@
 #include "cli/commands/studies/compare_arguments.h"
 
+#include <algorithm>
+#include <utility>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -186,6 +189,26 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
               "--predictions",
               "--machine",
               "--later"});
+}
+
+CompareArguments ReadCompareArguments(std::vector<std::string> words) {
+  CompareArguments arguments;
+  CLI::App command;
+  AddCompareOptions(&command, &arguments);
+  std::ranges::reverse(words);  // as CLI11 takes them
+  try {
+    command.parse(std::move(words));
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what());
+  }
+  NoteGiven(command, &arguments);
+  return arguments;
+}
+
+void NoteGiven(const CLI::App& command, CompareArguments* arguments) {
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() > 0) arguments->given.insert(option->get_name());
+  }
 }
 
 }  // namespace errmap::cli

@@ -268,9 +268,7 @@ void AddCompareCommand(CLI::App* app, Run* run) {
       "Example: errmap compare xdown.csv --models mean,poly:eq8,net:scg "
       "--out study");
   command->callback([arguments, run, command] {
-    for (const CLI::Option* option : command->get_options()) {
-      if (option->count() > 0) arguments->given.insert(option->get_name());
-    }
+    NoteGiven(*command, arguments.get());
     arguments->command_line = run->command_line;
     run->status = RunCompare(*arguments);
   });

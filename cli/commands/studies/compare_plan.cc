@@ -227,7 +227,8 @@ std::optional<desk::MachineStudy> MachineOf(const CompareArguments& arguments) {
 }
 
 desk::StudyPlan PlanOf(const CompareArguments& arguments,
-                       const std::optional<desk::MachineStudy>& machine) {
+                       const std::optional<desk::MachineStudy>& machine,
+                       const desk::MakeOwnRecipes& own) {
   const desk::Remark remark = Sayer(arguments.data.quiet);
   if (machine) {
     return desk::PlanOfMachine(*machine, ConfigOf(arguments), remark);
@@ -239,9 +240,9 @@ desk::StudyPlan PlanOf(const CompareArguments& arguments,
     if (!arguments.changes.empty()) {
       throw UsageError("--set changes a study file; name it with --config");
     }
-    return desk::PlanStudy(ConfigOf(arguments), remark);
+    return desk::PlanStudy(ConfigOf(arguments), remark, own);
   }
-  return desk::PlanStudy(ConfigOfFile(arguments), remark);
+  return desk::PlanStudy(ConfigOfFile(arguments), remark, own);
 }
 
 }  // namespace errmap::cli

@@ -19,8 +19,10 @@ desk::StudyFile ConfigOfFile(const CompareArguments& arguments);
 /// components' data.
 std::optional<desk::MachineStudy> MachineOf(const CompareArguments& arguments);
 
-/// What is to be fitted: of the machine, of the study file or of DATA.
+/// What is to be fitted: of the machine, of the study file or of DATA; of the
+/// two last `own` (may be empty) beside it.
 desk::StudyPlan PlanOf(const CompareArguments& arguments,
-                       const std::optional<desk::MachineStudy>& machine);
+                       const std::optional<desk::MachineStudy>& machine,
+                       const desk::MakeOwnRecipes& own = {});
 
 }  // namespace errmap::cli

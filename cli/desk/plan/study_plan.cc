@@ -13,11 +13,10 @@
 #include "cli/desk/plan/component_names.h"
 #include "cli/report/words/fault_text.h"
 #include "data/argument_name.h"
-#include "data/atomic_file.h"
+#include "data/csv.h"
 #include "data/input_error.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/measured_files.h"
-#include "data/sha256.h"
 #include "data/shown_path.h"
 #include "data/text.h"
 #include "models/comparison/compare.h"
@@ -37,9 +36,9 @@ class TableReader {
   const data::CsvTable& Read(const std::string& file) {
     const auto found = tables_.find(file);
     if (found != tables_.end()) return found->second;
-    const std::string text = data::ReadFile(file);
-    inputs_->push_back({.file = file, .sha256 = data::Sha256(text)});
-    return tables_.emplace(file, data::ParseCsv(text, file)).first->second;
+    InputFile& input = inputs_->emplace_back(file);
+    return tables_.emplace(file, data::ReadCsv(file, &input.sha256))
+        .first->second;
   }
 
   /// The rows of one component: of one file, or of several as one table. What
@@ -73,10 +72,12 @@ class ComponentPlanner {
   ComponentPlanner(const StudyConfig& study,
                    const ComponentConfig& component,
                    const Remark& remark,
+                   const MakeOwnRecipes& own,
                    TableReader* reader)
       : study_(study),
         component_(component),
         remark_(remark),
+        own_(own),
         reader_(reader),
         files_(data::FindFiles(component.AllData())) {}
 
@@ -96,7 +97,8 @@ class ComponentPlanner {
                             .study = {},
                             .judgement = {}},
                            study_.models,
-                           &left_out);
+                           &left_out,
+                           own_ ? own_() : models::OwnRecipes{});
     for (const std::string& line : left_out) Tell(line);
     plan.given = ReadGiven();
     plan.comparison.rezero = Rezero(plan.comparison);
@@ -286,6 +288,7 @@ class ComponentPlanner {
   const StudyConfig& study_;
   const ComponentConfig& component_;
   const Remark& remark_;
+  const MakeOwnRecipes& own_;
   TableReader* reader_;
   data::MeasuredFiles files_;
 };
@@ -349,13 +352,15 @@ std::vector<std::string> StudyPlan::InputPaths() const {
   return paths;
 }
 
-StudyPlan PlanStudy(const StudyConfig& config, const Remark& remark) {
+StudyPlan PlanStudy(const StudyConfig& config,
+                    const Remark& remark,
+                    const MakeOwnRecipes& own) {
   StudyPlan plan{.config = config, .inputs = {}, .components = {}};
   NameComponents(&plan.config);
   TableReader reader(&plan.inputs);
   for (const ComponentConfig& component : plan.config.components) {
     plan.components.push_back(
-        ComponentPlanner(plan.config, component, remark, &reader).Plan());
+        ComponentPlanner(plan.config, component, remark, own, &reader).Plan());
   }
   FillInDefaults(&plan);
   return plan;

@@ -28,11 +28,17 @@ struct StudyPlan {
 /// Told of what may be worth knowing, a line at a time.
 using Remark = std::function<void(const std::string&)>;
 
+/// Makes recipes of a caller's own for a component.
+using MakeOwnRecipes = std::function<models::OwnRecipes()>;
+
 /// Reads the data, makes the hold-outs and chooses models where the user left
-/// them to us. `remark` is told what was found in the data, what is left out
-/// and why; where it is empty, that is not looked into. Throws data::InputError
-/// where data cannot be used or two components have one name,
-/// std::invalid_argument for a SPEC that the catalogue does not know.
-StudyPlan PlanStudy(const StudyConfig& config, const Remark& remark = {});
+/// them to us, `own` (may be empty) beside them. `remark` is told what was
+/// found in the data, what is left out and why; where it is empty, that is not
+/// looked into. Throws data::InputError where data cannot be used or two
+/// components have one name, std::invalid_argument for a SPEC that the
+/// catalogue does not know.
+StudyPlan PlanStudy(const StudyConfig& config,
+                    const Remark& remark = {},
+                    const MakeOwnRecipes& own = {});
 
 }  // namespace errmap::desk

@@ -427,10 +427,12 @@ StudyFile ReadStudyFile(const std::string& path,
   return study;
 }
 
-StudyPlan PlanStudy(const StudyFile& file, const Remark& remark) {
+StudyPlan PlanStudy(const StudyFile& file,
+                    const Remark& remark,
+                    const MakeOwnRecipes& own) {
   StudyFile study = file;
   ExpandPatterns(&study.config, &study.sources);
-  StudyPlan plan = PlanStudy(study.config, remark);
+  StudyPlan plan = PlanStudy(study.config, remark, own);
   plan.inputs.insert(plan.inputs.begin(), file.file);
   return plan;
 }

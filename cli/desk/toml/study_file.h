@@ -45,6 +45,8 @@ StudyFile ParseStudyFile(const std::string& text,
 
 /// The plan of a study as its file has it, every file that a pattern matches a
 /// component; the file is the first of its inputs. Throws as PlanStudy does.
-StudyPlan PlanStudy(const StudyFile& file, const Remark& remark = {});
+StudyPlan PlanStudy(const StudyFile& file,
+                    const Remark& remark = {},
+                    const MakeOwnRecipes& own = {});
 
 }  // namespace errmap::desk

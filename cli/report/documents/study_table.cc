@@ -331,7 +331,7 @@ Screen StudyTable(const models::StudyRecord& record,
   if (asked_for <= 1 && record.components.size() == 1) {
     ComponentScreen one = component(0);
     one.Answer();
-    one.Next(options.data);
+    if (options.next_steps) one.Next(options.data);
     if (options.details) one.Details();
   } else {
     const std::size_t width = options.terminal.text_columns();

@@ -16,6 +16,7 @@ struct StudyTableOptions {
   /// rows.
   std::vector<std::string> data = {};
   Terminal terminal = {};
+  bool next_steps = true;  // the commands to go on with
 };
 
 /// A study as a terminal shows it: the verdict in at most eight lines, the

@@ -42,6 +42,33 @@ TEST(FeedforwardNet, PropagatesAsEquations14To18Say) {
       FeedforwardNet(linear).Predict(inputs)[0], (s - 0.4) / 20.0, 1e-15);
 }
 
+TEST(FeedforwardNet, BecomesAMapOfTheRowsThatItLearntFrom) {
+  data::Dataset::Parts parts;
+  parts.source = "rows";
+  parts.inputs = {{"position_mm", data::UnitOfSymbol("mm")},
+                  {"t_degC", data::UnitOfSymbol("degC")}};
+  parts.input_values.resize(3, 2);
+  parts.input_values << 0.0, 20.0, 10.0, 25.0, 30.0, 21.0;
+  parts.target = {"error_um", data::UnitOfSymbol("um")};
+  parts.target_values = Eigen::Vector3d(1.0, 4.0, 2.0);
+  const data::Dataset rows(parts);
+  const NetShape shape{.inputs = 2, .hidden = 3, .slope = 2.0};
+  const Eigen::VectorXd w = InitialWeights(shape, 7);
+  const ColumnScaling inputs = UnitRangeScaling(rows.input_values());
+  const TargetScaling target = SigmoidTargetScaling(rows.target_values());
+  const FittedModel map = MapOfWeights(shape, w, inputs, target, rows);
+  const NetObjective objective(
+      shape,
+      inputs.Apply(rows.input_values()),
+      (target.slope * map.Predict(rows)).array() + target.offset,
+      0.0);
+  EXPECT_NEAR(objective.Evaluate(w, nullptr), 0.0, 1e-20);
+  EXPECT_EQ(map.target.name, "error_um");
+  EXPECT_EQ(map.inputs[1].max, 25.0);
+  EXPECT_THROW(MapOfWeights(shape, w.head(4), inputs, target, rows),
+               std::invalid_argument);
+}
+
 TEST(FeedforwardNet, AgreesWithTheReportsProgramOnItsFinalWeights) {
   const auto golden = errmap::testing::ReadGoldenCase("case_c");
   const Eigen::VectorXd w =
