@@ -4,6 +4,7 @@
 #   sh quickstart.sh        install what is missing, build, compare models on
 #                           the shipped measurements
 #   sh quickstart.sh test   the same, then the whole test suite
+#   sh quickstart.sh python the package errmap for Python, for this user
 #
 # Safe to run again: what is installed stays, the build is incremental. A
 # package that is already there is never replaced or removed.
@@ -14,12 +15,15 @@ packages="g++ cmake ninja-build libeigen3-dev libopenblas-dev libceres-dev
   nlohmann-json3-dev libfmt-dev libtomlplusplus-dev libssl-dev libsqlite3-dev
   zlib1g-dev"
 test_packages="libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 python3-jsonschema chromium gnuplot-nox patch"
+python_packages="pybind11-dev python3-dev python3-pip python3-setuptools python3-wheel python3-numpy"
 # Without these a few tests are skipped.
-optional_packages="clang cmark-gfm linuxcnc-uspace linuxcnc-uspace-dev slurm-wlm munge
+optional_packages="pybind11-dev python3-dev python3-pandas python3-sklearn
+  python3-tqdm python3-nbclient python3-ipykernel mypy r-base-core
+  r-cran-jsonlite clang cmark-gfm linuxcnc-uspace linuxcnc-uspace-dev slurm-wlm munge
   openmpi-bin"
 example="data/sets/nistir5367_xdisp_down.csv"
 
-usage="usage: sh quickstart.sh [test]"
+usage="usage: sh quickstart.sh [test|python]"
 step=""
 log=""
 
@@ -222,12 +226,13 @@ if [ $# -gt 1 ]; then
 fi
 case ${1-} in
   "") ;;
-  test) mode="test" ;;
+  test | python) mode=$1 ;;
   -h | --help)
     printf '%s\n' "$usage" \
       "Installs what is missing from Debian, builds errmap into build/ and" \
       "compares models on the shipped measurements; with 'test' it then runs" \
-      "the test suite."
+      "the test suite; with 'python' it builds the package errmap and installs" \
+      "it for this user."
     exit 0
     ;;
   *)
@@ -243,7 +248,9 @@ log=$(mktemp)
 wanted=$packages
 preset=release
 tests=OFF
-if [ "$mode" = test ]; then
+if [ "$mode" = python ]; then
+  wanted="$packages $python_packages"
+elif [ "$mode" = test ]; then
   wanted="$packages $test_packages"
   tests=ON
   # Warnings are errors only where they are ours to mend at once.
@@ -258,6 +265,15 @@ else
 fi
 
 cores=$(nproc 2>/dev/null || echo 2)
+
+if [ "$mode" = python ]; then
+  step="building and installing the package errmap (pip install ./cli/python)"
+  say "building the package errmap for Python: some minutes"
+  quietly env CMAKE_GENERATOR=Ninja /usr/bin/python3 -m pip install --user \
+    --break-system-packages --no-build-isolation --no-deps ./cli/python
+  /usr/bin/python3 -c 'import errmap; print("import errmap:", errmap.__version__)'
+  exit 0
+fi
 
 say "configuring a Release build in build/"
 step="configuring (cmake --preset $preset)"

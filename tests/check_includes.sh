@@ -101,6 +101,7 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     rooms["cli/commands/maps"] = rooms["cli/commands/studies"]
     rooms["cli/commands/control"] = rooms["cli/commands/maps"] \
                                     "cli/commands/maps "
+    rooms["cli/python"] = rooms["cli/commands/maps"] "cli/commands/studies "
     # These know every room, since they put them together.
     knows_all["cli/application.cc"] = 1
     knows_all["models/file_recipe.cc"] = 1
@@ -190,6 +191,10 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     if (folder == "tests") next  # May use the other libraries.
     if (name ~ /^boost\// && FILENAME !~ /^stats\/.*\.cc$/) {
       violation("<" name "> belongs in stats/*.cc")
+      next
+    }
+    if (name ~ /^pybind11\// && FILENAME !~ /^cli\/python\//) {
+      violation("<" name "> belongs in cli/python/")
       next
     }
     if (name ~ /^CLI\// && FILENAME !~ /^cli\/.*\.cc$/) {

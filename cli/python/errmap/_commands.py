@@ -1,0 +1,178 @@
+"""The commands that need no class of their own."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from typing import Any, Mapping, Sequence
+
+from errmap import _core
+from errmap._frames import Files, Measurements, frame_of, warn, words_of
+
+Json = dict[str, Any]
+
+
+def read_csv(path: str | os.PathLike[str]) -> Any:
+    """Read a CSV file as errmap does: delimiter and decimal comma are found.
+
+    Parameters
+    ----------
+    path : str or path
+        The file.
+
+    Returns
+    -------
+    pandas.DataFrame
+        Without pandas a dict of arrays (numbers) and lists (texts).
+
+    Raises
+    ------
+    ValueError
+        Where the file is no table; the message names line and column.
+    """
+    with open(path, "rb") as file:
+        text = file.read().decode("utf-8", "replace")
+    return frame_of(_core.Table.of_csv(text, os.fspath(path)).columns())
+
+
+def residuals(frame: Measurements, column: str, *,
+              units: Mapping[str, str] | None = None, **options: Any) -> Json:
+    """Statistics of a column of residuals, or of anything.
+
+    Parameters
+    ----------
+    frame : measurements
+    column : str
+        The column to be judged.
+    units : mapping, optional
+        Units of columns, such as ``{"error": "um"}``.
+    **options
+        Those of ``errmap residuals``: ``order``, ``group``, ``position``,
+        ``fitted``, ``monte_carlo``, ``seed``, ``bins``, ``missing``,
+        ``as_printed_1995``.
+
+    Returns
+    -------
+    dict
+        The document of ``--format json``; lengths in the column's unit.
+
+    Examples
+    --------
+    >>> import errmap
+    >>> found = errmap.residuals({"r_um": [1.0, 2.0, 3.0, 4.0]}, "r_um")
+    >>> found["summary"]["mean"]
+    2.5
+    """
+    files = Files()
+    data = files.data(frame, units)
+    words = words_of({"column": column, **options}, units)
+    _, printed, _ = files.run("residuals", data, "--format=json", *words)
+    return json.loads(printed)
+
+
+def learn(frame: Measurements, by: str | None = None, *,
+          next: Measurements | None = None,
+          units: Mapping[str, str] | None = None, **options: Any) -> Json:
+    """What more days, more cycles or fewer sensors would do to the error.
+
+    Parameters
+    ----------
+    frame : measurements
+    by : {"sessions", "cycles", "sensors"}, optional
+    next : measurements, optional
+        States that could be measured next, a row each with the inputs.
+    units : mapping, optional
+        Units of columns.
+    **options
+        Those of ``errmap learn``: ``target``, ``inputs``, ``session``,
+        ``time``, ``models``, ``goal``, ``seed``, ``jobs``, ...
+
+    Returns
+    -------
+    dict
+        The document of ``--format json``.
+    """
+    files = Files()
+    words = [files.data(frame, units), *words_of({"by": by, **options}, units)]
+    if next is not None:
+        words.append("--next=" + files.data(next, units, "next"))
+    _, printed, messages = files.run("learn", *words, "--format=json")
+    warn(messages)
+    return json.loads(printed)
+
+
+def evaluate(map: Any, frame: Measurements, **options: Any) -> Json:
+    """Judge a map on measurements that it may not know.
+
+    See :meth:`errmap.MapFile.evaluate`.
+    """
+    return map.evaluate(frame, **options)
+
+
+def certify(part: str = "all") -> Json:
+    """Prove solvers and statistics on problems whose answers are known.
+
+    Parameters
+    ----------
+    part : {"nist", "gradients", "agreement", "all"}
+
+    Returns
+    -------
+    dict
+        The document of ``--format json``; ``"passed"`` says whether every
+        floor is reached.
+    """
+    _, printed, _ = Files().run("certify", part, "--format=json", accept=(0, 4))
+    return json.loads(printed)
+
+
+def models() -> str:
+    """The models by name, with their options."""
+    return Files().run("models")[1]
+
+
+def simulate(machine: str = "turning-centre", *,
+             out: str | os.PathLike[str] | None = None,
+             components: Sequence[str] | None = None,
+             **options: Any) -> dict[str, Any]:
+    """Make measurements of a machine whose truth is known.
+
+    Parameters
+    ----------
+    machine : str
+        ``"turning-centre"``.
+    out : path, optional
+        A folder that keeps the files; without it none are left.
+    components : sequence of str, optional
+        Names of the components that are wanted; all, if left out.
+    **options
+        Those of ``errmap simulate``: ``days``, ``cycles``, ``seed``, ``noise``,
+        ``dead``, ``drifting``, ``truth``, ...
+
+    Returns
+    -------
+    dict
+        A frame per component, by the name of its file.
+
+    Examples
+    --------
+    >>> import errmap
+    >>> machine = errmap.simulate(days=1, cycles=2, components=["x_displacement_up"])
+    >>> "error_mm" in machine["x_displacement_up"]
+    True
+    """
+    words = ["simulate", machine, "--quiet", *words_of(options)]
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = os.fspath(out) if out is not None else scratch
+        Files().run(*words, f"--output={folder}")
+        names = sorted(name[:-4] for name in os.listdir(folder)
+                       if name.endswith(".csv"))
+        if components is not None:
+            unknown = set(components) - set(names)
+            if unknown:
+                raise ValueError(f"no component '{sorted(unknown)[0]}'; there "
+                                 f"are {', '.join(names)}")
+            names = list(components)
+        return {name: read_csv(os.path.join(folder, name + ".csv"))
+                for name in names}

@@ -1,0 +1,267 @@
+"""Maps that were fitted: the model file, and what it can do."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, Mapping
+
+from errmap import _core
+from errmap._frames import Files, Measurements, frame_of, warn, words_of
+
+
+class MapFile:
+    """A fitted map: the text of its model file, and what can be done with it.
+
+    Two maps are equal where their texts are; a pickle is that text.
+
+    Parameters
+    ----------
+    text : str
+        What a model file holds.
+
+    Raises
+    ------
+    ValueError
+        Where it is no model file.
+    """
+
+    _FILE = "map.json"
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        _core.require_map(text)
+        self._document = json.loads(text)
+
+    def _files(self) -> Files:
+        files = Files()
+        files.text(self._FILE, self.text)
+        return files
+
+    def __reduce__(self) -> Any:
+        return MapFile, (self.text,)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, MapFile) and other.text == self.text
+
+    def __hash__(self) -> int:
+        return hash(self.text)
+
+    def __repr__(self) -> str:
+        return f"<errmap.MapFile {self.name}: {', '.join(self.inputs)} -> {self.target}>"
+
+    @property
+    def name(self) -> str:
+        """The model's SPEC, such as ``"poly:eq8"``."""
+        return self._document["name"]
+
+    @property
+    def inputs(self) -> list[str]:
+        """Names of the columns that the map reads."""
+        return [column["name"] for column in self._document["inputs"]]
+
+    @property
+    def target(self) -> str:
+        """Name of the error that it predicts."""
+        return self._document["target"]["name"]
+
+    @property
+    def unit(self) -> str:
+        """Unit of the predicted error."""
+        return self._document["target"]["unit"]
+
+    def predictions(self, frame: Measurements, *,
+                    after: Measurements | None = None,
+                    probes: Measurements | None = None,
+                    **options: Any) -> Any:
+        """Predict every row, with intervals and with what the row is unlike in.
+
+        Parameters
+        ----------
+        frame : measurements
+            The inputs; columns in another unit are converted.
+        after : measurements, optional
+            The rows before these, through which the map's memory runs.
+        probes : measurements, optional
+            Measurements of the same session, by which the map is moved.
+        **options
+            ``time`` and ``session``: names of columns.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The columns of ``errmap predict``: ``predicted``, ``lower_90``,
+            ``upper_90``, ``lower_95``, ``upper_95`` (target's unit), ``inside``
+            (1 or 0), ``why`` and ``offender``.
+        """
+        columns = self._predict(frame, after, probes, options)
+        for name in ("why", "offender"):
+            if not isinstance(columns[name], list):
+                columns[name] = [""] * len(memoryview(columns[name]))
+        return frame_of(columns)
+
+    def _predict(self, frame: Measurements, after: Measurements | None = None,
+                 probes: Measurements | None = None,
+                 options: Mapping[str, Any] = {}) -> dict[str, Any]:
+        files = self._files()
+        words = [files.data(frame), *words_of(options)]
+        for name, more in (("after", after), ("probes", probes)):
+            if more is not None:
+                words.append(f"--{name}={files.data(more, None, name)}")
+        _, printed, messages = files.run(
+            "predict", self._FILE, *words, accept=(0, 4))
+        warn(messages)
+        return _core.Table.of_csv(printed, "predictions").columns()
+
+    def predict(self, frame: Measurements, **options: Any) -> Any:
+        """Predicted error of every row, in the target's unit.
+
+        The control must apply minus that. See :meth:`predictions`.
+
+        Returns
+        -------
+        numpy.ndarray
+            (rows) float64.
+        """
+        import numpy
+
+        return numpy.asarray(self._predict(frame, options=options)["predicted"])
+
+    def interval(self, frame: Measurements, coverage: int = 90,
+                 **options: Any) -> Any:
+        """Where the error lies with a probability, in the target's unit.
+
+        Parameters
+        ----------
+        frame : measurements
+        coverage : {90, 95}
+            In per cent.
+
+        Returns
+        -------
+        numpy.ndarray
+            (rows x 2): lower and upper; NaN where the map promises none.
+        """
+        import numpy
+
+        if coverage not in (90, 95):
+            raise ValueError(f"coverage must be 90 or 95, found {coverage}")
+        columns = self._predict(frame, options=options)
+        return numpy.column_stack([columns[f"lower_{coverage}"],
+                                   columns[f"upper_{coverage}"]])
+
+    def inside(self, frame: Measurements, **options: Any) -> Any:
+        """Whether each row is like those of training.
+
+        Returns
+        -------
+        numpy.ndarray
+            (rows) bool.
+        """
+        import numpy
+
+        columns = self._predict(frame, options=options)
+        return numpy.asarray(columns["inside"]) == 1.0
+
+    def check(self, probes: Measurements, *, after: Measurements | None = None,
+              **options: Any) -> dict[str, Any]:
+        """Tell from a few probes whether the map holds in this session.
+
+        Parameters
+        ----------
+        probes : measurements
+            A few measurements of one session: inputs and target.
+        after : measurements, optional
+            The readings before the first probe.
+        **options
+            Those of ``errmap check``: ``missing``, ``faults``, ``time``,
+            ``session``.
+
+        Returns
+        -------
+        dict
+            ``"status"``, ``"off_probability"``, ``"remedy"`` and more.
+        """
+        return self._judged("check", probes, after, options)
+
+    def evaluate(self, frame: Measurements, *,
+                 after: Measurements | None = None,
+                 **options: Any) -> dict[str, Any]:
+        """Judge the map on measurements that it may not know.
+
+        Returns
+        -------
+        dict
+            The document of ``errmap evaluate --format json``.
+        """
+        return self._judged("evaluate", frame, after, options)
+
+    def _judged(self, command: str, frame: Measurements,
+                after: Measurements | None,
+                options: Mapping[str, Any]) -> dict[str, Any]:
+        files = self._files()
+        words = [files.data(frame), "--format=json", *words_of(options)]
+        if after is not None:
+            words.append(f"--after={files.data(after, None, 'after')}")
+        accept = (0, 4, 5) if command == "check" else (0,)
+        _, printed, messages = files.run(command, self._FILE, *words,
+                                         accept=accept)
+        if not printed:
+            raise ValueError(messages[-1])
+        warn(messages)
+        return json.loads(printed)
+
+    def export(self, folder: str | os.PathLike[str], *languages: str,
+               **options: Any) -> list[str]:
+        """Write the map as a program that a controller runs.
+
+        Parameters
+        ----------
+        folder : path
+            Where the files go.
+        *languages : {"c", "st", "python", "hal", "table"}
+        **options
+            Those of ``errmap export``: ``name``, ``float``, ``units``,
+            ``joint``, ``at``, ``force``, ...
+
+        Returns
+        -------
+        list of str
+            What errmap says of the files.
+        """
+        flags = words_of({language: True for language in languages})
+        _, _, messages = self._files().run(
+            "export", self._FILE, *flags, *words_of(options),
+            f"--output={os.fspath(folder)}")
+        return messages
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the model file."""
+        with open(path, "w", encoding="utf-8", newline="") as file:
+            file.write(self.text)
+
+
+def loads(text: str) -> MapFile:
+    """The map of a model file's text."""
+    return MapFile(text)
+
+
+def load(path: str | os.PathLike[str]) -> MapFile:
+    """Read a map from its model file.
+
+    Parameters
+    ----------
+    path : path
+        What ``errmap fit`` or ``errmap compare --out`` wrote.
+
+    Returns
+    -------
+    MapFile
+
+    Raises
+    ------
+    ValueError
+        Where it is no model file; OSError where it cannot be read.
+    """
+    with open(path, encoding="utf-8", newline="") as file:
+        return MapFile(file.read())

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <pybind11/pybind11.h>
+
+#include "cli/python/tables.h"
+#include "cli/shell/host.h"
+
+namespace errmap::python {
+
+/// What commands read in place of files: name by name.
+struct Inputs {
+  std::map<std::string, Table> tables;
+  std::map<std::string, std::string> texts;
+};
+
+/// Runs `work` in a thread of its own, with `inputs` as files and `host` for
+/// streams, and without Python's lock; meanwhile Python's signals are looked at
+/// and `each_moment` (may be empty) is called with the lock. A signal sets
+/// `host->stop`. Throws what `work` throws. Returns whether a signal came,
+/// whose Python error is then set.
+bool RunHostedWork(const Inputs& inputs,
+                   cli::Host* host,
+                   std::atomic<bool>* stop,
+                   const std::function<void()>& work,
+                   const std::function<void()>& each_moment);
+
+void DefineCommands(py::module_* module);
+
+}  // namespace errmap::python

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <Eigen/Core>
+#include <pybind11/pybind11.h>
+
+#include "data/csv.h"
+
+namespace errmap::python {
+
+namespace py = pybind11;
+
+/// A Python object that any thread may let go of.
+std::shared_ptr<py::object> Kept(py::object object);
+
+/// Numbers that Python reads where they lie, by the buffer protocol.
+struct Numbers {
+  Eigen::MatrixXd values;
+  bool is_column = true;
+};
+
+/// The numbers of an object that shows its memory (float64, one dimension).
+/// Throws py::value_error where it does not.
+Eigen::VectorXd ToVector(const py::object& object);
+
+/// A table that is filled column by column.
+class Table {
+ public:
+  Table(const std::string& name, std::size_t num_rows);
+
+  /// A column of numbers: float64 is read where it lies, whatever its strides.
+  void AddNumbers(const std::string& column, const py::buffer& numbers);
+  /// A column of which each cell is a number, a text or None.
+  void AddCells(const std::string& column, const py::list& cells);
+  /// Text of a CSV file with all its columns.
+  static Table OfCsv(const std::string& text, const std::string& name);
+
+  /// Each column: Numbers, or a list of texts where a cell is no number (empty
+  /// ones of a column of numbers are NaN).
+  py::dict Columns() const;
+  const std::shared_ptr<data::CsvTable>& table() const { return table_; }
+
+ private:
+  data::CsvColumn* NewColumn(const std::string& name, std::size_t rows);
+
+  std::shared_ptr<data::CsvTable> table_;
+};
+
+void DefineTables(py::module_* module);
+
+}  // namespace errmap::python
