@@ -83,6 +83,8 @@ class ColumnValues {
     return true;
   }
 
+  operator std::vector<double>() const { return {begin(), end()}; }
+
   /// To be written to: what is borrowed is copied first.
   std::vector<double>& Own() {
     if (is_borrowed()) *this = std::vector<double>(begin(), end());

@@ -196,7 +196,7 @@ std::string Fit(const Table& table,
                                               .stop = &stop,
                                               .threads = cli::JobsOf(jobs),
                                               .indifference = indifference});
-    models::AddApplicability(dataset, &fitted);
+    models::AddExperience(dataset, &fitted);
     if (interval && !stop.load()) {
       models::AddPromise(dataset,
                          std::move(recipe),

@@ -55,19 +55,19 @@ pin in bit machine_on = 1 "For external offsets: on and homed";
 pin out float offset "-error, {2}";
 pin out bit valid "The last step had all its readings, and they were believed";
 pin out bit outside "A reading is outside of its trained range";
-pin out u32 status "Bits; the source says which";
+pin out u32 status_ "Bits; the source says which";
 pin out u32 steps "Steps made since it was loaded, missing readings or not";
 pin out s32 counts "offset / counts-scale while machine-on, else 0";
 pin out bit counts_enable "machine-on, a little later";
 param rw float max_offset = {4} "Largest offset, {2}";
-param rw float max_rate = {5} "Largest change, {2}/s";
+param rw float max_rate_ = {5} "Largest change, {2}/s";
 param rw float counts_scale = {6} "One count, {2}";
 function _ fp;
 ;;
 )";
 
 constexpr const char* kBody = R"(
-static {0}_state map_state;
+static {0}_state errmap_kept;
 static double silent;       /* s since the last edge of step */
 static int begun, was_step, was_zero, periods_on, of_reading;
 static unsigned made;
@@ -76,29 +76,29 @@ FUNCTION(_) {{
   double x[{2}];
   double error = 0.0;
   int of_moving;
-{3}  if (!begun) {0}_init(&map_state);
+{3}  if (!begun) {0}_init(&errmap_kept);
   begun = 1;
-  map_state.max_error = fmax(max_offset, 0.0) / {1};
-  map_state.max_rate = fmax(max_rate, 0.0) / {1};
-  if (zero && !was_zero) {0}_zero(&map_state);
+  errmap_kept.max_error = fmax(max_offset, 0.0) / {1};
+  errmap_kept.max_rate = fmax(max_rate_, 0.0) / {1};
+  if (zero && !was_zero) {0}_zero(&errmap_kept);
   was_zero = zero;
   silent += fperiod;
   if (step_s > 0.0 && !(step && !was_step)) {{
     /* Who gives the edges has stopped: no reading is believed. */
     if (made > 0 && silent > 3.0 * step_s) {{
       x[0] = NAN;
-      of_reading = {0}_read(&map_state, silent, x);
+      of_reading = {0}_read(&errmap_kept, silent, x);
       silent = 0.0;
     }}
   }} else {{
-    of_reading = {0}_read(&map_state, step_s > 0.0 ? step_s : fperiod, x);
+    of_reading = {0}_read(&errmap_kept, step_s > 0.0 ? step_s : fperiod, x);
     silent = 0.0;
     ++made;
   }}
   was_step = step;
-  of_moving = {0}_move(&map_state, fperiod, &error);
+  of_moving = {0}_move(&errmap_kept, fperiod, &error);
   steps = made;
-  status = (unsigned)(of_reading | of_moving);
+  status_ = (unsigned)(of_reading | of_moving);
   valid = made > 0 && (of_reading & {0}_NOT_TAKEN) == 0;
   outside = (of_reading & {0}_OUTSIDE) != 0;
   offset = -{1} * error;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -28,8 +29,8 @@ inline TurningCentre ReadTurningCentre() {
     data.error.conservativeResize(done + rows);
     data.inputs.bottomRows(rows).setZero();
     for (std::size_t j = 0; j < table.columns.size(); ++j) {
-      const Eigen::Map<const Eigen::VectorXd> values(
-          table.columns[j].values.data(), rows);
+      const std::vector<double> column = table.columns[j].values;
+      const Eigen::Map<const Eigen::VectorXd> values(column.data(), rows);
       if (j + 1 == table.columns.size()) {
         data.error.tail(rows) = values;
       } else {

@@ -74,7 +74,9 @@ inline void ReadLargeCase(GoldenCase* golden) {
   }
   for (Eigen::Index i = 0; i < golden->shape.inputs; ++i) {
     golden->inputs.col(i) = Eigen::Map<const Eigen::VectorXd>(
-        input_columns[static_cast<std::size_t>(i)]->values.data(), rows);
+        std::vector<double>(input_columns[static_cast<std::size_t>(i)]->values)
+            .data(),
+        rows);
   }
   if (golden->json.contains("input_min")) {
     // Scaled to 0..1 and written with nine digits, which the run then read.
@@ -94,8 +96,8 @@ inline void ReadLargeCase(GoldenCase* golden) {
   const auto& scaling = golden->json["target_scaling"];
   const double slope = scaling["slope"];
   const double highest = scaling["tmax"];
-  const Eigen::VectorXd targets =
-      Eigen::Map<const Eigen::VectorXd>(target->values.data(), rows);
+  const Eigen::VectorXd targets = Eigen::Map<const Eigen::VectorXd>(
+      std::vector<double>(target->values).data(), rows);
   golden->scaled_targets = (targets.array() - highest) * slope + 0.99;
   const auto weights = data::ReadCsv(
       GoldenPath(golden->json["weights_init"].get<std::string>()));

@@ -18,7 +18,8 @@ inline Eigen::VectorXd ReadCsvColumn(const std::string& path,
   const data::CsvTable table = data::ReadCsv(path);
   const auto index = table.Find(column);
   if (index < 0) throw std::runtime_error(path + " has no " + column);
-  const auto& values = table.columns[static_cast<std::size_t>(index)].values;
+  const std::vector<double> values =
+      table.columns[static_cast<std::size_t>(index)].values;
   return Eigen::Map<const Eigen::VectorXd>(
       values.data(), static_cast<Eigen::Index>(values.size()));
 }

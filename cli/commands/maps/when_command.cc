@@ -181,9 +181,8 @@ void AddWhenCommand(CLI::App* app, Run* run) {
                    "(default for lengths: 0.5 um)")
       ->type_name("X");
   AddMapLogArguments(command, &arguments->log);
-  command->get_option("--after")
-      ->description("Readings from the last probe to now")
-      ->type_name("LOG.csv");
+  command->get_option("--after")->description(
+      "Readings from the last probe to now");
   AddFormatOption(command, &arguments->format);
   command->footer(
       "Probes are played through on the map's held-out sessions, as compare "

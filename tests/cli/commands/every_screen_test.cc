@@ -150,6 +150,13 @@ TEST_F(EveryScreen, FitsEightyColumns) {
         "2",
         "--cycles",
         "2"});
+  Show({"fit",
+        "demo/x_displacement_down.csv",
+        "--model",
+        "poly:eq8",
+        "-o",
+        "demo.json"});
+  Show({"when", "demo.json", "--goal", "5um"});
   Show({"certify", "nist"});
   Show({"certify", "agreement"});
   ShowMachine();

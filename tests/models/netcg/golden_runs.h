@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -44,7 +45,10 @@ inline data::PatternTable StackedPatterns(const std::string& csv) {
     const auto found = table.Find(name);
     if (found < 0) return Eigen::VectorXd::Zero(rows);
     return Eigen::Map<const Eigen::VectorXd>(
-        table.columns[static_cast<std::size_t>(found)].values.data(), rows);
+        std::vector<double>(
+            table.columns[static_cast<std::size_t>(found)].values)
+            .data(),
+        rows);
   };
   patterns.input_values.col(0) = column("position_mm");
   patterns.target_values = column("error_mm");
