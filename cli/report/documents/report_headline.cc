@@ -86,6 +86,21 @@ std::vector<std::string> TextsOf(
   return texts;
 }
 
+// Who reads the figure alone must not take it for one of another day.
+bool BoundsAnotherDay(models::RemarkKind kind) {
+  switch (kind) {
+    case models::RemarkKind::kInterrupted:
+    case models::RemarkKind::kOneRunOnly:
+    case models::RemarkKind::kGroupFitsFailed:
+    case models::RemarkKind::kNoGroupsHeldOut:
+    case models::RemarkKind::kNoGroups:
+    case models::RemarkKind::kFewSessions:
+      return true;
+    default:
+      return false;
+  }
+}
+
 std::string FallbackSentence(const ReportView& view, const Headline& line) {
   if (view.recommended.empty()) {
     return "No map can be recommended: no model was fitted and judged.";
@@ -120,14 +135,16 @@ Headline HeadlineOf(const ReportView& view) {
     line.cost = CostWords(advice);
     line.sensors = SensorWords(SensorsByNeed(advice));
     line.sentence = advice.sentence;
-    // With the recommendation three sentences: all others stand with the
-    // reasons.
+    // With the recommendation three sentences, and what bounds a figure that is
+    // of no other day: all others stand with the reasons.
     constexpr std::size_t kMostTold = 2;
     line.told = view.component->data.doubts;
     for (const models::RemarkRecord* remark : ToldFirst(advice)) {
       // The goal has a line of its own.
       if (remark->kind == models::RemarkKind::kGoal) continue;
-      if (line.told.size() == kMostTold) break;
+      if (line.told.size() >= kMostTold && !BoundsAnotherDay(remark->kind)) {
+        continue;
+      }
       line.told.push_back(remark->text);
       // What it costs names them already, where they are few.
       if (remark->kind == models::RemarkKind::kCost &&
