@@ -51,7 +51,7 @@ def read_by_object(build):
                                  if path.is_file() else 0)
             lines[library_of(str(path))] += lengths[path]
     return {name: lines for name, lines in objects.items()
-            if not name.startswith("tests/")}
+            if not name.startswith(("tests/", "cli/python/"))}
 
 
 def excesses(objects, budget, most):

@@ -336,10 +336,10 @@ fi
 
 system 0 ""
 expect 2 tests
-output_has "usage: sh quickstart.sh [test]"
+output_has "usage: sh quickstart.sh [test|python]"
 expect 2 test test
 expect 0 --help
-output_has "usage: sh quickstart.sh [test]"
+output_has "usage: sh quickstart.sh [test|python]"
 calls_lack cmake
 
 if [ "$failures" -ne 0 ]; then

@@ -342,11 +342,12 @@ void AddLearnCommand(CLI::App* app, Run* run) {
                                                      models::kLearntBy.end())))
       ->type_name(fmt::format("{}", fmt::join(models::kLearntBy, "|")));
   command
-      ->add_option("--models",
-                   arguments->model_list,
-                   "Models, separated by commas, whose curves are drawn")
-      ->type_name("LIST")
-      ->capture_default_str();
+      ->add_option(
+          "--models",
+          arguments->model_list,
+          "Models, separated by commas, whose curves are drawn (default: "
+          "baselines, a plane, ridge and blend)")
+      ->type_name("LIST");
   command
       ->add_option("--next",
                    arguments->candidates,

@@ -35,7 +35,7 @@ def _cell(cell: Any) -> Union[float, str, None]:
         try:
             return float(cell)
         except OverflowError:
-            return math.copysign(math.inf, int(cell))
+            return math.inf if cell > 0 else -math.inf
     if isinstance(cell, bytes):
         return cell.decode("utf-8", "replace")
     return str(cell)
