@@ -370,15 +370,15 @@ TEST_F(CliExport, LinksTwoMapsIntoOneProgramWithoutAHeap) {
   FitMap(Simulated("x_displacement_up.csv"), "poly:ridge:view=zero", "b.json");
   Export("a.json", {"--c"});
   Export("b.json", {"--c", "--name", "other"});
-  Write(
-      "both.c",
-      "#include \"a.h\"\n#include \"other.h\"\n"
-      "int main(void) {\n"
-      "  const double x[other_INPUTS] = {0};\n"
-      "  double error;\n  a_state a;\n  other_state other;\n"
-      "  a_init(&a);\n  other_init(&other);\n"
-      "  if (a_step(&a, 1.0, x, &error) & a_INVALID) return 1;\n"
-      "  return (other_step(&other, 1.0, x, &error) & other_NOT_TAKEN) == 0;\n}\n");
+  Write("both.c",
+        "#include \"a.h\"\n#include \"other.h\"\n"
+        "int main(void) {\n"
+        "  const double x[other_INPUTS] = {0};\n"
+        "  double error;\n  a_state a;\n  other_state other;\n"
+        "  a_init(&a);\n  other_init(&other);\n"
+        "  if (a_step(&a, 1.0, x, &error) & a_INVALID) return 1;\n"
+        "  return (other_step(&other, 1.0, x, &error) & other_NOT_TAKEN) == "
+        "0;\n}\n");
   Good(fmt::format("gcc {} both.c a.c other.c -o both -lm && ./both", kStrict));
   const std::string needed =
       Good(fmt::format("gcc {} -c a.c other.c && nm -u a.o other.o", kStrict))
