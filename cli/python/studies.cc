@@ -127,12 +127,12 @@ Study Compare(const Words& words,
   Study study;
   Standing standing;
   const auto own = [&] {
-    models::OwnRecipes own{.recipes = {}, .beside_defaults = beside_defaults};
+    models::OwnRecipes given{.recipes = {}, .beside_defaults = beside_defaults};
     const py::gil_scoped_acquire gil;
     for (const auto& [name, fit] : foreign) {
-      own.recipes.push_back(ForeignRecipe(name, fit));
+      given.recipes.push_back(ForeignRecipe(name, fit));
     }
-    return own;
+    return given;
   };
   const auto work = [&] {
     const cli::CompareArguments arguments = cli::ReadCompareArguments(words);

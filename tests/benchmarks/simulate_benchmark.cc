@@ -21,7 +21,7 @@ namespace {
 double RmseOfReportDay(const Simulation& simulation) {
   const CsvTable table =
       ReadCsv(tests::SourceDir() + "/data/sets/nistir5367_xdisp_down.csv");
-  const auto column = [&](const char* name) -> const std::vector<double>& {
+  const auto column = [&](const char* name) -> const ColumnValues& {
     return table.columns[static_cast<std::size_t>(table.Find(name))].values;
   };
   double sum_of_squares = 0.0;

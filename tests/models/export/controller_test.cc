@@ -109,7 +109,9 @@ TEST(Controller, NoticesASensorThatStandsStillWhileTheOthersMove) {
   int status = 0;
   for (int i = 0; i <= 8; ++i) {
     status = run.Step(60.0, Vector4d(50.0, 11.0, 11.0 + i, 11.0 + i), &error);
-    if (i < 5) EXPECT_EQ(status & kMapFrozen, 0) << i;
+    if (i < 5) {
+      EXPECT_EQ(status & kMapFrozen, 0) << i;
+    }
   }
   EXPECT_NE(status & kMapFrozen, 0);
   EXPECT_EQ(

@@ -119,9 +119,9 @@ TEST(PlanLearning, TestsWholeUnitsThatTheFoldHasNotSeen) {
 }
 
 TEST(PlanLearning, NeverTrainsOnTheSameRowsTwiceWhateverTheRepeats) {
-  for (Index units = 4; units <= 9; ++units) {
+  for (int units = 4; units <= 9; ++units) {
     const data::Dataset days = SimulatedDays(1, units, 4);
-    for (const Index repeats : {1, 3, 40}) {
+    for (const int repeats : {1, 3, 40}) {
       for (const Holdout& holdout :
            PlanLearning(days, LearnBy::kSessions, repeats, 7).holdouts) {
         std::set<std::pair<std::vector<Index>, std::vector<Index>>> fits;
