@@ -385,9 +385,9 @@ std::string FlagOf(std::string_view member, std::string_view value) {
 
 int RunApplication(int argc, char** argv) {
   data::NameArgumentsBy(FlagOf);
-  models::NameLibrary("CLI11", CLI11_VERSION);
   HoldStandardStreams();
   std::set_terminate(EndAtOnce);
+  models::NameLibrary("CLI11", CLI11_VERSION);
   if (!HasRoomForProducts()) {
     Fail(kOtherFailure,
          "not enough memory: the address space is limited (ulimit -v) and less "
