@@ -43,7 +43,9 @@ std::size_t WidthOf(std::string_view text) {
          static_cast<std::size_t>(std::ranges::count_if(text, Continues));
 }
 
-std::vector<std::string> WrapLines(std::string_view text, std::size_t width) {
+std::vector<std::string> WrapLines(std::string_view text,
+                                   std::size_t width,
+                                   LongWords long_words) {
   std::vector<std::string> lines;
   std::string line;
   while (!text.empty()) {
@@ -61,7 +63,7 @@ std::vector<std::string> WrapLines(std::string_view text, std::size_t width) {
       lines.push_back(std::move(line));
       line.clear();
     }
-    while (WidthOf(word) > width) {
+    while (long_words == LongWords::kBroken && WidthOf(word) > width) {
       const std::size_t bytes = BytesOf(word, width);
       lines.emplace_back(word.substr(0, bytes));
       word.remove_prefix(bytes);

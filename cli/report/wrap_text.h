@@ -7,9 +7,14 @@
 
 namespace errmap::report {
 
-/// `text` in lines of at most `width` columns, broken at blanks, and where a
-/// word alone is longer.
-std::vector<std::string> WrapLines(std::string_view text, std::size_t width);
+/// Words that are longer than a line: broken anywhere, or left whole, as paths
+/// and commands that are to be copied want it.
+enum class LongWords { kBroken, kWhole };
+
+/// `text` in lines of at most `width` columns, broken at blanks.
+std::vector<std::string> WrapLines(std::string_view text,
+                                   std::size_t width,
+                                   LongWords long_words = LongWords::kBroken);
 
 /// The same with line feeds between them.
 std::string WrapText(std::string_view text, std::size_t width);

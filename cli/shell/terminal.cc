@@ -60,8 +60,8 @@ std::string FitLines(std::string_view text, std::size_t width) {
     }
     fitted.append(line.substr(0, indent));
     std::string begin;
-    for (const std::string& part :
-         report::WrapLines(line.substr(indent), width - indent)) {
+    for (const std::string& part : report::WrapLines(
+             line.substr(indent), width - indent, report::LongWords::kWhole)) {
       fitted.append(begin).append(part).append("\n");
       begin.assign(indent, ' ');
     }
@@ -97,7 +97,9 @@ std::string MessageLines(std::string_view line) {
   const std::size_t width = ColumnsOf(STDERR_FILENO);
   std::string text;
   for (const std::string& part :
-       report::WrapLines(line, width - std::string_view(kIndent).size())) {
+       report::WrapLines(line,
+                         width - std::string_view(kIndent).size(),
+                         report::LongWords::kWhole)) {
     text += (text.empty() ? "" : kIndent) + part + "\n";
   }
   return text;

@@ -14,6 +14,8 @@ TEST(WrapLines, BreaksAtBlanksAndLongWordsAnywhere) {
   EXPECT_THAT(WrapLines("one two  three", 7), ElementsAre("one two", "three"));
   EXPECT_THAT(WrapLines("a abcdefgh b", 4),
               ElementsAre("a", "abcd", "efgh", "b"));
+  EXPECT_THAT(WrapLines("a abcdefgh b", 4, LongWords::kWhole),
+              ElementsAre("a", "abcdefgh", "b"));
   EXPECT_THAT(WrapLines("", 7), ElementsAre());
 }
 
