@@ -62,8 +62,7 @@ struct HeldOutErrors {
   std::string position;  // column; "" where there is none
   /// The input whose changes tell most of the errors': column; "" for none.
   std::string temperature = {};
-  bool of_sessions = false;  // whether the units are whole sessions
-  double rmse = 0.0;         // of all units together: the error promised
+  double rmse = 0.0;  // of all units together: the error promised
   std::vector<Unit> units;
 };
 

@@ -182,8 +182,7 @@ ERRMAP_RECORD(Applicability,
               relation_limit)
 ERRMAP_RECORD(
     HeldOutErrors::Unit, label, rmse, elapsed, position, residuals, temperature)
-ERRMAP_RECORD(
-    HeldOutErrors, time_unit, position, temperature, of_sessions, rmse, units)
+ERRMAP_RECORD(HeldOutErrors, time_unit, position, temperature, rmse, units)
 ERRMAP_RECORD(LearntRows::Filter, alike, bits)
 ERRMAP_RECORD(LearntRows, every, measured, readings)
 ERRMAP_RECORD(FittedModel,

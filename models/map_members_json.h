@@ -106,8 +106,6 @@ void ReadMembers(const ModelJsonNode& node,
     *value = node.Number();
   } else if constexpr (std::is_enum_v<T>) {
     *value = ReadWord<T>(node);
-  } else if constexpr (std::is_same_v<T, bool>) {
-    *value = node.Flag();
   } else if constexpr (std::is_integral_v<T>) {
     const Eigen::Index count = node.Count();
     if (std::cmp_greater(count, std::numeric_limits<T>::max())) {

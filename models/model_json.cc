@@ -85,11 +85,6 @@ std::vector<Node> Node::Elements() const {
   return elements;
 }
 
-bool Node::Flag() const {
-  if (!value_.is_boolean()) Refuse("must be true or false");
-  return value_.get<bool>();
-}
-
 std::string Node::Text() const {
   if (!value_.is_string()) Refuse("must be text");
   return value_.get<std::string>();

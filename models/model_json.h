@@ -53,7 +53,6 @@ class ModelJsonNode {
   std::optional<ModelJsonNode> Find(const std::string& key) const;
   std::vector<ModelJsonNode> Elements() const;
 
-  bool Flag() const;
   std::string Text() const;
   /// Finite.
   double Number() const;

@@ -187,13 +187,11 @@ Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
 
 HeldOutErrors ReadHeldOut(const Node& node) {
   HeldOutErrors errors;
-  // Files of before know of neither temperature nor sessions.
-  ReadMembers(node, &errors, {"temperature", "of_sessions", "units"});
+  // Files of before know of no temperature.
+  ReadMembers(node, &errors, {"temperature", "units"});
   if (const auto column = node.Find("temperature")) {
     errors.temperature = column->Text();
   }
-  const auto whole = node.Find("whole");
-  errors.of_sessions = whole && whole->Text() == kWholeSessions;
   for (const Node& element : node.At("units").Elements()) {
     HeldOutErrors::Unit& unit = errors.units.emplace_back();
     ReadMembers(element, &unit, {"temperature"});

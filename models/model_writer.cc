@@ -61,13 +61,6 @@ Json ToJson(const Applicability& trained,
   return json;
 }
 
-Json ToJson(const HeldOutErrors& errors) {
-  Json json = MembersToJson(errors, Rounded);
-  json.erase("of_sessions");
-  if (errors.of_sessions) json["whole"] = kWholeSessions;
-  return json;
-}
-
 Json ToJson(const LearntRows& learnt) {
   const auto filter = [](const std::optional<LearntRows::Filter>& one) {
     return one ? MembersToJson(*one) : Json();
@@ -115,8 +108,9 @@ std::string ModelToJson(const FittedModel& fitted,
   document["applicability"] = fitted.applicability != nullptr
                                   ? ToJson(*fitted.applicability, fitted.inputs)
                                   : Json();
-  document["held_out"] =
-      fitted.held_out != nullptr ? ToJson(*fitted.held_out) : Json();
+  document["held_out"] = fitted.held_out != nullptr
+                             ? MembersToJson(*fitted.held_out, Rounded)
+                             : Json();
   document["learnt"] =
       fitted.learnt != nullptr ? ToJson(*fitted.learnt) : Json();
   document["provenance"] = Json::object();

@@ -102,7 +102,6 @@ std::optional<HeldOutErrors> HeldOutErrorsOf(const data::Dataset& dataset,
   const Index position = FindPosition(source, "");
   HeldOutErrors errors;
   errors.rmse = stats::RootMeanSquare(residuals);
-  errors.of_sessions = units.are_sessions;
   if (source.log() != nullptr) errors.time_unit = source.log()->time_unit;
   if (position >= 0) {
     errors.position = source.inputs()[static_cast<std::size_t>(position)].name;
@@ -128,7 +127,7 @@ std::optional<HeldOutErrors> HeldOutErrorsOf(const data::Dataset& dataset,
     }
     errors.units.push_back(std::move(unit));
   }
-  if (errors.of_sessions) AddTemperature(held, residuals, kept_of, &errors);
+  if (units.are_sessions) AddTemperature(held, residuals, kept_of, &errors);
   return errors;
 }
 

@@ -314,8 +314,11 @@ class BlendOrSimpler {
   // baseline beats, in the later sessions as well where these were foretold, is
   // no map at all. Folds lack sessions, so that a map of many columns looks
   // worse there than it is: a veto takes twice the error.
-  std::size_t Choose(std::size_t blend,
-                     const HoldoutComparison** vetoed_by) const {
+  struct Chosen {
+    std::size_t model = 0;
+    const HoldoutComparison* vetoed_by = nullptr;  // null: by none
+  };
+  Chosen Choose(std::size_t blend) const {
     const auto proven = BestWhere(decides_, [&](std::size_t model) {
       return is_map_(model) && model != blend &&
              decides_.units.separate_sessions && !IsVetoed(model) &&
@@ -324,8 +327,7 @@ class BlendOrSimpler {
     const std::size_t use = proven.value_or(blend);
     for (const HoldoutComparison* veto : vetoes_) {
       if (const auto simple = FarBetter(*veto, use)) {
-        *vetoed_by = veto;
-        return *simple;
+        return {.model = *simple, .vetoed_by = veto};
       }
     }
     const auto baseline = BestWhere(decides_, [&](std::size_t model) {
@@ -336,7 +338,7 @@ class BlendOrSimpler {
         (forward_ == nullptr || !forward_->PlaceOf(*baseline) ||
          !forward_->PlaceOf(use) ||
          TypicalRmse(*forward_, *baseline) < TypicalRmse(*forward_, use));
-    return beaten ? *baseline : use;
+    return {.model = beaten ? *baseline : use};
   }
 
  private:
@@ -503,15 +505,16 @@ std::optional<Recommendation> Recommend(
   } else if (blend) {
     advice.model = *blend;
     if (options.choose == Choose::kAuto) {
-      const HoldoutComparison* vetoed_by = nullptr;
-      advice.model = BlendOrSimpler(decides,
-                                    comparisons,
-                                    *strictest,
-                                    ForwardOverSessions(holdouts, comparisons),
-                                    study,
-                                    is_map)
-                         .Choose(*blend, &vetoed_by);
-      if (vetoed_by != nullptr) advice.fails_in = vetoed_by->holdout;
+      const auto chosen =
+          BlendOrSimpler(decides,
+                         comparisons,
+                         *strictest,
+                         ForwardOverSessions(holdouts, comparisons),
+                         study,
+                         is_map)
+              .Choose(*blend);
+      advice.model = chosen.model;
+      if (chosen.vetoed_by) advice.fails_in = chosen.vetoed_by->holdout;
     }
   }
   if (options.prefer == Prefer::kSmall) {
