@@ -55,9 +55,12 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     rooms["models/net"] = " models models/history "
     rooms["models/blend"] = " models models/history models/polynomial " \
                             "models/net "
+    rooms["models/file"] = " models models/history models/polynomial " \
+                           "models/net models/blend "
     rooms["models/study"] = " models models/history models/polynomial " \
                             "models/net models/blend "
-    rooms["models/study/journal"] = rooms["models/study"] "models/study "
+    rooms["models/study/journal"] = rooms["models/study"] "models/study " \
+                                    "models/file "
     rooms["models/study/judgement"] = " models models/study "
     rooms["models/study/rezero"] = " models models/study " \
                                    "models/study/judgement "
@@ -106,10 +109,6 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     knows_all["cli/application.cc"] = 1
     knows_all["models/file_recipe.cc"] = 1
     knows_all["models/fitted_model.cc"] = 1
-    knows_all["models/map_members.h"] = 1
-    knows_all["models/model_form_json.cc"] = 1
-    knows_all["models/model_reader.cc"] = 1
-    knows_all["models/model_writer.cc"] = 1
     knows_all["models/recipe_catalog.cc"] = 1
     knows_all["cli/report/report.cc"] = 1
   }

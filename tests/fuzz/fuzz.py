@@ -39,7 +39,7 @@ READERS = {
     "patterns": ("numbers", 4096, "data/formats/pattern_file data/formats/record_reader data/formats/fortran_format"),
     "holdout": ("spec", 128, "stats/holdout"),
     "spec": ("spec", 512, "models/model_spec models/recipe_catalog models/polynomial/formula"),
-    "model": ("json", 8192, "models/model_reader models/model_form_json models/model_json models/blend/form_to_model data/formats/nesting"),
+    "model": ("json", 8192, "models/file/model_reader models/file/model_form_json models/file/model_json models/blend/form_to_model data/formats/nesting"),
     "results": ("json", 8192, RECORDS),
     "journal": ("json", 8192, "models/study/journal/fit_record"),
     "study": ("toml", 4096, "cli/desk/toml"),

@@ -17,7 +17,7 @@
 #include "data/base64.h"
 #include "data/input_error.h"
 #include "models/blend/form_to_model.h"
-#include "models/map_members.h"
+#include "models/file/map_members.h"
 
 namespace errmap::models {
 

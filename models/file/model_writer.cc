@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "models/file/map_members_json.h"
+#include "models/file/model_json.h"
 #include "models/history/history.h"
 #include "models/map_experience.h"
-#include "models/map_members_json.h"
 #include "models/model_file.h"
-#include "models/model_json.h"
 #include "models/version.h"
 
 namespace errmap::models {

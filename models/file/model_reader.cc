@@ -9,12 +9,12 @@
 #include "data/formats/nesting.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "models/file/map_members_json.h"
+#include "models/file/model_json.h"
 #include "models/history/history.h"
 #include "models/history/history_state.h"
 #include "models/map_experience.h"
-#include "models/map_members_json.h"
 #include "models/model_file.h"
-#include "models/model_json.h"
 
 namespace errmap::models {
 

@@ -1,4 +1,4 @@
-#include "models/model_json.h"
+#include "models/file/model_json.h"
 
 #include <cmath>
 #include <cstddef>

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "models/blend/form_to_model.h"
-#include "models/map_members_json.h"
-#include "models/model_json.h"
+#include "models/file/map_members_json.h"
+#include "models/file/model_json.h"
 
 // Each kind of form in a model file: written, and read.
 

@@ -15,8 +15,8 @@
 #include <variant>
 #include <vector>
 
-#include "models/map_members.h"
-#include "models/model_json.h"
+#include "models/file/map_members.h"
+#include "models/file/model_json.h"
 
 namespace errmap::models {
 
