@@ -1,0 +1,48 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace errmap::data {
+
+/// Each distinct text of a column once: an open-addressing table of indices
+/// into CsvColumn::texts, without a second copy of them.
+class TextIndex {
+ public:
+  std::uint32_t IndexOf(std::string_view text,
+                        std::vector<std::string>* texts) {
+    if (2 * (texts->size() + 1) > slots_.size()) Grow(*texts);
+    std::uint32_t& slot = slots_[SlotOf(text, *texts)];
+    if (slot == 0) {
+      texts->emplace_back(text);
+      slot = static_cast<std::uint32_t>(texts->size());
+    }
+    return slot - 1;
+  }
+
+ private:
+  std::size_t SlotOf(std::string_view text,
+                     const std::vector<std::string>& texts) const {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t i = std::hash<std::string_view>{}(text)&mask;
+    while (slots_[i] != 0 && texts[slots_[i] - 1] != text) i = (i + 1) & mask;
+    return i;
+  }
+
+  void Grow(const std::vector<std::string>& texts) {
+    constexpr std::size_t kLeast = 16;
+    slots_.assign(std::max(kLeast, 2 * slots_.size()), 0);
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      slots_[SlotOf(texts[i], texts)] = static_cast<std::uint32_t>(i + 1);
+    }
+  }
+
+  std::vector<std::uint32_t> slots_;  // 1 + index, 0 where free; a power of two
+};
+
+}  // namespace errmap::data
