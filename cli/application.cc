@@ -92,7 +92,8 @@ std::string ProvenanceCommandLine(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string word = ShownWord(argv[i]);
     if (word == "--keep-paths" || word == "--quiet" || word == "--resume" ||
-        word == "--force" || word == "--all" || word == "--details") {
+        word == "--force" || word == "--all" || word == "--details" ||
+        word == "--no-cache") {
       continue;
     }
     if (word == "--jobs" || word == "--out" || word == "--format" ||

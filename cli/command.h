@@ -29,7 +29,8 @@ class UsageError : public std::runtime_error {
 /// One run of the program.
 struct Run {
   /// The command line less what changes no figure (--jobs, --out, --format,
-  /// --quiet, --resume, --force), quoted for a shell: for provenance.
+  /// --quiet, --resume, --no-cache, --force), quoted for a shell: for
+  /// provenance.
   std::string command_line;
   int status = kDone;
 };

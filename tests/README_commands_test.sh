@@ -101,7 +101,8 @@ for page in $pages; do
 done
 cp -R "$root/data/sets" "$work/data/"
 PATH=$build:$PATH
-export PATH
+XDG_CACHE_HOME=$scratch/cache
+export PATH XDG_CACHE_HOME
 
 # The two commands, each on a line of its own in a ```sh block.
 [ "$set" != developers ] || awk '/^```/ { inside = !inside && $0 ~ /^```sh[ \t]*$/; next } inside' \

@@ -42,7 +42,7 @@ def read_by_object(build):
     lengths = {}
     objects = {}
     for line in known.splitlines():
-        if found := re.match(r"(\S+\.o): #deps", line):
+        if found := re.match(r"(\S+): #deps", line):
             lines = objects.setdefault(found[1], collections.Counter())
         elif line.startswith("    "):
             path = (build / line.strip()).resolve()
@@ -51,7 +51,8 @@ def read_by_object(build):
                                  if path.is_file() else 0)
             lines[library_of(str(path))] += lengths[path]
     return {name: lines for name, lines in objects.items()
-            if not name.startswith(("tests/", "cli/python/"))}
+            if name.endswith(".o")  # else a precompiled header
+            and not name.startswith(("tests/", "cli/python/"))}
 
 
 def excesses(objects, budget, most):

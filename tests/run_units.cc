@@ -5,6 +5,7 @@
 // --unit=NAME runs those of NAME_test.cc alone; a NAME without a test fails.
 
 #include <cstdio>
+#include <cstdlib>
 #include <set>
 #include <string>
 
@@ -37,6 +38,7 @@ std::string FilterOf(const std::string& unit) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  setenv("XDG_CACHE_HOME", "/dev/null", 1);  // as CTest does
   testing::InitGoogleMock(&argc, argv);
   const std::string option = "--unit=";
   for (int i = 1; i < argc; ++i) {

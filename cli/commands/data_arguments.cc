@@ -20,6 +20,7 @@
 #include "data/shown_path.h"
 #include "models/model_spec.h"
 #include "models/recipe_catalog.h"
+#include "models/study/journal/fit_cache.h"
 #include "models/study/study_defaults.h"
 
 namespace errmap::cli {
@@ -236,6 +237,16 @@ void AddKeepPathsFlag(CLI::App* command) {
       "Write absolute paths into reports, maps and journals; without it, the "
       "files' names only");
   MarkSeldom(command, {"--keep-paths"});
+}
+
+void AddCacheFlag(CLI::App* command, std::string* cache) {
+  *cache = models::DefaultCacheFolder();
+  command->add_flag_callback(
+      "--no-cache",
+      [cache] { cache->clear(); },
+      "Make every fit anew\nElse those of the last runs on the same data are "
+      "taken from ~/.cache/errmap, which may be removed at any time");
+  MarkSeldom(command, {"--no-cache"});
 }
 
 void AddForceFlag(CLI::App* command, bool* force) {

@@ -104,6 +104,9 @@ std::function<void(const std::string&)> Sayer(bool quiet);
 /// --keep-paths, which the program looks for before any command does.
 void AddKeepPathsFlag(CLI::App* command);
 
+/// --no-cache: `cache` is models::DefaultCacheFolder() without it, else "".
+void AddCacheFlag(CLI::App* command, std::string* cache);
+
 /// --force, which lets a command replace files that errmap did not write.
 void AddForceFlag(CLI::App* command, bool* force);
 

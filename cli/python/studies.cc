@@ -149,7 +149,10 @@ Study Compare(const Words& words,
     for (const std::string& word : words) command += " " + word;
     study.run = desk::RunPlan(std::move(plan),
                               command,
-                              {.jobs = jobs, .stop = &stop, .progress = note});
+                              {.jobs = jobs,
+                               .stop = &stop,
+                               .cache = arguments.cache,
+                               .progress = note});
     study.record = desk::RecordOf(study.run, jobs);
   };
   const auto tell = [&] {

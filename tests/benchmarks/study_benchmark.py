@@ -23,6 +23,8 @@ import sys
 import tempfile
 import time
 
+os.environ["XDG_CACHE_HOME"] = "/dev/null"  # every fit is made
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 SHIPPED = os.path.join(HERE, "../../data/sets/nistir5367_xdisp_down.csv")
 SLOWER = 1.10

@@ -54,7 +54,7 @@ class Program:
         self.log = root / "log"
 
     def run(self, words, folder, fault=None):
-        environment = dict(os.environ)
+        environment = dict(os.environ, XDG_CACHE_HOME="/dev/null")
         self.log.unlink(missing_ok=True)
         if fault:
             environment["LD_PRELOAD"] = self.preloaded

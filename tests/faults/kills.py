@@ -17,6 +17,7 @@ Prints kills and where they fell; status 1 where something does not hold.
 """
 
 import json
+import os
 import pathlib
 import random
 import subprocess
@@ -32,7 +33,11 @@ MODELS = "mean,poly:eq8,net:scg:hidden=4:iterations=200"
 def run(words, folder, seconds=None):
     """Status, or None where it was killed after so many seconds."""
     process = subprocess.Popen(
-        words, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        words,
+        env={**os.environ, "XDG_CACHE_HOME": "/dev/null"},
+        cwd=folder,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
     )
     try:
         return process.wait(timeout=seconds)

@@ -38,6 +38,7 @@
 #include "models/promise/learning_record.h"
 #include "models/promise/next_states.h"
 #include "models/promise/sensor_curve.h"
+#include "models/study/journal/fit_cache.h"
 #include "models/study/journal/fit_journal_file.h"
 #include "models/study/journal/fit_label.h"
 #include "models/study/record/record_json.h"
@@ -61,6 +62,7 @@ struct LearnArguments {
   int jobs = 0;
   std::string out;
   bool resume = false;
+  std::string cache;  // folder of the last fits, or ""
   bool force = false;
   std::string format = "table";
 };
@@ -132,17 +134,18 @@ models::StudyResult RunLearning(
         progress.Show({.done = fit.done, .all = fit.all});
       }};
   const std::unique_ptr<models::JournalFile> file = OpenJournal(arguments);
-  if (file == nullptr) {
-    return models::RunStudy(dataset, plan.holdouts, recipes, options);
-  }
   const models::FitLabels labels(
       "learn", dataset, plan.holdouts, recipes, options);
+  const std::unique_ptr<models::JournalFile> kept =
+      models::OpenKeptFits(arguments.cache, labels);
   models::ComponentJournal journal(
-      file.get(), &labels, &dataset, &plan.holdouts);
+      {file.get(), kept.get()}, &labels, &dataset, &plan.holdouts);
   options.journal = &journal;
   models::StudyResult study =
       models::RunStudy(dataset, plan.holdouts, recipes, options);
-  SayUnless(arguments.data.quiet, file->WritingRemarks());
+  if (file != nullptr) {
+    SayUnless(arguments.data.quiet, file->WritingRemarks());
+  }
   return study;
 }
 
@@ -388,6 +391,7 @@ void AddLearnCommand(CLI::App* app, Run* run) {
                     "Go on with the fits of an earlier run in --out");
   AddForceFlag(command, &arguments->force);
   AddFormatOption(command, &arguments->format);
+  AddCacheFlag(command, &arguments->cache);
   MarkSeldom(command, {"--repeats", "--sensors", "--seed", "--resume"});
   command->footer(
       "Example: errmap learn days.csv --by sessions --goal 2um\nWhole units "

@@ -176,6 +176,7 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
                     arguments->resume,
                     "Go on with the run broken off in --out DIR\nFits finished "
                     "there are not repeated");
+  AddCacheFlag(command, &arguments->cache);
   AddKeepPathsFlag(command);
   AddForceFlag(command, &arguments->force);
   MarkSeldom(command,

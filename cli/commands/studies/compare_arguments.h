@@ -27,6 +27,7 @@ struct CompareArguments {
   std::string save_split;
   std::vector<desk::PredictionsFile> predictions;
   bool resume = false;
+  std::string cache;  // folder of the last fits, or ""
   bool force = false;
   std::string config;
   std::vector<std::string> changes;  // KEY=VALUE of --set

@@ -1,9 +1,10 @@
 #include "cli/desk/plan/study_run.h"
 
+#include <memory>
 #include <optional>
 #include <utility>
 
-#include "models/study/journal/fit_journal_file.h"
+#include "models/study/journal/fit_cache.h"
 
 namespace errmap::desk {
 
@@ -33,20 +34,22 @@ StudyRun RunPlan(StudyPlan plan,
         }};
     const models::ComponentStudy& comparison = component.comparison;
     std::optional<models::FitLabels> labels;
+    std::unique_ptr<models::JournalFile> kept;
     std::optional<models::ComponentJournal> journal;
-    if (options.journal != nullptr) {
+    if (options.journal != nullptr || !options.cache.empty()) {
       labels.emplace(comparison.name,
                      comparison.data.dataset,
                      comparison.holdouts,
                      component.recipes,
                      study_options);
-      if (options.journal_has) {
+      if (options.journal != nullptr && options.journal_has) {
         for (const std::string& line :
              models::DescribeResume(*options.journal, *labels)) {
           options.journal_has(line);
         }
       }
-      journal.emplace(options.journal,
+      kept = models::OpenKeptFits(options.cache, *labels);
+      journal.emplace(std::vector{options.journal, kept.get()},
                       &*labels,
                       &comparison.data.dataset,
                       &comparison.holdouts);

@@ -37,8 +37,9 @@ struct RunOptions {
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;
   models::JournalFile* journal = nullptr;  // keeps the fits; may be null
-  Remark journal_has = {};                 // told what the journal has of them
-  bool keep_fold_maps = false;             // of the hold-outs: FoldResult::map
+  std::string cache = {};  // folder of the last fits (fit_cache.h); "" for none
+  Remark journal_has = {};      // told what the journal has of them
+  bool keep_fold_maps = false;  // of the hold-outs: FoldResult::map
   /// Told which component of the plan a fit was of and of the fit, its counts
   /// those of the whole plan, from any thread; may be empty.
   std::function<void(std::size_t, const models::FitProgress&)> progress = {};

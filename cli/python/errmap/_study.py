@@ -277,7 +277,8 @@ def compare(frame: Measurements = None, *,
         Whether a bar is drawn, where tqdm is installed.
     **options
         The others of ``errmap compare``: ``rezero``, ``choose``, ``prefer``,
-        ``align``, ``weight``, ``missing``, ``faults``, ``keep_dead``, ...
+        ``align``, ``weight``, ``missing``, ``faults``, ``keep_dead``,
+        ``no_cache``, ...
 
     Returns
     -------

@@ -128,9 +128,12 @@ std::string WhyNot(const FitLabel& found, const FitLabel& wanted) {
 
 }  // namespace
 
-JournalFile::JournalFile(const std::string& folder, Opening opening)
+JournalFile::JournalFile(const std::string& folder,
+                         Opening opening,
+                         std::optional<std::int64_t> most_bytes)
     : path_(std::filesystem::path(folder) / kName),
       previous_path_(std::filesystem::path(folder) / kPreviousName),
+      most_bytes_(most_bytes),
       file_(OpenLocked(path_)) {
   if (opening == Opening::kAnew) {
     SetAside();
@@ -248,9 +251,14 @@ void JournalFile::Record(const FitLabel& label, const FitOutcome& outcome) {
       std::holds_alternative<OpaqueForm>(outcome.fitted->model->Describe())) {
     return;
   }
+  // What failed may be mended in another program's code before the next run.
+  if (!outcome.fitted && most_bytes_) return;
   const std::string line = LineOf(label, outcome);
   const std::lock_guard lock(mutex_);
-  if (line.size() > kLongestRecord) {
+  const bool is_full =
+      most_bytes_ &&
+      size_ + static_cast<std::int64_t>(line.size()) > *most_bytes_;
+  if (is_full || line.size() > kLongestRecord) {
     ++too_long_;
     return;
   }
@@ -285,6 +293,7 @@ void JournalFile::Append(std::string_view line) {
 
 void JournalFile::Flush() {
   seconds_at_stake_ = 0.0;
+  if (most_bytes_) return;
   if (fdatasync(file_.get()) != 0 && error_ == 0) error_ = errno;
 }
 
@@ -337,12 +346,19 @@ std::vector<std::string> JournalFile::WritingRemarks() const {
 }
 
 std::optional<FitOutcome> ComponentJournal::Find(const StudyTask& task) {
-  std::optional<FitOutcome> found = file_.Find(labels_.Of(task));
-  if (found && !IsOf(task, *found)) {
-    file_.CountUnfit();
-    return std::nullopt;
+  const FitLabel label = labels_.Of(task);
+  for (auto file = files_.begin(); file != files_.end(); ++file) {
+    std::optional<FitOutcome> found = (*file)->Find(label);
+    if (!found) continue;
+    if (IsOf(task, *found)) {
+      for (auto before = files_.begin(); before != file; ++before) {
+        (*before)->Record(label, *found);
+      }
+      return found;
+    }
+    (*file)->CountUnfit();
   }
-  return found;
+  return std::nullopt;
 }
 
 bool ComponentJournal::IsOf(const StudyTask& task,

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "data/file_descriptor.h"
@@ -42,7 +43,11 @@ class JournalFile {
 
   /// Throws std::system_error naming the path that cannot be written, and
   /// std::runtime_error where another process has the folder's journal open.
-  JournalFile(const std::string& folder, Opening opening);
+  /// With `most_bytes` the file is a cache, of no more bytes than that: it does
+  /// not outlast a loss of power.
+  JournalFile(const std::string& folder,
+              Opening opening,
+              std::optional<std::int64_t> most_bytes = std::nullopt);
   ~JournalFile();
   JournalFile(const JournalFile&) = delete;
   JournalFile& operator=(const JournalFile&) = delete;
@@ -85,6 +90,7 @@ class JournalFile {
 
   std::string path_;
   std::string previous_path_;
+  std::optional<std::int64_t> most_bytes_;
   data::FileDescriptor file_;
   bool set_aside_ = false;
   std::size_t damaged_lines_ = 0;
@@ -101,31 +107,34 @@ class JournalFile {
   int error_ = 0;  // errno of the first failure
 };
 
-/// The journal of one component's study in a file that all components share.
+/// The journal of one component's study in a file that all components share,
+/// or in several: what one has, those before it are given.
 class ComponentJournal final : public FitJournal {
  public:
-  /// All must outlive it.
-  ComponentJournal(JournalFile* file,
+  /// All must outlive it; null files are left out.
+  ComponentJournal(std::vector<JournalFile*> files,
                    const FitLabels* labels,
                    const data::Dataset* dataset,
                    const std::vector<Holdout>* holdouts)
-      : file_(*file),
+      : files_(std::move(files)),
         labels_(*labels),
         dataset_(*dataset),
-        holdouts_(*holdouts) {}
+        holdouts_(*holdouts) {
+    std::erase(files_, nullptr);
+  }
 
   /// Sums in a journal keep damage out and forgers not: the map found must
   /// predict what stands beside it, bit for bit, on the rows that it is judged
   /// by.
   std::optional<FitOutcome> Find(const StudyTask& task) override;
   void Record(const StudyTask& task, const FitOutcome& outcome) override {
-    file_.Record(labels_.Of(task), outcome);
+    for (JournalFile* file : files_) file->Record(labels_.Of(task), outcome);
   }
 
  private:
   bool IsOf(const StudyTask& task, const FitOutcome& outcome) const;
 
-  JournalFile& file_;
+  std::vector<JournalFile*> files_;
   const FitLabels& labels_;
   const data::Dataset& dataset_;
   const std::vector<Holdout>& holdouts_;

@@ -1,6 +1,7 @@
 #include "models/study/journal/fit_label.h"
 
 #include <array>
+#include <dlfcn.h>
 #include <variant>
 
 #include <fmt/format.h>
@@ -197,7 +198,14 @@ const std::string& ProgramIdentity() {
     constexpr std::size_t kDigits = 12;
     std::string text = std::string("errmap ") + Version();
     try {
-      const std::string program = data::ReadFile("/proc/self/exe");
+      // In a shared library (a module of Python) it is that.
+      Dl_info own{};
+      const bool is_known =
+          dladdr(reinterpret_cast<const void*>(&ProgramIdentity), &own) != 0;
+      const std::string_view object = is_known ? own.dli_fname : "";
+      const std::string program = data::ReadFile(
+          object.find(".so") == object.npos ? "/proc/self/exe"
+                                            : std::string(object));
       text += " (build " + data::Sha256(program).substr(0, kDigits) + ")";
     } catch (const data::InputError&) {
       // Some systems do not show a process its own program.
@@ -245,6 +253,13 @@ FitLabel FitLabels::Of(const StudyTask& task) const {
   label.fold = task.fold;
   label.rows = rows_.at(holdout).at(task.fold);
   return label;
+}
+
+std::string FitLabels::DataKey() const {
+  Sha256Stream stream;
+  AddText(program_, &stream);
+  AddText(all_rows_, &stream);
+  return data::Hexadecimal(stream.Finish());
 }
 
 std::vector<FitLabel> FitLabels::All() const {

@@ -43,6 +43,8 @@ class FitLabels {
             std::string program = ProgramIdentity());
 
   const std::string& component() const { return component_; }
+  /// SHA-256 of the program and of all rows and columns, whatever is fitted.
+  std::string DataKey() const;
   FitLabel Of(const StudyTask& task) const;
   /// Of all fits, as StudyTasks orders them.
   std::vector<FitLabel> All() const;

@@ -336,7 +336,7 @@ class JournalledStudy : public FitJournalFile {
     const FitLabels labels(
         "x", dataset_, holdouts_, recipes, options, program_);
     lines_ = DescribeResume(file, labels);
-    ComponentJournal journal(&file, &labels, &dataset_, &holdouts_);
+    ComponentJournal journal({&file}, &labels, &dataset_, &holdouts_);
     options.journal = &journal;
     const StudyResult study = RunStudy(dataset_, holdouts_, recipes, options);
     remarks_ = file.WritingRemarks();
