@@ -19,6 +19,7 @@
 #include "data/file_descriptor.h"
 #include "data/files_in_memory.h"
 #include "data/input_error.h"
+#include "data/sheet_path.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -271,10 +272,11 @@ void RemoveAbandonedFiles(const std::string& folder) {
   }
 }
 
-std::string ReadFile(const std::string& path, std::size_t most) {
-  if (const std::string* const text = FilesInMemory::FindText(path)) {
+std::string ReadFile(const std::string& path_or_sheet, std::size_t most) {
+  if (const std::string* const text = FilesInMemory::FindText(path_or_sheet)) {
     return *text;
   }
+  const std::string path = SplitSheetPath(path_or_sheet).file;
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) ThrowUnreadable(path, errno);
   // Before the opening, which would wait for a writer.

@@ -62,7 +62,8 @@ struct CsvTable {
 /// CRLF, lines starting with `#`, and blank lines at the end are passed over.
 /// An unnamed column is called column_N (`has_name` is false). Text that is no
 /// valid UTF-8 is taken for Latin-1 and converted; what begins as gzip does is
-/// unpacked first, up to kMostTextOfPrograms. Linear time, about twice the
+/// unpacked first, up to kMostTextOfPrograms; of an xlsx file a sheet is read
+/// ("book.xlsx:Day 2", formats/spreadsheet.h). Linear time, about twice the
 /// file's memory; never looks at the locale.
 ///
 /// Throws InputError: unreadable file, empty file, no header (a number where a

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <unordered_map>
 
 #include "data/atomic_file.h"
@@ -9,6 +10,8 @@
 #include "data/csv_cells.h"
 #include "data/formula_text.h"
 #include "data/gzip.h"
+#include "data/sheet_path.h"
+#include "data/spreadsheet.h"
 #include "data/text.h"
 #include "data/text_encoding.h"
 #include "data/text_index.h"
@@ -39,9 +42,10 @@ bool ReadUnitCell(std::string* cell) {
 
 class Parser {
  public:
-  Parser(std::string_view text, const std::string& name)
+  Parser(std::string_view text, const std::string& name, char delimiter)
       : cells_(text, [this](std::size_t line) { return PlaceOfCell(line); }) {
     table_.file = name;
+    cells_.delimiter = delimiter;
   }
 
   CsvTable Parse() {
@@ -413,17 +417,22 @@ class Parser {
 }  // namespace
 
 CsvTable ParseCsv(std::string_view text, const std::string& name) {
-  if (IsGzip(text)) {
-    std::string unpacked;
-    try {
+  std::string unpacked;
+  std::optional<std::string> sheet;
+  try {
+    if (IsGzip(text)) {
       unpacked = Gunzip(text, kMostTextOfPrograms);
-    } catch (const InputError& error) {
-      throw InputError(PrintablePath(name) + ": " + error.what());
+      text = IsGzip(unpacked) ? "" : unpacked;
     }
-    return ParseCsv(IsGzip(unpacked) ? "" : unpacked, name);
+    sheet = SheetText(text, SplitSheetPath(name).sheet);
+  } catch (const InputError& error) {
+    throw InputError(PrintablePath(name) + ": " + error.what());
   }
+  if (sheet) return Parser(*sheet, name, '\t').Parse();
   const std::string converted = TextOfFile(text, name);
-  return Parser(converted.empty() ? text : converted, name).Parse();
+  return Parser(
+             converted.empty() ? text : converted, name, CsvCells::kNoDelimiter)
+      .Parse();
 }
 
 }  // namespace errmap::data

@@ -83,4 +83,9 @@ std::string Inflate(std::string_view compressed, std::size_t most) {
   return Unpacked(compressed, most, kRaw, "is damaged");
 }
 
+std::uint32_t Crc32(std::string_view bytes) {
+  return static_cast<std::uint32_t>(
+      crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
 }  // namespace errmap::data

@@ -19,8 +19,9 @@ struct KnownFormat {
 // What files of other programs begin with.
 constexpr auto kFormats = std::to_array<KnownFormat>(
     {{"PK\x03\x04",
-      "a spreadsheet (xlsx, ods) or an archive; save it as CSV, one sheet"},
-     {"\xD0\xCF\x11\xE0", "a spreadsheet (xls); save it as CSV"},
+      "an archive or a spreadsheet other than xlsx; save it as xlsx or CSV"},
+     {"\xD0\xCF\x11\xE0",
+      "a spreadsheet (xls, or with a password); save it as xlsx or CSV"},
      {"BZh", "compressed (bzip2); unpack it with bunzip2"},
      {"\xFD"
       "7zXZ",
@@ -47,6 +48,8 @@ Order OrderOf(std::string_view bytes) {
   return Order::kNone;
 }
 
+}  // namespace
+
 void AppendUtf8(std::uint32_t code, std::string* text) {
   const auto put = [&](std::uint32_t byte) {
     *text += static_cast<char>(static_cast<unsigned char>(byte));
@@ -67,8 +70,6 @@ void AppendUtf8(std::uint32_t code, std::string* text) {
     put(0x80U | (code & 0x3FU));
   }
 }
-
-}  // namespace
 
 std::string TextOfFile(std::string_view bytes, const std::string& name) {
   for (const KnownFormat& format : kFormats) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -13,5 +14,8 @@ namespace errmap::data {
 /// (a spreadsheet, an archive, a page), with what to do; or UTF-16 that breaks
 /// off.
 std::string TextOfFile(std::string_view bytes, const std::string& name);
+
+/// Appends a character by its number, at most 10FFFF in hexadecimal.
+void AppendUtf8(std::uint32_t code, std::string* text);
 
 }  // namespace errmap::data

@@ -11,6 +11,7 @@
 
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
+#include "data/sheet_path.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -23,6 +24,9 @@ bool IsDigit(char c) {
 }
 
 std::string NameWithoutEndings(const std::string& path) {
+  if (std::string sheet = SplitSheetPath(path).sheet; !sheet.empty()) {
+    return sheet;
+  }
   const fs::path name = fs::path(path).filename();
   return (name.extension() == ".gz" ? name.stem() : name).stem().string();
 }
@@ -101,8 +105,8 @@ void PutInOrder(std::vector<std::string>* paths) {
 }
 
 bool IsTable(const fs::path& path) {
-  constexpr auto kEndings =
-      std::to_array<std::string_view>({".csv", ".tsv", ".csv.gz", ".tsv.gz"});
+  constexpr auto kEndings = std::to_array<std::string_view>(
+      {".csv", ".tsv", ".csv.gz", ".tsv.gz", ".xlsx"});
   const std::string name = path.filename().string();
   return std::ranges::any_of(kEndings, [&](std::string_view ending) {
     return name.size() > ending.size() &&
@@ -164,10 +168,11 @@ std::vector<std::string> TablesOf(const std::string& folder,
   }
   const std::string init = "errmap init " + shown;
   if (tables.empty()) {
-    throw InputError(shown +
-                     ": is a folder without CSV files; for the files "
-                     "in folders below it: " +
-                     init);
+    throw InputError(
+        shown +
+        ": is a folder without CSV files or spreadsheets; for the files "
+        "in folders below it: " +
+        init);
   }
   std::ranges::sort(tables);
   if (kinds.size() > 1) {

@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/data/measurements/make_dataset_test_data.h"
+#include "tests/data/packed_parts.h"
 
 namespace errmap::data {
 namespace {
@@ -209,9 +210,10 @@ TEST(MessyFiles, AllElseIsOneLineThatSaysWhatToDo) {
   const std::string text = Joined(rows);
   using namespace std::string_literals;
   const std::vector<std::pair<std::string, const char*>> files = {
-      {"PK\x03\x04 rest of a sheet", "spreadsheet (xlsx, ods)"},
+      {"PK\x03\x04 rest of a sheet", "archive that is damaged"},
+      {errmap::testing::ZipOf({{"mimetype", "ods"}}), "other than xlsx; save"},
       {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"s,
-       "spreadsheet (xls); save it as CSV"},
+       "(xls, or with a password); save it as xlsx or CSV"},
       {"\x1F\x8B\x08\0"s, "is no gzip, or is cut off"},
       {"%PDF-1.4\n", "PDF"},
       {"<!doctype html><table></table>\n", "web page"},
