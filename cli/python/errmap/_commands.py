@@ -14,12 +14,12 @@ Json = dict[str, Any]
 
 
 def read_csv(path: str | os.PathLike[str]) -> Any:
-    """Read a CSV file as errmap does: delimiter and decimal comma are found.
+    """Read a table as errmap does: delimiter and decimal comma are found.
 
     Parameters
     ----------
     path : str or path
-        The file.
+        A CSV file, also packed by gzip, or a sheet: ``"book.xlsx:Monday"``.
 
     Returns
     -------
@@ -31,9 +31,11 @@ def read_csv(path: str | os.PathLike[str]) -> Any:
     ValueError
         Where the file is no table; the message names line and column.
     """
-    with open(path, "rb") as file:
-        text = file.read().decode("utf-8", "replace")
-    return frame_of(_core.Table.of_csv(text, os.fspath(path)).columns())
+    name = os.fspath(path)
+    file_name, colon, _ = name.rpartition(":")
+    is_sheet = colon and file_name.lower().endswith((".xlsx", ".xlsm"))
+    with open(file_name if is_sheet else name, "rb") as file:
+        return frame_of(_core.Table.of_csv(file.read(), name).columns())
 
 
 def residuals(frame: Measurements, column: str, *,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import tempfile
 from typing import Any, Mapping
 
 from errmap import _core
@@ -210,6 +211,70 @@ class MapFile:
             raise ValueError(messages[-1])
         warn(messages)
         return json.loads(printed)
+
+    def when(self, goal: float | str | None = None, *,
+             after: Measurements | None = None,
+             **options: Any) -> dict[str, Any]:
+        """Tell when the map wants its next probe.
+
+        Parameters
+        ----------
+        goal : float or str, optional
+            What 90 % of the errors are to stay within: in the target's unit,
+            or with its own, ``"2um"``.
+        after : measurements, optional
+            Readings from the last probe to now.
+        **options
+            ``time`` and ``session``: names of columns.
+
+        Returns
+        -------
+        dict
+            The document of ``errmap when --format json``.
+        """
+        files = self._files()
+        words = words_of({"goal": goal, **options})
+        if after is not None:
+            words.append(f"--after={files.data(after, None, 'after')}")
+        _, printed, messages = files.run(
+            "when", self._FILE, *words, "--format=json", accept=(0, 4))
+        if not printed:
+            raise ValueError(messages[-1])
+        warn(messages)
+        return json.loads(printed)
+
+    def update(self, frame: Measurements, *known: Measurements,
+               **options: Any) -> tuple[MapFile, dict[str, Any]]:
+        """Fit the map again with new sessions, if that makes it better.
+
+        Parameters
+        ----------
+        frame : measurements
+            New sessions, two at least.
+        *known : measurements
+            The rows that the map was fitted to; the files that it names, if
+            left out.
+        **options
+            Those of ``errmap update``: ``time``, ``session``, ``seed``, ...
+
+        Returns
+        -------
+        MapFile
+            The new map, or this one.
+        dict
+            The document of ``errmap update --format json``: why.
+        """
+        files = self._files()
+        words = [files.data(frame), *words_of(options)]
+        for number, rows in enumerate(known):
+            words.append(f"--known={files.data(rows, None, f'known{number}')}")
+        with tempfile.TemporaryDirectory() as scratch:
+            path = os.path.join(scratch, self._FILE)
+            _, printed, messages = files.run(
+                "update", self._FILE, *words, f"--output={path}",
+                "--format=json")
+            warn(messages)
+            return load(path), json.loads(printed)
 
     def export(self, folder: str | os.PathLike[str], *languages: str,
                **options: Any) -> list[str]:

@@ -257,6 +257,24 @@ class Maps(unittest.TestCase):
             map = errmap.load(os.path.join(folder, name))
             self.assertTrue(numpy.isfinite(map.predict(self.frame)).all(), name)
 
+    def test_tells_when_to_probe_and_takes_new_sessions(self):
+        days = errmap.simulate(days=6, cycles=3, points=12, dead=[3, 4],
+                               components=["x_displacement_up"])
+        days = days["x_displacement_up"]
+        options = dict(models=["poly:ridge"], progress=False)
+        old, new = days[days["day"] < 5], days[days["day"] >= 5]
+        map = errmap.compare(old, **options).map()
+        self.assertGreater(len(map.when("5um")["clocks"]), 0)
+        updated, why = map.update(new, old)
+        self.assertEqual(why["schema"], "errmap-update-1")
+        self.assertEqual(updated.inputs, map.inputs)
+        with common.scratch() as folder:
+            map.save(os.path.join(folder, "m.json"))
+            _, printed, _ = common.run("when", os.path.join(folder, "m.json"),
+                                       "--goal", "5um", "--format", "json")
+            self.assertEqual(common.without_times(map.when("5um")),
+                             common.without_times(common.loads(printed)))
+
     def test_exports(self):
         with common.scratch() as folder:
             self.map.export(folder, "c", "python", name="xdown")
