@@ -22,6 +22,7 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/fleet/fleet_commands.h"
+#include "cli/desk/provenance.h"
 #include "cli/report/shell_word.h"
 #include "cli/shell/command_reference.h"
 #include "cli/shell/completion.h"
@@ -292,6 +293,16 @@ void AddHelpCommand(CLI::App* app) {
   help->callback([app, asked] { PrintHelp(*app, asked->name, asked->all); });
 }
 
+// A line on the compiler and the machine, and one per library.
+std::string MadeWith() {
+  const models::ProvenanceRecord made = desk::MakeProvenance("", {});
+  std::string text = made.compiler + "; " + made.platform + "\n";
+  for (const auto& [name, version] : made.libraries) {
+    text += fmt::format("{} {}\n", name, version);
+  }
+  return text;
+}
+
 int RunParsed(int argc, char** argv) {
   if (std::find(argv, argv + argc, std::string_view("--keep-paths")) !=
       argv + argc) {
@@ -317,7 +328,7 @@ int RunParsed(int argc, char** argv) {
     PrintHelp(app, word.starts_with('-') ? "" : std::string(word), false);
     return kDone;
   } catch (const CLI::CallForVersion& version) {
-    PrintResult(std::string(version.what()) + "\n");
+    PrintResult(std::string(version.what()) + "\n" + MadeWith());
     return kDone;
   } catch (const CLI::ParseError& error) {
     throw UsageError(WithSuggestion(app, error, argc, argv));

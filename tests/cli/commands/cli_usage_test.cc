@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "models/version.h"
 #include "tests/cli/cli_fixture.h"
 #include "tests/cli/one_line.h"
 
@@ -70,7 +71,9 @@ TEST_F(Cli, HelpAndVersionGoToStdout) {
   const Outcome version = Run({"--version"});
   EXPECT_EQ(version.status, 0);
   EXPECT_TRUE(version.out.starts_with("errmap ")) << version.out;
-  EXPECT_EQ(SplitLines(version.out).size(), 1U);
+  const std::vector<std::string> lines = SplitLines(version.out);
+  EXPECT_EQ(lines.front(), std::string("errmap ") + models::Version());
+  EXPECT_THAT(version.out, HasSubstr("Ceres 2."));
   std::vector<std::vector<std::string>> commands = {{}};
   for (const char* name :
        {"compare", "fit", "predict", "evaluate", "residuals"}) {

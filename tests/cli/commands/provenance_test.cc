@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/json_blocks.h"
+#include "models/version.h"
 #include "tests/cli/cli_fixture.h"
 
 namespace errmap {
@@ -85,7 +86,7 @@ TEST_F(Provenance, StandsInEveryDocumentWithWhatTookEffect) {
   Write("d.csv", "position_mm,error_mm\n0,1\n1,2\n2,4\n3,5\n4,6\n5,8\n");
   const auto of = [](const Json& document) {
     const Json& block = document["provenance"];
-    EXPECT_EQ(block["version"], "0.1.0");
+    EXPECT_EQ(block["version"], models::Version());
     EXPECT_TRUE(block["libraries"].contains("Ceres")) << block;
     EXPECT_TRUE(block["libraries"].contains("CLI11")) << block;
     return block;
