@@ -6,7 +6,7 @@
 
 #include "cli/desk/given_error.h"
 #include "data/measurements/dataset.h"
-#include "models/study/judgement/verdict.h"
+#include "models/study/judgement/recommendation.h"
 #include "models/study/record/record.h"
 
 namespace errmap::desk {

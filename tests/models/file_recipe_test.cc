@@ -5,7 +5,7 @@
 
 #include "data/input_error.h"
 #include "models/model_file.h"
-#include "models/study/judgement/verdict.h"
+#include "models/study/judgement/choice.h"
 #include "tests/models/model_test_data.h"
 #include "tests/models/study/study_test_tools.h"
 

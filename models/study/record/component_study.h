@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "data/measurements/dataset.h"
-#include "models/study/judgement/verdict.h"
+#include "models/study/judgement/judgement.h"
 #include "models/study/record/provenance_record.h"
 #include "models/study/record/sensor_importance.h"
 #include "models/study/record/session_worth.h"

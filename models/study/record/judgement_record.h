@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "models/study/judgement/choice.h"
 #include "models/study/judgement/confidence.h"
-#include "models/study/judgement/verdict.h"
 #include "models/study/record/record.h"
 #include "models/study/record/record_values.h"
 

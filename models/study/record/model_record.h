@@ -9,8 +9,8 @@
 
 #include "fitting/minimisers/optimizer.h"
 #include "models/error_model.h"
+#include "models/study/judgement/choice.h"
 #include "models/study/judgement/goal.h"
-#include "models/study/judgement/verdict.h"
 #include "models/study/memorisation.h"
 #include "models/study/record/record.h"
 #include "models/study/record/record_values.h"

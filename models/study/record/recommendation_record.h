@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "models/prediction_interval.h"
+#include "models/study/judgement/choice.h"
 #include "models/study/judgement/confidence.h"
 #include "models/study/judgement/goal.h"
-#include "models/study/judgement/verdict.h"
 #include "models/study/record/record.h"
 #include "models/study/record/record_values.h"
 #include "models/study/record/remark_record.h"

@@ -10,7 +10,7 @@
 #include "models/history/history.h"
 #include "models/scaling.h"
 #include "models/study/fold_pool.h"
-#include "models/study/judgement/verdict.h"
+#include "models/study/judgement/recommendation.h"
 
 namespace errmap::models {
 namespace {

@@ -13,7 +13,7 @@
 #include "models/model_file.h"
 #include "models/recipe_catalog.h"
 #include "models/shared_work.h"
-#include "models/study/judgement/verdict.h"
+#include "models/study/judgement/judgement.h"
 #include "stats/random.h"
 #include "tests/models/history/history_data.h"
 #include "tests/models/study/study_test_tools.h"

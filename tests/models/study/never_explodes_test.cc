@@ -9,7 +9,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "models/study/judgement/verdict.h"
+#include "models/study/judgement/judgement.h"
 #include "models/study/study_defaults.h"
 #include "stats/error_metrics.h"
 #include "stats/random.h"

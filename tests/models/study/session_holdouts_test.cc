@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "models/study/judgement/verdict.h"
+#include "models/study/judgement/judgement.h"
 #include "models/study/study_defaults.h"
 #include "tests/models/history/history_data.h"
 #include "tests/models/study/study_test_tools.h"

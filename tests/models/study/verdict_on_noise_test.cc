@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "models/study/judgement/verdict.h"
+#include "models/study/judgement/judgement.h"
 #include "stats/random.h"
 #include "tests/models/study/study_test_tools.h"
 

@@ -1,5 +1,3 @@
-#include "models/study/judgement/verdict.h"
-
 #include <cmath>
 #include <string>
 
@@ -9,6 +7,7 @@
 
 #include "data/csv.h"
 #include "models/study/given_predictions.h"
+#include "models/study/judgement/judgement.h"
 #include "tests/models/model_test_data.h"
 #include "tests/models/study/study_test_tools.h"
 

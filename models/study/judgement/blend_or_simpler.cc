@@ -1,0 +1,121 @@
+#include "models/study/judgement/blend_or_simpler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <variant>
+#include <vector>
+
+namespace errmap::models {
+namespace {
+
+// The geometric mean over sessions: one that errs far more than the others, as
+// the first may that were foretold from few, does not decide alone.
+double TypicalRmse(const HoldoutComparison& comparison, std::size_t model) {
+  const auto of_units = comparison.unit_rmse.col(*comparison.PlaceOf(model));
+  return std::exp(
+      of_units.array().max(std::numeric_limits<double>::min()).log().mean());
+}
+
+// The model of least typical error.
+std::optional<std::size_t> MostTypical(const HoldoutComparison& comparison,
+                                       const Wanted& wanted) {
+  std::optional<std::size_t> best;
+  for (const std::size_t model : comparison.models) {
+    if (wanted(model) && (!best || TypicalRmse(comparison, model) <
+                                       TypicalRmse(comparison, *best))) {
+      best = model;
+    }
+  }
+  return best;
+}
+
+// A constant, a line of one column or a plane of all: what a map must not lose
+// to where it has never been.
+bool IsSimple(const ModelResult& model) {
+  if (model.baseline) return true;
+  if (!model.final_fit || model.final_fit->history != nullptr) return false;
+  const ModelDescription form = model.final_fit->model->Describe();
+  const auto* polynomial = std::get_if<PolynomialForm>(&form);
+  return polynomial != nullptr &&
+         std::ranges::all_of(polynomial->terms, [](const PolynomialTerm& term) {
+           return std::accumulate(term.powers.begin(), term.powers.end(), 0) ==
+                  1;
+         });
+}
+
+class Chooser {
+ public:
+  Chooser(const HoldoutComparison& decides,
+          const HoldoutComparison& strictest,
+          const HoldoutComparison* forward,
+          const StudyResult& study,
+          const Wanted& is_map)
+      : decides_(decides), forward_(forward), study_(study), is_map_(is_map) {
+    vetoes_.push_back(&strictest);
+    if (forward != nullptr) vetoes_.push_back(forward);
+  }
+
+  BlendOrSimpler Choose(std::size_t blend) const {
+    const auto proven = BestWhere(decides_, [&](std::size_t model) {
+      return is_map_(model) && model != blend &&
+             decides_.units.separate_sessions && !IsVetoed(model) &&
+             decides_.ThatItIsBetter(model, blend) == Confidence::kEstablished;
+    });
+    const std::size_t use = proven.value_or(blend);
+    for (const HoldoutComparison* veto : vetoes_) {
+      if (const auto simple = FarBetter(*veto, use)) {
+        return {.model = *simple, .vetoed_by = veto};
+      }
+    }
+    const auto baseline = BestWhere(decides_, [&](std::size_t model) {
+      return is_map_(model) && study_.models[model].baseline;
+    });
+    const bool beaten =
+        baseline && RmseOf(decides_, *baseline) < RmseOf(decides_, use) &&
+        (forward_ == nullptr || !forward_->PlaceOf(*baseline) ||
+         !forward_->PlaceOf(use) ||
+         TypicalRmse(*forward_, *baseline) < TypicalRmse(*forward_, use));
+    return {.model = beaten ? *baseline : use};
+  }
+
+ private:
+  std::optional<std::size_t> FarBetter(const HoldoutComparison& veto,
+                                       std::size_t model) const {
+    constexpr double kFar = 2.0;
+    const auto simple = MostTypical(veto, [&](std::size_t other) {
+      return is_map_(other) && IsSimple(study_.models[other]);
+    });
+    return simple && veto.PlaceOf(model) &&
+                   TypicalRmse(veto, model) > kFar * TypicalRmse(veto, *simple)
+               ? simple
+               : std::nullopt;
+  }
+
+  bool IsVetoed(std::size_t model) const {
+    return std::ranges::any_of(vetoes_, [&](const HoldoutComparison* veto) {
+      return FarBetter(*veto, model).has_value();
+    });
+  }
+
+  const HoldoutComparison& decides_;
+  const HoldoutComparison* forward_;
+  const StudyResult& study_;
+  const Wanted& is_map_;
+  std::vector<const HoldoutComparison*> vetoes_;
+};
+
+}  // namespace
+
+BlendOrSimpler ChooseBlendOrSimpler(std::size_t blend,
+                                    const HoldoutComparison& decides,
+                                    const HoldoutComparison& strictest,
+                                    const HoldoutComparison* forward,
+                                    const StudyResult& study,
+                                    const Wanted& is_map) {
+  return Chooser(decides, strictest, forward, study, is_map).Choose(blend);
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "models/study/judgement/recommendation.h"
+#include "models/study/judgement/verdict.h"
+
+namespace errmap::models {
+
+/// Everything that the hold-outs say together.
+struct Judgement {
+  std::vector<HoldoutComparison> comparisons;    // one per hold-out
+  std::vector<std::optional<Verdict>> verdicts;  // nothing where all failed
+  std::optional<InterpolationGap> gap;  // where both kinds of hold-out are
+  std::optional<Recommendation> recommendation;
+  std::vector<std::vector<GoalJudgement>> goals;  // (models x hold-outs)
+};
+
+/// Judges a study: each hold-out by itself, then the map to use (Recommend).
+Judgement JudgeStudy(const data::Dataset& dataset,
+                     const std::vector<Holdout>& holdouts,
+                     const StudyResult& study,
+                     const JudgeOptions& options);
+
+}  // namespace errmap::models
