@@ -50,13 +50,13 @@ std::string_view ToString(OutputFunction output);
 /// One-hidden-layer net in scaled inputs (x - offset) * scale with scaled
 /// outputs z; a prediction is (z - target_offset) / target_slope.
 struct NetForm {
-  Eigen::VectorXd input_offset;  // (I)
-  Eigen::VectorXd input_scale;   // (I)
-  Eigen::MatrixXd w1;            // (H x (I+1)) last column = bias, Eq. 16
-  Eigen::MatrixXd w2;            // (J x (H+1)) last column = bias, Eq. 17
   OutputFunction output = OutputFunction::kSigmoid;
+  Eigen::VectorXd input_offset;   // (I)
+  Eigen::VectorXd input_scale;    // (I)
   Eigen::VectorXd target_slope;   // (J)
   Eigen::VectorXd target_offset;  // (J)
+  Eigen::MatrixXd w1;             // (H x (I+1)) last column = bias, Eq. 16
+  Eigen::MatrixXd w2;             // (J x (H+1)) last column = bias, Eq. 17
 };
 
 /// Weighted mean of maps, each kept within bounds of its own.

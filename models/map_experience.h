@@ -31,12 +31,12 @@ struct Applicability {
   std::vector<Derived> derived;
 
   std::vector<Eigen::Index> columns;  // (s) index into the map's inputs
+  Eigen::Index rows = 0;              // of training
   Eigen::VectorXd mean;               // (s) input's unit
   Eigen::VectorXd scale;              // (s) input's unit, above 0; one per unit
   Eigen::MatrixXd directions;         // (s x q) W
   Eigen::VectorXd rest;               // (s) variances of x', above 0
   Eigen::MatrixXd states;             // (k x q) trained ones, spread evenly
-  Eigen::Index rows = 0;              // of training
 
   // What rows held out with their whole unit reached, and half as much again.
   double distance_limit = 0.0;     // to the nearest of `states`

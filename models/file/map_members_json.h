@@ -1,7 +1,7 @@
 #pragma once
 
 // What a map consists of as JSON of model files and back, member by member
-// (map_members.h); not for public headers. A column stands as its name and
+// (members.h); not for public headers. A column stands as its name and
 // unit beside the other members. What a file has otherwise is written and read
 // by those who call this.
 
@@ -15,10 +15,19 @@
 #include <variant>
 #include <vector>
 
-#include "models/file/map_members.h"
+#include "models/error_model.h"
 #include "models/file/model_json.h"
+#include "models/history/history.h"
+#include "models/members.h"
 
 namespace errmap::models {
+
+/// The key of a form in model files; what has none cannot stand in them.
+constexpr const char* FileKeyOf(const PolynomialForm* /*form*/) {
+  return "polynomial";
+}
+constexpr const char* FileKeyOf(const NetForm* /*form*/) { return "net"; }
+constexpr const char* FileKeyOf(const BlendForm* /*form*/) { return "blend"; }
 
 data::ColumnInfo ReadColumn(const ModelJsonNode& node);
 

@@ -22,7 +22,6 @@ struct SummaryHoldoutRecord {
   std::string unit_of_analysis;
   std::int64_t units = 0;
 };
-ERRMAP_RECORD(SummaryHoldoutRecord, name, folds, unit_of_analysis, units)
 
 /// A model under one hold-out.
 struct SummaryMetricsRecord {
@@ -38,18 +37,6 @@ struct SummaryMetricsRecord {
   std::int64_t tier = 0;
   GoalStanding goal = GoalStanding::kNotJudged;
 };
-ERRMAP_RECORD(SummaryMetricsRecord,
-              holdout,
-              n,
-              rmse,
-              sd,
-              mean,
-              mae,
-              range,
-              train_rmse,
-              ci95,
-              tier,
-              goal)
 
 struct SummaryModelRecord {
   std::string name;
@@ -61,15 +48,6 @@ struct SummaryModelRecord {
   double fit_seconds = kNotKnown;  // of the fit to all rows
   std::vector<SummaryMetricsRecord> results;
 };
-ERRMAP_RECORD(SummaryModelRecord,
-              name,
-              kind,
-              choice,
-              status,
-              why,
-              parameters,
-              fit_seconds,
-              results)
 
 struct SummaryVerdictRecord {
   std::string holdout;
@@ -78,8 +56,6 @@ struct SummaryVerdictRecord {
   bool established = false;
   Confidence confidence = Confidence::kNotShown;
 };
-ERRMAP_RECORD(
-    SummaryVerdictRecord, holdout, choice, model, established, confidence)
 
 struct SummaryRecommendationRecord {
   Choice choice = Choice::kBaseline;
@@ -98,29 +74,12 @@ struct SummaryRecommendationRecord {
   double extrapolated_share = kNotKnown;
   std::string sentence;
 };
-ERRMAP_RECORD(SummaryRecommendationRecord,
-              choice,
-              model,
-              holdout,
-              rmse,
-              ci95,
-              uncompensated,
-              constant,
-              goal,
-              established,
-              sensors,
-              longest_memory,
-              zeroed,
-              promise,
-              extrapolated_share,
-              sentence)
 
 /// The recommended map as a file.
 struct SummaryMapRecord {
   std::string sha256;
   std::int64_t bytes = 0;
 };
-ERRMAP_RECORD(SummaryMapRecord, sha256, bytes)
 
 struct ComponentSummary {
   std::string schema = "errmap-summary-1";
@@ -149,30 +108,6 @@ struct ComponentSummary {
   LeftOut<SummaryRecommendationRecord> recommendation;
   LeftOut<SummaryMapRecord> map;
 };
-ERRMAP_RECORD(ComponentSummary,
-              schema,
-              version,
-              name,
-              fields,
-              asked,
-              key,
-              status,
-              why,
-              file,
-              sha256,
-              rows,
-              sessions,
-              target,
-              unit,
-              display,
-              goal,
-              fits_seconds,
-              holdouts,
-              models,
-              models_left_out,
-              verdicts,
-              recommendation,
-              map)
 
 /// Of a component that was studied; names, hashes and map are left to the
 /// caller.

@@ -53,17 +53,17 @@ struct RowChange {
 struct History {
   std::string time_unit;  // "s" or "rows"
   std::string session;    // column; "" where sessions are cut by time
-  std::vector<DerivedInput> derived;
-  std::vector<std::string> form_inputs;  // columns or derived inputs, in order
   /// Time by which the sessions of training had begun, and kLateSteps median
   /// steps more, where all began within kLeapSteps of another; NaN where clocks
   /// tell nothing.
   double latest_start = std::numeric_limits<double>::quiet_NaN();
+  /// Where time is rows, which cannot tell that some are missing.
+  std::vector<RowChange> row_changes = {};
   /// Longest step from reading to reading within the sessions of training; NaN
   /// where nothing is known.
   double longest_step = std::numeric_limits<double>::quiet_NaN();
-  /// Where time is rows, which cannot tell that some are missing.
-  std::vector<RowChange> row_changes = {};
+  std::vector<DerivedInput> derived;
+  std::vector<std::string> form_inputs;  // columns or derived inputs, in order
 
   /// Longest step from reading to reading over which the filters know enough:
   /// twice the longest of training, or three of the shortest time constant

@@ -98,13 +98,13 @@ NetForm FormOfWeights(const NetShape& shape,
                       const ColumnScaling& inputs,
                       const TargetScaling& target) {
   // A slope c multiplies every sum that a sigmoid sees: so may the weights.
-  return {.input_offset = inputs.offset,
+  return {.output = shape.output,
+          .input_offset = inputs.offset,
           .input_scale = inputs.scale,
-          .w1 = shape.slope * FirstLayer(shape, w),
-          .w2 = OutputSlope(shape) * SecondLayer(shape, w),
-          .output = shape.output,
           .target_slope = Eigen::VectorXd::Constant(1, target.slope),
-          .target_offset = Eigen::VectorXd::Constant(1, target.offset)};
+          .target_offset = Eigen::VectorXd::Constant(1, target.offset),
+          .w1 = shape.slope * FirstLayer(shape, w),
+          .w2 = OutputSlope(shape) * SecondLayer(shape, w)};
 }
 
 FittedModel MapOfWeights(const NetShape& shape,

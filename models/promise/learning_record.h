@@ -23,7 +23,6 @@ struct LearningPointRecord {
   double low = kNotKnown;  // 90 %
   double high = kNotKnown;
 };
-ERRMAP_RECORD(LearningPointRecord, units, rmse, low, high)
 
 /// 5, 50 and 95 %; NaN: infinite.
 using QuantilesRecord = std::array<double, 3>;
@@ -36,13 +35,6 @@ struct LearningLawRecord {
   std::optional<QuantilesRecord> units_for_goal;  // where there is a goal
   double never_reaches_goal = kNotKnown;
 };
-ERRMAP_RECORD(LearningLawRecord,
-              exponent,
-              floor,
-              at_all_units,
-              at_twice_the_units,
-              units_for_goal,
-              never_reaches_goal)
 
 struct LearningModelRecord {
   std::string model;
@@ -50,7 +42,6 @@ struct LearningModelRecord {
   std::vector<LearningPointRecord> points;
   std::optional<LearningLawRecord> law;
 };
-ERRMAP_RECORD(LearningModelRecord, model, why_failed, points, law)
 
 struct LearningCurvesRecord {
   std::string unit;  // what is learnt from one after another
@@ -58,13 +49,11 @@ struct LearningCurvesRecord {
   double goal = kNotKnown;
   std::vector<LearningModelRecord> models;
 };
-ERRMAP_RECORD(LearningCurvesRecord, unit, units, goal, models)
 
 struct SensorPointRecord {
   std::int64_t sensors = 0;
   double rmse = kNotKnown;
 };
-ERRMAP_RECORD(SensorPointRecord, sensors, rmse)
 
 struct ChosenSensorRecord {
   std::string sensor;
@@ -72,7 +61,6 @@ struct ChosenSensorRecord {
   double replaced_cost = kNotKnown;
   std::vector<std::string> substitutes;
 };
-ERRMAP_RECORD(ChosenSensorRecord, sensor, stability, replaced_cost, substitutes)
 
 struct SensorCurveRecord {
   std::string held_out;
@@ -82,19 +70,16 @@ struct SensorCurveRecord {
   std::optional<std::int64_t> enough;
   std::vector<ChosenSensorRecord> chosen;
 };
-ERRMAP_RECORD(SensorCurveRecord, held_out, view, points, all, enough, chosen)
 
 struct NextStateRecord {
   std::int64_t row = 0;  // of the candidates
   double variance_left = kNotKnown;
   double distance = kNotKnown;
 };
-ERRMAP_RECORD(NextStateRecord, row, variance_left, distance)
 
 struct LearningSourceRecord {
   std::vector<InputFileRecord> inputs;
 };
-ERRMAP_RECORD(LearningSourceRecord, inputs)
 
 inline constexpr std::string_view kLearningSchema = "errmap-learn-1";
 
@@ -114,16 +99,6 @@ struct LearningRecord {
   /// As read: what of it a reader needs.
   LeftOut<LearningSourceRecord> provenance;
 };
-ERRMAP_RECORD(LearningRecord,
-              schema,
-              file,
-              target,
-              unit,
-              by,
-              curves,
-              sensors,
-              next,
-              provenance)
 
 /// `goal` in the target's unit; NaN: none.
 LearningCurvesRecord MakeRecord(const LearningPlan& plan,

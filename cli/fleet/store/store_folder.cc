@@ -18,10 +18,6 @@ namespace errmap::fleet {
 
 namespace fs = std::filesystem;
 
-ERRMAP_RECORD(FleetComponentRecord, name, data, asked)
-ERRMAP_RECORD(
-    FleetRecord, schema, version, file, sha256, seed, command_line, components)
-
 namespace {
 
 // The rows of a data set that are not among `held_out`.

@@ -17,27 +17,12 @@
 #include "data/base64.h"
 #include "data/input_error.h"
 #include "models/blend/form_to_model.h"
-#include "models/file/map_members.h"
+#include "models/history/history.h"
+#include "models/map_experience.h"
+#include "models/members.h"
+#include "models/regression_report.h"
 
 namespace errmap::models {
-
-ERRMAP_RECORD(Memorisation,
-              train_r2,
-              shuffled_r2,
-              weights_per_row,
-              effective_parameters,
-              effective_per_row,
-              why_not)
-ERRMAP_RECORD(FitOutcome,
-              fitted,
-              why_failed,
-              seconds,
-              train_predictions,
-              test_predictions,
-              memorisation,
-              try_again)
-ERRMAP_RECORD(
-    FitLabel, component, holdout, fold, model, program, options, context, rows)
 
 namespace {
 

@@ -19,7 +19,6 @@ struct DroppedRecord {
   std::string column;
   std::string why;
 };
-ERRMAP_RECORD(DroppedRecord, column, why)
 
 /// Readings that no machine made; data::ColumnFault.
 struct FaultRecord {
@@ -31,7 +30,6 @@ struct FaultRecord {
   double low = kNotKnown;
   double high = kNotKnown;
 };
-ERRMAP_RECORD(FaultRecord, kind, column, rows, of_cells, value, low, high)
 
 struct DataRecord {
   std::string file;
@@ -52,31 +50,12 @@ struct DataRecord {
   std::vector<std::string> remarks;  // on columns and rows, one line each
   std::vector<std::string> doubts;   // of these, what no answer goes without
 };
-ERRMAP_RECORD(DataRecord,
-              file,
-              sha256,
-              rows,
-              target,
-              unit,
-              inputs,
-              group,
-              groups,
-              session,
-              time,
-              time_unit,
-              sessions,
-              align,
-              dropped,
-              faults,
-              remarks,
-              doubts)
 
 /// What people see is value * scale, in this unit.
 struct DisplayRecord {
   std::string unit;
   double scale = 1.0;
 };
-ERRMAP_RECORD(DisplayRecord, unit, scale)
 
 using RowsOfFolds = std::vector<std::vector<std::int64_t>>;
 
@@ -96,19 +75,5 @@ struct HoldoutRecord {
   std::int64_t units = 0;
   std::vector<std::string> unit_labels;
 };
-ERRMAP_RECORD(HoldoutRecord,
-              name,
-              folds,
-              whole_groups,
-              whole_sessions,
-              among_neighbours,
-              another_file,
-              repeats,
-              inner,
-              train_rows,
-              test_rows,
-              unit_of_analysis,
-              units,
-              unit_labels)
 
 }  // namespace errmap::models

@@ -15,7 +15,6 @@ struct FigureInputRecord {
   std::string name;
   std::string unit;
 };
-ERRMAP_RECORD(FigureInputRecord, name, unit)
 
 /// Rows of one file, thinned evenly where they are many.
 struct FigureTableRecord {
@@ -30,17 +29,6 @@ struct FigureTableRecord {
   LeftOut<std::vector<std::int64_t>> sessions;  // index into them
   LeftOut<std::vector<double>> time;  // in data.time_unit, where that is s
 };
-ERRMAP_RECORD(FigureTableRecord,
-              file,
-              rows_total,
-              rows,
-              labels,
-              groups,
-              target,
-              inputs,
-              session_labels,
-              sessions,
-              time)
 
 struct FigureHoldoutRecord {
   std::string name;
@@ -50,13 +38,11 @@ struct FigureHoldoutRecord {
   /// what its fold was trained on.
   LeftOut<std::vector<std::int64_t>> outside;
 };
-ERRMAP_RECORD(FigureHoldoutRecord, name, table, predictions, outside)
 
 struct CorrelationRecord {
   std::vector<std::string> columns;
   std::vector<std::vector<double>> matrix;
 };
-ERRMAP_RECORD(CorrelationRecord, columns, matrix)
 
 struct FiguresRecord {
   std::vector<FigureInputRecord> inputs;
@@ -69,14 +55,5 @@ struct FiguresRecord {
   LeftOut<std::vector<double>> fitted;
   CorrelationRecord correlation;
 };
-ERRMAP_RECORD(FiguresRecord,
-              inputs,
-              inputs_left_out,
-              position,
-              group,
-              tables,
-              holdouts,
-              fitted,
-              correlation)
 
 }  // namespace errmap::models

@@ -21,8 +21,6 @@ struct GapModelRecord {
   double ratio = kNotKnown;
   bool flatters = false;
 };
-ERRMAP_RECORD(
-    GapModelRecord, model, neighbours_rmse, unseen_rmse, ratio, flatters)
 
 struct GapRecord {
   std::string neighbours;
@@ -30,21 +28,18 @@ struct GapRecord {
   std::string warning;
   std::vector<GapModelRecord> models;
 };
-ERRMAP_RECORD(GapRecord, neighbours, unseen, warning, models)
 
 struct WilcoxonRecord {
   double statistic = kNotKnown;
   double p = kNotKnown;
   bool exact = false;
 };
-ERRMAP_RECORD(WilcoxonRecord, statistic, p, exact)
 
 struct MeanTestRecord {
   double statistic = kNotKnown;
   double df = kNotKnown;
   double p = kNotKnown;
 };
-ERRMAP_RECORD(MeanTestRecord, statistic, df, p)
 
 /// Allows for the memory from unit to unit (memory_bounds.h).
 struct MemoryTestRecord {
@@ -54,7 +49,6 @@ struct MemoryTestRecord {
   double p_holm = kNotKnown;
   double memory = kNotKnown;
 };
-ERRMAP_RECORD(MemoryTestRecord, statistic, df, p, p_holm, memory)
 
 struct PairTestsRecord {
   WilcoxonRecord wilcoxon;
@@ -63,8 +57,6 @@ struct PairTestsRecord {
   std::optional<MeanTestRecord> corrected_t;
   std::optional<MeanTestRecord> diebold_mariano;
 };
-ERRMAP_RECORD(
-    PairTestsRecord, wilcoxon, memory_t, block_t, corrected_t, diebold_mariano)
 
 /// Two models under one hold-out.
 struct PairRecord {
@@ -88,32 +80,11 @@ struct PairRecord {
   Confidence confidence = Confidence::kNotShown;
   PairTestsRecord tests;
 };
-ERRMAP_RECORD(PairRecord,
-              a,
-              b,
-              holdout,
-              rmse_a,
-              rmse_b,
-              difference,
-              ci95,
-              p,
-              p_holm,
-              test,
-              exact,
-              smallest_p,
-              unit_of_analysis,
-              units,
-              lag1,
-              correlated,
-              established,
-              confidence,
-              tests)
 
 struct WinRecord {
   std::string model;
   double share = kNotKnown;
 };
-ERRMAP_RECORD(WinRecord, model, share)
 
 /// Who wins when the groups are cut anew.
 struct StabilityRecord {
@@ -121,7 +92,6 @@ struct StabilityRecord {
   std::int64_t repeats = 0;
   std::vector<WinRecord> wins;
 };
-ERRMAP_RECORD(StabilityRecord, holdout, repeats, wins)
 
 /// Why no difference could be established at all.
 struct ObstacleRecord {
@@ -130,7 +100,6 @@ struct ObstacleRecord {
   std::int64_t needed = 0;  // 0: no number of units would do
   std::int64_t pairs = 0;
 };
-ERRMAP_RECORD(ObstacleRecord, kind, units, needed, pairs)
 
 struct VerdictRecord {
   std::string holdout;
@@ -144,16 +113,5 @@ struct VerdictRecord {
   Confidence confidence = Confidence::kNotShown;
   std::string why;
 };
-ERRMAP_RECORD(VerdictRecord,
-              holdout,
-              choice,
-              model,
-              rival,
-              against_rival,
-              best_baseline,
-              obstacle,
-              established,
-              confidence,
-              why)
 
 }  // namespace errmap::models

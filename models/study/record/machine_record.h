@@ -32,7 +32,6 @@ struct MachineDayRecord {
   double max = std::numeric_limits<double>::quiet_NaN();
   ByDirectionRecord within_90 = kNoFigures;  // shares of errors
 };
-ERRMAP_RECORD(MachineDayRecord, session, points, rms, p95, max, within_90)
 
 /// Figures of ISO 230-2:2014 of an axis on those days.
 struct PositioningRecord {
@@ -43,13 +42,6 @@ struct PositioningRecord {
   double repeatability = std::numeric_limits<double>::quiet_NaN();
   double accuracy = std::numeric_limits<double>::quiet_NaN();
 };
-ERRMAP_RECORD(PositioningRecord,
-              component,
-              systematic,
-              mean_bidirectional,
-              reversal,
-              repeatability,
-              accuracy)
 
 /// The errors in a cell of the working plane, in the machine's unit: middle,
 /// means of both directions, root mean square of the lengths.
@@ -61,7 +53,6 @@ struct PlaneCellRecord {
   double mean_up = std::numeric_limits<double>::quiet_NaN();
   double rms = std::numeric_limits<double>::quiet_NaN();
 };
-ERRMAP_RECORD(PlaneCellRecord, across, up, points, mean_across, mean_up, rms)
 
 /// What a component leaves at the tool: root mean square of its readings less
 /// its map on those days, times that of its sensitivities.
@@ -69,13 +60,11 @@ struct MachinePartRecord {
   std::string error;  // "EXX"
   double rms = std::numeric_limits<double>::quiet_NaN();
 };
-ERRMAP_RECORD(MachinePartRecord, error, rms)
 
 struct MachineMapRecord {
   std::string component;  // of the study: the map's data
   std::string model;
 };
-ERRMAP_RECORD(MachineMapRecord, component, model)
 
 /// The machine with one way of choosing its maps, or without any.
 struct MachineChoiceRecord {
@@ -101,23 +90,6 @@ struct MachineChoiceRecord {
   std::vector<MachinePartRecord> parts;  // the largest first
   std::vector<PlaneCellRecord> cells;    // only those that have points
 };
-ERRMAP_RECORD(MachineChoiceRecord,
-              name,
-              why,
-              maps,
-              points,
-              rms,
-              p95,
-              max,
-              p95_ci95,
-              within_90,
-              half_width_90,
-              held_out,
-              days,
-              positioning,
-              diagonals,
-              parts,
-              cells)
 
 /// The working plane in which cells lie: where the tool is less where the
 /// work's origin is, in the machine's unit.
@@ -127,7 +99,6 @@ struct PlaneRecord {
   double cell_width = std::numeric_limits<double>::quiet_NaN();
   double cell_height = std::numeric_limits<double>::quiet_NaN();
 };
-ERRMAP_RECORD(PlaneRecord, across, up, cell_width, cell_height)
 
 struct MachineRecord {
   std::string name;
@@ -139,7 +110,5 @@ struct MachineRecord {
   std::optional<PlaneRecord> plane;  // nothing: one direction is sensitive
   std::vector<MachineChoiceRecord> choices;  // uncompensated first
 };
-ERRMAP_RECORD(
-    MachineRecord, name, file, unit, sensitive, points, later, plane, choices)
 
 }  // namespace errmap::models

@@ -32,7 +32,6 @@ struct MetricsRecord {
   double range = kNotKnown;
   double r2 = kNotKnown;
 };
-ERRMAP_RECORD(MetricsRecord, n, mean, sd, rmse, mae, min, max, range, r2)
 
 struct StartRecord {
   std::uint64_t seed = 0;
@@ -42,8 +41,6 @@ struct StartRecord {
   double holdout_rmse = kNotKnown;
   bool chosen = false;
 };
-ERRMAP_RECORD(
-    StartRecord, seed, final_cost, stop, iterations, holdout_rmse, chosen)
 
 /// Of the final costs that are finite.
 struct CostSpreadRecord {
@@ -53,13 +50,11 @@ struct CostSpreadRecord {
   double max = kNotKnown;
   double sd = kNotKnown;  // n - 1; NaN for fewer than two
 };
-ERRMAP_RECORD(CostSpreadRecord, finite, min, median, max, sd)
 
 struct StartsRecord {
   std::vector<StartRecord> table;
   CostSpreadRecord spread;
 };
-ERRMAP_RECORD(StartsRecord, table, spread)
 
 /// How a fit went.
 struct SummaryRecord {
@@ -80,22 +75,6 @@ struct SummaryRecord {
   /// Iteration, sqrt(2 E), gradient norm.
   LeftOut<std::vector<std::tuple<std::int64_t, double, double>>> trace;
 };
-ERRMAP_RECORD(SummaryRecord,
-              stop,
-              converged,
-              message,
-              iterations,
-              evaluations,
-              value_evaluations,
-              gradient_evaluations,
-              curvature_evaluations,
-              initial_cost,
-              final_cost,
-              initial_gradient_norm,
-              final_gradient_norm,
-              mean_iteration_seconds,
-              sd_iteration_seconds,
-              trace)
 
 struct FitRecord {
   double fit_seconds = kNotKnown;
@@ -104,14 +83,12 @@ struct FitRecord {
   LeftOut<ByName<OptionValue>> choices;  // made by the fit, such as wfactor=cv
   LeftOut<StartsRecord> starts;          // where there were several
 };
-ERRMAP_RECORD(FitRecord, fit_seconds, summary, remarks, choices, starts)
 
 struct FoldRecord {
   double train_rmse = kNotKnown;
   double test_rmse = kNotKnown;
   Inline<FitRecord> fit;
 };
-ERRMAP_RECORD(FoldRecord, train_rmse, test_rmse, fit)
 
 struct MemorisationRecord {
   double train_r2 = kNotKnown;
@@ -122,14 +99,6 @@ struct MemorisationRecord {
   std::optional<std::string> why_not;
   std::string sentence;
 };
-ERRMAP_RECORD(MemorisationRecord,
-              train_r2,
-              shuffled_r2,
-              weights_per_row,
-              effective_parameters,
-              learning,
-              why_not,
-              sentence)
 
 /// A model under one hold-out.
 struct ResultRecord {
@@ -144,17 +113,6 @@ struct ResultRecord {
   GoalStanding goal_standing = GoalStanding::kNotJudged;
   std::vector<double> unit_rmse;
 };
-ERRMAP_RECORD(ResultRecord,
-              train,
-              test,
-              folds,
-              normality,
-              randomness,
-              ci95,
-              tier,
-              meets_goal,
-              goal_standing,
-              unit_rmse)
 
 /// Of one step of the exported map; ProgramCost.
 struct StepCostRecord {
@@ -164,12 +122,6 @@ struct StepCostRecord {
   std::int64_t exponentials = 0;
   std::int64_t state_bytes = 0;
 };
-ERRMAP_RECORD(StepCostRecord,
-              additions,
-              multiplications,
-              divisions,
-              exponentials,
-              state_bytes)
 
 enum class ModelStatus { kFailed, kOk };
 std::string_view ToString(ModelStatus status);
@@ -194,24 +146,5 @@ struct ModelRecord {
   ByName<ResultRecord> results;    // by hold-out
   double predict_ns = kNotKnown;
 };
-ERRMAP_RECORD(ModelRecord,
-              name,
-              kind,
-              choice,
-              baseline,
-              options,
-              parameters,
-              equation,
-              sensors,
-              inputs_used,
-              file,
-              step_cost,
-              final,
-              regression,
-              memorisation,
-              status,
-              why,
-              results,
-              predict_ns)
 
 }  // namespace errmap::models

@@ -15,7 +15,6 @@ struct ProbedModelRecord {
   std::string model;
   std::vector<double> rmse;  // as `numbers` of the whole
 };
-ERRMAP_RECORD(ProbedModelRecord, model, rmse)
 
 /// What probes of a session would make of each model on sessions held out.
 struct ProbesRecord {
@@ -27,13 +26,5 @@ struct ProbesRecord {
   std::int64_t scored_rows = 0;
   std::vector<ProbedModelRecord> models;
 };
-ERRMAP_RECORD(ProbesRecord,
-              holdout,
-              unit,
-              spacing,
-              time_unit,
-              numbers,
-              scored_rows,
-              models)
 
 }  // namespace errmap::models

@@ -35,25 +35,6 @@ struct ComponentConfigurationRecord {
   /// the defaults, a flag with an empty value.
   LeftOut<ByName<std::string>> options;
 };
-ERRMAP_RECORD(ComponentConfigurationRecord,
-              name,
-              data,
-              more_data,
-              where,
-              target,
-              inputs,
-              exclude,
-              group,
-              time,
-              session,
-              align,
-              weight,
-              missing,
-              faults,
-              keep_dead,
-              goal,
-              indifference,
-              options)
 
 /// The study as it was carried out, with the words of a study file.
 struct ConfigurationRecord {
@@ -67,22 +48,11 @@ struct ConfigurationRecord {
   LeftOut<std::string> rezero;
   std::vector<ComponentConfigurationRecord> component;
 };
-ERRMAP_RECORD(ConfigurationRecord,
-              seed,
-              goal,
-              indifference,
-              choose,
-              prefer,
-              holdouts,
-              models,
-              rezero,
-              component)
 
 struct InputFileRecord {
   std::string file;
   std::string sha256;
 };
-ERRMAP_RECORD(InputFileRecord, file, sha256)
 
 struct ProvenanceRecord {
   std::string version;
@@ -93,13 +63,5 @@ struct ProvenanceRecord {
   ByName<std::string> libraries;
   std::string platform;
 };
-ERRMAP_RECORD(ProvenanceRecord,
-              version,
-              command_line,
-              configuration,
-              inputs,
-              compiler,
-              libraries,
-              platform)
 
 }  // namespace errmap::models

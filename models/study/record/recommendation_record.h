@@ -23,7 +23,6 @@ struct CostRecord {
   std::int64_t multiplications = 0;
   std::int64_t exponentials = 0;
 };
-ERRMAP_RECORD(CostRecord, multiplications, exponentials)
 
 /// What a map remembers.
 struct MemoryRecord {
@@ -31,7 +30,6 @@ struct MemoryRecord {
   std::string time_unit;
   bool zeroed = false;  // at the start of a session
 };
-ERRMAP_RECORD(MemoryRecord, longest, time_unit, zeroed)
 
 /// A share of the errors on a unit never seen lies within half_width;
 /// PredictionInterval.
@@ -40,7 +38,6 @@ struct PromiseLevelRecord {
   double half_width = kNotKnown;
   bool at_least = false;
 };
-ERRMAP_RECORD(PromiseLevelRecord, coverage, half_width, at_least)
 
 struct PromiseRecord {
   std::string holdout;
@@ -48,7 +45,6 @@ struct PromiseRecord {
   std::int64_t units = 0;
   std::vector<PromiseLevelRecord> levels;
 };
-ERRMAP_RECORD(PromiseRecord, holdout, unit, units, levels)
 PromiseRecord MakeRecord(const PredictionInterval& interval);
 
 /// Held-out residuals from `from` to before `until` seconds after the first row
@@ -60,7 +56,6 @@ struct SinceStartRecord {
   double mean = kNotKnown;
   double rmse = kNotKnown;
 };
-ERRMAP_RECORD(SinceStartRecord, from, until, n, mean, rmse)
 
 /// See SessionWorth.
 struct SessionWorthRecord {
@@ -69,15 +64,12 @@ struct SessionWorthRecord {
   double ratio_of_one_fewer = kNotKnown;
   double ratio_of_one_more = kNotKnown;
 };
-ERRMAP_RECORD(
-    SessionWorthRecord, sessions, folds, ratio_of_one_fewer, ratio_of_one_more)
 
 /// See SensorImportance.
 struct WithoutSensorsRecord {
   std::vector<std::string> sensors;
   double rmse = kNotKnown;
 };
-ERRMAP_RECORD(WithoutSensorsRecord, sensors, rmse)
 
 struct ImportanceRecord {
   std::int64_t rows = 0;
@@ -86,7 +78,6 @@ struct ImportanceRecord {
   std::vector<WithoutSensorsRecord> one_by_one;
   std::vector<WithoutSensorsRecord> together;
 };
-ERRMAP_RECORD(ImportanceRecord, rows, rmse, alike, one_by_one, together)
 
 struct RecommendationRecord {
   Choice choice = Choice::kBaseline;
@@ -122,34 +113,5 @@ struct RecommendationRecord {
   std::vector<std::string> reasons;
   std::vector<std::string> caveats;
 };
-ERRMAP_RECORD(RecommendationRecord,
-              choice,
-              model,
-              holdout,
-              decided_by,
-              rmse,
-              ci95,
-              first_tier,
-              best_baseline,
-              sensors,
-              parameters,
-              predict_ns,
-              against_baseline,
-              meets_goal,
-              goal_standing,
-              extrapolated_share,
-              removed_share,
-              cost,
-              memory,
-              promise,
-              since_start,
-              session_worth,
-              importance,
-              grounds,
-              doubts,
-              sentence,
-              why,
-              reasons,
-              caveats)
 
 }  // namespace errmap::models

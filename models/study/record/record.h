@@ -43,6 +43,8 @@ template <typename T>
 struct IsInline : std::false_type {};
 template <typename T>
 struct IsInline<Inline<T>> : std::true_type {};
+template <typename T>
+inline constexpr bool kIsRecord<Inline<T>> = false;
 
 /// Whether all that two records hold is the same; NaN is the same as NaN.
 template <typename T>

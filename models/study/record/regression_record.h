@@ -28,20 +28,6 @@ struct StepRecord {
   double cp = kNotKnown;
   double cv = kNotKnown;
 };
-ERRMAP_RECORD(StepRecord,
-              term,
-              entered,
-              terms,
-              f,
-              p,
-              rss,
-              aic,
-              aicc,
-              bic,
-              adjusted_r2,
-              press,
-              cp,
-              cv)
 
 /// What the intercept has not.
 struct TermRecord {
@@ -49,7 +35,6 @@ struct TermRecord {
   double vif = kNotKnown;
   double bootstrap_inclusion = kNotKnown;  // 0 to 1
 };
-ERRMAP_RECORD(TermRecord, standardised, vif, bootstrap_inclusion)
 
 struct CoefficientRecord {
   std::string term;
@@ -60,8 +45,6 @@ struct CoefficientRecord {
   IntervalRecord ci95 = {kNotKnown, kNotKnown};
   Inline<std::optional<TermRecord>> of_term;
 };
-ERRMAP_RECORD(
-    CoefficientRecord, term, estimate, standard_error, t, p, ci95, of_term)
 
 struct ExcludedRecord {
   std::string term;
@@ -69,13 +52,11 @@ struct ExcludedRecord {
   double p = kNotKnown;
   double bootstrap_inclusion = kNotKnown;
 };
-ERRMAP_RECORD(ExcludedRecord, term, f, p, bootstrap_inclusion)
 
 struct AliasedRecord {
   std::string term;
   std::string why;
 };
-ERRMAP_RECORD(AliasedRecord, term, why)
 
 struct PenaltyChoiceRecord {
   std::string holdout;
@@ -83,7 +64,6 @@ struct PenaltyChoiceRecord {
   std::vector<double> mse;
   std::vector<double> standard_error;
 };
-ERRMAP_RECORD(PenaltyChoiceRecord, holdout, penalty, mse, standard_error)
 
 /// Of a penalised fit.
 struct PenaltyRecord {
@@ -91,7 +71,6 @@ struct PenaltyRecord {
   double effective_parameters = kNotKnown;
   PenaltyChoiceRecord cross_validation;
 };
-ERRMAP_RECORD(PenaltyRecord, penalty, effective_parameters, cross_validation)
 
 struct AnovaRecord {
   std::int64_t regression_df = 0;
@@ -102,20 +81,11 @@ struct AnovaRecord {
   double f = kNotKnown;
   double p = kNotKnown;
 };
-ERRMAP_RECORD(AnovaRecord,
-              regression_df,
-              regression_ss,
-              residual_df,
-              residual_ss,
-              total_ss,
-              f,
-              p)
 
 struct BootstrapRecord {
   std::int64_t repetitions = 0;
   std::string unit;
 };
-ERRMAP_RECORD(BootstrapRecord, repetitions, unit)
 
 /// Of a fit by least squares.
 struct LeastSquaresRecord {
@@ -138,25 +108,6 @@ struct LeastSquaresRecord {
   BootstrapRecord bootstrap;
   std::vector<std::string> notes;
 };
-ERRMAP_RECORD(LeastSquaresRecord,
-              anova,
-              s,
-              r2,
-              adjusted_r2,
-              press,
-              predicted_r2,
-              rows_of_leverage_1,
-              largest_residual,
-              largest_residual_row,
-              largest_leverage,
-              condition,
-              effective_rank,
-              bits,
-              excluded,
-              aliased,
-              after_selection,
-              bootstrap,
-              notes)
 
 struct RegressionRecord {
   std::string method;
@@ -170,15 +121,5 @@ struct RegressionRecord {
   Inline<std::optional<PenaltyRecord>> penalised;
   Inline<std::optional<LeastSquaresRecord>> least_squares;
 };
-ERRMAP_RECORD(RegressionRecord,
-              method,
-              candidates,
-              steps,
-              chosen_step,
-              ended,
-              coefficients,
-              centres,
-              penalised,
-              least_squares)
 
 }  // namespace errmap::models

@@ -72,20 +72,5 @@ struct RemarkRecord {
   LeftOut<std::vector<double>> above = {};
   std::string text = {};
 };
-ERRMAP_RECORD(RemarkRecord,
-              kind,
-              rank,
-              model,
-              holdouts,
-              excess,
-              confidence,
-              columns,
-              shares,
-              lag1,
-              pairs,
-              established,
-              below,
-              above,
-              text)
 
 }  // namespace errmap::models

@@ -20,8 +20,7 @@ namespace errmap::models {
     double statistic = kNotKnown;             \
     double p = kNotKnown;                     \
     LeftOut<std::string> why;                 \
-  };                                          \
-  ERRMAP_RECORD(Struct, statistic, p, why)
+  };
 
 ERRMAP_TEST_RECORD(DTestRecord, d)
 ERRMAP_TEST_RECORD(WTestRecord, w)
@@ -41,7 +40,6 @@ struct KsRecord {
   LeftOut<std::string> why;
   double p_given_exact = kNotKnown;
 };
-ERRMAP_RECORD(KsRecord, d, p_given, why, p_given_exact)
 
 struct PpccRecord {
   double lambda = kNotKnown;
@@ -52,7 +50,6 @@ struct PpccRecord {
   LeftOut<double> p_normal;
   LeftOut<std::string> why;
 };
-ERRMAP_RECORD(PpccRecord, lambda, r_max, p_max, r_014, r_normal, p_normal, why)
 
 /// p of simulated normal samples.
 struct MonteCarloRecord {
@@ -64,14 +61,6 @@ struct MonteCarloRecord {
   double dagostino_pearson = kNotKnown;
   double normal_ppcc = kNotKnown;
 };
-ERRMAP_RECORD(MonteCarloRecord,
-              draws,
-              lilliefors,
-              shapiro_wilk,
-              anderson_darling,
-              jarque_bera,
-              dagostino_pearson,
-              normal_ppcc)
 
 /// p are cut off at 0.001 and 0.999 where they come from simulated tables.
 struct NormalityRecord {
@@ -87,37 +76,22 @@ struct NormalityRecord {
   double kurtosis = kNotKnown;
   LeftOut<MonteCarloRecord> monte_carlo;
 };
-ERRMAP_RECORD(NormalityRecord,
-              ks,
-              lilliefors,
-              shapiro_wilk,
-              anderson_darling,
-              jarque_bera,
-              dagostino_pearson,
-              ppcc,
-              dip,
-              skewness,
-              kurtosis,
-              monte_carlo)
 
 struct RunsRecord {
   Inline<ZTestRecord> test;
   LeftOut<std::int64_t> runs;
   LeftOut<double> expected;
 };
-ERRMAP_RECORD(RunsRecord, test, runs, expected)
 
 struct Lag1Record {
   Inline<RTestRecord> test;
   LeftOut<double> expected;
 };
-ERRMAP_RECORD(Lag1Record, test, expected)
 
 struct LjungBoxRecord {
   Inline<QTestRecord> test;
   LeftOut<std::int64_t> lags;
 };
-ERRMAP_RECORD(LjungBoxRecord, test, lags)
 
 /// p of shuffled orders.
 struct ShuffledRecord {
@@ -127,7 +101,6 @@ struct ShuffledRecord {
   double durbin_watson = kNotKnown;
   double ljung_box = kNotKnown;
 };
-ERRMAP_RECORD(ShuffledRecord, draws, runs, lag1, durbin_watson, ljung_box)
 
 struct SerialRecord {
   RunsRecord runs;
@@ -136,7 +109,6 @@ struct SerialRecord {
   LjungBoxRecord ljung_box;
   LeftOut<ShuffledRecord> shuffled;
 };
-ERRMAP_RECORD(SerialRecord, runs, lag1, durbin_watson, ljung_box, shuffled)
 
 struct LevelRecord {
   std::string level;
@@ -144,7 +116,6 @@ struct LevelRecord {
   double mean = kNotKnown;
   double standard_error = kNotKnown;
 };
-ERRMAP_RECORD(LevelRecord, level, n, mean, standard_error)
 
 /// Biases at the levels of one column.
 struct BiasRecord {
@@ -153,13 +124,11 @@ struct BiasRecord {
   double explained = kNotKnown;  // share of the sum of squares
   std::vector<LevelRecord> levels;
 };
-ERRMAP_RECORD(BiasRecord, test, column, explained, levels)
 
 struct SpreadRecord {
   Inline<LmTestRecord> test;
   std::string column;
 };
-ERRMAP_RECORD(SpreadRecord, test, column)
 
 struct RandomnessRecord {
   std::string order;
@@ -170,13 +139,5 @@ struct RandomnessRecord {
   std::optional<BiasRecord> by_position;
   std::optional<SpreadRecord> breusch_pagan;
 };
-ERRMAP_RECORD(RandomnessRecord,
-              order,
-              in_order,
-              within_groups,
-              halves,
-              by_group,
-              by_position,
-              breusch_pagan)
 
 }  // namespace errmap::models

@@ -16,14 +16,12 @@ struct RezeroedModelRecord {
   double rmse = kNotKnown;
   double never = kNotKnown;  // the same rows without re-zeroing
 };
-ERRMAP_RECORD(RezeroedModelRecord, model, rmse, never)
 
 struct RezeroIntervalRecord {
   double interval = kNotKnown;  // s; NaN: once a session
   double map = kNotKnown;
   double no_map = kNotKnown;
 };
-ERRMAP_RECORD(RezeroIntervalRecord, interval, map, no_map)
 
 /// See RezeroRule and RezeroWorth.
 struct RezeroRecord {
@@ -43,19 +41,5 @@ struct RezeroRecord {
   double needs_interval = kNotKnown;  // s; of "every" alone
   std::string sentence;
 };
-ERRMAP_RECORD(RezeroRecord,
-              rule,
-              when,
-              interval,
-              noise,
-              holdout,
-              probes,
-              scored_rows,
-              no_map,
-              models,
-              curve,
-              needs,
-              needs_interval,
-              sentence)
 
 }  // namespace errmap::models

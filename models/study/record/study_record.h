@@ -60,24 +60,6 @@ struct ComponentRecord {
   LeftOut<RezeroRecord> rezero;
   FiguresRecord figures;
 };
-ERRMAP_RECORD(ComponentRecord,
-              name,
-              interrupted,
-              data,
-              goal,
-              indifference,
-              display,
-              holdouts,
-              models,
-              gap,
-              comparisons,
-              tiers,
-              stability,
-              verdict,
-              recommendation,
-              probes,
-              rezero,
-              figures)
 
 inline constexpr std::string_view kResultsSchema = "errmap-results-1";
 
@@ -99,15 +81,6 @@ struct StudyRecord {
   LeftOut<MachineRecord> machine;  // where they were put together
   LeftOut<Doubt> doubt;            // by who read it
 };
-ERRMAP_RECORD(StudyRecord,
-              schema,
-              version,
-              seed,
-              interrupted,
-              provenance,
-              components,
-              machine,
-              doubt)
 
 /// Two models under a hold-out, either way round, or null.
 const PairRecord* FindPair(const ComponentRecord& component,
