@@ -153,7 +153,7 @@ struct EffectiveOption {
 struct StartResult {
   std::uint64_t seed = 0;
   double final_cost = std::numeric_limits<double>::quiet_NaN();
-  fitting::Termination termination = fitting::Termination::kFailed;
+  fitting::Termination stop = fitting::Termination::kFailed;
   std::int64_t iterations = 0;
   /// On inner hold-outs, in the target's unit; NaN where not asked for.
   double holdout_rmse = std::numeric_limits<double>::quiet_NaN();

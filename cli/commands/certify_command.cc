@@ -14,7 +14,8 @@
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "models/certification/certification.h"
-#include "models/certification/certification_json.h"
+#include "models/study/record/record_json.h"
+#include "models/version.h"
 
 namespace errmap::cli {
 namespace {
@@ -46,7 +47,11 @@ int RunCertify(const CertifyArguments& arguments,
   }
   models::JudgeFloors(floors, &certification);
   if (arguments.format == "json") {
-    Json document = models::CertificationJson(certification, floors);
+    Json document = {{"schema", "errmap-certify-1"},
+                     {"version", models::Version()},
+                     {"passed", certification.passed()}};
+    document.update(models::ToJson(certification));
+    document["floors"] = models::ToJson(floors);
     document["provenance"] =
         ProvenanceJson(command_line, {{"part", arguments.part}}, {});
     PrintResult(DumpJson(document));

@@ -8,13 +8,8 @@
 
 namespace errmap::desk {
 
-/// A file that a run read.
-struct InputFile {
-  std::string file;  // as given
-  std::string sha256;
-
-  bool operator==(const InputFile&) const = default;
-};
+/// A file that a run read, by its name as given.
+using InputFile = models::InputFileRecord;
 
 /// Reads `file` for its hash; throws data::InputError where it cannot.
 InputFile HashInput(const std::string& file);

@@ -153,20 +153,4 @@ ExtendedLeastSquaresFit SolveExtendedLeastSquares(
       scaled, response, scales, stats::kDoubleDoubleBits);
 }
 
-ExtendedMatrix PowersDesign(const ExtendedVector& x, int low, int high) {
-  if (low < 0 || high < low) {
-    throw std::invalid_argument("PowersDesign: 0 <= low <= high, found " +
-                                std::to_string(low) + " and " +
-                                std::to_string(high));
-  }
-  ExtendedMatrix design(x.size(), high - low + 1);
-  for (Index i = 0; i < x.size(); ++i) {
-    DoubleDouble power = 1.0;
-    for (int k = 0; k <= high; ++k, power *= x[i]) {
-      if (k >= low) design(i, k - low) = power;
-    }
-  }
-  return design;
-}
-
 }  // namespace errmap::fitting

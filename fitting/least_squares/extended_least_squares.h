@@ -50,9 +50,4 @@ ExtendedLeastSquaresFit SolveExtendedLeastSquares(
     const ExtendedVector& response,
     const ExtendedLeastSquaresOptions& options = {});
 
-/// 1, x, x^2, ... (n x (high - low + 1)), the powers from `low` to `high` of
-/// `x` (n) formed in 106 bits. Throws std::invalid_argument unless
-/// 0 <= low <= high.
-ExtendedMatrix PowersDesign(const ExtendedVector& x, int low, int high);
-
 }  // namespace errmap::fitting

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,12 +30,15 @@ struct NonlinearCertificate {
   std::string stop;     // fitting::ToString of the termination
   std::string message;  // the solver's own words, or what it threw
   std::vector<CertifiedEstimate> estimates = {};
-  double residual_sum_of_squares = 0.0;
+  double rss = 0.0;
 };
 
 /// All runs of one solver. Solved = lre_parameters above 4.
 struct SolverCertificate {
   std::string solver;
+  /// "net:scg" of "scg:moller": the models that it fits in the commands;
+  /// nothing for the default.
+  std::optional<std::string> fits = {};
   int runs = 0;
   int solved = 0;
   double mean_lre_parameters = 0.0;
@@ -53,7 +57,7 @@ struct LinearCertificate {
   int bits = 0;            // of the arithmetic that its condition asked for
   std::vector<CertifiedEstimate> estimates =
       {};  // the intercept first, where there is one
-  double residual_sum_of_squares = 0.0;
+  double rss = 0.0;
 };
 
 struct UnivariateCertificate {
@@ -64,10 +68,10 @@ struct UnivariateCertificate {
   double mean = 0.0;
   double sd = 0.0;
   double autocorrelation = 0.0;  // at lag 1
-  /// Of the figures above: 53 where double data hold the digits, 106 where
-  /// sqrt(1 + (mean / sd)^2) says that the decimal text must be kept.
+  double condition = 0.0;        // sqrt(1 + (mean / sd)^2)
+  /// Of the figures above: 53 where double data hold the digits, 106 where the
+  /// condition says that the decimal text must be kept.
   int bits = 0;
-  double condition = 0.0;
   /// The same from double data whatever the condition: what compare uses.
   double lre_mean_double = 0.0;
   double lre_sd_double = 0.0;
@@ -91,48 +95,46 @@ struct AgreementCertificate {
   bool judged = true;
 };
 
+/// The name of the default: Levenberg-Marquardt with its fallbacks and polish
+/// (fitting::FitNonlinearRegression). Of the library only: the commands fit
+/// nets, by the other solvers.
+inline constexpr const char* kDefaultSolver = "lm";
+
 /// What an installation must reach; LRE are least values, errors greatest.
 struct CertificationFloors {
-  int nonlinear_solved = 54;  // of the default solver, like the next four
-  double nonlinear_parameters = 10.0;
-  double nonlinear_mean_parameters = 10.6;
-  double nonlinear_sd = 10.0;
-  double nonlinear_rss = 10.0;
-  double linear_coefficients = 13.0;
-  double linear_sd = 13.0;
-  double linear_rss = 13.0;
-  double univariate = 13.0;
-  /// NumAcc4's sd: a double keeps 8 digits of 0.1 beside 10000000.
-  double univariate_numacc4_sd = 8.0;
+  std::string nonlinear_solver = kDefaultSolver;  // whose the next five are
+  int nonlinear_solved = 54;
+  double nonlinear_lre_parameters = 10.0;
+  double nonlinear_mean_lre_parameters = 10.6;
+  double nonlinear_lre_sd = 10.0;
+  double nonlinear_lre_rss = 10.0;
+  double linear_lre_coefficients = 13.0;
+  double linear_lre_sd = 13.0;
+  double linear_lre_rss = 13.0;
+  double univariate_lre = 13.0;
+  /// A double keeps 8 digits of 0.1 beside 10000000.
+  double univariate_lre_sd_numacc4 = 8.0;
   /// Of the plain double figures: the mean; sd and autocorrelation.
-  double univariate_double_mean = 13.0;
-  double univariate_double = 8.0;
+  double univariate_double_lre_mean = 13.0;
+  double univariate_double_lre = 8.0;
   double gradient_relative_error = 1e-6;
-  double agreement_objective = 1e-8;
-  double agreement_predictions = 1e-6;
+  double agreement_difference = 1e-8;
+  double agreement_prediction_difference = 1e-6;
 };
 
+/// The members of all these are their keys in JSON.
 struct Certification {
+  /// One line per floor that was missed, in words.
+  std::vector<std::string> missed;
   std::vector<NonlinearCertificate> nonlinear;
   std::vector<SolverCertificate> nonlinear_summary;
   std::vector<LinearCertificate> linear;
   std::vector<UnivariateCertificate> univariate;
   std::vector<GradientCertificate> gradients;
   std::vector<AgreementCertificate> agreement;
-  /// One line per floor that was missed, in words.
-  std::vector<std::string> missed;
 
   bool passed() const { return missed.empty(); }
 };
-
-/// The name of the default: Levenberg-Marquardt with its fallbacks and polish
-/// (fitting::FitNonlinearRegression). Of the library only: the commands fit
-/// nets, by the other solvers.
-inline constexpr const char* kDefaultSolver = "lm";
-
-/// "net:scg" of "scg:moller": the models that `solver` fits in the commands;
-/// "" for the default.
-std::string ModelsFittedBy(const std::string& solver);
 
 /// Runs every solver on the 27 problems from both starts, in parallel; the
 /// figures do not depend on the number of threads.

@@ -35,47 +35,50 @@ void JudgeFloors(const CertificationFloors& floors,
     if (row.solver != kDefaultSolver) continue;
     const std::string run =
         fmt::format("{} from start {}, ", row.problem, row.start);
+    judge.AtLeast(run + "parameters",
+                  row.lre_parameters,
+                  floors.nonlinear_lre_parameters);
     judge.AtLeast(
-        run + "parameters", row.lre_parameters, floors.nonlinear_parameters);
-    judge.AtLeast(run + "standard deviations", row.lre_sd, floors.nonlinear_sd);
+        run + "standard deviations", row.lre_sd, floors.nonlinear_lre_sd);
     judge.AtLeast(
-        run + "residual sum of squares", row.lre_rss, floors.nonlinear_rss);
+        run + "residual sum of squares", row.lre_rss, floors.nonlinear_lre_rss);
   }
   for (const SolverCertificate& row : certification->nonlinear_summary) {
     if (row.solver != kDefaultSolver) continue;
     judge.AtLeast("problems solved", row.solved, floors.nonlinear_solved);
     judge.AtLeast("mean of parameters",
                   row.mean_lre_parameters,
-                  floors.nonlinear_mean_parameters);
+                  floors.nonlinear_mean_lre_parameters);
   }
   for (const LinearCertificate& row : certification->linear) {
     judge.AtLeast(row.problem + ", coefficients",
                   row.lre_coefficients,
-                  floors.linear_coefficients);
-    judge.AtLeast(
-        row.problem + ", standard deviations", row.lre_sd, floors.linear_sd);
+                  floors.linear_lre_coefficients);
+    judge.AtLeast(row.problem + ", standard deviations",
+                  row.lre_sd,
+                  floors.linear_lre_sd);
     judge.AtLeast(row.problem + ", residual sum of squares",
                   row.lre_rss,
-                  floors.linear_rss);
+                  floors.linear_lre_rss);
   }
   for (const UnivariateCertificate& row : certification->univariate) {
-    judge.AtLeast(row.problem + ", mean", row.lre_mean, floors.univariate);
+    judge.AtLeast(row.problem + ", mean", row.lre_mean, floors.univariate_lre);
     judge.AtLeast(row.problem + ", sd",
                   row.lre_sd,
-                  row.problem == "NumAcc4" ? floors.univariate_numacc4_sd
-                                           : floors.univariate);
+                  row.problem == "NumAcc4" ? floors.univariate_lre_sd_numacc4
+                                           : floors.univariate_lre);
     judge.AtLeast(row.problem + ", autocorrelation",
                   row.lre_autocorrelation,
-                  floors.univariate);
+                  floors.univariate_lre);
     judge.AtLeast(row.problem + ", mean in double",
                   row.lre_mean_double,
-                  floors.univariate_double_mean);
+                  floors.univariate_double_lre_mean);
     judge.AtLeast(row.problem + ", sd in double",
                   row.lre_sd_double,
-                  floors.univariate_double);
+                  floors.univariate_double_lre);
     judge.AtLeast(row.problem + ", autocorrelation in double",
                   row.lre_autocorrelation_double,
-                  floors.univariate_double);
+                  floors.univariate_double_lre);
   }
   for (const GradientCertificate& row : certification->gradients) {
     judge.AtMost("gradient of " + row.objective,
@@ -86,10 +89,10 @@ void JudgeFloors(const CertificationFloors& floors,
     if (!row.judged) continue;
     judge.AtMost(row.solver + ", objective above the lowest",
                  row.difference,
-                 floors.agreement_objective);
+                 floors.agreement_difference);
     judge.AtMost(row.solver + ", predictions",
                  row.prediction_difference,
-                 floors.agreement_predictions);
+                 floors.agreement_prediction_difference);
   }
 }
 

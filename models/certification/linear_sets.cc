@@ -73,13 +73,12 @@ LinearCertificate Certify(const data::StrdProblem& problem) {
     coefficients[j] = found.estimate;
     deviations[j] = found.standard_deviation;
   }
-  row.residual_sum_of_squares = report.fit.residual_sum_of_squares;
+  row.rss = report.fit.residual_sum_of_squares;
   row.lre_coefficients = stats::SmallestLogRelativeError(
       coefficients, CertifiedParameters(problem), stats::kLreCapLinear);
   row.lre_sd = stats::SmallestLogRelativeError(
       deviations, CertifiedDeviations(problem), stats::kLreCapLinear);
-  row.lre_rss =
-      Lre(row.residual_sum_of_squares, problem.residual_sum_of_squares);
+  row.lre_rss = Lre(row.rss, problem.residual_sum_of_squares);
   row.condition = report.fit.condition;
   row.bits = report.fit.bits;
   return row;

@@ -30,7 +30,7 @@ void JudgeRow(const data::StrdProblem& problem,
       statistics.parameters, CertifiedParameters(problem), kCap);
   row->lre_sd = stats::SmallestLogRelativeError(
       statistics.standard_deviations, CertifiedDeviations(problem), kCap);
-  row->residual_sum_of_squares = statistics.residual_sum_of_squares;
+  row->rss = statistics.residual_sum_of_squares;
   for (std::size_t j = 0; j < problem.parameters.size(); ++j) {
     const auto at = static_cast<Eigen::Index>(j);
     row->estimates.push_back({problem.parameters[j].name,
@@ -84,6 +84,9 @@ SolverCertificate Summarise(const std::string& solver,
   constexpr double kSolved = 4.0;
   SolverCertificate summary{.solver = solver,
                             .least_lre_parameters = stats::kLreCapNonlinear};
+  if (solver != kDefaultSolver) {
+    summary.fits = "net:" + solver.substr(0, solver.find(':'));
+  }
   for (const NonlinearCertificate& row : rows) {
     if (row.solver != solver) continue;
     ++summary.runs;
@@ -100,11 +103,6 @@ SolverCertificate Summarise(const std::string& solver,
 }
 
 }  // namespace
-
-std::string ModelsFittedBy(const std::string& solver) {
-  if (solver == kDefaultSolver) return "";
-  return "net:" + solver.substr(0, solver.find(':'));
-}
 
 void CertifyNonlinear(Certification* certification) {
   std::vector<const CertifiedSolver*> solvers{nullptr};

@@ -147,47 +147,6 @@ std::vector<bool> ApproachedUpwards(const Eigen::VectorXd& positions) {
   return upwards;
 }
 
-std::vector<Diagonal> DiagonalsOf(const Vector3d& low,
-                                  const Vector3d& high,
-                                  Index num_points) {
-  const Vector3d size = high - low;
-  const auto num_axes = (size.array() > 0.0).count();
-  if ((size.array() < 0.0).any() || num_axes < 2 || num_points < 2) {
-    throw std::invalid_argument(
-        "DiagonalsOf: a box of two lengths or more and two points are needed");
-  }
-  std::vector<Diagonal> diagonals;
-  // The first axis with a length goes up; the others either way.
-  for (int signs = 0; signs < 8; ++signs) {
-    Diagonal diagonal{.name = "", .points = {}, .direction = size};
-    bool is_new = true;
-    bool is_first = true;
-    for (Index axis = 0; axis < 3; ++axis) {
-      const bool falls = ((signs >> axis) & 1) != 0;
-      if (size[axis] == 0.0) {
-        diagonal.name += "0";
-        is_new = is_new && !falls;
-        continue;
-      }
-      diagonal.name += falls ? "n" : "p";
-      if (falls) diagonal.direction[axis] = -size[axis];
-      is_new = is_new && !(is_first && falls);
-      is_first = false;
-    }
-    if (!is_new) continue;
-    const Vector3d middle = 0.5 * (low + high);
-    diagonal.points.resize(num_points, 3);
-    for (Index i = 0; i < num_points; ++i) {
-      const double share =
-          static_cast<double>(i) / static_cast<double>(num_points - 1) - 0.5;
-      diagonal.points.row(i) = middle + share * diagonal.direction;
-    }
-    diagonal.direction.normalize();
-    diagonals.push_back(std::move(diagonal));
-  }
-  return diagonals;
-}
-
 PositioningTest AlongDiagonal(const std::string& name,
                               const MatrixX3d& points,
                               const MatrixX3d& errors,
@@ -220,16 +179,6 @@ PositioningTest AlongDiagonal(const std::string& name,
   return {.positions = points * direction,
           .deviations = errors * direction,
           .upwards = std::move(upwards)};
-}
-
-double DiagonalDeviation(const Diagonal& diagonal, const MatrixX3d& errors) {
-  if (errors.rows() != diagonal.points.rows()) {
-    throw std::invalid_argument(
-        "DiagonalDeviation: " + std::to_string(errors.rows()) +
-        " errors, expected " + std::to_string(diagonal.points.rows()));
-  }
-  const Eigen::VectorXd along = errors * diagonal.direction;
-  return along.maxCoeff() - along.minCoeff();
 }
 
 }  // namespace errmap::models

@@ -76,23 +76,8 @@ PositioningFigures PositioningFiguresOf(
 /// does.
 std::vector<bool> ApproachedUpwards(const Eigen::VectorXd& positions);
 
-/// A straight line through the work volume (ISO 230-6:2002): a face diagonal
-/// where one axis stands, else a body diagonal.
-struct Diagonal {
-  std::string name;           // signs of X, Y and Z along it: "ppp", "p0n"
-  Eigen::MatrixX3d points;    // (n x 3) evenly from end to end
-  Eigen::Vector3d direction;  // unit
-};
-
-/// The diagonals of the box between `low` and `high`, with `num_points` (2 or
-/// more) each: four of three axes, two where an axis has low = high. Throws
-/// std::invalid_argument where an axis has low > high, or fewer than two axes
-/// have a length.
-std::vector<Diagonal> DiagonalsOf(const Eigen::Vector3d& low,
-                                  const Eigen::Vector3d& high,
-                                  Eigen::Index num_points);
-
-/// The test of positions along a diagonal of that name, from runs both ways:
+/// The test of positions along a diagonal of that name (the signs of X, Y and Z
+/// along it: "ppp", "p0n" where Y stands), from runs both ways:
 /// `points` (n x 3) where the tool was told to be, `errors` (n x 3), and
 /// whether it came along the name's signs. Its figures are those of ISO
 /// 230-6:2002, clause 5. Throws std::invalid_argument on a name that is no
@@ -102,10 +87,5 @@ PositioningTest AlongDiagonal(const std::string& name,
                               const Eigen::MatrixX3d& points,
                               const Eigen::MatrixX3d& errors,
                               std::vector<bool> upwards);
-
-/// Systematic deviation E of a diagonal displacement test: the range of the
-/// errors (n x 3, at its points) along it.
-double DiagonalDeviation(const Diagonal& diagonal,
-                         const Eigen::MatrixX3d& errors);
 
 }  // namespace errmap::models

@@ -196,12 +196,4 @@ Vector3d KinematicChain::FirstOrderError(const VectorXd& coordinates,
   return Sensitivities(coordinates) * errors;
 }
 
-Isometry3d ErrorMatrix(const Isometry3d& tool, const Isometry3d& work) {
-  return tool.inverse() * work;
-}
-
-Vector3d ToolLessWork(const Isometry3d& error_matrix, const Isometry3d& tool) {
-  return -(tool.linear() * error_matrix.translation());
-}
-
 }  // namespace errmap::models

@@ -125,13 +125,4 @@ class KinematicChain {
   Eigen::Index num_coordinates_ = 0;
 };
 
-/// E = T_TOOL^-1 T_WORK (Eq. 5): the workpiece as the tool sees it.
-Eigen::Isometry3d ErrorMatrix(const Eigen::Isometry3d& tool,
-                              const Eigen::Isometry3d& work);
-
-/// Tool less work in the base frame (3) from E, whose translation is work less
-/// tool in the frame of the tool: the opposite sense.
-Eigen::Vector3d ToolLessWork(const Eigen::Isometry3d& error_matrix,
-                             const Eigen::Isometry3d& tool);
-
 }  // namespace errmap::models

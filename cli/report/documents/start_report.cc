@@ -28,7 +28,7 @@ std::string StartsText(const std::vector<models::StartResult>& starts,
                         std::isfinite(start.holdout_rmse)
                             ? error.WithUnit(start.holdout_rmse)
                             : std::string("-"),
-                        fitting::ToString(start.termination));
+                        fitting::ToString(start.stop));
   }
   const models::CostSpreadRecord spread = models::MakeRecord(starts).spread;
   return text +

@@ -309,7 +309,7 @@ std::vector<Figure> StartFigures(const ReportView& view,
     const auto at = static_cast<double>(figure.plot.x.names.size());
     figure.plot.x.names.emplace_back(Shortened(model->name, 20), at);
     int n = 0;
-    for (const models::StartRecord& start : model->final->starts->table) {
+    for (const models::StartResult& start : model->final->starts->table) {
       if (!(start.final_cost > 0.0)) continue;
       const double rms = std::sqrt(2.0 * start.final_cost);
       low = std::min(low, rms);

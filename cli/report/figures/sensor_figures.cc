@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMostAlone = 12;
 constexpr std::size_t kMostTogether = 5;
 
-using Without = models::WithoutSensorsRecord;
+using Without = models::SensorImportance::Without;
 
 // "all 27 sensors", "t1 and t2", "t1 and 3 alike", "t1".
 std::string Label(const Without& without, std::size_t all) {
@@ -30,7 +30,7 @@ std::string Label(const Without& without, std::size_t all) {
 
 // One row of the picture: from the error with every sensor to that without.
 void AddRow(const ReportView& view,
-            const models::ImportanceRecord& importance,
+            const models::SensorImportance& importance,
             const Without& without,
             bool together,
             Plot* plot) {
@@ -72,7 +72,7 @@ std::string Words(const ErrorText& error, const Without& without) {
 
 // What all sensors bring may be many times what one of them does.
 Axis ErrorAxis(const ReportView& view,
-               const models::ImportanceRecord& importance) {
+               const models::SensorImportance& importance) {
   constexpr double kMargin = 1.25;
   Axis axis{.quantity = "RMSE on held-out rows", .unit = view.shown_unit};
   double low = importance.rmse;
@@ -89,7 +89,7 @@ Axis ErrorAxis(const ReportView& view,
   return axis;
 }
 
-std::string Note(const models::ImportanceRecord& importance) {
+std::string Note(const models::SensorImportance& importance) {
   std::string note =
       "Nothing is fitted anew: in a sensor's place the map reads what its "
       "others say of it.";
@@ -112,7 +112,7 @@ std::vector<Figure> ImportanceFigures(const ReportView& view,
                                       const std::string& prefix) {
   const auto& advice = view.component->recommendation;
   if (!advice || !advice->importance) return {};
-  const models::ImportanceRecord& importance = *advice->importance;
+  const models::SensorImportance& importance = *advice->importance;
   if (importance.one_by_one.empty() || !std::isfinite(importance.rmse)) {
     return {};
   }

@@ -285,7 +285,7 @@ Table StartTable(const ReportView& view) {
                    {"chosen", false}};
   for (const ModelRecord* model : view.models) {
     if (!model->final || !model->final->starts) continue;
-    for (const models::StartRecord& start : model->final->starts->table) {
+    for (const models::StartResult& start : model->final->starts->table) {
       table.rows.push_back({model->name,
                             std::to_string(start.seed),
                             Number{RootOfTwice(start.final_cost), 5},
@@ -372,7 +372,7 @@ Table OptionTable(const ReportView& view) {
 Table DroppedTable(const ReportView& view) {
   Table table{.title = "Sensors and columns left out"};
   table.columns = {{"column", false}, {"why", false}};
-  for (const models::DroppedRecord& dropped : view.component->data.dropped) {
+  for (const data::DroppedColumn& dropped : view.component->data.dropped) {
     table.rows.push_back({dropped.column, dropped.why});
   }
   SayWhyEmpty("No column was left out.", &table);

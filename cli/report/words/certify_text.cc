@@ -53,10 +53,10 @@ std::string SolversText(const Certification& certification,
              "{:.1f},\nsd {:.1f}, sum of squares {:.1f}\n",
              models::kDefaultSolver,
              floors.nonlinear_solved,
-             floors.nonlinear_mean_parameters,
-             floors.nonlinear_parameters,
-             floors.nonlinear_sd,
-             floors.nonlinear_rss) +
+             floors.nonlinear_mean_lre_parameters,
+             floors.nonlinear_lre_parameters,
+             floors.nonlinear_lre_sd,
+             floors.nonlinear_lre_rss) +
          fmt::format(
              "{} is the library's (fitting/nonlinear/nonlinear_regression.h); "
              "no command\nfits formulas by it. The commands fit nets, by the "
@@ -102,7 +102,7 @@ std::string LinearText(const Certification& certification,
       "poly:formula=...:centred=no fits\nthe data's CSV; digits (LRE, at most "
       "15; floors {:.0f})\n"
       "{:<10}{:>8}{:>7}{:>7}{:>12}{:>6}\n",
-      floors.linear_coefficients,
+      floors.linear_lre_coefficients,
       "problem",
       "coeff.",
       "sd",
@@ -127,8 +127,8 @@ std::string UnivariateText(const Certification& certification,
       "\nNIST StRD, univariate; digits (LRE, at most 15; floors {:.0f}, from "
       "double data {:.0f})\n"
       "{:<10}{:>7}{:>7}{:>9}{:>6}{:>12}   {}\n",
-      floors.univariate,
-      floors.univariate_double,
+      floors.univariate_lre,
+      floors.univariate_double_lre,
       "problem",
       "mean",
       "sd",
@@ -187,8 +187,8 @@ std::string AgreementText(const Certification& certification,
       "\nAgreement on one well-damped net from one start: objective within "
       "{:.0e},\npredictions within {:.0e} of the target range (*: no floor)\n"
       "{:<30}{:>12}{:>9}{:>10}{:>6} {}\n",
-      floors.agreement_objective,
-      floors.agreement_predictions,
+      floors.agreement_difference,
+      floors.agreement_prediction_difference,
       "solver",
       "objective",
       "relative",

@@ -28,7 +28,7 @@ using models::VerdictRecord;
 using Kind = models::Obstacle::Kind;
 
 // What one more session of measurements may bring.
-std::string OneMoreText(const models::SessionWorthRecord& worth,
+std::string OneMoreText(const models::SessionWorth& worth,
                         const std::string& unit) {
   constexpr double kWorthSaying = 0.02;
   const double saved = 1.0 - worth.ratio_of_one_more;
@@ -237,7 +237,7 @@ std::string TooFewSentence(const ComponentNumbers& component,
                            const RemarkRecord& remark) {
   const RecommendationRecord& advice = component.Advice();
   const HoldoutRecord& holdout = component.Holdout(advice.holdout);
-  const models::ObstacleRecord& obstacle =
+  const models::Obstacle& obstacle =
       There(component.Verdict(advice.holdout).obstacle);
   const std::string found = Count(obstacle.units, holdout.unit_of_analysis);
   const bool one = obstacle.units == 1;

@@ -25,7 +25,7 @@ using models::VerdictRecord;
 using Kind = models::Obstacle::Kind;
 
 // "10 cycles, at least 12 are needed where they may be of one session".
-std::string ObstacleText(const models::ObstacleRecord& obstacle) {
+std::string ObstacleText(const models::Obstacle& obstacle) {
   const std::string found = Count(obstacle.units, "unit");
   switch (obstacle.kind) {
     case Kind::kNone:

@@ -15,11 +15,6 @@
 
 namespace errmap::models {
 
-struct DroppedRecord {
-  std::string column;
-  std::string why;
-};
-
 /// Readings that no machine made; data::ColumnFault.
 struct FaultRecord {
   data::FaultKind kind = data::FaultKind::kOutlying;
@@ -45,7 +40,7 @@ struct DataRecord {
   std::string time_unit;
   std::int64_t sessions = 0;
   data::Alignment align = data::Alignment::kNone;
-  std::vector<DroppedRecord> dropped;
+  std::vector<data::DroppedColumn> dropped;
   std::vector<FaultRecord> faults;
   std::vector<std::string> remarks;  // on columns and rows, one line each
   std::vector<std::string> doubts;   // of these, what no answer goes without

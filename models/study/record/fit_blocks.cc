@@ -143,17 +143,7 @@ SummaryRecord MakeRecord(const fitting::FitSummary& summary) {
 }
 
 StartsRecord MakeRecord(const std::vector<StartResult>& starts) {
-  StartsRecord record;
-  for (const StartResult& start : starts) {
-    record.table.push_back({.seed = start.seed,
-                            .final_cost = start.final_cost,
-                            .stop = start.termination,
-                            .iterations = start.iterations,
-                            .holdout_rmse = start.holdout_rmse,
-                            .chosen = start.chosen});
-  }
-  record.spread = SpreadOf(starts);
-  return record;
+  return {.table = starts, .spread = SpreadOf(starts)};
 }
 
 RegressionRecord MakeRecord(const RegressionReport& report) {

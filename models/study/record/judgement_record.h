@@ -93,14 +93,6 @@ struct StabilityRecord {
   std::vector<WinRecord> wins;
 };
 
-/// Why no difference could be established at all.
-struct ObstacleRecord {
-  Obstacle::Kind kind = Obstacle::Kind::kNone;
-  std::int64_t units = 0;
-  std::int64_t needed = 0;  // 0: no number of units would do
-  std::int64_t pairs = 0;
-};
-
 struct VerdictRecord {
   std::string holdout;
   Choice choice = Choice::kBaseline;
@@ -108,7 +100,7 @@ struct VerdictRecord {
   std::optional<std::string> rival;
   std::optional<Confidence> against_rival;  // that the model is better
   std::optional<std::string> best_baseline;
-  std::optional<ObstacleRecord> obstacle;
+  std::optional<Obstacle> obstacle;
   bool established = false;
   Confidence confidence = Confidence::kNotShown;
   std::string why;

@@ -39,13 +39,7 @@ SerialRecord SerialOf(const stats::SerialTests& tests,
   record.durbin_watson = MakeTest<DTestRecord>(tests.durbin_watson);
   record.ljung_box.test.value = MakeTest<QTestRecord>(tests.ljung_box);
   if (tests.ljung_box.ok()) record.ljung_box.lags = tests.num_lags;
-  if (shuffles.draws > 0) {
-    record.shuffled = ShuffledRecord{.draws = shuffles.draws,
-                                     .runs = shuffles.runs,
-                                     .lag1 = shuffles.lag1,
-                                     .durbin_watson = shuffles.durbin_watson,
-                                     .ljung_box = shuffles.ljung_box};
-  }
+  if (shuffles.draws > 0) record.shuffled = shuffles;
   return record;
 }
 
@@ -84,16 +78,7 @@ NormalityRecord MakeRecord(const stats::Normality& normality,
   record.dip = MakeTest<DipTestRecord>(normality.dip);
   record.skewness = normality.shape.skewness;
   record.kurtosis = normality.shape.kurtosis;
-  if (monte_carlo.draws > 0) {
-    record.monte_carlo =
-        MonteCarloRecord{.draws = monte_carlo.draws,
-                         .lilliefors = monte_carlo.lilliefors,
-                         .shapiro_wilk = monte_carlo.shapiro_wilk,
-                         .anderson_darling = monte_carlo.anderson_darling,
-                         .jarque_bera = monte_carlo.jarque_bera,
-                         .dagostino_pearson = monte_carlo.dagostino_pearson,
-                         .normal_ppcc = monte_carlo.normal_ppcc};
-  }
+  if (monte_carlo.draws > 0) record.monte_carlo = monte_carlo;
   return record;
 }
 

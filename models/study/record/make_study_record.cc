@@ -82,7 +82,7 @@ DataRecord MakeData(const ComponentStudy& study) {
                     .time_unit = "rows",
                     .sessions = dataset.num_sessions(),
                     .align = dataset.align(),
-                    .dropped = {},
+                    .dropped = study.data.dropped,
                     .faults = MakeFaultRecords(study.data),
                     .remarks = study.data.remarks,
                     .doubts = study.data.doubts};
@@ -97,9 +97,6 @@ DataRecord MakeData(const ComponentStudy& study) {
   if (dataset.has_groups()) {
     record.group = dataset.groups().column;
     record.groups = std::ssize(dataset.groups().labels);
-  }
-  for (const data::DroppedColumn& column : study.data.dropped) {
-    record.dropped.push_back({.column = column.column, .why = column.why});
   }
   return record;
 }
@@ -187,21 +184,6 @@ MemorisationRecord MakeMemorisation(const Memorisation& found) {
           .sentence = {}};
 }
 
-ImportanceRecord MakeRecord(const SensorImportance& importance) {
-  const auto records_of = [](const auto& list) {
-    std::vector<WithoutSensorsRecord> records;
-    for (const SensorImportance::Without& without : list) {
-      records.push_back({without.sensors, without.rmse});
-    }
-    return records;
-  };
-  return {.rows = importance.rows,
-          .rmse = importance.rmse,
-          .alike = SensorImportance::kAlike,
-          .one_by_one = records_of(importance.one_by_one),
-          .together = records_of(importance.together)};
-}
-
 // Nothing for a map that no controller could run.
 LeftOut<StepCostRecord> StepCostOf(const FittedModel& map) {
   try {
@@ -218,11 +200,10 @@ LeftOut<StepCostRecord> StepCostOf(const FittedModel& map) {
 
 // Of one prediction: as a controller runs it (`step`), filters and all, or by
 // its formula where none could.
-CostRecord CostOfOne(const FittedModel& map,
-                     const LeftOut<StepCostRecord>& step) {
+PredictionCost CostOfOne(const FittedModel& map,
+                         const LeftOut<StepCostRecord>& step) {
   if (step) return {step->multiplications, step->exponentials};
-  const PredictionCost cost = CostOf(map.model->Describe());
-  return {cost.multiplications, cost.exponentials};
+  return CostOf(map.model->Describe());
 }
 
 ModelRecord MakeModel(const ComponentStudy& study, std::size_t index) {
@@ -533,14 +514,8 @@ std::optional<RecommendationRecord> JudgementRecord::Advice() const {
     record.promise = MakeRecord(*model.final_fit->interval);
   }
   record.since_start = SinceStart(study_, result, advice->holdout);
-  if (const auto& worth = study_.session_worth) {
-    record.session_worth =
-        SessionWorthRecord{.sessions = worth->sessions,
-                           .folds = worth->folds,
-                           .ratio_of_one_fewer = worth->ratio_of_one_fewer,
-                           .ratio_of_one_more = worth->ratio_of_one_more};
-  }
-  if (study_.importance) record.importance = MakeRecord(*study_.importance);
+  if (study_.session_worth) record.session_worth = *study_.session_worth;
+  if (study_.importance) record.importance = *study_.importance;
   return record;
 }
 

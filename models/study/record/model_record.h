@@ -33,15 +33,6 @@ struct MetricsRecord {
   double r2 = kNotKnown;
 };
 
-struct StartRecord {
-  std::uint64_t seed = 0;
-  double final_cost = kNotKnown;
-  fitting::Termination stop = fitting::Termination::kFailed;
-  std::int64_t iterations = 0;
-  double holdout_rmse = kNotKnown;
-  bool chosen = false;
-};
-
 /// Of the final costs that are finite.
 struct CostSpreadRecord {
   std::int64_t finite = 0;
@@ -52,7 +43,7 @@ struct CostSpreadRecord {
 };
 
 struct StartsRecord {
-  std::vector<StartRecord> table;
+  std::vector<StartResult> table;
   CostSpreadRecord spread;
 };
 

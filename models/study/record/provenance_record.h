@@ -52,6 +52,8 @@ struct ConfigurationRecord {
 struct InputFileRecord {
   std::string file;
   std::string sha256;
+
+  bool operator==(const InputFileRecord&) const = default;
 };
 
 struct ProvenanceRecord {

@@ -18,12 +18,6 @@
 
 namespace errmap::models {
 
-/// Of one prediction.
-struct CostRecord {
-  std::int64_t multiplications = 0;
-  std::int64_t exponentials = 0;
-};
-
 /// What a map remembers.
 struct MemoryRecord {
   double longest = 0.0;  // time constant; 0: of none
@@ -57,26 +51,33 @@ struct SinceStartRecord {
   double rmse = kNotKnown;
 };
 
-/// See SessionWorth.
-struct SessionWorthRecord {
-  std::int64_t sessions = 0;
-  std::int64_t folds = 0;
+/// What sessions of measurements are worth to a map.
+struct SessionWorth {
+  std::int64_t sessions = 0;  // that the map was fitted to
+  std::int64_t folds = 0;     // that could be compared
+  /// Held-out error with one session fewer in training over that without,
+  /// geometric mean over folds.
   double ratio_of_one_fewer = kNotKnown;
+  /// What a power law through both makes of one session more: its error over
+  /// today's, at most 1.
   double ratio_of_one_more = kNotKnown;
 };
 
-/// See SensorImportance.
-struct WithoutSensorsRecord {
-  std::vector<std::string> sensors;
-  double rmse = kNotKnown;
-};
-
-struct ImportanceRecord {
-  std::int64_t rows = 0;
-  double rmse = kNotKnown;
+/// What a map is without some of its sensors, on rows that it was not fitted
+/// to.
+struct SensorImportance {
+  struct Without {
+    std::vector<std::string> sensors;  // taken away
+    double rmse = 0.0;                 // target's unit
+  };
+  std::int64_t rows = 0;  // held out and judged
+  double rmse = 0.0;      // with every sensor, on these rows
+  /// Sensors whose readings correlate at least so are taken to be alike.
   double alike = kNotKnown;
-  std::vector<WithoutSensorsRecord> one_by_one;
-  std::vector<WithoutSensorsRecord> together;
+  std::vector<Without> one_by_one;  // the largest error first
+  /// Those that are alike, two or more, then all of them: sensors that stand in
+  /// for one another look needless one by one.
+  std::vector<Without> together;
 };
 
 struct RecommendationRecord {
@@ -97,13 +98,13 @@ struct RecommendationRecord {
   double extrapolated_share = kNotKnown;
   /// Of the error without compensation, 1 - RMSE / RMSE; below 0: it adds.
   double removed_share = kNotKnown;
-  CostRecord cost;
+  PredictionCost cost;
   std::optional<MemoryRecord> memory;
   LeftOut<PromiseRecord> promise;
   /// Under `holdout`; empty without times in seconds.
   std::vector<SinceStartRecord> since_start;
-  LeftOut<SessionWorthRecord> session_worth;
-  LeftOut<ImportanceRecord> importance;  // of its sensors
+  LeftOut<SessionWorth> session_worth;
+  LeftOut<SensorImportance> importance;  // of its sensors
   std::vector<RemarkRecord> grounds;
   std::vector<RemarkRecord> doubts;
   std::string sentence;

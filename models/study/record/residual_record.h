@@ -7,6 +7,8 @@
 
 #include "models/study/record/record.h"
 #include "models/study/record/record_values.h"
+#include "stats/normality/normality.h"
+#include "stats/randomness.h"
 
 // What the tests say of held-out residuals: their distribution, their order,
 // and what is left in them at the levels of a column.
@@ -51,17 +53,6 @@ struct PpccRecord {
   LeftOut<std::string> why;
 };
 
-/// p of simulated normal samples.
-struct MonteCarloRecord {
-  std::int64_t draws = 0;
-  double lilliefors = kNotKnown;
-  double shapiro_wilk = kNotKnown;
-  double anderson_darling = kNotKnown;
-  double jarque_bera = kNotKnown;
-  double dagostino_pearson = kNotKnown;
-  double normal_ppcc = kNotKnown;
-};
-
 /// p are cut off at 0.001 and 0.999 where they come from simulated tables.
 struct NormalityRecord {
   KsRecord ks;
@@ -74,7 +65,7 @@ struct NormalityRecord {
   DipTestRecord dip;
   double skewness = kNotKnown;
   double kurtosis = kNotKnown;
-  LeftOut<MonteCarloRecord> monte_carlo;
+  LeftOut<stats::MonteCarloP> monte_carlo;
 };
 
 struct RunsRecord {
@@ -93,21 +84,12 @@ struct LjungBoxRecord {
   LeftOut<std::int64_t> lags;
 };
 
-/// p of shuffled orders.
-struct ShuffledRecord {
-  std::int64_t draws = 0;
-  double runs = kNotKnown;
-  double lag1 = kNotKnown;
-  double durbin_watson = kNotKnown;
-  double ljung_box = kNotKnown;
-};
-
 struct SerialRecord {
   RunsRecord runs;
   Lag1Record lag1;
   DTestRecord durbin_watson;
   LjungBoxRecord ljung_box;
-  LeftOut<ShuffledRecord> shuffled;
+  LeftOut<stats::SerialShuffles> shuffled;
 };
 
 struct LevelRecord {

@@ -15,6 +15,9 @@
 namespace errmap::models {
 namespace {
 
+// Sensors whose readings correlate at least so are taken to be alike.
+constexpr double kAlike = 0.9;
+
 using data::Dataset;
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -80,7 +83,7 @@ std::vector<std::vector<Index>> AlikeOf(const MatrixXd& readings) {
   std::vector<std::vector<Index>> clusters;
   for (Index i = 0; i < readings.cols(); ++i) clusters.push_back({i});
   for (;;) {
-    double most = SensorImportance::kAlike;
+    double most = kAlike;
     std::size_t into = 0;
     std::size_t from = 0;
     for (std::size_t a = 0; a < clusters.size(); ++a) {
@@ -241,7 +244,7 @@ std::optional<SensorImportance> ImportanceOfSensors(
   std::vector<SensorImportance::Without> plan = Plan(dataset, sensors);
   if (IsTooLong(dataset, holdout, fitted, plan.size())) return std::nullopt;
   const std::size_t step = StepOfHoldout(holdout, fitted, plan.size());
-  SensorImportance found;
+  SensorImportance found{.alike = kAlike};
   for (std::size_t f = 0; f < holdout.folds.size(); ++f) {
     const PreparedFold fold = PrepareFold(dataset, holdout, f);
     const FoldJudge judge(*result.folds[f].map, fold.training);

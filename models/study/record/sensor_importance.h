@@ -4,27 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "models/study/record/recommendation_record.h"
 #include "models/study/study.h"
 
 namespace errmap::models {
-
-/// What a map is without some of its sensors, on rows that it was not fitted
-/// to.
-struct SensorImportance {
-  /// Sensors whose readings correlate at least so are taken to be alike.
-  static constexpr double kAlike = 0.9;
-
-  struct Without {
-    std::vector<std::string> sensors;  // taken away
-    double rmse = 0.0;                 // target's unit
-  };
-  Eigen::Index rows = 0;            // held out and judged
-  double rmse = 0.0;                // with every sensor, on these rows
-  std::vector<Without> one_by_one;  // the largest error first
-  /// Those that are alike, two or more, then all of them: sensors that stand in
-  /// for one another look needless one by one.
-  std::vector<Without> together;
-};
 
 /// Takes the sensors of `fitted` (the map of all rows) away from the maps of
 /// the folds in `result`: in a sensor's place they read what the others that

@@ -22,9 +22,19 @@ ExtendedVector NarrowGrid(Eigen::Index n) {
   return x;
 }
 
+// 1, x, ..., x^degree, formed in 106 bits.
+ExtendedMatrix PowersDesign(const ExtendedVector& x, int degree) {
+  ExtendedMatrix design(x.size(), degree + 1);
+  design.col(0).setConstant(1.0);
+  for (int k = 1; k <= degree; ++k) {
+    design.col(k) = design.col(k - 1).cwiseProduct(x);
+  }
+  return design;
+}
+
 TEST(ExtendedLeastSquares, RecoversAPolynomialThatDoublesCannot) {
   constexpr int kDegree = 10;
-  const ExtendedMatrix design = PowersDesign(NarrowGrid(41), 0, kDegree);
+  const ExtendedMatrix design = PowersDesign(NarrowGrid(41), kDegree);
   const ExtendedVector response =
       design * ExtendedVector::Constant(kDegree + 1, 1.0);
   const ExtendedLeastSquaresFit fit =
@@ -54,7 +64,7 @@ TEST(ExtendedLeastSquares, StaysInDoubleWhereThatIsEnough) {
 }
 
 TEST(ExtendedLeastSquares, ScaleOfAColumnChangesNothingElse) {
-  ExtendedMatrix design = PowersDesign(NarrowGrid(9), 0, 2);
+  ExtendedMatrix design = PowersDesign(NarrowGrid(9), 2);
   ExtendedVector response(9);
   for (Eigen::Index i = 0; i < 9; ++i) response[i] = static_cast<double>(i * i);
   const ExtendedLeastSquaresFit fit =
@@ -82,7 +92,7 @@ TEST(ExtendedLeastSquares, SaysThatColumnsDependOnEachOther) {
 }
 
 TEST(ExtendedLeastSquares, HasNoDeviationsWithoutDegreesOfFreedom) {
-  const ExtendedMatrix design = PowersDesign(NarrowGrid(2), 0, 1);
+  const ExtendedMatrix design = PowersDesign(NarrowGrid(2), 1);
   const ExtendedLeastSquaresFit fit =
       SolveExtendedLeastSquares(design, ExtendedVector::Constant(2, 3.0));
   EXPECT_NEAR(fit.coefficients[0].hi, 3.0, 1e-15);
@@ -90,7 +100,7 @@ TEST(ExtendedLeastSquares, HasNoDeviationsWithoutDegreesOfFreedom) {
 }
 
 TEST(ExtendedLeastSquares, RefusesWhatHasNoAnswer) {
-  const ExtendedMatrix design = PowersDesign(NarrowGrid(3), 0, 3);
+  const ExtendedMatrix design = PowersDesign(NarrowGrid(3), 3);
   EXPECT_THAT(
       [&] {
         SolveExtendedLeastSquares(design, ExtendedVector::Constant(3, 1.0));
@@ -100,8 +110,6 @@ TEST(ExtendedLeastSquares, RefusesWhatHasNoAnswer) {
   response[1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT([&] { SolveExtendedLeastSquares(design.leftCols(1), response); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("finite")));
-  EXPECT_THROW(PowersDesign(response, 2, 1), std::invalid_argument);
-  EXPECT_THROW(PowersDesign(response, -1, 1), std::invalid_argument);
 }
 
 TEST(ExtendedLeastSquaresOptions, BoundsBite) {

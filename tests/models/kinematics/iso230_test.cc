@@ -134,62 +134,28 @@ TEST(PositioningFigures, RefuseShapesThatDoNotAgree) {
   EXPECT_THROW(PositioningFiguresOf(PositioningTest{}), std::invalid_argument);
 }
 
-std::vector<std::string> Names(const std::vector<Diagonal>& diagonals) {
-  std::vector<std::string> names;
-  for (const Diagonal& diagonal : diagonals) names.push_back(diagonal.name);
-  return names;
-}
-
-TEST(Diagonals, AreFourOfABoxAndTwoOfAFace) {
-  const auto body = DiagonalsOf({0, 0, 0}, {300, 400, 1200}, 3);
-  EXPECT_THAT(Names(body), ElementsAre("ppp", "pnp", "ppn", "pnn"));
-  EXPECT_TRUE(body[3].direction.isApprox(Vector3d(3, -4, -12) / 13.0));
-  EXPECT_EQ(Vector3d(body[3].points.row(0)), Vector3d(0, 400, 1200));
-  EXPECT_EQ(Vector3d(body[3].points.row(2)), Vector3d(300, 0, 0));
-  const auto face = DiagonalsOf({-200, 0, -400}, {0, 0, 0}, 5);
-  EXPECT_THAT(Names(face), ElementsAre("p0p", "p0n"));
-  EXPECT_EQ(Vector3d(face[1].points.row(0)), Vector3d(-200, 0, 0));
-}
-
-// A squareness error of 10 urad shows with opposite signs on both.
-TEST(Diagonals, TellSquarenessByTheirDifference) {
-  const auto face = DiagonalsOf({0, 0, 0}, {300, 0, 400}, 11);
-  std::vector<double> deviations;
-  for (const Diagonal& diagonal : face) {
-    MatrixX3d errors = MatrixX3d::Zero(11, 3);
-    errors.col(0) = 1e-5 * diagonal.points.col(2);
-    errors.col(2) = 2e-5 * diagonal.points.col(2);
-    deviations.push_back(DiagonalDeviation(diagonal, errors));
-  }
-  // 400 mm of Z: 8 um along Z times 0.8, with or against 4 um along X times
-  // 0.6.
-  EXPECT_NEAR(deviations[0], 1e-3 * (8.0 * 0.8 + 4.0 * 0.6), kRounding);
-  EXPECT_NEAR(deviations[1], 1e-3 * (8.0 * 0.8 - 4.0 * 0.6), kRounding);
-}
-
 // Both ways along p0n of a face of 300 by 400 mm, 500 mm long: the slide loses
 // 2 um where it turns round, and the scale is long by 10 um per metre of X.
 TEST(Diagonals, HaveFiguresAsAnAxisHas) {
-  const Diagonal diagonal = DiagonalsOf({0, 0, 0}, {300, 0, 400}, 5)[1];
+  const Vector3d direction(0.6, 0.0, -0.8);
   MatrixX3d points(10, 3);
-  points << diagonal.points, diagonal.points.colwise().reverse();
+  for (Eigen::Index row = 0; row < 10; ++row) {
+    const auto stop = static_cast<double>(row < 5 ? row : 9 - row);
+    points.row(row) = Vector3d(0, 0, 400) + 125.0 * stop * direction;
+  }
   MatrixX3d errors = MatrixX3d::Zero(10, 3);
   errors.col(0) = 1e-5 * points.col(0);
   std::vector<bool> upwards(5, true);
   upwards.resize(10, false);
   for (Eigen::Index row = 5; row < 10; ++row) {
-    errors.row(row) -= 2e-3 * diagonal.direction.transpose();
+    errors.row(row) -= 2e-3 * direction.transpose();
   }
-  const PositioningFigures figures = PositioningFiguresOf(
-      AlongDiagonal(diagonal.name, points, errors, upwards));
+  const PositioningFigures figures =
+      PositioningFiguresOf(AlongDiagonal("p0n", points, errors, upwards));
   EXPECT_EQ(figures.num_positions, 5);
   EXPECT_NEAR(figures.reversal, 2e-3, kRounding);
   EXPECT_NEAR(figures.mean_bidirectional, 3e-3 * 0.6, kRounding);
   EXPECT_NEAR(figures.systematic, 3e-3 * 0.6 + 2e-3, kRounding);
-  // One way it is the deviation of a diagonal displacement test.
-  EXPECT_NEAR(DiagonalDeviation(diagonal, MatrixX3d(errors.topRows(5))),
-              3e-3 * 0.6,
-              kRounding);
 }
 
 TEST(Diagonals, RefuseNamesAndPointsThatAreNone) {
@@ -211,15 +177,6 @@ TEST(Diagonals, RefuseNamesAndPointsThatAreNone) {
   }
   expect("pp0", points, MatrixX3d::Zero(1, 3), "2 points and 1 errors");
   expect("pp0", MatrixX3d::Zero(2, 3), errors, "all points are one");
-}
-
-TEST(Diagonals, RefuseWhatIsNoBox) {
-  EXPECT_THROW(DiagonalsOf({0, 0, 0}, {1, 0, 0}, 3), std::invalid_argument);
-  EXPECT_THROW(DiagonalsOf({0, 0, 0}, {1, 1, -1}, 3), std::invalid_argument);
-  EXPECT_THROW(DiagonalsOf({0, 0, 0}, {1, 1, 1}, 1), std::invalid_argument);
-  const auto face = DiagonalsOf({0, 0, 0}, {1, 0, 1}, 3);
-  EXPECT_THROW(DiagonalDeviation(face[0], MatrixX3d::Zero(2, 3)),
-               std::invalid_argument);
 }
 
 }  // namespace

@@ -185,6 +185,11 @@ TEST(KinematicChain, NominalReachIsThePlaceOnTheWork) {
 
 // ---- Eq. 4 and 5.
 
+// E = T_TOOL^-1 T_WORK: the workpiece as the tool sees it.
+Isometry3d ErrorMatrix(const Isometry3d& tool, const Isometry3d& work) {
+  return tool.inverse() * work;
+}
+
 TEST(KinematicChain, ErrorMatrixHasTheOppositeSense) {
   const KinematicChain chain = FiveAxes();
   stats::Random random(5);
@@ -196,8 +201,9 @@ TEST(KinematicChain, ErrorMatrixHasTheOppositeSense) {
     const Isometry3d e = ErrorMatrix(tool, work);
     // Eq. 4: T_WORK = T_TOOL E.
     EXPECT_LT(((tool * e).matrix() - work.matrix()).norm(), 1e-11);
-    EXPECT_LT((ToolLessWork(e, tool) - chain.ExactError(pose, errors)).norm(),
-              1e-11);
+    // Its translation is work less tool in the frame of the tool.
+    const Vector3d tool_less_work = -(tool.linear() * e.translation());
+    EXPECT_LT((tool_less_work - chain.ExactError(pose, errors)).norm(), 1e-11);
   }
 }
 

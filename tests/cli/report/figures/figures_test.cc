@@ -73,7 +73,7 @@ TEST(MakeFigures, GivesEveryAxisAUnitAndEveryFigureAlternativeText) {
 TEST(MakeFigures, ShowsWhatAMapWouldBeWithoutASensor) {
   models::StudyRecord record = Recorded(MakeReportDocument());
   EXPECT_EQ(FigureNamed(MakeFigures(record), "c1-importance"), nullptr);
-  record.components[0].recommendation->importance = models::ImportanceRecord{
+  record.components[0].recommendation->importance = models::SensorImportance{
       .rows = 60,
       .rmse = 0.001,
       .alike = 0.9,

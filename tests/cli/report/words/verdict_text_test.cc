@@ -320,7 +320,7 @@ models::VerdictRecord Hindered(models::Obstacle::Kind kind,
   models::VerdictRecord verdict;
   verdict.holdout = kFar;
   verdict.model = "poly:eq8";
-  verdict.obstacle = models::ObstacleRecord{
+  verdict.obstacle = models::Obstacle{
       .kind = kind, .units = units, .needed = needed, .pairs = 3};
   return verdict;
 }

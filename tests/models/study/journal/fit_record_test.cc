@@ -200,7 +200,7 @@ std::vector<Mutation> MutationsOfTheModel() {
       [](auto* o) { o->fitted->starts[0].seed = ~std::uint64_t{0}; },
       [](auto* o) { o->fitted->starts[0].final_cost = 1.0; },
       [](auto* o) {
-        o->fitted->starts[0].termination = fitting::Termination::kGradient;
+        o->fitted->starts[0].stop = fitting::Termination::kGradient;
       },
       [](auto* o) { o->fitted->starts[0].iterations = 1; },
       [](auto* o) { o->fitted->starts[0].holdout_rmse = 1.0; },
