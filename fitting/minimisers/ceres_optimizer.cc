@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <utility>
 
 #include <ceres/cost_function.h>
 #include <ceres/gradient_problem.h>

@@ -1,7 +1,6 @@
 #include "fitting/minimisers/conjugate_gradient.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "fitting/minimisers/best_point.h"

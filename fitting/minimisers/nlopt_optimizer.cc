@@ -7,7 +7,6 @@
 #include <new>
 #include <nlopt.h>
 #include <stdexcept>
-#include <utility>
 
 #include "fitting/minimisers/guarded_run.h"
 

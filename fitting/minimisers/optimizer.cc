@@ -1,7 +1,6 @@
 #include "fitting/minimisers/optimizer.h"
 
 #include <chrono>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <stdexcept>

@@ -1,4 +1,3 @@
-#include <cmath>
 
 #include <oneapi/tbb/parallel_for.h>
 

@@ -1,7 +1,6 @@
 #include "models/fleet/session_measures.h"
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
 

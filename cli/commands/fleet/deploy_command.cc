@@ -17,7 +17,6 @@
 #include "cli/fleet/store/deployments.h"
 #include "cli/fleet/store/store.h"
 #include "cli/report/number_text.h"
-#include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/atomic_file.h"
 #include "data/gzip.h"

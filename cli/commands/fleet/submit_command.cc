@@ -17,7 +17,6 @@
 #include "cli/commands/fleet/slurm_scripts.h"
 #include "cli/fleet/run/fleet_plan.h"
 #include "cli/fleet/run/fleet_run.h"
-#include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/atomic_file.h"
 #include "data/prepare_folder.h"

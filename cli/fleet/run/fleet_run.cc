@@ -27,7 +27,7 @@
 #include "data/shown_path.h"
 #include "data/text.h"
 #include "models/file_recipe.h"
-#include "models/fleet/watch.h"
+#include "models/fleet/sensor_relations.h"
 #include "models/study/record/record_json.h"
 #include "models/version.h"
 #include "stats/holdout.h"

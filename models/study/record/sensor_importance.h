@@ -1,8 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "models/study/record/recommendation_record.h"
 #include "models/study/study.h"
