@@ -244,7 +244,8 @@ std::optional<SensorImportance> ImportanceOfSensors(
   std::vector<SensorImportance::Without> plan = Plan(dataset, sensors);
   if (IsTooLong(dataset, holdout, fitted, plan.size())) return std::nullopt;
   const std::size_t step = StepOfHoldout(holdout, fitted, plan.size());
-  SensorImportance found{.alike = kAlike};
+  SensorImportance found;
+  found.alike = kAlike;
   for (std::size_t f = 0; f < holdout.folds.size(); ++f) {
     const PreparedFold fold = PrepareFold(dataset, holdout, f);
     const FoldJudge judge(*result.folds[f].map, fold.training);
