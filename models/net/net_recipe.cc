@@ -439,7 +439,7 @@ class OneLayerRecipe final : public NetRecipe {
       const fitting::FitSummary& summary = minima[i].summary;
       starts.push_back({.seed = seeds[i],
                         .final_cost = summary.final_cost,
-                        .termination = summary.termination,
+                        .stop = summary.termination,
                         .iterations = summary.iterations});
     }
     return starts;
