@@ -68,7 +68,7 @@ for package in "$@"; do
 done
 # What they depend on, and then they by themselves.
 quietly inside apt-get update
-quietly inside sh -c 'apt-get install -y --no-install-recommends /packages/*.deb g++ cmake'
+quietly inside sh -c 'apt-get install -y --no-install-recommends /packages/*.deb g++ cmake make'
 
 # The README's main job, from /usr.
 table=/usr/share/errmap/sets/nistir5367_xdisp_down.csv
