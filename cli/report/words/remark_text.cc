@@ -164,15 +164,8 @@ std::string BestNetSentence(const ComponentNumbers& component,
   const models::PairRecord* const pair =
       FindPair(component.record, advice.holdout, advice.model, net);
   if (pair == nullptr) return text + ".";
-  // Of the difference a - b.
-  const double sign = (pair->a == net) == (more < 0.0) ? -1.0 : 1.0;
-  double low = sign * pair->ci95[0];
-  double high = sign * pair->ci95[1];
-  if (sign < 0.0) std::swap(low, high);
-  if (std::isfinite(low) && std::isfinite(high)) {
-    text += fmt::format(
-        " (95 % {} to {})", component.error(low), component.error(high));
-  }
+  text +=
+      component.In95(IntervalOfExcess(*pair, more < 0.0 ? advice.model : net));
   return text + (pair->established ? "." : ", which is not proven.");
 }
 
@@ -242,11 +235,8 @@ std::string TooFewSentence(const ComponentNumbers& component,
   const std::string found = Count(obstacle.units, holdout.unit_of_analysis);
   const bool one = obstacle.units == 1;
   if (remark.kind == RemarkKind::kTooManyMaps) {
-    std::size_t maps = 0;
-    for (const auto& tier :
-         There(FindNamed(component.record.tiers, advice.holdout))) {
-      maps += tier.size();
-    }
+    const auto maps = std::ranges::count(
+        component.record.models, false, &ModelRecord::baseline);
     return fmt::format(
         "{} cannot prove a difference between {} maps: {}compare fewer.",
         found,

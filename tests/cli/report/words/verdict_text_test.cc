@@ -75,9 +75,11 @@ TEST(Headline, SaysWhatToUseAndHowGoodItIs) {
 TEST(Headline, SaysWhereNothingBeatsTheBestBaselineForSure) {
   ComponentRecord record = Base();
   record.recommendation->against_baseline = Confidence::kNotShown;
-  EXPECT_THAT(Headline(record),
-              EndsWith("The best baseline, zero, has 0.800 um; how sure that "
-                       "is, 6 cycles cannot tell."));
+  EXPECT_THAT(
+      Headline(record),
+      EndsWith(
+          "There zero, a baseline, does better with 0.800 um; how sure that "
+          "is, 6 cycles cannot tell."));
 }
 
 models::ResultRecord& Far(models::ModelRecord* model) {
@@ -117,6 +119,17 @@ TEST(Headline, TellsTheDifferenceAndItsIntervalBeforeWhatItLacks) {
   record.recommendation->against_baseline = Confidence::kNotShown;
   EXPECT_THAT(Headline(record),
               EndsWith("(95 % -1.900 to 19.000); that may be chance."));
+}
+
+TEST(Headline, SaysPlainlyWhereABaselineErrsLess) {
+  ComponentRecord record = BesideBaseline(-2.0, 1.0);
+  const double rmse = ResultOf(record.models[1], kFar)->test.rmse;
+  Far(&record.models[0]).test.rmse = 0.5 * rmse;
+  record.recommendation->against_baseline = Confidence::kNotShown;
+  EXPECT_THAT(Headline(record),
+              EndsWith(". There zero, a baseline, does better with 0.950 um: "
+                       "0.950 um less (95 % -1.900 to 3.800); that may be "
+                       "chance."));
 }
 
 // --- The marks -------------------------------------------------------------
@@ -328,13 +341,14 @@ models::VerdictRecord Hindered(models::Obstacle::Kind kind,
 TEST(Sentences, TellHowManyCyclesWouldProveADifference) {
   using Kind = models::Obstacle::Kind;
   ComponentRecord record = Base();
+  record.models[0].baseline = true;
   record.verdict = {Hindered(Kind::kTooManyPairs, 6, 11)};
   EXPECT_EQ(DoubtOf(record, {.kind = RemarkKind::kTooManyMaps}),
-            "6 cycles cannot prove a difference between 3 maps: measure 11 or "
+            "6 cycles cannot prove a difference between 2 maps: measure 11 or "
             "more, or compare fewer.");
   record.verdict = {Hindered(Kind::kTooFewSignPatterns, 6, 0)};
   EXPECT_EQ(DoubtOf(record, {.kind = RemarkKind::kTooManyMaps}),
-            "6 cycles cannot prove a difference between 3 maps: compare "
+            "6 cycles cannot prove a difference between 2 maps: compare "
             "fewer.");
   record.verdict = {Hindered(Kind::kTooFewUnits, 5, 6)};
   EXPECT_EQ(DoubtOf(record, {.kind = RemarkKind::kTooFewUnits}),
