@@ -166,7 +166,14 @@ ERRMAP_RECORD(Guards,
               error_min,
               error_max)
 ERRMAP_RECORD(PredictionInterval::Level, coverage, half_width, at_least)
-ERRMAP_RECORD(PredictionInterval, holdout, unit, units, levels, of_sessions)
+ERRMAP_RECORD(PredictionInterval,
+              holdout,
+              unit,
+              units,
+              levels,
+              of_sessions,
+              good_for,
+              lag1)
 ERRMAP_RECORD(Applicability::Derived, column, min, max)
 ERRMAP_RECORD(Applicability,
               derived,

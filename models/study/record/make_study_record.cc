@@ -599,7 +599,13 @@ PromiseRecord MakeRecord(const PredictionInterval& interval) {
   PromiseRecord record{.holdout = interval.holdout,
                        .unit = interval.unit,
                        .units = interval.units,
-                       .levels = {}};
+                       .levels = {},
+                       .lag1 = {},
+                       .good_for = {}};
+  if (interval.good_for > 0) {
+    record.lag1 = interval.lag1;
+    record.good_for = interval.good_for;
+  }
   for (const PredictionInterval::Level& level : interval.levels) {
     record.levels.push_back({level.coverage, level.half_width, level.at_least});
   }

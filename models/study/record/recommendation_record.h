@@ -47,8 +47,11 @@ struct PromiseRecord {
   std::string unit;
   std::int64_t units = 0;
   std::vector<PromiseLevelRecord> levels;
+  // Where neighbouring units' mean errors go together: PredictionInterval.
+  LeftOut<double> lag1;
+  LeftOut<std::int64_t> good_for;
 };
-ERRMAP_RECORD(PromiseRecord, holdout, unit, units, levels)
+ERRMAP_RECORD(PromiseRecord, holdout, unit, units, levels, lag1, good_for)
 PromiseRecord MakeRecord(const PredictionInterval& interval);
 
 /// Held-out residuals from `from` to before `until` seconds after the first row

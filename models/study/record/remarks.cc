@@ -21,18 +21,32 @@ constexpr double kSignificance = 0.05;
 constexpr double kExtrapolationWorthSaying = 0.05;
 
 // What a screen has room for is told in this order; all else on request.
-constexpr std::array kToldFirst = {
-    RemarkKind::kInterrupted,      RemarkKind::kRemoves,
-    RemarkKind::kAveragesMaps,     RemarkKind::kProvenBetter,
-    RemarkKind::kSimpleHolds,      RemarkKind::kGoal,
-    RemarkKind::kBetterWithoutMap, RemarkKind::kOneRunOnly,
-    RemarkKind::kGroupFitsFailed,  RemarkKind::kNoGroupsHeldOut,
-    RemarkKind::kNoGroups,         RemarkKind::kFewSessions,
-    RemarkKind::kOnlyGrows,        RemarkKind::kTooFewUnits,
-    RemarkKind::kTooManyMaps,      RemarkKind::kNotNoise,
-    RemarkKind::kIgnoreNeighbours, RemarkKind::kNoiseLearning,
-    RemarkKind::kUnitsCorrelated,  RemarkKind::kHoldoutsDisagree,
-    RemarkKind::kNotConverged,     RemarkKind::kCost};
+constexpr std::array kToldFirst = {RemarkKind::kInterrupted,
+                                   RemarkKind::kRemoves,
+                                   RemarkKind::kAveragesMaps,
+                                   RemarkKind::kProvenBetter,
+                                   RemarkKind::kSimpleHolds,
+                                   RemarkKind::kGoal,
+                                   RemarkKind::kBetterWithoutMap,
+                                   RemarkKind::kOneRunOnly,
+                                   RemarkKind::kGroupFitsFailed,
+                                   RemarkKind::kNoGroupsHeldOut,
+                                   RemarkKind::kNoGroups,
+                                   RemarkKind::kFewSessions,
+                                   RemarkKind::kPromise,
+                                   RemarkKind::kOnlyGrows,
+                                   RemarkKind::kTooFewUnits,
+                                   RemarkKind::kTooManyMaps,
+                                   RemarkKind::kNotNoise,
+                                   RemarkKind::kIgnoreNeighbours,
+                                   RemarkKind::kNoiseLearning,
+                                   RemarkKind::kUnitsCorrelated,
+                                   RemarkKind::kHoldoutsDisagree,
+                                   RemarkKind::kNotConverged,
+                                   RemarkKind::kCost};
+
+// Who has more of them gains little by yet another.
+constexpr std::ptrdiff_t kManySensors = 8;
 
 // Columns named as those that more should be measured of.
 constexpr std::size_t kMostColumns = 3;
@@ -189,7 +203,10 @@ std::vector<RemarkRecord> Remarks::Grounds() {
       })) {
     Add(RemarkKind::kGap);
   }
-  if (record_.recommendation->promise) Add(RemarkKind::kPromise);
+  if (const auto& promise = record_.recommendation->promise) {
+    RemarkRecord& remark = Add(RemarkKind::kPromise);
+    if (!promise->good_for) remark.rank.reset();
+  }
   if (record_.recommendation->session_worth) Add(RemarkKind::kOneMoreSession);
   if (record_.recommendation->goal_standing != GoalStanding::kNone) {
     Add(RemarkKind::kGoal);

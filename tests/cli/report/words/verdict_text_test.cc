@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cli/report/words/interval_text.h"
 #include "cli/report/words/mark_words.h"
 #include "cli/report/wrap_text.h"
 #include "data/input_error.h"
@@ -237,6 +238,21 @@ TEST(Sentences, CallAnOffsetPerCycleAThermalStateThatNoSensorSees) {
   EXPECT_THAT(GroundOf(record, remark), HasSubstr(" see. Re-zero each cycle."));
   record.recommendation->goal_standing = models::GoalStanding::kMet;
   EXPECT_THAT(GroundOf(record, remark), HasSubstr(" see. 31 %"));
+}
+
+TEST(Sentences, SayForHowManyDaysAPromiseIsGood) {
+  models::PromiseRecord promise;
+  promise.unit = "day";
+  promise.levels.emplace_back().coverage = 0.9;
+  promise.levels.back().half_width = 2.0;
+  const ErrorText error(data::UnitOfSymbol("um"), 1.0);
+  EXPECT_EQ(IntervalText(promise, error),
+            "90 % of the errors on an unseen day lie within 2.00 um");
+  promise.lag1 = 0.84;
+  promise.good_for = 2;
+  EXPECT_THAT(IntervalText(promise, error),
+              EndsWith(" um; good for 2 days to come, as neighbouring days err "
+                       "alike (correlation 0.84)"));
 }
 
 TEST(Sentences, TellWhichColumnToIgnoreForAFlatteredModel) {
