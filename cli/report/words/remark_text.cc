@@ -299,17 +299,6 @@ StatesBeyond StatesOf(const std::string& column) {
   }
 }
 
-// What helps against an offset per unit that the sensors do not see. Who has so
-// many sensors gains little by one more.
-std::string RemedyText(const ComponentNumbers& component,
-                       const std::string& column) {
-  constexpr std::size_t kManySensors = 8;
-  if (component.Advice().goal_standing == GoalStanding::kMet) return "";
-  const bool many = component.record.data.inputs.size() > kManySensors;
-  return fmt::format(
-      " {} each {}.", many ? "Re-zero" : "Add a sensor, or re-zero", column);
-}
-
 // What is left is no noise where it has an offset per cycle, or repeats along
 // the position.
 std::string WhatIsLeftSentence(const ComponentNumbers& component,
@@ -328,7 +317,13 @@ std::string WhatIsLeftSentence(const ComponentNumbers& component,
                       "state that the sensors do not see.{}",
                       percent,
                       column,
-                      RemedyText(component, column))
+                      !remark.add_sensor
+                          ? ""
+                          : fmt::format(" {} each {}.",
+                                        *remark.add_sensor
+                                            ? "Add a sensor, or re-zero"
+                                            : "Re-zero",
+                                        column))
                 : fmt::format(
                       "{:.0f} % of what is left repeats along {}: the map is "
                       "too smooth there.",

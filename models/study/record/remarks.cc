@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "data/measurements/column_roles.h"
 #include "models/history/view.h"
 #include "models/study/judgement/extrapolated_rows.h"
 
@@ -184,6 +185,14 @@ void Remarks::AddNotNoise() {
   }
   if (columns.empty()) return;
   RemarkRecord& remark = Add(RemarkKind::kNotNoise);
+  const bool has_offset =
+      result->randomness.by_group &&
+      columns.front() == result->randomness.by_group->column;
+  if (has_offset &&
+      record_.recommendation->goal_standing != GoalStanding::kMet) {
+    remark.add_sensor = std::ranges::count_if(study_.data.dataset.inputs(),
+                                              data::IsSensor) <= kManySensors;
+  }
   remark.columns = std::move(columns);
   remark.shares = std::move(shares);
 }

@@ -229,14 +229,15 @@ TEST(Sentences, CallAnOffsetPerCycleAThermalStateThatNoSensorSees) {
   RemarkRecord remark{.kind = RemarkKind::kNotNoise};
   remark.columns = std::vector<std::string>{"cycle", "position_mm"};
   remark.shares = std::vector<double>{0.87, 0.31};
+  remark.add_sensor = true;
   EXPECT_EQ(GroundOf(record, remark),
             "87 % of what is left is an offset per cycle: a thermal state that "
             "the sensors do not see. Add a sensor, or re-zero each cycle. 31 % "
             "of what is left repeats along position_mm: the map is too smooth "
             "there.");
-  record.data.inputs.resize(40, "t");
+  remark.add_sensor = false;
   EXPECT_THAT(GroundOf(record, remark), HasSubstr(" see. Re-zero each cycle."));
-  record.recommendation->goal_standing = models::GoalStanding::kMet;
+  remark.add_sensor.reset();
   EXPECT_THAT(GroundOf(record, remark), HasSubstr(" see. 31 %"));
 }
 
