@@ -341,12 +341,17 @@ std::string Page::Card(const ReportView& view) const {
 std::string Page::Answer(const ReportView& view,
                          std::size_t index,
                          const ComponentFigures& figures) const {
+  const std::string of_models =
+      FiguresHtml(figures, FigurePlace::kAnswer, "plain") + Picks(view);
+  const std::string of_sensors =
+      FiguresHtml(figures, FigurePlace::kSensors, "plain");
+  const std::string reading = Paragraph(kSignConvention, "soft small") +
+                              (index == 0 ? GlossaryLinks() : "");
   return "<div class=\"answer\">\n<div>" + Card(view) +
-         FiguresHtml(figures, FigurePlace::kAnswer, "plain") + Picks(view) +
-         "</div>\n<div>" + Next(index) +
-         Paragraph(kSignConvention, "soft small") +
-         (index == 0 ? GlossaryLinks() : "") +
-         FiguresHtml(figures, FigurePlace::kSensors, "plain") +
+         (of_sensors.empty()
+              ? reading + "</div>\n<div>" + of_models + Next(index)
+              : of_models + "</div>\n<div>" + Next(index) + reading +
+                    of_sensors) +
          "</div>\n</div>\n";
 }
 

@@ -295,7 +295,7 @@ StatesBeyond StatesOf(const std::string& column) {
     case data::Quantity::kAngle:
       return {"positions further down", "positions further up"};
     default:
-      return {"lower values", "higher values"};
+      return {"other values", "other values"};
   }
 }
 
