@@ -202,7 +202,10 @@ std::string WithSuggestion(const CLI::App& app,
         Suggestion(found, known),
         argv[1]);
   }
-  return text + "; see errmap --help";
+  return fmt::format(
+      "{}; see errmap{} --help",
+      text,
+      known.empty() ? std::string() : fmt::format(" {}", argv[1]));
 }
 
 using AddCommand = void (*)(CLI::App*, Run*);

@@ -166,13 +166,13 @@ void ForStudyOptions(Config& config, const Visit& visit) {
         std::vector{models::Prefer::kLeastError, models::Prefer::kSmall});
   visit(
       StudyOption{.key = "rezero",
-                  .value = "2h|session|probe[:noise=X]",
+                  .value = "2h|session|probe",
                   .help = "Judge maps with their offset set anew then\nfrom "
                           "the true error: at an interval (2h, 90min; 5 of a "
                           "time column that counts cycles), session (where "
                           "one begins) or probe (with every cycle, every row "
                           "where there are none), beside no map re-zeroed "
-                          "alike; by probes of this noise",
+                          "alike; 2h:noise=0.5um: by probes of this noise",
                   .check = [](const std::string& text) { CheckRezero(text); }},
       config.rezero);
 }

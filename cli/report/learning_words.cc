@@ -70,6 +70,19 @@ std::string LawWords(const models::LearningCurvesRecord& curves,
   return words;
 }
 
+std::string EnoughWords(const models::SensorCurveRecord& curve) {
+  const double percent = kPercent * (models::SensorCurve::kTolerance - 1.0);
+  return curve.enough
+             ? fmt::format("{} of {} sensors do it, within {:.0f} % of all",
+                           *curve.enough,
+                           curve.all.sensors,
+                           percent)
+             : fmt::format("No choice of {} comes within {:.0f} % of all {}",
+                           curve.chosen.size(),
+                           percent,
+                           curve.all.sensors);
+}
+
 std::string SensorWords(const models::SensorCurveRecord& curve,
                         const ErrorText& error) {
   constexpr std::size_t kMostSubstitutes = 4;
@@ -88,14 +101,7 @@ std::string SensorWords(const models::SensorCurveRecord& curve,
       curve.points, number, &models::SensorPointRecord::sensors);
   return fmt::format(
       "{}: {} with {}, {} with all{}{}.",
-      curve.enough
-          ? fmt::format("{} of {} sensors do it, within {:.0f} % of all",
-                        *curve.enough,
-                        curve.all.sensors,
-                        kPercent * (models::SensorCurve::kTolerance - 1.0))
-          : fmt::format("No choice of {} sensors does as well as all {}",
-                        number,
-                        curve.all.sensors),
+      EnoughWords(curve),
       point == curve.points.end() ? "not known" : error.WithUnit(point->rmse),
       number == 1 ? "it" : "them",
       error.WithUnit(curve.all.rmse),

@@ -13,6 +13,9 @@ std::string LawWords(const models::LearningCurvesRecord& curves,
                      const models::LearningModelRecord& model,
                      const ErrorText& error);
 
+/// "4 of 36 sensors do it, within 5 % of all".
+std::string EnoughWords(const models::SensorCurveRecord& curve);
+
 /// "4 of 27 sensors do it, within 5 % of all: 1.24 um with them, 1.20 um with
 /// all. t3 (or t4, t5), t12." Of what comes nearest where no choice does.
 std::string SensorWords(const models::SensorCurveRecord& curve,

@@ -31,6 +31,9 @@ struct Series {
   double size = 1.0;  // of points in diameters of 3.6 px, of lines in pixels
   Shape shape = Shape::kDot;
   bool dashed = false;
+  /// Of which model each point is, by its place in the report's list; of one
+  /// entry: all of them. A reader can hide what is of a model.
+  std::vector<std::size_t> models = {};
 };
 
 constexpr double kAutomatic = std::numeric_limits<double>::quiet_NaN();

@@ -81,6 +81,11 @@ const ModelRecord* ModelOf(const ReportView& view, const std::string& model) {
   return models::FindNamed(view.component->models, model);
 }
 
+std::size_t PlaceOf(const ReportView& view, const ModelRecord& model) {
+  return static_cast<std::size_t>(std::ranges::find(view.models, &model) -
+                                  view.models.begin());
+}
+
 const ResultRecord* ResultOf(const ModelRecord& model,
                              const std::string& holdout) {
   return models::FindNamed(model.results, holdout);

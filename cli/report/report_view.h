@@ -39,6 +39,9 @@ const models::HoldoutRecord* HoldoutOf(const ReportView& view,
 /// A model by its name, or null.
 const ModelRecord* ModelOf(const ReportView& view, const std::string& model);
 
+/// Its place in view.models, of which it is one.
+std::size_t PlaceOf(const ReportView& view, const ModelRecord& model);
+
 /// Figures of a model under a hold-out, or null.
 const ResultRecord* ResultOf(const ModelRecord& model,
                              const std::string& holdout);

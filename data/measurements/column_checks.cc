@@ -225,6 +225,21 @@ std::string ListOfNames(const std::vector<std::string>& names) {
   return list;
 }
 
+std::string NearestColumn(std::string_view name,
+                          const std::vector<std::string>& known) {
+  const std::string nearest = NearestName(name, known);
+  if (!nearest.empty()) return nearest;
+  std::vector<std::string> without_unit;
+  for (const std::string& column : known) {
+    without_unit.push_back(ReadHeader(column).base);
+  }
+  const std::string base = NearestName(ReadHeader(name).base, without_unit);
+  const auto found = std::ranges::find(without_unit, base);
+  return base.empty() || found == without_unit.end()
+             ? ""
+             : known[static_cast<std::size_t>(found - without_unit.begin())];
+}
+
 std::size_t RequireColumn(const CsvTable& table,
                           std::string_view name,
                           std::string_view argument) {
@@ -232,7 +247,7 @@ std::size_t RequireColumn(const CsvTable& table,
   if (found >= 0) return static_cast<std::size_t>(found);
   std::vector<std::string> known;
   for (const CsvColumn& column : table.columns) known.push_back(column.name);
-  const std::string nearest = NearestName(name, known);
+  const std::string nearest = NearestColumn(name, known);
   throw InputError(
       PrintablePath(table.file) + ": no column " + QuotedName(name) + " (" +
       std::string(argument) + "); " +

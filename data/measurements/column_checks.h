@@ -21,6 +21,11 @@ struct ColumnInUse {
   ColumnUse use;
 };
 
+/// The column of `known` that was probably meant, whether its unit was named or
+/// not ("eror" for "error_mm"), or "".
+std::string NearestColumn(std::string_view name,
+                          const std::vector<std::string>& known);
+
 /// Index of a column that somebody named by an argument (ArgumentName). Throws
 /// InputError, with the known columns, where there is none.
 std::size_t RequireColumn(const CsvTable& table,

@@ -44,7 +44,7 @@ const CsvColumn& SameNameInAnyUnit(const CsvTable& table,
     found = &column;
   }
   if (found != nullptr) return *found;
-  const std::string nearest = NearestName(wanted, names);
+  const std::string nearest = NearestColumn(wanted, names);
   ThrowNoMatch(
       table,
       wanted,

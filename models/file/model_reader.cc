@@ -214,8 +214,7 @@ PredictionInterval ReadInterval(const Node& node) {
   PredictionInterval interval{.holdout = node.At("holdout").Text(),
                               .unit = "",
                               .units = node.At("groups").Count(),
-                              .levels = {},
-                              .of_sessions = false};
+                              .levels = {}};
   if (const auto unit = node.Find("unit")) interval.unit = unit->Text();
   std::vector<std::string> at_least;
   if (const auto keys = node.Find("at_least")) {
@@ -235,6 +234,10 @@ PredictionInterval ReadInterval(const Node& node) {
   // Older files tell by the hold-out's name alone.
   interval.of_sessions = whole ? whole->Text() == kWholeSessions
                                : interval.holdout.starts_with("sessions");
+  if (const auto good_for = node.Find("good_for")) {
+    interval.good_for = good_for->Count();
+    interval.lag1 = node.At("lag1").Number();
+  }
   return interval;
 }
 

@@ -42,6 +42,10 @@ Json ToJson(const PredictionInterval& interval) {
   }
   json["at_least"] = std::move(at_least);
   if (interval.of_sessions) json["whole"] = kWholeSessions;
+  if (interval.good_for > 0) {
+    json["lag1"] = interval.lag1;
+    json["good_for"] = interval.good_for;
+  }
   return json;
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "stats/comparison/holm.h"
 #include "stats/randomness.h"
@@ -118,17 +120,11 @@ void TestUnits(const UnitLosses& losses,
       Differences(MeanByBlocks(losses.mean_squares), *pairs);
   const std::vector<SignFlipTest> flipped =
       TestBySignFlips(differences, options.flips, options.seed);
-  std::vector<double> p;
-  std::vector<double> p_memory;
   for (std::size_t i = 0; i < pairs->size(); ++i) {
     const VectorXd d = differences.col(static_cast<Index>(i));
     PairComparison& pair = (*pairs)[i];
     pair.sign_flip = flipped[i];
     pair.tied = AreTied(losses, pair);
-    if (!pair.tied) {
-      p.push_back(pair.sign_flip.test.p);
-      p_memory.push_back(pair.memory.test.p);
-    }
     pair.wilcoxon = TestSignedRanks(d);
     pair.block_t = CorrectedResampledT(of_blocks.col(static_cast<Index>(i)),
                                        kBlocksTestToTrain);
@@ -138,14 +134,50 @@ void TestUnits(const UnitLosses& losses,
     pair.lag1 = TestSerially({d}).lag1;
     pair.correlated = pair.lag1.p <= kSignificance && pair.lag1.statistic > 0.0;
   }
+}
+
+void AdjustTogether(const std::vector<PairComparison*>& pairs) {
+  std::vector<double> p;
+  std::vector<double> p_memory;
+  for (const PairComparison* pair : pairs) {
+    p.push_back(pair->sign_flip.test.p);
+    p_memory.push_back(pair->memory.test.p);
+  }
   const std::vector<double> adjusted = AdjustByHolm(p);
   const std::vector<double> memory_adjusted = AdjustByHolm(p_memory);
-  std::size_t next = 0;
-  for (PairComparison& pair : *pairs) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    pairs[i]->p_holm = adjusted[i];
+    pairs[i]->p_memory_holm = memory_adjusted[i];
+    pairs[i]->num_adjusted = static_cast<Index>(pairs.size());
+  }
+}
+
+void AdjustByFamilies(const std::vector<Index>& yardsticks,
+                      Comparison* comparison) {
+  const auto is_yardstick = [&](Index model) {
+    return std::ranges::find(yardsticks, model) != yardsticks.end();
+  };
+  const auto others =
+      comparison->rmse.size() - static_cast<Index>(yardsticks.size());
+  comparison->num_asked = std::max(others * (others - 1) / 2,
+                                   yardsticks.empty() ? Index{0} : others);
+  // By how many yardsticks a pair has, and which if it has one.
+  std::map<std::pair<int, Index>, std::vector<PairComparison*>> families;
+  for (PairComparison& pair : comparison->pairs) {
     if (pair.tied) continue;
-    pair.p_holm = adjusted[next];
-    pair.p_memory_holm = memory_adjusted[next];
-    ++next;
+    const bool a = is_yardstick(pair.a);
+    const bool b = is_yardstick(pair.b);
+    families[{int{a} + int{b},
+              a == b ? 0
+              : a    ? pair.a
+                     : pair.b}]
+        .push_back(&pair);
+  }
+  for (const auto& [which, pairs] : families) {
+    AdjustTogether(pairs);
+    if (which.first == 2) continue;
+    comparison->num_tested =
+        std::max(comparison->num_tested, static_cast<Index>(pairs.size()));
   }
 }
 
@@ -207,10 +239,6 @@ void ComparisonOptions::Validate() const {
   margin.Validate();
 }
 
-Index Comparison::num_tested() const {
-  return std::ranges::count(pairs, false, &PairComparison::tied);
-}
-
 const PairComparison& Comparison::Pair(Index one, Index other) const {
   const Index models = rmse.size();
   const auto [a, b] = std::minmax(one, other);
@@ -244,6 +272,7 @@ Comparison CompareModels(const UnitLosses& losses,
   }
   BoundErrors(losses, options, &comparison);
   TestUnits(losses, options, &comparison.pairs);
+  AdjustByFamilies(options.yardsticks, &comparison);
   if (folds != nullptr) TestFolds(*folds, &comparison.pairs);
   for (PairComparison& pair : comparison.pairs) {
     if (pair.tied) ForgetTests(&pair);

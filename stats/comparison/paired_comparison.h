@@ -35,6 +35,11 @@ struct ComparisonOptions {
   Eigen::Index resamples = 4999;  // of the bootstrap; >= 99
   Eigen::Index horizon = 1;       // of Diebold-Mariano; >= 1
   Margin margin = {};             // between tiers
+  /// Models (columns of the losses) that the others are only held against: what
+  /// they add to a comparison takes nothing from the others' power. Holm's
+  /// adjustment counts the pairs of the others; the pairs of the others with
+  /// each yardstick; the pairs of yardsticks.
+  std::vector<Eigen::Index> yardsticks = {};
 
   /// Throws std::invalid_argument naming field, value and range.
   void Validate() const;
@@ -50,11 +55,12 @@ struct PairComparison {
   /// No unit's losses differ by more than rounding: one map twice. Then nothing
   /// is tested, every p is NaN, and the pair does not count in Holm's.
   bool tied = false;
-  Bounds95 bounds;         // of `difference`, bootstrap over units
-  SignFlipTest sign_flip;  // of d
-  double p_holm = 1.0;     // sign_flip's p among all pairs that are not tied
+  Bounds95 bounds;                // of `difference`, bootstrap over units
+  SignFlipTest sign_flip;         // of d
+  double p_holm = 1.0;            // sign_flip's p among num_adjusted
+  Eigen::Index num_adjusted = 0;  // pairs that Holm's adjustment counts with it
   /// Of `difference`, with the memory from unit to unit that their order cannot
-  /// exclude, and its p among all pairs.
+  /// exclude, and its p among num_adjusted.
   MemoryTest memory;
   double p_memory_holm = 1.0;
   /// Corrected resampled t of d on kBlocksOfUnits runs of neighbouring units,
@@ -79,8 +85,11 @@ struct Comparison {
   std::vector<PairComparison> pairs;  // (0,1), (0,2), ..., (1,2), ...
   std::vector<std::vector<Eigen::Index>> tiers;  // see FormTiers
 
-  /// Pairs that are not tied: those that Holm's adjustment counts.
-  Eigen::Index num_tested() const;
+  /// Of the pairs that hold a model that is no yardstick, the most that one
+  /// adjustment counts; and if none were tied, which depends on nothing found.
+  Eigen::Index num_tested = 0;
+  Eigen::Index num_asked = 0;
+
   /// The pair of two different models, whichever is a. Throws
   /// std::out_of_range where there is none.
   const PairComparison& Pair(Eigen::Index one, Eigen::Index other) const;

@@ -116,6 +116,17 @@ cat >"$scratch/check.js" <<'END'
       }
     });
   });
+  // Without its tick a model is in no figure, and back with it.
+  document.querySelectorAll('section').forEach(function (s) {
+    var pick = s.querySelector('.picks input');
+    var marks = s.querySelectorAll('.m0');
+    if (!pick || marks.length < 2) return;
+    [true, false].forEach(function (hide) {
+      pick.click();
+      var hidden = getComputedStyle(marks[0]).display === 'none';
+      if (hidden !== hide) say('the tick of ' + pick.parentElement.textContent + ' does nothing');
+    });
+  });
   var ids = {};
   document.querySelectorAll('[id]').forEach(function (e) {
     if (ids[e.id]) say('id twice: ' + e.id);

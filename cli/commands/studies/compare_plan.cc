@@ -235,7 +235,7 @@ desk::StudyPlan PlanOf(const CompareArguments& arguments,
   }
   if (arguments.config.empty()) {
     if (!arguments.given.contains("DATA")) {
-      throw UsageError("DATA is required; see errmap --help");
+      throw UsageError("DATA is required; see errmap compare --help");
     }
     if (!arguments.changes.empty()) {
       throw UsageError("--set changes a study file; name it with --config");

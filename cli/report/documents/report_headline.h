@@ -13,11 +13,8 @@ struct Headline {
   std::string error;     // "0.938 µm", "" where there is none
   std::string interval;  // "95 % interval 0.81 to 1.06 µm", "" likewise
   std::string where;     // "RMSE on whole groups never seen (groups:5)"
-  std::string beside;    // the other hold-out's error, "" where there is none
-  std::string goal;  // "Goal: RMSE at most 0.5 µm. Not met: RMSE 0.938 µm."
+  std::string goal;      // in one sentence
   models::GoalStanding goal_standing = models::GoalStanding::kNone;
-  std::string cost;               // sensors, parameters, time
-  std::string sensors;            // their names, "" where they are not known
   std::vector<std::string> told;  // what is told with it first
   std::vector<std::string> reasons;
   std::vector<std::string> caveats;

@@ -69,7 +69,9 @@ std::string FigureHtml(const Figure& figure) {
   }
   return fmt::format(
       "<figure{}><figcaption><b>{}</b></figcaption>{}{}</figure>\n",
-      wide ? " class=\"wide\"" : "",
+      wide           ? " class=\"wide\""
+      : figure.model ? fmt::format(" class=\"m{}\"", *figure.model)
+                     : "",
       HtmlName(figure.title),
       drawn,
       Paragraph(figure.note, "soft small"));
@@ -138,17 +140,30 @@ std::string WithFirstRows(Table table, std::size_t most) {
   return HtmlTable(table) + Collapsed(title, HtmlTable(more));
 }
 
-// What the map needs, and how it does next to known rows.
-std::string Needs(const Headline& line) {
+// A box for each model: without its tick the figures leave the model out.
+std::string Picks(const ReportView& view) {
   std::string html;
-  if (!line.beside.empty()) {
-    html += Paragraph("Beside it: " + line.beside + ".");
+  for (std::size_t i = 0; i < view.models.size(); ++i) {
+    html += fmt::format(
+        "<label><input type=\"checkbox\" class=\"h{}\" checked> {}</label>\n",
+        i,
+        HtmlName(view.models[i]->name));
   }
-  if (!line.cost.empty()) html += Paragraph(line.cost + ".");
-  if (!line.sensors.empty()) {
-    html += Paragraph("Sensors, the most needed first: " + line.sensors + ".");
+  return "<div class=\"picks\">" + Collapsed("Models in the figures", html) +
+         "</div>\n";
+}
+
+// Where no browser knows :has(), all stay.
+std::string PickStyle(const std::vector<ReportView>& views) {
+  std::size_t most = 0;
+  for (const ReportView& view : views)
+    most = std::max(most, view.models.size());
+  std::string style;
+  for (std::size_t i = 0; i < most; ++i) {
+    style += fmt::format(
+        "section:has(.h{0}:not(:checked)) .m{0}{{display:none}}\n", i);
   }
-  return html;
+  return style;
 }
 
 // The page and what it is made of.
@@ -326,11 +341,18 @@ std::string Page::Card(const ReportView& view) const {
 std::string Page::Answer(const ReportView& view,
                          std::size_t index,
                          const ComponentFigures& figures) const {
-  std::string html = "<div class=\"answer\">\n<div>" + Card(view);
-  html += Paragraph(kSignConvention, "soft small") +
-          (index == 0 ? GlossaryLinks() : "") + "</div>\n<div>";
-  html += FiguresHtml(figures, FigurePlace::kAnswer, "plain") + Next(index);
-  return html + "</div>\n</div>\n";
+  const std::string of_models =
+      FiguresHtml(figures, FigurePlace::kAnswer, "plain") + Picks(view);
+  const std::string of_sensors =
+      FiguresHtml(figures, FigurePlace::kSensors, "plain");
+  const std::string reading = Paragraph(kSignConvention, "soft small") +
+                              (index == 0 ? GlossaryLinks() : "");
+  return "<div class=\"answer\">\n<div>" + Card(view) +
+         (of_sensors.empty()
+              ? reading + "</div>\n<div>" + of_models + Next(index)
+              : of_models + "</div>\n<div>" + Next(index) + reading +
+                    of_sensors) +
+         "</div>\n</div>\n";
 }
 
 std::string Page::Evidence(const ReportView& view) const {
@@ -451,8 +473,8 @@ std::string Page::Component(const ReportView& view, std::size_t index) const {
     bool folded;
   };
   const Headline line = HeadlineOf(view);
-  std::string reasons = Needs(line) + List("Reasons", line.reasons);
-  reasons += List("Caveats", line.caveats);
+  const std::string reasons =
+      List("Reasons", line.reasons) + List("Caveats", line.caveats);
   const std::string effect =
       FiguresHtml(figures, FigurePlace::kCompensation, "figures halves") +
       FiguresHtml(figures, FigurePlace::kSurface, "figures thirds");
@@ -464,10 +486,6 @@ std::string Page::Component(const ReportView& view, std::size_t index) const {
                        ? WithFirstRows(leaderboard, kMostRows)
                        : Paragraph(leaderboard.missing, "absent"),
                    false});
-  parts.push_back(
-      {"Which sensors, and how many measurements",
-       FiguresHtml(figures, FigurePlace::kSensors, "figures halves"),
-       false});
   parts.push_back({"What the map does", effect, false});
   parts.push_back({"Why this map, and what bounds its worth", reasons, true});
   parts.push_back({"Is it more than chance?", Evidence(view), true});
@@ -539,7 +557,7 @@ std::string Page::Html() const {
       "initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" "
       "content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
       "data:\">\n<link rel=\"icon\" href=\"data:,\">\n<title>" +
-      title + "</title>\n<style>" + kReportStyle +
+      title + "</title>\n<style>" + kReportStyle + PickStyle(views) +
       "</style>\n</head>\n<body>\n";
   html += "<header id=\"top\"><h1>" + title + "</h1></header>\n<main>\n";
   html += Notices();

@@ -32,10 +32,7 @@ std::string Answer(const ReportView& view) {
     facts.push_back(line.error + " " + line.where +
                     (line.interval.empty() ? "" : "; " + line.interval));
   }
-  for (const std::string& fact : {line.goal, line.beside, line.cost}) {
-    if (!fact.empty()) facts.push_back(fact);
-  }
-  if (!line.sensors.empty()) facts.push_back("Sensors: " + line.sensors);
+  if (!line.goal.empty()) facts.push_back(line.goal);
   text += Bullets(facts) + MarkdownParagraph(kSignConvention) +
           "### Every model\n\n" + MarkdownTable(PageLeaderboard(view)) + "\n";
   if (!line.reasons.empty()) text += "### Reasons\n\n" + Bullets(line.reasons);

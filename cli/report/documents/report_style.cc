@@ -60,7 +60,8 @@ details.component>summary{font-size:1.05rem}
 details.component>summary span{font-weight:400;color:var(--soft)}
 .equation{font:0.875rem/1.5 ui-monospace,SFMono-Regular,Menlo,Consolas,"Liberation Mono",monospace;background:var(--tint);border:1px solid var(--line);border-radius:4px;padding:8px 12px;overflow-wrap:anywhere;white-space:pre-wrap;margin:.4rem 0;max-height:16rem;overflow-y:auto}
 .contents{max-width:none;font-size:.875rem;margin:1rem 0 .4rem}
-.plain{display:block}
+.plain{display:block;margin-top:14px}.plain figure svg{max-width:540px}
+.picks label{display:inline-block;margin-right:14px;font-size:.875rem}
 .bare{border:0;margin:0;width:auto}
 .figures.halves{grid-template-columns:repeat(2,minmax(0,1fr))}
 .figures.halves figure.wide svg{max-width:none}

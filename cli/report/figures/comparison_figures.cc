@@ -63,6 +63,7 @@ Series Intervals(const ReportView& view,
     series.columns[1].push_back(static_cast<double>(i));
     series.columns[2].push_back(result->ci95[0] * view.scale);
     series.columns[3].push_back(result->ci95[1] * view.scale);
+    series.models.push_back(PlaceOf(view, *models[i]));
   }
   return series;
 }
@@ -136,6 +137,7 @@ std::vector<Series> HoldoutMarks(const ReportView& view,
       const double rmse = TestRmse(*models[i], holdouts[h]) * view.scale;
       points.columns[0].push_back(rmse > 0.0 ? rmse : kAutomatic);
       points.columns[1].push_back(static_cast<double>(i));
+      points.models.push_back(PlaceOf(view, *models[i]));
       if (rmse > 0.0) span->Take(rmse);
     }
     if (h == 0) {
@@ -162,9 +164,11 @@ Series LinksOf(const ReportView& view,
     for (const std::string& holdout : holdouts) {
       links.columns[0].push_back(TestRmse(*models[i], holdout) * view.scale);
       links.columns[1].push_back(static_cast<double>(i));
+      links.models.push_back(PlaceOf(view, *models[i]));
     }
     links.columns[0].push_back(kAutomatic);
     links.columns[1].push_back(kAutomatic);
+    links.models.push_back(PlaceOf(view, *models[i]));
   }
   return links;
 }
@@ -258,7 +262,8 @@ std::vector<Figure> TrainingFigures(const ReportView& view,
                     .mark = Mark::kLine,
                     .columns = {{}, {}},
                     .colour = kLineColours[i - first],
-                    .size = 1.8};
+                    .size = 1.8,
+                    .models = {PlaceOf(view, *iterated[i])}};
       for (const auto& [iteration, rms, gradient] :
            *iterated[i]->final->summary.value.trace) {
         series.columns[0].push_back(static_cast<double>(iteration));

@@ -403,7 +403,8 @@ std::vector<Figure> UnitFigures(const ReportView& view,
                 .mark = as_line ? Mark::kLine : Mark::kBars,
                 .columns = {{}, {}, {}},
                 .colour = kColours[m],
-                .size = as_line ? 1.2 : 3.0};
+                .size = as_line ? 1.2 : 3.0,
+                .models = {PlaceOf(view, *best[m])}};
     for (std::size_t i = 0; i < result.unit_rmse.size(); ++i) {
       const double rmse = result.unit_rmse[i] * view.scale;
       bars.columns[0].push_back(static_cast<double>(i) - 0.5 * kUsed +
@@ -504,6 +505,7 @@ std::vector<Figure> CostFigures(const ReportView& view,
     Series& series = model->name == view.recommended ? recommended : others;
     series.columns[0].push_back(operations);
     series.columns[1].push_back(rmse);
+    series.models.push_back(PlaceOf(view, *model));
     words += fmt::format("{}{} {:.0f} and {:.3g}",
                          words.empty() ? "" : "; ",
                          model->name,

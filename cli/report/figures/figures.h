@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,9 @@ struct Figure {
   std::string description;  // what it shows, for those who do not see it
   /// Why there is nothing to draw; "" = there is.
   std::string missing;
-  bool small = false;  // one of many of a kind
-  Plot plot;           // plot.name: "c1-gap", unique in the report
+  bool small = false;                // one of many of a kind
+  std::optional<std::size_t> model;  // in view.models, where of it alone
+  Plot plot;  // plot.name: "c1-gap", unique in the report
 };
 
 /// How much is drawn of one component.

@@ -303,6 +303,9 @@ Figure SmallResidualFigure(const ReportView& view,
   Figure figure;
   figure.place = FigurePlace::kEveryModel;
   figure.small = true;
+  if (const ModelRecord* of = ModelOf(view, model)) {
+    figure.model = PlaceOf(view, *of);
+  }
   figure.title = model;
   figure.plot.name = name;
   figure.missing = rows.missing;

@@ -182,7 +182,26 @@ class Pen {
     return PathElement(d, "class=\"frame\" fill=\"none\" stroke=\"#555\"");
   }
 
+  // A path for each model.
   std::string SeriesShapes(const Series& series) const {
+    if (series.models.empty()) return Shapes(series);
+    const std::set<std::size_t> models(series.models.begin(),
+                                       series.models.end());
+    std::string shapes;
+    for (const std::size_t model : models) {
+      Series of_model = series;
+      for (std::size_t i = 0; models.size() > 1 && i < series.models.size();
+           ++i) {
+        if (series.models[i] != model) of_model.columns[0][i] = kAutomatic;
+      }
+      const std::string drawn = Shapes(of_model);
+      if (drawn.empty()) continue;
+      shapes += fmt::format("<g class=\"m{}\">{}</g>", model, drawn);
+    }
+    return shapes;
+  }
+
+  std::string Shapes(const Series& series) const {
     switch (series.mark) {
       case Mark::kPoints:
         return PathElement(Points(series), PointStyle(series));

@@ -272,7 +272,7 @@ const std::vector<ResultColumn>& Columns() {
          .cell = &PAgainstRecommended,
          .name = "p",
          .page = "p against recommended",
-         .explanation = "Holm over all pairs"},
+         .explanation = "Holm over pairs of maps"},
         {.key = "established", .cell = &Established, .is_number = false},
         {.key = "fit_seconds", .cell = &FitSeconds},
         {.key = "all_fit_seconds",

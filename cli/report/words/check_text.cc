@@ -34,39 +34,27 @@ std::string StatusText(const models::SessionCheck& check,
             ? "the first rows of the session"
             : "the readings between the probes of the session");
   }
-  const std::string range =
-      fmt::format("its error is {} to {} RMSE with 80 % confidence",
-                  error(check.session_low),
-                  error.WithUnit(check.session_high));
-  switch (check.status) {
-    case models::SessionStatus::kHolds:
-      return fmt::format(
-          "The map holds in this session: {}, and the probability that it is "
-          "above {} is {:.0f} %.\n",
-          range,
-          error.WithUnit(models::kOffRatio * check.promised),
-          kPercent * check.off_probability);
-    case models::SessionStatus::kOff:
-      return fmt::format(
-          "The map does not hold in this session: {}, above {} with a "
-          "probability of {:.0f} %.\n",
-          range,
-          error.WithUnit(models::kOffRatio * check.promised),
-          kPercent * check.off_probability);
-    case models::SessionStatus::kUnknown:
-      return fmt::format(
-          "Not yet known whether the map holds: {}; above {} with a "
-          "probability of {:.0f} %. {}\n",
-          range,
-          error.WithUnit(models::kOffRatio * check.promised),
-          kPercent * check.off_probability,
-          check.more_probes
-              ? fmt::format("{} like these would settle it.",
-                            Count(*check.more_probes, "more probe"))
-              : "More probes like these would not settle it; take them later "
-                "or elsewhere.");
+  const char* const lead = check.status == models::SessionStatus::kHolds
+                               ? "The map holds in this session"
+                           : check.status == models::SessionStatus::kOff
+                               ? "The map does not hold in this session"
+                               : "Not yet known whether the map holds";
+  std::string text = fmt::format(
+      "{}: its error is {} to {} RMSE with 80 % confidence, above {} with a "
+      "probability of {:.0f} %.",
+      lead,
+      error(check.session_low),
+      error.WithUnit(check.session_high),
+      error.WithUnit(models::kOffRatio * check.promised),
+      kPercent * check.off_probability);
+  if (check.status == models::SessionStatus::kUnknown) {
+    text += check.more_probes
+                ? fmt::format(" {} like these would settle it.",
+                              Count(*check.more_probes, "more probe"))
+                : " More probes like these would not settle it; take them "
+                  "later or elsewhere.";
   }
-  return "";
+  return text + "\n";
 }
 
 std::string RemedyText(const models::SessionCheck& check,

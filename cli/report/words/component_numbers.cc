@@ -34,12 +34,21 @@ const models::GapModelRecord& ComponentNumbers::Gap(
 std::string ComponentNumbers::RmseWithInterval(
     const std::string& model, const std::string& holdout) const {
   const ResultRecord& result = Result(model, holdout);
-  std::string text = error.WithUnit(result.test.rmse) + " RMSE";
-  if (std::isfinite(result.ci95[0])) {
-    text += fmt::format(
-        " (95 % {} to {})", error(result.ci95[0]), error(result.ci95[1]));
-  }
-  return text;
+  return error.WithUnit(result.test.rmse) + " RMSE" + In95(result.ci95);
+}
+
+std::string ComponentNumbers::In95(
+    const models::IntervalRecord& interval) const {
+  return std::isfinite(interval[0])
+             ? fmt::format(
+                   " (95 % {} to {})", error(interval[0]), error(interval[1]))
+             : "";
+}
+
+models::IntervalRecord IntervalOfExcess(const models::PairRecord& pair,
+                                        const std::string& one) {
+  const auto& [low, high] = pair.ci95;
+  return pair.a == one ? pair.ci95 : models::IntervalRecord{-high, -low};
 }
 
 std::string RatioText(double ratio) {

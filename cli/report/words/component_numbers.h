@@ -56,7 +56,14 @@ struct ComponentNumbers {
   /// "0.938 um RMSE (95 % 0.786 to 1.093)"
   std::string RmseWithInterval(const std::string& model,
                                const std::string& holdout) const;
+  /// " (95 % 0.4 to 1.1)", "" where it is not known.
+  std::string In95(const models::IntervalRecord& interval) const;
 };
+
+/// Of the RMSE of `one`, a model of the pair, less that of the other; NaN where
+/// it is not known.
+models::IntervalRecord IntervalOfExcess(const models::PairRecord& pair,
+                                        const std::string& one);
 
 /// "4.5"; a ratio beyond a thousand has no decimals that mean anything.
 std::string RatioText(double ratio);

@@ -22,6 +22,14 @@ std::string IntervalText(const models::PromiseRecord& promise,
         error.WithUnit(level.half_width),
         level.at_least ? " at least" : "");
   }
+  if (promise.good_for) {
+    text += fmt::format(
+        "; good for {} to come, as neighbouring {}s err alike (correlation "
+        "{:.2f})",
+        Count(*promise.good_for, promise.unit),
+        promise.unit,
+        promise.lag1.value_or(models::kNotKnown));
+  }
   return text;
 }
 

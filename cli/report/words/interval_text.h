@@ -7,7 +7,8 @@
 
 namespace errmap::report {
 
-/// "90 % of the errors on an unseen cycle lie within 1.4 um, 95 % within 2 um"
+/// "90 % of the errors on an unseen cycle lie within 1.4 um, 95 % within 2 um",
+/// and for how long that is good, where that is known.
 std::string IntervalText(const models::PromiseRecord& promise,
                          const ErrorText& error);
 /// ... and where from: " (groups:5: 35 cycles held out whole)".

@@ -74,14 +74,8 @@ std::string SensorsText(const models::SensorCurveRecord& curve,
   }
   text +=
       fmt::format("  all {}  {}\n", curve.all.sensors, error(curve.all.rmse));
-  text += curve.enough
-              ? fmt::format("{} of {} sensors do it, within 5 % of all:\n",
-                            *curve.enough,
-                            curve.all.sensors)
-              : fmt::format(
-                    "No choice of {} comes within 5 % of all; the best "
-                    "of so many:\n",
-                    curve.chosen.size());
+  text +=
+      EnoughWords(curve) + (curve.enough ? ":\n" : "; the best of so many:\n");
   for (const models::ChosenSensorRecord& chosen : curve.chosen) {
     text += "  " + data::Printable(chosen.sensor, chosen.sensor.size());
     if (std::isfinite(chosen.replaced_cost)) {

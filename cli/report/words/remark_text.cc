@@ -164,15 +164,8 @@ std::string BestNetSentence(const ComponentNumbers& component,
   const models::PairRecord* const pair =
       FindPair(component.record, advice.holdout, advice.model, net);
   if (pair == nullptr) return text + ".";
-  // Of the difference a - b.
-  const double sign = (pair->a == net) == (more < 0.0) ? -1.0 : 1.0;
-  double low = sign * pair->ci95[0];
-  double high = sign * pair->ci95[1];
-  if (sign < 0.0) std::swap(low, high);
-  if (std::isfinite(low) && std::isfinite(high)) {
-    text += fmt::format(
-        " (95 % {} to {})", component.error(low), component.error(high));
-  }
+  text +=
+      component.In95(IntervalOfExcess(*pair, more < 0.0 ? advice.model : net));
   return text + (pair->established ? "." : ", which is not proven.");
 }
 
@@ -242,11 +235,8 @@ std::string TooFewSentence(const ComponentNumbers& component,
   const std::string found = Count(obstacle.units, holdout.unit_of_analysis);
   const bool one = obstacle.units == 1;
   if (remark.kind == RemarkKind::kTooManyMaps) {
-    std::size_t maps = 0;
-    for (const auto& tier :
-         There(FindNamed(component.record.tiers, advice.holdout))) {
-      maps += tier.size();
-    }
+    const auto maps = std::ranges::count(
+        component.record.models, false, &ModelRecord::baseline);
     return fmt::format(
         "{} cannot prove a difference between {} maps: {}compare fewer.",
         found,
@@ -305,19 +295,8 @@ StatesBeyond StatesOf(const std::string& column) {
     case data::Quantity::kAngle:
       return {"positions further down", "positions further up"};
     default:
-      return {"lower values", "higher values"};
+      return {"other values", "other values"};
   }
-}
-
-// What helps against an offset per unit that the sensors do not see. Who has so
-// many sensors gains little by one more.
-std::string RemedyText(const ComponentNumbers& component,
-                       const std::string& column) {
-  constexpr std::size_t kManySensors = 8;
-  if (component.Advice().goal_standing == GoalStanding::kMet) return "";
-  const bool many = component.record.data.inputs.size() > kManySensors;
-  return fmt::format(
-      " {} each {}.", many ? "Re-zero" : "Add a sensor, or re-zero", column);
 }
 
 // What is left is no noise where it has an offset per cycle, or repeats along
@@ -338,7 +317,13 @@ std::string WhatIsLeftSentence(const ComponentNumbers& component,
                       "state that the sensors do not see.{}",
                       percent,
                       column,
-                      RemedyText(component, column))
+                      !remark.add_sensor
+                          ? ""
+                          : fmt::format(" {} each {}.",
+                                        *remark.add_sensor
+                                            ? "Add a sensor, or re-zero"
+                                            : "Re-zero",
+                                        column))
                 : fmt::format(
                       "{:.0f} % of what is left repeats along {}: the map is "
                       "too smooth there.",

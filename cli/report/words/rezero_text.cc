@@ -31,22 +31,18 @@ std::string IntervalWords(const models::ComponentRecord& component,
       "{:.3g} of {}", seconds, data::Printable(column, column.size()));
 }
 
-std::string ProbeEvery(const models::ComponentRecord& component,
-                       double seconds) {
-  return "a probe every " + IntervalWords(component, seconds);
-}
-
-// "a probe every 2 h", by the rule.
-std::string ProbesOfRule(const models::ComponentRecord& component) {
+// "every 2 h", "every cycle", "once a session": the rule.
+std::string RuleWords(const models::ComponentRecord& component) {
   const RezeroRecord& rezero = *component.rezero;
-  if (rezero.when == "interval") return ProbeEvery(component, rezero.interval);
-  if (rezero.when == "session") return "a probe a session";
-  return "a probe every " + component.data.group.value_or("row");
+  if (rezero.when == "session") return "once a session";
+  return "every " + (rezero.when == "interval"
+                         ? IntervalWords(component, rezero.interval)
+                         : component.data.group.value_or("row"));
 }
 
 std::string WhatItSaves(const models::ComponentRecord& component) {
   const RezeroRecord& rezero = *component.rezero;
-  const std::string rule = ProbesOfRule(component);
+  const std::string rule = "a probe " + RuleWords(component);
   const std::string without = fmt::format(" does what {} does without.", rule);
   if (rezero.needs == "never") {
     return "With this map no probe at all" + without;
@@ -55,13 +51,13 @@ std::string WhatItSaves(const models::ComponentRecord& component) {
     return "The map saves no probes: re-zeroed alike it errs more than no map.";
   }
   if (rezero.needs == "session" && rezero.when != "session") {
-    return "With this map a probe a session" + without;
+    return "With this map a probe once a session" + without;
   }
   if (rezero.needs == "session" || rezero.needs_interval == rezero.interval) {
     return fmt::format("With this map, too, {} is needed.", rule);
   }
-  return "With this map " + ProbeEvery(component, rezero.needs_interval) +
-         without;
+  return "With this map a probe every " +
+         IntervalWords(component, rezero.needs_interval) + without;
 }
 
 }  // namespace
@@ -73,12 +69,7 @@ std::string DurationText(double seconds) {
 }
 
 std::string RezeroedWords(const models::ComponentRecord& component) {
-  const RezeroRecord& rezero = *component.rezero;
-  if (rezero.when == "interval") {
-    return "re-zeroed every " + IntervalWords(component, rezero.interval);
-  }
-  if (rezero.when == "session") return "re-zeroed once a session";
-  return "re-zeroed every " + component.data.group.value_or("row");
+  return "re-zeroed " + RuleWords(component);
 }
 
 std::string RezeroSentence(const models::ComponentRecord& component) {

@@ -86,33 +86,20 @@ std::string TestSentence(const ComponentNumbers& component,
       There(models::FindPair(component.record, verdict.holdout, better, worse));
   const HoldoutRecord& held = component.Holdout(verdict.holdout);
   const std::string units = PluralOfUnit(held);
-  // The pair may stand the other way round.
-  const bool straight = pair.a == better;
-  const double low = straight ? -pair.ci95[1] : pair.ci95[0];
-  const double high = straight ? -pair.ci95[0] : pair.ci95[1];
-  std::string text = fmt::format(
-      "{} has {} less than {}",
-      better,
-      component.error.WithUnit(straight ? -pair.difference : pair.difference),
-      worse);
-  if (std::isfinite(pair.ci95[0])) {
-    text += fmt::format(
-        " (95 % {} to {})", component.error(low), component.error(high));
-  }
+  std::string text =
+      fmt::format("{} has {} less than {}{}",
+                  better,
+                  component.error.WithUnit(std::abs(pair.difference)),
+                  worse,
+                  component.In95(IntervalOfExcess(pair, worse)));
   if (!std::isfinite(pair.p)) {
     return text + "; they are one map but for rounding: nothing to establish.";
   }
-  text += fmt::format(
-      "; sign-flip p {} over {}, {} after Holm for {}",
-      PWords(pair.p),
-      CountOfUnits(pair.units, held),
-      PWords(pair.p_holm),
-      Count(std::ranges::count_if(component.record.comparisons,
-                                  [&](const PairRecord& other) {
-                                    return other.holdout == verdict.holdout &&
-                                           std::isfinite(other.p);
-                                  }),
-            "pair"));
+  text += fmt::format("; sign-flip p {} over {}, {} after Holm for {}",
+                      PWords(pair.p),
+                      CountOfUnits(pair.units, held),
+                      PWords(pair.p_holm),
+                      Count(pair.holm_pairs, "pair"));
   switch (There(verdict.against_rival)) {
     case Confidence::kEstablished:
       return text + ": established.";
@@ -198,8 +185,10 @@ std::string AgainstBaselineSentence(const ComponentNumbers& component) {
   const double mine = component.Rmse(advice.model, advice.holdout);
   const double its = component.Rmse(baseline, advice.holdout);
   const double more = its - mine;
-  std::string text = fmt::format(
-      "The best baseline, {}, has {}", baseline, component.error.WithUnit(its));
+  std::string text =
+      more < 0.0 ? "There " + baseline + ", a baseline, does better with "
+                 : "The best baseline, " + baseline + ", has ";
+  text += component.error.WithUnit(its);
   constexpr double kTwice = 2.0;
   if (more > 0.0 && its >= kTwice * mine) {
     text += fmt::format(", {} times as much", RatioText(its / mine));
@@ -209,15 +198,13 @@ std::string AgainstBaselineSentence(const ComponentNumbers& component) {
   const bool known = pair != nullptr && std::isfinite(pair->ci95[0]);
   bool surely_more = false;
   if (known) {
-    const bool straight = pair->a == baseline;
-    const double low = straight ? pair->ci95[0] : -pair->ci95[1];
-    const double high = straight ? pair->ci95[1] : -pair->ci95[0];
-    surely_more = low > 0.0;
-    text += fmt::format(": {} {} (95 % {} to {})",
+    const std::string& larger = more < 0.0 ? advice.model : baseline;
+    const models::IntervalRecord excess = IntervalOfExcess(*pair, larger);
+    surely_more = more > 0.0 && excess[0] > 0.0;
+    text += fmt::format(": {} {}{}",
                         component.error.WithUnit(std::abs(more)),
                         more < 0.0 ? "less" : "more",
-                        component.error(more < 0.0 ? -high : low),
-                        component.error(more < 0.0 ? -low : high));
+                        component.In95(excess));
   }
   if (!surely_more) {
     return text + (known ? "; that may be chance."

@@ -80,7 +80,7 @@ std::string_view ToString(Obstacle::Kind kind) {
 Obstacle FindObstacle(const stats::Comparison& tests, bool separate_sessions) {
   Obstacle obstacle{.kind = UnitsObstacle(tests.num_units, separate_sessions),
                     .units = tests.num_units,
-                    .pairs = tests.num_tested()};
+                    .pairs = tests.num_tested};
   if (tests.num_units > stats::kMostForExactFlips && obstacle.pairs > 0) {
     const double smallest =
         std::ranges::min(tests.pairs, {}, [](const PairComparison& pair) {
@@ -91,9 +91,11 @@ Obstacle FindObstacle(const stats::Comparison& tests, bool separate_sessions) {
     }
     return obstacle;
   }
-  // However few there are, the number that suffices is the same.
-  const Index needed = UnitsNeeded(obstacle.pairs, separate_sessions);
-  if (!obstacle.exists() && tests.num_units < needed) {
+  // However few there are, and whatever is tied among so few, the number that
+  // suffices is the same.
+  const Index needed = UnitsNeeded(tests.num_asked, separate_sessions);
+  if (!obstacle.exists() &&
+      tests.num_units < UnitsNeeded(obstacle.pairs, separate_sessions)) {
     obstacle.kind = Kind::kTooManyPairs;
   }
   if (obstacle.exists()) obstacle.needed = needed;

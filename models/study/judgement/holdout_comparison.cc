@@ -64,11 +64,15 @@ HoldoutComparison CompareOne(const data::Dataset& dataset,
                              const Holdout& holdout,
                              const StudyResult& study,
                              std::size_t index,
-                             const stats::ComparisonOptions& options) {
+                             stats::ComparisonOptions options) {
   HoldoutComparison comparison;
   comparison.holdout = holdout.name;
   for (std::size_t m = 0; m < study.models.size(); ++m) {
-    if (study.models[m].holdouts[index].ok()) comparison.models.push_back(m);
+    if (!study.models[m].holdouts[index].ok()) continue;
+    if (study.models[m].baseline) {
+      options.yardsticks.push_back(std::ssize(comparison.models));
+    }
+    comparison.models.push_back(m);
   }
   if (comparison.models.empty()) return comparison;
   const HeldOutRows held = GatherHeldOut(dataset, holdout);

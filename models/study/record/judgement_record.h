@@ -69,6 +69,7 @@ struct PairRecord {
   IntervalRecord ci95 = {kNotKnown, kNotKnown};  // of the difference
   double p = kNotKnown;
   double p_holm = kNotKnown;
+  std::int64_t holm_pairs = 0;  // that the adjustment counts
   std::string test;
   bool exact = false;
   double smallest_p = kNotKnown;

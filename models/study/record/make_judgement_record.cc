@@ -101,6 +101,7 @@ PairRecord JudgementRecord::Pair(const HoldoutComparison& tests,
           .ci95 = IntervalOf(pair.bounds),
           .p = pair.sign_flip.test.p,
           .p_holm = pair.p_holm,
+          .holm_pairs = pair.num_adjusted,
           .test = "sign-flip permutation",
           .exact = pair.sign_flip.exact,
           .smallest_p = pair.sign_flip.smallest_p,
@@ -331,7 +332,13 @@ PromiseRecord MakeRecord(const PredictionInterval& interval) {
   PromiseRecord record{.holdout = interval.holdout,
                        .unit = interval.unit,
                        .units = interval.units,
-                       .levels = {}};
+                       .levels = {},
+                       .lag1 = {},
+                       .good_for = {}};
+  if (interval.good_for > 0) {
+    record.lag1 = interval.lag1;
+    record.good_for = interval.good_for;
+  }
   for (const PredictionInterval::Level& level : interval.levels) {
     record.levels.push_back({level.coverage, level.half_width, level.at_least});
   }

@@ -38,6 +38,9 @@ struct PromiseRecord {
   std::string unit;
   std::int64_t units = 0;
   std::vector<PromiseLevelRecord> levels;
+  // Where neighbouring units' mean errors go together: PredictionInterval.
+  LeftOut<double> lag1;
+  LeftOut<std::int64_t> good_for;
 };
 PromiseRecord MakeRecord(const PredictionInterval& interval);
 

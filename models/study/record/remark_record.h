@@ -27,7 +27,7 @@ enum class RemarkKind {
   kOneMoreSession,
   kGoal,
   kCost,
-  kNotNoise,  // columns, shares
+  kNotNoise,  // columns, shares; add_sensor
   kInterrupted,
   kOneRunOnly,
   kGroupFitsFailed,
@@ -64,6 +64,9 @@ struct RemarkRecord {
   LeftOut<std::vector<std::string>> columns = {};
   /// Of the squared residuals, what the means by each column explain (0 to 1).
   LeftOut<std::vector<double>> shares = {};
+  /// Against an offset that the sensors do not see: whether one more of them
+  /// may help, or re-zeroing alone; left out where nothing is needed.
+  LeftOut<bool> add_sensor = {};
   LeftOut<double> lag1 = {};
   LeftOut<std::int64_t> pairs = {};
   LeftOut<std::int64_t> established = {};

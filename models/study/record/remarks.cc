@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "data/measurements/column_roles.h"
 #include "models/history/view.h"
 #include "models/study/judgement/extrapolated_rows.h"
 
@@ -21,18 +22,32 @@ constexpr double kSignificance = 0.05;
 constexpr double kExtrapolationWorthSaying = 0.05;
 
 // What a screen has room for is told in this order; all else on request.
-constexpr std::array kToldFirst = {
-    RemarkKind::kInterrupted,      RemarkKind::kRemoves,
-    RemarkKind::kAveragesMaps,     RemarkKind::kProvenBetter,
-    RemarkKind::kSimpleHolds,      RemarkKind::kGoal,
-    RemarkKind::kBetterWithoutMap, RemarkKind::kOneRunOnly,
-    RemarkKind::kGroupFitsFailed,  RemarkKind::kNoGroupsHeldOut,
-    RemarkKind::kNoGroups,         RemarkKind::kFewSessions,
-    RemarkKind::kOnlyGrows,        RemarkKind::kTooFewUnits,
-    RemarkKind::kTooManyMaps,      RemarkKind::kNotNoise,
-    RemarkKind::kIgnoreNeighbours, RemarkKind::kNoiseLearning,
-    RemarkKind::kUnitsCorrelated,  RemarkKind::kHoldoutsDisagree,
-    RemarkKind::kNotConverged,     RemarkKind::kCost};
+constexpr std::array kToldFirst = {RemarkKind::kInterrupted,
+                                   RemarkKind::kRemoves,
+                                   RemarkKind::kAveragesMaps,
+                                   RemarkKind::kProvenBetter,
+                                   RemarkKind::kSimpleHolds,
+                                   RemarkKind::kGoal,
+                                   RemarkKind::kBetterWithoutMap,
+                                   RemarkKind::kOneRunOnly,
+                                   RemarkKind::kGroupFitsFailed,
+                                   RemarkKind::kNoGroupsHeldOut,
+                                   RemarkKind::kNoGroups,
+                                   RemarkKind::kFewSessions,
+                                   RemarkKind::kPromise,
+                                   RemarkKind::kOnlyGrows,
+                                   RemarkKind::kTooFewUnits,
+                                   RemarkKind::kTooManyMaps,
+                                   RemarkKind::kNotNoise,
+                                   RemarkKind::kIgnoreNeighbours,
+                                   RemarkKind::kNoiseLearning,
+                                   RemarkKind::kUnitsCorrelated,
+                                   RemarkKind::kHoldoutsDisagree,
+                                   RemarkKind::kNotConverged,
+                                   RemarkKind::kCost};
+
+// Who has more of them gains little by yet another.
+constexpr std::ptrdiff_t kManySensors = 8;
 
 // Columns named as those that more should be measured of.
 constexpr std::size_t kMostColumns = 3;
@@ -170,6 +185,14 @@ void Remarks::AddNotNoise() {
   }
   if (columns.empty()) return;
   RemarkRecord& remark = Add(RemarkKind::kNotNoise);
+  const bool has_offset =
+      result->randomness.by_group &&
+      columns.front() == result->randomness.by_group->column;
+  if (has_offset &&
+      record_.recommendation->goal_standing != GoalStanding::kMet) {
+    remark.add_sensor = std::ranges::count_if(study_.data.dataset.inputs(),
+                                              data::IsSensor) <= kManySensors;
+  }
   remark.columns = std::move(columns);
   remark.shares = std::move(shares);
 }
@@ -189,7 +212,10 @@ std::vector<RemarkRecord> Remarks::Grounds() {
       })) {
     Add(RemarkKind::kGap);
   }
-  if (record_.recommendation->promise) Add(RemarkKind::kPromise);
+  if (const auto& promise = record_.recommendation->promise) {
+    RemarkRecord& remark = Add(RemarkKind::kPromise);
+    if (!promise->good_for) remark.rank.reset();
+  }
   if (record_.recommendation->session_worth) Add(RemarkKind::kOneMoreSession);
   if (record_.recommendation->goal_standing != GoalStanding::kNone) {
     Add(RemarkKind::kGoal);

@@ -309,7 +309,11 @@ class ReportDocument {
           {"goal_standing", "not met"},
           {"sentence", "Use " + spec_.models[best] + " on another day."},
           {"why", "It is the simplest of the first tier."},
-          {"grounds", Json::array({{{"kind", "goal"}, {"text", "A reason."}}})},
+          {"grounds",
+           Json::array({{{"kind", "cost"}, {"text", "A reason."}},
+                        {{"kind", "goal"},
+                         {"rank", 1},
+                         {"text", "The goal is not met: RMSE 1.900 um."}}})},
           {"doubts",
            Json::array({{{"kind", "one run only"}, {"text", "A caveat."}}})}}},
         {"figures", Figures()}};

@@ -139,6 +139,16 @@ TEST(ColumnRoles, UnknownColumnsAreNamedWithTheKnownOnes) {
   EXPECT_EQ(ErrorOf(kText, {.group = "cycel"}),
             "f.csv: no column 'cycel' (group); did you mean 'cycle'? the "
             "columns are 'cycle', 't1_degC', 'error'");
+  EXPECT_THAT(ErrorOf(kText, {.group = "cylce"}),
+              HasSubstr("did you mean 'cycle'?"));
+  for (const char* typed : {"t1", "T1", "t1_C"}) {
+    EXPECT_THAT(ErrorOf(kText, {.inputs = {typed}}),
+                HasSubstr("did you mean 't1_degC'?"));
+  }
+  EXPECT_THAT(ErrorOf("day,error_mm\n1,2\n2,3\n", {.target = "eror"}),
+              HasSubstr("did you mean 'error_mm'?"));
+  EXPECT_THAT(ErrorOf("day,error_mm\n1,2\n2,3\n", {.session = "dya"}),
+              HasSubstr("did you mean 'day'?"));
   EXPECT_EQ(ErrorOf(kText, {.target = "displacement"}),
             "f.csv: no column 'displacement' (target); the columns are "
             "'cycle', 't1_degC', 'error'");

@@ -194,7 +194,7 @@ TEST(CompareModels, CallsEqualModelsEqual) {
                          pair.p_memory_holm}) {
     EXPECT_TRUE(std::isnan(p));
   }
-  EXPECT_EQ(found.num_tested(), 0);
+  EXPECT_EQ(found.num_tested, 0);
   EXPECT_EQ(pair.bounds.upper, 0.0);
   EXPECT_FALSE(pair.lag1.ok());
   EXPECT_FALSE(pair.correlated);
@@ -210,12 +210,34 @@ TEST(CompareModels, TestsNothingBetweenMapsThatDifferByRounding) {
   const Comparison found = CompareModels(three, nullptr, {});
   EXPECT_TRUE(found.Pair(0, 2).tied);
   EXPECT_TRUE(std::isnan(found.Pair(0, 2).p_holm));
-  EXPECT_EQ(found.num_tested(), 2);
+  EXPECT_EQ(found.num_tested, 2);
   // Of two tests the smaller p counts twice, not three times.
   const PairComparison& pair = found.Pair(0, 1);
   EXPECT_FALSE(pair.tied);
   EXPECT_EQ(pair.p_holm, 2.0 * pair.sign_flip.test.p);
+  EXPECT_EQ(found.num_asked, 3);
   EXPECT_EQ(found.tiers, (std::vector<std::vector<Index>>{{0, 2}, {1}}));
+}
+
+// What a comparison adds to be held against takes nothing from the others.
+TEST(CompareModels, AdjustsThePairsOfOthersAsIfThereWereNoYardsticks) {
+  const UnitLosses losses =
+      MakeLossesInPairedComparison(12, VectorXd{{1.0, 1.5, 2.0, 4.0, 5.0}});
+  UnitLosses alone = losses;
+  alone.mean_squares.conservativeResize(Eigen::NoChange, 3);
+  const Comparison of_three = CompareModels(alone, nullptr, {});
+  const Comparison found =
+      CompareModels(losses, nullptr, {.yardsticks = {3, 4}});
+  for (const auto& [a, b] : {std::pair(0, 1), {0, 2}, {1, 2}}) {
+    EXPECT_EQ(found.Pair(a, b).p_holm, of_three.Pair(a, b).p_holm);
+    EXPECT_EQ(found.Pair(a, b).num_adjusted, 3);
+  }
+  // The three with one yardstick; the two yardsticks.
+  EXPECT_EQ(found.Pair(0, 4).num_adjusted, 3);
+  EXPECT_EQ(found.Pair(3, 4).p_holm, found.Pair(3, 4).sign_flip.test.p);
+  EXPECT_EQ(found.num_tested, 3);
+  EXPECT_EQ(found.num_asked, 3);
+  EXPECT_EQ(CompareModels(losses, nullptr, {}).num_tested, 10);
 }
 
 TEST(CompareModels, WarnsOfUnitsThatResembleTheirNeighbours) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cli/report/words/interval_text.h"
 #include "cli/report/words/mark_words.h"
 #include "cli/report/wrap_text.h"
 #include "data/input_error.h"
@@ -75,9 +76,11 @@ TEST(Headline, SaysWhatToUseAndHowGoodItIs) {
 TEST(Headline, SaysWhereNothingBeatsTheBestBaselineForSure) {
   ComponentRecord record = Base();
   record.recommendation->against_baseline = Confidence::kNotShown;
-  EXPECT_THAT(Headline(record),
-              EndsWith("The best baseline, zero, has 0.800 um; how sure that "
-                       "is, 6 cycles cannot tell."));
+  EXPECT_THAT(
+      Headline(record),
+      EndsWith(
+          "There zero, a baseline, does better with 0.800 um; how sure that "
+          "is, 6 cycles cannot tell."));
 }
 
 models::ResultRecord& Far(models::ModelRecord* model) {
@@ -117,6 +120,17 @@ TEST(Headline, TellsTheDifferenceAndItsIntervalBeforeWhatItLacks) {
   record.recommendation->against_baseline = Confidence::kNotShown;
   EXPECT_THAT(Headline(record),
               EndsWith("(95 % -1.900 to 19.000); that may be chance."));
+}
+
+TEST(Headline, SaysPlainlyWhereABaselineErrsLess) {
+  ComponentRecord record = BesideBaseline(-2.0, 1.0);
+  const double rmse = ResultOf(record.models[1], kFar)->test.rmse;
+  Far(&record.models[0]).test.rmse = 0.5 * rmse;
+  record.recommendation->against_baseline = Confidence::kNotShown;
+  EXPECT_THAT(Headline(record),
+              EndsWith(". There zero, a baseline, does better with 0.950 um: "
+                       "0.950 um less (95 % -1.900 to 3.800); that may be "
+                       "chance."));
 }
 
 // --- The marks -------------------------------------------------------------
@@ -215,15 +229,31 @@ TEST(Sentences, CallAnOffsetPerCycleAThermalStateThatNoSensorSees) {
   RemarkRecord remark{.kind = RemarkKind::kNotNoise};
   remark.columns = std::vector<std::string>{"cycle", "position_mm"};
   remark.shares = std::vector<double>{0.87, 0.31};
+  remark.add_sensor = true;
   EXPECT_EQ(GroundOf(record, remark),
             "87 % of what is left is an offset per cycle: a thermal state that "
             "the sensors do not see. Add a sensor, or re-zero each cycle. 31 % "
             "of what is left repeats along position_mm: the map is too smooth "
             "there.");
-  record.data.inputs.resize(40, "t");
+  remark.add_sensor = false;
   EXPECT_THAT(GroundOf(record, remark), HasSubstr(" see. Re-zero each cycle."));
-  record.recommendation->goal_standing = models::GoalStanding::kMet;
+  remark.add_sensor.reset();
   EXPECT_THAT(GroundOf(record, remark), HasSubstr(" see. 31 %"));
+}
+
+TEST(Sentences, SayForHowManyDaysAPromiseIsGood) {
+  models::PromiseRecord promise;
+  promise.unit = "day";
+  promise.levels.emplace_back().coverage = 0.9;
+  promise.levels.back().half_width = 2.0;
+  const ErrorText error(data::UnitOfSymbol("um"), 1.0);
+  EXPECT_EQ(IntervalText(promise, error),
+            "90 % of the errors on an unseen day lie within 2.00 um");
+  promise.lag1 = 0.84;
+  promise.good_for = 2;
+  EXPECT_THAT(IntervalText(promise, error),
+              EndsWith(" um; good for 2 days to come, as neighbouring days err "
+                       "alike (correlation 0.84)"));
 }
 
 TEST(Sentences, TellWhichColumnToIgnoreForAFlatteredModel) {
@@ -328,13 +358,14 @@ models::VerdictRecord Hindered(models::Obstacle::Kind kind,
 TEST(Sentences, TellHowManyCyclesWouldProveADifference) {
   using Kind = models::Obstacle::Kind;
   ComponentRecord record = Base();
+  record.models[0].baseline = true;
   record.verdict = {Hindered(Kind::kTooManyPairs, 6, 11)};
   EXPECT_EQ(DoubtOf(record, {.kind = RemarkKind::kTooManyMaps}),
-            "6 cycles cannot prove a difference between 3 maps: measure 11 or "
+            "6 cycles cannot prove a difference between 2 maps: measure 11 or "
             "more, or compare fewer.");
   record.verdict = {Hindered(Kind::kTooFewSignPatterns, 6, 0)};
   EXPECT_EQ(DoubtOf(record, {.kind = RemarkKind::kTooManyMaps}),
-            "6 cycles cannot prove a difference between 3 maps: compare "
+            "6 cycles cannot prove a difference between 2 maps: compare "
             "fewer.");
   record.verdict = {Hindered(Kind::kTooFewUnits, 5, 6)};
   EXPECT_EQ(DoubtOf(record, {.kind = RemarkKind::kTooFewUnits}),
