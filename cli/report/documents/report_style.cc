@@ -28,7 +28,7 @@ a{color:var(--blue)}
 .goal.none{background:#5a6472}
 ul{margin:.4rem 0;padding-left:1.3rem}
 .scroll{overflow-x:auto;margin:.4rem 0 1rem;border:1px solid var(--line);border-radius:4px;max-width:100%;width:fit-content}
-.scroll:focus-visible,.equation:focus-visible,summary:focus-visible,a:focus-visible{outline:3px solid var(--blue);outline-offset:2px}
+.scroll:focus-visible,.equation:focus-visible,summary:focus-visible,input:focus-visible,a:focus-visible{outline:3px solid var(--blue);outline-offset:2px}
 table{border-collapse:collapse;font-size:.875rem;font-variant-numeric:tabular-nums}
 th,td{padding:4px 10px;text-align:right;vertical-align:top;border-bottom:1px solid var(--line);overflow-wrap:normal}
 tr:last-child td{border-bottom:0}

@@ -319,7 +319,7 @@ TEST_F(Screens, SayWhatTwoDaysHeldOutWholeTell) {
   const std::string text = Squeezed(outcome.out);
   EXPECT_THAT(text, HasSubstr("on another day."));
   EXPECT_THAT(text, Not(HasSubstr("another day is not known")));
-  EXPECT_THAT(text, ContainsRegex("measure next +9 days or more"));
+  EXPECT_THAT(text, ContainsRegex("measure next +6 days or more"));
 }
 
 TEST_F(Screens, NameTheMapThatWasWritten) {
