@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -19,6 +20,17 @@ using Eigen::VectorXd;
 Index NumGroups(const data::Dataset& dataset) {
   const std::vector<Index>& codes = dataset.groups().codes;
   return static_cast<Index>(std::set<Index>(codes.begin(), codes.end()).size());
+}
+
+// A fold for each row: group after group to the next of `count`.
+std::vector<Index> DealtInTurn(const std::vector<Index>& groups, Index count) {
+  std::map<Index, Index> fold_of;
+  for (const Index group : groups) fold_of[group] = 0;
+  Index next = 0;
+  for (auto& [group, fold] : fold_of) fold = next++ % count;
+  std::vector<Index> folds;
+  for (const Index group : groups) folds.push_back(fold_of.at(group));
+  return folds;
 }
 
 // The kind that the rows allow.
@@ -40,7 +52,8 @@ InnerHoldout KindFor(const data::Dataset& training, InnerHoldout wanted) {
 }  // namespace
 
 InnerFolds MakeInnerFolds(const data::Dataset& training,
-                          const FitContext& context) {
+                          const FitContext& context,
+                          GroupDeal deal) {
   constexpr Index kFolds = 5;
   const InnerHoldout kind = KindFor(training, context.inner_holdout);
   const Index groups = NumGroups(training);
@@ -73,6 +86,13 @@ InnerFolds MakeInnerFolds(const data::Dataset& training,
     default:
       inner.text = fmt::format("{}:{}", ToString(kind), count);
       break;
+  }
+  inner.in_turn = deal == GroupDeal::kInTurn && !of.empty() &&
+                  context.inner_holdout == InnerHoldout::kWholeGroups;
+  if (inner.in_turn) {
+    inner.folds.codes = DealtInTurn(codes, count);
+    inner.text += " of " + of;
+    return inner;
   }
   const auto made = stats::MakeFolds(stats::ParseHoldout(inner.text),
                                      training.num_rows(),

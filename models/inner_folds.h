@@ -10,6 +10,10 @@
 
 namespace errmap::models {
 
+/// Which whole groups a fold has where groups are held out: neighbours, so that
+/// a memory cannot carry over from them, or every fifth.
+enum class GroupDeal { kRuns, kInTurn };
+
 /// Folds for the choices made inside a fit, by context.inner_holdout, up to 5:
 /// runs of whole sessions or groups, contiguous runs of rows, seeded shares of
 /// the rows, or blocks of whole groups (rows where there are none) in order,
@@ -19,6 +23,7 @@ struct InnerFolds {
   fitting::FoldCodes folds;  // of the rows of `training`
   std::string text;  // "sessions:5 of day", "groups:5 of cycle", "kfold:5"
   bool whole_sessions = false;
+  bool in_turn = false;  // GroupDeal::kInTurn was heeded
   /// Sessions or groups that are held out whole; else the folds.
   Eigen::Index units = 0;
 };
@@ -38,8 +43,11 @@ InnerError TypicalError(const InnerFolds& folds,
                         const Eigen::VectorXd& weights,
                         double indifference);
 
-/// Throws std::invalid_argument where there are fewer than 2 rows.
+/// `deal` counts under InnerHoldout::kWholeGroups alone: what is to hold on
+/// another day is chosen on runs. Throws std::invalid_argument where there are
+/// fewer than 2 rows.
 InnerFolds MakeInnerFolds(const data::Dataset& training,
-                          const FitContext& context);
+                          const FitContext& context,
+                          GroupDeal deal = GroupDeal::kRuns);
 
 }  // namespace errmap::models

@@ -104,15 +104,17 @@ class BasisJudge {
       Penalty penalty) const {
     if (!is_shareable()) return FitsOf(viewed, basis, {penalty})->at(penalty);
     const bool all = context_.shared->every_penalty;
-    const std::string key =
-        fmt::format("{} view={} {} terms={} degree={} centring={} guarded={}",
-                    all ? "penalized" : fitting::ToString(penalty),
-                    viewed->label(),
-                    KeyOf(options_.view),
-                    ToString(basis.terms),
-                    basis.degree,
-                    static_cast<int>(basis.centring),
-                    basis.guarded);
+    const std::string key = fmt::format(
+        "{} view={} {} terms={} degree={} centring={} guarded={}"
+        " in_turn={}",
+        all ? "penalized" : fitting::ToString(penalty),
+        viewed->label(),
+        KeyOf(options_.view),
+        ToString(basis.terms),
+        basis.degree,
+        static_cast<int>(basis.centring),
+        basis.guarded,
+        folds_.in_turn);
     return context_.shared
         ->Get<FitsByPenalty>(
             key,

@@ -20,6 +20,14 @@ using data::Dataset;
 using Eigen::Index;
 using fitting::Penalty;
 
+// Over rows as they were measured there is only to choose how far to shrink,
+// and runs would ask for more extrapolation than the fold outside does; a
+// memory must not know a group from its neighbours.
+GroupDeal DealFor(const BasisOptions& basis) {
+  return !basis.view || basis.view->view == View::kRaw ? GroupDeal::kInTurn
+                                                       : GroupDeal::kRuns;
+}
+
 // All terms of a basis, their coefficients shrunk.
 class PenalizedRecipe final : public PolynomialRecipe {
  public:
@@ -48,9 +56,10 @@ class PenalizedRecipe final : public PolynomialRecipe {
       throw std::invalid_argument(
           fmt::format("needs at least 3 rows, found {}", training.num_rows()));
     }
-    const InnerFolds folds = options_.penalty.strength
-                                 ? InnerFolds()
-                                 : MakeInnerFolds(training, context);
+    const InnerFolds folds =
+        options_.penalty.strength
+            ? InnerFolds()
+            : MakeInnerFolds(training, context, DealFor(options_.basis));
     const std::vector<BasisCandidate> candidates = JudgeBases(training,
                                                               options_.basis,
                                                               options_.penalty,

@@ -135,6 +135,20 @@ TEST(InnerFolds, KeepEveryGroupOnOneSide) {
   }
 }
 
+TEST(InnerFolds, DealWholeGroupsInTurnWhereAskedTo) {
+  const data::Dataset cycles = Grouped({2, 1, 3, 1, 1, 2, 1});
+  const FitContext by_groups{.inner_holdout = InnerHoldout::kWholeGroups};
+  const InnerFolds inner =
+      MakeInnerFolds(cycles, by_groups, GroupDeal::kInTurn);
+  EXPECT_TRUE(inner.in_turn);
+  EXPECT_EQ(inner.text, "groups:5 of day");
+  EXPECT_EQ(inner.folds.codes,
+            (std::vector<Index>{0, 0, 1, 2, 2, 2, 3, 4, 0, 0, 1}));
+  EXPECT_FALSE(MakeInnerFolds(cycles, by_groups).in_turn);
+  // What is to hold on another day is chosen on runs.
+  EXPECT_FALSE(MakeInnerFolds(cycles, {}, GroupDeal::kInTurn).in_turn);
+}
+
 TEST(InnerFolds, HoldOutBlocksWhereThereIsOneGroup) {
   EXPECT_EQ(MakeInnerFolds(Grouped({20}), {}).text, "blocks:5");
   EXPECT_EQ(MakeInnerFolds(Grouped({}, 3), {}).text, "blocks:3");
