@@ -163,7 +163,8 @@ class BlendRecipe final : public ModelRecipe {
     if (net && weights[weights.size() - 1] > kLeastWeight) {
       parts.push_back({net->name, weights[weights.size() - 1], *net});
     }
-    FittedModel fitted = Average(training, growing, std::move(parts));
+    FittedModel fitted = Average(
+        training, growing, bases.front().viewed->room, std::move(parts));
     fitted.summary.message =
         fmt::format("{} candidates weighted by {} on inner hold-outs ({})",
                     scores.size(),
@@ -253,6 +254,7 @@ class BlendRecipe final : public ModelRecipe {
   // One map that reads what any of the parts reads.
   FittedModel Average(const Dataset& training,
                       const std::vector<std::string>& growing,
+                      double room,
                       std::vector<Part> parts) const {
     History history;
     std::vector<std::string> columns;
@@ -314,7 +316,7 @@ class BlendRecipe final : public ModelRecipe {
     fitted.inputs = DescribeInputs(read, all);
     if (options_.bases.clip) {
       fitted.guards = MakeGuards(fitted.inputs, training.target_values());
-      LeaveRoom(growing, fitted.inputs, &*fitted.guards);
+      LeaveRoom(growing, room, fitted.inputs, &*fitted.guards);
     }
     fitted.model = std::make_shared<AveragedModel>(
         static_cast<Index>(columns.size()),

@@ -142,70 +142,12 @@ bool IsPosition(const data::ColumnInfo& column) {
       });
 }
 
-std::vector<bool> ColumnsThatOnlyGrow(const Dataset& rows) {
-  constexpr std::size_t kFewestSessions = 3;
-  constexpr double kHardly = 0.1;
-  std::vector<bool> only_grow(static_cast<std::size_t>(rows.num_inputs()),
-                              false);
-  std::map<Index, std::vector<Index>> sessions;
-  const std::vector<Index> codes = rows.session_codes();
-  for (std::size_t i = 0; i < codes.size(); ++i) {
-    sessions[codes[i]].push_back(static_cast<Index>(i));
-  }
-  if (sessions.size() < kFewestSessions) return only_grow;
-  for (Index j = 0; j < rows.num_inputs(); ++j) {
-    const auto column = rows.input_values().col(j);
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    double mean_before = std::numeric_limits<double>::quiet_NaN();
-    double returned = 0.0;  // shares of the later sessions
-    bool rises = true;
-    bool falls = true;
-    for (const auto& [session, places] : sessions) {
-      const Eigen::ArrayXd values = column(places);
-      if (!std::isnan(mean_before)) {
-        rises = rises && values.mean() > mean_before;
-        falls = falls && values.mean() < mean_before;
-        returned += (values >= low && values <= high).cast<double>().mean();
-      }
-      mean_before = values.mean();
-      low = std::min(low, values.minCoeff());
-      high = std::max(high, values.maxCoeff());
-    }
-    only_grow[static_cast<std::size_t>(j)] =
-        (rises || falls) &&
-        returned < kHardly * static_cast<double>(sessions.size() - 1);
-  }
-  return only_grow;
-}
-
 std::vector<std::string> NamesOfGrowing(const ViewedRows& viewed) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < viewed.only_grows.size(); ++i) {
     if (viewed.only_grows[i]) names.push_back(viewed.rows->inputs()[i].name);
   }
   return names;
-}
-
-void LeaveRoom(const std::vector<std::string>& growing,
-               const std::vector<TrainedInput>& form_inputs,
-               Guards* guards) {
-  constexpr double kRanges = 3.0;
-  bool any = false;
-  for (std::size_t i = 0; i < form_inputs.size(); ++i) {
-    const TrainedInput& input = form_inputs[i];
-    if (std::ranges::find(growing, input.column.name) == growing.end()) {
-      continue;
-    }
-    const double room = kRanges * (input.max - input.min);
-    guards->input_min[static_cast<Index>(i)] -= room;
-    guards->input_max[static_cast<Index>(i)] += room;
-    any = true;
-  }
-  if (!any) return;
-  const double room = kRanges * (guards->error_max - guards->error_min);
-  guards->error_min -= room;
-  guards->error_max += room;
 }
 
 std::vector<double> MakeTimeConstants(const Dataset& training) {
@@ -298,6 +240,7 @@ std::vector<ViewedRows> MakeViews(const Dataset& training,
     for (const bool turned : angle_forms) forms.emplace_back(view, turned);
   }
   const double first_error = LargestFirstError(training);
+  const double room = RoomBeyond(training);
   std::vector<ViewedRows> views;
   for (const auto& [view, sine_and_cosine] : forms) {
     ViewedRows viewed;
@@ -316,6 +259,7 @@ std::vector<ViewedRows> MakeViews(const Dataset& training,
       viewed.is_position.push_back(IsPosition(input));
     }
     viewed.only_grows = ColumnsThatOnlyGrow(*viewed.rows);
+    viewed.room = room;
     // Inputs that are zero where a session begins give an error that is zero
     // there, if that is what was measured.
     viewed.intercept =

@@ -8,6 +8,7 @@
 
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
+#include "models/history/growth.h"
 #include "models/history/history.h"
 
 namespace errmap::models {
@@ -50,6 +51,7 @@ struct ViewedRows {
   std::shared_ptr<const data::Dataset> rows;
   std::vector<bool> is_position;  // (inputs of rows)
   std::vector<bool> only_grows;   // likewise: ColumnsThatOnlyGrow
+  double room = 0.0;              // ranges that these go on for: RoomBeyond
   bool intercept = true;
 
   std::string label() const;  // "history+zero", "raw with sine and cosine"
@@ -79,21 +81,8 @@ std::vector<double> MakeTimeConstants(const data::Dataset& training);
 /// `training` has the first row; NaN where it has none.
 double LargestFirstError(const data::Dataset& training);
 
-/// Inputs of `rows` that hardly ever return to values they had, as an age does:
-/// with three sessions or more the sessions' means only rise or only fall, and
-/// of a later session on average less than a tenth of the rows lies within what
-/// the earlier ones had. Rows held out of the middle lie between others there,
-/// and all that is to come lies beyond them.
-std::vector<bool> ColumnsThatOnlyGrow(const data::Dataset& rows);
-
+/// Of the inputs of these rows.
 std::vector<std::string> NamesOfGrowing(const ViewedRows& viewed);
-
-/// Guards of a map that is a straight line in the inputs named, which only grow
-/// and so will leave their range: three ranges more for them, and for the
-/// error.
-void LeaveRoom(const std::vector<std::string>& growing,
-               const std::vector<TrainedInput>& form_inputs,
-               Guards* guards);
 
 /// "position*" columns, which are neither filtered nor zeroed.
 bool IsPosition(const data::ColumnInfo& column);

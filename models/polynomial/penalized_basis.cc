@@ -484,7 +484,8 @@ FittedModel MapOfCandidate(const std::string& name,
   fitted.inner_rmse = candidate.held_out_rmse;
   if (guarded) {
     fitted.guards = MakeGuards(fitted.inputs, raw.target_values());
-    LeaveRoom(NamesOfGrowing(viewed), fitted.inputs, &*fitted.guards);
+    LeaveRoom(
+        NamesOfGrowing(viewed), viewed.room, fitted.inputs, &*fitted.guards);
   }
   if (viewed.history != nullptr) {
     fitted = WithHistory(std::move(fitted), raw, *viewed.history);

@@ -158,55 +158,5 @@ TEST(View, PositionsStayAsTheyAreInAnyCase) {
   EXPECT_FALSE(IsPosition({"t_position", {}}));
 }
 
-// An age, a temperature that comes and goes, and one that rises by the session
-// but falls again within each.
-data::Dataset AgeingDays(Index days) {
-  constexpr Index kRows = 10;
-  Eigen::MatrixXd values(days * kRows, 3);
-  std::vector<Index> codes;
-  for (Index row = 0; row < values.rows(); ++row) {
-    const auto k = static_cast<double>(row);
-    const auto day = static_cast<double>(row / kRows);
-    values.row(row) << 0.1 * k, 20.0 + std::sin(k),
-        20.0 + 0.1 * day + std::sin(k);
-    codes.push_back(row / kRows);
-  }
-  return errmap::testing::WithLog(
-      {errmap::testing::ColumnNamed("age_days"),
-       errmap::testing::ColumnNamed("t1_degC"),
-       errmap::testing::ColumnNamed("t2_degC")},
-      values,
-      Eigen::VectorXd::LinSpaced(
-          values.rows(), 0.0, 60.0 * static_cast<double>(values.rows() - 1)),
-      codes);
-}
-
-TEST(ColumnsThatOnlyGrow, AreThoseThatNeverReturnOverThreeSessions) {
-  EXPECT_THAT(ColumnsThatOnlyGrow(AgeingDays(4)),
-              ElementsAre(true, false, false));
-  EXPECT_THAT(ColumnsThatOnlyGrow(AgeingDays(2)),
-              ElementsAre(false, false, false));
-}
-
-// What bends is not extrapolated, what is straight may go on for long.
-TEST(ColumnsThatOnlyGrow, HaveNoSquaresAndRoomToGoOn) {
-  const data::Dataset days = AgeingDays(5);
-  for (const char* spec :
-       {"poly:ridge:view=raw:terms=squares", "blend:view=raw"}) {
-    const FittedModel fitted = MakeRecipe(spec)->Fit(days, {});
-    Eigen::MatrixXd inputs = fitted.FormInputs(days).topRows(3);
-    const Index age = 0;
-    ASSERT_EQ(fitted.inputs[0].column.name, "age_days") << spec;
-    const double range = fitted.inputs[0].max - fitted.inputs[0].min;
-    inputs(0, age) = fitted.inputs[0].max + range;
-    inputs.row(1) = inputs.row(0);
-    inputs.row(2) = inputs.row(0);
-    inputs(1, age) += range;
-    inputs(2, age) += 2.0 * range;
-    const Eigen::VectorXd errors = fitted.PredictForm(inputs).errors;
-    EXPECT_NEAR(errors[2] - errors[1], errors[1] - errors[0], 1e-9) << spec;
-  }
-}
-
 }  // namespace
 }  // namespace errmap::models

@@ -137,11 +137,11 @@ TEST(NeverExplodes, BeyondWhatOnlyGrows) {
         << "design " << i << ": " << study.models[chosen].name << ", mean "
         << mean << ", plane " << plane;
   }
-  // Nobody can tell in each of them which of the two it will be: an age that
-  // has begun to saturate is taken to go on in a straight line (12 of 60).
+  // Nobody can tell in each of them which of the two it will be: noise can
+  // hide that a line goes on (7 of 200).
   RecordProperty("above_better", above_better);
   RecordProperty("worst_percent", static_cast<int>(100.0 * worst));
-  EXPECT_LE(above_better, kDesigns / 4) << "worst " << worst;
+  EXPECT_LE(above_better, kDesigns / 20) << "worst " << worst;
 }
 
 }  // namespace

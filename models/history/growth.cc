@@ -1,0 +1,184 @@
+#include "models/history/growth.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <Eigen/Dense>
+
+namespace errmap::models {
+namespace {
+
+using data::Dataset;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::RowVectorXd;
+using Eigen::VectorXd;
+
+// Rows by session, in the order of the sessions.
+std::map<Index, std::vector<Index>> RowsOfSessions(const Dataset& rows) {
+  std::map<Index, std::vector<Index>> sessions;
+  const std::vector<Index> codes = rows.session_codes();
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    sessions[codes[i]].push_back(static_cast<Index>(i));
+  }
+  return sessions;
+}
+
+// A plane of all inputs, shrunk a little: sensors of few sessions are alike.
+class Plane {
+ public:
+  Plane(const MatrixXd& inputs, const VectorXd& targets)
+      : offset_(inputs.colwise().mean()),
+        lowest_(inputs.colwise().minCoeff()),
+        highest_(inputs.colwise().maxCoeff()),
+        intercept_(targets.mean()) {
+    constexpr double kShrink = 1e-2;
+    const MatrixXd centred = inputs.rowwise() - offset_;
+    const auto rows = static_cast<double>(inputs.rows());
+    const RowVectorXd squares = centred.colwise().squaredNorm();
+    MatrixXd products = centred.transpose() * centred;
+    // A column that never moved has no slope.
+    products.diagonal() += kShrink * squares.transpose() +
+                           VectorXd::Constant(squares.size(), rows * kTiny);
+    slopes_ = products.ldlt().solve(centred.transpose() *
+                                    (targets.array() - intercept_).matrix());
+  }
+
+  // What grows stops `room` trained ranges beyond.
+  VectorXd Predict(MatrixXd inputs,
+                   const std::vector<bool>& only_grows,
+                   double room) const {
+    for (Index j = 0; j < inputs.cols(); ++j) {
+      if (!only_grows[static_cast<std::size_t>(j)]) continue;
+      const double more = room * (highest_[j] - lowest_[j]);
+      inputs.col(j) = inputs.col(j)
+                          .cwiseMax(lowest_[j] - more)
+                          .cwiseMin(highest_[j] + more);
+    }
+    return ((inputs.rowwise() - offset_) * slopes_).array() + intercept_;
+  }
+
+ private:
+  static constexpr double kTiny = 1e-12;
+
+  RowVectorXd offset_;
+  RowVectorXd lowest_;
+  RowVectorXd highest_;
+  double intercept_ = 0.0;
+  VectorXd slopes_;
+};
+
+constexpr double kMostRoom = 3.0;
+
+}  // namespace
+
+std::vector<bool> ColumnsThatOnlyGrow(const Dataset& rows) {
+  constexpr std::size_t kFewestSessions = 3;
+  constexpr double kHardly = 0.1;
+  std::vector<bool> only_grow(static_cast<std::size_t>(rows.num_inputs()),
+                              false);
+  const auto sessions = RowsOfSessions(rows);
+  if (sessions.size() < kFewestSessions) return only_grow;
+  for (Index j = 0; j < rows.num_inputs(); ++j) {
+    const auto column = rows.input_values().col(j);
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    double mean_before = std::numeric_limits<double>::quiet_NaN();
+    double returned = 0.0;  // shares of the later sessions
+    bool rises = true;
+    bool falls = true;
+    for (const auto& [session, places] : sessions) {
+      const Eigen::ArrayXd values = column(places);
+      if (!std::isnan(mean_before)) {
+        rises = rises && values.mean() > mean_before;
+        falls = falls && values.mean() < mean_before;
+        returned += (values >= low && values <= high).cast<double>().mean();
+      }
+      mean_before = values.mean();
+      low = std::min(low, values.minCoeff());
+      high = std::max(high, values.maxCoeff());
+    }
+    only_grow[static_cast<std::size_t>(j)] =
+        (rises || falls) &&
+        returned < kHardly * static_cast<double>(sessions.size() - 1);
+  }
+  return only_grow;
+}
+
+double RoomBeyond(const Dataset& training) {
+  const std::vector<bool> only_grows = ColumnsThatOnlyGrow(training);
+  if (std::ranges::find(only_grows, true) == only_grows.end()) {
+    return kMostRoom;
+  }
+  constexpr std::array kRooms{0.0, 0.25, 0.5, 1.0, 2.0, kMostRoom};
+  // Sums of the logarithms of later sessions' errors: no one decides alone. A
+  // plane counts by the sessions that it knows.
+  std::array<double, kRooms.size()> errors{};
+  double judged = 0.0;
+  std::vector<Index> earlier;
+  const auto sessions = RowsOfSessions(training);
+  // Where there are many sessions, some of the planes do.
+  constexpr std::size_t kMostPlanes = 6;
+  const std::size_t step = 1 + (sessions.size() - 3) / kMostPlanes;
+  std::size_t known = 0;
+  for (auto next = sessions.begin(); next != sessions.end(); ++next, ++known) {
+    if (known >= 2 && (known - 2) % step == 0) {
+      const Plane plane(training.input_values()(earlier, Eigen::all),
+                        training.target_values()(earlier));
+      const auto counts = static_cast<double>(known);
+      for (auto later = next; later != sessions.end(); ++later) {
+        judged += counts;
+        const auto& [session, rows] = *later;
+        for (std::size_t r = 0; r < kRooms.size(); ++r) {
+          const VectorXd residuals =
+              training.target_values()(rows) -
+              plane.Predict(training.input_values()(rows, Eigen::all),
+                            only_grows,
+                            kRooms[r]);
+          errors[r] +=
+              counts *
+              std::log(std::max(residuals.norm() /
+                                    std::sqrt(static_cast<double>(rows.size())),
+                                std::numeric_limits<double>::min()));
+        }
+      }
+    }
+    earlier.insert(earlier.end(), next->second.begin(), next->second.end());
+  }
+  // Less than this is no reason to doubt a line.
+  constexpr double kMargin = 0.1;
+  const double most = *std::ranges::min_element(errors) + kMargin * judged;
+  for (std::size_t r = kRooms.size(); r-- > 0;) {
+    if (errors[r] <= most) return kRooms[r];
+  }
+  return kMostRoom;
+}
+
+void LeaveRoom(const std::vector<std::string>& growing,
+               double room,
+               const std::vector<TrainedInput>& form_inputs,
+               Guards* guards) {
+  bool any = false;
+  for (std::size_t i = 0; i < form_inputs.size(); ++i) {
+    const TrainedInput& input = form_inputs[i];
+    if (std::ranges::find(growing, input.column.name) == growing.end()) {
+      continue;
+    }
+    // Widened by the margin of all inputs it is `room` ranges more.
+    const double centre = 0.5 * (input.min + input.max);
+    const double half = 0.5 * (input.max - input.min) * (1.0 + 2.0 * room) /
+                        (1.0 + 2.0 * guards->input_margin);
+    guards->input_min[static_cast<Index>(i)] = centre - half;
+    guards->input_max[static_cast<Index>(i)] = centre + half;
+    any = true;
+  }
+  if (!any) return;
+  const double more = room * (guards->error_max - guards->error_min);
+  guards->error_min -= more;
+  guards->error_max += more;
+}
+
+}  // namespace errmap::models

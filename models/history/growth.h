@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "data/measurements/dataset.h"
+#include "models/error_model.h"
+
+namespace errmap::models {
+
+/// Inputs of `rows` that hardly ever return to values they had, as an age does:
+/// with three sessions or more the sessions' means only rise or only fall, and
+/// of a later session on average less than a tenth of the rows lies within what
+/// the earlier ones had. Rows held out of the middle lie between others there,
+/// and all that is to come lies beyond them.
+std::vector<bool> ColumnsThatOnlyGrow(const data::Dataset& rows);
+
+/// For how many trained ranges (0 to 3) a straight line in what only grows is
+/// to be believed beyond the last of `training`, by what sessions showed of it
+/// that came later than others: planes of the first two sessions, of the first
+/// three and so on foretell the rest, and stop after so many ranges. The
+/// longest of those that err least. 3 where nothing grows.
+double RoomBeyond(const data::Dataset& training);
+
+/// Guards of a map that is a straight line in the inputs named, which only grow
+/// and so will leave their range: `room` ranges more for them, and for the
+/// error.
+void LeaveRoom(const std::vector<std::string>& growing,
+               double room,
+               const std::vector<TrainedInput>& form_inputs,
+               Guards* guards);
+
+}  // namespace errmap::models

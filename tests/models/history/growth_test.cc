@@ -1,0 +1,127 @@
+// Columns that only grow, and how far a line in them is believed.
+#include "models/history/growth.h"
+
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "models/recipe_catalog.h"
+#include "tests/models/history/history_data.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+using ::testing::ElementsAre;
+
+// An age, a temperature that comes and goes, and one that rises by the session
+// but falls again within each.
+data::Dataset AgeingDays(Index days) {
+  constexpr Index kRows = 10;
+  Eigen::MatrixXd values(days * kRows, 3);
+  std::vector<Index> codes;
+  for (Index row = 0; row < values.rows(); ++row) {
+    const auto k = static_cast<double>(row);
+    const auto day = static_cast<double>(row / kRows);
+    values.row(row) << 0.1 * k, 20.0 + std::sin(k),
+        20.0 + 0.1 * day + std::sin(k);
+    codes.push_back(row / kRows);
+  }
+  return testing::WithLog(
+      {testing::ColumnNamed("age_days"),
+       testing::ColumnNamed("t1_degC"),
+       testing::ColumnNamed("t2_degC")},
+      values,
+      Eigen::VectorXd::LinSpaced(
+          values.rows(), 0.0, 60.0 * static_cast<double>(values.rows() - 1)),
+      codes);
+}
+
+TEST(ColumnsThatOnlyGrow, AreThoseThatNeverReturnOverThreeSessions) {
+  EXPECT_THAT(ColumnsThatOnlyGrow(AgeingDays(4)),
+              ElementsAre(true, false, false));
+  EXPECT_THAT(ColumnsThatOnlyGrow(AgeingDays(2)),
+              ElementsAre(false, false, false));
+}
+
+// What bends is not extrapolated, what is straight may go on for long.
+TEST(ColumnsThatOnlyGrow, HaveNoSquaresAndRoomToGoOn) {
+  const data::Dataset days = AgeingDays(5);
+  for (const char* spec :
+       {"poly:ridge:view=raw:terms=squares", "blend:view=raw"}) {
+    const FittedModel fitted = MakeRecipe(spec)->Fit(days, {});
+    Eigen::MatrixXd inputs = fitted.FormInputs(days).topRows(3);
+    const Index age = 0;
+    ASSERT_EQ(fitted.inputs[0].column.name, "age_days") << spec;
+    const double range = fitted.inputs[0].max - fitted.inputs[0].min;
+    inputs(0, age) = fitted.inputs[0].max + range;
+    inputs.row(1) = inputs.row(0);
+    inputs.row(2) = inputs.row(0);
+    inputs(1, age) += range;
+    inputs(2, age) += 2.0 * range;
+    const Eigen::VectorXd errors = fitted.PredictForm(inputs).errors;
+    EXPECT_NEAR(errors[2] - errors[1], errors[1] - errors[0], 1e-9) << spec;
+  }
+}
+
+// The same days, of an error that is a function of the age in spans of them
+// all.
+data::Dataset DaysOfError(Index days, const std::function<double(double)>& of) {
+  const data::Dataset made = AgeingDays(days);
+  Eigen::VectorXd errors(made.num_rows());
+  for (Index row = 0; row < errors.size(); ++row) {
+    errors[row] =
+        of(made.input_values()(row, 0) / static_cast<double>(days)) +
+        0.2 * std::sin(static_cast<double>(row));  // the temperature's
+  }
+  data::Dataset::Parts parts;
+  parts.source = "memory";
+  parts.inputs = made.inputs();
+  parts.input_values = made.input_values();
+  parts.target = made.target();
+  parts.target_values = errors;
+  parts.log = made.log();
+  parts.log_rows = made.log_rows();
+  return data::Dataset(std::move(parts));
+}
+
+TEST(RoomBeyond, IsAllOfItWhereALineWentOn) {
+  EXPECT_EQ(RoomBeyond(DaysOfError(6, [](double age) { return 4.0 * age; })),
+            3.0);
+  // Nothing that grows tells of the error: no reason to doubt.
+  EXPECT_EQ(RoomBeyond(DaysOfError(6, [](double) { return 0.0; })), 3.0);
+}
+
+TEST(RoomBeyond, IsLittleWhereWhatGrewDidNotGoOn) {
+  const auto saturates = [](double age) {
+    return 4.0 * (1.0 - std::exp(-3.0 * age));
+  };
+  EXPECT_LE(RoomBeyond(DaysOfError(6, saturates)), 0.5);
+}
+
+TEST(RoomBeyond, EndsAMapThereAndNotAtOnce) {
+  const data::Dataset days = DaysOfError(
+      6, [](double age) { return 4.0 * (1.0 - std::exp(-3.0 * age)); });
+  const double room = RoomBeyond(days);
+  const FittedModel fitted = MakeRecipe("blend:view=raw")->Fit(days, {});
+  ASSERT_EQ(fitted.inputs[0].column.name, "age_days");
+  const double last = fitted.inputs[0].max;
+  const double range = last - fitted.inputs[0].min;
+  Eigen::MatrixXd inputs = fitted.FormInputs(days).topRows(3);
+  for (Index row = 0; row < 3; ++row) inputs.row(row) = inputs.row(0);
+  inputs(0, 0) = last;
+  inputs(1, 0) = last + room * range;
+  inputs(2, 0) = last + 3.0 * range;
+  const Eigen::VectorXd errors = fitted.PredictForm(inputs).errors;
+  EXPECT_NEAR(errors[2], errors[1], 1e-9);
+  if (room > 0.0) {
+    EXPECT_GT(errors[1], errors[0]);
+  }
+}
+
+}  // namespace
+}  // namespace errmap::models
