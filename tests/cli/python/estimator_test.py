@@ -7,7 +7,6 @@ import unittest
 try:
     import numpy
     import pandas
-    import pytest  # parametrize_with_checks imports it when it is called
     import sklearn
     from sklearn.base import clone
     from sklearn.linear_model import LinearRegression
