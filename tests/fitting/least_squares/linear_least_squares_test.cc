@@ -265,7 +265,10 @@ struct Tenths {
       binomial =
           binomial * static_cast<double>(20 - i) / static_cast<double>(i + 1);
     }
-    exact.design = PowersDesign(tenths, 0, 5);
+    exact.design = ExtendedMatrix::Constant(21, 6, 1.0);
+    for (Index k = 1; k < 6; ++k) {
+      exact.design.col(k) = exact.design.col(k - 1).cwiseProduct(tenths);
+    }
     exact.response = exact.design * ExtendedVector::Constant(6, 1.0);
     for (Index i = 0; i < 21; ++i) {
       exact.response[i] += scatter * differences[i];
