@@ -233,7 +233,12 @@ std::string NearestColumn(std::string_view name,
   for (const std::string& column : known) {
     without_unit.push_back(ReadHeader(column).base);
   }
-  const std::string base = NearestName(ReadHeader(name).base, without_unit);
+  // What is typed may end in no unit that is known: t1_C.
+  const std::string typed = ReadHeader(name).base;
+  std::string base = NearestName(typed, without_unit);
+  if (base.empty()) {
+    base = NearestName(typed.substr(0, typed.rfind('_')), without_unit);
+  }
   const auto found = std::ranges::find(without_unit, base);
   return base.empty() || found == without_unit.end()
              ? ""

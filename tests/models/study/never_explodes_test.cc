@@ -138,7 +138,7 @@ TEST(NeverExplodes, BeyondWhatOnlyGrows) {
         << mean << ", plane " << plane;
   }
   // Nobody can tell in each of them which of the two it will be: noise can
-  // hide that a line goes on (7 of 200).
+  // hide that a line goes on (9 of 200).
   RecordProperty("above_better", above_better);
   RecordProperty("worst_percent", static_cast<int>(100.0 * worst));
   EXPECT_LE(above_better, kDesigns / 20) << "worst " << worst;
