@@ -13,7 +13,7 @@ set -eu
 packages="g++ cmake ninja-build libeigen3-dev libopenblas-dev libceres-dev
   libnlopt-dev libnlopt-cxx-dev libboost-dev libtbb-dev libcli11-dev
   nlohmann-json3-dev libfmt-dev libtomlplusplus-dev libssl-dev libsqlite3-dev
-  zlib1g-dev"
+  zlib1g-dev libminizip-dev libpugixml-dev"
 test_packages="libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 python3-jsonschema chromium gnuplot-nox patch"
 python_packages="pybind11-dev python3-dev python3-pip python3-setuptools python3-wheel python3-numpy"
 # Without these a few tests are skipped.

@@ -23,28 +23,6 @@ void Feed(std::string_view* rest, z_stream* stream) {
   rest->remove_prefix(count);
 }
 
-std::string Unpacked(std::string_view compressed,
-                     std::size_t most,
-                     int window,
-                     const char* what_is_wrong) {
-  z_stream stream{};
-  if (inflateInit2(&stream, window) != Z_OK) throw std::bad_alloc();
-  std::string text;
-  std::array<char, 1U << 16U> buffer{};
-  int state = Z_OK;
-  while (state == Z_OK && text.size() <= most) {
-    if (stream.avail_in == 0) Feed(&compressed, &stream);
-    stream.next_out = reinterpret_cast<Bytef*>(buffer.data());
-    stream.avail_out = static_cast<unsigned>(buffer.size());
-    state = inflate(&stream, Z_NO_FLUSH);
-    text.append(buffer.data(), buffer.size() - stream.avail_out);
-  }
-  inflateEnd(&stream);
-  if (text.size() > most) throw InputError("is too long when unpacked");
-  if (state != Z_STREAM_END) throw InputError(what_is_wrong);
-  return text;
-}
-
 }  // namespace
 
 bool IsGzip(std::string_view bytes) { return bytes.starts_with("\x1F\x8B"); }
@@ -75,17 +53,24 @@ std::string Gzip(std::string_view text) {
 }
 
 std::string Gunzip(std::string_view compressed, std::size_t most) {
-  return Unpacked(compressed, most, kGzipWindow, "is no gzip, or is cut off");
-}
-
-std::string Inflate(std::string_view compressed, std::size_t most) {
-  constexpr int kRaw = -15;  // zlib's word for no header
-  return Unpacked(compressed, most, kRaw, "is damaged");
-}
-
-std::uint32_t Crc32(std::string_view bytes) {
-  return static_cast<std::uint32_t>(
-      crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+  z_stream stream{};
+  if (inflateInit2(&stream, kGzipWindow) != Z_OK) throw std::bad_alloc();
+  std::string text;
+  std::array<char, 1U << 16U> buffer{};
+  int state = Z_OK;
+  while (state == Z_OK && text.size() <= most) {
+    if (stream.avail_in == 0) Feed(&compressed, &stream);
+    stream.next_out = reinterpret_cast<Bytef*>(buffer.data());
+    stream.avail_out = static_cast<unsigned>(buffer.size());
+    state = inflate(&stream, Z_NO_FLUSH);
+    text.append(buffer.data(), buffer.size() - stream.avail_out);
+  }
+  inflateEnd(&stream);
+  if (text.size() > most) throw InputError("is too long when unpacked");
+  if (state != Z_STREAM_END) {
+    throw InputError("is no gzip, or is cut off");
+  }
+  return text;
 }
 
 }  // namespace errmap::data

@@ -8,19 +8,21 @@
 #include <map>
 #include <vector>
 
+#include <pugixml.hpp>
+
 #include "data/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
-#include "data/xml_scanner.h"
 #include "data/zip_archive.h"
 
 namespace errmap::data {
 namespace {
 
-using Kind = XmlScanner::Kind;
-
 constexpr std::size_t kMostRows = 1U << 20U;  // of any sheet
 constexpr std::size_t kMostColumns = 1U << 14U;
+// Bytes of a part: some six million cells. Its elements take up to 16 times as
+// much memory.
+constexpr std::size_t kMostXml = std::size_t{1} << 28U;
 
 // What of a moment a format shows.
 struct ShownTime {
@@ -128,17 +130,46 @@ std::string OneLine(std::string text) {
   return quoted + "\"";
 }
 
-// Texts until `element` closes, without how they are pronounced.
-std::string TextWithin(XmlScanner* xml, std::string_view element) {
+// Names of elements and attributes come with a prefix that is whatever it is.
+bool IsNamed(std::string_view full_name, std::string_view name) {
+  return full_name.substr(full_name.find(':') + 1) == name;
+}
+
+pugi::xml_node Child(pugi::xml_node parent, std::string_view name) {
+  return parent.find_child(
+      [&](pugi::xml_node node) { return IsNamed(node.name(), name); });
+}
+
+std::vector<pugi::xml_node> Children(pugi::xml_node parent,
+                                     std::string_view name) {
+  std::vector<pugi::xml_node> found;
+  for (const pugi::xml_node node : parent.children()) {
+    if (IsNamed(node.name(), name)) found.push_back(node);
+  }
+  return found;
+}
+
+// "" where there is none.
+std::string Attribute(pugi::xml_node node, std::string_view name) {
+  return node
+      .find_attribute([&](pugi::xml_attribute attribute) {
+        return IsNamed(attribute.name(), name);
+      })
+      .value();
+}
+
+std::string TextIn(pugi::xml_node node) {
   std::string text;
-  bool pronounced = false;
-  bool inside = element == "v";
-  for (Kind kind = xml->Next(); !xml->Closes(element); kind = xml->Next()) {
-    if (kind == Kind::kEnd) throw InputError("is damaged: its XML breaks off");
-    if (kind == Kind::kText && inside && !pronounced) text += xml->Text();
-    if (kind == Kind::kText) continue;
-    if (xml->name() == "rPh") pronounced = kind == Kind::kOpen;
-    if (xml->name() == "t") inside = kind == Kind::kOpen;
+  for (const pugi::xml_node part : node.children()) text += part.value();
+  return text;
+}
+
+// Of a text in runs of several styles, without how it is pronounced.
+std::string RichText(pugi::xml_node node) {
+  std::string text;
+  for (const pugi::xml_node part : node.children()) {
+    if (IsNamed(part.name(), "t")) text += TextIn(part);
+    if (IsNamed(part.name(), "r")) text += TextIn(Child(part, "t"));
   }
   return text;
 }
@@ -196,33 +227,38 @@ class Workbook {
     return names + (sheets.size() > kMostNamed ? ", ..." : "");
   }
 
-  std::string Part(const std::string& name) const {
-    return archive_.Read(name, kMostTextOfPrograms);
+  // Reads a part and returns its outermost element.
+  pugi::xml_node Load(const std::string& part,
+                      pugi::xml_document* document) const {
+    const std::string text = archive_.Read(part, kMostXml);
+    // Neither are entities of its own known, nor is what they stand for.
+    if (!document->load_buffer(
+            text.data(),
+            text.size(),
+            pugi::parse_default | pugi::parse_ws_pcdata_single)) {
+      throw InputError("is damaged: its XML breaks off or is none");
+    }
+    return document->document_element();
   }
 
   void ReadSheets() {
     std::map<std::string, std::string> parts;  // by relation
-    const std::string relations = Part("xl/_rels/workbook.xml.rels");
-    XmlScanner of_relations(relations);
-    while (of_relations.Next() != Kind::kEnd) {
-      if (!of_relations.Opens("Relationship")) continue;
-      const std::string target = of_relations.Attribute("Target");
-      parts[of_relations.Attribute("Id")] =
+    pugi::xml_document relations;
+    for (const pugi::xml_node one : Children(
+             Load("xl/_rels/workbook.xml.rels", &relations), "Relationship")) {
+      const std::string target = Attribute(one, "Target");
+      parts[Attribute(one, "Id")] =
           target.starts_with('/') ? target.substr(1) : "xl/" + target;
     }
-    const std::string text = Part(kPath);
-    XmlScanner xml(text);
-    while (xml.Next() != Kind::kEnd) {
-      if (xml.Opens("workbookPr")) {
-        const std::string first = xml.Attribute("date1904");
-        from_1904_ = first == "1" || first == "true";
-      }
-      if (!xml.Opens("sheet")) continue;
-      // "id" and "r:id" differ in their prefix, which is whatever it is.
-      const auto part = parts.find(xml.Attribute("id"));
+    pugi::xml_document document;
+    const pugi::xml_node book = Load(kPath, &document);
+    const std::string first = Attribute(Child(book, "workbookPr"), "date1904");
+    from_1904_ = first == "1" || first == "true";
+    for (const pugi::xml_node one : Children(Child(book, "sheets"), "sheet")) {
+      const auto part = parts.find(Attribute(one, "id"));
       if (part == parts.end() || !archive_.Has(part->second)) continue;
-      const std::string state = xml.Attribute("state");
-      sheets_.push_back({xml.Attribute("name"),
+      const std::string state = Attribute(one, "state");
+      sheets_.push_back({Attribute(one, "name"),
                          part->second,
                          !state.empty() && state != "visible"});
     }
@@ -232,35 +268,32 @@ class Workbook {
   void ReadFormats() {
     constexpr const char* kStyles = "xl/styles.xml";
     if (!archive_.Has(kStyles)) return;
-    const std::string text = Part(kStyles);
+    pugi::xml_document document;
+    const pugi::xml_node styles = Load(kStyles, &document);
     std::map<std::size_t, ShownTime> own;
-    XmlScanner xml(text);
-    bool in_cells = false;
-    while (xml.Next() != Kind::kEnd) {
-      if (xml.name() == "cellXfs") in_cells = !xml.Closes("cellXfs");
-      if (xml.Opens("numFmt")) {
-        own[WholeNumber(xml.Attribute("numFmtId"), 0)] =
-            ShownBy(xml.Attribute("formatCode"));
-      } else if (in_cells && xml.Opens("xf")) {
-        const std::size_t id = WholeNumber(xml.Attribute("numFmtId"), 0);
-        const auto found = own.find(id);
-        styles_.push_back(found != own.end() ? found->second : BuiltIn(id));
-      }
+    for (const pugi::xml_node one :
+         Children(Child(styles, "numFmts"), "numFmt")) {
+      own[WholeNumber(Attribute(one, "numFmtId"), 0)] =
+          ShownBy(Attribute(one, "formatCode"));
+    }
+    for (const pugi::xml_node one : Children(Child(styles, "cellXfs"), "xf")) {
+      const std::size_t id = WholeNumber(Attribute(one, "numFmtId"), 0);
+      const auto found = own.find(id);
+      styles_.push_back(found != own.end() ? found->second : BuiltIn(id));
     }
   }
 
   void ReadTexts() {
     constexpr const char* kTexts = "xl/sharedStrings.xml";
     if (!archive_.Has(kTexts)) return;
-    const std::string text = Part(kTexts);
-    XmlScanner xml(text);
-    while (xml.Next() != Kind::kEnd) {
-      if (xml.Opens("si")) texts_.push_back(OneLine(TextWithin(&xml, "si")));
+    pugi::xml_document document;
+    for (const pugi::xml_node one : Children(Load(kTexts, &document), "si")) {
+      texts_.push_back(OneLine(RichText(one)));
     }
   }
 
   std::string TextOf(const Sheet& sheet) const;
-  std::string CellText(XmlScanner* xml, const std::string& place) const;
+  std::string CellText(pugi::xml_node cell, const std::string& place) const;
 
   ZipArchive archive_;
   std::vector<Sheet> sheets_;
@@ -269,20 +302,13 @@ class Workbook {
   bool from_1904_ = false;
 };
 
-// The cell whose tag has been opened.
-std::string Workbook::CellText(XmlScanner* xml,
+std::string Workbook::CellText(pugi::xml_node cell,
                                const std::string& place) const {
-  const std::string type = xml->Attribute("t");
-  const std::size_t style = WholeNumber(xml->Attribute("s"), 0);
-  std::string value;
-  bool has_formula = false;
-  while (xml->Next() != Kind::kEnd && !xml->Closes("c")) {
-    if (xml->Opens("f")) has_formula = true;
-    if (xml->Opens("v") || xml->Opens("is")) {
-      value = TextWithin(xml, std::string(xml->name()));
-    }
-  }
-  if (has_formula && value.empty() && type != "str") {
+  const std::string type = Attribute(cell, "t");
+  const std::size_t style = WholeNumber(Attribute(cell, "s"), 0);
+  const pugi::xml_node text = Child(cell, "is");
+  std::string value = text ? RichText(text) : TextIn(Child(cell, "v"));
+  if (Child(cell, "f") && value.empty() && type != "str") {
     throw InputError("cell " + place +
                      " has a formula without a value; open the file in a "
                      "spreadsheet program and save it there");
@@ -309,35 +335,39 @@ std::string Workbook::CellText(XmlScanner* xml,
   return OneLine(std::move(value));
 }
 
+// 1-based, of "AB12"; 0 where the place has no letters.
+std::size_t ColumnOf(std::string_view place) {
+  std::size_t number = 0;
+  for (const char c : place) {
+    if (c < 'A' || c > 'Z' || number > kMostColumns) break;
+    number = 26 * number + static_cast<std::size_t>(c - 'A') + 1;
+  }
+  return number;
+}
+
 std::string Workbook::TextOf(const Sheet& sheet) const {
-  const std::string part = Part(sheet.part);
-  XmlScanner xml(part);
+  pugi::xml_document document;
   std::vector<std::vector<std::string>> rows;
   std::size_t width = 0;
   std::size_t row = 0;  // 1-based, as they are in the file
-  std::size_t column = 0;
-  while (xml.Next() != Kind::kEnd) {
-    if (xml.Opens("row")) {
-      row = WholeNumber(xml.Attribute("r"), row + 1);
-      column = 0;
-      if (row == 0 || row > kMostRows) throw InputError("has a row beyond any");
-      rows.resize(std::max(rows.size(), row));
-    }
-    if (!xml.Opens("c") || row == 0) continue;
-    const std::string place = xml.Attribute("r");
-    std::size_t number = 0;
-    for (const char c : place) {
-      if (c < 'A' || c > 'Z' || number > kMostColumns) break;
-      number = 26 * number + static_cast<std::size_t>(c - 'A') + 1;
-    }
-    column = number == 0 ? column + 1 : number;
-    if (column > kMostColumns) throw InputError("has a column beyond any");
-    std::string text = CellText(&xml, place);
-    if (text.empty()) continue;
-    width = std::max(width, column);
+  for (const pugi::xml_node line :
+       Children(Child(Load(sheet.part, &document), "sheetData"), "row")) {
+    row = WholeNumber(Attribute(line, "r"), row + 1);
+    if (row == 0 || row > kMostRows) throw InputError("has a row beyond any");
+    rows.resize(std::max(rows.size(), row));
     auto& cells = rows[row - 1];
-    if (cells.size() < column) cells.resize(column);
-    cells[column - 1] = std::move(text);
+    std::size_t column = 0;
+    for (const pugi::xml_node cell : Children(line, "c")) {
+      const std::string place = Attribute(cell, "r");
+      const std::size_t number = ColumnOf(place);
+      column = number == 0 ? column + 1 : number;
+      if (column > kMostColumns) throw InputError("has a column beyond any");
+      std::string text = CellText(cell, place);
+      if (text.empty()) continue;
+      width = std::max(width, column);
+      if (cells.size() < column) cells.resize(column);
+      cells[column - 1] = std::move(text);
+    }
   }
   std::string text;
   for (const std::vector<std::string>& cells : rows) {

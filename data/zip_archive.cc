@@ -1,96 +1,65 @@
 #include "data/zip_archive.h"
 
-#include <algorithm>
+#include <array>
+#include <cstdio>
 
-#include "data/gzip.h"
+#include <minizip/unzip.h>
+
 #include "data/input_error.h"
 #include "data/text.h"
 
 namespace errmap::data {
 namespace {
 
-constexpr std::string_view kFile = "PK\x03\x04";
-constexpr std::string_view kInDirectory = "PK\x01\x02";
-constexpr std::string_view kEnd = "PK\x05\x06";
-
 [[noreturn]] void ThrowDamaged() {
   throw InputError(
       "is a spreadsheet or an archive that is damaged; save it anew");
 }
 
+// minizip reads through the functions of <cstdio>; the "file" is a text here.
+voidpf OpenText(voidpf /*opaque*/, const void* text, int /*mode*/) {
+  const auto& bytes = *static_cast<const std::string_view*>(text);
+  return fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb");
+}
+
 }  // namespace
 
-bool IsZip(std::string_view bytes) { return bytes.starts_with(kFile); }
+bool IsZip(std::string_view bytes) { return bytes.starts_with("PK\x03\x04"); }
 
-ZipArchive::ZipArchive(std::string_view bytes) : bytes_(bytes) {
-  const std::size_t end = FindDirectory();
-  std::size_t count = NumberAt(end + 10, 2);
-  std::size_t at = NumberAt(end + 16, 4);
-  for (; count > 0; --count) {
-    constexpr std::size_t kFixed = 46;
-    constexpr std::uint32_t kEncrypted = 1;
-    if (!bytes_.substr(std::min(at, bytes_.size())).starts_with(kInDirectory)) {
-      ThrowDamaged();
-    }
-    if ((NumberAt(at + 8, 2) & kEncrypted) != 0) {
-      throw InputError("is protected by a password; save it without");
-    }
-    const std::size_t name_size = NumberAt(at + 28, 2);
-    const std::size_t next =
-        at + kFixed + name_size + NumberAt(at + 30, 2) + NumberAt(at + 32, 2);
-    if (next > bytes_.size()) ThrowDamaged();
-    entries_.emplace(bytes_.substr(at + kFixed, name_size),
-                     Entry{.offset = NumberAt(at + 42, 4),
-                           .packed = NumberAt(at + 20, 4),
-                           .method = NumberAt(at + 10, 2),
-                           .crc = NumberAt(at + 16, 4)});
-    at = next;
-  }
+ZipArchive::ZipArchive(std::string_view bytes) : file_(nullptr, &unzClose) {
+  zlib_filefunc64_def functions{};
+  fill_fopen64_filefunc(&functions);
+  functions.zopen64_file = &OpenText;
+  file_.reset(unzOpen2_64(&bytes, &functions));
+  if (file_ == nullptr) ThrowDamaged();
 }
 
-std::string ZipArchive::Read(std::string_view name, std::size_t most) const {
-  const auto found = entries_.find(name);
-  if (found == entries_.end()) {
-    throw InputError("has no part " + QuotedName(name));
+bool ZipArchive::Has(const std::string& name) const {
+  constexpr int kByCase = 1;
+  return unzLocateFile(file_.get(), name.c_str(), kByCase) == UNZ_OK;
+}
+
+std::string ZipArchive::Read(const std::string& name, std::size_t most) const {
+  if (!Has(name)) throw InputError("has no part " + QuotedName(name));
+  unz_file_info64 info{};
+  unzGetCurrentFileInfo64(
+      file_.get(), &info, nullptr, 0, nullptr, 0, nullptr, 0);
+  constexpr unsigned kEncrypted = 1;
+  if ((info.flag & kEncrypted) != 0) {
+    throw InputError("is protected by a password; save it without");
   }
-  const Entry& entry = found->second;
-  constexpr std::size_t kFixed = 30;
-  const std::size_t begin = entry.offset + kFixed +
-                            NumberAt(entry.offset + 26, 2) +
-                            NumberAt(entry.offset + 28, 2);
-  if (begin > bytes_.size() || entry.packed > bytes_.size() - begin) {
-    ThrowDamaged();
+  if (unzOpenCurrentFile(file_.get()) != UNZ_OK) ThrowDamaged();
+  std::string content;
+  std::array<char, 1U << 16U> buffer{};
+  int count = 1;
+  while (count > 0 && content.size() <= most) {
+    count = unzReadCurrentFile(file_.get(), buffer.data(), buffer.size());
+    if (count > 0) content.append(buffer.data(), static_cast<unsigned>(count));
   }
-  constexpr std::uint32_t kStored = 0;
-  constexpr std::uint32_t kDeflated = 8;
-  const std::string_view packed = bytes_.substr(begin, entry.packed);
-  if (entry.method != kStored && entry.method != kDeflated) ThrowDamaged();
-  std::string content =
-      entry.method == kStored ? std::string(packed) : Inflate(packed, most);
-  if (Crc32(content) != entry.crc) ThrowDamaged();
+  const int closed = unzCloseCurrentFile(file_.get());  // compares the sums
+  if (content.size() > most) throw InputError("is too long when unpacked");
+  if (count < 0 || closed != UNZ_OK) ThrowDamaged();
   return content;
-}
-
-// Little-endian.
-std::uint32_t ZipArchive::NumberAt(std::size_t offset,
-                                   std::size_t bytes) const {
-  if (offset > bytes_.size() || bytes > bytes_.size() - offset) ThrowDamaged();
-  std::uint32_t number = 0;
-  for (std::size_t i = bytes; i > 0; --i) {
-    number =
-        (number << 8U) | static_cast<unsigned char>(bytes_[offset + i - 1]);
-  }
-  return number;
-}
-
-// The last record, which a comment of any content may follow.
-std::size_t ZipArchive::FindDirectory() const {
-  constexpr std::size_t kFixed = 22;
-  const std::size_t at = bytes_.rfind(kEnd);
-  if (at == std::string_view::npos || bytes_.size() - at < kFixed) {
-    ThrowDamaged();
-  }
-  return at;
 }
 
 }  // namespace errmap::data

@@ -221,6 +221,14 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
       violation("<" name "> belongs in data/gzip.cc")
       next
     }
+    if (name ~ /^minizip\// && FILENAME !~ /^data\/zip_archive\.cc$/) {
+      violation("<" name "> belongs in data/zip_archive.cc")
+      next
+    }
+    if (name ~ /^pugixml/ && FILENAME !~ /^data\/spreadsheet\.cc$/) {
+      violation("<" name "> belongs in data/spreadsheet.cc")
+      next
+    }
     if (name ~ /^(gtest|gmock|benchmark)\//) {
       violation("<" name "> belongs in tests/")
       next

@@ -36,7 +36,7 @@ control.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME liberrmap-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-  "libeigen3-dev, libboost-dev, libceres-dev, libnlopt-dev, libnlopt-cxx-dev, libopenblas-dev, libfmt-dev, libssl-dev, libtbb-dev, libsqlite3-dev, zlib1g-dev, nlohmann-json3-dev")
+  "libeigen3-dev, libboost-dev, libceres-dev, libnlopt-dev, libnlopt-cxx-dev, libopenblas-dev, libfmt-dev, libssl-dev, libtbb-dev, libsqlite3-dev, zlib1g-dev, libminizip-dev, libpugixml-dev, nlohmann-json3-dev")
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
 "maps of machine-tool errors: library for C++20
 Headers, static libraries and the CMake package of errmap: least squares and
