@@ -51,6 +51,32 @@ constexpr std::size_t Count() {
 template <typename T>
 inline constexpr std::size_t kCount = Count<T>();
 
+/// A std::tuple of references whose parts the compiler finds without working
+/// through all before them: half of the time of what is written member by
+/// member.
+template <std::size_t kPlace, typename T>
+struct Reference {
+  T& value;
+};
+template <typename Places, typename... T>
+struct References;
+template <std::size_t... I, typename... T>
+struct References<std::index_sequence<I...>, T...> : Reference<I, T>... {};
+template <typename... T>
+constexpr auto Tie(T&... members) {
+  return References<std::index_sequence_for<T...>, T...>{{members}...};
+}
+template <std::size_t kPlace, typename T>
+constexpr T& Get(const Reference<kPlace, T>& reference) {
+  return reference.value;
+}
+/// Calls take(members...).
+template <typename Take, std::size_t... I, typename... T>
+constexpr void Apply(const Take& take,
+                     const References<std::index_sequence<I...>, T...>& all) {
+  take(Get<I>(all)...);
+}
+
 }  // namespace members
 
 /// References to all members.
@@ -59,12 +85,12 @@ requires Record<std::remove_const_t<T>>
 constexpr auto MembersOf(T& record) {
   constexpr std::size_t kCount = members::kCount<std::remove_const_t<T>>;
   if constexpr (kCount == 0) {
-    return std::tuple<>();
+    return members::Tie();
   }
 #define ERRMAP_TIE(count, ...)            \
   else if constexpr (kCount == (count)) { \
     auto& [__VA_ARGS__] = record;         \
-    return std::tie(__VA_ARGS__);         \
+    return members::Tie(__VA_ARGS__);     \
   }
   // clang-format off
   ERRMAP_TIE(1, a)
@@ -135,7 +161,7 @@ constexpr std::string_view NameOf() {
 template <typename T, std::size_t... I>
 constexpr auto NamesOf(std::index_sequence<I...> /*members*/) {
   return std::array<std::string_view, sizeof...(I)>{
-      NameOf<Place{&std::get<I>(MembersOf(kSome<T>))}>()...};
+      NameOf<Place{&Get<I>(MembersOf(kSome<T>))}>()...};
 }
 template <typename T>
 inline constexpr auto kNames =
@@ -153,7 +179,7 @@ void VisitMembers(T& record, const Visit& visit) {
   using Struct = std::remove_const_t<T>;
   [&]<std::size_t... I>(std::index_sequence<I...> /*members*/) {
     const auto all = MembersOf(record);
-    (visit(members::kNames<Struct>[I], std::get<I>(all)), ...);
+    (visit(members::kNames<Struct>[I], members::Get<I>(all)), ...);
   }
   (std::make_index_sequence<members::kCount<Struct>>());
 }

@@ -59,7 +59,7 @@ TEST(Members, AreThoseOfTheRecordItself) {
     }
   });
   EXPECT_EQ(record.last_of_all, 8);
-  EXPECT_EQ(&std::get<0>(MembersOf(record)), &record.name);
+  EXPECT_EQ(&members::Get<0>(MembersOf(record)), &record.name);
 }
 
 TEST(Members, AreNotSeenInWhatHasAFormOfItsOwn) {

@@ -96,8 +96,8 @@ class Writer {
 
   template <Record T>
   void Put(const T& record) {
-    std::apply([this](const auto&... member) { (Put(member), ...); },
-               MembersOf(record));
+    members::Apply([this](const auto&... member) { (Put(member), ...); },
+                   MembersOf(record));
   }
 
  private:
@@ -197,8 +197,8 @@ class Reader {
 
   template <Record T>
   void Get(T* record) {
-    std::apply([this](auto&... member) { (Get(&member), ...); },
-               MembersOf(*record));
+    members::Apply([this](auto&... member) { (Get(&member), ...); },
+                   MembersOf(*record));
   }
 
  private:

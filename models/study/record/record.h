@@ -53,9 +53,9 @@ bool Same(const T& a, const T& b) {
     const auto of_a = MembersOf(a);
     const auto of_b = MembersOf(b);
     return [&]<std::size_t... I>(std::index_sequence<I...>) {
-      return (Same(std::get<I>(of_a), std::get<I>(of_b)) && ...);
+      return (Same(members::Get<I>(of_a), members::Get<I>(of_b)) && ...);
     }
-    (std::make_index_sequence<std::tuple_size_v<decltype(MembersOf(a))>>{});
+    (std::make_index_sequence<members::kCount<T>>{});
   } else if constexpr (std::floating_point<T>) {
     return a == b || (std::isnan(a) && std::isnan(b));
   } else if constexpr (IsInline<T>::value) {

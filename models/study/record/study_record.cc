@@ -8,6 +8,7 @@
 #include "data/formats/nesting.h"
 #include "data/input_error.h"
 #include "data/sha256.h"
+#include "data/text.h"
 #include "models/study/record/record_json.h"
 
 namespace errmap::models {
