@@ -9,15 +9,25 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/json_blocks.h"
 #include "data/atomic_file.h"
 #include "data/formats/nesting.h"
 #include "data/prepare_folder.h"
 #include "data/same_file.h"
 #include "data/sha256.h"
 #include "data/text.h"
+#include "models/study/record/record_json.h"
 
 namespace errmap::cli {
+
+struct WrittenFile {
+  std::string name;
+  std::optional<std::string> sha256;  // nothing until it is written
+};
+struct WrittenFiles {
+  std::string schema;
+  std::vector<WrittenFile> files;
+};
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -99,16 +109,14 @@ void ClaimedFolder::ReadList(bool force) {
   if (!fs::exists(fs::symlink_status(path, ignored))) return;
   if (fs::is_regular_file(path, ignored)) {
     const std::string text = data::ReadFile(path, data::kMostTextOfPeople);
-    const Json list =
-        data::IsShallowJson(text) ? Json::parse(text, nullptr, false) : Json();
-    if (list.is_object() && list.value("schema", Json()) == kSchema) {
-      for (const Json& file : list.value("files", Json::array())) {
-        if (!file.is_object()) continue;
-        const Json name = file.value("name", Json());
-        const Json hash = file.value("sha256", Json());
-        if (!name.is_string()) continue;
-        hashes_[name] =
-            hash.is_string() ? std::optional<std::string>(hash) : std::nullopt;
+    models::record_json::Tree json;
+    WrittenFiles list;
+    if (data::IsShallowJson(text) && json.Parse(text)) {
+      models::FromJson(*json.root(), &list);
+    }
+    if (list.schema == kSchema) {
+      for (const WrittenFile& file : list.files) {
+        if (!file.name.empty()) hashes_[file.name] = file.sha256;
       }
       return;
     }
@@ -157,13 +165,10 @@ void ClaimedFolder::Finish() {
 }
 
 void ClaimedFolder::WriteList() const {
-  Json files = Json::array();
-  for (const auto& [name, hash] : hashes_) {
-    files.push_back({{"name", name}, {"sha256", hash ? Json(*hash) : Json()}});
-  }
-  data::WriteFileAtomically(
-      PathOf(kListName),
-      DumpJson({{"schema", kSchema}, {"files", std::move(files)}}));
+  WrittenFiles list{.schema = kSchema, .files = {}};
+  for (const auto& [name, hash] : hashes_) list.files.push_back({name, hash});
+  data::WriteFileAtomically(PathOf(kListName),
+                            models::JsonText(list, 1) + "\n");
 }
 
 }  // namespace errmap::cli

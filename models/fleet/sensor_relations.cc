@@ -1,9 +1,7 @@
 #include "models/fleet/sensor_relations.h"
 
 #include <algorithm>
-#include <utility>
-
-#include <nlohmann/json.hpp>
+#include <cstdint>
 
 #include "data/formats/nesting.h"
 #include "data/input_error.h"
@@ -12,6 +10,25 @@
 #include "models/study/record/record_json.h"
 
 namespace errmap::models {
+
+struct RelationsColumn {
+  std::string name;
+  std::string unit;
+};
+/// The members of SensorRelations as the file has them.
+struct RelationsRecord {
+  std::string schema;
+  std::vector<RelationsColumn> columns;
+  std::vector<double> mean;
+  std::vector<std::vector<double>> weights;  // rows
+  std::vector<double> variance;
+  std::vector<double> distance;
+  std::vector<double> spread;
+  LeftOut<std::vector<double>> within;  // since 0.1.0, as is `rows`
+  std::int64_t sessions = 0;
+  std::int64_t rows = 0;
+};
+
 namespace {
 
 using Eigen::Index;
@@ -54,14 +71,12 @@ std::vector<Index> SensorsOf(const data::Dataset& dataset) {
   return sensors;
 }
 
-RecordJson ToArray(const VectorXd& values) {
-  return ToJson(std::vector<double>(values.begin(), values.end()));
+std::vector<double> ToList(const VectorXd& values) {
+  return {values.begin(), values.end()};
 }
 
-VectorXd ToVector(const RecordJson& json, Index size) {
-  std::vector<double> values;
-  FromJson(json, &values);
-  if (static_cast<Index>(values.size()) != size) {
+VectorXd ToVector(const std::vector<double>& values, Index size) {
+  if (std::ssize(values) != size) {
     throw data::InputError("has lists of other lengths than its columns");
   }
   return Eigen::Map<const VectorXd>(values.data(), size);
@@ -72,59 +87,53 @@ constexpr const char* kSchema = "errmap-relations-1";
 }  // namespace
 
 std::string SensorRelations::ToJsonText() const {
-  RecordJson names = RecordJson::array();
-  RecordJson list = RecordJson::array();
+  RelationsRecord record{.schema = kSchema,
+                         .columns = {},
+                         .mean = ToList(mean),
+                         .weights = {},
+                         .variance = ToList(variance),
+                         .distance = ToList(distance),
+                         .spread = ToList(spread),
+                         .within = ToList(within),
+                         .sessions = sessions,
+                         .rows = rows};
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    names.push_back(
-        {{"name", columns[i].name}, {"unit", columns[i].unit.symbol}});
-    list.push_back(ToArray(weights.row(Index(i)).transpose()));
+    record.columns.push_back({columns[i].name, columns[i].unit.symbol});
+    record.weights.push_back(ToList(weights.row(Index(i)).transpose()));
   }
-  const RecordJson json = {{"schema", kSchema},
-                           {"columns", std::move(names)},
-                           {"mean", ToArray(mean)},
-                           {"weights", std::move(list)},
-                           {"variance", ToArray(variance)},
-                           {"distance", ToArray(distance)},
-                           {"spread", ToArray(spread)},
-                           {"within", ToArray(within)},
-                           {"sessions", sessions},
-                           {"rows", rows}};
-  return json.dump(-1, ' ', false, RecordJson::error_handler_t::replace) + "\n";
+  return JsonText(record, -1) + "\n";
 }
 
 SensorRelations SensorRelations::FromJsonText(std::string_view text) {
   data::RequireShallowJson(text);
-  const RecordJson json = RecordJson::parse(text, nullptr, false);
-  if (!json.is_object() || json.value("schema", RecordJson()) != kSchema) {
+  record_json::Tree json;
+  RelationsRecord record;
+  if (json.Parse(text)) FromJson(*json.root(), &record);
+  if (record.schema != kSchema) {
     throw data::InputError("is not what compare wrote (errmap-relations-1)");
   }
   SensorRelations found;
-  for (const RecordJson& column : json.value("columns", RecordJson::array())) {
-    std::string name;
-    std::string unit;
-    FromJson(column.value("name", RecordJson()), &name);
-    FromJson(column.value("unit", RecordJson()), &unit);
-    found.columns.push_back({.name = name, .unit = data::UnitOfSymbol(unit)});
+  for (const RelationsColumn& column : record.columns) {
+    found.columns.push_back(
+        {.name = column.name, .unit = data::UnitOfSymbol(column.unit)});
   }
-  const auto size = static_cast<Index>(found.columns.size());
-  found.mean = ToVector(json.value("mean", RecordJson()), size);
-  found.variance = ToVector(json.value("variance", RecordJson()), size);
-  found.distance = ToVector(json.value("distance", RecordJson()), size);
-  found.spread = ToVector(json.value("spread", RecordJson()), size);
-  found.weights.resize(size, size);
-  const RecordJson rows = json.value("weights", RecordJson::array());
-  if (!rows.is_array() || static_cast<Index>(rows.size()) != size) {
+  const Index size = std::ssize(found.columns);
+  found.mean = ToVector(record.mean, size);
+  found.variance = ToVector(record.variance, size);
+  found.distance = ToVector(record.distance, size);
+  found.spread = ToVector(record.spread, size);
+  if (std::ssize(record.weights) != size) {
     throw data::InputError("has lists of other lengths than its columns");
   }
+  found.weights.resize(size, size);
   for (Index i = 0; i < size; ++i) {
-    found.weights.row(i) = ToVector(rows[std::size_t(i)], size).transpose();
+    found.weights.row(i) =
+        ToVector(record.weights[std::size_t(i)], size).transpose();
   }
-  FromJson(json.value("sessions", RecordJson()), &found.sessions);
-  found.within = Eigen::VectorXd::Zero(size);
-  if (json.contains("within")) {  // written since 0.1.0
-    found.within = ToVector(json["within"], size);
-    FromJson(json.value("rows", RecordJson()), &found.rows);
-  }
+  found.within = record.within ? ToVector(*record.within, size)
+                               : VectorXd(VectorXd::Zero(size));
+  found.sessions = record.sessions;
+  found.rows = record.rows;
   return found;
 }
 

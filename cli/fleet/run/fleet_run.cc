@@ -10,7 +10,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "cli/desk/configuration_record.h"
 #include "cli/desk/plan/component_names.h"
@@ -62,8 +61,8 @@ std::string AskedOf(const StudyConfig& fleet,
   component.data = source.path;
   return HashOf(
       std::string(models::Version()) + "\n" +
-      models::ToJson(desk::EffectiveConfiguration(StudyOf(fleet, component)))
-          .dump());
+      models::JsonText(desk::EffectiveConfiguration(StudyOf(fleet, component)),
+                       -1));
 }
 
 std::string Replaced(std::string text,

@@ -4,12 +4,17 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "cli/report/table.h"
 #include "models/study/record/record_json.h"
 
 namespace errmap::fleet {
+
+struct FleetResults {
+  std::string schema;
+  std::vector<models::ComponentSummary> components;
+};
+
 namespace {
 
 using models::ComponentSummary;
@@ -92,10 +97,8 @@ std::string FormattedFleet(const std::vector<ComponentSummary>& summaries,
     return *std::move(text);
   }
   if (format == "json") {
-    models::RecordJson document = {{"schema", "errmap-fleet-results-1"},
-                                   {"components", models::ToJson(summaries)}};
-    return document.dump(
-               1, ' ', false, models::RecordJson::error_handler_t::replace) +
+    return models::JsonText(FleetResults{"errmap-fleet-results-1", summaries},
+                            1) +
            "\n";
   }
   constexpr std::size_t kMostShown = 20;
