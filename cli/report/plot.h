@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -34,6 +35,12 @@ struct Series {
   /// Of which model each point is, by its place in the report's list; of one
   /// entry: all of them. A reader can hide what is of a model.
   std::vector<std::size_t> models = {};
+
+  /// Adds a point: a value for each of its first columns.
+  void Add(std::initializer_list<double> point) {
+    auto column = columns.begin();
+    for (const double value : point) (column++)->push_back(value);
+  }
 };
 
 constexpr double kAutomatic = std::numeric_limits<double>::quiet_NaN();

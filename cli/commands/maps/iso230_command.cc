@@ -396,9 +396,8 @@ void AddSeries(const std::vector<PositioningPoint>& points,
                           .dashed = times != 0.0};
     for (const PositioningPoint& point : points) {
       const models::Approaches& of = point.*side;
-      series.columns[0].push_back(point.position);
-      series.columns[1].push_back(
-          scale * (times == 0.0 ? of.mean : of.mean + times * of.sd));
+      series.Add({point.position,
+                  scale * (times == 0.0 ? of.mean : of.mean + times * of.sd)});
     }
     plot->series.push_back(std::move(series));
   }

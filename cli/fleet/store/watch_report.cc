@@ -30,16 +30,12 @@ std::string Figure(const WatchedComponent& component, std::size_t number) {
   promised.columns.resize(2);
   for (std::size_t i = 0; i < component.checks.size(); ++i) {
     const auto x = static_cast<double>(i + 1);
-    found.columns[0].push_back(x);
-    found.columns[1].push_back(
-        scale * std::sqrt(component.checks[i].session.mean_square));
-    promised.columns[0].push_back(x);
-    promised.columns[1].push_back(scale * component.deployment.promised);
+    found.Add({x, scale * std::sqrt(component.checks[i].session.mean_square)});
+    promised.Add({x, scale * component.deployment.promised});
   }
   // A line needs two ends.
-  promised.columns[0].push_back(
-      static_cast<double>(component.checks.size() + 1));
-  promised.columns[1].push_back(scale * component.deployment.promised);
+  promised.Add({static_cast<double>(component.checks.size() + 1),
+                scale * component.deployment.promised});
   line.columns = found.columns;
   report::Plot plot;
   plot.name = fmt::format("watched-{}", number);

@@ -1,14 +1,11 @@
 #include "cli/report/documents/report_headline.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "cli/report/tables/result_table.h"
-#include "cli/report/words/next_steps.h"
-#include "cli/report/words/remark_text.h"
 #include "cli/report/words/verdict_text.h"
 
 namespace errmap::report {

@@ -59,10 +59,10 @@ Series Intervals(const ReportView& view,
         !std::isfinite(result->ci95[1])) {
       continue;
     }
-    series.columns[0].push_back(result->test.rmse * view.scale);
-    series.columns[1].push_back(static_cast<double>(i));
-    series.columns[2].push_back(result->ci95[0] * view.scale);
-    series.columns[3].push_back(result->ci95[1] * view.scale);
+    series.Add({result->test.rmse * view.scale,
+                static_cast<double>(i),
+                result->ci95[0] * view.scale,
+                result->ci95[1] * view.scale});
     series.models.push_back(PlaceOf(view, *models[i]));
   }
   return series;
@@ -135,8 +135,7 @@ std::vector<Series> HoldoutMarks(const ReportView& view,
                   .shape = kShapes[h]};
     for (std::size_t i = 0; i < models.size(); ++i) {
       const double rmse = TestRmse(*models[i], holdouts[h]) * view.scale;
-      points.columns[0].push_back(rmse > 0.0 ? rmse : kAutomatic);
-      points.columns[1].push_back(static_cast<double>(i));
+      points.Add({rmse > 0.0 ? rmse : kAutomatic, static_cast<double>(i)});
       points.models.push_back(PlaceOf(view, *models[i]));
       if (rmse > 0.0) span->Take(rmse);
     }
@@ -162,12 +161,11 @@ Series LinksOf(const ReportView& view,
   Series links{.mark = Mark::kLine, .columns = {{}, {}}, .colour = "#AAAAAA"};
   for (std::size_t i = 0; i < models.size(); ++i) {
     for (const std::string& holdout : holdouts) {
-      links.columns[0].push_back(TestRmse(*models[i], holdout) * view.scale);
-      links.columns[1].push_back(static_cast<double>(i));
+      links.Add(
+          {TestRmse(*models[i], holdout) * view.scale, static_cast<double>(i)});
       links.models.push_back(PlaceOf(view, *models[i]));
     }
-    links.columns[0].push_back(kAutomatic);
-    links.columns[1].push_back(kAutomatic);
+    links.Add({kAutomatic, kAutomatic});
     links.models.push_back(PlaceOf(view, *models[i]));
   }
   return links;
@@ -266,8 +264,8 @@ std::vector<Figure> TrainingFigures(const ReportView& view,
                     .models = {PlaceOf(view, *iterated[i])}};
       for (const auto& [iteration, rms, gradient] :
            *iterated[i]->final->summary.value.trace) {
-        series.columns[0].push_back(static_cast<double>(iteration));
-        series.columns[1].push_back(rms > 0.0 ? rms : kAutomatic);
+        series.Add(
+            {static_cast<double>(iteration), rms > 0.0 ? rms : kAutomatic});
       }
       const auto& y = series.columns[1];
       words.push_back(fmt::format("{} from {:.3g} to {:.3g} in {:.0f} steps",
@@ -324,8 +322,7 @@ std::vector<Figure> StartFigures(const ReportView& view,
       constexpr double kStep = 0.06;
       constexpr int kColumns = 7;
       constexpr int kMiddle = kColumns / 2;
-      series.columns[0].push_back(at + kStep * (n % kColumns - kMiddle));
-      series.columns[1].push_back(rms);
+      series.Add({at + kStep * (n % kColumns - kMiddle), rms});
       ++n;
     }
     words.push_back(fmt::format("{}: {} starts", model->name, n));
@@ -363,11 +360,8 @@ Figure CorrelationFigure(const ReportView& view, const std::string& prefix) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::vector<double>& row = matrix[i];
     for (std::size_t j = 0; j < row.size() && j < names.size(); ++j) {
-      cells.columns[0].push_back(static_cast<double>(j));
-      cells.columns[1].push_back(static_cast<double>(i));
-      cells.columns[2].push_back(0.5);
-      cells.columns[3].push_back(0.5);
-      cells.columns[4].push_back(row[j]);
+      cells.Add(
+          {static_cast<double>(j), static_cast<double>(i), 0.5, 0.5, row[j]});
       if (j < i && std::abs(row[j]) > strongest) {
         strongest = std::abs(row[j]);
         pair = names[j] + " and " + names[i];

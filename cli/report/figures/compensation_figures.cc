@@ -195,8 +195,7 @@ std::vector<Figure> OverTimeFigures(const ReportView& view,
                  .shape = Shape::kCircle};
   for (std::size_t i = 0; i < rows.outside.size(); ++i) {
     if (!rows.outside[i]) continue;
-    outside.columns[0].push_back(x[i]);
-    outside.columns[1].push_back(rows.predicted[i]);
+    outside.Add({x[i], rows.predicted[i]});
   }
   const std::size_t num_outside = outside.columns[0].size();
   if (num_outside > 0) figure.plot.series.push_back(std::move(outside));
@@ -330,15 +329,13 @@ std::vector<Figure> BeforeAndAfterFigures(const ReportView& view,
       if (n[bin] < 1.0) continue;
       const double m = sum[bin] / n[bin];
       const double variance = std::max(0.0, squares[bin] / n[bin] - m * m);
-      mean.columns[0].push_back(bins.Centre(bin));
-      mean.columns[1].push_back(m);
+      mean.Add({bins.Centre(bin), m});
       band.columns[1].push_back(m + 2.0 * std::sqrt(variance));
       lower.push_back(m - 2.0 * std::sqrt(variance));
     }
     band.columns[0] = mean.columns[0];
     // The upper edge, a gap, the lower edge.
-    band.columns[0].push_back(kAutomatic);
-    band.columns[1].push_back(kAutomatic);
+    band.Add({kAutomatic, kAutomatic});
     band.columns[0].insert(
         band.columns[0].end(), mean.columns[0].begin(), mean.columns[0].end());
     band.columns[1].insert(band.columns[1].end(), lower.begin(), lower.end());
@@ -407,10 +404,10 @@ std::vector<Figure> UnitFigures(const ReportView& view,
                 .models = {PlaceOf(view, *best[m])}};
     for (std::size_t i = 0; i < result.unit_rmse.size(); ++i) {
       const double rmse = result.unit_rmse[i] * view.scale;
-      bars.columns[0].push_back(static_cast<double>(i) - 0.5 * kUsed +
-                                width * (static_cast<double>(m) + 0.5));
-      bars.columns[1].push_back(rmse);
-      bars.columns[2].push_back(width);
+      bars.Add({static_cast<double>(i) - 0.5 * kUsed +
+                    width * (static_cast<double>(m) + 0.5),
+                rmse,
+                width});
       if (m == 0 && rmse > worst) {
         worst = rmse;
         where = holdout->unit_labels[i];
@@ -503,8 +500,7 @@ std::vector<Figure> CostFigures(const ReportView& view,
                             cost.divisions + cost.exponentials);
     if (!(operations > 0.0)) continue;
     Series& series = model->name == view.recommended ? recommended : others;
-    series.columns[0].push_back(operations);
-    series.columns[1].push_back(rmse);
+    series.Add({operations, rmse});
     series.models.push_back(PlaceOf(view, *model));
     words += fmt::format("{}{} {:.0f} and {:.3g}",
                          words.empty() ? "" : "; ",

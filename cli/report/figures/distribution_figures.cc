@@ -49,10 +49,9 @@ Figure HistogramFigure(const ResidualContext& context) {
   const stats::Histogram histogram = stats::MakeHistogram(sorted, 0);
   Series bars{.mark = Mark::kBars, .columns = {{}, {}, {}}, .colour = kBlue};
   for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
-    bars.columns[0].push_back(histogram.low +
-                              (static_cast<double>(i) + 0.5) * histogram.width);
-    bars.columns[1].push_back(static_cast<double>(histogram.counts[i]));
-    bars.columns[2].push_back(histogram.width);
+    bars.Add({histogram.low + (static_cast<double>(i) + 0.5) * histogram.width,
+              static_cast<double>(histogram.counts[i]),
+              histogram.width});
   }
   const double mean = sorted.mean();
   const double sd = stats::Summarize(sorted).sd;
@@ -66,10 +65,9 @@ Figure HistogramFigure(const ResidualContext& context) {
   constexpr double kRootTwoPi = 2.5066282746310002;
   for (int i = 0; i < kCurvePoints && sd > 0.0; ++i) {
     const double z = kReach * (2.0 * i / (kCurvePoints - 1) - 1.0);
-    curve.columns[0].push_back(mean + z * sd);
-    curve.columns[1].push_back(static_cast<double>(sorted.size()) *
-                               histogram.width / sd / kRootTwoPi *
-                               std::exp(-0.5 * z * z));
+    curve.Add({mean + z * sd,
+               static_cast<double>(sorted.size()) * histogram.width / sd /
+                   kRootTwoPi * std::exp(-0.5 * z * z)});
   }
   figure.note = "Figure 11 of the report of 1995.";
   figure.plot.x = ResidualAxis(context.view);
@@ -186,8 +184,7 @@ Figure EcdfFigure(const ResidualContext& context) {
   for (int i = 0; i < kCurvePoints; ++i) {
     const double at = sorted[0] + (sorted[sorted.size() - 1] - sorted[0]) * i /
                                       (kCurvePoints - 1);
-    curve.columns[0].push_back(at);
-    curve.columns[1].push_back(stats::NormalCdf((at - mean) / sd));
+    curve.Add({at, stats::NormalCdf((at - mean) / sd)});
   }
   figure.note =
       "The Kolmogorov-Smirnov distance is the largest gap between the two; the "

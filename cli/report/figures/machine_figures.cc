@@ -191,8 +191,7 @@ class MachinePictures {
                    .size = 1.0};
     for (const PlaneCellRecord& at : choice.cells) {
       if (!std::isfinite(LengthOfMean(at))) continue;
-      origins.columns[0].push_back(at.across);
-      origins.columns[1].push_back(at.up);
+      origins.Add({at.across, at.up});
       arrows.Arrow(
           at.across, at.up, factor * at.mean_across, factor * at.mean_up, head);
     }

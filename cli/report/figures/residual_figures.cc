@@ -35,8 +35,7 @@ Series Means(const std::vector<double>& x, const std::vector<double>& y) {
     for (; j < order.size() && x[order[j]] == x[order[i]]; ++j) {
       sum += y[order[j]];
     }
-    series.columns[0].push_back(x[order[i]]);
-    series.columns[1].push_back(sum / static_cast<double>(j - i));
+    series.Add({x[order[i]], sum / static_cast<double>(j - i)});
     i = j;
   }
   return series;

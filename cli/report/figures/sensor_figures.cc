@@ -39,13 +39,9 @@ void AddRow(const ReportView& view,
   const double with = importance.rmse * view.scale;
   const double left = without.rmse * view.scale;
   Series& line = plot->series[together ? 0 : 1];
-  line.columns[0].push_back(left);
-  line.columns[1].push_back(row);
-  line.columns[2].push_back(std::min(with, left));
-  line.columns[3].push_back(std::max(with, left));
+  line.Add({left, row, std::min(with, left), std::max(with, left)});
   Series& dot = plot->series[together ? 2 : 3];
-  dot.columns[0].push_back(left);
-  dot.columns[1].push_back(row);
+  dot.Add({left, row});
 }
 
 Series Lines(const char* colour) {
