@@ -1,6 +1,5 @@
 #include "data/files_in_memory.h"
 
-#include <string_view>
 #include <utility>
 #include <vector>
 

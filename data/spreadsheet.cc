@@ -1,6 +1,5 @@
 #include "data/spreadsheet.h"
 
-#include <array>
 #include <charconv>
 #include <chrono>
 #include <cmath>

@@ -10,7 +10,6 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
-#include "cli/commands/residual_json.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/report/number_text.h"
@@ -30,6 +29,7 @@
 #include "models/study/record/record_json.h"
 #include "stats/error_metrics.h"
 #include "stats/report_1995.h"
+#include "stats/summary.h"
 
 namespace errmap::cli {
 namespace {
@@ -207,6 +207,33 @@ Json SummaryJson(const stats::ErrorMetrics& metrics,
   summary["median"] = stats::Quantile(sorted, 0.5);
   summary["q75"] = stats::Quantile(sorted, 0.75);
   return summary;
+}
+
+// Figures for plots: standardised residuals in measured order (Eq. 137), the
+// Tukey-lambda curve, the normal probability plot and the histogram (`bins` 0:
+// Freedman-Diaconis) of `values`.
+Json PlotsJson(const models::ResidualReport& report,
+               const Eigen::VectorXd& values,
+               Eigen::Index bins) {
+  Eigen::VectorXd sorted = values;
+  std::sort(sorted.begin(), sorted.end());
+  const auto array = [](const Eigen::VectorXd& numbers) {
+    return Json(std::vector<double>(numbers.begin(), numbers.end()));
+  };
+  const stats::Histogram histogram = stats::MakeHistogram(sorted, bins);
+  Json json = {{"histogram",
+                {{"low", histogram.low},
+                 {"width", histogram.width},
+                 {"counts", histogram.counts}}}};
+  if (report.normality.tukey_ppcc.ok()) {
+    json["standardised"] = array(stats::Standardise(values));
+    json["tukey_ppcc"] = {{"lambda", array(report.normality.curve.lambda)},
+                          {"r", array(report.normality.curve.r)}};
+    json["normal_probability_plot"] = {
+        {"quantile", array(stats::NormalMedians(sorted.size()))},
+        {"value", array(sorted)}};
+  }
+  return json;
 }
 
 // The columns and choices that took effect.

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <future>
-#include <thread>
 #include <utility>
 
 #include <pybind11/stl.h>

@@ -1,11 +1,9 @@
 #pragma once
 
 #include <atomic>
-#include <exception>
 #include <functional>
 #include <map>
 #include <string>
-#include <vector>
 
 #include <pybind11/pybind11.h>
 

@@ -1,9 +1,7 @@
 #include "cli/python/studies.h"
 
-#include <exception>
 #include <mutex>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>

@@ -5,11 +5,9 @@
 #include <cstdint>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "data/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
 

@@ -1,7 +1,6 @@
 #include "models/net/net_options.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "fitting/minimisers/levenberg_marquardt.h"
 #include "models/history/view_options.h"

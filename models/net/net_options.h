@@ -8,8 +8,6 @@
 #include <string_view>
 #include <variant>
 
-#include <Eigen/Core>
-
 #include "fitting/minimisers/ceres_optimizer.h"
 #include "fitting/minimisers/gradient_descent.h"
 #include "fitting/minimisers/nlopt_optimizer.h"

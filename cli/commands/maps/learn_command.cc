@@ -31,7 +31,6 @@
 #include "cli/shell/terminal.h"
 #include "data/atomic_file.h"
 #include "data/prepare_folder.h"
-#include "data/shown_path.h"
 #include "fitting/interruption.h"
 #include "models/model_spec.h"
 #include "models/promise/learning_curve.h"

@@ -14,7 +14,6 @@
 #include "cli/report/words/fault_text.h"
 #include "cli/report/words/outside_text.h"
 #include "data/atomic_file.h"
-#include "data/input_error.h"
 #include "data/text.h"
 #include "models/promise/learnt_rows.h"
 

@@ -27,7 +27,6 @@
 #include "models/model_file.h"
 #include "models/promise/learnt_rows.h"
 #include "models/promise/probe_correction.h"
-#include "models/trained_range.h"
 
 namespace errmap::cli {
 namespace {

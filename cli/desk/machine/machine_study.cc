@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/desk/machine/machine_points.h"
 #include "cli/desk/machine/true_poses.h"
 #include "cli/desk/provenance.h"
 #include "data/argument_name.h"

@@ -1,7 +1,6 @@
 #include "cli/desk/plan/study_plan.h"
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
 #include <map>
 #include <numeric>

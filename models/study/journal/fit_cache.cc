@@ -5,7 +5,6 @@
 #include <exception>
 #include <filesystem>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 namespace errmap::models {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "data/measurements/column_roles.h"
-#include "models/history/view.h"
+#include "models/history/growth.h"
 #include "models/study/judgement/extrapolated_rows.h"
 
 namespace errmap::models {
