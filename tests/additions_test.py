@@ -1,15 +1,20 @@
 #!/usr/bin/env python3
-"""What it takes to add a column, a hold-out, a certified problem, a format.
+"""What it takes to add a column, a hold-out, a family of models and the like.
 
     additions_test.py SOURCE_FOLDER BUILD_FOLDER CMAKE
 
 Each patch of additions/ adds one, in as many files as the READMEs of the rooms
-say. All are applied to a copy of the sources and the program is built with
-them: the rooms whose sources they edit are compiled anew and linked before the
+say. A column, a format of tables, a hold-out and a certified problem are applied
+to a copy of the sources and the program is built with them: the rooms whose sources they edit are compiled anew and linked before the
 libraries of BUILD_FOLDER, which is made by Ninja with its rooms together (else
 skipped, status 77; so where there is no patch(1)). Rooms that only include an
 edited header are not: an enumerator or a declaration more at its end changes
 nothing in them. Then the program is run.
+
+An option of a study and a family of models add members to structs, which every
+room would have to be compiled for. Of these the compiler reads, without making
+anything, what the patch edits or makes and what includes the header of a list:
+it is the lists that refuse what was forgotten.
 
 The problem is Michaelis-Menten on the treated cells of Bates & Watts (1988),
 table A1.3; its figures were made by Gauss-Newton steps in 60 digits and agree
@@ -18,6 +23,7 @@ with R's nls (212.7, 0.06412; sd 6.947, 0.008281).
 A model of one's own is added by a program: outside_project/my_model.cc.
 """
 
+import concurrent.futures
 import csv
 import io
 import json
@@ -32,6 +38,14 @@ import tempfile
 SKIPPED = 77
 # Files that each addition may edit or make, beside READMEs.
 MOST_FILES = {"column": 1, "format": 1, "holdout": 3, "problem": 2}
+# Likewise, without what they make, and the headers of their lists.
+OF_STRUCTS = {"option": (3, "cli/desk/study_options.h"),
+              "family": (6, "models/file/map_members_json.h")}
+
+
+# Of the build that is there.
+SAME = ["CMAKE_BUILD_TYPE", "CMAKE_CXX_COMPILER", "CMAKE_CXX_FLAGS",
+        "CMAKE_CXX_COMPILER_LAUNCHER", "CMAKE_MAKE_PROGRAM"]
 
 
 def run(*words, **options):
@@ -55,21 +69,50 @@ def cached(build, name):
     return found[1] if found else ""
 
 
-def patched_copy(source, folder):
-    """Copies what the program is made of; returns the files that were edited."""
+def copy_of_program(source, folder):
     for name in ("CMakeLists.txt", "cli", "data", "fitting", "models", "stats"):
         copy = shutil.copytree if (source / name).is_dir() else shutil.copy
         copy(source / name, folder / name)
-    edited = set()
-    for name, most in MOST_FILES.items():
-        patch = source / "tests/additions" / f"{name}.patch"
-        files = re.findall(r"^\+\+\+ b/(\S+)", patch.read_text(), re.M)
-        expect(0 < len(files) <= most,
-               f"{name}: {len(files)} files, at most {most}: {files}")
-        run("patch", "--strip=1", "--no-backup-if-mismatch", "--batch",
-            "--input", patch, cwd=folder)
-        edited.update(files)
-    return edited
+
+
+def apply(source, folder, name, most, made_too):
+    """Applies a patch; returns the files that it edits and makes."""
+    patch = source / "tests/additions" / f"{name}.patch"
+    text = patch.read_text()
+    files = re.findall(r"^\+\+\+ b/(\S+)", text, re.M)
+    made = re.findall(r"^--- /dev/null\n\+\+\+ b/(\S+)", text, re.M)
+    counted = [file for file in files if made_too or file not in made]
+    expect(0 < len(counted) <= most,
+           f"{name}: {len(counted)} files, at most {most}: {counted}")
+    run("patch", "--strip=1", "--no-backup-if-mismatch", "--batch",
+        "--input", patch, cwd=folder)
+    return files
+
+
+def check_structs(source, folder, build, cmake):
+    """Has the compiler read the patches of OF_STRUCTS; how many files."""
+    copy_of_program(source, folder)
+    read = set()
+    for name, (most, header) in OF_STRUCTS.items():
+        read.update(apply(source, folder, name, most, made_too=False))
+        read.update(str(unit.relative_to(folder))
+                    for unit in folder.glob("[cm]*/**/*.cc")
+                    if f'#include "{header}"' in unit.read_text())
+    anew = folder / "build"
+    run(cmake, "-S", folder, "-B", anew, "-G", "Ninja",
+        "-DERRMAP_BUILD_TESTS=OFF", "-DERRMAP_TOGETHER=OFF",
+        *(f"-D{name}={cached(build, name)}" for name in SAME))
+    units = [unit for unit in
+             json.loads((anew / "compile_commands.json").read_text())
+             if str(pathlib.Path(unit["file"]).relative_to(folder)) in read]
+    expect(len(units) == sum(name.endswith(".cc") for name in read),
+           f"compiles {len(units)} of {read}")
+    with concurrent.futures.ThreadPoolExecutor(2) as two:
+        list(two.map(lambda unit: run(
+            "sh", "-c",
+            re.sub(r" -o \S+ -c ", " -fsyntax-only ", unit["command"]),
+            cwd=unit["directory"]), units))
+    return len(units)
 
 
 def room_of(unit, edited):
@@ -81,11 +124,9 @@ def room_of(unit, edited):
 def build_program(folder, build, cmake, edited):
     """The program of the libraries of `build` and the rooms that were edited."""
     anew = folder / "build"
-    same = ["CMAKE_BUILD_TYPE", "CMAKE_CXX_COMPILER", "CMAKE_CXX_FLAGS",
-            "CMAKE_CXX_COMPILER_LAUNCHER", "CMAKE_MAKE_PROGRAM"]
     run(cmake, "-S", folder, "-B", anew, "-G", "Ninja",
         "-DERRMAP_BUILD_TESTS=OFF", "-DERRMAP_TOGETHER=ON",
-        *(f"-D{name}={cached(build, name)}" for name in same))
+        *(f"-D{name}={cached(build, name)}" for name in SAME))
     ninja = cached(build, "CMAKE_MAKE_PROGRAM")
     sources = {name for name in edited if name.endswith(".cc")}
     objects = [f"{unit.relative_to(anew)}.o"
@@ -186,13 +227,18 @@ def main():
     table = source / "data/sets/nistir5367_xdisp_down.csv"
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
-        edited = patched_copy(source, folder)
+        copy_of_program(source, folder)
+        edited = {file for name, most in MOST_FILES.items()
+                  for file in apply(source, folder, name, most, made_too=True)}
         program = build_program(folder, build, sys.argv[3], edited)
         check_column(program, table, folder)
         check_format(program, table)
         check_holdout(program, table)
         check_problem(program)
-    print(f"additions: {len(MOST_FILES)}, {len(edited)} files edited or made")
+    with tempfile.TemporaryDirectory() as scratch:
+        units = check_structs(source, pathlib.Path(scratch), build, sys.argv[3])
+    print(f"additions: {len(MOST_FILES)}, {len(edited)} files edited or made; of "
+          f"structs {len(OF_STRUCTS)}, {units} files read")
     return 0
 
 
