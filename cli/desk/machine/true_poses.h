@@ -55,14 +55,15 @@ struct DiagonalRuns {
 /// none; nothing where the table has no column `diagonal`.
 std::optional<DiagonalRuns> ReadDiagonalRuns(const data::CsvTable& table);
 
-/// The figures along each diagonal, in the order of its first row, from the
-/// rows of `rows` alone; `places` and `errors` (m x 3) are those of all. A
-/// diagonal without rows is left out. Throws data::InputError where all rows of
-/// one are at one place.
 struct DiagonalFigures {
   std::string name;
   models::PositioningFigures figures;
 };
+
+/// The figures along each diagonal, in the order of its first row, from the
+/// rows of `rows` alone; `places` and `errors` (m x 3) are those of all. A
+/// diagonal without rows is left out. Throws data::InputError where all rows of
+/// one are at one place.
 std::vector<DiagonalFigures> DiagonalFiguresOf(
     const data::CsvTable& table,
     const DiagonalRuns& runs,
