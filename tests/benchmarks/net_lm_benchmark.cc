@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <ctime>
 #include <limits>
@@ -17,51 +16,15 @@
 #include "fitting/minimisers/levenberg_marquardt.h"
 #include "fitting/minimisers/scaled_conjugate_gradient.h"
 #include "models/net/feedforward_net.h"
-#include "models/net/net_objective.h"
-#include "models/scaling.h"
-#include "tests/models/golden_netcg.h"
+#include "tests/benchmarks/run_3.h"
+#include "tests/benchmarks/timing.h"
 
 namespace errmap {
 namespace {
 
 using fitting::Minimum;
-
-constexpr Eigen::Index kHidden = 60;
-constexpr double kWfactor = 1.3e-3;  // of that run, too
-
-struct Workload {
-  models::NetShape shape;
-  models::NetObjective objective;
-};
-
-// Simulated temperatures of tests/golden/netcg, every input standardised.
-const Workload& TheWorkload() {
-  static const Workload workload = [] {
-    const testing::GoldenCase golden = testing::ReadGoldenCase("case_a");
-    const auto scaling = models::StandardScaling(golden.inputs);
-    const models::NetShape shape{golden.shape.inputs, kHidden, 1};
-    return Workload{
-        shape,
-        {shape, scaling.Apply(golden.inputs), golden.scaled_targets, kWfactor}};
-  }();
-  return workload;
-}
-
-// The machine is not ours alone: of many times the lower quartile is that of
-// the work itself.
-double LowerQuartile(std::vector<double> times) {
-  const auto quarter =
-      times.begin() + static_cast<std::ptrdiff_t>(times.size() / 4);
-  std::ranges::nth_element(times, quarter);
-  return *quarter;
-}
-
-double Median(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half]
-                                : (values[half - 1] + values[half]) / 2.0;
-}
+using testing::LowerQuartile;
+using testing::Median;
 
 // Of this process, which has one thread: what a busy machine leaves as it is.
 double CpuSeconds() {
@@ -70,14 +33,14 @@ double CpuSeconds() {
 
 Minimum RunLm(std::uint64_t seed, const fitting::StoppingRules& stopping) {
   return fitting::LevenbergMarquardt({.stopping = stopping})
-      .Minimize(TheWorkload().objective,
-                models::InitialWeights(TheWorkload().shape, seed));
+      .Minimize(testing::TheRun3().Objective<double>(),
+                models::InitialWeights(testing::TheRun3().shape, seed));
 }
 
 Minimum RunScg(std::uint64_t seed) {
   return fitting::ScaledConjugateGradient({.stopping = {.iterations = 1500}})
-      .Minimize(TheWorkload().objective,
-                models::InitialWeights(TheWorkload().shape, seed));
+      .Minimize(testing::TheRun3().Objective<double>(),
+                models::InitialWeights(testing::TheRun3().shape, seed));
 }
 
 // An iteration: residuals, their factors, J J', and every trial it took.

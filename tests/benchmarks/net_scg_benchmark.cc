@@ -22,8 +22,8 @@
 #include "models/net/feedforward_net.h"
 #include "models/net/net_kernels.h"
 #include "models/net/net_objective.h"
-#include "models/scaling.h"
-#include "tests/models/golden_netcg.h"
+#include "tests/benchmarks/run_3.h"
+#include "tests/benchmarks/timing.h"
 
 namespace errmap {
 namespace {
@@ -32,37 +32,15 @@ using Eigen::Index;
 using fitting::FitSummary;
 using models::AlignedMatrix;
 using models::NetShape;
+using testing::LowerQuartile;
+using testing::Median;
+using testing::SecondsSince;
+using testing::TheRun3;
 
-constexpr Index kHidden = 60;
 constexpr std::int64_t kIterations = 1500;
-constexpr double kWfactor = 1.3e-3;  // of that run, too
 
 template <typename Scalar>
 using MatrixOf = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
-
-// Simulated temperatures of tests/golden/netcg, every input standardised.
-struct Workload {
-  Eigen::MatrixXd inputs;   // (397 x 37)
-  Eigen::MatrixXd targets;  // (397 x 1)
-  NetShape shape;
-};
-
-const Workload& TheWorkload() {
-  static const Workload workload = [] {
-    const testing::GoldenCase golden = testing::ReadGoldenCase("case_a");
-    const auto scaling = models::StandardScaling(golden.inputs);
-    return Workload{scaling.Apply(golden.inputs),
-                    golden.scaled_targets,
-                    {golden.shape.inputs, kHidden, 1}};
-  }();
-  return workload;
-}
-
-template <typename Scalar>
-models::BasicNetObjective<Scalar> MakeObjective() {
-  const Workload& workload = TheWorkload();
-  return {workload.shape, workload.inputs, workload.targets, kWfactor};
-}
 
 // The same objective without its path: every value, gradient and curvature by
 // a plain evaluation.
@@ -80,20 +58,6 @@ class WithoutPath final : public fitting::BasicObjective<Scalar> {
  private:
   const fitting::BasicObjective<Scalar>& objective_;
 };
-
-// The machine is not ours alone: of many times the lower quartile is that of
-// the work itself.
-double LowerQuartile(std::vector<double> times) {
-  const auto quarter =
-      times.begin() + static_cast<std::ptrdiff_t>(times.size() / 4);
-  std::ranges::nth_element(times, quarter);
-  return *quarter;
-}
-
-double SecondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
-      .count();
-}
 
 template <typename Work>
 double SecondsOf(Work work) {
@@ -117,14 +81,15 @@ struct Bound {
 
 template <typename Scalar>
 Bound MeasureBound() {
-  const Workload& workload = TheWorkload();
-  const Index patterns = workload.inputs.rows();
-  const Index inputs = workload.inputs.cols() + 1;
+  const testing::Run3& run = TheRun3();
+  const Index patterns = run.inputs.rows();
+  const Index inputs = run.inputs.cols() + 1;
+  const Index hidden = run.shape.hidden;
   const MatrixOf<Scalar> x = MatrixOf<Scalar>::Random(inputs, patterns);
-  const MatrixOf<Scalar> w = MatrixOf<Scalar>::Random(kHidden, inputs);
-  MatrixOf<Scalar> s(kHidden, patterns);
-  MatrixOf<Scalar> y(kHidden, patterns);
-  MatrixOf<Scalar> g(kHidden, inputs);
+  const MatrixOf<Scalar> w = MatrixOf<Scalar>::Random(hidden, inputs);
+  MatrixOf<Scalar> s(hidden, patterns);
+  MatrixOf<Scalar> y(hidden, patterns);
+  MatrixOf<Scalar> g(hidden, inputs);
   Bound bound;
   bound.forward = std::min(SecondsOf([&] { fitting::Multiply(w, x, s); }),
                            SecondsOf([&] { s.noalias() = w * x; }));
@@ -147,15 +112,14 @@ fitting::Minimum RunScg(
     const std::function<void(const fitting::ScgPass&)>& observer = {}) {
   const fitting::BasicScaledConjugateGradient<Scalar> scg(
       {.stopping = {.iterations = kIterations}, .observer = observer});
-  const Eigen::VectorXd start =
-      models::InitialWeights(TheWorkload().shape, seed);
+  const Eigen::VectorXd start = models::InitialWeights(TheRun3().shape, seed);
   return scg.Minimize(objective, start.cast<Scalar>());
 }
 
 // Passes and parts of the bound in turns; `ratio` of one to the other.
 template <typename Scalar>
 void ScgAgainstBound(benchmark::State& state) {
-  const auto objective = MakeObjective<Scalar>();
+  const auto objective = TheRun3().Objective<Scalar>();
   std::vector<double> bounds;
   std::vector<double> passes;
   double shortest = std::numeric_limits<double>::infinity();
@@ -201,18 +165,11 @@ void PartsOfTheBound(benchmark::State& state) {
 BENCHMARK_TEMPLATE(PartsOfTheBound, double)->Iterations(5);
 BENCHMARK_TEMPLATE(PartsOfTheBound, float)->Iterations(5);
 
-double Median(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half]
-                                : (values[half - 1] + values[half]) / 2.0;
-}
-
 // Is speed paid for in quality? Final costs, both by the plain objective.
 void QualityOverSeeds(benchmark::State& state) {
   constexpr std::uint64_t kSeeds = 20;
-  const auto objective = MakeObjective<double>();
-  const auto single = MakeObjective<float>();
+  const auto objective = TheRun3().Objective<double>();
+  const auto single = TheRun3().Objective<float>();
   const WithoutPath<double> plain(objective);
   std::vector<double> by_path;
   std::vector<double> in_single;
@@ -243,7 +200,8 @@ void IterationOverPatterns(benchmark::State& state) {
   const Eigen::MatrixXd inputs = Eigen::MatrixXd::Random(patterns, kInputs);
   const Eigen::MatrixXd targets =
       0.5 + 0.4 * (inputs.rowwise().sum().array() / 3.0).sin();
-  const models::NetObjective objective(shape, inputs, targets, kWfactor);
+  const models::NetObjective objective(
+      shape, inputs, targets, testing::kRun3Wfactor);
   const Eigen::VectorXd start = models::InitialWeights(shape, 1);
   const fitting::ScaledConjugateGradient scg(
       {.stopping = {.iterations = kSteps}});

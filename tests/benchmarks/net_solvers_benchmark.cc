@@ -4,11 +4,9 @@
 // between included, against that of one of our gradients, measured in turns
 // with it.
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,63 +15,28 @@
 #include "fitting/minimisers/ceres_optimizer.h"
 #include "fitting/minimisers/nlopt_optimizer.h"
 #include "models/net/feedforward_net.h"
-#include "models/net/net_objective.h"
-#include "models/scaling.h"
-#include "tests/models/golden_netcg.h"
+#include "tests/benchmarks/run_3.h"
+#include "tests/benchmarks/timing.h"
 
 namespace errmap {
 namespace {
 
-constexpr Eigen::Index kHidden = 60;
-constexpr double kWfactor = 1.3e-3;  // of that run, too
+using testing::LowerQuartile;
+using testing::SecondsSince;
 
-// Simulated temperatures of tests/golden/netcg, every input standardised.
-struct Workload {
-  models::NetShape shape;
-  std::unique_ptr<models::NetObjective> objective;
-  Eigen::VectorXd start;
-};
-
-const Workload& TheWorkload() {
-  static const Workload workload = [] {
-    const testing::GoldenCase golden = testing::ReadGoldenCase("case_a");
-    const auto scaling = models::StandardScaling(golden.inputs);
-    Workload made;
-    made.shape = {golden.shape.inputs, kHidden, 1};
-    made.objective =
-        std::make_unique<models::NetObjective>(made.shape,
-                                               scaling.Apply(golden.inputs),
-                                               golden.scaled_targets,
-                                               kWfactor);
-    made.start = models::InitialWeights(made.shape, 1);
-    return made;
-  }();
-  return workload;
-}
-
-double SecondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
-      .count();
-}
-
-// The machine is not ours alone: of many times the lower quartile is that of
-// the work itself.
-double LowerQuartile(std::vector<double> times) {
-  const auto quarter =
-      times.begin() + static_cast<std::ptrdiff_t>(times.size() / 4);
-  std::ranges::nth_element(times, quarter);
-  return *quarter;
+Eigen::VectorXd Start() {
+  return models::InitialWeights(testing::TheRun3().shape, 1);
 }
 
 double GradientSeconds() {
   constexpr int kRuns = 200;
-  const Workload& workload = TheWorkload();
+  const auto objective = testing::TheRun3().Objective<double>();
+  const Eigen::VectorXd start_weights = Start();
   Eigen::VectorXd gradient;
   std::vector<double> times;
   for (int run = 0; run < kRuns; ++run) {
     const auto start = std::chrono::steady_clock::now();
-    benchmark::DoNotOptimize(
-        workload.objective->Evaluate(workload.start, &gradient));
+    benchmark::DoNotOptimize(objective.Evaluate(start_weights, &gradient));
     times.push_back(SecondsSince(start));
   }
   return LowerQuartile(std::move(times));
@@ -110,15 +73,15 @@ class TimedObjective final : public fitting::Objective {
 };
 
 void Compare(benchmark::State& state, const fitting::Optimizer& optimizer) {
-  const Workload& workload = TheWorkload();
+  const auto objective = testing::TheRun3().Objective<double>();
   std::vector<double> gradients;
   std::vector<double> evaluations;
   double cost = 0.0;
   for (auto _ : state) {
     gradients.push_back(GradientSeconds());
-    const TimedObjective timed(*workload.objective);
+    const TimedObjective timed(objective);
     const fitting::FitSummary summary =
-        optimizer.Minimize(timed, workload.start).summary;
+        optimizer.Minimize(timed, Start()).summary;
     evaluations.push_back(LowerQuartile(timed.times()));
     cost = summary.final_cost;
     state.SetIterationTime(summary.seconds);

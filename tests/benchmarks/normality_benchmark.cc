@@ -1,7 +1,8 @@
 // Time of the residual statistics. Goals: everything for 5000 values, exact
 // K-S and Monte Carlo apart, in under 50 ms; n log n for a million.
 //
-//   build/tests/benchmarks/normality_benchmark
+//   build/tests/benchmarks/errmap_benchmarks
+//   --benchmark_filter='Normality|Randomness|KsExact|MonteCarlo'
 
 #include <cmath>
 #include <vector>

@@ -1,6 +1,6 @@
 // How long a simulation takes, and how well its day 1 meets the report:
 //
-//   build/tests/benchmarks/simulate_benchmark
+//   build/tests/benchmarks/errmap_benchmarks --benchmark_filter='Simulate'
 //
 // The counter rmse_um is that of the noise-free X displacement against the 397
 // measured records of NISTIR 5367, Appendix B.

@@ -1,6 +1,7 @@
 // Speed of what a volumetric prediction is made of, on one core:
 //
-//   build/tests/benchmarks/volumetric_benchmark
+//   build/tests/benchmarks/errmap_benchmarks
+//   --benchmark_filter='CubicPredictions|CombineErrors'
 //
 // items_per_second of BM_CubicPredictions counts predictions of one component
 // by a full cubic of three inputs (20 coefficients), the whole table in one
