@@ -38,17 +38,36 @@ class MachineCurve {
   }
 
   double operator()(double position) const {
-    return data::Converted(
-        curve_(data::Converted(position, unit_, curve_.position().column.unit)),
-        curve_.program().target.unit,
-        unit_);
+    return InMachine(curve_(OfMap(position)), curve_.program().target.unit);
   }
-  double low() const { return InMachine(curve_.position().trained_min); }
-  double high() const { return InMachine(curve_.position().trained_max); }
+  // The same in whole steps that stay within the limit.
+  double InSteps(double position, double resolution, AtLimit* at_limit) const {
+    const double error = curve_(OfMap(position));
+    if (curve_.IsAtLimit(error)) at_limit->Add(position);
+    const double value = InMachine(error, curve_.program().target.unit);
+    if (!(resolution > 0.0)) return value;
+    const double most = InMachine(curve_.program().limits.max_error,
+                                  curve_.program().target.unit);
+    const double steps = std::round(value / resolution);
+    return resolution * (std::fabs(steps) * resolution > most
+                             ? std::trunc(value / resolution)
+                             : steps);
+  }
+  double low() const {
+    return InMachine(curve_.position().trained_min,
+                     curve_.position().column.unit);
+  }
+  double high() const {
+    return InMachine(curve_.position().trained_max,
+                     curve_.position().column.unit);
+  }
 
  private:
-  double InMachine(double position) const {
-    return data::Converted(position, curve_.position().column.unit, unit_);
+  double InMachine(double value, const data::Unit& unit) const {
+    return data::Converted(value, unit, unit_);
+  }
+  double OfMap(double position) const {
+    return data::Converted(position, unit_, curve_.position().column.unit);
   }
 
   const ErrorCurve& curve_;
@@ -70,10 +89,6 @@ double LargestDifference(const Curve& curve,
     }
   }
   return worst;
-}
-
-double InSteps(double value, double resolution) {
-  return resolution > 0.0 ? std::round(value / resolution) * resolution : value;
 }
 
 }  // namespace
@@ -98,8 +113,10 @@ CompFile LinuxcncCompFile(const ErrorCurve& increasing,
   std::vector<double> forward_values;
   std::vector<double> reverse_values;
   for (const double position : knots.positions) {
-    forward_values.push_back(InSteps(forward(position), options.resolution));
-    reverse_values.push_back(InSteps(reverse(position), options.resolution));
+    forward_values.push_back(
+        forward.InSteps(position, options.resolution, &file.forward_at_limit));
+    reverse_values.push_back(
+        reverse.InSteps(position, options.resolution, &file.reverse_at_limit));
     file.text += fmt::format("{} {} {}\n",
                              RealText(position),
                              RealText(position + forward_values.back()),
@@ -137,8 +154,12 @@ GridTable CompensationGrid(const ErrorCurve& curve,
   const std::string& unit = curve.program().target.unit.symbol;
   GridTable table;
   table.text = fmt::format(
-      "# compensation = -error{}, to be added to the nominal position\n",
-      unit.empty() ? "" : " in " + CommentText(unit));
+      "# compensation = -error{}, to be added to the nominal position; at most "
+      "{:.6g} in size{}{}\n",
+      unit.empty() ? "" : " in " + CommentText(unit),
+      curve.program().limits.max_error,
+      curve.program().made_for.empty() ? "" : "; for ",
+      curve.program().made_for);
   table.text += data::CsvField(CommentText(position.column.name));
   for (int column = 0; column <= columns; ++column) {
     table.text +=
@@ -155,6 +176,8 @@ GridTable CompensationGrid(const ErrorCurve& curve,
     table.text += data::CsvNumber(position_at(row));
     for (int column = 0; column <= columns; ++column) {
       line.push_back(compensation(row, column));
+      ++table.num_cells;
+      if (curve.IsAtLimit(line.back())) table.at_limit.Add(position_at(row));
       table.text += "," + data::CsvNumber(line.back());
     }
     table.text += "\n";

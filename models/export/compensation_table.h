@@ -26,15 +26,17 @@ struct CompFile {
   /// The largest difference between map and table with its steps; the same as
   /// above without a resolution.
   double error_with_steps = 0.0;
+  AtLimit forward_at_limit = {};  // machine unit
+  AtLimit reverse_at_limit = {};
 };
 
 /// A COMP_FILE of type 0 for LinuxCNC: `nominal forward reverse` per line, no
 /// header and no comment (a `#` would end it), ascending. LinuxCNC moves the
 /// motor by nominal - column, and its forward column holds where the position
 /// increases: forward = nominal + error of `increasing`, reverse = nominal +
-/// error of `decreasing`. Over the range that both were trained in. Throws
-/// std::invalid_argument where there is none, or an error or position is no
-/// length.
+/// error of `decreasing`, each within the limit of its map. Over the range that
+/// both were trained in. Throws std::invalid_argument where there is none, or
+/// an error or position is no length.
 CompFile LinuxcncCompFile(const ErrorCurve& increasing,
                           const ErrorCurve& decreasing,
                           const CompFileOptions& options);
@@ -48,11 +50,14 @@ struct GridOptions {
 struct GridTable {
   std::string text;
   double interpolation_error = 0.0;  // bilinear, target's unit
+  int num_cells = 0;
+  AtLimit at_limit = {};  // cells; the position's own unit
 };
 
 /// CSV of the compensation, -error, at positions (rows) and values of a
-/// reading (columns, named NAME=VALUE), both even over their trained range. A
-/// line that begins with # says sign and unit.
+/// reading (columns, named NAME=VALUE), both even over their trained range, and
+/// within the limit of the map. A line that begins with # says sign, unit and
+/// limit.
 GridTable CompensationGrid(const ErrorCurve& curve, const GridOptions& options);
 
 }  // namespace errmap::models

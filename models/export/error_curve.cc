@@ -152,6 +152,16 @@ double ErrorCurve::After(double dt, const Eigen::VectorXd& readings) const {
   return std::clamp(error, -most, most);
 }
 
+bool ErrorCurve::IsAtLimit(double error) const {
+  return std::fabs(error) >= program_->limits.max_error;
+}
+
+void AtLimit::Add(double position) {
+  ++points;
+  low = std::min(low, position);
+  high = std::max(high, position);
+}
+
 double Tidied(double value) {
   double tidy = value;
   data::ParseNumber(fmt::format("{:.12g}", value), &tidy);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +38,9 @@ class ErrorCurve {
   /// arrived; the zero stays where it was taken.
   double operator()(double position, int input, double value) const;
 
+  /// Whether this error of the map is the largest that it may give.
+  bool IsAtLimit(double error) const;
+
   const MapProgram& program() const { return *program_; }
   /// The reading that is the position.
   const ProgramReading& position() const;
@@ -50,6 +54,15 @@ class ErrorCurve {
   ProgramRun run_;
   Eigen::VectorXd readings_;
   int position_ = 0;
+};
+
+/// The points of a table at which a map's error is the largest allowed.
+struct AtLimit {
+  int points = 0;
+  double low = std::numeric_limits<double>::infinity();  // position
+  double high = -low;
+
+  void Add(double position);
 };
 
 /// Index of the reading that is the position; -1 where there is none.

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "data/argument_name.h"
+#include "data/measurements/row_filters.h"
 #include "models/export/safe_names.h"
 
 namespace errmap::models {
@@ -13,6 +15,26 @@ double MapExport::tolerance() const {
   constexpr double kOtherCompiler = 2.0;
   return error_range * std::max(AllowedDeviation(precision),
                                 kOtherCompiler * deviations.anywhere);
+}
+
+void RequireMadeFor(const FittedModel& fitted, Motion motion) {
+  const data::ColumnFilter* filter = data::DirectionFilter(fitted.where);
+  if (filter == nullptr) return;
+  const std::string made_for = data::FiltersText({filter, 1});
+  const std::string both = data::ArgumentName("increasing") + " and " +
+                           data::ArgumentName("decreasing");
+  if (motion == Motion::kAny) {
+    throw std::invalid_argument(
+        fmt::format("it is made for {} alone and would act in the other "
+                    "direction, too; name the maps of both, {}",
+                    made_for,
+                    both));
+  }
+  const auto upwards = data::IsUpwards(ValueText(*filter));
+  if (upwards && *upwards != (motion == Motion::kIncreasing)) {
+    throw std::invalid_argument(
+        fmt::format("it is made for {}; exchange {}", made_for, both));
+  }
 }
 
 MapExport PrepareExport(const FittedModel& fitted,

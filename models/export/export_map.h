@@ -25,6 +25,12 @@ struct MapExport {
   double tolerance() const;
 };
 
+/// When a map acts.
+enum class Motion { kAny, kIncreasing, kDecreasing };
+/// Throws std::invalid_argument where the map is made for rows of another
+/// direction of motion than it would act in.
+void RequireMadeFor(const FittedModel& fitted, Motion motion);
+
 /// Longest name of an exported map.
 inline constexpr std::size_t kLongestMapName = 40;
 

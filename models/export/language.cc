@@ -314,6 +314,10 @@ Lines AboutMap(const MapProgram& program,
       "",
       program.readings.empty() ? "It reads no inputs."
                                : "Inputs, in this order:"};
+  if (!program.made_for.empty()) {
+    lines.insert(lines.begin() + 4,
+                 fmt::format("Made for {} alone.", program.made_for));
+  }
   for (std::size_t i = 0; i < program.readings.size(); ++i) {
     const ProgramReading& reading = program.readings[i];
     lines.push_back(fmt::format("  {} {}, {}, trained {:g} to {:g}",

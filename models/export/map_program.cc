@@ -9,7 +9,9 @@
 #include <utility>
 #include <variant>
 
+#include "data/measurements/row_filters.h"
 #include "models/export/nested_polynomial.h"
+#include "models/export/safe_names.h"
 #include "models/history/history.h"
 #include "models/polynomial/polynomial_model.h"
 
@@ -519,6 +521,7 @@ MapProgram MakeMapProgram(const FittedModel& fitted) {
   program.model = fitted.name;
   program.target = fitted.target;
   program.since_first_row = fitted.align == data::Alignment::kFirst;
+  program.made_for = CommentText(data::FiltersText(fitted.where));
   for (const TrainedInput& input : fitted.inputs) {
     program.readings.push_back({.column = input.column,
                                 .trained_min = input.min,

@@ -133,6 +133,7 @@ struct MapProgram {
   std::string model;  // the SPEC
   data::ColumnInfo target;
   bool since_first_row = false;          // of the session
+  std::string made_for;                  // rows: "direction down"; "": all
   std::vector<ProgramReading> readings;  // in the order of kReading
   /// Tables of kAffine (outputs x (inputs + 1)), the last column a bias.
   std::vector<Eigen::MatrixXd> tables;

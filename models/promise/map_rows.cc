@@ -10,6 +10,7 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/measured_files.h"
+#include "data/measurements/row_filters.h"
 #include "data/measurements/sessions.h"
 
 namespace errmap::models {
@@ -75,15 +76,10 @@ std::string MadeForText(const FittedModel& fitted,
                         const std::vector<bool>& made_for) {
   const auto count = std::ranges::count(made_for, true);
   if (count == std::ssize(made_for)) return "";
-  std::string what;
-  for (const data::ColumnFilter& filter : FiltersFor(fitted, table)) {
-    what += (what.empty() ? "" : " and ") + data::NameInRemark(filter.column) +
-            " " + data::NameInRemark(ValueText(filter));
-  }
   return fmt::format("{} of {} rows have {}, for which the map is made",
                      count,
                      made_for.size(),
-                     what);
+                     data::FiltersText(FiltersFor(fitted, table)));
 }
 
 data::TableForMap ReadForMap(const FittedModel& fitted,

@@ -68,6 +68,11 @@ models::LimitOptions LimitsOf(const ExportArguments& arguments,
           .max_rate = LimitOf("--max-rate", arguments.max_rate, target)};
 }
 
+bool WritesProgram(const ExportArguments& arguments) {
+  return arguments.c || arguments.python || arguments.structured_text ||
+         arguments.hal;
+}
+
 models::MapExport Prepare(const ExportArguments& arguments,
                           const models::FittedModel& fitted) {
   const std::string name =
@@ -85,6 +90,9 @@ models::MapExport Prepare(const ExportArguments& arguments,
         models::SafeIdentifier(name, models::kLongestMapName)));
   }
   try {
+    if (WritesProgram(arguments)) {
+      models::RequireMadeFor(fitted, models::Motion::kAny);
+    }
     return models::PrepareExport(fitted,
                                  name,
                                  arguments.single ? models::Precision::kSingle
@@ -180,12 +188,16 @@ void SayWhatFailuresDo(const models::FittedModel& fitted,
 }
 
 void CheckArguments(const ExportArguments& arguments) {
-  const bool program = arguments.c || arguments.python ||
-                       arguments.structured_text || arguments.hal;
+  const bool program = WritesProgram(arguments);
   if (!program && !arguments.table && !arguments.linuxcnc) {
     throw UsageError(
         "export: say what to write: --c, --python, --st, --hal, --table or "
         "--linuxcnc");
+  }
+  if (!program && !arguments.max_rate.empty()) {
+    throw UsageError(
+        "export: --max-rate is for programs; a table has no time, and acts as "
+        "fast as the axis moves");
   }
   if (arguments.single && (!arguments.c || arguments.python ||
                            arguments.structured_text || arguments.hal)) {
@@ -203,7 +215,11 @@ int RunExport(const ExportArguments& arguments) {
   CheckArguments(arguments);
   if (arguments.linuxcnc) {
     ExportLinuxcnc(
-        arguments.model, arguments.tables, arguments.out, arguments.quiet);
+        arguments.model,
+        arguments.tables,
+        [&](const data::Unit& target) { return LimitsOf(arguments, target); },
+        arguments.out,
+        arguments.quiet);
     return kDone;
   }
   const models::FittedModel fitted = models::LoadModel(arguments.model);

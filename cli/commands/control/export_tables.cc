@@ -53,11 +53,15 @@ struct TableMap {
   models::MapProgram program;
 };
 
-TableMap LoadTableMap(const std::string& file) {
+TableMap LoadTableMap(const std::string& file,
+                      models::Motion motion,
+                      const LimitsFor& limits) {
   TableMap map{.file = file, .fitted = models::LoadModel(file), .program = {}};
+  const models::LimitOptions options = limits(map.fitted.target.unit);
   try {
+    models::RequireMadeFor(map.fitted, motion);
     map.program = models::MakeMapProgram(map.fitted);
-    models::AddController(map.fitted, {}, &map.program);
+    models::AddController(map.fitted, options, &map.program);
   } catch (const std::invalid_argument& error) {
     throw data::InputError(
         fmt::format("{}: {}", data::PrintablePath(file), error.what()));
@@ -96,6 +100,25 @@ ErrorCurve CurveOf(const std::string& file,
   }
 }
 
+// How large errors may be, and where they are.
+std::string LimitText(const models::ErrorCurve& curve,
+                      const models::AtLimit& at_limit,
+                      int points,
+                      const std::string& position_unit) {
+  const double most = curve.program().limits.max_error;
+  const std::string limit =
+      "at most " +
+      report::ErrorText(curve.program().target.unit, most).WithUnit(most);
+  if (at_limit.points == 0) return limit + ", nowhere reached";
+  return fmt::format("{}, reached in {} of {} points, from {:g} to {:g} {}",
+                     limit,
+                     at_limit.points,
+                     points,
+                     at_limit.low,
+                     at_limit.high,
+                     position_unit);
+}
+
 void CheckTableArguments(const TableArguments& arguments) {
   if (!arguments.at.empty() && !arguments.log.empty()) {
     throw UsageError("export: --at or --log, not both");
@@ -109,6 +132,7 @@ void CheckTableArguments(const TableArguments& arguments) {
 
 void ExportLinuxcnc(const std::string& model,
                     const TableArguments& arguments,
+                    const LimitsFor& limits,
                     const std::string& out,
                     bool quiet) {
   CheckTableArguments(arguments);
@@ -133,8 +157,16 @@ void ExportLinuxcnc(const std::string& model,
       "-o",
       out,
       {model, arguments.increasing, arguments.decreasing, arguments.log});
-  const TableMap forward = LoadTableMap(two ? arguments.increasing : only);
-  const TableMap reverse = LoadTableMap(two ? arguments.decreasing : only);
+  // One map that fills both columns acts both ways.
+  using models::Motion;
+  const TableMap forward =
+      LoadTableMap(two ? arguments.increasing : only,
+                   two ? Motion::kIncreasing : Motion::kAny,
+                   limits);
+  const TableMap reverse =
+      LoadTableMap(two ? arguments.decreasing : only,
+                   two ? Motion::kDecreasing : Motion::kAny,
+                   limits);
   const std::vector<HeldReading> held =
       HeldIn(arguments, {&forward.program, &reverse.program});
   const ErrorCurve increasing =
@@ -176,6 +208,12 @@ void ExportLinuxcnc(const std::string& model,
                     "as alike",
                     data::PrintablePath(only)));
   }
+  Say(fmt::format(
+      "errors forward: {}; reverse: {}",
+      LimitText(
+          increasing, file.forward_at_limit, file.num_points, unit.symbol),
+      LimitText(
+          decreasing, file.reverse_at_limit, file.num_points, unit.symbol)));
   Say(models::StateText(increasing));
   Say(fmt::format("between the points it errs by up to {}",
                   text(file.interpolation_error)));
@@ -208,10 +246,15 @@ models::ExportedFile ExportTable(const models::FittedModel& fitted,
     throw data::InputError(fmt::format("{}: {}", map.name, error.what()));
   }
   *said = fmt::format(
-      "{}.csv: compensation = -error, {}; between its points it errs by up to "
-      "{}",
+      "{}.csv: compensation = -error, {}; {}{}; between its points it errs by "
+      "up to {}",
       map.name,
       models::StateText(curve),
+      LimitText(curve,
+                table.at_limit,
+                table.num_cells,
+                curve.position().column.unit.symbol),
+      map.program.made_for.empty() ? "" : "; for " + map.program.made_for,
       report::ErrorText(map.program.target.unit, table.interpolation_error)
           .WithUnit(table.interpolation_error));
   return {map.name + ".csv", table.text};

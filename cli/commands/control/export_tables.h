@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "models/error_model.h"
@@ -21,10 +22,14 @@ struct TableArguments {
   std::string grid = "33x9";
 };
 
+/// The limits that the user sets, in a target's unit.
+using LimitsFor = std::function<models::LimitOptions(const data::Unit&)>;
+
 /// `--linuxcnc`: writes a COMP_FILE and says what it holds. `model` stands for
 /// both directions where neither is named.
 void ExportLinuxcnc(const std::string& model,
                     const TableArguments& arguments,
+                    const LimitsFor& limits,
                     const std::string& out,
                     bool quiet);
 

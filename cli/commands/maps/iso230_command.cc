@@ -22,6 +22,7 @@
 #include "cli/shell/terminal.h"
 #include "data/atomic_file.h"
 #include "data/input_error.h"
+#include "data/measurements/row_filters.h"
 #include "data/shown_path.h"
 #include "data/text.h"
 #include "models/kinematics/iso230.h"
@@ -85,18 +86,6 @@ std::string PositionColumn(const data::CsvTable& table,
       "{}: has no column position*; name it with --position", table.file));
 }
 
-// Whether a word says which way an axis moves; nothing where it is another.
-std::optional<bool> IsUpwards(const std::string& word) {
-  const auto is = [&](std::initializer_list<std::string_view> words) {
-    return std::ranges::any_of(words, [&](std::string_view of) {
-      return data::EqualsIgnoringCase(word, of);
-    });
-  };
-  if (is({"up", "+", "1", "+1", "pos", "positive", "plus"})) return true;
-  if (is({"down", "-", "-1", "neg", "negative", "minus"})) return false;
-  return std::nullopt;
-}
-
 // By the column of directions where its words say it, else by the motion.
 std::vector<bool> DirectionsOf(const data::CsvTable& table,
                                const std::vector<Index>& rows,
@@ -109,7 +98,7 @@ std::vector<bool> DirectionsOf(const data::CsvTable& table,
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string word =
         table.CellText(table.At(column), static_cast<std::size_t>(rows[i]));
-    if (const auto up = IsUpwards(word)) {
+    if (const auto up = data::IsUpwards(word)) {
       upwards[i] = *up;
     } else if (!arguments.direction.empty()) {
       throw data::InputError(fmt::format(

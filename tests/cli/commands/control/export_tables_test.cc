@@ -207,6 +207,79 @@ TEST_F(CliExportTables, SaysWhatStepsLose) {
   }
 }
 
+TEST_F(CliExportTables, KeepsToTheLargestOffsetAndSaysWhere) {
+  constexpr double kMost = 0.005;
+  constexpr double kRounding = 1e-12;
+  const Outcome outcome = Linuxcnc({"up.json", "--max-offset", "5um"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err,
+              HasSubstr("errors forward: at most 5 um, reached in "));
+  const LinuxcncReader table(Read("x.comp.txt"));
+  double largest = 0.0;
+  for (const double nominal : table.nominals()) {
+    largest = std::max(largest, std::fabs(table.Added(nominal, true)));
+  }
+  EXPECT_NEAR(largest, kMost, kRounding);
+  // In steps of 2 um the limit lies between two of them.
+  ASSERT_EQ(
+      Linuxcnc({"up.json", "--max-offset", "5um", "--resolution", "0.002"})
+          .status,
+      0);
+  const LinuxcncReader steps(Read("x.comp.txt"));
+  for (const double nominal : steps.nominals()) {
+    EXPECT_LT(std::fabs(steps.Added(nominal, true)), 0.0041);
+  }
+  EXPECT_THAT(Linuxcnc({"up.json"}).err, HasSubstr("nowhere reached"));
+
+  const Outcome grid =
+      Run({"export", "up.json", "--table", "-o", ".", "--max-offset", "5um"});
+  ASSERT_EQ(grid.status, 0) << grid.err;
+  EXPECT_THAT(grid.err, HasSubstr("at most 5 um, reached in "));
+  EXPECT_THAT(Read("up.csv"), HasSubstr("at most 0.005 in size"));
+  for (const data::CsvColumn& column : data::ReadCsv(Path("up.csv")).columns) {
+    if (column.name == "position_mm") continue;
+    for (const double value : column.values) {
+      EXPECT_LE(std::fabs(value), kMost + kRounding);
+    }
+  }
+  EXPECT_THAT(
+      RefusalOf(Linuxcnc({"up.json", "--max-rate", "1um"}), kWrongCommandLine),
+      HasSubstr("--max-rate is for programs"));
+}
+
+TEST_F(CliExportTables, RefusesAMapOfTheOtherDirection) {
+  for (const char* direction : {"up", "down"}) {
+    const std::string file = std::string(direction) + ".json";
+    Json map = Json::parse(Read(file));
+    map["where"] = Json::array({{{"column", "way"}, {"value", direction}}});
+    Write(file, map.dump());
+  }
+  EXPECT_EQ(
+      Linuxcnc({"--increasing", "up.json", "--decreasing", "down.json"}).status,
+      0);
+  EXPECT_THAT(
+      RefusalOf(
+          Linuxcnc({"--increasing", "down.json", "--decreasing", "up.json"}),
+          kUnusable),
+      HasSubstr("down.json: it is made for way down; exchange --increasing and "
+                "--decreasing"));
+  const std::string alone =
+      "up.json: it is made for way up alone and would act in the other "
+      "direction, too; name the maps of both, --increasing and --decreasing";
+  EXPECT_THAT(RefusalOf(Linuxcnc({"up.json"}), kUnusable), HasSubstr(alone));
+  EXPECT_THAT(RefusalOf(Linuxcnc({"--increasing", "up.json"}), kUnusable),
+              HasSubstr(alone));
+  for (const char* language : {"--c", "--st", "--python", "--hal"}) {
+    EXPECT_THAT(
+        RefusalOf(Run({"export", "up.json", language, "-o", "."}), kUnusable),
+        HasSubstr(alone));
+  }
+  // A grid acts by whoever enters it, and says what it is for.
+  EXPECT_THAT(Run({"export", "up.json", "--table", "-o", "."}).err,
+              HasSubstr("for way up"));
+  EXPECT_THAT(Read("up.csv"), HasSubstr("; for way up"));
+}
+
 TEST_F(CliExportTables, WritesInches) {
   ASSERT_EQ(Linuxcnc({"up.json", "--at", "t12_degC=24"}).status, 0);
   const LinuxcncReader in_mm(Read("x.comp.txt"));
