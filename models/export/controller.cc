@@ -23,8 +23,6 @@ using Eigen::VectorXd;
 // What sensors read that are not connected or not ready: an open input, a
 // DS18B20 that is gone or has just woken, an open resistance thermometer.
 constexpr double kDeadValues[] = {0.0, -127.0, 85.0, 850.0};  // degC
-// As `predict` lets pass before a row is outside (applicability.cc).
-constexpr double kLittle = 0.02;
 // How far beyond its trained range a sensor is not believed: by half of that
 // range, and a thermometer by so much at least. Of ten simulated machines, what
 // further days brought beyond two or three days was up to 6 K and 4 ranges.
@@ -71,14 +69,24 @@ double TypicalRange(const std::vector<ProgramReading>& readings,
   return Median(std::move(ranges));
 }
 
-std::vector<double> DeadValuesOf(const ProgramReading& reading) {
+// Where some map was trained, and a little more.
+bool IsTrained(const MapProgram& program, Operand place, double value) {
+  return std::ranges::any_of(program.forms, [&](const MapForm& form) {
+    return std::ranges::any_of(form.ranges, [&](const TrainedRange& range) {
+      return range.place == place && value >= range.low && value <= range.high;
+    });
+  });
+}
+
+std::vector<double> DeadValuesOf(const MapProgram& program, int index) {
+  const ProgramReading& reading =
+      program.readings[static_cast<std::size_t>(index)];
   const data::Unit degrees = data::UnitOfSymbol("degC");
   const data::Unit& unit = reading.column.unit;
   std::vector<double> found;
   const auto add = [&](double value) {
-    const bool is_trained = value >= reading.low && value <= reading.high;
     const bool is_far = value < reading.far_low || value > reading.far_high;
-    if (is_trained || is_far) return;
+    if (is_far || IsTrained(program, {Space::kReading, index}, value)) return;
     if (std::ranges::find(found, value) == found.end()) found.push_back(value);
   };
   for (const double value : kDeadValues) {
@@ -95,17 +103,16 @@ bool IsCount(const data::Unit& unit) {
   return unit.symbol.empty() || unit.quantity == data::Quantity::kTime;
 }
 
-void SetBounds(const FittedModel& fitted,
-               std::vector<ProgramReading>* readings) {
+void SetBounds(const FittedModel& fitted, MapProgram* program) {
   const double margin =
       fitted.guards ? fitted.guards->input_margin : Guards{}.input_margin;
-  for (ProgramReading& reading : *readings) {
+  int index = -1;
+  for (ProgramReading& reading : program->readings) {
+    ++index;
     const double range = Range(reading);
     const data::Unit& unit = reading.column.unit;
     reading.is_position =
         IsPosition(reading.column) || unit.quantity == data::Quantity::kAngle;
-    reading.low = reading.trained_min - kLittle * range;
-    reading.high = reading.trained_max + kLittle * range;
     reading.far_low = -kHuge;
     reading.far_high = kHuge;
     if (reading.is_position) continue;
@@ -116,7 +123,7 @@ void SetBounds(const FittedModel& fitted,
     }
     reading.far_low = reading.trained_min - width;
     reading.far_high = reading.trained_max + width;
-    if (!is_count) reading.dead = DeadValuesOf(reading);
+    if (!is_count) reading.dead = DeadValuesOf(*program, index);
   }
 }
 
@@ -143,7 +150,9 @@ void SetWeights(std::vector<ProgramReading>* readings) {
 // the others is (P x)_j / P_jj with variance 1 / P_jj. The inverse of
 // diag(rest) + W W' is taken by way of the few directions (Woodbury), so that a
 // step costs sensors times directions.
-void AddJudgement(const Applicability& trained, MapProgram* program) {
+void AddJudgement(const Applicability& trained,
+                  MapProgram* program,
+                  MapForm* form) {
   const Index sensors = trained.mean.size();
   const Index directions = trained.directions.cols();
   if (sensors < 2) return;
@@ -162,6 +171,10 @@ void AddJudgement(const Applicability& trained, MapProgram* program) {
                               trained.relation_limit.array())
                                  .inverse();
 
+  const auto reading_of = [&](Index sensor) {
+    return form->readings[static_cast<std::size_t>(
+        trained.columns[static_cast<std::size_t>(sensor)])];
+  };
   MatrixXd scores = MatrixXd::Zero(directions, sensors + 1);
   scores.leftCols(sensors) =
       inner * weighted.transpose() * trained.scale.cwiseInverse().asDiagonal();
@@ -169,16 +182,15 @@ void AddJudgement(const Applicability& trained, MapProgram* program) {
   MatrixXd told = MatrixXd::Zero(static_cast<Index>(program->readings.size()),
                                  directions + 1);
   for (Index i = 0; i < sensors; ++i) {
-    told.row(trained.columns[static_cast<std::size_t>(i)]).head(directions) =
+    told.row(reading_of(i)).head(directions) =
         -per_limit[i] * trained.directions.row(i);
   }
 
-  Instructions& judge = program->judge;
+  Instructions& judge = form->judge;
   for (Index i = 0; i < sensors; ++i) {
-    const Index column = trained.columns[static_cast<std::size_t>(i)];
     judge.push_back({.op = Op::kShift,
                      .to = {Space::kStanding, static_cast<int>(i)},
-                     .a = {Space::kReading, static_cast<int>(column)},
+                     .a = {Space::kReading, reading_of(i)},
                      .c = trained.mean[i]});
   }
   const auto affine = [&](Space to, Space from, MatrixXd table) {
@@ -192,18 +204,18 @@ void AddJudgement(const Applicability& trained, MapProgram* program) {
   affine(Space::kScore, Space::kStanding, std::move(scores));
   affine(Space::kDoubt, Space::kScore, std::move(told));
   for (Index i = 0; i < sensors; ++i) {
-    const Index column = trained.columns[static_cast<std::size_t>(i)];
+    const int column = reading_of(i);
     ProgramReading& reading =
         program->readings[static_cast<std::size_t>(column)];
-    reading.believed = kContradicts;
+    reading.believed = std::max(reading.believed, kContradicts);
     if (IsThermometer(reading)) {
       const double limit =
           trained.relation_limit[i] * trained.scale[i] / std::sqrt(own[i]);
-      reading.believed =
-          std::max(kContradicts, InUnitOf(reading, kContradictsKelvin) / limit);
+      reading.believed = std::max(
+          reading.believed, InUnitOf(reading, kContradictsKelvin) / limit);
     }
     judge.push_back({.op = Op::kAccumulate,
-                     .to = {Space::kDoubt, static_cast<int>(column)},
+                     .to = {Space::kDoubt, column},
                      .a = {Space::kStanding, static_cast<int>(i)},
                      .c = per_limit[i] / trained.scale[i]});
   }
@@ -211,18 +223,11 @@ void AddJudgement(const Applicability& trained, MapProgram* program) {
 
 // ---- Limits ----
 
-VectorXd MeanReadings(const FittedModel& fitted) {
-  VectorXd readings(static_cast<Index>(fitted.inputs.size()));
-  for (Index i = 0; i < readings.size(); ++i) {
-    readings[i] = fitted.inputs[static_cast<std::size_t>(i)].mean;
-  }
-  return readings;
-}
-
 // Readings of thermal states like those of training; positions at their mean.
 std::vector<VectorXd> TrainedStates(const FittedModel& fitted,
-                                    const MapProgram& program) {
-  const VectorXd mean = MeanReadings(fitted);
+                                    const MapProgram& program,
+                                    const MapForm& form) {
+  const VectorXd mean = MeanReadings(program);
   std::vector<VectorXd> states{mean};
   if (const Applicability* trained = fitted.applicability.get()) {
     for (Index k = 0; k < trained->states.rows(); ++k) {
@@ -231,7 +236,7 @@ std::vector<VectorXd> TrainedStates(const FittedModel& fitted,
       VectorXd& state = states.emplace_back(mean);
       for (std::size_t i = 0; i < trained->columns.size(); ++i) {
         const auto at = static_cast<Index>(i);
-        state[trained->columns[i]] =
+        state[form.readings[static_cast<std::size_t>(trained->columns[i])]] =
             trained->mean[at] + trained->scale[at] * scaled[at];
       }
     }
@@ -256,26 +261,28 @@ std::vector<VectorXd> TrainedStates(const FittedModel& fitted,
   return states;
 }
 
-// Errors along one position, in one thermal state, at even steps.
+// Errors along one position, in one thermal state, at even steps; NaN where
+// they are no numbers.
 using Profile = std::vector<double>;
 constexpr int kProfileSteps = 64;
 
 Profile ProfileOf(const MapProgram& program,
-                  const VectorXd& begin,
+                  int form,
                   VectorXd state,
                   std::size_t position) {
   constexpr double kForEver = 1e8;  // s
   const ProgramReading& reading = program.readings[position];
-  ProgramRun run(program, Precision::kDouble);
-  run.Begin(begin);
+  ProgramRun run(program, Precision::kDouble, form);
+  run.Begin(MeanReadings(program));
   double error = 0.0;
   run.Step(kForEver, state, &error);
   Profile profile;
   for (int k = 0; k <= kProfileSteps; ++k) {
     state[static_cast<Index>(position)] =
         reading.trained_min + Range(reading) * k / kProfileSteps;
-    if ((run.Step(0.0, state, &error) & kMapInvalid) != 0) continue;
-    profile.push_back(error);
+    const bool is_number = (run.Step(0.0, state, &error) & kMapInvalid) == 0;
+    profile.push_back(is_number ? error
+                                : std::numeric_limits<double>::quiet_NaN());
   }
   return profile;
 }
@@ -290,19 +297,59 @@ double LargestStep(const Profile& profile, double most) {
   return largest;
 }
 
+double LargestDifference(const Profile& a, const Profile& b, double most) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    largest = std::max(largest,
+                       std::fabs(std::clamp(a[k], -most, most) -
+                                 std::clamp(b[k], -most, most)));
+  }
+  return largest;
+}
+
+// The profiles of all maps in one state along one reading.
+struct Profiles {
+  std::size_t reading = 0;
+  std::vector<Profile> of_forms;
+};
+
+std::vector<Profiles> AllProfiles(const std::vector<const FittedModel*>& maps,
+                                  const MapProgram& program) {
+  std::vector<Profiles> all;
+  for (std::size_t k = 0; k < maps.size(); ++k) {
+    for (const VectorXd& state :
+         TrainedStates(*maps[k], program, program.forms[k])) {
+      for (std::size_t i = 0; i < program.readings.size(); ++i) {
+        // Without a position any reading will do: the states alone tell.
+        const bool stands_for_all =
+            i == 0 && std::ranges::none_of(program.readings,
+                                           &ProgramReading::is_position);
+        if (!program.readings[i].is_position && !stands_for_all) continue;
+        Profiles& profiles = all.emplace_back(Profiles{i, {}});
+        for (std::size_t form = 0; form < maps.size(); ++form) {
+          profiles.of_forms.push_back(
+              ProfileOf(program, static_cast<int>(form), state, i));
+        }
+      }
+    }
+  }
+  return all;
+}
+
 // The range of the errors, 0 with them, times what a day beyond may add.
-double DefaultMaxError(const FittedModel& fitted,
-                       const std::vector<Profile>& profiles,
-                       double steady) {
+double DefaultMaxError(const std::vector<const FittedModel*>& maps,
+                       const std::vector<Profiles>& all) {
   constexpr double kBeyond = 1.3;
-  double low = std::min(steady, 0.0);
-  double high = std::max(steady, 0.0);
-  if (fitted.guards) {
-    low = std::min(0.0, fitted.guards->error_min);
-    high = std::max(0.0, fitted.guards->error_max);
-  } else {
-    for (const Profile& profile : profiles) {
-      for (const double error : profile) {
+  double low = 0.0;
+  double high = 0.0;
+  for (std::size_t k = 0; k < maps.size(); ++k) {
+    if (const auto& guards = maps[k]->guards) {
+      low = std::min(low, guards->error_min);
+      high = std::max(high, guards->error_max);
+      continue;
+    }
+    for (const Profiles& profiles : all) {
+      for (const double error : profiles.of_forms[k]) {
         low = std::min(low, error);
         high = std::max(high, error);
       }
@@ -322,44 +369,37 @@ double Limit(const std::optional<double>& given,
   return value;
 }
 
-void SetLimits(const FittedModel& fitted,
+void SetLimits(const std::vector<const FittedModel*>& maps,
                const LimitOptions& options,
                MapProgram* program) {
   // Slopes between grid points, and of states in between, are somewhat larger.
   constexpr double kSteeper = 1.5;
-  const VectorXd begin = MeanReadings(fitted);
-  const std::vector<VectorXd> states = TrainedStates(fitted, *program);
-  std::vector<Profile> profiles;
-  std::vector<std::size_t> of;
-  for (std::size_t i = 0; i < program->readings.size(); ++i) {
-    // Without a position any reading will do: the states alone tell.
-    const bool stands_for_all =
-        i == 0 &&
-        std::ranges::none_of(program->readings, &ProgramReading::is_position);
-    if (!program->readings[i].is_position && !stands_for_all) continue;
-    for (const VectorXd& state : states) {
-      profiles.push_back(ProfileOf(*program, begin, state, i));
-      of.push_back(i);
-    }
-  }
-  double steady = 0.0;
-  ProgramRun run(*program, Precision::kDouble);
-  run.Begin(begin);
-  run.Step(0.0, begin, &steady);
+  // Of its range, how far a position comes back by itself: noise, overshoot.
+  constexpr double kBand = 1e-4;
+  const std::vector<Profiles> all = AllProfiles(maps, *program);
   ControllerLimits& limits = program->limits;
-  limits.max_error = Limit(
-      options.max_error, DefaultMaxError(fitted, profiles, steady), "error");
+  limits.max_error =
+      Limit(options.max_error, DefaultMaxError(maps, all), "error");
   limits.max_rate =
       Limit(options.max_rate,
             DefaultMaxRate(program->target.unit, limits.max_error),
             "rate");
-  for (std::size_t k = 0; k < profiles.size(); ++k) {
-    ProgramReading& reading = program->readings[of[k]];
+  for (const Profiles& profiles : all) {
+    ProgramReading& reading = program->readings[profiles.reading];
     if (!reading.is_position || !(Range(reading) > 0.0)) continue;
-    reading.slope =
-        std::max(reading.slope,
-                 kSteeper * LargestStep(profiles[k], limits.max_error) *
-                     kProfileSteps / Range(reading));
+    for (const Profile& profile : profiles.of_forms) {
+      reading.slope =
+          std::max(reading.slope,
+                   kSteeper * LargestStep(profile, limits.max_error) *
+                       kProfileSteps / Range(reading));
+    }
+    if (!program->has_directions()) continue;
+    limits.reversal =
+        std::max(limits.reversal,
+                 kSteeper * LargestDifference(profiles.of_forms[0],
+                                              profiles.of_forms[1],
+                                              limits.max_error));
+    limits.band = kBand * Range(reading);
   }
 }
 
@@ -397,15 +437,16 @@ double DefaultMaxRate(const data::Unit& unit, double max_error) {
   return max_error / kSeconds;
 }
 
-void AddController(const FittedModel& fitted,
+void AddController(const std::vector<const FittedModel*>& maps,
                    const LimitOptions& options,
                    MapProgram* program) {
-  SetBounds(fitted, &program->readings);
+  SetBounds(*maps.front(), program);
   SetWeights(&program->readings);
-  if (fitted.applicability != nullptr) {
-    AddJudgement(*fitted.applicability, program);
+  for (std::size_t k = 0; k < maps.size(); ++k) {
+    if (maps[k]->applicability == nullptr) continue;
+    AddJudgement(*maps[k]->applicability, program, &program->forms[k]);
   }
-  SetLimits(fitted, options, program);
+  SetLimits(maps, options, program);
   program->read = ReadRoutine(*program);
   program->move = MoveRoutine();
   program->MeasureSpaces();

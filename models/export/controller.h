@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "data/units.h"
 #include "models/error_model.h"
@@ -45,10 +46,11 @@ struct LimitOptions {
   std::optional<double> max_rate = std::nullopt;  // per s
 };
 
-/// Adds to a program what a controller needs around its arithmetic: limits,
-/// which readings are not to be believed, and the routines that see to it.
-/// Throws std::invalid_argument where a limit is not above 0 and finite.
-void AddController(const FittedModel& fitted,
+/// Adds to a program of `maps`, as many as its forms, what a controller needs
+/// around its arithmetic: limits, which readings are not to be believed, and
+/// the routines that see to it. Throws std::invalid_argument where a limit is
+/// not above 0 and finite.
+void AddController(const std::vector<const FittedModel*>& maps,
                    const LimitOptions& options,
                    MapProgram* program);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "models/export/controller.h"
+#include "models/export/error_curve.h"
 
 namespace errmap::models {
 namespace {
@@ -16,18 +17,44 @@ constexpr double kLongestStep = 1e9;
 constexpr double kFrozenWhile = 0.5;
 constexpr double kFrozenSteps = 5.0;
 
-Routine CheckReadings(const std::vector<ProgramReading>& readings) {
+// What `of_form` says of the map that acts in this direction of motion.
+template <typename OfForm>
+Routine OfTheForm(const MapProgram& program, const OfForm& of_form) {
+  Routine first = of_form(0);
+  if (!program.has_directions()) return first;
+  Routine second = of_form(1);
+  const Expression is_down = Read(Cell::kDown) > 0.0;
+  if (first.empty() && second.empty()) return {};
+  if (second.empty()) return {If(!is_down, std::move(first))};
+  return {If(is_down, std::move(second), std::move(first))};
+}
+
+void Append(Routine more, Routine* routine) {
+  for (Statement& statement : more) routine->push_back(std::move(statement));
+}
+
+Routine CheckReadings(const MapProgram& program) {
+  const std::vector<ProgramReading>& readings = program.readings;
   const Expression x{Cell::kReading};
-  Routine checks;
-  if (readings.empty()) return checks;
-  // A healthy reading is asked least; one that is no number is not within.
-  checks.push_back(
-      EachReading({If(!(x >= Cell::kLow && x <= Cell::kHigh),
-                      {Flag(kMapOutside),
-                       If(!(x >= Cell::kFarLow && x <= Cell::kFarHigh),
-                          {If(x > -kHuge && x < kHuge,
-                              {Flag(kMapFar)},
-                              {Flag(kMapInvalid)})})})}));
+  if (readings.empty()) return {};
+  Routine checks = OfTheForm(program, [&](int form) {
+    Routine ranges;
+    for (const TrainedRange& range :
+         program.forms[static_cast<std::size_t>(form)].ranges) {
+      const Expression reading{Cell::kReading, range.place.index};
+      ranges.push_back(If(!(reading >= range.low && reading <= range.high),
+                          {Flag(kMapOutside)}));
+    }
+    return ranges;
+  });
+  // One that is no number is not within.
+  Statement far = EachReading({If(
+      !(x >= Cell::kFarLow && x <= Cell::kFarHigh),
+      {If(x > -kHuge && x < kHuge, {Flag(kMapFar)}, {Flag(kMapInvalid)})})});
+  // A healthy reading is asked least; two maps may read different ones.
+  checks.push_back(program.has_directions()
+                       ? std::move(far)
+                       : If(Any(kMapOutside), {std::move(far)}));
   for (std::size_t i = 0; i < readings.size(); ++i) {
     for (const double value : readings[i].dead) {
       checks.push_back(
@@ -54,6 +81,26 @@ Routine WatchTheStill() {
                       {Set(Cell::kLast, x),
                        Set(Cell::kSince, common),
                        Set(Cell::kAlike, 0.0)})})})};
+}
+
+// Which of two maps acts: the position has gone one way, but for a little.
+Statement FollowDirection(const MapProgram& program) {
+  const Expression x{Cell::kReading, PositionOf(program)};
+  const Expression turn{Cell::kTurn};
+  const double band = program.limits.band;
+  const auto turn_to = [&](double down) -> Routine {
+    return {
+        Set(Cell::kDown, down),
+        Set(Cell::kTurn, x),
+        Set(Cell::kRoom, Cell::kRoom + Expression{program.limits.reversal})};
+  };
+  return If(Read(Cell::kBegun) > 0.0,
+            {If(Read(Cell::kDown) > 0.0,
+                {If(x < turn, {Set(Cell::kTurn, x)}),
+                 If(x > turn + band, turn_to(0.0))},
+                {If(x > turn, {Set(Cell::kTurn, x)}),
+                 If(x < turn - band, turn_to(1.0))})},
+            {Set(Cell::kTurn, x)});
 }
 
 // What the axis' own motion may change the error by.
@@ -95,14 +142,15 @@ Routine TakeStep(const MapProgram& program) {
                       {Do(Part::kZero), Set(Cell::kZeroDue, 0.0)}));
   }
   take.push_back(Set(Cell::kWaited, 0.0));
-  take.push_back(Do(Part::kEvaluate));
+  Append(OfTheForm(
+             program,
+             [](int form) -> Routine { return {Do(Part::kEvaluate, form)}; }),
+         &take);
   Routine good{Set(Cell::kMissed, 0.0), Set(Cell::kWanted, e)};
   if (Routine room = MakeRoom(program.readings); !room.empty()) {
     good.push_back(If(Read(Cell::kBegun) > 0.0, std::move(room)));
   }
-  for (Statement& keep : KeepPositions(program.readings)) {
-    good.push_back(std::move(keep));
-  }
+  Append(KeepPositions(program.readings), &good);
   good.push_back(Set(Cell::kBegun, 1.0));
   take.push_back(
       If(e > -kHuge && e < kHuge, std::move(good), {Flag(kMapInvalid)}));
@@ -123,21 +171,23 @@ Routine ReadRoutine(const MapProgram& program) {
   Routine read{TidyTime(true),
                Set(Cell::kWaited, Cell::kWaited + Expression{Cell::kDt}),
                Set(Cell::kMissed, missed + Cell::kDt)};
-  for (Statement& check : CheckReadings(program.readings)) {
-    read.push_back(std::move(check));
-  }
+  if (program.has_directions()) read.push_back(FollowDirection(program));
+  Append(CheckReadings(program), &read);
   Routine doubt;
   if (std::ranges::any_of(program.readings, [](const ProgramReading& reading) {
         return reading.weight > 0.0;
       })) {
     doubt = WatchTheStill();
   }
-  if (!program.judge.empty()) {
-    const Expression r{Cell::kDoubt};
-    doubt.push_back(Do(Part::kJudge));
-    doubt.push_back(EachReading(
-        {If(Absolute(r) > Cell::kBelieved, {Flag(kMapContradicts)})}));
-  }
+  Append(OfTheForm(
+             program,
+             [&](int form) -> Routine {
+               if (program.part(Part::kJudge, form).empty()) return {};
+               return {Do(Part::kJudge, form),
+                       EachReading({If(Absolute(Cell::kDoubt) > Cell::kBelieved,
+                                       {Flag(kMapContradicts)})})};
+             }),
+         &doubt);
   if (!doubt.empty()) read.push_back(If(!Any(kMapNotTaken), std::move(doubt)));
   read.push_back(If(!Any(kMapNotTaken), TakeStep(program)));
   read.push_back(If(Any(kMapNotTaken) && missed > program.limits.hold,

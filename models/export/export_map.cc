@@ -7,6 +7,7 @@
 
 #include "data/argument_name.h"
 #include "data/measurements/row_filters.h"
+#include "models/export/map_pair.h"
 #include "models/export/safe_names.h"
 
 namespace errmap::models {
@@ -37,7 +38,7 @@ void RequireMadeFor(const FittedModel& fitted, Motion motion) {
   }
 }
 
-MapExport PrepareExport(const FittedModel& fitted,
+MapExport PrepareExport(const std::vector<const FittedModel*>& maps,
                         const std::string& name,
                         Precision precision,
                         const LimitOptions& limits) {
@@ -49,15 +50,28 @@ MapExport PrepareExport(const FittedModel& fitted,
         kLongestMapName,
         safe));
   }
-  MapExport made{
-      .name = name, .precision = precision, .program = MakeMapProgram(fitted)};
-  AddController(fitted, limits, &made.program);
-  const std::vector<SelfTestRow> rows = SelfTestRows(fitted, made.program);
-  made.num_checked = rows.size();
-  made.error_range = ErrorRange(fitted, rows);
-  made.deviations =
-      FindDeviations(made.program, precision, rows, made.error_range);
-  made.rows = ControllerSession(fitted, made.program, precision);
+  std::vector<MapProgram> programs;
+  for (const FittedModel* map : maps) {
+    programs.push_back(MakeMapProgram(*map));
+  }
+  MapExport made{.name = name,
+                 .precision = precision,
+                 .program = maps.size() == 1
+                                ? programs.front()
+                                : JoinedPrograms(programs[0], programs[1])};
+  AddController(maps, limits, &made.program);
+  for (std::size_t k = 0; k < maps.size(); ++k) {
+    const std::vector<SelfTestRow> rows = SelfTestRows(*maps[k], programs[k]);
+    const double range = ErrorRange(*maps[k], rows);
+    const Deviations found = FindDeviations(
+        made.program, precision, rows, range, static_cast<int>(k));
+    made.num_checked += rows.size();
+    made.error_range = std::max(made.error_range, range);
+    made.deviations.inside = std::max(made.deviations.inside, found.inside);
+    made.deviations.anywhere =
+        std::max(made.deviations.anywhere, found.anywhere);
+  }
+  made.rows = ControllerSession(*maps.front(), made.program, precision);
   if (precision == Precision::kSingle &&
       !(made.deviations.inside <= AllowedDeviation(precision))) {
     throw std::invalid_argument(

@@ -34,11 +34,13 @@ void RequireMadeFor(const FittedModel& fitted, Motion motion);
 /// Longest name of an exported map.
 inline constexpr std::size_t kLongestMapName = 40;
 
-/// Makes the program with its controller and holds it against the map. Throws
-/// std::invalid_argument as MakeMapProgram and AddController, on a name that is
-/// no safe identifier of at most kLongestMapName characters, and where single
-/// precision loses more than AllowedDeviation within the trained range.
-MapExport PrepareExport(const FittedModel& fitted,
+/// Makes the program of one map, or of those of increasing and decreasing
+/// positions, with its controller, and holds it against each map. Throws
+/// std::invalid_argument as MakeMapProgram, JoinedPrograms and AddController,
+/// on a name that is no safe identifier of at most kLongestMapName characters,
+/// and where single precision loses more than AllowedDeviation within the
+/// trained range.
+MapExport PrepareExport(const std::vector<const FittedModel*>& maps,
                         const std::string& name,
                         Precision precision,
                         const LimitOptions& limits = {});

@@ -35,13 +35,9 @@ double ErrorByItself(const MapProgram& program,
 
 }  // namespace
 
-std::vector<FailingSensor> WorstOfFailing(const FittedModel& fitted,
-                                          const MapProgram& program) {
+std::vector<FailingSensor> WorstOfFailing(const MapProgram& program) {
   constexpr int kValues = 64;
-  VectorXd healthy(static_cast<Eigen::Index>(fitted.inputs.size()));
-  for (std::size_t i = 0; i < fitted.inputs.size(); ++i) {
-    healthy[static_cast<Eigen::Index>(i)] = fitted.inputs[i].mean;
-  }
+  const VectorXd healthy = MeanReadings(program);
   const double by_itself = ErrorByItself(program, healthy, healthy);
   const double with_checks = ErrorWithChecks(program, healthy, healthy);
   std::vector<FailingSensor> found;

@@ -19,7 +19,6 @@ struct FailingSensor {
 
 /// Of every sensor, the one that does most by itself first. `program` with its
 /// controller.
-std::vector<FailingSensor> WorstOfFailing(const FittedModel& fitted,
-                                          const MapProgram& program);
+std::vector<FailingSensor> WorstOfFailing(const MapProgram& program);
 
 }  // namespace errmap::models

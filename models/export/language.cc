@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "models/export/error_curve.h"
 #include "models/export/safe_names.h"
 #include "models/history/lag.h"
 #include "models/version.h"
@@ -192,7 +193,7 @@ Lines Language::WriteOne(const MapProgram& program, const Statement& it) const {
     case Statement::Kind::kFlag:
       return {Flag(it.flag)};
     case Statement::Kind::kRun:
-      return Write(program, program.part(it.part));
+      return Write(program, program.part(it.part, it.form));
     case Statement::Kind::kEachReading: {
       const int count = program.size(Space::kReading);
       return end(
@@ -326,6 +327,23 @@ Lines AboutMap(const MapProgram& program,
                                 UnitText(reading.column.unit),
                                 reading.trained_min,
                                 reading.trained_max));
+  }
+  if (program.has_directions()) {
+    const int position = PositionOf(program);
+    const std::string where = CommentText(
+        program.readings[static_cast<std::size_t>(position)].column.name);
+    lines.insert(
+        lines.end(),
+        {"",
+         fmt::format("Two maps: the first acts while {} increases, the second",
+                     where),
+         fmt::format("while it decreases. A turn counts once it has come back "
+                     "by {:.3g};",
+                     program.limits.band),
+         fmt::format("the error may then change by {:.3g} at once. Before any "
+                     "motion the",
+                     program.limits.reversal),
+         "first one acts."});
   }
   lines.push_back("");
   for (std::string& line : AboutLimits(program)) {

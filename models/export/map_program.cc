@@ -317,7 +317,7 @@ class FormWriter {
   static constexpr Operand kOutput{Space::kTerm, 0};
 
   void Add(const Instruction& instruction) {
-    program_->evaluate.push_back(instruction);
+    program_->forms.front().evaluate.push_back(instruction);
   }
 
   // One for each form: a new one does not compile without its own.
@@ -444,6 +444,13 @@ class FormWriter {
   MapProgram* program_;
 };
 
+TrainedRange RangeOf(Operand place, double min, double max) {
+  // As FlagRows in models/promise/applicability.cc.
+  constexpr double kLittle = 0.02;
+  const double little = kLittle * (max - min);
+  return {place, min - little, max + little};
+}
+
 }  // namespace
 
 void MapProgram::MeasureSpaces() {
@@ -463,10 +470,6 @@ void MapProgram::MeasureSpaces() {
 
 double TableValue(const ProgramReading& reading, Cell cell) {
   switch (cell) {
-    case Cell::kLow:
-      return reading.low;
-    case Cell::kHigh:
-      return reading.high;
     case Cell::kFarLow:
       return reading.far_low;
     case Cell::kFarHigh:
@@ -478,7 +481,8 @@ double TableValue(const ProgramReading& reading, Cell cell) {
   }
 }
 
-const Instructions& MapProgram::part(Part part) const {
+const Instructions& MapProgram::part(Part part, int form) const {
+  const MapForm& of = forms[static_cast<std::size_t>(form)];
   switch (part) {
     case Part::kBegin:
       return begin;
@@ -487,16 +491,26 @@ const Instructions& MapProgram::part(Part part) const {
     case Part::kZero:
       return zero;
     case Part::kEvaluate:
-      return evaluate;
+      return of.evaluate;
     case Part::kJudge:
       break;
   }
-  return judge;
+  return of.judge;
+}
+
+std::vector<const Instructions*> MapProgram::parts() const {
+  std::vector<const Instructions*> all{&begin, &advance, &zero};
+  for (const MapForm& form : forms) {
+    all.insert(all.end(), {&form.evaluate, &form.judge});
+  }
+  return all;
 }
 
 bool MapProgram::IsTableDouble(std::size_t table) const {
-  return std::ranges::any_of(judge, [table](const Instruction& it) {
-    return it.op == Op::kAffine && it.table == table;
+  return std::ranges::any_of(forms, [table](const MapForm& form) {
+    return std::ranges::any_of(form.judge, [table](const Instruction& it) {
+      return it.op == Op::kAffine && it.table == table;
+    });
   });
 }
 
@@ -505,9 +519,18 @@ bool MapProgram::Uses(Cell cell) const {
 }
 
 bool MapProgram::Uses(Op op) const {
-  return std::ranges::any_of(parts(), [op](const Instructions* part) {
+  const std::vector<const Instructions*> all = parts();
+  return std::ranges::any_of(all, [op](const Instructions* part) {
     return std::ranges::find(*part, op, &Instruction::op) != part->end();
   });
+}
+
+Eigen::VectorXd MeanReadings(const MapProgram& program) {
+  Eigen::VectorXd mean(std::ssize(program.readings));
+  for (Index i = 0; i < mean.size(); ++i) {
+    mean[i] = program.readings[static_cast<std::size_t>(i)].trained_mean;
+  }
+  return mean;
 }
 
 MapProgram MakeMapProgram(const FittedModel& fitted) {
@@ -522,16 +545,21 @@ MapProgram MakeMapProgram(const FittedModel& fitted) {
   program.target = fitted.target;
   program.since_first_row = fitted.align == data::Alignment::kFirst;
   program.made_for = CommentText(data::FiltersText(fitted.where));
+  MapForm& form = program.forms.front();
   for (const TrainedInput& input : fitted.inputs) {
+    form.readings.push_back(AsInt(program.readings.size()));
+    form.ranges.push_back(
+        RangeOf({Space::kReading, form.readings.back()}, input.min, input.max));
     program.readings.push_back({.column = input.column,
                                 .trained_min = input.min,
-                                .trained_max = input.max});
+                                .trained_max = input.max,
+                                .trained_mean = input.mean});
   }
   const Layout layout(fitted);
   program.begin = Derive(layout, Moment::kBegin);
   program.advance = Derive(layout, Moment::kAdvance);
   program.zero = Derive(layout, Moment::kZero);
-  program.evaluate = Derive(layout, Moment::kEvaluate);
+  form.evaluate = Derive(layout, Moment::kEvaluate);
   std::vector<Operand> inputs = layout.form();
   FormWriter writer(&program);
   if (fitted.guards) writer.ClipInputs(*fitted.guards, &inputs);

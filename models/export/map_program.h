@@ -9,44 +9,10 @@
 #include <Eigen/Core>
 
 #include "models/error_model.h"
+#include "models/export/operand.h"
 #include "models/export/routine.h"
 
 namespace errmap::models {
-
-/// Where a number of a program lives.
-enum class Space {
-  kReading,   // an input as the sensor gives it
-  kTime,      // seconds since the step before
-  kState,     // kept from step to step: filters and zeros
-  kGain,      // of the filters of one time constant, in this step: two each
-  kDerived,   // computed from readings and state
-  kForm,      // an input of the form, clipped
-  kScaled,    // the same, scaled for a member
-  kHidden,    // hidden nodes of a net
-  kTerm,      // partial sums of a polynomial, output of a net
-  kError,     // the predicted error
-  kStanding,  // sensors less their trained means
-  kScore,     // of the thermal state that they tell together
-  kDoubt,     // how far each reading is from what others tell
-};
-inline constexpr std::size_t kNumSpaces = 13;
-
-/// Time, gains, states and what is derived from them stay double where all else
-/// is single: in single precision a slow filter stands still. So do the checks,
-/// which must not depend on it.
-constexpr bool IsAlwaysDouble(Space space) {
-  return space == Space::kTime || space == Space::kState ||
-         space == Space::kGain || space == Space::kDerived ||
-         space == Space::kStanding || space == Space::kScore ||
-         space == Space::kDoubt;
-}
-
-struct Operand {
-  Space space = Space::kError;
-  int index = 0;
-
-  bool operator==(const Operand&) const = default;
-};
 
 /// What an instruction does; `a`, `b`, `to` are operands, `c`, `d` numbers.
 enum class Op {
@@ -90,10 +56,9 @@ struct ProgramReading {
   data::ColumnInfo column;
   double trained_min = 0.0;
   double trained_max = 0.0;
+  double trained_mean = 0.0;
   /// A position comes from the control itself: it is no sensor that can fail.
   bool is_position = false;
-  double low = 0.0;  // beyond these it is outside
-  double high = 0.0;
   /// Beyond these it comes from a failed sensor sooner than from the machine.
   double far_low = 0.0;
   double far_high = 0.0;
@@ -110,12 +75,8 @@ struct ProgramReading {
 };
 
 /// The cells of CellKind::kTable, and what a reading puts there.
-inline constexpr Cell kTables[] = {Cell::kLow,
-                                   Cell::kHigh,
-                                   Cell::kFarLow,
-                                   Cell::kFarHigh,
-                                   Cell::kWeight,
-                                   Cell::kBelieved};
+inline constexpr Cell kTables[] = {
+    Cell::kFarLow, Cell::kFarHigh, Cell::kWeight, Cell::kBelieved};
 double TableValue(const ProgramReading& reading, Cell cell);
 
 /// What holds the error given, whatever the readings say.
@@ -124,6 +85,28 @@ struct ControllerLimits {
   double max_error = std::numeric_limits<double>::infinity();
   double max_rate = 0.0;  // largest change per s, but for the axis' own motion
   double hold = 60.0;     // s for which the last good error is held
+  /// Of two maps: how far the position comes back before the other one acts,
+  /// and what the error may change by then.
+  double band = 0.0;      // position's unit
+  double reversal = 0.0;  // target's unit
+};
+
+/// Where a number was in training, and a little more (as `predict` lets pass).
+struct TrainedRange {
+  Operand place;
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// What a map has for itself where two act, one in each direction of motion.
+struct MapForm {
+  /// From readings and state to the error.
+  Instructions evaluate = {};
+  /// From readings to kDoubt, where 1 is as far as `predict` lets pass.
+  Instructions judge = {};
+  std::vector<TrainedRange> ranges = {};
+  /// Of each of its inputs: the program's reading.
+  std::vector<int> readings = {};
 };
 
 /// A map as the arithmetic that a controller does: what every exported
@@ -143,10 +126,8 @@ struct MapProgram {
   Instructions advance;
   /// Takes the zero at these readings.
   Instructions zero;
-  /// From readings and state to the error.
-  Instructions evaluate;
-  /// From readings to kDoubt, where 1 is as far as `predict` lets pass.
-  Instructions judge;
+  /// One map, or that of increasing positions, then that of decreasing ones.
+  std::vector<MapForm> forms = std::vector<MapForm>(1);
   ControllerLimits limits;
   /// What a controller does when readings come: believes them or not, and so
   /// sets the error that is wanted.
@@ -157,11 +138,10 @@ struct MapProgram {
 
   int size(Space space) const { return sizes[static_cast<std::size_t>(space)]; }
   bool has_memory() const { return size(Space::kState) > 0; }
-  const Instructions& part(Part part) const;
-  /// All five parts, in the order of the members.
-  std::array<const Instructions*, 5> parts() const {
-    return {&begin, &advance, &zero, &evaluate, &judge};
-  }
+  bool has_directions() const { return forms.size() > 1; }
+  const Instructions& part(Part part, int form = 0) const;
+  /// All parts, those of the forms last.
+  std::vector<const Instructions*> parts() const;
   /// Whether a table is for numbers that are always double.
   bool IsTableDouble(std::size_t table) const;
   /// Whether a routine reads or writes the cell.
@@ -171,6 +151,9 @@ struct MapProgram {
   /// Whether some part has this instruction.
   bool Uses(Op op) const;
 };
+
+/// Of all readings.
+Eigen::VectorXd MeanReadings(const MapProgram& program);
 
 /// The arithmetic of a map, without limits (controller.h adds them). Throws
 /// std::invalid_argument where a filter of its history runs in another unit of

@@ -113,7 +113,7 @@ void CountRoutine(const MapProgram& program,
     switch (it.kind) {
       case Statement::Kind::kRun:
         if (it.part == Part::kBegin || it.part == Part::kZero) break;
-        for (const Instruction& step : program.part(it.part)) {
+        for (const Instruction& step : program.part(it.part, it.form)) {
           Count(program, step, cost);
         }
         break;
@@ -139,8 +139,10 @@ void CountRoutine(const MapProgram& program,
 ProgramCost CostOf(const MapProgram& program) {
   ProgramCost cost;
   if (program.read.empty()) {
-    for (const Instructions* part : {&program.advance, &program.evaluate}) {
-      for (const Instruction& it : *part) Count(program, it, &cost);
+    for (const Part part : {Part::kAdvance, Part::kEvaluate}) {
+      for (const Instruction& it : program.part(part)) {
+        Count(program, it, &cost);
+      }
     }
   }
   CountRoutine(program, program.read, &cost);

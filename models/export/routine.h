@@ -28,12 +28,12 @@ enum class Cell {
   kRoom,       // what it may still change by
   kMostError,  // limits
   kMostRate,
+  kDown,   // 1: the map of decreasing positions acts
+  kTurn,   // the furthest position in the direction of motion
   kLast,   // array: of each reading, the one before
   kSince,  // array: of each reading, kCommon when it last changed
   kAlike,  // array: steps since then
   // Constants of each reading (ProgramReading), arrays.
-  kLow,
-  kHigh,
   kFarLow,
   kFarHigh,
   kWeight,
@@ -98,6 +98,7 @@ struct Statement {
   std::vector<Expression> sides = {};     // kAssign: to, value; kIf: condition
   int flag = 0;                           // kFlag: a bit of the status
   Part part = Part::kEvaluate;            // kRun
+  int form = 0;                           // kRun: of MapProgram::forms
   std::vector<Statement> body = {};       // kIf, loops
   std::vector<Statement> otherwise = {};  // kIf
 };
@@ -172,8 +173,8 @@ inline Statement EachReading(Routine body) {
 inline Statement Flag(int bit) {
   return {.kind = Statement::Kind::kFlag, .flag = bit};
 }
-inline Statement Do(Part part) {
-  return {.kind = Statement::Kind::kRun, .part = part};
+inline Statement Do(Part part, int form = 0) {
+  return {.kind = Statement::Kind::kRun, .part = part, .form = form};
 }
 
 }  // namespace errmap::models

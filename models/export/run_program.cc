@@ -8,8 +8,8 @@ namespace errmap::models {
 
 using Eigen::Index;
 
-ProgramRun::ProgramRun(const MapProgram& program, Precision precision)
-    : program_(&program), precision_(precision) {
+ProgramRun::ProgramRun(const MapProgram& program, Precision precision, int form)
+    : program_(&program), precision_(precision), form_(form) {
   for (std::size_t i = 0; i < kNumSpaces; ++i) {
     values_[i].assign(static_cast<std::size_t>(program.sizes[i]), 0.0);
   }
@@ -32,7 +32,7 @@ int ProgramRun::Step(double dt,
   At({Space::kTime, 0}) = dt;
   Execute(program_->advance);
   ClearClipped();
-  Execute(program_->evaluate);
+  Execute(program_->part(Part::kEvaluate, form_));
   const double found = At({Space::kError, 0});
   if (!std::isfinite(found)) return kMapInvalid;
   *error = found;
@@ -188,7 +188,7 @@ void ControllerRun::RunOne(const Statement& it) {
       return;
     case Statement::Kind::kRun:
       run_.At({Space::kTime, 0}) = Value(Cell::kWaited);
-      return run_.Execute(program_->part(it.part));
+      return run_.Execute(program_->part(it.part, it.form));
   }
 }
 

@@ -17,7 +17,7 @@ enum class Precision { kDouble, kSingle };
 class ProgramRun {
  public:
   /// `program` must outlive the run.
-  ProgramRun(const MapProgram& program, Precision precision);
+  ProgramRun(const MapProgram& program, Precision precision, int form = 0);
 
   /// Begins a session; kMapInvalid, and nothing begun, where a reading is not
   /// finite.
@@ -42,6 +42,7 @@ class ProgramRun {
 
   const MapProgram* program_;
   Precision precision_;
+  int form_;  // of the program, which gives the error
   std::array<std::vector<double>, kNumSpaces> values_;
   bool clipped_ = false;
 };

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "models/export/map_pair.h"
 #include "models/history/history.h"
 #include "models/history/history_state.h"
 #include "models/map_experience.h"
@@ -27,13 +28,14 @@ double ReachOf(const FittedModel& fitted, int row) {
 }
 
 // Readings that wander about, each at a pace of its own.
-Eigen::VectorXd ReadingsOf(const std::vector<TrainedInput>& inputs,
-                           int row,
-                           double reach) {
-  Eigen::VectorXd readings(static_cast<Index>(inputs.size()));
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const double middle = 0.5 * (inputs[i].min + inputs[i].max);
-    const double half = 0.5 * (inputs[i].max - inputs[i].min);
+Eigen::VectorXd WanderingReadings(const MapProgram& program,
+                                  int row,
+                                  double reach) {
+  Eigen::VectorXd readings(std::ssize(program.readings));
+  for (std::size_t i = 0; i < program.readings.size(); ++i) {
+    const ProgramReading& reading = program.readings[i];
+    const double middle = 0.5 * (reading.trained_min + reading.trained_max);
+    const double half = 0.5 * (reading.trained_max - reading.trained_min);
     const double turns = std::numbers::phi * row / 6.0 +
                          std::numbers::sqrt2 * static_cast<double>(i);
     readings[static_cast<Index>(i)] =
@@ -84,15 +86,17 @@ bool IsInside(const MapProgram& program, const Eigen::VectorXd& readings) {
 
 // How far each sensor goes with the others: along the first direction of the
 // thermal states, as far as all stay within their trained range.
-Eigen::VectorXd CommonSwing(const FittedModel& fitted) {
+Eigen::VectorXd CommonSwing(const FittedModel& first,
+                            const MapProgram& program) {
   constexpr double kWithin = 0.9;
-  Eigen::VectorXd swing(static_cast<Index>(fitted.inputs.size()));
+  Eigen::VectorXd swing(std::ssize(program.readings));
   for (Index i = 0; i < swing.size(); ++i) {
-    const TrainedInput& input = fitted.inputs[static_cast<std::size_t>(i)];
-    swing[i] =
-        kWithin * std::min(input.max - input.mean, input.mean - input.min);
+    const ProgramReading& reading =
+        program.readings[static_cast<std::size_t>(i)];
+    swing[i] = kWithin * std::min(reading.trained_max - reading.trained_mean,
+                                  reading.trained_mean - reading.trained_min);
   }
-  const Applicability* trained = fitted.applicability.get();
+  const Applicability* trained = first.applicability.get();
   if (trained == nullptr) return swing;
   const Eigen::VectorXd along =
       trained->scale.cwiseProduct(trained->directions.col(0));
@@ -111,18 +115,18 @@ Eigen::VectorXd CommonSwing(const FittedModel& fitted) {
 }
 
 // Sensors that warm up and cool down together, positions that wander.
-Eigen::VectorXd CommonReadings(const FittedModel& fitted,
-                               const MapProgram& program,
+Eigen::VectorXd CommonReadings(const MapProgram& program,
                                const Eigen::VectorXd& swing,
                                int row) {
   constexpr double kOwn = 0.01;  // of the range, each sensor by itself
-  Eigen::VectorXd readings = ReadingsOf(fitted.inputs, row, 0.98);
-  for (std::size_t i = 0; i < fitted.inputs.size(); ++i) {
-    if (program.readings[i].is_position) continue;
+  Eigen::VectorXd readings = WanderingReadings(program, row, 0.98);
+  for (std::size_t i = 0; i < program.readings.size(); ++i) {
+    const ProgramReading& reading = program.readings[i];
+    if (reading.is_position) continue;
     const auto at = static_cast<Index>(i);
-    const TrainedInput& input = fitted.inputs[i];
-    const double own = readings[at] - 0.5 * (input.min + input.max);
-    readings[at] = input.mean +
+    const double own =
+        readings[at] - 0.5 * (reading.trained_min + reading.trained_max);
+    readings[at] = reading.trained_mean +
                    swing[at] * std::sin(2.0 * std::numbers::pi * 0.07 * row) +
                    kOwn * own;
   }
@@ -165,16 +169,16 @@ void Fail(const MapProgram& program, int failure, SelfTestRow* row) {
 
 }  // namespace
 
-std::vector<SelfTestRow> ControllerSession(const FittedModel& fitted,
+std::vector<SelfTestRow> ControllerSession(const FittedModel& first,
                                            const MapProgram& program,
                                            Precision precision) {
-  const Eigen::VectorXd swing = CommonSwing(fitted);
+  const Eigen::VectorXd swing = CommonSwing(first, program);
   std::vector<SelfTestRow> rows;
   for (int i = 0; i < kNumHealthy + kNumFailures + 2; ++i) {
     const int failure = i - kNumHealthy;
     SelfTestRow& row = rows.emplace_back(
         SelfTestRow{.dt = StepBefore(i + 1),
-                    .readings = CommonReadings(fitted, program, swing, i)});
+                    .readings = CommonReadings(program, swing, i)});
     if (failure >= 0 && failure < kNumFailures) Fail(program, failure, &row);
   }
   ControllerRun exact(program, Precision::kDouble);
@@ -193,7 +197,7 @@ std::vector<SelfTestRow> SelfTestRows(const FittedModel& fitted,
   for (int row = 0; row < kNumRows; ++row) {
     rows.push_back(
         {.dt = StepBefore(row),
-         .readings = ReadingsOf(fitted.inputs, row, ReachOf(fitted, row))});
+         .readings = WanderingReadings(program, row, ReachOf(fitted, row))});
   }
   const Prediction prediction = fitted.PredictForm(FormInputs(fitted, rows));
   std::vector<SelfTestRow> finite;
@@ -230,13 +234,16 @@ double ErrorRange(const FittedModel& fitted,
 Deviations FindDeviations(const MapProgram& program,
                           Precision precision,
                           const std::vector<SelfTestRow>& rows,
-                          double error_range) {
-  ProgramRun run(program, precision);
+                          double error_range,
+                          int form) {
+  ProgramRun run(program, precision, form);
   Deviations worst;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (i == 0) run.Begin(rows[i].readings);
+    const Eigen::VectorXd readings = ReadingsOfProgram(
+        program, static_cast<std::size_t>(form), rows[i].readings);
+    if (i == 0) run.Begin(readings);
     double error = std::numeric_limits<double>::infinity();
-    run.Step(rows[i].dt, rows[i].readings, &error);
+    run.Step(rows[i].dt, readings, &error);
     const double deviation = std::fabs(error - rows[i].error) / error_range;
     worst.anywhere = std::max(worst.anywhere, deviation);
     if ((rows[i].status & kMapOutside) != 0) continue;

@@ -25,8 +25,9 @@ std::vector<SelfTestRow> SelfTestRows(const FittedModel& fitted,
 
 /// One session of readings that go together as in training, then fail in
 /// several ways and come back, with what a controller must say of each row: for
-/// an exported file to test itself. `program` with its controller.
-std::vector<SelfTestRow> ControllerSession(const FittedModel& fitted,
+/// an exported file to test itself. `program` with its controller, whose first
+/// map tells how sensors go together.
+std::vector<SelfTestRow> ControllerSession(const FittedModel& first,
                                            const MapProgram& program,
                                            Precision precision);
 
@@ -36,8 +37,8 @@ std::vector<SelfTestRow> ControllerSession(const FittedModel& fitted,
 double ErrorRange(const FittedModel& fitted,
                   const std::vector<SelfTestRow>& rows);
 
-/// The largest differences between a program and its map, over their error
-/// range.
+/// The largest differences between a program and its map `form`, over their
+/// error range.
 struct Deviations {
   double inside = 0.0;    // of rows within the trained range
   double anywhere = 0.0;  // of all rows
@@ -45,7 +46,8 @@ struct Deviations {
 Deviations FindDeviations(const MapProgram& program,
                           Precision precision,
                           const std::vector<SelfTestRow>& rows,
-                          double error_range);
+                          double error_range,
+                          int form = 0);
 
 /// What it may be within the trained range.
 constexpr double AllowedDeviation(Precision precision) {

@@ -38,6 +38,9 @@ MAPS = {
     # The one whose dead sensor asked for -166.8 mm.
     "stepwise": ["poly:stepwise", "position_mm,t12_degC,t30_degC,t06_degC,"
                  "t25_degC"],
+    # One map for each direction of motion.
+    "pair": ["poly:ridge:view=history", "position_mm,t03_degC,t12_degC,"
+             "t30_degC"],
 }
 
 DRIVER = """#include <stdio.h>
@@ -71,15 +74,57 @@ def run(*words, text=None, folder=None):
                           cwd=folder, input=text).stdout
 
 
+def both_directions(folder):
+    """The rows of up and down of each day, in the order of time."""
+    rows = []
+    for way in ("up", "down"):
+        with open(folder / f"sim/x_displacement_{way}.csv",
+                  encoding="utf-8") as file:
+            rows += csv.DictReader(file)
+    rows.sort(key=lambda row: (int(row["day"]), float(row["time_s"])))
+    with open(folder / "both.csv", "w", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, rows[0].keys())
+        writer.writeheader()
+        writer.writerows(rows)
+    return "both.csv"
+
+
+class Direction:
+    """Whether the position decreases, as the head of a file tells."""
+
+    def __init__(self, band):
+        self.band, self.down, self.turn = band, False, None
+
+    def follow(self, position):
+        """Whether it turned."""
+        if self.turn is None:
+            self.turn = position
+        back = position - self.turn if self.down else self.turn - position
+        if back > self.band:
+            self.down, self.turn = not self.down, position
+            return True
+        if back < 0.0:
+            self.turn = position
+        return False
+
+
 class Exported:
-    def __init__(self, name, folder, errmap, data):
+    def __init__(self, name, folder, errmap):
         spec, inputs = MAPS[name]
         self.name = name
         self.folder = folder
-        run(errmap, "fit", data, "--model", spec, "--inputs", inputs, "-o",
-            name + ".json", "--quiet", "--no-interval", folder=folder)
-        run(errmap, "export", name + ".json", "--c", "--python", "--st", "-o",
-            ".", "--quiet", folder=folder)
+        ways = ["up", "down"] if name == "pair" else ["down"]
+        data = (both_directions(folder) if name == "pair"
+                else "sim/x_displacement_down.csv")
+        files = [f"{name}_{way}.json" for way in ways]
+        for way, file in zip(ways, files):
+            run(errmap, "fit", f"sim/x_displacement_{way}.csv", "--model",
+                spec, "--inputs", inputs, "-o", file, "--quiet",
+                "--no-interval", folder=folder)
+        maps = (files if len(files) == 1 else
+                ["--increasing", files[0], "--decreasing", files[1]])
+        run(errmap, "export", *maps, "--c", "--python", "--st", "--name", name,
+            "-o", ".", "--quiet", folder=folder)
         (folder / "driver.c").write_text(DRIVER.format(name))
         run("cc", "-std=c99", "-O2", "driver.c", name + ".c", "-o",
             name + ".exe", "-lm", folder=folder)
@@ -87,19 +132,25 @@ class Exported:
             name, folder / (name + ".py"))
         self.map = importlib.util.module_from_spec(module)
         module.loader.exec_module(self.map)
-        slope = re.search(r"Motion of the axis adds up to (\S+) mm",
-                          (folder / (name + ".h")).read_text())
-        self.slope = 1.01 * float(slope[1])  # of three digits
+        head = (folder / (name + ".h")).read_text()
+        of_head = lambda words: float(re.search(words, head)[1])
+        self.slope = 1.01 * of_head(  # of three digits
+            r"Motion of the axis adds up to (\S+) mm")
+        self.reversal, self.band = 0.0, math.inf
+        if name == "pair":
+            self.band = of_head(r"has come back by (\S+);")
+            self.reversal = 1.01 * of_head(r"then change by (\S+) at once")
         self.position = self.map.INPUTS.index("position_mm")
-        with open(data, encoding="utf-8") as file:
+        with open(folder / data, encoding="utf-8") as file:
             self.days = {}
             for row in csv.DictReader(file):
                 self.days.setdefault(row["day"], []).append(
                     [float(row["time_s"])]
                     + [float(row[column]) for column in self.map.INPUTS])
-        self.predicted = [float(row["predicted"]) for row in csv.DictReader(
-            run(errmap, "predict", name + ".json", data, "--quiet",
-                folder=folder).splitlines())]
+        self.predicted = [
+            [float(row["predicted"]) for row in csv.DictReader(
+                run(errmap, "predict", file, data, "--quiet",
+                    folder=folder).splitlines())] for file in files]
 
     def in_python(self, rows):
         session = self.map.Map()
@@ -152,10 +203,13 @@ def fail(rows, kind, which, begin, end, other):
 def check_limits(exported, rows, found, what):
     limits = exported.map.Map()
     given, last = 0.0, None
+    direction = Direction(exported.band)
     for (dt, *inputs), (error, status) in zip(rows, found):
         check(what + ": a number within the limit",
               abs(error) <= limits.max_error, error)
         allowed = limits.max_rate * (LONG if last is None else dt)
+        if direction.follow(inputs[exported.position]):
+            allowed += exported.reversal
         if not status & exported.map.NOT_TAKEN:
             at = inputs[exported.position]
             if last is not None:
@@ -187,16 +241,24 @@ def check_recovery(exported, rows, found, what):
 
 
 def check_healthy(exported):
-    at, held, rows = 0, 0, 0
+    at, held, turned = 0, 0, 0
     for day in exported.days.values():
-        for error, status in exported.in_python(steps_of(day)):
+        direction = Direction(exported.band)
+        steps = steps_of(day)
+        for (_, *inputs), (error, status) in zip(steps,
+                                                 exported.in_python(steps)):
             held += bool(status & exported.map.NOT_TAKEN)
+            turned += direction.follow(inputs[exported.position])
+            predicted = exported.predicted[int(direction.down)][at]
             check(exported.name + ": healthy rows are as predicted",
-                  abs(error - exported.predicted[at]) <= PREDICTS,
-                  (at, error, exported.predicted[at], status))
+                  abs(error - predicted) <= PREDICTS,
+                  (at, error, predicted, status))
             at += 1
-            rows += 1
     check(exported.name + ": healthy rows are believed", held == 0, held)
+    check(exported.name + ": the axis turns and the maps differ",
+          exported.name != "pair" or turned > 20 and max(
+              abs(up - down) for up, down in zip(*exported.predicted)) > 1e-3,
+          turned)
 
 
 def check_failure(exported, chance, with_structured_text):
@@ -212,7 +274,9 @@ def check_failure(exported, chance, with_structured_text):
             f"{begin} to {end}")
     found = exported.in_python(rows)
     check_limits(exported, rows, found, what)
-    check_recovery(exported, rows, found, what)
+    # Which way the axis went in rows that were left out is not known.
+    if exported.name != "pair":
+        check_recovery(exported, rows, found, what)
     allowed = LANGUAGES_AGREE * exported.map.Map().max_error
     for mine, other in zip(found, exported.in_c(rows)):
         check(what + ": C says the same",
@@ -238,8 +302,7 @@ def main():
         folder = pathlib.Path(name)
         run(errmap, "simulate", "turning-centre", "-o", "sim", "--days", "3",
             "--cycles", "4", "--seed", "3", "--quiet", folder=folder)
-        data = str(folder / "sim" / "x_displacement_down.csv")
-        maps = [Exported(name, folder, errmap, data) for name in MAPS]
+        maps = [Exported(name, folder, errmap) for name in MAPS]
         for exported in maps:
             check_healthy(exported)
         for i in range(count):

@@ -28,8 +28,9 @@ struct CostArguments {
 };
 
 models::MapExport PrepareToMeasure(const CostArguments& arguments) {
+  const models::FittedModel fitted = models::LoadModel(arguments.model);
   try {
-    return models::PrepareExport(models::LoadModel(arguments.model),
+    return models::PrepareExport({&fitted},
                                  "map",
                                  arguments.single ? models::Precision::kSingle
                                                   : models::Precision::kDouble);

@@ -73,13 +73,21 @@ bool WritesProgram(const ExportArguments& arguments) {
          arguments.hal;
 }
 
+// The maps as they are named: one for both directions, or one for each.
+std::vector<std::string> MapsOf(const ExportArguments& arguments) {
+  const TableArguments& tables = arguments.tables;
+  if (!arguments.model.empty()) return {arguments.model};
+  return {tables.increasing, tables.decreasing};
+}
+
 models::MapExport Prepare(const ExportArguments& arguments,
-                          const models::FittedModel& fitted) {
+                          const std::vector<models::FittedModel>& maps) {
+  const std::vector<std::string> files = MapsOf(arguments);
   const std::string name =
       !arguments.name.empty()
           ? arguments.name
           : models::SafeIdentifier(
-                std::filesystem::path(arguments.model).stem().string(),
+                std::filesystem::path(files.front()).stem().string(),
                 models::kLongestMapName);
   if (!arguments.name.empty() &&
       models::SafeIdentifier(name, models::kLongestMapName) != name) {
@@ -89,18 +97,27 @@ models::MapExport Prepare(const ExportArguments& arguments,
         models::kLongestMapName,
         models::SafeIdentifier(name, models::kLongestMapName)));
   }
+  using models::Motion;
+  std::vector<const models::FittedModel*> of_export;
+  std::string file;
   try {
-    if (WritesProgram(arguments)) {
-      models::RequireMadeFor(fitted, models::Motion::kAny);
+    for (std::size_t k = 0; k < maps.size(); ++k) {
+      file = files[k];
+      of_export.push_back(&maps[k]);
+      if (!WritesProgram(arguments)) continue;
+      models::RequireMadeFor(maps[k],
+                             maps.size() == 1 ? Motion::kAny
+                             : k == 0         ? Motion::kIncreasing
+                                              : Motion::kDecreasing);
     }
-    return models::PrepareExport(fitted,
+    return models::PrepareExport(of_export,
                                  name,
                                  arguments.single ? models::Precision::kSingle
                                                   : models::Precision::kDouble,
-                                 LimitsOf(arguments, fitted.target.unit));
+                                 LimitsOf(arguments, maps.front().target.unit));
   } catch (const std::invalid_argument& error) {
-    throw data::InputError(fmt::format(
-        "{}: {}", data::PrintablePath(arguments.model), error.what()));
+    throw data::InputError(
+        fmt::format("{}: {}", data::PrintablePath(file), error.what()));
   }
 }
 
@@ -113,8 +130,7 @@ std::vector<models::ExportedFile> HalFiles(const ExportArguments& arguments,
                 .joint = arguments.joint})
         .files;
   } catch (const std::invalid_argument& error) {
-    throw data::InputError(fmt::format(
-        "{}: {}", data::PrintablePath(arguments.model), error.what()));
+    throw data::InputError(fmt::format("{}: {}", map.name, error.what()));
   }
 }
 
@@ -147,6 +163,16 @@ void SayWhatWasWritten(const models::MapExport& map,
   }
   const std::string& unit = map.program.target.unit.symbol;
   Say(fmt::format("{} in {}", names, data::PrintablePath(folder)));
+  if (map.program.has_directions()) {
+    const models::ControllerLimits& limits = map.program.limits;
+    Say(
+        fmt::format("the first map acts while the position increases, the "
+                    "second while it decreases: a turn counts after {:.3g}, "
+                    "and moves it by at most {}",
+                    limits.band,
+                    report::ErrorText(map.program.target.unit, limits.reversal)
+                        .WithUnit(limits.reversal)));
+  }
   Say(fmt::format(
       "{}: error{} of {}, {} of state; compensation = -error",
       map.name,
@@ -165,8 +191,7 @@ void SayWhatWasWritten(const models::MapExport& map,
 }
 
 // Those sensors that would do most.
-void SayWhatFailuresDo(const models::FittedModel& fitted,
-                       const models::MapProgram& program) {
+void SayWhatFailuresDo(const models::MapProgram& program) {
   constexpr std::size_t kMost = 3;
   const data::Unit& unit = program.target.unit;
   const models::ControllerLimits& limits = program.limits;
@@ -176,7 +201,7 @@ void SayWhatFailuresDo(const models::FittedModel& fitted,
       text.WithUnit(limits.max_error),
       report::ErrorText(unit, limits.max_rate).WithUnit(limits.max_rate)));
   const std::vector<models::FailingSensor> sensors =
-      models::WorstOfFailing(fitted, program);
+      models::WorstOfFailing(program);
   for (std::size_t i = 0; i < std::min(kMost, sensors.size()); ++i) {
     Say(
         fmt::format("{} failing to 0 would move it by {}; with checks and "
@@ -206,8 +231,17 @@ void CheckArguments(const ExportArguments& arguments) {
   if (arguments.linuxcnc && (program || arguments.table)) {
     throw UsageError("export: --linuxcnc writes one file and goes alone");
   }
-  if (!arguments.linuxcnc && arguments.model.empty()) {
-    throw UsageError("export: name the model file");
+  const bool increasing = !arguments.tables.increasing.empty();
+  const bool decreasing = !arguments.tables.decreasing.empty();
+  if (!arguments.linuxcnc &&
+      (arguments.model.empty() ? !(increasing && decreasing)
+                               : increasing || decreasing)) {
+    throw UsageError(
+        "export: name the model file, or two: --increasing FILE.json and "
+        "--decreasing FILE.json, the directions of motion");
+  }
+  if (arguments.table && arguments.model.empty()) {
+    throw UsageError("export: --table is of one map");
   }
 }
 
@@ -222,18 +256,25 @@ int RunExport(const ExportArguments& arguments) {
         arguments.quiet);
     return kDone;
   }
-  const models::FittedModel fitted = models::LoadModel(arguments.model);
-  const models::MapExport map = Prepare(arguments, fitted);
+  std::vector<models::FittedModel> maps;
+  for (const std::string& file : MapsOf(arguments)) {
+    maps.push_back(models::LoadModel(file));
+  }
+  const models::MapExport map = Prepare(arguments, maps);
   std::vector<models::ExportedFile> files = FilesOf(arguments, map);
   std::string of_table;
   if (arguments.table) {
-    files.push_back(ExportTable(fitted, map, arguments.tables, &of_table));
+    files.push_back(
+        ExportTable(maps.front(), map, arguments.tables, &of_table));
   }
   std::vector<std::string> names;
   for (const models::ExportedFile& file : files) names.push_back(file.name);
   ClaimedFolder folder(arguments.out,
                        names,
-                       {arguments.model, arguments.tables.log},
+                       {arguments.model,
+                        arguments.tables.increasing,
+                        arguments.tables.decreasing,
+                        arguments.tables.log},
                        arguments.force);
   for (const models::ExportedFile& file : files) {
     folder.Write(file.name, file.content);
@@ -241,7 +282,7 @@ int RunExport(const ExportArguments& arguments) {
   folder.Finish();
   if (!arguments.quiet) {
     SayWhatWasWritten(map, files, arguments.out);
-    SayWhatFailuresDo(fitted, map.program);
+    SayWhatFailuresDo(map.program);
     if (!of_table.empty()) Say(of_table);
   }
   return kDone;
@@ -251,12 +292,14 @@ void AddTableOptions(CLI::App* command, TableArguments* tables) {
   command
       ->add_option("--increasing",
                    tables->increasing,
-                   "--linuxcnc: map of the motion towards increasing positions")
+                   "Map of the motion towards increasing positions (on some "
+                   "slides the\nreverse), in place of MODEL")
       ->type_name("FILE.json");
   command
       ->add_option("--decreasing",
                    tables->decreasing,
-                   "--linuxcnc: map of the motion towards decreasing positions")
+                   "Map of the motion towards decreasing positions; both act "
+                   "in one file")
       ->type_name("FILE.json");
   command
       ->add_option("--at",

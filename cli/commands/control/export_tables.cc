@@ -61,7 +61,7 @@ TableMap LoadTableMap(const std::string& file,
   try {
     models::RequireMadeFor(map.fitted, motion);
     map.program = models::MakeMapProgram(map.fitted);
-    models::AddController(map.fitted, options, &map.program);
+    models::AddController({&map.fitted}, options, &map.program);
   } catch (const std::invalid_argument& error) {
     throw data::InputError(
         fmt::format("{}: {}", data::PrintablePath(file), error.what()));

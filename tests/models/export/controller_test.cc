@@ -40,7 +40,7 @@ MapProgram LinearMap(double low = 10.0, const LimitOptions& options = {}) {
   }
   fitted.model = std::make_shared<PolynomialModel>(form, Eigen::Index{5});
   MapProgram program = MakeMapProgram(fitted);
-  AddController(fitted, options, &program);
+  AddController({&fitted}, options, &program);
   return program;
 }
 

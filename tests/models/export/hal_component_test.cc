@@ -35,7 +35,7 @@ MapExport MapOf(const std::vector<std::string>& columns,
         {{name, data::UnitOfColumn(name)}, 0.0, 10.0, 5.0, 3.0});
   }
   fitted.model = std::make_shared<PolynomialModel>(form, count + 1);
-  return PrepareExport(fitted, "a_map_of_a_long_name", Precision::kDouble);
+  return PrepareExport({&fitted}, "a_map_of_a_long_name", Precision::kDouble);
 }
 
 const HalOptions kMillimetres{.unit = data::UnitOfSymbol("mm"), .joint = 2};

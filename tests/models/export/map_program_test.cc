@@ -290,12 +290,12 @@ TEST(PrepareExport, RefusesSinglePrecisionWhereItLosesTooMuch) {
   form.terms = {{{1}, 1.0}};
   const FittedModel fitted =
       Map(std::make_shared<PolynomialModel>(form, Index{2}));
-  EXPECT_THROW(PrepareExport(fitted, "name", Precision::kSingle),
+  EXPECT_THROW(PrepareExport({&fitted}, "name", Precision::kSingle),
                std::invalid_argument);
   EXPECT_LT(
-      PrepareExport(fitted, "name", Precision::kDouble).deviations.anywhere,
+      PrepareExport({&fitted}, "name", Precision::kDouble).deviations.anywhere,
       1e-9);
-  EXPECT_THROW(PrepareExport(fitted, "na me", Precision::kDouble),
+  EXPECT_THROW(PrepareExport({&fitted}, "na me", Precision::kDouble),
                std::invalid_argument);
 }
 

@@ -274,6 +274,24 @@ TEST_F(CliExportTables, RefusesAMapOfTheOtherDirection) {
         RefusalOf(Run({"export", "up.json", language, "-o", "."}), kUnusable),
         HasSubstr(alone));
   }
+  for (const bool right : {true, false}) {
+    const Outcome outcome = Run({"export",
+                                 "--increasing",
+                                 right ? "up.json" : "down.json",
+                                 "--decreasing",
+                                 right ? "down.json" : "up.json",
+                                 "--hal",
+                                 "-o",
+                                 "."});
+    if (right) {
+      EXPECT_EQ(outcome.status, 0) << outcome.err;
+      EXPECT_THAT(outcome.err, HasSubstr("the second while it decreases"));
+      EXPECT_THAT(Read("errmap_up.comp"),
+                  HasSubstr("Two maps: the first acts"));
+    } else {
+      EXPECT_THAT(RefusalOf(outcome, kUnusable), HasSubstr("exchange"));
+    }
+  }
   // A grid acts by whoever enters it, and says what it is for.
   EXPECT_THAT(Run({"export", "up.json", "--table", "-o", "."}).err,
               HasSubstr("for way up"));
