@@ -5,136 +5,15 @@
 
 #include <fmt/format.h>
 
+#include "models/export/c_language.h"
 #include "models/export/safe_names.h"
+#include "models/export/saved_state.h"
 #include "models/history/lag.h"
 
 namespace errmap::models {
 namespace {
 
 using Eigen::Index;
-
-constexpr Syntax kC{.conjunction = "&&",
-                    .disjunction = "||",
-                    .negation = "!",
-                    .equal = "==",
-                    .absolute = "fabs",
-                    .when = "if ({}) {{",
-                    .otherwise = "} else {",
-                    .end_when = "}",
-                    .loop = "for (i = 0; i < {0}; ++i) {{",
-                    .end_loop = "}",
-                    .index = "i",
-                    .indent = "  "};
-
-// Local arrays, and what points to state and readings.
-class CLanguage final : public Language {
- public:
-  CLanguage(std::string name, Precision precision)
-      : Language(precision, kC), name_(std::move(name)) {}
-
-  std::string CellName(Cell cell) const override {
-    const CellInfo& info = InfoOf(cell);
-    switch (info.kind) {
-      case CellKind::kKept:
-        return fmt::format("state->{}", info.name);
-      case CellKind::kTable:
-        return fmt::format("{}_{}", name_, info.name);
-      case CellKind::kLocal:
-        break;
-    }
-    return info.name;
-  }
-
-  std::string Number(double value, bool single) const override {
-    return RealText(value, single) + (single ? "F" : "");
-  }
-
-  std::string HasAny(int mask) const override {
-    // The masks that routines ask for have a name.
-    return fmt::format("status & {}",
-                       mask == kMapNotTaken
-                           ? name_ + "_NOT_TAKEN"
-                           : StatusNames(mask, name_ + "_", ""));
-  }
-
- private:
-  std::string Flag(int bit) const override {
-    return fmt::format("status |= {};", StatusNames(bit, name_ + "_", ""));
-  }
-
-  std::string Assign(const std::string& to,
-                     const std::string& value,
-                     bool narrows) const override {
-    return narrows ? fmt::format("{} = (float)({});", to, value)
-                   : fmt::format("{} = {};", to, value);
-  }
-
-  std::string Call(Function function,
-                   const std::string& argument,
-                   bool single) const override {
-    const char* end = single ? "f" : "";
-    switch (function) {
-      case Function::kMeanDecay:
-        return fmt::format("{}_mean_decay({})", name_, argument);
-      case Function::kSine:
-        return fmt::format("sin{}({})", end, argument);
-      case Function::kCosine:
-        return fmt::format("cos{}({})", end, argument);
-      case Function::kSigmoid:
-        return fmt::format("{}_sigmoid({})", name_, argument);
-    }
-    return "";
-  }
-
-  Lines Bound(const std::string& condition,
-              const std::string& to,
-              const std::string& value,
-              bool guards) const override {
-    Lines lines{fmt::format("if ({}) {{", condition),
-                fmt::format("  {} = {};", to, value)};
-    if (guards) lines.push_back("  " + Flag(kMapClipped));
-    lines.push_back("}");
-    return lines;
-  }
-
-  // Input by input, a few outputs side by side: as many sums as registers hold
-  // go on at once, each still in the order of the inputs.
-  Lines Affine(const Instruction& it,
-               const Eigen::MatrixXd& table) const override {
-    constexpr int kAtOnce = 8;
-    const std::string from = ArrayAt(it.a, "i");
-    Lines lines{fmt::format("for (j = 0; j < {}; ++j) {} = {}_bias{}[j];",
-                            it.count,
-                            ArrayAt(it.to, "j"),
-                            name_,
-                            it.table)};
-    for (int first = 0; first < it.count; first += kAtOnce) {
-      lines.push_back(
-          fmt::format("for (i = 0; i < {}; ++i) {{", table.cols() - 1));
-      for (int row = first; row < std::min(first + kAtOnce, it.count); ++row) {
-        lines.push_back(fmt::format("  {} += {}_weights{}[i][{}] * {};",
-                                    Place({it.to.space, it.to.index + row}),
-                                    name_,
-                                    it.table,
-                                    row,
-                                    from));
-      }
-      lines.push_back("}");
-    }
-    return lines;
-  }
-
-  Lines Sigmoids(const Instruction& it) const override {
-    const std::string to = ArrayAt(it.to, "j");
-    return {fmt::format("for (j = 0; j < {}; ++j) {} = {}_sigmoid({});",
-                        it.count,
-                        to,
-                        name_,
-                        to)};
-  }
-
-  std::string name_;
-};
 
 class CWriter {
  public:
@@ -161,6 +40,8 @@ class CWriter {
   std::string Helpers() const;
   std::string Locals(const std::vector<const Instructions*>& parts) const;
   std::string StateFunctions() const;
+  int NumKept() const;
+  std::string SetCells(bool of_session) const;
   std::string ReadFunction() const;
   std::string MoveFunction() const;
   std::string SelfTest(const std::vector<SelfTestRow>& rows,
@@ -195,6 +76,7 @@ typedef {1} {0}_real;
 
 enum {{
   {0}_INPUTS = {2},
+  {0}_SAVED = {6}, /* numbers of a saved state */
   /* Bits of a status; 0: all is well. */
 {3}  {0}_NOT_TAKEN = {4} /* those of a step that is not taken */
 }};
@@ -207,9 +89,14 @@ typedef struct {{
 /* Before all else. The error given begins at 0. */
 void {0}_init({0}_state *state);
 
-/* The next step taken begins a session: filters in the steady state of its
- * inputs, the zero taken there. */
+/* A session begins with the next step taken: filters in the steady state of its
+ * inputs, the zero taken there.{8} */
 void {0}_begin({0}_state *state);
+
+/* What a restart needs, and how to go on from it age_s seconds after: 0. Of
+ * another map, older than {7:g} s or damaged: -1, and nothing is changed. */
+void {0}_get_state(const {0}_state *state, double saved[]);
+int {0}_set_state({0}_state *state, const double saved[], double age_s);
 
 /* The next step taken takes the zero anew. */
 void {0}_zero({0}_state *state);
@@ -249,13 +136,29 @@ std::string CWriter::Declarations() const {
                 ? fmt::format("  double {}[{}_INPUTS];\n", cell.name, name_)
                 : fmt::format("  double {};\n", cell.name);
   }
-  return fmt::format(kDeclarations,
-                     name_,
-                     precision_ == Precision::kSingle ? "float" : "double",
-                     program_.readings.size(),
-                     bits,
-                     kMapNotTaken,
-                     kept);
+  return fmt::format(
+      kDeclarations,
+      name_,
+      precision_ == Precision::kSingle ? "float" : "double",
+      program_.readings.size(),
+      bits,
+      kMapNotTaken,
+      kept,
+      NumKept() + 1,
+      LongestAge(program_),
+      program_.settles_after > 0.0
+          ? " Without it, and without a saved\n * state, one may "
+            "have begun before: SETTLING, for\n * "
+            "state->settles_in seconds."
+          : "");
+}
+
+int CWriter::NumKept() const {
+  int count = program_.size(Space::kState);
+  for (const CellInfo& cell : KeptCells(program_)) {
+    count += cell.is_array ? program_.size(Space::kReading) : 1;
+  }
+  return count;
 }
 
 std::string CWriter::Header() const {
@@ -283,6 +186,21 @@ std::string CWriter::CellTables() const {
 // A net's weights by input, then by node.
 std::string CWriter::Tables() const {
   std::string text;
+  for (std::size_t form = 0; form < program_.forms.size(); ++form) {
+    const Eigen::MatrixXd& states = program_.forms[form].states;
+    if (states.size() == 0) continue;
+    text += fmt::format("\nstatic const double {}_states{}[{}][{}] = {{\n",
+                        name_,
+                        form,
+                        states.cols(),
+                        states.rows());
+    for (const auto coordinate : states.colwise()) {
+      std::vector<std::string> numbers;
+      for (const double value : coordinate) numbers.push_back(RealText(value));
+      text += "  {\n" + Joined(Wrapped(numbers, "    "), "") + "  },\n";
+    }
+    text += "};\n";
+  }
   for (std::size_t k = 0; k < program_.tables.size(); ++k) {
     const Eigen::MatrixXd& table = program_.tables[k];
     const bool single =
@@ -371,22 +289,60 @@ std::string CWriter::Locals(
   return text;
 }
 
+// Those of the cells that a session begins with, or that do not begin as 0.
+std::string CWriter::SetCells(bool of_session) const {
+  std::string text;
+  for (const CellInfo& cell : KeptCells(program_)) {
+    const double value = of_session ? 0.0 : InitialValue(program_, cell.cell);
+    if (of_session ? !IsOfSession(cell.cell) : value == 0.0) continue;
+    text += fmt::format("  state->{} = {};\n", cell.name, RealText(value));
+  }
+  return text;
+}
+
 std::string CWriter::StateFunctions() const {
   std::string text = fmt::format(R"(
 void {0}_init({0}_state *state) {{
   const {0}_state empty = {{0}};
   *state = empty;
-  state->max_error = {1};
-  state->max_rate = {2};
-}}
+{1}}}
 
 void {0}_begin({0}_state *state) {{
-  state->begun = 0.0;
+{2}}}
+
+void {0}_get_state(const {0}_state *state, double saved[]) {{
+  const double *from = (const double *)state; /* it has nothing but doubles */
+  int i;
+  saved[0] = {3};
+  for (i = 1; i < {0}_SAVED; ++i) saved[i] = from[i - 1];
+}}
+
+int {0}_set_state({0}_state *state, const double saved[], double age_s) {{
+  double *to = (double *)state;
+  const double max_error = state->max_error;
+  const double max_rate = state->max_rate;
+  int i;
+  if (saved[0] != {3} || !(age_s >= 0.0 && age_s <= {4})) return -1;
+  for (i = 1; i < {0}_SAVED; ++i) {{
+    if (!(fabs(saved[i]) < 1.0e300)) return -1;
+  }}
+  for (i = 1; i < {0}_SAVED; ++i) to[i - 1] = saved[i];
+  state->max_error = max_error;
+  state->max_rate = max_rate;
+  if (fabs(state->given) > max_error) {{
+    state->given = state->given > 0.0 ? max_error : -max_error;
+  }}
+  state->waited += age_s;
+  state->missed += age_s;
+  state->room += max_rate * age_s;
+  return 0;
 }}
 )",
                                  name_,
-                                 RealText(program_.limits.max_error),
-                                 RealText(program_.limits.max_rate));
+                                 SetCells(false),
+                                 SetCells(true),
+                                 RealText(Fingerprint(program_)),
+                                 RealText(LongestAge(program_)));
   return text + fmt::format(R"(
 void {0}_zero({0}_state *state) {{
   {1}
@@ -409,7 +365,10 @@ std::string CWriter::ReadFunction() const {
   const auto parts = program_.parts();
   text += Locals({parts.begin(), parts.end()}) +
           fmt::format("  {} e;\n  double passed = dt_s;\n", Real());
-  if (program_.Uses(Cell::kCommon)) text += "  double common;\n";
+  for (const Cell cell : {Cell::kCommon, Cell::kAway}) {
+    if (!program_.Uses(cell)) continue;
+    text += fmt::format("  double {};\n", InfoOf(cell).name);
+  }
   text += "  int status = 0;\n";
   text += reads ? "  int i;\n" : "  (void)inputs;\n";
   return text + Joined(language_.Write(program_, program_.read), "  ") +

@@ -155,7 +155,6 @@ void AddJudgement(const Applicability& trained,
                   MapForm* form) {
   const Index sensors = trained.mean.size();
   const Index directions = trained.directions.cols();
-  if (sensors < 2) return;
   const MatrixXd weighted =
       trained.rest.cwiseInverse().asDiagonal() * trained.directions;
   const MatrixXd inner =
@@ -193,16 +192,30 @@ void AddJudgement(const Applicability& trained,
                      .a = {Space::kReading, reading_of(i)},
                      .c = trained.mean[i]});
   }
-  const auto affine = [&](Space to, Space from, MatrixXd table) {
-    judge.push_back({.op = Op::kAffine,
-                     .to = {to, 0},
-                     .a = {from, 0},
-                     .table = program->tables.size(),
-                     .count = static_cast<int>(table.rows())});
-    program->tables.push_back(std::move(table));
-  };
-  affine(Space::kScore, Space::kStanding, std::move(scores));
-  affine(Space::kDoubt, Space::kScore, std::move(told));
+  const auto affine =
+      [&](Instructions* part, Space to, Space from, MatrixXd table) {
+        part->push_back({.op = Op::kAffine,
+                         .to = {to, 0},
+                         .a = {from, 0},
+                         .table = program->tables.size(),
+                         .count = static_cast<int>(table.rows())});
+        program->tables.push_back(std::move(table));
+      };
+  // Scores as in MeasureStates: the columns of W are orthogonal.
+  MatrixXd whitened = MatrixXd::Zero(directions, sensors + 1);
+  whitened.leftCols(sensors) =
+      trained.directions.colwise().squaredNorm().cwiseInverse().asDiagonal() *
+      trained.directions.transpose() *
+      trained.scale.cwiseInverse().asDiagonal();
+  affine(&form->measure, Space::kScore, Space::kStanding, std::move(whitened));
+  const auto rows = static_cast<double>(trained.rows);
+  form->states = trained.states;
+  form->reach = trained.distance_limit * trained.distance_limit;
+  form->most_spread = (trained.leverage_limit - 1.0 / rows) * (rows - 1.0);
+  form->has_relations = sensors > 1;  // one alone has no others to go with
+  if (!form->has_relations) return;
+  affine(&judge, Space::kScore, Space::kStanding, std::move(scores));
+  affine(&judge, Space::kDoubt, Space::kScore, std::move(told));
   for (Index i = 0; i < sensors; ++i) {
     const int column = reading_of(i);
     ProgramReading& reading =
@@ -420,11 +433,35 @@ constexpr StatusBit kStatusBits[] = {
     {kMapFaded, "FADED", "nothing taken for too long: the error goes to 0"},
     {kMapLimited, "LIMITED", "the error is the largest allowed"},
     {kMapRamping, "RAMPING", "the error is on its way, at the largest rate"},
+    {kMapRelation,
+     "RELATION",
+     "a sensor does not go with the others as in training"},
+    {kMapDistance, "DISTANCE", "a thermal state far from every trained one"},
+    {kMapLeverage, "LEVERAGE", "a thermal state far from the middle of them"},
+    {kMapSettling,
+     "SETTLING",
+     "begun in the midst of a session: filters settle, the zero is not known"},
+    {kMapGap, "GAP", "readings were missing not long ago: filters settle"},
 };
 
 }  // namespace
 
 std::span<const StatusBit> StatusBits() { return kStatusBits; }
+
+double InitialValue(const MapProgram& program, Cell cell) {
+  switch (cell) {
+    case Cell::kMostError:
+      return program.limits.max_error;
+    case Cell::kMostRate:
+      return program.limits.max_rate;
+    case Cell::kFresh:
+      return 1.0;
+    case Cell::kSettling:
+      return program.settles_after;
+    default:
+      return 0.0;
+  }
+}
 
 double DefaultMaxRate(const data::Unit& unit, double max_error) {
   for (const char* symbol : {"um", "urad"}) {

@@ -25,7 +25,16 @@ enum MapStatus : int {
   kMapFaded = 128,       // no good step for so long that the error goes to 0
   kMapLimited = 256,     // the error is the largest allowed
   kMapRamping = 512,     // the error is on its way, at the largest rate
+  // As `predict` says, beside kMapOutside, why a row is unlike training.
+  kMapRelation = 1024,  // a sensor does not go with the others as in training
+  kMapDistance = 2048,  // a thermal state far from every trained one
+  kMapLeverage = 4096,  // far from the middle of them
+  kMapSettling = 8192,  // begun in the midst of a session
+  kMapGap = 16384,      // readings were missing not long ago
 };
+/// `predict` says inside = 0.
+inline constexpr int kMapUnlike = kMapOutside | kMapRelation | kMapDistance |
+                                  kMapLeverage | kMapSettling | kMapGap;
 /// A step with one of these is not taken: the filters keep their state, and the
 /// last good error is held.
 inline constexpr int kMapNotTaken =
@@ -53,6 +62,16 @@ struct LimitOptions {
 void AddController(const std::vector<const FittedModel*>& maps,
                    const LimitOptions& options,
                    MapProgram* program);
+
+/// What a cell that is kept holds before all steps.
+double InitialValue(const MapProgram& program, Cell cell);
+/// The cells that are 0 where a session is known to begin.
+inline constexpr Cell kOfSession[] = {
+    Cell::kBegun, Cell::kFresh, Cell::kSettling};
+constexpr bool IsOfSession(Cell cell) {
+  return cell == Cell::kBegun || cell == Cell::kFresh ||
+         cell == Cell::kSettling;
+}
 
 /// Heat moves no machine so fast: 10 um/s, 10 urad/s; of an error in another
 /// unit, `max_error` in 10 s.

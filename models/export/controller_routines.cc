@@ -1,6 +1,7 @@
 #include "models/export/controller_routines.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -33,20 +34,26 @@ void Append(Routine more, Routine* routine) {
   for (Statement& statement : more) routine->push_back(std::move(statement));
 }
 
-Routine CheckReadings(const MapProgram& program) {
-  const std::vector<ProgramReading>& readings = program.readings;
-  const Expression x{Cell::kReading};
-  if (readings.empty()) return {};
-  Routine checks = OfTheForm(program, [&](int form) {
+// Of readings, or of what is derived from them.
+Routine CheckRanges(const MapProgram& program, bool are_readings) {
+  return OfTheForm(program, [&](int form) {
     Routine ranges;
     for (const TrainedRange& range :
          program.forms[static_cast<std::size_t>(form)].ranges) {
-      const Expression reading{Cell::kReading, range.place.index};
-      ranges.push_back(If(!(reading >= range.low && reading <= range.high),
+      if ((range.place.space == Space::kReading) != are_readings) continue;
+      const Expression number{range.place};
+      ranges.push_back(If(!(number >= range.low && number <= range.high),
                           {Flag(kMapOutside)}));
     }
     return ranges;
   });
+}
+
+Routine CheckReadings(const MapProgram& program) {
+  const std::vector<ProgramReading>& readings = program.readings;
+  const Expression x{Cell::kReading};
+  if (readings.empty()) return {};
+  Routine checks = CheckRanges(program, true);
   // One that is no number is not within.
   Statement far = EachReading({If(
       !(x >= Cell::kFarLow && x <= Cell::kFarHigh),
@@ -103,6 +110,62 @@ Statement FollowDirection(const MapProgram& program) {
             {Set(Cell::kTurn, x)});
 }
 
+// kAway = the squared distance of the thermal state from a point.
+template <typename Coordinate>
+Routine MeasureFrom(const MapForm& of, const Coordinate& coordinate) {
+  Routine measure;
+  for (int k = 0; k < static_cast<int>(of.states.cols()); ++k) {
+    const Expression along =
+        Expression{Operand{Space::kScore, k}} - coordinate(k);
+    const Expression square = along * along;
+    measure.push_back(Set(Cell::kAway, k == 0 ? square : Cell::kAway + square));
+  }
+  return measure;
+}
+
+// Where the thermal state stands among those of training. The one that was
+// close by in the step before is asked first, since heat takes its time.
+Routine MeasureState(const MapForm& of, int form) {
+  const Expression known{Cell::kKnown};
+  const Expression away{Cell::kAway};
+  Routine take{Set(Cell::kKnown, form + 1.0)};
+  for (int k = 0; k < static_cast<int>(of.states.cols()); ++k) {
+    take.push_back(SetAt(Cell::kNear, k, Trained(form, k)));
+  }
+  Routine seek = MeasureFrom(of, [form](int k) { return Trained(form, k); });
+  seek.push_back(If(away <= of.reach, std::move(take)));
+
+  Routine measure{Do(Part::kMeasure, form)};
+  Append(MeasureFrom(of, [](int) { return Expression{0.0}; }), &measure);
+  measure.push_back(If(away > of.most_spread, {Flag(kMapLeverage)}));
+  Append(MeasureFrom(of,
+                     [](int k) {
+                       return Expression{Cell::kNear, k};
+                     }),
+         &measure);
+  measure.push_back(If(!(known == form + 1.0 && away <= of.reach),
+                       {Set(Cell::kKnown, 0.0),
+                        Each(static_cast<int>(of.states.rows()),
+                             {If(!(known > 0.0), std::move(seek))}),
+                        If(!(known > 0.0), {Flag(kMapDistance)})}));
+  return measure;
+}
+
+// The time until what filters remember is good again, before a step of them.
+Routine Settle(const MapProgram& program) {
+  const Expression left{Cell::kSettling};
+  const Expression waited{Cell::kWaited};
+  Routine settle{Set(Cell::kSettling, left - waited)};
+  if (std::isfinite(program.longest_bridged)) {
+    settle.push_back(If(waited > program.longest_bridged,
+                        {If(!(Read(Cell::kFresh) > 0.0 && left > waited),
+                            {Set(Cell::kSettling, waited)})}));
+  }
+  settle.push_back(
+      If(!(left > 0.0), {Set(Cell::kSettling, 0.0), Set(Cell::kFresh, 0.0)}));
+  return settle;
+}
+
 // What the axis' own motion may change the error by.
 Routine MakeRoom(const std::vector<ProgramReading>& readings) {
   Routine room;
@@ -121,9 +184,7 @@ Routine KeepPositions(const std::vector<ProgramReading>& readings) {
   for (std::size_t i = 0; i < readings.size(); ++i) {
     if (!readings[i].is_position) continue;
     const auto at = static_cast<int>(i);
-    Statement set = Set(Cell::kLast, Expression{Cell::kReading, at});
-    set.sides.front().index = at;
-    keep.push_back(std::move(set));
+    keep.push_back(SetAt(Cell::kLast, at, Expression{Cell::kReading, at}));
   }
   return keep;
 }
@@ -131,9 +192,19 @@ Routine KeepPositions(const std::vector<ProgramReading>& readings) {
 Routine TakeStep(const MapProgram& program) {
   const Expression e{Cell::kError};
   Routine take;
-  if (!program.advance.empty()) {
+  const bool remembers = program.settles_after > 0.0;
+  if (remembers || !program.advance.empty()) {
+    Routine go_on;
+    if (remembers) go_on = Settle(program);
+    if (!program.advance.empty()) go_on.push_back(Do(Part::kAdvance));
     take.push_back(
-        If(Read(Cell::kBegun) > 0.0, {Do(Part::kAdvance)}, {Do(Part::kBegin)}));
+        If(Read(Cell::kBegun) > 0.0, std::move(go_on), {Do(Part::kBegin)}));
+    if (remembers) {
+      take.push_back(If(Read(Cell::kSettling) > 0.0,
+                        {If(Read(Cell::kFresh) > 0.0,
+                            {Flag(kMapSettling)},
+                            {Flag(kMapGap)})}));
+    }
   } else if (!program.begin.empty()) {
     take.push_back(If(!(Read(Cell::kBegun) > 0.0), {Do(Part::kBegin)}));
   }
@@ -146,6 +217,16 @@ Routine TakeStep(const MapProgram& program) {
              program,
              [](int form) -> Routine { return {Do(Part::kEvaluate, form)}; }),
          &take);
+  Append(CheckRanges(program, false), &take);
+  Routine measure = OfTheForm(program, [&](int form) -> Routine {
+    const MapForm& of = program.forms[static_cast<std::size_t>(form)];
+    if (of.measure.empty()) return {};
+    return MeasureState(of, form);
+  });
+  // A column that is at fault says more than that the state is unlike.
+  if (!measure.empty()) {
+    take.push_back(If(!Any(kMapOutside | kMapRelation), std::move(measure)));
+  }
   Routine good{Set(Cell::kMissed, 0.0), Set(Cell::kWanted, e)};
   if (Routine room = MakeRoom(program.readings); !room.empty()) {
     good.push_back(If(Read(Cell::kBegun) > 0.0, std::move(room)));
@@ -179,15 +260,22 @@ Routine ReadRoutine(const MapProgram& program) {
       })) {
     doubt = WatchTheStill();
   }
-  Append(OfTheForm(
-             program,
-             [&](int form) -> Routine {
-               if (program.part(Part::kJudge, form).empty()) return {};
-               return {Do(Part::kJudge, form),
-                       EachReading({If(Absolute(Cell::kDoubt) > Cell::kBelieved,
-                                       {Flag(kMapContradicts)})})};
-             }),
-         &doubt);
+  const Expression r = Absolute(Cell::kDoubt);
+  Append(
+      OfTheForm(
+          program,
+          [&](int form) -> Routine {
+            if (program.part(Part::kJudge, form).empty()) return {};
+            Routine judge{Do(Part::kJudge, form)};
+            if (program.forms[static_cast<std::size_t>(form)].has_relations) {
+              judge.push_back(EachReading(
+                  {If(r > 1.0,
+                      {Flag(kMapRelation),
+                       If(r > Cell::kBelieved, {Flag(kMapContradicts)})})}));
+            }
+            return judge;
+          }),
+      &doubt);
   if (!doubt.empty()) read.push_back(If(!Any(kMapNotTaken), std::move(doubt)));
   read.push_back(If(!Any(kMapNotTaken), TakeStep(program)));
   read.push_back(If(Any(kMapNotTaken) && missed > program.limits.hold,

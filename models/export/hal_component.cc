@@ -48,7 +48,8 @@ author "errmap";
 license "GPL";
 option singleton yes;
 include <rtapi_math.h>;
-{3}pin in bit zero "Rising edge: take the zero anew";
+{3}pin in bit begin "Rising edge: a session begins, filters steady";
+pin in bit zero "Rising edge: take the zero anew";
 pin in bit step "Rising edge: a step of step-s seconds";
 pin in float step_s = 0.0 "0: a step in every period of the thread";
 pin in bit machine_on = 1 "For external offsets: on and homed";
@@ -56,6 +57,7 @@ pin out float offset "-error, {2}";
 pin out bit valid "The last step had all its readings, and they were believed";
 pin out bit outside "A reading is outside of its trained range";
 pin out u32 status_ "Bits; the source says which";
+pin out float settling_s "s until what filters remember is good again";
 pin out u32 steps "Steps made since it was loaded, missing readings or not";
 pin out s32 counts "offset / counts-scale while machine-on, else 0";
 pin out bit counts_enable "machine-on, a little later";
@@ -69,7 +71,7 @@ function _ fp;
 constexpr const char* kBody = R"(
 static {0}_state errmap_kept;
 static double silent;       /* s since the last edge of step */
-static int begun, was_step, was_zero, periods_on, of_reading;
+static int begun, was_begin, was_step, was_zero, periods_on, of_reading;
 static unsigned made;
 
 FUNCTION(_) {{
@@ -80,6 +82,8 @@ FUNCTION(_) {{
   begun = 1;
   errmap_kept.max_error = fmax(max_offset, 0.0) / {1};
   errmap_kept.max_rate = fmax(max_rate_, 0.0) / {1};
+  if (begin && !was_begin) {0}_begin(&errmap_kept);
+  was_begin = begin;
   if (zero && !was_zero) {0}_zero(&errmap_kept);
   was_zero = zero;
   silent += fperiod;
@@ -102,7 +106,7 @@ FUNCTION(_) {{
   valid = made > 0 && (of_reading & {0}_NOT_TAKEN) == 0;
   outside = (of_reading & {0}_OUTSIDE) != 0;
   offset = -{1} * error;
-
+{5}
   /* LinuxCNC takes counts for relative to the moment of enabling, and forgets
    * them at machine off: they are 0 until it has seen the enable. */
   if (!machine_on) periods_on = 0;
@@ -207,7 +211,10 @@ std::string HalWriter::Component() const {
                      RealText(scale),
                      std::max<std::size_t>(pins_.size(), 1),
                      pins_.empty() ? "  x[0] = 0.0;\n" : readings,
-                     10);
+                     10,
+                     program.Uses(Cell::kSettling)
+                         ? "  settling_s = errmap_kept.settles_in;\n"
+                         : "");
 }
 
 std::string HalWriter::SensorComments() const {

@@ -194,8 +194,8 @@ Lines Language::WriteOne(const MapProgram& program, const Statement& it) const {
       return {Flag(it.flag)};
     case Statement::Kind::kRun:
       return Write(program, program.part(it.part, it.form));
-    case Statement::Kind::kEachReading: {
-      const int count = program.size(Space::kReading);
+    case Statement::Kind::kEach: {
+      const int count = it.count > 0 ? it.count : program.size(Space::kReading);
       return end(
           Block(program,
                 fmt::format(fmt::runtime(syntax_.loop), count, count - 1),
@@ -221,7 +221,8 @@ Lines Language::WriteOne(const MapProgram& program, const Statement& it) const {
 std::string Language::Inner(const Expression& it) const {
   using Kind = Expression::Kind;
   const bool stands_alone = it.kind == Kind::kNumber ||
-                            it.kind == Kind::kCell ||
+                            it.kind == Kind::kCell || it.kind == Kind::kPlace ||
+                            it.kind == Kind::kTrained ||
                             it.kind == Kind::kAbsolute;
   return stands_alone ? Text(it) : "(" + Text(it) + ")";
 }
@@ -242,6 +243,10 @@ std::string Language::Text(const Expression& it) const {
                  ? fmt::format("{}[{}]", name, syntax_.index)
                  : fmt::format("{}[{}]", name, it.index);
     }
+    case Kind::kPlace:
+      return Place(it.place);
+    case Kind::kTrained:
+      return TrainedState(it.form, it.index);
     case Kind::kAny:
       return HasAny(it.mask);
     case Kind::kNot:

@@ -49,6 +49,8 @@ class Language {
   virtual std::string Number(double value, bool single) const;
   /// Where the number of a cell is, in the language's own way of naming.
   virtual std::string CellName(Cell cell) const = 0;
+  /// The loop's trained state of a form, at one coordinate.
+  virtual std::string TrainedState(int form, int coordinate) const = 0;
   /// Whether the status has one of these bits.
   virtual std::string HasAny(int mask) const = 0;
 

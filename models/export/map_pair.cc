@@ -96,6 +96,10 @@ MapProgram JoinedPrograms(const MapProgram& increasing,
   for (const TrainedRange& range : from.ranges) {
     form.ranges.push_back({move(range.place), range.low, range.high});
   }
+  joined.longest_bridged =
+      std::min(increasing.longest_bridged, decreasing.longest_bridged);
+  joined.settles_after =
+      std::max(increasing.settles_after, decreasing.settles_after);
   joined.MeasureSpaces();
   return joined;
 }

@@ -13,6 +13,8 @@
 #include "models/export/nested_polynomial.h"
 #include "models/export/safe_names.h"
 #include "models/history/history.h"
+#include "models/history/lag.h"
+#include "models/map_experience.h"
 #include "models/polynomial/polynomial_model.h"
 
 namespace errmap::models {
@@ -23,8 +25,7 @@ using Eigen::Index;
 int AsInt(std::size_t value) { return static_cast<int>(value); }
 
 struct Bounds {
-  double low = 0.0;
-  double high = 0.0;
+  double low, high;
 };
 
 // The same terms in as many inputs more as are held within a range, which the
@@ -451,6 +452,20 @@ TrainedRange RangeOf(Operand place, double min, double max) {
   return {place, min - little, max + little};
 }
 
+void AddDerivedRanges(const FittedModel& fitted,
+                      const std::vector<Operand>& places,
+                      std::vector<TrainedRange>* ranges) {
+  for (const Applicability::Derived& derived : fitted.applicability->derived) {
+    const std::vector<std::string>& names = fitted.history->form_inputs;
+    const auto found = std::ranges::find(names, derived.column.name);
+    if (found == names.end()) continue;
+    ranges->push_back(
+        RangeOf(places[static_cast<std::size_t>(found - names.begin())],
+                derived.min,
+                derived.max));
+  }
+}
+
 }  // namespace
 
 void MapProgram::MeasureSpaces() {
@@ -493,24 +508,28 @@ const Instructions& MapProgram::part(Part part, int form) const {
     case Part::kEvaluate:
       return of.evaluate;
     case Part::kJudge:
+      return of.judge;
+    case Part::kMeasure:
       break;
   }
-  return of.judge;
+  return of.measure;
 }
 
 std::vector<const Instructions*> MapProgram::parts() const {
   std::vector<const Instructions*> all{&begin, &advance, &zero};
   for (const MapForm& form : forms) {
-    all.insert(all.end(), {&form.evaluate, &form.judge});
+    all.insert(all.end(), {&form.evaluate, &form.judge, &form.measure});
   }
   return all;
 }
 
 bool MapProgram::IsTableDouble(std::size_t table) const {
   return std::ranges::any_of(forms, [table](const MapForm& form) {
-    return std::ranges::any_of(form.judge, [table](const Instruction& it) {
+    const auto is_it = [table](const Instruction& it) {
       return it.op == Op::kAffine && it.table == table;
-    });
+    };
+    return std::ranges::any_of(form.judge, is_it) ||
+           std::ranges::any_of(form.measure, is_it);
   });
 }
 
@@ -560,6 +579,15 @@ MapProgram MakeMapProgram(const FittedModel& fitted) {
   program.advance = Derive(layout, Moment::kAdvance);
   program.zero = Derive(layout, Moment::kZero);
   form.evaluate = Derive(layout, Moment::kEvaluate);
+  if (fitted.history != nullptr) {
+    // A zero is never right again by itself; 1e9 s are for ever.
+    constexpr double kForEver = 1e9;
+    program.longest_bridged = fitted.history->longest_bridged();
+    program.settles_after = std::min(SettlesAfter(*fitted.history), kForEver);
+  }
+  if (fitted.applicability != nullptr) {
+    AddDerivedRanges(fitted, layout.form(), &form.ranges);
+  }
   std::vector<Operand> inputs = layout.form();
   FormWriter writer(&program);
   if (fitted.guards) writer.ClipInputs(*fitted.guards, &inputs);

@@ -104,6 +104,15 @@ struct MapForm {
   Instructions evaluate = {};
   /// From readings to kDoubt, where 1 is as far as `predict` lets pass.
   Instructions judge = {};
+  /// After `judge`: to kScore, the whitened coordinates of the thermal state.
+  Instructions measure = {};
+  /// Thermal states of training (k x coordinates), and how far from all of them
+  /// a state may be, and how far from their middle, both squared.
+  Eigen::MatrixXd states = {};
+  double reach = 0.0;
+  double most_spread = 0.0;
+  bool has_relations = false;  // `judge` writes kDoubt
+  /// Of readings, then of what is derived from them.
   std::vector<TrainedRange> ranges = {};
   /// Of each of its inputs: the program's reading.
   std::vector<int> readings = {};
@@ -118,6 +127,10 @@ struct MapProgram {
   bool since_first_row = false;          // of the session
   std::string made_for;                  // rows: "direction down"; "": all
   std::vector<ProgramReading> readings;  // in the order of kReading
+  /// Longest step that the filters bridge, and what they need to forget where
+  /// they began (s); 0: nothing is remembered.
+  double longest_bridged = std::numeric_limits<double>::infinity();
+  double settles_after = 0.0;
   /// Tables of kAffine (outputs x (inputs + 1)), the last column a bias.
   std::vector<Eigen::MatrixXd> tables;
   /// The state of a session that begins with these readings.

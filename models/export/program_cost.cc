@@ -91,6 +91,8 @@ void CountExpression(const Expression& it,
       return;
     case Kind::kNumber:
     case Kind::kCell:
+    case Kind::kPlace:
+    case Kind::kTrained:
     case Kind::kNot:
     case Kind::kNegative:
     case Kind::kAbsolute:
@@ -126,9 +128,12 @@ void CountRoutine(const MapProgram& program,
         CountRoutine(program, it.body, cost, times);
         CountRoutine(program, it.otherwise, cost, times);
         break;
-      case Statement::Kind::kEachReading:
+      case Statement::Kind::kEach:
         CountRoutine(
-            program, it.body, cost, times * program.size(Space::kReading));
+            program,
+            it.body,
+            cost,
+            times * (it.count > 0 ? it.count : program.size(Space::kReading)));
         break;
     }
   }

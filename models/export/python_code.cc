@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "models/export/safe_names.h"
+#include "models/export/saved_state.h"
 #include "models/history/lag.h"
 
 namespace errmap::models {
@@ -49,9 +50,14 @@ class PythonLanguage final : public Language {
     return info.name;
   }
 
+  std::string TrainedState(int form, int coordinate) const override {
+    return fmt::format("_STATES{}[{}][i]", form, coordinate);
+  }
+
   std::string HasAny(int mask) const override {
-    return "status & " + (mask == kMapNotTaken ? std::string("NOT_TAKEN")
-                                               : StatusNames(mask, "", ""));
+    return "status & " + (mask == kMapNotTaken
+                              ? std::string("NOT_TAKEN")
+                              : "(" + StatusNames(mask, "", " | ") + ")");
   }
 
  private:
@@ -156,6 +162,16 @@ std::string PythonWriter::Tables() const {
     text += fmt::format(
         "{} = {}\n", language_.CellName(cell), ListText(values, ""));
   }
+  for (std::size_t form = 0; form < program_.forms.size(); ++form) {
+    const Eigen::MatrixXd& states = program_.forms[form].states;
+    if (states.size() == 0) continue;
+    text += fmt::format("_STATES{} = [\n", form);
+    for (const auto coordinate : states.colwise()) {
+      text += "    " +
+              ListText({coordinate.begin(), coordinate.end()}, "    ") + ",\n";
+    }
+    text += "]\n";
+  }
   for (std::size_t k = 0; k < program_.tables.size(); ++k) {
     const Eigen::MatrixXd& table = program_.tables[k];
     const Index num_inputs = table.cols() - 1;
@@ -203,14 +219,42 @@ class Map:
     """A session of the map: step() gives the error, within the limits."""
 
     def __init__(self):
-        self.max_error = {max_error}
-        self.max_rate = {max_rate}
         self.s = [0.0] * {states}
 {kept}
     def begin(self):
-        """The next step taken begins a session: filters in the steady state of
-        its inputs, the zero taken there. The error goes on from where it is."""
-        self.begun = 0.0
+        """A session begins with the next step taken: filters in the steady
+        state of its inputs, the zero taken there. The error goes on from where
+        it is. Without it, and without a saved state, SETTLING where the map
+        has a memory: for self.settles_in seconds."""
+{begin}
+    def get_state(self):
+        """What a restart needs, as plain lists and numbers."""
+        saved = {{name: list(value) if isinstance(value, list) else value
+                 for name, value in vars(self).items()}}
+        return {{**saved, "map": {fingerprint}}}
+
+    def set_state(self, saved, age_s):
+        """Goes on from it, age_s seconds after: True. Of another map, older
+        than {age:g} s or damaged: False, and nothing is changed."""
+        mine = vars(self)
+        if (set(saved) != {{*mine, "map"}} or saved["map"] != {fingerprint}
+                or not 0.0 <= age_s <= {age:.1f}):
+            return False
+        for name, value in mine.items():
+            numbers = saved[name] if isinstance(value, list) else [saved[name]]
+            if (len(numbers) != (len(value) if isinstance(value, list) else 1)
+                    or not all(map(math.isfinite, numbers))):
+                return False
+        limits = self.max_error, self.max_rate
+        for name, value in mine.items():
+            mine[name] = (list(saved[name]) if isinstance(value, list)
+                          else saved[name])
+        self.max_error, self.max_rate = limits
+        self.given = min(max(self.given, -self.max_error), self.max_error)
+        self.waited += age_s
+        self.missed += age_s
+        self.room += self.max_rate * age_s
+        return True
 
     def zero(self):
         """The next step taken takes the zero anew."""
@@ -245,11 +289,16 @@ class Map:
 
 std::string PythonWriter::MapClass() const {
   std::string kept;
+  std::string begin;
   for (const CellInfo& cell : KeptCells(program_)) {
-    if (cell.cell == Cell::kMostError || cell.cell == Cell::kMostRate) continue;
     kept += fmt::format("        self.{} = {}\n",
                         cell.name,
-                        cell.is_array ? "[0.0] * len(INPUTS)" : "0.0");
+                        cell.is_array
+                            ? "[0.0] * len(INPUTS)"
+                            : RealText(InitialValue(program_, cell.cell)));
+    if (IsOfSession(cell.cell)) {
+      begin += fmt::format("        self.{} = 0.0\n", cell.name);
+    }
   }
   if (program_.zero.empty()) kept += "        self.zero_due = 0.0\n";
   std::string locals;
@@ -262,8 +311,9 @@ std::string PythonWriter::MapClass() const {
     return Joined(language_.Write(program_, routine), "        ");
   };
   return fmt::format(kClass,
-                     fmt::arg("max_error", RealText(program_.limits.max_error)),
-                     fmt::arg("max_rate", RealText(program_.limits.max_rate)),
+                     fmt::arg("begin", begin),
+                     fmt::arg("fingerprint", RealText(Fingerprint(program_))),
+                     fmt::arg("age", LongestAge(program_)),
                      fmt::arg("states", program_.size(Space::kState)),
                      fmt::arg("kept", kept),
                      fmt::arg("locals", locals),

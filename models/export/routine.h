@@ -3,6 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include "models/export/operand.h"
+
 // A small language of numbers, conditions and loops over the readings. What a
 // controller does around the arithmetic of a map is written in it once
 // (controller.cc); C, Python and structured text print it, ControllerRun runs
@@ -14,6 +16,7 @@ namespace errmap::models {
 enum class Cell {
   kDt,       // s since the call before
   kCommon,   // where the watched readings stand together
+  kAway,     // squared distance between thermal states
   kTarget,   // kWanted within the limit
   kReading,  // array
   kDoubt,    // array
@@ -28,11 +31,15 @@ enum class Cell {
   kRoom,       // what it may still change by
   kMostError,  // limits
   kMostRate,
-  kDown,   // 1: the map of decreasing positions acts
-  kTurn,   // the furthest position in the direction of motion
-  kLast,   // array: of each reading, the one before
-  kSince,  // array: of each reading, kCommon when it last changed
-  kAlike,  // array: steps since then
+  kFresh,     // 1: begun in the midst of a session, as far as is known
+  kSettling,  // s until what filters remember is good again
+  kKnown,     // which map's state kNear is, from 1; 0: of none
+  kDown,      // 1: the map of decreasing positions acts
+  kTurn,      // the furthest position in the direction of motion
+  kLast,      // array: of each reading, the one before
+  kSince,     // array: of each reading, kCommon when it last changed
+  kAlike,     // array: steps since then
+  kNear,      // array: a trained thermal state close by
   // Constants of each reading (ProgramReading), arrays.
   kFarLow,
   kFarHigh,
@@ -53,13 +60,15 @@ struct CellInfo {
 const CellInfo& InfoOf(Cell cell);
 
 /// The parts of a map's program that a routine runs.
-enum class Part { kBegin, kAdvance, kZero, kEvaluate, kJudge };
+enum class Part { kBegin, kAdvance, kZero, kEvaluate, kJudge, kMeasure };
 
 struct Expression {
   enum class Kind {
     kNumber,
     kCell,
-    kAny,  // whether the status has a bit of `mask`
+    kPlace,    // a number of the program
+    kTrained,  // a coordinate, `index`, of the loop's trained state of `form`
+    kAny,      // whether the status has a bit of `mask`
     kNot,
     kNegative,
     kAbsolute,
@@ -80,6 +89,7 @@ struct Expression {
   Expression(double value) : number(value) {}  // NOLINT: reads as a number
   Expression(Cell of, int at = kLoop)
       : kind(Kind::kCell), cell(of), index(at) {}
+  Expression(Operand of) : kind(Kind::kPlace), place(of) {}  // NOLINT
   Expression(Kind of, std::vector<Expression> from)
       : kind(of), parts(std::move(from)) {}
 
@@ -88,16 +98,19 @@ struct Expression {
   Cell cell = Cell::kDt;
   int index = kLoop;
   int mask = 0;
+  Operand place = {};
+  int form = 0;
   std::vector<Expression> parts = {};
 };
 
 struct Statement {
-  enum class Kind { kAssign, kIf, kEachReading, kFlag, kRun };
+  enum class Kind { kAssign, kIf, kEach, kFlag, kRun };
 
   Kind kind = Kind::kAssign;
   std::vector<Expression> sides = {};     // kAssign: to, value; kIf: condition
   int flag = 0;                           // kFlag: a bit of the status
   Part part = Part::kEvaluate;            // kRun
+  int count = 0;                          // kEach; 0: of the readings
   int form = 0;                           // kRun: of MapProgram::forms
   std::vector<Statement> body = {};       // kIf, loops
   std::vector<Statement> otherwise = {};  // kIf
@@ -115,6 +128,12 @@ inline Expression Any(int mask) {
   Expression any(Expression::Kind::kAny, {});
   any.mask = mask;
   return any;
+}
+inline Expression Trained(int form, int coordinate) {
+  Expression trained(Expression::Kind::kTrained, {});
+  trained.form = form;
+  trained.index = coordinate;
+  return trained;
 }
 inline Expression Absolute(Expression a) {
   return {Expression::Kind::kAbsolute, {std::move(a)}};
@@ -159,6 +178,10 @@ inline Expression operator*(Expression a, Expression b) {
 inline Statement Set(Cell to, Expression value) {
   return {.kind = Statement::Kind::kAssign, .sides = {to, std::move(value)}};
 }
+inline Statement SetAt(Cell to, int index, Expression value) {
+  return {.kind = Statement::Kind::kAssign,
+          .sides = {Expression{to, index}, std::move(value)}};
+}
 inline Statement If(Expression condition,
                     Routine body,
                     Routine otherwise = {}) {
@@ -168,7 +191,11 @@ inline Statement If(Expression condition,
           .otherwise = std::move(otherwise)};
 }
 inline Statement EachReading(Routine body) {
-  return {.kind = Statement::Kind::kEachReading, .body = std::move(body)};
+  return {.kind = Statement::Kind::kEach, .body = std::move(body)};
+}
+inline Statement Each(int count, Routine body) {
+  return {
+      .kind = Statement::Kind::kEach, .count = count, .body = std::move(body)};
 }
 inline Statement Flag(int bit) {
   return {.kind = Statement::Kind::kFlag, .flag = bit};

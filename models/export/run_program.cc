@@ -142,7 +142,8 @@ ControllerRun::ControllerRun(const MapProgram& program, Precision precision)
   const auto count = program.readings.size();
   for (int i = 0; i < kNumCells; ++i) {
     const bool is_array = InfoOf(static_cast<Cell>(i)).is_array;
-    values_[static_cast<std::size_t>(i)].assign(is_array ? count : 1, 0.0);
+    values_[static_cast<std::size_t>(i)].assign(
+        is_array ? count : 1, InitialValue(program, static_cast<Cell>(i)));
   }
   for (std::size_t i = 0; i < count; ++i) {
     const auto at = static_cast<int>(i);
@@ -150,8 +151,6 @@ ControllerRun::ControllerRun(const MapProgram& program, Precision precision)
       Value(cell, at) = TableValue(program.readings[i], cell);
     }
   }
-  Value(Cell::kMostError) = program.limits.max_error;
-  Value(Cell::kMostRate) = program.limits.max_rate;
 }
 
 int ControllerRun::Step(double dt,
@@ -178,11 +177,12 @@ void ControllerRun::RunOne(const Statement& it) {
       return;
     case Statement::Kind::kIf:
       return Run(Of(it.sides[0]) != 0.0 ? it.body : it.otherwise);
-    case Statement::Kind::kEachReading:
-      for (loop_ = 0; loop_ < program_->size(Space::kReading); ++loop_) {
-        Run(it.body);
-      }
+    case Statement::Kind::kEach: {
+      const int count =
+          it.count > 0 ? it.count : program_->size(Space::kReading);
+      for (loop_ = 0; loop_ < count; ++loop_) Run(it.body);
       return;
+    }
     case Statement::Kind::kFlag:
       status_ |= it.flag;
       return;
@@ -212,6 +212,11 @@ double ControllerRun::Of(const Expression& it) {
       return it.number;
     case Kind::kCell:
       return Place(it);
+    case Kind::kPlace:
+      return run_.At(it.place);
+    case Kind::kTrained:
+      return program_->forms[static_cast<std::size_t>(it.form)].states(
+          loop_, it.index);
     case Kind::kAny:
       return (status_ & it.mask) != 0 ? 1.0 : 0.0;
     case Kind::kNot:

@@ -56,7 +56,9 @@ class ControllerRun {
 
   /// The next step taken begins a session; the error given goes on from where
   /// it is.
-  void Begin() { Value(Cell::kBegun) = 0.0; }
+  void Begin() {
+    for (const Cell cell : kOfSession) Value(cell) = 0.0;
+  }
   /// The next step taken takes the zero.
   void Zero() { Value(Cell::kZeroDue) = 1.0; }
   /// Reads and moves, `dt` seconds after the call before: the error given, and

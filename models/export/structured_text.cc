@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "models/export/safe_names.h"
+#include "models/export/saved_state.h"
 #include "models/history/lag.h"
 
 namespace errmap::models {
@@ -54,6 +55,10 @@ class StructuredTextLanguage final : public Language {
   std::string CellName(Cell cell) const override {
     if (cell == Cell::kError) return "Found";
     return CamelCase(InfoOf(cell).name);
+  }
+
+  std::string TrainedState(int form, int coordinate) const override {
+    return fmt::format("States{}_{}[I]", form, coordinate);
   }
 
   std::string HasAny(int mask) const override {
@@ -208,20 +213,32 @@ std::string ArrayText(const std::string& name, int size) {
   return fmt::format("  {} : ARRAY[0..{}] OF LREAL", name, size - 1);
 }
 
-// Constants of the readings.
+// Constants of the readings, and the trained states.
 std::string Tables(const MapProgram& program,
                    const StructuredTextLanguage& language) {
   std::string text;
+  const auto add = [&](const std::string& name,
+                       const std::vector<double>& values) {
+    std::vector<std::string> numbers;
+    for (const double value : values) numbers.push_back(RealText(value));
+    text += ArrayText(name, static_cast<int>(values.size())) + " := [\n" +
+            Joined(Wrapped(numbers, "    "), "");
+    text.insert(text.size() - 1, "];");
+  };
   for (const Cell cell : kTables) {
     if (!program.Uses(cell)) continue;
-    std::vector<std::string> numbers;
+    std::vector<double> values;
     for (const ProgramReading& reading : program.readings) {
-      numbers.push_back(RealText(TableValue(reading, cell)));
+      values.push_back(TableValue(reading, cell));
     }
-    const Lines lines = Wrapped(numbers, "    ");
-    text += ArrayText(language.CellName(cell), program.size(Space::kReading)) +
-            " := [\n" + Joined(lines, "");
-    text.insert(text.size() - 1, "];");
+    add(language.CellName(cell), values);
+  }
+  for (std::size_t form = 0; form < program.forms.size(); ++form) {
+    const Eigen::MatrixXd& states = program.forms[form].states;
+    for (Index k = 0; k < states.cols(); ++k) {
+      add(fmt::format("States{}_{}", form, k),
+          {states.col(k).begin(), states.col(k).end()});
+    }
   }
   return text;
 }
@@ -230,10 +247,12 @@ std::string Inputs(const MapProgram& program,
                    const std::vector<std::string>& inputs) {
   std::string text =
       "VAR_INPUT\n"
-      "  Start : BOOL; (* the next step taken begins a session: filters in "
-      "their steady state, the zero taken *)\n"
+      "  Start : BOOL; (* a session begins with the next step taken: filters "
+      "in their steady state, the zero taken *)\n"
       "  TakeZero : BOOL; (* the next step taken takes the zero anew *)\n"
-      "  DtSeconds : LREAL; (* since the call before *)\n";
+      "  DtSeconds : LREAL; (* since the call before *)\n"
+      "  AwaySeconds : LREAL := 1.0E+30; (* in the first call after a restart: "
+      "how long it was; from an hour on it begins anew *)\n";
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const ProgramReading& reading = program.readings[i];
     text += fmt::format("  {} : LREAL; (* {}{}{} *)\n",
@@ -249,6 +268,11 @@ std::string Inputs(const MapProgram& program,
                     RealText(program.limits.max_rate));
 }
 
+// The limits, which the block's caller may set.
+bool IsInput(Cell cell) {
+  return cell == Cell::kMostError || cell == Cell::kMostRate;
+}
+
 std::string Declarations(const MapProgram& program,
                          const std::vector<std::string>& inputs,
                          const StructuredTextLanguage& language) {
@@ -257,6 +281,9 @@ std::string Declarations(const MapProgram& program,
   Compensation : LREAL; (* -Error *)
   Valid : BOOL; (* the step was taken *)
 )";
+  if (program.Uses(Cell::kSettling)) {
+    text += "  Settles : LREAL; (* s until what filters remember is good *)\n";
+  }
   for (const StatusBit& bit : StatusBits()) {
     text += fmt::format("  {} : BOOL; (* {} *)\n", BitName(bit), bit.what);
   }
@@ -265,13 +292,22 @@ std::string Declarations(const MapProgram& program,
     if (size > 0) text += ArrayText(name, size) + ";\n";
   };
   array("X", program.size(Space::kReading));
-  array("S", program.size(Space::kState));
   for (const LocalArray local : kLocalArrays) {
     array({static_cast<char>(local.name - 'a' + 'A')},
           program.size(local.space));
   }
+  for (const Cell cell :
+       {Cell::kDt, Cell::kCommon, Cell::kAway, Cell::kTarget, Cell::kError}) {
+    if (program.Uses(cell) || cell == Cell::kError) {
+      text += fmt::format("  {} : LREAL;\n", language.CellName(cell));
+    }
+  }
+  if (!inputs.empty()) text += "  I : INT;\n";
+  // Over a warm restart these are kept, but the first is not.
+  text += "  Running : BOOL;\nEND_VAR\nVAR RETAIN\n  OfMap : LREAL;\n";
+  array("S", program.size(Space::kState));
   for (const CellInfo& cell : KeptCells(program)) {
-    if (cell.cell == Cell::kMostError || cell.cell == Cell::kMostRate) continue;
+    if (IsInput(cell.cell)) continue;
     const std::string name = language.CellName(cell.cell);
     if (cell.is_array) {
       array(name, program.size(Space::kReading));
@@ -279,27 +315,44 @@ std::string Declarations(const MapProgram& program,
       text += fmt::format("  {} : LREAL;\n", name);
     }
   }
-  for (const Cell cell :
-       {Cell::kDt, Cell::kCommon, Cell::kTarget, Cell::kError}) {
-    if (program.Uses(cell) || cell == Cell::kError) {
-      text += fmt::format("  {} : LREAL;\n", language.CellName(cell));
-    }
-  }
-  if (!inputs.empty()) text += "  I : INT;\n";
   return text + "END_VAR\n";
 }
 
 // What stands before the routines.
 std::string Prelude(const MapProgram& program,
-                    const std::vector<std::string>& inputs) {
+                    const std::vector<std::string>& inputs,
+                    const StructuredTextLanguage& language) {
   std::string text;
+  std::string anew;
+  std::string session;
+  for (const CellInfo& cell : KeptCells(program)) {
+    if (IsInput(cell.cell) || cell.is_array) continue;
+    const std::string name = language.CellName(cell.cell);
+    anew += fmt::format(
+        "    {} := {};\n", name, RealText(InitialValue(program, cell.cell)));
+    if (IsOfSession(cell.cell)) session += fmt::format("  {} := 0.0;\n", name);
+  }
+  text += fmt::format(R"(IF NOT Running THEN
+  Running := TRUE;
+  IF OfMap = {0} AND AwaySeconds >= 0.0 AND AwaySeconds <= {1} THEN
+    Waited := Waited + AwaySeconds;
+    Missed := Missed + AwaySeconds;
+    Room := Room + MaxRate * AwaySeconds;
+  ELSE
+    OfMap := {0};
+{2}  END_IF;
+END_IF;
+)",
+                      RealText(Fingerprint(program)),
+                      RealText(LongestAge(program)),
+                      anew);
   for (const StatusBit& bit : StatusBits()) {
     text += BitName(bit) + " := FALSE;\n";
   }
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     text += fmt::format("X[{}] := {};\n", i, inputs[i]);
   }
-  text += "Passed := DtSeconds;\nIF Start THEN Begun := 0.0; END_IF;\n";
+  text += "Passed := DtSeconds;\nIF Start THEN\n" + session + "END_IF;\n";
   if (!program.zero.empty()) {
     text += "IF TakeZero THEN ZeroDue := 1.0; END_IF;\n";
   }
@@ -317,12 +370,13 @@ std::vector<ExportedFile> StructuredText(const MapProgram& program,
       Functions(program, name) +
       fmt::format("\nFUNCTION_BLOCK {}_map\n", name) +
       Declarations(program, inputs, language) + "\n" +
-      Prelude(program, inputs) +
+      Prelude(program, inputs, language) +
       Joined(language.Write(program, program.read), "") +
       Joined(language.Write(program, program.move), "") +
       fmt::format(
-          "Error := Given;\nCompensation := -Given;\nValid := NOT ({});\n",
-          language.HasAny(kMapNotTaken)) +
+          "Error := Given;\nCompensation := -Given;\nValid := NOT ({});\n{}",
+          language.HasAny(kMapNotTaken),
+          program.Uses(Cell::kSettling) ? "Settles := SettlesIn;\n" : "") +
       "END_FUNCTION_BLOCK\n";
   return {{name + ".st", text}};
 }

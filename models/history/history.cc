@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -13,6 +14,7 @@
 #include "data/csv.h"
 #include "data/measurements/sessions.h"
 #include "models/history/history_state.h"
+#include "models/history/lag.h"
 
 namespace errmap::models {
 namespace {
@@ -403,6 +405,21 @@ double LongestStep(const data::Dataset& training) {
   return longest;
 }
 
+double SettlesAfter(const History& history) {
+  std::map<std::string, double> after;  // of derived inputs
+  double longest = 0.0;
+  for (const DerivedInput& input : history.derived) {
+    double& own = after[input.column.name];
+    own = after.contains(input.of) ? after.at(input.of) : 0.0;
+    if (input.filter == Filter::kEma) own += kSettledTaus * input.tau;
+    if (input.filter == Filter::kZero) {
+      own = std::numeric_limits<double>::infinity();
+    }
+    longest = std::max(longest, own);
+  }
+  return longest;
+}
+
 std::vector<Missing> FindMissing(const data::SessionLog& log,
                                  const History& history) {
   const StepsApart steps(log, history);
@@ -411,14 +428,19 @@ std::vector<Missing> FindMissing(const data::SessionLog& log,
     if (rows.empty()) continue;
     const bool begins_inside = log.time[rows.front()] > history.latest_start;
     double known_again = log.time[rows.front()];
+    double settled = known_again;
+    if (begins_inside) settled += SettlesAfter(history);
     Index before = rows.front();
     for (const Index row : rows) {
       const double now = log.time[row];
       const double apart = steps.Between(before, row);
-      if (apart > 0.0) known_again = now + apart;
+      if (apart > 0.0) {
+        known_again = now + apart;
+        if (now < settled) settled = std::max(settled, known_again);
+      }
       before = row;
       Missing& here = missing[static_cast<std::size_t>(row)];
-      if (begins_inside) {
+      if (now < settled) {
         here = Missing::kStart;
       } else if (now < known_again) {
         here = Missing::kReadings;

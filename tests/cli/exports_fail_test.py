@@ -13,6 +13,7 @@ equal `errmap predict`. Needs a C compiler; skips (status 77) without.
 
 import csv
 import importlib.util
+import json
 import math
 import os
 import pathlib
@@ -28,7 +29,11 @@ READER = HERE / "commands" / "read_structured_text.py"
 LANGUAGES_AGREE = 1e-12  # of the error's limit
 RECOVERS = 1e-9  # mm
 PREDICTS = 1e-12  # mm
+RESTARTS = 1e-12  # of the error's limit
 LONG = 1e6  # s: no rate limits the first error
+# What `predict` calls a row, and the bit of the status that says so.
+WHY = {"range": "OUTSIDE", "relation": "RELATION", "distance": "DISTANCE",
+       "leverage": "LEVERAGE", "start": "SETTLING", "gap": "GAP"}
 
 MAPS = {
     "ridge": ["poly:ridge:view=history+zero", "position_mm,t03_degC,t12_degC,"
@@ -38,6 +43,9 @@ MAPS = {
     # The one whose dead sensor asked for -166.8 mm.
     "stepwise": ["poly:stepwise", "position_mm,t12_degC,t30_degC,t06_degC,"
                  "t25_degC"],
+    # As strict as to mark every kind of row.
+    "strict": ["poly:ridge:view=history", "position_mm,t03_degC,t12_degC,"
+               "t30_degC,t25_degC"],
     # One map for each direction of motion.
     "pair": ["poly:ridge:view=history", "position_mm,t03_degC,t12_degC,"
              "t30_degC"],
@@ -46,13 +54,20 @@ MAPS = {
 DRIVER = """#include <stdio.h>
 #include "{0}.h"
 int main(void) {{
-  double start, dt;
+  double start, dt, saved[{0}_SAVED];
   {0}_real x[{0}_INPUTS], error;
   {0}_state state;
   while (scanf("%lf %lf", &start, &dt) == 2) {{
     int i, status;
     for (i = 0; i < {0}_INPUTS; ++i) if (scanf("%lf", &x[i]) != 1) return 1;
-    if (start == 1.0) {{ {0}_init(&state); dt = 1e6; }}
+    if (start == 1.0 || start == 3.0) {{ {0}_init(&state); dt = 1e6; }}
+    if (start == 1.0) {0}_begin(&state);
+    if (start == 4.0) {{
+      {0}_get_state(&state, saved);
+      {0}_init(&state);
+      if ({0}_set_state(&state, saved, dt) != 0) return 1;
+      dt = 0.0;
+    }}
     status = {0}_step(&state, dt, x, &error);
     printf("%.17g %d\\n", error, status);
   }}
@@ -74,19 +89,37 @@ def run(*words, text=None, folder=None):
                           cwd=folder, input=text).stdout
 
 
-def both_directions(folder):
-    """The rows of up and down of each day, in the order of time."""
+def write_days(file, ways, keeps=lambda at: True):
+    """Writes the rows of these directions of motion beside `file`, each day in
+    the order of time, which begins with it: those whose place in it `keeps`."""
     rows = []
-    for way in ("up", "down"):
-        with open(folder / f"sim/x_displacement_{way}.csv",
-                  encoding="utf-8") as file:
-            rows += csv.DictReader(file)
+    for way in ways:
+        with open(file.parent / f"x_displacement_{way}.csv",
+                  encoding="utf-8") as text:
+            rows += csv.DictReader(text)
     rows.sort(key=lambda row: (int(row["day"]), float(row["time_s"])))
-    with open(folder / "both.csv", "w", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, rows[0].keys())
+    at, begin, day = 0, 0.0, ""
+    with open(file, "w", encoding="utf-8") as text:
+        writer = csv.DictWriter(text, rows[0].keys())
         writer.writeheader()
-        writer.writerows(rows)
-    return "both.csv"
+        for row in rows:
+            if row["day"] != day:
+                at, begin, day = 0, float(row["time_s"]), row["day"]
+            if keeps(at):
+                writer.writerow(
+                    {**row, "time_s": repr(float(row["time_s"]) - begin)})
+            at += 1
+    return str(file)
+
+
+def make_strict(file):
+    """Limits so near that rows lie beyond them in every way."""
+    model = json.loads(file.read_text())
+    trained = model["applicability"]
+    trained["distance_limit"] *= 0.05
+    trained["leverage_limit"] *= 0.1
+    trained["relation_limit"] = [0.8 * x for x in trained["relation_limit"]]
+    file.write_text(json.dumps(model))
 
 
 class Direction:
@@ -113,14 +146,17 @@ class Exported:
         spec, inputs = MAPS[name]
         self.name = name
         self.folder = folder
+        self.errmap = errmap
         ways = ["up", "down"] if name == "pair" else ["down"]
-        data = (both_directions(folder) if name == "pair"
-                else "sim/x_displacement_down.csv")
-        files = [f"{name}_{way}.json" for way in ways]
+        data = write_days(folder / "sim" / (name + ".csv"), ways)
+        files = self.files = [f"{name}_{way}.json" for way in ways]
         for way, file in zip(ways, files):
-            run(errmap, "fit", f"sim/x_displacement_{way}.csv", "--model",
+            run(errmap, "fit",
+                write_days(folder / "sim" / (way + ".csv"), [way]), "--model",
                 spec, "--inputs", inputs, "-o", file, "--quiet",
                 "--no-interval", folder=folder)
+        if name == "strict":
+            make_strict(folder / files[0])
         maps = (files if len(files) == 1 else
                 ["--increasing", files[0], "--decreasing", files[1]])
         run(errmap, "export", *maps, "--c", "--python", "--st", "--name", name,
@@ -141,40 +177,59 @@ class Exported:
             self.band = of_head(r"has come back by (\S+);")
             self.reversal = 1.01 * of_head(r"then change by (\S+) at once")
         self.position = self.map.INPUTS.index("position_mm")
-        with open(folder / data, encoding="utf-8") as file:
-            self.days = {}
-            for row in csv.DictReader(file):
-                self.days.setdefault(row["day"], []).append(
-                    [float(row["time_s"])]
-                    + [float(row[column]) for column in self.map.INPUTS])
-        self.predicted = [
-            [float(row["predicted"]) for row in csv.DictReader(
-                run(errmap, "predict", file, data, "--quiet",
-                    folder=folder).splitlines())] for file in files]
+        self.days = self.read_days(data)
+        self.predicted = [[float(row["predicted"]) for row in rows]
+                          for rows in self.predict(data)]
 
-    def in_python(self, rows):
+    def in_python(self, rows, begins=True, restart=None):
         session = self.map.Map()
-        return [session.step(LONG if i == 0 else dt, inputs)
-                for i, (dt, *inputs) in enumerate(rows)]
+        if begins:
+            session.begin()
+        found = []
+        for i, (dt, *inputs) in enumerate(rows):
+            if i == restart:
+                saved = json.loads(json.dumps(session.get_state()))
+                session = self.map.Map()
+                check(self.name + ": its own state is taken",
+                      session.set_state(saved, dt))
+                dt = 0.0
+            found.append(session.step(LONG if i == 0 else dt, inputs))
+        return found
 
     @staticmethod
-    def lines(rows):
+    def lines(rows, begins=True, restart=None):
+        flags = {0: 1 if begins else 3, restart: 4}
         return "".join(
-            f"{1 if i == 0 else 0} " + " ".join(map(repr, row)) + "\n"
+            f"{flags.get(i, 0)} " + " ".join(map(repr, row)) + "\n"
             for i, row in enumerate(rows))
 
-    def in_c(self, rows):
+    def in_c(self, rows, **how):
         out = run(str(self.folder / (self.name + ".exe")),
-                  text=self.lines(rows))
+                  text=self.lines(rows, **how))
         return [(float(error), int(status)) for error, status in
                 (line.split() for line in out.splitlines())]
 
-    def in_structured_text(self, rows):
+    def in_structured_text(self, rows, **how):
         out = run(sys.executable, "-B", str(READER),
                   str(self.folder / (self.name + ".st")),
-                  text=self.lines(rows))
-        return [(float(line.split()[0]), line.split()[2] == "1")
+                  text=self.lines(rows, **how))
+        return [(float(line.split()[0]), int(line.split()[6]))
                 for line in out.splitlines()]
+
+    def predict(self, file):
+        """Of each map, its row for each row of a file."""
+        return [list(csv.DictReader(
+            run(self.errmap, "predict", name, file, "--quiet",
+                folder=self.folder).splitlines())) for name in self.files]
+
+    def read_days(self, file):
+        days = {}
+        with open(self.folder / file, encoding="utf-8") as text:
+            for row in csv.DictReader(text):
+                days.setdefault(row["day"], []).append(
+                    [float(row["time_s"])]
+                    + [float(row[column]) for column in self.map.INPUTS])
+        return days
 
 
 def steps_of(day):
@@ -285,10 +340,82 @@ def check_failure(exported, chance, with_structured_text):
     if not with_structured_text:
         return
     for mine, other in zip(found, exported.in_structured_text(rows)):
-        taken = not mine[1] & exported.map.NOT_TAKEN
         check(what + ": structured text says the same",
-              abs(mine[0] - other[0]) <= allowed and taken == other[1],
+              abs(mine[0] - other[0]) <= allowed and mine[1] == other[1],
               (mine, other))
+
+
+def other_files(folder, errmap, ways):
+    """Other days of the machine and of others; whole, without the first rows of
+    each day, and with gaps."""
+    for seed in (3, 4, 5):
+        run(errmap, "simulate", "turning-centre", "-o", f"sim{seed}", "--days",
+            "4", "--cycles", "4", "--seed", str(seed), "--quiet",
+            folder=folder)
+        cycle = 17 * len(ways)
+        for kind, keeps in (("whole", lambda at: True),
+                            ("late", lambda at: at >= cycle),
+                            ("gaps", lambda at: not cycle <= at < 3 * cycle)):
+            yield write_days(folder / f"sim{seed}" / (kind + ".csv"), ways,
+                             keeps)
+
+
+def check_status(exported, errmap, counts):
+    """Row by row as `predict`, up to the first row that is not taken."""
+    ways = ["up", "down"] if exported.name == "pair" else ["down"]
+    bits = {why: getattr(exported.map, bit) for why, bit in WHY.items()}
+    unlike = sum(bits.values())
+    for file in other_files(exported.folder, errmap, ways):
+        predicted = exported.predict(file)
+        at = 0
+        for day in exported.read_days(file).values():
+            of_day = [rows[at:at + len(day)] for rows in predicted]
+            at += len(day)
+            steps = steps_of(day)
+            how = {"begins": not any(row["why"] == "start" for rows in of_day
+                                     for row in rows)}
+            found = exported.in_python(steps, **how)
+            for other in (exported.in_c(steps, **how),
+                          exported.in_structured_text(steps, **how)):
+                check(f"{exported.name}, {file}: the languages agree",
+                      [status for _, status in found]
+                      == [status for _, status in other])
+            direction = Direction(exported.band)
+            for i, ((_, *inputs), (_, status)) in enumerate(zip(steps, found)):
+                direction.follow(inputs[exported.position])
+                if status & exported.map.NOT_TAKEN:
+                    counts["not taken"] = counts.get("not taken", 0) + 1
+                    break
+                row = of_day[int(direction.down)][i]
+                counts[row["why"]] = counts.get(row["why"], 0) + 1
+                check(f"{exported.name}, {file}: row {i} as predict says",
+                      bool(status & unlike) == (row["inside"] == "0")
+                      and (not row["why"] or status & bits[row["why"]]),
+                      (status, row["why"]))
+
+
+def check_restart(exported, chance):
+    """A control that kept its state goes on as if it had not been away."""
+    rows = steps_of(chance.choice(list(exported.days.values())))
+    at = chance.randrange(1, len(rows))
+    allowed = RESTARTS * exported.map.Map().max_error
+    unbroken = exported.in_python(rows)
+    for language in (exported.in_python, exported.in_c,
+                     exported.in_structured_text):
+        for mine, other in zip(unbroken, language(rows, restart=at)):
+            check(f"{exported.name}: restarted at row {at} with its state",
+                  abs(mine[0] - other[0]) <= allowed and mine[1] == other[1],
+                  (mine, other))
+    session = exported.map.Map()
+    session.begin()
+    session.step(LONG, rows[0][1:])
+    saved = session.get_state()
+    for what, wrong, age in (("older", saved, 1e8), ("younger", saved, -1.0),
+                             ("of another map", {**saved, "map": 1.5}, 1.0),
+                             ("damaged", {**saved, "given": math.nan}, 1.0),
+                             ("cut", {"map": saved["map"]}, 1.0)):
+        check(f"{exported.name}: no state that is {what}",
+              not exported.map.Map().set_state(wrong, age))
 
 
 def main():
@@ -303,8 +430,15 @@ def main():
         run(errmap, "simulate", "turning-centre", "-o", "sim", "--days", "3",
             "--cycles", "4", "--seed", "3", "--quiet", folder=folder)
         maps = [Exported(name, folder, errmap) for name in MAPS]
+        counts = {}
         for exported in maps:
             check_healthy(exported)
+            check_status(exported, errmap, counts)
+            for _ in range(3):
+                check_restart(exported, chance)
+        print("rows:", counts)
+        check("every reason occurred", all(counts.get(why) for why in WHY),
+              counts)
         for i in range(count):
             check_failure(maps[i % len(maps)], chance, i % 10 < 3)
             if len(failures) > 20:

@@ -7,10 +7,11 @@ a name, a real literal without a point, a line over 200 characters ends it.
 
   read_structured_text.py FILE.st < ROWS
 
-Each row is `start dt inputs...`, start 1 where a session begins and 2 where the
-zero is taken anew; a session begins after so long a pause that no rate limits
-the first error. Prints Error, Compensation, Valid, Outside,
-Far and Clipped after each call.
+Each row is `start dt inputs...`, start 1 where a session begins, 3 where one
+goes on that began before, and 2 where the zero is taken anew; both begin after
+so long a pause that no rate limits the first error. At 4 the control was away
+for dt, what it retains was not, and the call comes dt after. Prints Error,
+Compensation, Valid, Outside, Far, Clipped and the status after each call.
 """
 
 import math
@@ -22,7 +23,12 @@ WORDS = {"FUNCTION", "END_FUNCTION", "FUNCTION_BLOCK", "END_FUNCTION_BLOCK",
          "BOOL", "IF", "THEN", "ELSE", "ELSIF", "END_IF", "AND", "OR", "NOT",
          "TRUE", "FALSE", "EXP", "SIN", "COS", "FOR", "WHILE", "REPEAT", "INT",
          "REAL", "XOR", "MOD", "CASE", "RETURN", "EXIT", "PROGRAM", "DT",
-         "ABS", "TO", "BY", "DO", "END_FOR"}
+         "ABS", "TO", "BY", "DO", "END_FOR", "RETAIN"}
+# Of the status, as the other languages have them.
+BITS = {"OUTSIDE": 1, "FAR": 2, "CLIPPED": 4, "INVALID": 8, "DEAD": 16,
+        "FROZEN": 32, "CONTRADICTS": 64, "FADED": 128, "LIMITED": 256,
+        "RAMPING": 512, "RELATION": 1024, "DISTANCE": 2048, "LEVERAGE": 4096,
+        "SETTLING": 8192, "GAP": 16384}
 TOKEN = re.compile(r"""
     (?P<space>\s+) | (?P<comment>\(\*.*?\*\))
   | (?P<real>[0-9][0-9_]*\.[0-9]+([eE][+-]?[0-9]+)?)
@@ -155,7 +161,9 @@ class Reader:
     def block(self):
         self.scope = {}
         initial = []
-        for section in ("VAR_INPUT", "VAR_OUTPUT", "VAR"):
+        for section in ("VAR_INPUT", "VAR_OUTPUT", "VAR", "RETAIN"):
+            if section == "RETAIN":
+                self.take("word", "VAR")
             self.take("word", section)
             while not self.accept("word", "END_VAR"):
                 name = self.declaration(initial)
@@ -326,15 +334,20 @@ def main():
             if name == "START":
                 block.START = start == 1.0
             elif name == "DTSECONDS":
-                block.DTSECONDS = 1e6 if start == 1.0 else dt
+                block.DTSECONDS = {1.0: 1e6, 3.0: 1e6, 4.0: 0.0}.get(start, dt)
+            elif name == "AWAYSECONDS":
+                block.AWAYSECONDS = dt if start == 4.0 else 1e30
             elif name == "TAKEZERO":
                 block.TAKEZERO = start == 2.0
             elif name not in ("MAXERROR", "MAXRATE"):
                 setattr(block, name, next(values))
         assert next(values, None) is None
+        if start in (3.0, 4.0):
+            block.RUNNING = False
         block.call()
         print(repr(block.ERROR), repr(block.COMPENSATION), int(block.VALID),
-              int(block.OUTSIDE), int(block.FAR), int(block.CLIPPED))
+              int(block.OUTSIDE), int(block.FAR), int(block.CLIPPED),
+              sum(bit for name, bit in BITS.items() if getattr(block, name)))
 
 
 if __name__ == "__main__":

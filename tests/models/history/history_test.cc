@@ -310,6 +310,13 @@ TEST(History, TellsASessionWhoseFirstRowsAreMissing) {
   constexpr Missing kStart = Missing::kStart;
   EXPECT_THAT(FindMissing(*data(0.0, 56.0).log(), history),
               ElementsAre(kHere, kHere, kHere, kStart, kStart, kStart));
+  // A filter forgets where it began, a zero does not.
+  history.derived = {Ema(ColumnNamed("t1_degC"), 2.0, "s")};
+  EXPECT_EQ(SettlesAfter(history), 2.0 * kSettledTaus);
+  EXPECT_THAT(FindMissing(*data(0.0, 56.0).log(), history),
+              ElementsAre(kHere, kHere, kHere, kStart, kHere, kHere));
+  history = Everything();
+  EXPECT_TRUE(std::isinf(SettlesAfter(history)));
   // Sessions by the clock on the wall: the start of a session tells nothing.
   history.latest_start = LatestStart(data(0.0, 86400.0));
   EXPECT_TRUE(std::isnan(history.latest_start));

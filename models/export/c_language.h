@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+
+#include "models/export/language.h"
+
+namespace errmap::models {
+
+/// C99 of the program `name`: local arrays, a pointer to the state, tables and
+/// functions whose names begin with that of the program.
+class CLanguage final : public Language {
+ public:
+  CLanguage(std::string name, Precision precision);
+
+  std::string CellName(Cell cell) const override;
+  std::string Number(double value, bool single) const override;
+  std::string TrainedState(int form, int coordinate) const override;
+  std::string HasAny(int mask) const override;
+
+ private:
+  std::string Flag(int bit) const override;
+  std::string Assign(const std::string& to,
+                     const std::string& value,
+                     bool narrows) const override;
+  std::string Call(Function function,
+                   const std::string& argument,
+                   bool single) const override;
+  Lines Bound(const std::string& condition,
+              const std::string& to,
+              const std::string& value,
+              bool guards) const override;
+  Lines Affine(const Instruction& it,
+               const Eigen::MatrixXd& table) const override;
+  Lines Sigmoids(const Instruction& it) const override;
+
+  std::string name_;
+};
+
+}  // namespace errmap::models

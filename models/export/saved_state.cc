@@ -1,0 +1,57 @@
+#include "models/export/saved_state.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+namespace errmap::models {
+namespace {
+
+// FNV-1a of 64 bits.
+class Hash {
+ public:
+  void Add(double number) {
+    Add(std::bit_cast<std::uint64_t>(number), sizeof(double));
+  }
+  void Add(std::uint64_t bits, std::size_t bytes) {
+    for (std::size_t i = 0; i < bytes; ++i) {
+      value_ = (value_ ^ (bits >> (8 * i) & 0xFF)) * 0x100000001B3U;
+    }
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xCBF29CE484222325U;
+};
+
+}  // namespace
+
+double Fingerprint(const MapProgram& program) {
+  constexpr int kBits = 24;
+  Hash hash;
+  for (const Instructions* part : program.parts()) {
+    for (const Instruction& it : *part) {
+      hash.Add(static_cast<std::uint64_t>(it.op), 1);
+      for (const Operand& place : {it.to, it.a, it.b}) {
+        hash.Add(static_cast<std::uint64_t>(place.space), 1);
+        hash.Add(static_cast<std::uint64_t>(place.index), 2);
+      }
+      hash.Add(it.c);
+      hash.Add(it.d);
+    }
+  }
+  for (const Eigen::MatrixXd& table : program.tables) {
+    for (const double number : table.reshaped()) hash.Add(number);
+  }
+  return static_cast<double>(hash.value() >> (64 - kBits)) + 1.0;
+}
+
+double LongestAge(const MapProgram& program) {
+  constexpr double kHour = 3600.0;
+  constexpr double kForEver = 1e9;  // of a map with a zero
+  return program.settles_after < kForEver
+             ? std::max(program.settles_after, kHour)
+             : kHour;
+}
+
+}  // namespace errmap::models
