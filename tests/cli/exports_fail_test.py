@@ -6,13 +6,15 @@ Each failure takes one input of one map, and from a random row on for a random
 while it reads 0, stands still, reads 50 more, no number, another input or
 itself some rows ago. Whatever it is: no error leaves the limit of the file, no
 step of it exceeds the rate and what the axis' own motion adds, and the languages
-agree, status and all. Of failures that are told, the filters are afterwards
+agree, status and all, structured text also as matiec compiles it, where that is
+at hand. Of failures that are told, the filters are afterwards
 where they would be if the rows had never been. Healthy rows are believed and
-equal `errmap predict`. Needs a C compiler; skips (status 77) without.
+equal `errmap predict`, and say of each row what it does; a control that kept
+its state goes on as if it had not been away. In the end faults are planted, and
+must be found. Needs a C compiler; skips (status 77) without.
 """
 
 import csv
-import importlib.util
 import json
 import math
 import os
@@ -23,6 +25,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import types
 
 HERE = pathlib.Path(__file__).resolve().parent
 READER = HERE / "commands" / "read_structured_text.py"
@@ -46,6 +49,16 @@ MAPS = {
     # As strict as to mark every kind of row.
     "strict": ["poly:ridge:view=history", "position_mm,t03_degC,t12_degC,"
                "t30_degC,t25_degC"],
+    "eq8": ["poly:eq8", "position_mm,t12_degC"],
+    "full": ["poly:full:degree=2", "position_mm,t12_degC,t30_degC"],
+    "raw": ["poly:ridge:view=raw", "position_mm,t03_degC,t12_degC,t15_degC,"
+            "t25_degC,t28_degC,t30_degC"],
+    "lasso": ["poly:lasso:view=history", "position_mm,t03_degC,t12_degC,"
+              "t30_degC"],
+    "blend": ["blend", "position_mm,t03_degC,t12_degC,t30_degC"],
+    "zeroed": ["poly:ridge:view=zero", "position_mm,t03_degC,t15_degC,"
+               "t30_degC"],
+    "cubic": ["poly:full:degree=3", "position_mm,t28_degC"],
     # One map for each direction of motion.
     "pair": ["poly:ridge:view=history", "position_mm,t03_degC,t12_degC,"
              "t30_degC"],
@@ -75,13 +88,51 @@ int main(void) {{
 }}
 """
 
+TEXT_DRIVER = """#include <stdio.h>
+#include "accessor.h"
+#include "iec_std_lib.h"
+TIME __CURRENT_TIME;
+BOOL __DEBUG;
+#include "POUS.h"
+#include "POUS.c"
+int main(void) {{
+  static {0} B;
+  double start, dt, x[{1}];
+  {0}_init__(&B, 0);
+  while (scanf("%lf %lf", &start, &dt) == 2) {{
+    int i, status = 0;
+    for (i = 0; i < {1}; ++i) if (scanf("%lf", &x[i]) != 1) return 1;
+    __SET_VAR((&B)->,START,,start == 1.0);
+    __SET_VAR((&B)->,DTSECONDS,,start == 1.0 ? 1e6 : dt);
+{2}    {0}_body__(&B);
+{3}    printf("%.17g %d\\n", (double)__GET_VAR(B.ERROR), status);
+  }}
+  return 0;
+}}
+"""
+BITS = ["OUTSIDE", "FAR", "CLIPPED", "INVALID", "DEAD", "FROZEN", "CONTRADICTS",
+        "FADED", "LIMITED", "RAMPING", "RELATION", "DISTANCE", "LEVERAGE",
+        "SETTLING", "GAP"]
+WITH_STATUS = ["ridge", "stepwise", "strict", "pair"]
+
+# A fault in the exported Python, which the checks must find.
+PLANTS = {
+    "no limit": ("if target > self.max_error:", "if False:"),
+    "no rate": ("if target > (self.given + self.room):", "if False:"),
+    "steps are always taken": ("if not (status & NOT_TAKEN):", "if True:"),
+    "a gap is no time": ("self.waited = self.waited + passed",
+                         "self.waited = passed"),
+}
+
 failures = []
+planted = []
 
 
 def check(what, holds, found=None):
     if not holds:
         failures.append(what)
-        print(f"FAILED {what} (found {found})")
+        if len(failures) <= 20 and not planted:
+            print(f"FAILED {what} (found {found})")
 
 
 def run(*words, text=None, folder=None):
@@ -164,10 +215,7 @@ class Exported:
         (folder / "driver.c").write_text(DRIVER.format(name))
         run("cc", "-std=c99", "-O2", "driver.c", name + ".c", "-o",
             name + ".exe", "-lm", folder=folder)
-        module = importlib.util.spec_from_file_location(
-            name, folder / (name + ".py"))
-        self.map = importlib.util.module_from_spec(module)
-        module.loader.exec_module(self.map)
+        self.load((folder / (name + ".py")).read_text())
         head = (folder / (name + ".h")).read_text()
         of_head = lambda words: float(re.search(words, head)[1])
         self.slope = 1.01 * of_head(  # of three digits
@@ -180,6 +228,10 @@ class Exported:
         self.days = self.read_days(data)
         self.predicted = [[float(row["predicted"]) for row in rows]
                           for rows in self.predict(data)]
+
+    def load(self, text):
+        self.map = types.ModuleType(self.name)
+        exec(compile(text, self.name + ".py", "exec"), self.map.__dict__)
 
     def in_python(self, rows, begins=True, restart=None):
         session = self.map.Map()
@@ -216,6 +268,29 @@ class Exported:
         return [(float(line.split()[0]), int(line.split()[6]))
                 for line in out.splitlines()]
 
+    def in_compiled_text(self, rows):
+        """By matiec, a real compiler of IEC 61131-3, where there is one."""
+        exe = self.folder / (self.name + ".st.exe")
+        if not exe.exists():
+            iec2c = pathlib.Path(compiler_of_text()).resolve()
+            out = self.folder / (self.name + "_st")
+            out.mkdir()
+            run(str(iec2c), "-I", str(iec2c.parent / "lib"), "-T", str(out),
+                self.name + ".st", folder=self.folder)
+            text = (self.folder / (self.name + ".st")).read_text()
+            inputs = re.findall(r"^  (In_\w+) : LREAL;", text, re.M)
+            (out / "driver.c").write_text(TEXT_DRIVER.format(
+                self.name.upper() + "_MAP", len(inputs), "".join(
+                    f"    __SET_VAR((&B)->,{name.upper()},,x[{i}]);\n"
+                    for i, name in enumerate(inputs)), "".join(
+                    f"    if (__GET_VAR(B.{bit})) status |= "
+                    f"{getattr(self.map, bit)};\n" for bit in BITS)))
+            run("cc", "-O1", "-w", "-I", str(iec2c.parent / "lib" / "C"), "-I",
+                str(out), str(out / "driver.c"), "-o", str(exe), "-lm")
+        out = run(str(exe), text=self.lines(rows))
+        return [(float(error), int(status)) for error, status in
+                (line.split() for line in out.splitlines())]
+
     def predict(self, file):
         """Of each map, its row for each row of a file."""
         return [list(csv.DictReader(
@@ -230,6 +305,14 @@ class Exported:
                     [float(row["time_s"])]
                     + [float(row[column]) for column in self.map.INPUTS])
         return days
+
+
+def compiler_of_text():
+    return os.environ.get("IEC2C") or shutil.which("iec2c")
+
+
+def has_compiler():
+    return compiler_of_text() is not None
 
 
 def steps_of(day):
@@ -316,7 +399,7 @@ def check_healthy(exported):
           turned)
 
 
-def check_failure(exported, chance, with_structured_text):
+def failed_session(exported, chance):
     rows = steps_of(chance.choice(list(exported.days.values())))
     kind = chance.choice(["zero", "stuck", "plus 50", "nan", "swapped",
                           "delayed"])
@@ -325,24 +408,47 @@ def check_failure(exported, chance, with_structured_text):
     begin = chance.randrange(1, len(rows) - 1)
     end = min(len(rows), begin + chance.randrange(1, 30))
     rows = fail(rows, kind, which, begin, end, other)
-    what = (f"{exported.name}, {exported.map.INPUTS[which - 1]} {kind} in rows "
-            f"{begin} to {end}")
+    return rows, (f"{exported.name}, {exported.map.INPUTS[which - 1]} {kind} in "
+                  f"rows {begin} to {end}")
+
+
+def check_failure(exported, chance, others):
+    rows, what = failed_session(exported, chance)
     found = exported.in_python(rows)
     check_limits(exported, rows, found, what)
     # Which way the axis went in rows that were left out is not known.
     if exported.name != "pair":
         check_recovery(exported, rows, found, what)
     allowed = LANGUAGES_AGREE * exported.map.Map().max_error
-    for mine, other in zip(found, exported.in_c(rows)):
-        check(what + ": C says the same",
-              abs(mine[0] - other[0]) <= allowed and mine[1] == other[1],
-              (mine, other))
-    if not with_structured_text:
-        return
-    for mine, other in zip(found, exported.in_structured_text(rows)):
-        check(what + ": structured text says the same",
-              abs(mine[0] - other[0]) <= allowed and mine[1] == other[1],
-              (mine, other))
+    for language in others:
+        for mine, other in zip(found, language(exported, rows)):
+            check(f"{what}: the same {language.__name__}",
+                  abs(mine[0] - other[0]) <= allowed and mine[1] == other[1],
+                  (mine, other))
+
+
+def check_plants(exported, chance):
+    """Limits so near that they are reached; then each fault is found."""
+    right = (exported.folder / (exported.name + ".py")).read_text()
+    for limit, nearer in (("error", 0.3), ("rate", 0.05)):
+        right = re.sub(rf"(self\.max_{limit} =) ([0-9.e-]+)",
+                       lambda most: f"{most[1]} {nearer * float(most[2])!r}",
+                       right, count=1)
+    before = len(failures)
+    for fault, (old, new) in {"": ("", ""), **PLANTS}.items():
+        check("the place of a fault: " + fault, old in right)
+        exported.load(right.replace(old, new) if old else right)
+        found = len(failures)
+        planted[:] = [fault] if fault else []
+        for _ in range(30):
+            check_failure(exported, chance, [])
+        planted.clear()
+        found = len(failures) - found
+        if fault:
+            del failures[len(failures) - found:]
+            check(f"a fault is found: {fault}", found > 0)
+            print(f"planted, {fault}: found in {found} checks")
+    check("and without one nothing is", len(failures) == before)
 
 
 def other_files(folder, errmap, ways):
@@ -433,16 +539,26 @@ def main():
         counts = {}
         for exported in maps:
             check_healthy(exported)
-            check_status(exported, errmap, counts)
+            if exported.name in WITH_STATUS:
+                check_status(exported, errmap, counts)
             for _ in range(3):
                 check_restart(exported, chance)
         print("rows:", counts)
         check("every reason occurred", all(counts.get(why) for why in WHY),
               counts)
         for i in range(count):
-            check_failure(maps[i % len(maps)], chance, i % 10 < 3)
+            others = [Exported.in_c]
+            if i % 10 < 3:
+                others.append(Exported.in_structured_text)
+            if i % 10 == 3 and has_compiler():
+                others.append(Exported.in_compiled_text)
+            check_failure(maps[i % len(maps)], chance, others)
             if len(failures) > 20:
                 break
+        check_plants(maps[0], chance)
+    if not has_compiler():
+        print("structured text was read, not compiled: no iec2c (matiec) on "
+              "the PATH or in IEC2C")
     print(f"{count} failures over {len(maps)} maps: "
           + ("WRONG" if failures else "right"))
     return 1 if failures else 0

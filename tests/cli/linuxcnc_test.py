@@ -11,10 +11,14 @@ import csv
 import json
 import os
 import pathlib
+import random
 import shutil
 import subprocess
 import sys
 import tempfile
+import types
+
+import exports_fail_test
 
 HERE = pathlib.Path(__file__).resolve().parent / "linuxcnc"
 USER = "errmap-linuxcnc"
@@ -134,20 +138,26 @@ class Bench:
                 "poly:ridge:view=history+zero", "--inputs", inputs, "-o",
                 direction + ".json", "--quiet", "--no-interval")
 
-    def install(self):
-        self.errmap_run("export", "up.json", "--hal", "-o", ".", "--quiet")
-        run("halcompile", "--install", "errmap_up.comp", folder=self.folder)
-        self.components.append("errmap_up")
+    def install(self, name, *maps):
+        self.errmap_run("export", *maps, "--hal", "--python", "--name", name,
+                        "-o", ".", "--quiet")
+        run("halcompile", "--install", f"errmap_{name}.comp",
+            folder=self.folder)
+        self.components.append("errmap_" + name)
 
     def remove(self):
         for component in self.components:
             (MODULES / (component + ".so")).unlink(missing_ok=True)
 
-    def rows(self):
+    def rows(self, *directions):
         """The first session: seconds since the row before, then readings."""
-        with open(self.folder / "sim/x_displacement_up.csv",
-                  encoding="utf-8") as file:
-            table = [row for row in csv.DictReader(file) if row["day"] == "1"]
+        table = []
+        for direction in directions or ["up"]:
+            with open(self.folder / f"sim/x_displacement_{direction}.csv",
+                      encoding="utf-8") as file:
+                table += [row for row in csv.DictReader(file)
+                          if row["day"] == "1"]
+        table.sort(key=lambda row: float(row["time_s"]))
         rows, before = [], None
         for row in table:
             time = float(row["time_s"])
@@ -157,7 +167,7 @@ class Bench:
             before = time
         return rows
 
-    def predict(self, rows):
+    def predict(self, rows, model="up.json"):
         """What `errmap predict` says of such a session."""
         time = 0.0
         with open(self.folder / "rows.csv", "w", encoding="utf-8") as file:
@@ -167,7 +177,7 @@ class Bench:
                 file.write("1,%r," % time
                            + ",".join(repr(value) for value in readings)
                            + "\n")
-        out = self.errmap_run("predict", "up.json", "rows.csv").stdout
+        out = self.errmap_run("predict", model, "rows.csv").stdout
         return [float(row["predicted"])
                 for row in csv.DictReader(out.splitlines())]
 
@@ -197,13 +207,14 @@ class Bench:
              "halrun", "-f", "probe.hal"], cwd=self.folder,
             capture_output=True, timeout=SECONDS, check=False).returncode == 0
 
-    def feed(self, what, **case):
+    def feed(self, what, name="up", **case):
         case = {"what": what,
                 "pins": ["position"] + ["in-" + name.replace("_", "-")
                                         for name in SENSORS], **case}
         (self.folder / "case.json").write_text(json.dumps(case))
         (self.folder / "run.hal").write_text(HALRUN.format(
-            component="errmap_up", hal="errmap-up", python=PYTHON, here=HERE))
+            component="errmap_" + name, hal="errmap-" + name, python=PYTHON,
+            here=HERE))
         return self.as_user("halrun", "-f", "run.hal")
 
     # At lower accelerations LinuxCNC's filter of a COMP_FILE may stand still
@@ -273,6 +284,57 @@ def check_component(bench):
           counts != 0 and found.get("machine") == [
               [0, 0, False], [1, counts, True], [0, 0, False],
               [1, counts, True]], found)
+
+
+def check_pair(bench):
+    rows = bench.rows("up", "down")
+    up, down = bench.predict(rows), bench.predict(rows, "down.json")
+    direction = exports_fail_test.Direction(0.02)
+    predicted, turns = [], 0
+    for row, errors in zip(rows, zip(up, down)):
+        turns += direction.follow(row[1])
+        predicted.append(errors[direction.down])
+    found = bench.feed("session", "pair", rows=rows, predicted=predicted)
+    check("the map of each direction of motion acts in it to 1e-9 mm",
+          found.get("worst", 1.0) < 1e-9 and turns > 5, (found, turns))
+
+
+def check_failures(bench, count=12):
+    """The component as the exported Python, whatever fails."""
+    chance = random.Random(11)
+    module = types.ModuleType("pair")
+    exec((bench.folder / "pair.py").read_text(), module.__dict__)
+    session = module.Map()
+    session.max_rate = 1e9
+    rows = bench.rows("up", "down")[:60]
+    rows[0][0] = 1.0
+    kinds = ["zero", "stuck", "plus 50", "nan", "swapped", "delayed"]
+    sessions, expected = [], []
+    for i in range(count):
+        which = chance.randrange(2, len(rows[0]))
+        begin = chance.randrange(1, 30)
+        sessions.append(exports_fail_test.fail(
+            rows, kinds[i % len(kinds)], which, begin, begin + 20,
+            which % (len(rows[0]) - 1) + 1))
+        session.begin()
+        expected.append([])
+        for dt, *readings in sessions[-1]:
+            status = session.read(dt, readings)
+            error, moved = session.move(1e6)
+            expected[-1].append([-error, status | moved])
+    found = bench.feed("failures", "pair", sessions=sessions)
+    given = [row for rows in found.get("given", []) for row in rows]
+    wanted = [row for rows in expected for row in rows]
+    held = sum(status & module.NOT_TAKEN != 0 for _, status in wanted)
+    check(f"{count} failures: offset and status as in Python, {held} rows held",
+          len(given) == len(wanted) and held > 20 and all(
+              abs(mine[0] - other[0]) < 1e-9 and mine[1] == other[1]
+              for mine, other in zip(given, wanted)),
+          found.get("failed") or [pair for pair in zip(given, wanted)
+                                  if pair[0][1] != pair[1][1]
+                                  or abs(pair[0][0] - pair[1][0]) >= 1e-9][:3])
+    check("no offset leaves the limit", given and all(
+        abs(offset) <= session.max_error * (1 + 1e-12) for offset, _ in given))
 
 
 def check_comp_file(bench):
@@ -390,8 +452,12 @@ def main():
                 skip("halrun does not run on this system")
             try:
                 bench.prepare()
-                bench.install()
+                bench.install("up", "up.json")
+                bench.install("pair", "--increasing", "up.json", "--decreasing",
+                              "down.json")
                 check_component(bench)
+                check_pair(bench)
+                check_failures(bench)
                 check_comp_file(bench)
                 check_wiring(bench)
             finally:

@@ -77,6 +77,18 @@ def session(component, case, result):
     result["steps"] = component.get("steps")
 
 
+def failures(component, case, result):
+    """Sessions whose sensors fail: what is given in each row."""
+    result["given"] = []
+    for rows in case["sessions"]:
+        component.pulse("begin")
+        given = []
+        for dt, *readings in rows:
+            component.row(dt, readings)
+            given.append([component.get("offset"), component.get("status")])
+        result["given"].append(given)
+
+
 def missing(component, case, result):
     """A sensor that fails keeps the last good offset; the gap is one step."""
     rows, predicted = case["rows"], case["predicted"]
