@@ -422,7 +422,8 @@ CsvTable ParseCsv(std::string_view text, const std::string& name) {
   try {
     if (IsGzip(text)) {
       unpacked = Gunzip(text, kMostTextOfPrograms);
-      text = IsGzip(unpacked) ? "" : unpacked;
+      if (IsGzip(unpacked)) unpacked.clear();
+      text = unpacked;
     }
     sheet = SheetText(text, SplitSheetPath(name).sheet);
   } catch (const InputError& error) {

@@ -14,6 +14,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "data/gzip.h"
 #include "tests/data/measurements/make_dataset_test_data.h"
 #include "tests/data/packed_parts.h"
 
@@ -155,6 +156,7 @@ TEST(MessyFiles, WhatIsUnambiguousIsSimplyRead) {
       {"UTF-16", InUtf16(Joined(rows), true, true)},
       {"UTF-16, other order", InUtf16(Joined(rows), false, true)},
       {"UTF-16 without a mark", InUtf16(Joined(rows), true, false)},
+      {"packed by gzip", Gzip(Joined(rows))},
       {"UTF-8 with a mark", "\xEF\xBB\xBF" + Joined(rows)},
       {"lone CR", Joined(rows, ",", "\r")},
       {"separators at each end", padded(3, 3)},
