@@ -9,6 +9,7 @@
 
 #include "data/formula_text.h"
 #include "models/study/row_table.h"
+#include "models/study/session_cut.h"
 
 namespace errmap::models {
 namespace {
@@ -56,9 +57,9 @@ Holdout FinishHoldout(RawHoldout raw,
       dataset.has_sessions() &&
       stats::KeepsWhole(holdout.folds, dataset.session_codes());
   holdout.among_neighbours = !holdout.whole_groups && !holdout.whole_sessions;
-  holdout.inner = holdout.whole_sessions ? InnerHoldout::kWholeSessions
-                  : holdout.whole_groups ? InnerHoldout::kWholeGroups
-                                         : InnerHoldout::kRows;
+  holdout.inner = IsOfSessions(holdout, dataset) ? InnerHoldout::kWholeSessions
+                  : holdout.whole_groups         ? InnerHoldout::kWholeGroups
+                                                 : InnerHoldout::kRows;
   return holdout;
 }
 

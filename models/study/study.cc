@@ -18,6 +18,7 @@
 #include "models/recipe_catalog.h"
 #include "models/shared_work.h"
 #include "models/study/fold_pool.h"
+#include "models/study/session_cut.h"
 
 namespace errmap::models {
 namespace {
@@ -396,9 +397,12 @@ Holdout MakeHoldout(const stats::HoldoutSpec& spec,
   holdout.whole_sessions = test_data == nullptr && dataset.has_sessions() &&
                            stats::KeepsWhole(holdout.folds, sessions);
   holdout.test_data = std::move(test_data);
-  // What was measured before is chosen from as all of it will be.
+  // What was measured before is chosen from as all of it will be; a cut of
+  // groups that is one of sessions chooses, and finds, what that would.
   holdout.inner = forward && by_session ? InnerHoldout::kDecisive
-                                        : InnerHoldoutLike(spec.kind);
+                  : !forward && IsOfSessions(holdout, dataset)
+                      ? InnerHoldout::kWholeSessions
+                      : InnerHoldoutLike(spec.kind);
   return holdout;
 }
 

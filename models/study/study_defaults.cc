@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "models/study/session_cut.h"
 #include "models/study/study.h"
 
 namespace errmap::models {
@@ -25,12 +26,14 @@ std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset) {
   const auto groups = static_cast<Eigen::Index>(dataset.groups().labels.size());
   const Eigen::Index sessions = dataset.num_sessions();
   if (groups >= 2) {
-    specs.push_back(fmt::format("groups:{}", std::min(groups, kFolds)));
+    std::string spec = fmt::format("groups:{}", std::min(groups, kFolds));
+    constexpr std::uint64_t kAnySeed = 1;  // nothing is shuffled
+    if (!IsOfSessions(MakeHoldout(stats::ParseHoldout(spec), dataset, kAnySeed),
+                      dataset)) {
+      specs.push_back(std::move(spec));
+    }
   }
-  const bool same_units =
-      dataset.log() != nullptr &&
-      dataset.groups().column == dataset.log()->sessions.column;
-  if (sessions >= 2 && !(groups >= 2 && same_units)) {
+  if (sessions >= 2) {
     specs.push_back(fmt::format("sessions:{}", std::min(sessions, kFolds)));
   }
   if (groups < 2 && sessions < kFewestSessionsToDecide) {

@@ -9,8 +9,9 @@ namespace errmap::models {
 
 // What a study does where nobody says otherwise.
 
-/// SPECs of the hold-outs: rows, and whatever can be held out whole. Two or
-/// three sessions are too few to decide, so without groups blocks stand beside
+/// SPECs of the hold-outs: rows, and whatever can be held out whole. Groups
+/// that are cut as sessions are (IsOfSessions) are held out as sessions. Two or
+/// three of these are too few to decide, so without groups blocks stand beside
 /// them; more are also foreseen from those before them.
 std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset);
 

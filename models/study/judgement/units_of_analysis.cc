@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "models/study/session_cut.h"
 #include "stats/comparison/unit_losses.h"
 
 namespace errmap::models {
@@ -37,14 +38,6 @@ bool TakeUnits(const HeldOutRows& held,
   return true;
 }
 
-std::size_t NumUnits(const HeldOutRows& held, const std::vector<Index>& codes) {
-  std::set<Index> present;
-  for (const Index row : held.rows) {
-    present.insert(codes[static_cast<std::size_t>(row)]);
-  }
-  return present.size();
-}
-
 // Codes of the units of the held-out rows; `units` gets name and labels. Where
 // sessions and groups are both held out whole, the coarser are the units: what
 // shares one may be alike.
@@ -53,16 +46,11 @@ std::vector<Index> UnitCodes(const Holdout& holdout,
                              UnitsOfAnalysis* units) {
   std::vector<Index> codes;
   const data::Dataset& source = *held.source;
-  const bool groups_are_coarser = holdout.whole_sessions &&
-                                  holdout.whole_groups && source.has_groups() &&
-                                  NumUnits(held, source.groups().codes) <
-                                      NumUnits(held, source.session_codes());
-  if (holdout.whole_sessions && !groups_are_coarser &&
-      TakeUnits(held,
-                source.session_codes(),
-                source.log()->sessions,
-                &codes,
-                units)) {
+  if (IsOfSessions(holdout, source) && TakeUnits(held,
+                                                 source.session_codes(),
+                                                 source.log()->sessions,
+                                                 &codes,
+                                                 units)) {
     units->are_sessions = true;
     return codes;
   }

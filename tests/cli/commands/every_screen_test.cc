@@ -220,6 +220,17 @@ class OneResult : public EveryScreen {
                   1e-15);
       const Json map = Json::parse(Read(folder + std::string(model["file"])));
       if (map["interval"].is_null()) continue;
+      // The same map fitted alone promises the same.
+      EXPECT_EQ(Run({"fit",
+                     file,
+                     "--model",
+                     advice["model"],
+                     "-o",
+                     file + ".json",
+                     "--quiet"})
+                    .status,
+                0);
+      EXPECT_EQ(Json::parse(Read(file + ".json"))["interval"], map["interval"]);
       EXPECT_EQ(map["interval"]["holdout"], holdout);
       for (const Json& held : component["holdouts"]) {
         if (held["name"] != holdout) continue;
@@ -234,8 +245,11 @@ TEST_F(OneResult, IsTheSameOnEveryScreen) {
   WriteComponent("two.csv", 3, 2);
   WriteComponent("six.csv", 4, 6);
   WriteComponent("run.csv", 5, 1);
+  // Days of as many cycles each: groups:5 cuts as sessions:5 does.
+  WriteComponent("five.csv", 6, 5);
   EXPECT_EQ(Agree("two.csv")["holdout"], "sessions:2");
   EXPECT_EQ(Agree("six.csv")["holdout"], "sessions:5");
+  EXPECT_EQ(Agree("five.csv")["holdout"], "sessions:5");
   EXPECT_THAT(Agree("run.csv")["holdout"].get<std::string>(),
               HasSubstr("groups:"));
   std::string rows = "position_mm,t1_degC,error_mm\n";

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "models/study/judgement/judgement.h"
+#include "models/study/session_cut.h"
 #include "models/study/study_defaults.h"
 #include "tests/models/history/history_data.h"
 #include "tests/models/study/study_test_tools.h"
@@ -74,6 +75,11 @@ TEST(DefaultHoldouts, HoldOutWhateverCanBeHeldOutWhole) {
               ElementsAre("every:3", "sessions:5", "forward:3"));
   EXPECT_THAT(DefaultHoldouts(DaysInSessionHoldouts(2, false)),
               ElementsAre("every:3", "sessions:2", "blocks:5"));
+  // Five runs of four cycles, or of eight, are days.
+  for (const Index days : {5, 10}) {
+    EXPECT_THAT(DefaultHoldouts(DaysInSessionHoldouts(days, true)),
+                ElementsAre("every:3", "sessions:5", "forward:3"));
+  }
 }
 
 TEST(StudyDefaults, GiveLengthsAGoalAndAnIndifference) {
@@ -142,9 +148,37 @@ TEST(SessionHoldouts, TellWhetherFoldsKeepSessionsWhole) {
   EXPECT_FALSE(holdouts[2].whole_sessions);
   EXPECT_TRUE(holdouts[3].whole_sessions);
   EXPECT_FALSE(holdouts[4].whole_sessions);
+  EXPECT_TRUE(IsOfSessions(holdouts[1], dataset));
+  EXPECT_EQ(holdouts[1].inner, InnerHoldout::kWholeSessions);
+  EXPECT_EQ(holdouts[2].inner, InnerHoldout::kWholeGroups);
+  EXPECT_EQ(holdouts[3].inner, InnerHoldout::kWholeSessions);
   // One session is no two: nothing is held out whole.
   EXPECT_FALSE(MakeHoldouts(DaysInSessionHoldouts(1, true), {"groups:2"})[0]
                    .whole_sessions);
+}
+
+// Weeks that are held out whole are no days, though no day is parted.
+TEST(SessionHoldouts, LeaveCoarserGroupsWhatTheyAre) {
+  const data::Dataset days = DaysInSessionHoldouts(6, false);
+  data::Dataset::Parts parts;
+  parts.inputs = days.inputs();
+  parts.input_values = days.input_values();
+  parts.target = days.target();
+  parts.target_values = days.target_values();
+  parts.groups.column = "week";
+  parts.groups.labels = {"1", "2", "3"};
+  for (const Index day : days.session_codes()) {
+    parts.groups.codes.push_back(day / 2);
+  }
+  parts.log = days.log();
+  parts.log_rows = days.log_rows();
+  const data::Dataset weeks(std::move(parts));
+  const auto holdouts = MakeHoldouts(weeks, {"groups:3"});
+  EXPECT_TRUE(holdouts[0].whole_sessions);
+  EXPECT_FALSE(IsOfSessions(holdouts[0], weeks));
+  EXPECT_EQ(holdouts[0].inner, InnerHoldout::kWholeGroups);
+  EXPECT_THAT(DefaultHoldouts(weeks),
+              ElementsAre("every:3", "groups:3", "sessions:5", "forward:3"));
 }
 
 TEST(SessionHoldouts, RefuseDataWithoutSessions) {
