@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "models/error_model.h"
+#include "models/inner_folds.h"
 #include "models/recipe_catalog.h"
 
 namespace errmap::models {
@@ -27,6 +28,19 @@ double RmseOfPlane(const data::Dataset& training, const data::Dataset& judged) {
   }
 }
 
+// Of planes, each judged on the fold that it was not fitted to.
+double HeldOutRmseOfPlane(const data::Dataset& dataset,
+                          const fitting::FoldCodes& folds) {
+  double squares = 0.0;
+  for (Index fold = 0; fold < folds.count(); ++fold) {
+    const auto rows = folds.Split(fold);
+    const double rmse = RmseOfPlane(dataset.SelectRows(rows.train),
+                                    dataset.SelectRows(rows.test));
+    squares += rmse * rmse * static_cast<double>(rows.test.size());
+  }
+  return std::sqrt(squares / static_cast<double>(dataset.num_rows()));
+}
+
 }  // namespace
 
 FaultEffect EffectOfRows(const data::Dataset& dataset,
@@ -45,8 +59,11 @@ FaultEffect EffectOfInput(const data::Dataset& dataset, Index input) {
   values.rightCols(after) = dataset.input_values().rightCols(after);
   const data::Dataset sound =
       dataset.WithInputs(std::move(inputs), std::move(values));
-  return {.rmse_with = RmseOfPlane(dataset, dataset),
-          .rmse_without = RmseOfPlane(sound, sound)};
+  const fitting::FoldCodes folds =
+      MakeInnerFolds(dataset, {.inner_holdout = InnerHoldout::kWholeSessions})
+          .folds;
+  return {.rmse_with = HeldOutRmseOfPlane(dataset, folds),
+          .rmse_without = HeldOutRmseOfPlane(sound, folds)};
 }
 
 }  // namespace errmap::models

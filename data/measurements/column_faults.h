@@ -44,8 +44,8 @@ struct ColumnFault {
   /// What to hold it against: the range of all other values (kImpossible,
   /// kOutlying), the neighbours (kJump, both the same), the change of the
   /// others meanwhile (kStuck: low 0, high their median range), their noise
-  /// (kNoisy, likewise), the scatter about the drift (kDrifting, likewise);
-  /// of kZero low is what a linear map of the others makes of the worst row.
+  /// (kNoisy, likewise), the scatter about the drift (kDrifting; low is the
+  /// number of others); of kZero low is what a linear map makes of the worst.
   double low = 0.0;
   double high = 0.0;
 };

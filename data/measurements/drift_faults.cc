@@ -120,8 +120,11 @@ std::vector<ColumnFault> FindDrift(const MeasuredColumns& measured,
     if (!is_bad) used.push_back(static_cast<Index>(k));
   }
   const Eigen::MatrixXd covariance = CovarianceWithTime(measured, thermometers);
+  // Few thermometers agree less: rooms of three days are in line by chance.
+  const std::size_t fewest =
+      measured.num_sessions > kFewestSessions ? 1 : kFewestOthers;
   // The worst first: it no longer counts among the others then.
-  while (used.size() > kFewestOthers) {
+  while (used.size() > fewest) {
     Drift worst{.change = 0.0, .scatter = 1.0};
     Index worst_at = -1;
     for (const Index k : used) {
@@ -142,7 +145,7 @@ std::vector<ColumnFault> FindDrift(const MeasuredColumns& measured,
                   thermometers[static_cast<std::size_t>(worst_at)].input,
                   {},
                   worst.change,
-                  {0.0, worst.scatter}));
+                  {static_cast<double>(used.size() - 1), worst.scatter}));
     std::erase(used, worst_at);
   }
   return faults;

@@ -1,6 +1,8 @@
 #include "data/measurements/idle_inputs.h"
 
+#include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
@@ -40,6 +42,19 @@ IdleInput HowIdle(const Eigen::Ref<const Eigen::VectorXd>& values) {
                  (count == m ? "all " : std::to_string(count) + " of ") +
                  std::to_string(m) + " rows",
           .dead = count == m};
+}
+
+bool CountsOn(const Eigen::Ref<const Eigen::VectorXd>& values,
+              const std::vector<Eigen::Index>& sessions) {
+  double highest = -std::numeric_limits<double>::infinity();
+  double before = highest;  // of the sessions before
+  for (std::size_t i = 0; i < sessions.size(); ++i) {
+    if (i > 0 && sessions[i] != sessions[i - 1]) before = highest;
+    const double value = values[static_cast<Eigen::Index>(i)];
+    if (value <= before) return false;
+    highest = std::max(highest, value);
+  }
+  return true;
 }
 
 std::vector<std::string> RepeatedInputs::Look(const Dataset::Parts& parts) {

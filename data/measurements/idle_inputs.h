@@ -21,6 +21,11 @@ struct IdleInput {
 /// where it is in all, else sparse, as a flag is.
 IdleInput HowIdle(const Eigen::Ref<const Eigen::VectorXd>& values);
 
+/// Whether the values (m) of each session lie above all of those before it;
+/// `sessions` has the code of each row, in the order of the file.
+bool CountsOn(const Eigen::Ref<const Eigen::VectorXd>& values,
+              const std::vector<Eigen::Index>& sessions);
+
 /// Tells which inputs repeat another value for value. Columns are met by their
 /// hash, so that many stay cheap.
 class RepeatedInputs {

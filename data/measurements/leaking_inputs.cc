@@ -1,8 +1,6 @@
 #include "data/measurements/leaking_inputs.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -48,17 +46,6 @@ double ResolutionOf(const VectorXd& values) {
     if (whole) return step;
   }
   return 0.0;
-}
-
-std::string Coefficient(double value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(),
-                                 text.data() + text.size(),
-                                 std::abs(value),
-                                 std::chars_format::general,
-                                 3)
-                       .ptr;
-  return {text.data(), end};
 }
 
 class LeakFinder {
@@ -228,7 +215,7 @@ class LeakFinder {
                                              : " + ";
       }
       leak.formula +=
-          (one ? "" : Coefficient(factor) + " ") +
+          (one ? "" : Rounded(std::abs(factor)) + " ") +
           NameInRemark(
               inputs_[static_cast<std::size_t>(Of(set[i]).input)].name);
     }

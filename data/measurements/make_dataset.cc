@@ -2,8 +2,6 @@
 // column_roles.h chooses become values, checked and in their units.
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -25,18 +23,6 @@
 namespace errmap::data {
 namespace {
 
-// To three digits.
-std::string Rounded(double value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(),
-                                 text.data() + text.size(),
-                                 value,
-                                 std::chars_format::general,
-                                 3)
-                       .ptr;
-  return {text.data(), end};
-}
-
 class DatasetBuilder {
  public:
   DatasetBuilder(const CsvTable& table, const DatasetSelection& selection)
@@ -52,6 +38,7 @@ class DatasetBuilder {
     TakeWeights();
     TakeInputs();
     LeaveOutLeaks();
+    LeaveOutCounters();
     LookForFaults();
     LeaveOutStuck();
     LookForParts();
@@ -476,6 +463,33 @@ class DatasetBuilder {
         SayLeftOut(name,
                    what + " and is left out: no control knows it beforehand");
       }
+    }
+    KeepInputs(left_out);
+  }
+
+  // What numbers the cycles on through the sessions is a thermal state in none
+  // of them.
+  void LeaveOutCounters() {
+    if (selection_.only_to_judge || NumSessions() < 2) return;
+    std::vector<Eigen::Index> sessions;  // (rows)
+    for (const Eigen::Index row : parts_.rows) {
+      sessions.push_back(found_.sessions.codes[static_cast<std::size_t>(
+          std::ranges::lower_bound(log_rows_, row) - log_rows_.begin())]);
+    }
+    std::vector<bool> left_out(parts_.inputs.size(), false);
+    for (std::size_t i = 0; i < left_out.size(); ++i) {
+      const ColumnInfo& input = parts_.inputs[i];
+      if (IsNamed(input.name) || NamesPosition(input.name) || IsSensor(input) ||
+          !CountsOn(parts_.input_values.col(static_cast<Eigen::Index>(i)),
+                    sessions)) {
+        continue;
+      }
+      left_out[i] = true;
+      const std::string what = "counts on from session to session";
+      dropped_.push_back({.column = input.name, .why = what});
+      SayLeftOut(input.name,
+                 what + " and is left out; name it in " +
+                     ArgumentName("inputs") + " to use it");
     }
     KeepInputs(left_out);
   }

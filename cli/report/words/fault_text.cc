@@ -7,6 +7,7 @@
 
 #include "cli/report/number_text.h"
 #include "data/argument_name.h"
+#include "data/measurements/thermometers.h"
 #include "data/text.h"
 #include "models/fault_effect.h"
 
@@ -110,10 +111,13 @@ std::string WhatIsWrong(const ColumnFault& fault,
     case FaultKind::kDrifting:
       return fmt::format(
           "leaves the other thermometers by {:+.2g}{} from "
-          "first to last row, {:.2g} about that line",
+          "first to last row, {:.2g} about that line{}",
           fault.value,
           symbol,
-          fault.high);
+          fault.high,
+          fault.low < static_cast<double>(data::kFewestOthers)
+              ? ", or one of these drifts"
+              : "");
     case FaultKind::kRepeated:
       return fmt::format("and all else in {} repeat other rows value for value",
                          rows);
@@ -137,14 +141,15 @@ std::string WhatIsWrong(const ColumnFault& fault,
 
 std::string EffectText(const models::FaultEffect& effect,
                        const data::Unit& unit,
+                       const char* rows,
                        const char* what) {
   if (!std::isfinite(effect.rmse_with) || !std::isfinite(effect.rmse_without)) {
     return "";
   }
   const ErrorText error(unit, effect.rmse_without);
   return fmt::format(
-      "a plain linear map misses the other rows by {} RMSE with "
-      "{}, by {} without",
+      "a plain linear map misses {} by {} RMSE with {}, by {} without",
+      rows,
       error.WithUnit(effect.rmse_with),
       what,
       error.WithUnit(effect.rmse_without));
@@ -166,6 +171,7 @@ std::vector<std::string> FaultLines(const data::PreparedDataset& prepared,
       const std::string effect =
           EffectText(models::EffectOfInput(dataset, fault.input),
                      dataset.target().unit,
+                     "rows held out",
                      "the column");
       line +=
           "; " +
@@ -187,6 +193,7 @@ std::vector<std::string> FaultLines(const data::PreparedDataset& prepared,
       use == FaultUse::kJudge ? ""
                               : EffectText(models::EffectOfRows(dataset, rows),
                                            dataset.target().unit,
+                                           "the other rows",
                                            rows.size() == 1 ? "it" : "them");
   lines.push_back(fmt::format(
       "{} leaves {} out{}",

@@ -1,6 +1,8 @@
 // Which rows, and what may stand in them: data/measurements/column_checks.h by
 // MakeDataset.
 
+#include "data/measurements/column_checks.h"
+
 #include <string>
 #include <vector>
 
@@ -95,6 +97,14 @@ TEST(ColumnChecks, DropRowsDropsNothingButMissingCells) {
       HasSubstr("line 3 (data row 1), column 'a': 'inf' is not finite"));
   EXPECT_THAT(ErrorOf("a,error\n1,1\n,2\nOVER,3\n", drop),
               HasSubstr("'OVER' is no number"));
+}
+
+TEST(ColumnChecks, RoundsWithoutAnExponentWhatPeopleCount) {
+  EXPECT_EQ(Rounded(9999.0), "9999");
+  EXPECT_EQ(Rounded(-1440.4), "-1440");
+  EXPECT_EQ(Rounded(0.31194), "0.312");
+  EXPECT_EQ(Rounded(99.96), "100");
+  EXPECT_EQ(Rounded(2.5e7), "2.5e+07");
 }
 
 TEST(ColumnChecks, NoRowIsLeft) {

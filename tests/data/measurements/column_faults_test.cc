@@ -273,6 +273,25 @@ TEST(FindColumnFaults, RaisesNoFalseAlarmOverSimulatedMachines) {
   }
 }
 
+// Nor where a few of its thermometers were logged.
+TEST(FindColumnFaults, RaisesNoFalseAlarmOverPairsOfThermometers) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SimulatedSweep sweep({.seed = seed, .days = 5});
+    const SimulatedSweep all = sweep;
+    int alarms = 0;
+    for (Index a = 0; a < all.values.cols(); ++a) {
+      for (Index b = 0; b < a; ++b) {
+        const std::vector<Index> pair{a, b};
+        sweep.values = all.values(Eigen::all, pair);
+        sweep.inputs = {all.inputs[static_cast<std::size_t>(a)],
+                        all.inputs[static_cast<std::size_t>(b)]};
+        alarms += sweep.Faults().empty() ? 0 : 1;
+      }
+    }
+    EXPECT_EQ(alarms, 0) << seed;
+  }
+}
+
 TEST(FindColumnFaults, FindsWhatFailsInASimulatedMachine) {
   const std::vector<ColumnFault> faults = SimulatedSweep({.seed = 24,
                                                           .days = 5,

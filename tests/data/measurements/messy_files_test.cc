@@ -51,7 +51,7 @@ double Noise(int i) {
   return 2.0 * (x - std::floor(x)) - 1.0;
 }
 
-Rows Measured() {
+Rows Measured(int days = kDays) {
   Rows rows = {{"day",
                 "cycle",
                 "time_s",
@@ -60,7 +60,7 @@ Rows Measured() {
                 "t2_degC",
                 "error_um"}};
   int i = 0;
-  for (int day = 0; day < kDays; ++day) {
+  for (int day = 0; day < days; ++day) {
     for (int cycle = 0; cycle < kCycles; ++cycle) {
       for (int p = 0; p < kPositions; ++p, ++i) {
         const double warm = 1.0 - std::exp(-0.3 * cycle - 0.02 * p);
@@ -558,23 +558,54 @@ TEST(MessyFiles, ATargetOfTwoUnitsIsAskedFor) {
                 "its unit in brackets at the end: 'error [um]'"));
 }
 
+// 0.04 degC an hour, with three other thermometers and, over a day more, with
+// one alone.
 TEST(MessyFiles, ASlowDriftIsNamed) {
-  Rows rows = Measured();
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (int k = 3; k <= 4; ++k) {
-      const double own = 0.02 * Noise(static_cast<int>(i) + 2000 * k);
-      rows[i].push_back(
-          i == 0 ? "t" + std::to_string(k) + "_degC"
-                 : Fixed(18.0 + 0.3 * k * (Number(rows[i][kT2]) - 19.0) + own));
+  for (const int others : {3, 1}) {
+    Rows rows = Measured(others == 3 ? kDays : kDays + 1);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      for (int k = 3; k < 2 + others; ++k) {
+        const double own = 0.02 * Noise(static_cast<int>(i) + 2000 * k);
+        rows[i].push_back(
+            i == 0
+                ? "t" + std::to_string(k) + "_degC"
+                : Fixed(18.0 + 0.3 * k * (Number(rows[i][kT2]) - 19.0) + own));
+      }
+      if (i == 0) continue;
+      const double hours =
+          24.0 * Number(rows[i][kDay]) + Number(rows[i][kTime]) / 3600.0;
+      rows[i][kT1] = Fixed(Number(rows[i][kT1]) + 0.04 * hours);
     }
-    if (i == 0) continue;
-    const double hours =
-        24.0 * Number(rows[i][kDay]) + Number(rows[i][kTime]) / 3600.0;
-    rows[i][kT1] = Fixed(Number(rows[i][kT1]) + 0.04 * hours);
+    const std::vector<ColumnFault> faults = Make(Joined(rows)).faults;
+    ASSERT_EQ(faults.size(), 1U) << others;
+    EXPECT_EQ(faults[0].kind, FaultKind::kDrifting);
+    EXPECT_EQ(faults[0].low, others);
   }
-  const std::vector<ColumnFault> faults = Make(Joined(rows)).faults;
-  ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].kind, FaultKind::kDrifting);
+}
+
+// What counts the cycles on through the days is a state that never returns.
+TEST(MessyFiles, ACounterThatNeverReturnsIsNoInput) {
+  const auto counted = [](const std::string& name, int cycles) {
+    return Joined(Changed(Measured(), [&](std::size_t i, auto* cells) {
+      const int cycle = i == 0 ? 0 : (static_cast<int>(i) - 1) / kPositions;
+      cells->insert(cells->end() - 1,
+                    i == 0 ? name : std::to_string(cycle % cycles));
+    }));
+  };
+  constexpr int kAll = kDays * kCycles;
+  const PreparedDataset made = Make(counted("elapsed_cycles", kAll));
+  EXPECT_THAT(DroppedNames(made), ElementsAre("elapsed_cycles"));
+  EXPECT_THAT(made.remarks,
+              Contains(HasSubstr("elapsed_cycles counts on from session to "
+                                 "session and is left out")));
+  // Where it begins anew with each day it tells how warm the machine is; an
+  // age, or what was asked for, may be meant.
+  EXPECT_THAT(Make(counted("elapsed_cycles", kCycles)).dropped, IsEmpty());
+  EXPECT_THAT(Make(counted("age", kAll)).dropped, IsEmpty());
+  EXPECT_THAT(Make(counted("elapsed_cycles", kAll),
+                   {.inputs = {"position_mm", "elapsed_cycles"}})
+                  .dropped,
+              IsEmpty());
 }
 
 }  // namespace
