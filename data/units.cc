@@ -292,7 +292,8 @@ const KnownUnit* FindSymbol(const Unit& unit) {
 
 // What a name without a unit is taken for, by its kind.
 Unit AssumedUnit(std::string_view base) {
-  if (NamesPosition(base) || StartsWithIgnoringCase(base, "error")) {
+  if (StartsWithIgnoringCase(base, "position") ||
+      StartsWithIgnoringCase(base, "error")) {
     return UnitOfSymbol("mm");
   }
   return UnitOfSymbol(NamesTemperature(base) ? "degC" : "");
@@ -379,7 +380,22 @@ bool MayMeanUnit(std::string_view word, const Unit& assumed) {
 }  // namespace
 
 bool NamesPosition(std::string_view name) {
-  return StartsWithIgnoringCase(name, "position");
+  if (StartsWithIgnoringCase(name, "position")) return true;
+  const Header header = ReadHeader(name);
+  if (header.source != UnitSource::kStated ||
+      (header.unit.quantity != Quantity::kLength &&
+       header.unit.quantity != Quantity::kAngle)) {
+    return false;
+  }
+  const std::string base = LowerCase(header.base);
+  for (std::size_t at = 0; at < base.size();) {
+    const std::size_t end =
+        std::min(base.find_first_of(kSeparators, at), base.size());
+    const std::string_view word = std::string_view(base).substr(at, end - at);
+    if (word == "pos" || word.ends_with("position")) return true;
+    at = end + 1;
+  }
+  return false;
 }
 
 namespace {

@@ -73,8 +73,8 @@ double Converted(double value, const Unit& from, const Unit& to);
 /// measure the same quantity.
 std::string StemOfColumn(std::string_view name);
 
-/// Whether a column holds positions by its name: "position_mm", "Position
-/// [mm]".
+/// Whether a column holds positions by its name: "position_mm", "Position";
+/// with a length or an angle also "Sollposition [mm]", "x_pos_mm".
 bool NamesPosition(std::string_view name);
 
 }  // namespace errmap::data

@@ -103,7 +103,7 @@ class PositionTemperatureRecipe final : public PolynomialRecipe {
       const Dataset& dataset) const override {
     if (form_.uses_position && options_.position.empty() &&
         FindPosition(dataset, "") < 0) {
-      return "a position: no input's name starts with 'position' "
+      return "a position: no input is called so, as position_mm is "
              "(position=NAME names one)";
     }
     if (form_.uses_temperature && options_.temperature.empty() &&

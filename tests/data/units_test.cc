@@ -287,5 +287,25 @@ TEST(StemOfColumn, KeepsNamesThatAreAllNumberAndUnit) {
   EXPECT_EQ(StemOfColumn(""), "");
 }
 
+TEST(NamesPosition, TakesALengthOrAnAngleThatIsCalledSo) {
+  for (const char* name : {"position_mm",
+                           "Position",
+                           "Sollposition [mm]",
+                           "x_pos_mm",
+                           "Pos. [mm]",
+                           "axis position (deg)"}) {
+    EXPECT_TRUE(NamesPosition(name)) << name;
+  }
+  // A thermometer at a position, and words that end alike.
+  for (const char* name : {"T pos 3 [degC]",
+                           "t_position_3_degC",
+                           "pos",
+                           "Sollposition",
+                           "composite_mm",
+                           "error_mm"}) {
+    EXPECT_FALSE(NamesPosition(name)) << name;
+  }
+}
+
 }  // namespace
 }  // namespace errmap::data
