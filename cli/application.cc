@@ -148,14 +148,29 @@ std::string Suggestion(const std::string& word,
   return nearest.empty() ? "" : "did you mean '" + nearest + "'? ";
 }
 
+std::vector<std::string> OptionNames(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) {
+      names.push_back("--" + name);
+    }
+    for (const std::string& name : option->get_snames()) {
+      names.push_back("-" + name);
+    }
+  }
+  return names;
+}
+
 // CLI11 would only say that a subcommand is required.
 void RequireKnownCommand(const CLI::App& app, const std::string& word) {
   if (word.starts_with("-")) return;
   const std::vector<std::string> known = CommandNames(app);
   if (std::ranges::find(known, word) != known.end()) return;
+  std::vector<std::string> meant = OptionNames(app);
+  meant.insert(meant.begin(), known.begin(), known.end());
   throw UsageError(fmt::format("no command '{}'; {}there are {}",
                                word,
-                               Suggestion(word, known),
+                               Suggestion(word, meant),
                                fmt::join(known, ", ")));
 }
 
@@ -165,26 +180,26 @@ std::string WithSuggestion(const CLI::App& app,
                            int argc,
                            char** argv) {
   const std::string text = OneLine(error.what());
-  std::vector<std::string> known;
-  for (const CLI::App* command : app.get_subcommands(nullptr)) {
-    if (command->get_name() != argv[1]) continue;
-    for (const CLI::Option* option : command->get_options()) {
-      for (const std::string& name : option->get_lnames()) {
-        known.push_back("--" + name);
-      }
-    }
-  }
-  for (int i = 2; i < argc; ++i) {
+  const bool of_command = !std::string_view(argv[1]).starts_with('-');
+  const std::string help =
+      fmt::format("see errmap {}--help",
+                  of_command ? std::string(argv[1]) + " " : std::string());
+  std::vector<std::string> known =
+      OptionNames(of_command ? *app.get_subcommand(argv[1]) : app);
+  for (int i = of_command ? 2 : 1; i < argc; ++i) {
     const std::string word(argv[i]);
     const std::string flag = word.substr(0, word.find('='));
-    if (!flag.starts_with("--") || text.find(flag) == std::string::npos ||
+    if (!flag.starts_with("-") ||
+        (of_command && text.find(flag) == std::string::npos) ||
         std::ranges::find(known, flag) != known.end()) {
       continue;
     }
-    return fmt::format("no option '{}'; {}see errmap {} --help",
+    // One letter is as near to any other.
+    const bool is_word = flag.size() > 2;
+    return fmt::format("no option '{}'; {}{}",
                        flag,
-                       Suggestion(flag, known),
-                       argv[1]);
+                       is_word ? Suggestion(flag, known) : "",
+                       help);
   }
   // "--format: tabel not in {table,json}"
   const std::size_t open = text.find(" not in {");
@@ -193,19 +208,14 @@ std::string WithSuggestion(const CLI::App& app,
     const std::string found = text.substr(begin + 2, open - begin - 2);
     const std::size_t list = text.find('{', open) + 1;
     known = CLI::detail::split(text.substr(list, text.size() - list - 1), ',');
-    return fmt::format(
-        "{} must be one of {}, found '{}'; {}see errmap {} "
-        "--help",
-        text.substr(0, begin),
-        fmt::join(known, ", "),
-        found,
-        Suggestion(found, known),
-        argv[1]);
+    return fmt::format("{} must be one of {}, found '{}'; {}{}",
+                       text.substr(0, begin),
+                       fmt::join(known, ", "),
+                       found,
+                       Suggestion(found, known),
+                       help);
   }
-  return fmt::format(
-      "{}; see errmap{} --help",
-      text,
-      known.empty() ? std::string() : fmt::format(" {}", argv[1]));
+  return text + "; " + help;
 }
 
 using AddCommand = void (*)(CLI::App*, Run*);
@@ -392,7 +402,7 @@ bool HasRoomForProducts() {
 std::string FlagOf(std::string_view member, std::string_view value) {
   if (member == "where") return "where in a study (errmap init writes one)";
   std::string flag = cli::FlagOf(member);
-  if (!value.empty()) flag.append(" ").append(value);
+  if (!value.empty()) flag += " " + report::ShellWord(std::string(value));
   return flag;
 }
 

@@ -72,7 +72,10 @@ std::vector<std::string> SplitList(std::string_view text) {
   for (std::string& spec : specs) {
     spec.erase(0, spec.find_first_not_of(' '));
     spec.erase(spec.find_last_not_of(' ') + 1);
-    if (spec.empty()) RefuseSpec(text, "the list has an empty place");
+    if (spec.empty())
+      RefuseSpec(text,
+                 "the list has an empty place; names stand between commas, "
+                 "without blanks");
   }
   return specs;
 }

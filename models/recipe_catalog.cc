@@ -52,7 +52,10 @@ const ModelType* FindType(const ModelSpec& spec) {
 
 const ModelType& TypeOf(const ModelSpec& spec) {
   if (const ModelType* type = FindType(spec)) return *type;
-  const std::string nearest = data::NearestName(spec.type, ModelTypes());
+  std::string nearest = data::NearestName(spec.type, ModelTypes());
+  for (const std::string& type : ModelTypes()) {
+    if (nearest.empty() && type.ends_with(":" + spec.type)) nearest = type;
+  }
   RefuseSpec(
       spec.text,
       fmt::format("unknown; {}there are {}, poly:formula=..., file:model.json",

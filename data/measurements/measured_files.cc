@@ -9,6 +9,7 @@
 #include <set>
 #include <string_view>
 
+#include "data/files_in_memory.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
 #include "data/sheet_path.h"
@@ -198,6 +199,14 @@ MeasuredFiles FindFiles(const std::vector<std::string>& given,
   for (const std::string& path : given) {
     std::error_code ignored;
     if (!fs::is_directory(path, ignored)) {
+      // A word of a list that was parted by a blank.
+      if (given.size() > 1 && path.find_first_of("./") == path.npos &&
+          !fs::exists(path, ignored) &&
+          FilesInMemory::FindTable(path) == nullptr) {
+        throw InputError(PrintablePath(path) +
+                         ": cannot be read: there is no such file; names in a "
+                         "list stand between commas, without blanks");
+      }
       found.paths.push_back(path);
       continue;
     }

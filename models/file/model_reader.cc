@@ -374,7 +374,12 @@ FittedModel ModelFromJson(const std::string& text, const std::string& source) {
     throw data::InputError(fmt::format("{}: {}", source, error.what()));
   } catch (const Json::exception& error) {
     throw data::InputError(
-        fmt::format("{}: is no JSON model file: {}", source, error.what()));
+        text.find('{') != text.find_first_not_of(" \t\r\n")
+            ? source +
+                  ": is no map, which is JSON that errmap wrote; a map is "
+                  "named first, its data after it"
+            : fmt::format(
+                  "{}: is no JSON model file: {}", source, error.what()));
   }
   return ReadModel(Node(document, "", source));
 }

@@ -44,6 +44,12 @@ std::string ResultsPath(const std::string& folder) {
 
 models::StudyRecord ReadResults(const std::string& folder) {
   const std::string path = ResultsPath(folder);
+  if (std::error_code failed; !std::filesystem::exists(path, failed)) {
+    throw data::InputError(fmt::format(
+        "{}: no folder with results.json; errmap compare DATA.csv --out STUDY "
+        "writes STUDY, and its page",
+        data::PrintablePath(folder)));
+  }
   const std::string text = data::ReadFile(path, data::kMostTextOfPrograms);
   try {
     return models::FromJsonText(text);

@@ -378,11 +378,23 @@ TEST_F(Screens, GuessWhatWasMeant) {
     return outcome.err;
   };
   EXPECT_THAT(err({"comprae", kDown}), HasSubstr("did you mean 'compare'?"));
+  EXPECT_THAT(err({"version"}), HasSubstr("did you mean '--version'?"));
+  EXPECT_THAT(err({"--hlep"}),
+              HasSubstr("no option '--hlep'; did you mean '--help'?"));
+  EXPECT_THAT(err({"compare", kDown, "-m", "mean"}),
+              HasSubstr("no option '-m'; see errmap compare --help"));
+  EXPECT_THAT(RefusalOf(Run({"evaluate", kDown, "map.json"}), kUnusable),
+              HasSubstr("is no map, which is JSON that errmap wrote; a map is "
+                        "named first"));
   EXPECT_THAT(err({"help", "comprae"}), HasSubstr("did you mean 'compare'?"));
   EXPECT_THAT(err({"compare", kDown, "--modles", "mean"}),
               HasSubstr("no option '--modles'; did you mean '--models'?"));
   EXPECT_THAT(err({"compare", kDown, "--models", "poly:eq88"}),
               HasSubstr("did you mean 'poly:eq8'?"));
+  EXPECT_THAT(err({"compare", kDown, "--models", "ridge"}),
+              HasSubstr("did you mean 'poly:ridge'?"));
+  EXPECT_THAT(err({"compare", kDown, "--models", "mean,", "poly:eq8"}),
+              HasSubstr("names stand between commas, without blanks"));
   EXPECT_THAT(err({"compare", kDown, "--models", "net:scg:hiden=3"}),
               HasSubstr("did you mean 'hidden'?"));
   EXPECT_THAT(err({"compare", kDown, "--holdout", "evry:3"}),

@@ -64,7 +64,8 @@ TEST_F(Cli, WrongCommandLinesGetOneLine) {
   }
   // A further word is a further file.
   EXPECT_THAT(RefusalOf(Run({"compare", kDown, "more"}), kUnusable),
-              HasSubstr("more: cannot be read"));
+              HasSubstr("more: cannot be read: there is no such file; names in "
+                        "a list stand between commas"));
 }
 
 TEST_F(Cli, HelpAndVersionGoToStdout) {

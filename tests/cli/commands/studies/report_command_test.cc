@@ -39,6 +39,14 @@ TEST_F(ReportCommand, DrawsTheReportOfAComparisonTwiceAlike) {
   EXPECT_THAT(first, HasSubstr("<svg"));
 }
 
+TEST_F(ReportCommand, SaysWhatWritesAStudyWhereThereIsNone) {
+  for (const std::string& folder : {std::string("."), kDown}) {
+    EXPECT_THAT(RefusalOf(Run({"report", folder}), kUnusable),
+                HasSubstr("no folder with results.json; errmap compare "
+                          "DATA.csv --out STUDY writes STUDY"));
+  }
+}
+
 TEST_F(ReportCommand, KeepsInTheRecordAllThatWasJudged) {
   const Json document =
       RunJson({"compare",
