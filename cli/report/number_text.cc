@@ -22,7 +22,9 @@ std::string ErrorText::operator()(double value) const {
   const double shown = value * scale_;
   if (!std::isfinite(shown)) return "n/a";
   if (std::abs(shown) >= kTooLarge) return fmt::format("{:.3g}", shown);
-  return fmt::format("{:.{}f}", shown, decimals_);
+  const std::string text = fmt::format("{:.{}f}", shown, decimals_);
+  const bool is_zero = text.find_first_of("123456789") == text.npos;
+  return is_zero && text.front() == '-' ? text.substr(1) : text;
 }
 
 std::string ErrorText::WithUnit(double value) const {

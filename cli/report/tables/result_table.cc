@@ -262,7 +262,7 @@ const std::vector<ResultColumn>& Columns() {
          .cell = &Goal,
          .is_number = false,
          .name = "goal",
-         .page = "meets goal"},
+         .page = "goal"},
         {.key = "never_rezeroed",
          .cell = &NeverRezeroed,
          .name = "no re-zero",

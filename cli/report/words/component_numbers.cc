@@ -57,10 +57,12 @@ std::string RatioText(double ratio) {
                         : fmt::format("{:.2g}", ratio);
 }
 
+std::string PluralOf(std::string unit) {
+  return unit.insert(std::min(unit.find(' '), unit.size()), "s");
+}
+
 std::string PluralOfUnit(const models::HoldoutRecord& holdout) {
-  return holdout.unit_of_analysis == models::kBlockOfRows
-             ? "blocks of rows"
-             : holdout.unit_of_analysis + "s";
+  return PluralOf(holdout.unit_of_analysis);
 }
 
 std::string CountOfUnits(std::int64_t count,

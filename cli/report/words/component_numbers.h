@@ -68,7 +68,9 @@ models::IntervalRecord IntervalOfExcess(const models::PairRecord& pair,
 /// "4.5"; a ratio beyond a thousand has no decimals that mean anything.
 std::string RatioText(double ratio);
 
-/// "cycles", "blocks of rows": what the tests count.
+/// "cycles", "blocks of rows".
+std::string PluralOf(std::string unit);
+/// Of what the tests count.
 std::string PluralOfUnit(const models::HoldoutRecord& holdout);
 
 /// "1 cycle", "20 blocks of rows".

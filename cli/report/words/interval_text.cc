@@ -1,10 +1,8 @@
 #include "cli/report/words/interval_text.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
-#include "cli/report/number_text.h"
+#include "cli/report/words/component_numbers.h"
 
 namespace errmap::report {
 
@@ -24,10 +22,10 @@ std::string IntervalText(const models::PromiseRecord& promise,
   }
   if (promise.good_for) {
     text += fmt::format(
-        "; good for {} to come, as neighbouring {}s err alike (correlation "
+        "; good for {} to come, as neighbouring {} err alike (correlation "
         "{:.2f})",
         Count(*promise.good_for, promise.unit),
-        promise.unit,
+        PluralOf(promise.unit),
         promise.lag1.value_or(models::kNotKnown));
   }
   return text;
@@ -35,14 +33,11 @@ std::string IntervalText(const models::PromiseRecord& promise,
 
 std::string IntervalLine(const models::PromiseRecord& promise,
                          const ErrorText& error) {
-  // "cycles", "blocks of rows".
-  std::string plural = promise.unit;
-  plural.insert(std::min(plural.find(' '), plural.size()), "s");
   return fmt::format("{} ({}: {} {} held out whole)",
                      IntervalText(promise, error),
                      promise.holdout,
                      promise.units,
-                     plural);
+                     PluralOf(promise.unit));
 }
 
 }  // namespace errmap::report

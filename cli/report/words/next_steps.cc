@@ -155,10 +155,8 @@ std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
     const std::size_t all = sensors.size();
     sensors.resize(std::min(all, kMostNamed));
     std::string text = fmt::format("{}", fmt::join(sensors, ", "));
-    if (all > kMostNamed) {
-      text += fmt::format(" and {} more; --exclude leaves some out",
-                          all - kMostNamed);
-    }
+    if (all > kMostNamed) text += fmt::format(" and {} more", all - kMostNamed);
+    if (all > 1) text += "; --exclude leaves some out";
     steps.push_back({"its sensors", {}, data::Printable(text, text.size())});
     if (all > 1 && !data.empty()) {
       Words words = CommandOn("learn", data);

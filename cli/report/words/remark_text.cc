@@ -69,7 +69,8 @@ std::string MemoryText(const models::MemoryRecord& memory) {
 }
 
 std::string CostSentence(const RecommendationRecord& advice) {
-  std::string sensors = "no sensor";
+  std::string sensors =
+      advice.memory ? "no sensor, but the other inputs" : "no sensor";
   if (!advice.sensors.empty()) {
     sensors = Count(std::ssize(advice.sensors), "sensor");
     if (advice.sensors.size() <= kMostSensorsNamed) {
@@ -107,11 +108,13 @@ std::string SimplestSentence(const ComponentNumbers& component,
       return fmt::format(
           "No single map is proven better by separate days, and an average of "
           "maps that see the inputs differently gambles less than the choice "
-          "of one; the {} single map is {} ({}).",
-          std::ranges::find(component.Advice().first_tier, model) ==
-                  component.Advice().first_tier.end()
-              ? "best"
-              : "simplest",
+          "of one; {} {} ({}).",
+          advice.decided_by != advice.holdout
+              ? fmt::format("of single maps {} would choose", advice.decided_by)
+          : std::ranges::find(advice.first_tier, model) ==
+                  advice.first_tier.end()
+              ? "the best single map is"
+              : "the simplest single map is",
           model,
           rmse);
     case RemarkKind::kSimplestNearLowest:
@@ -164,9 +167,13 @@ std::string BestNetSentence(const ComponentNumbers& component,
   const models::PairRecord* const pair =
       FindPair(component.record, advice.holdout, advice.model, net);
   if (pair == nullptr) return text + ".";
-  text +=
-      component.In95(IntervalOfExcess(*pair, more < 0.0 ? advice.model : net));
-  return text + (pair->established ? "." : ", which is not proven.");
+  const models::IntervalRecord excess =
+      IntervalOfExcess(*pair, more < 0.0 ? advice.model : net);
+  text += component.In95(excess);
+  // As of a baseline: verdict_sentences.cc.
+  return text + (pair->established ? "."
+                 : excess[0] > 0.0 ? "; call it likely."
+                                   : "; that may be chance.");
 }
 
 // Few sessions were held out whole: what they promise is little known.
@@ -184,13 +191,22 @@ std::string FewSessionsSentence(const ComponentNumbers& component,
 
 std::string GoalSentence(const ComponentNumbers& component) {
   const RecommendationRecord& advice = component.Advice();
-  return fmt::format("The goal (RMSE at most {:g}{}{}) is {}: {}.",
+  const models::MetricsRecord& found =
+      component.Result(advice.model, advice.holdout).test;
+  std::string why;
+  if (advice.goal_standing == GoalStanding::kNotJudged) {
+    why = ": the run was interrupted or a fit failed";
+  } else if (std::isfinite(found.sd)) {
+    why = fmt::format(": scatter {} about an offset of {}",
+                      component.error.WithUnit(found.sd),
+                      component.error.WithUnit(found.mean));
+  }
+  return fmt::format("The goal (RMSE at most {:g}{}{}) is {}{}.",
                      component.record.goal * component.record.display.scale,
                      component.record.display.unit.empty() ? "" : " ",
                      component.record.display.unit,
                      models::ToString(advice.goal_standing),
-                     GoalFigures(component.Result(advice.model, advice.holdout),
-                                 component.error));
+                     why);
 }
 
 std::string DisagreementSentence(const ComponentNumbers& component,
@@ -366,7 +382,7 @@ std::string RemarkText(const ComponentNumbers& component,
     case RemarkKind::kOnlyGrows:
       return fmt::format(
           "{} hardly ever returns to values it had: {} to come lie beyond all "
-          "that were held out{}.",
+          "that were held out{}. Compare without: --exclude {}.",
           fmt::join(*remark.columns, ", "),
           PluralOfUnit(holdout),
           remark.holdouts
@@ -374,7 +390,8 @@ std::string RemarkText(const ComponentNumbers& component,
                             remark.holdouts->front(),
                             component.error.WithUnit(component.Rmse(
                                 advice.model, remark.holdouts->front())))
-              : "");
+              : "",
+          fmt::join(*remark.columns, ","));
     case RemarkKind::kSimpleHolds:
       return fmt::format(
           "It is simple: under {} the average of maps typically errs more than "
@@ -506,21 +523,6 @@ std::string WhereToMeasure(const RemarkRecord& remark) {
     parts.push_back(fmt::format("{} ({})", state, fmt::join(shown, ", ")));
   }
   return fmt::format("{}", fmt::join(parts, "; "));
-}
-
-std::string GoalFigures(const models::ResultRecord& result,
-                        const ErrorText& error) {
-  if (result.goal_standing == GoalStanding::kNone) return "";
-  if (result.goal_standing == GoalStanding::kNotJudged) {
-    return "the run was interrupted or a fit failed";
-  }
-  std::string text = "RMSE " + error.WithUnit(result.test.rmse);
-  if (std::isfinite(result.test.sd)) {
-    text += fmt::format(", scatter {} about an offset of {}",
-                        error.WithUnit(result.test.sd),
-                        error.WithUnit(result.test.mean));
-  }
-  return text;
 }
 
 }  // namespace errmap::report

@@ -17,9 +17,4 @@ inline constexpr std::size_t kMostSensorsNamed = 8;
 /// "elapsed_cycles below 7 or above 27"; "" where nothing is known.
 std::string WhereToMeasure(const models::RemarkRecord& remark);
 
-/// What a goal was held against: "RMSE 4.98 um, scatter 0.2 um about an offset
-/// of 4.97 um"; "" without a goal.
-std::string GoalFigures(const models::ResultRecord& result,
-                        const ErrorText& error);
-
 }  // namespace errmap::report

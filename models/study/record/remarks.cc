@@ -24,7 +24,6 @@ constexpr double kExtrapolationWorthSaying = 0.05;
 // What a screen has room for is told in this order; all else on request.
 constexpr std::array kToldFirst = {RemarkKind::kInterrupted,
                                    RemarkKind::kRemoves,
-                                   RemarkKind::kAveragesMaps,
                                    RemarkKind::kProvenBetter,
                                    RemarkKind::kSimpleHolds,
                                    RemarkKind::kGoal,
@@ -84,7 +83,8 @@ class Remarks {
         record_(record),
         advice_(*study.judgement.recommendation),
         tests_(study.judgement.comparisons[advice_.holdout]),
-        model_(record.models[advice_.model]) {}
+        model_(record.models[advice_.model]),
+        only_grow_(ColumnsThatOnlyGrow(study.data.dataset)) {}
 
   std::vector<RemarkRecord> Grounds();
   std::vector<RemarkRecord> Doubts();
@@ -95,6 +95,7 @@ class Remarks {
   const Recommendation& advice_;
   const HoldoutComparison& tests_;  // under the hold-out that it follows
   const ModelRecord& model_;
+  const std::vector<bool> only_grow_;  // (inputs of the data set)
   std::vector<RemarkRecord> remarks_;
 
   RemarkRecord& Add(RemarkKind kind) {
@@ -136,9 +137,7 @@ void Remarks::AddSimplest() {
     RemarkRecord& remark = Add(RemarkKind::kSimpleHolds);
     remark.holdouts = std::vector<std::string>{advice_.fails_in};
   } else if (advice_.single) {
-    RemarkRecord& remark = Add(RemarkKind::kAveragesMaps, *advice_.single);
-    // Who sees a lower error in the table asks why it is not used.
-    if (RmseOf(advice_.model) <= RmseOf(*advice_.single)) remark.rank.reset();
+    Add(RemarkKind::kAveragesMaps, *advice_.single);
   } else if (advice_.first_tier.size() < 2) {
     return;
   } else if (advice_.model == lowest) {
@@ -250,12 +249,11 @@ void Remarks::AddUnseen() {
 // What is held out lies between other sessions, what is to come does not.
 void Remarks::AddGrowing() {
   const data::Dataset& dataset = study_.data.dataset;
-  const std::vector<bool> only_grow = ColumnsThatOnlyGrow(dataset);
   std::vector<std::string> columns;
   for (const TrainedInput& input :
        study_.study.models[advice_.model].final_fit->inputs) {
     const Eigen::Index at = dataset.FindInput(input.column.name);
-    if (at >= 0 && only_grow[static_cast<std::size_t>(at)]) {
+    if (at >= 0 && only_grow_[static_cast<std::size_t>(at)]) {
       columns.push_back(input.column.name);
     }
   }
@@ -331,9 +329,15 @@ void Remarks::AddExtrapolation() {
   std::vector<std::pair<std::string, Beyond>> found;
   for (const TrainedInput& input :
        study_.study.models[advice_.model].final_fit->inputs) {
-    const Beyond beyond = BeyondTraining(dataset,
-                                         study_.holdouts[advice_.holdout],
-                                         dataset.FindInput(input.column.name));
+    const Eigen::Index column = dataset.FindInput(input.column.name);
+    const Beyond beyond =
+        BeyondTraining(dataset, study_.holdouts[advice_.holdout], column);
+    // Nobody can go back to what only grows. Where each state was met in one
+    // fold only, "below" would lie above "above": none is more wanted.
+    if ((column >= 0 && only_grow_[static_cast<std::size_t>(column)]) ||
+        beyond.below >= beyond.above) {
+      continue;
+    }
     if (beyond.rows > 0) found.emplace_back(input.column.name, beyond);
   }
   std::ranges::stable_sort(

@@ -216,8 +216,8 @@ TEST(Sentences, TellTheShareOfTheErrorThatIsRemoved) {
 
 TEST(Sentences, TellOffsetAndScatterOfAMissedGoalApart) {
   EXPECT_EQ(GroundOf(Base(), {.kind = RemarkKind::kGoal}),
-            "The goal (RMSE at most 0.5 um) is not met: RMSE 1.900 um, scatter "
-            "1.881 um about an offset of 0.190 um.");
+            "The goal (RMSE at most 0.5 um) is not met: scatter 1.881 um about "
+            "an offset of 0.190 um.");
 }
 
 TEST(Sentences, CallAnOffsetPerCycleAThermalStateThatNoSensorSees) {
@@ -293,7 +293,7 @@ TEST(BestNet, IsSaidToErrByHowMuchMore) {
   pair.established = false;
   EXPECT_EQ(OfBestNet(record),
             "The best net, net:scg, has 3.000 um, 1.100 um more (95 % 0.450 to "
-            "1.750), which is not proven.");
+            "1.750); call it likely.");
   record.comparisons.clear();
   EXPECT_EQ(OfBestNet(record),
             "The best net, net:scg, has 3.000 um, 1.100 um more.");
@@ -309,7 +309,7 @@ TEST(BestNet, IsSaidToErrLessWhereABaselineOrBlendIsUsedAllTheSame) {
   pair.established = false;
   EXPECT_EQ(OfBestNet(record),
             "The best net, net:scg, has 1.500 um, 0.400 um less (95 % -0.100 "
-            "to 0.900), which is not proven.");
+            "to 0.900); that may be chance.");
 }
 
 TEST(BestNet, IsSaidToBeInterchangeableAndDearer) {
@@ -340,8 +340,13 @@ TEST(Sentences, TellHowLittleFewSessionsSay) {
 TEST(Sentences, SayWhichMapHasLessErrorThanABlend) {
   RemarkRecord remark{.kind = RemarkKind::kAveragesMaps};
   remark.model = "zero";
-  EXPECT_THAT(GroundOf(Base(), remark),
+  ComponentRecord record = Base();
+  record.recommendation->decided_by = record.recommendation->holdout;
+  EXPECT_THAT(GroundOf(record, remark),
               EndsWith("the best single map is zero (0.800 um)."));
+  record.recommendation->decided_by = "every:3";
+  EXPECT_THAT(GroundOf(record, remark),
+              EndsWith("of single maps every:3 would choose zero (0.800 um)."));
 }
 
 models::VerdictRecord Hindered(models::Obstacle::Kind kind,
@@ -477,7 +482,7 @@ TEST(PageUnits, AreTheSymbolsThatPeopleWriteAndOfNumbersOnly) {
   EXPECT_THAT(page.recommendation->sentence,
               StartsWith("Use 2 um: 1.900 µm RMSE"));
   EXPECT_THAT(page.recommendation->grounds.front().text,
-              HasSubstr("RMSE 1.900 µm, scatter 1.881 µm"));
+              HasSubstr("scatter 1.881 µm about"));
 }
 
 TEST(PageUnits, LeaveTheWordsOfAnIncompleteRecord) {
