@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <optional>
 #include <system_error>
 
@@ -208,22 +207,6 @@ bool IsMissingNumber(std::string_view text) {
 
 void ThrowUnusable(const CsvTable& table, const std::string& what) {
   throw InputError(PrintablePath(table.file) + ": " + what);
-}
-
-std::string Rounded(double value) {
-  constexpr double kWholeFrom = 100.0;
-  constexpr double kExponentFrom = 1e6;
-  const double size = std::abs(value);
-  const bool whole = size >= kWholeFrom && size < kExponentFrom;
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(),
-                                 text.data() + text.size(),
-                                 value,
-                                 whole ? std::chars_format::fixed
-                                       : std::chars_format::general,
-                                 whole ? 0 : 3)
-                       .ptr;
-  return {text.data(), end};
 }
 
 std::string NameInRemark(const std::string& name) {

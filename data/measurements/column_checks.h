@@ -102,9 +102,6 @@ Eigen::VectorXd ValuesOfRows(const CsvColumn& column,
 /// A column's name for a remark: printable, and never cut short.
 std::string NameInRemark(const std::string& name);
 
-/// To three digits, from 100 to a million to the next whole number.
-std::string Rounded(double value);
-
 /// Names for a message, separated by commas; many are cut short.
 std::string ListOfNames(const std::vector<std::string>& names);
 

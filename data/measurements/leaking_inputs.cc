@@ -10,6 +10,7 @@
 #include <Eigen/QR>
 
 #include "data/measurements/column_checks.h"
+#include "data/measurements/rounded.h"
 
 namespace errmap::data {
 namespace {

@@ -14,6 +14,7 @@
 #include "data/measurements/dataset.h"
 #include "data/measurements/idle_inputs.h"
 #include "data/measurements/leaking_inputs.h"
+#include "data/measurements/rounded.h"
 #include "data/measurements/row_faults.h"
 #include "data/measurements/session_log.h"
 #include "data/measurements/sessions.h"

@@ -322,6 +322,27 @@ TEST_F(Screens, SayWhatTwoDaysHeldOutWholeTell) {
   EXPECT_THAT(text, ContainsRegex("measure next +6 days or more"));
 }
 
+// Each of two days is beyond the other: "below 26" and "above 23.5" say
+// nothing.
+TEST_F(Screens, AskForNoStateThatLiesBelowOneBoundAndAboveAnother) {
+  std::string days = "day,cycle,position_mm,t1_degC,error_um\n";
+  for (int i = 0; i < 72; ++i) {
+    const int day = i / 36;
+    const int cycle = i / 6 % 6;
+    const double t = 20.0 + 6.0 * day + 0.7 * cycle;
+    days += std::to_string(day) + "," + std::to_string(6 * day + cycle) + "," +
+            std::to_string(50 * (i % 6)) + "," + std::to_string(t) + "," +
+            std::to_string(1.5 * t + 0.1 * (i * 7 % 11)) + "\n";
+  }
+  Write("two.csv", days);
+  const std::string text = Squeezed(
+      Run({"compare", "two.csv", "--models", "poly:full:degree=1", "--quiet"})
+          .out);
+  EXPECT_THAT(text, ContainsRegex("extrapolated +100 % of"));
+  EXPECT_THAT(text, ContainsRegex("measure next +6 days or more"));
+  EXPECT_THAT(text, Not(HasSubstr("t1_degC below")));
+}
+
 TEST_F(Screens, NameTheMapThatWasWritten) {
   const Outcome outcome =
       Run(With({"compare", kDown, "--out", "study"}, kQuick));

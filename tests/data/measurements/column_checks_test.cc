@@ -1,14 +1,13 @@
 // Which rows, and what may stand in them: data/measurements/column_checks.h by
 // MakeDataset.
 
-#include "data/measurements/column_checks.h"
-
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "data/measurements/rounded.h"
 #include "tests/data/measurements/make_dataset_test_data.h"
 
 namespace errmap::data {

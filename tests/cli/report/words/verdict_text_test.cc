@@ -337,6 +337,20 @@ TEST(Sentences, TellHowLittleFewSessionsSay) {
             "groups:5.");
 }
 
+TEST(Sentences, SayHowToCompareWithoutWhatOnlyGrows) {
+  RemarkRecord remark{.kind = RemarkKind::kOnlyGrows};
+  remark.columns = std::vector<std::string>{"age_d", "wear"};
+  EXPECT_THAT(DoubtOf(Base(), remark),
+              EndsWith("lie beyond all that were held out. Compare without: "
+                       "--exclude age_d,wear."));
+}
+
+TEST(Sentences, HaveNoZeroBelowZero) {
+  const ErrorText error(data::UnitOfSymbol("mm"), 1e-3);
+  EXPECT_EQ(error(-1e-9), "0.00");
+  EXPECT_EQ(error(-1e-3), "-1.00");
+}
+
 TEST(Sentences, SayWhichMapHasLessErrorThanABlend) {
   RemarkRecord remark{.kind = RemarkKind::kAveragesMaps};
   remark.model = "zero";
