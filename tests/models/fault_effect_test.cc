@@ -47,7 +47,8 @@ TEST(EffectOfInput, LeavesTheColumnOut) {
 // Fitted to its own rows a plane never errs more for another input.
 TEST(EffectOfInput, IsThatOnRowsHeldOut) {
   data::Dataset::Parts parts = Plane();
-  parts.groups = {.column = "cycle", .labels = {"1", "2", "3", "4"}};
+  parts.groups = {
+      .column = "cycle", .labels = {"1", "2", "3", "4"}, .codes = {}};
   for (Index i = 0; i < 20; ++i) {
     const Index cycle = i / 5;
     parts.groups.codes.push_back(cycle);
