@@ -351,11 +351,19 @@ std::vector<Profiles> AllProfiles(const std::vector<const FittedModel*>& maps,
 
 // The range of the errors, 0 with them, times what a day beyond may add.
 double DefaultMaxError(const std::vector<const FittedModel*>& maps,
+                       const MapProgram& program,
                        const std::vector<Profiles>& all) {
   constexpr double kBeyond = 1.3;
   double low = 0.0;
   double high = 0.0;
   for (std::size_t k = 0; k < maps.size(); ++k) {
+    // A map that reads nothing has no profile.
+    double steady = 0.0;
+    ProgramRun run(program, Precision::kDouble, static_cast<int>(k));
+    run.Begin(MeanReadings(program));
+    run.Step(0.0, MeanReadings(program), &steady);
+    low = std::min(low, steady);
+    high = std::max(high, steady);
     if (const auto& guards = maps[k]->guards) {
       low = std::min(low, guards->error_min);
       high = std::max(high, guards->error_max);
@@ -392,7 +400,7 @@ void SetLimits(const std::vector<const FittedModel*>& maps,
   const std::vector<Profiles> all = AllProfiles(maps, *program);
   ControllerLimits& limits = program->limits;
   limits.max_error =
-      Limit(options.max_error, DefaultMaxError(maps, all), "error");
+      Limit(options.max_error, DefaultMaxError(maps, *program, all), "error");
   limits.max_rate =
       Limit(options.max_rate,
             DefaultMaxRate(program->target.unit, limits.max_error),

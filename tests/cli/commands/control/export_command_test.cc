@@ -440,8 +440,8 @@ TEST_F(CliExport, CountsAndTimesWhatAMapCosts) {
   EXPECT_EQ(cost["operations"]["exponentials"], 0);
   // Two scaled inputs; nested, a product and a sum for each term but that of
   // the highest power; the largest change, of the time and of the way; where
-  // the one sensor stands among 64 trained states, and those itself.
-  EXPECT_EQ(cost["operations"]["multiplications"], 8 + 3 + 64);
+  // the one sensor stands among 35 trained states, and those itself.
+  EXPECT_EQ(cost["operations"]["multiplications"], 8 + 3 + 35);
   // What is kept to hold the last good error, for want of a memory, and the
   // trained state close by.
   EXPECT_EQ(cost["bytes"]["state"], 80 + 24);
@@ -453,14 +453,14 @@ TEST_F(CliExport, CountsAndTimesWhatAMapCosts) {
   }
   const Outcome table = Run({"cost", "map.json"});
   EXPECT_THAT(table.out, HasSubstr("poly:eq8: one step of the exported C"));
-  EXPECT_THAT(table.out, HasSubstr("multiplications         75"));
+  EXPECT_THAT(table.out, HasSubstr("multiplications         46"));
 }
 
 TEST_F(CliExport, CountsWhereNothingCompiles) {
   FitMap(kDown, "poly:eq8", "map.json");
   const Outcome outcome = Good(
       fmt::format("PATH=/nonexistent '{}' cost map.json", tests::Binary()));
-  EXPECT_THAT(outcome.out, HasSubstr("multiplications         75"));
+  EXPECT_THAT(outcome.out, HasSubstr("multiplications         46"));
   EXPECT_THAT(outcome.out, HasSubstr("nothing measured: `cc -std=c99 -O2`"));
   EXPECT_EQ(outcome.err, "");
 }

@@ -213,7 +213,7 @@ TEST_F(CliExportTables, KeepsToTheLargestOffsetAndSaysWhere) {
   const Outcome outcome = Linuxcnc({"up.json", "--max-offset", "5um"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.err,
-              HasSubstr("errors forward: at most 5 um, reached in "));
+              HasSubstr("errors forward: at most 5.00 um, reached in "));
   const LinuxcncReader table(Read("x.comp.txt"));
   double largest = 0.0;
   for (const double nominal : table.nominals()) {
@@ -234,7 +234,7 @@ TEST_F(CliExportTables, KeepsToTheLargestOffsetAndSaysWhere) {
   const Outcome grid =
       Run({"export", "up.json", "--table", "-o", ".", "--max-offset", "5um"});
   ASSERT_EQ(grid.status, 0) << grid.err;
-  EXPECT_THAT(grid.err, HasSubstr("at most 5 um, reached in "));
+  EXPECT_THAT(grid.err, HasSubstr("at most 5.00 um, reached in "));
   EXPECT_THAT(Read("up.csv"), HasSubstr("at most 0.005 in size"));
   for (const data::CsvColumn& column : data::ReadCsv(Path("up.csv")).columns) {
     if (column.name == "position_mm") continue;
@@ -251,7 +251,7 @@ TEST_F(CliExportTables, RefusesAMapOfTheOtherDirection) {
   for (const char* direction : {"up", "down"}) {
     const std::string file = std::string(direction) + ".json";
     Json map = Json::parse(Read(file));
-    map["where"] = Json::array({{{"column", "way"}, {"value", direction}}});
+    map["where"] = Json::array({{{"column", "way"}, {"text", direction}}});
     Write(file, map.dump());
   }
   EXPECT_EQ(
