@@ -189,7 +189,8 @@ std::string WithSuggestion(const CLI::App& app,
   for (int i = of_command ? 2 : 1; i < argc; ++i) {
     const std::string word(argv[i]);
     const std::string flag = word.substr(0, word.find('='));
-    if (!flag.starts_with("-") ||
+    double number = 0.0;
+    if (!flag.starts_with("-") || data::ParseNumber(word, &number) ||
         (of_command && text.find(flag) == std::string::npos) ||
         std::ranges::find(known, flag) != known.end()) {
       continue;

@@ -236,7 +236,7 @@ TEST_F(Screens, NameTheSensorsAndTheCommandThatTellsWhichWouldDo) {
       outcome.out,
       AllOf(
           ContainsRegex("its sensors     temperature_of_place_3_degC, *\n? *"
-                        "temperature_of_place_1_degC\n"),
+                        "temperature_of_place_1_degC;\n? *--exclude leaves"),
           ContainsRegex("fewer of them   errmap learn days.csv --by sensors")));
   EXPECT_EQ(Run({"learn",
                  "days.csv",

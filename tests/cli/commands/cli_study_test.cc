@@ -268,7 +268,7 @@ TEST_F(CliStudy, SetSaysWhatItCannotDo) {
   EXPECT_THAT(refusal("component.5.goal=1"),
               HasSubstr("no component '5'; the study file has 0 to 1"));
   EXPECT_THAT(refusal("seed"), HasSubstr("--set must be KEY=VALUE"));
-  EXPECT_THAT(refusal("a b=1"), HasSubstr("--set a b=1"));
+  EXPECT_THAT(refusal("a b=1"), HasSubstr("--set 'a b=1'"));
   EXPECT_THAT(
       RefusalOf(Run({"compare", kDown, "--set", "seed=1"}), kWrongCommandLine),
       HasSubstr("--config"));

@@ -21,8 +21,9 @@ TEST_F(Cli, RecommendsWhatHoldsOnUnseenCyclesAndSaysWhy) {
   EXPECT_EQ(verdicts[1]["model"], "blend");
   // Neighbouring cycles resemble each other too much for more.
   EXPECT_EQ(verdicts[1]["established"], false);
+  EXPECT_EQ(verdicts[0]["established"], false);
   EXPECT_THAT(verdicts[0]["why"].get<std::string>(),
-              HasSubstr("resemble each other: not established"));
+              HasSubstr(": not established"));
   const Json& advice = component["recommendation"];
   EXPECT_EQ(advice["holdout"], "groups:5");
   EXPECT_EQ(advice["choice"], "blend");
