@@ -100,13 +100,17 @@ class OneLayerRecipe final : public NetRecipe {
     if (const auto missing = WhatIsMissing(training)) {
       throw std::invalid_argument("the data lack " + *missing);
     }
-    // A net with a memory is a blend's as well as its own.
-    if (context.shared == nullptr || !options_.view || context.keep_trace) {
+    if (context.shared == nullptr || !options_.view) {
       return FitAlone(training, context);
     }
-    return *context.shared->Get<FittedModel>(name_, [&] {
-      return std::make_shared<const FittedModel>(FitAlone(training, context));
+    // A net with a memory is a blend's as well as its own.
+    FittedModel fitted = *context.shared->Get<FittedModel>(name_, [&] {
+      FitContext traced = context;
+      traced.keep_trace = true;  // whoever asks first
+      return std::make_shared<const FittedModel>(FitAlone(training, traced));
     });
+    if (!context.keep_trace) fitted.summary.trace.clear();
+    return fitted;
   }
 
   std::unique_ptr<NetRecipe> WithChoicesOf(
