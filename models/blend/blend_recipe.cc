@@ -37,9 +37,13 @@ const std::vector<std::string>& RuleWords() {
   return words;
 }
 
+// Which candidates an average is of.
+enum class Among { kAll, kStraight };
+
 // What inner hold-outs say of a candidate.
 struct Score {
   double rmse = 0.0;
+  bool straight = false;
   const VectorXd* held_out = nullptr;  // null where not known
 };
 
@@ -64,36 +68,84 @@ std::string TextOf(WeightRule rule, const InnerFolds& folds) {
   }
 }
 
+// The least that one of them errs; what has no error at all leaves nothing to
+// the others.
+double LeastOf(const std::vector<Score>& scores, Among among) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Score& score : scores) {
+    if (among == Among::kStraight && !score.straight) continue;
+    if (score.rmse < least) least = score.rmse;
+  }
+  return std::max(least, std::numeric_limits<double>::min());
+}
+
+VectorXd WeightsAmong(const std::vector<Score>& scores,
+                      Among among,
+                      double power) {
+  const double least = LeastOf(scores, among);
+  VectorXd weights = VectorXd::Zero(static_cast<Index>(scores.size()));
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    const Score& score = scores[i];
+    if (std::isnan(score.rmse)) continue;
+    if (among == Among::kStraight && !score.straight) continue;
+    weights[static_cast<Index>(i)] =
+        std::pow(std::max(score.rmse, least) / least, -power);
+  }
+  return weights / weights.sum();
+}
+
+VectorXd EqualWithin20(const std::vector<Score>& scores) {
+  constexpr double kNear = 1.2;
+  const double most = kNear * LeastOf(scores, Among::kAll);
+  VectorXd weights(static_cast<Index>(scores.size()));
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    weights[static_cast<Index>(i)] = scores[i].rmse <= most ? 1.0 : 0.0;
+  }
+  return weights / weights.sum();
+}
+
+VectorXd Stacked(const std::vector<Score>& scores, const VectorXd& targets) {
+  MatrixXd predictions(targets.size(), static_cast<Index>(scores.size()));
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    predictions.col(static_cast<Index>(i)) = *scores[i].held_out;
+  }
+  return StackingWeights(predictions, targets);
+}
+
+// Where rows are to be foretold that lie beyond those known, a bend that helps
+// between them is worth less than it seems: the average of all is averaged with
+// that of the straight lines among them, which count as much where they err no
+// more, and an eighth as much where they err twice as much.
+VectorXd AveragedWithLines(const std::vector<Score>& scores, double power) {
+  constexpr double kShrinkPower = 3.0;
+  const VectorXd all = WeightsAmong(scores, Among::kAll, power);
+  const double least = LeastOf(scores, Among::kStraight);
+  if (std::isinf(least)) return all;
+  const double share =
+      std::pow(least / LeastOf(scores, Among::kAll), -kShrinkPower);
+  return (all + share * WeightsAmong(scores, Among::kStraight, power)) /
+         (1.0 + share);
+}
+
+// What only grows is a straight line in all members, and the bends in other
+// inputs have a reason then: such a blend is not averaged with its lines.
 VectorXd WeightsFrom(WeightRule rule,
                      const InnerFolds& folds,
                      const std::vector<Score>& scores,
-                     const VectorXd& targets) {
-  const auto count = static_cast<Index>(scores.size());
-  VectorXd weights(count);
-  double least = std::numeric_limits<double>::infinity();
-  for (const Score& score : scores) {
-    if (score.rmse < least) least = score.rmse;
+                     const VectorXd& targets,
+                     bool grows) {
+  switch (rule) {
+    case WeightRule::kWithin20:
+      return EqualWithin20(scores);
+    case WeightRule::kStack:
+      return Stacked(scores, targets);
+    case WeightRule::kLikelihood:
+      if (!grows) return AveragedWithLines(scores, PowerOf(rule, folds));
+      break;
+    case WeightRule::kPower4:
+      break;
   }
-  if (rule == WeightRule::kStack) {
-    MatrixXd predictions(targets.size(), count);
-    for (Index i = 0; i < count; ++i) {
-      predictions.col(i) = *scores[static_cast<std::size_t>(i)].held_out;
-    }
-    return StackingWeights(predictions, targets);
-  }
-  // A candidate without error leaves nothing to the others.
-  const double floor = std::max(least, std::numeric_limits<double>::min());
-  for (Index i = 0; i < count; ++i) {
-    const double ratio = scores[static_cast<std::size_t>(i)].rmse / floor;
-    if (rule == WeightRule::kWithin20) {
-      constexpr double kNear = 1.2;
-      weights[i] = ratio <= kNear ? 1.0 : 0.0;
-    } else {
-      weights[i] =
-          std::isnan(ratio) ? 0.0 : std::pow(ratio, -PowerOf(rule, folds));
-    }
-  }
-  return weights / weights.sum();
+  return WeightsAmong(scores, Among::kAll, PowerOf(rule, folds));
 }
 
 // A member before it knows its place among the inputs of all.
@@ -143,8 +195,9 @@ class BlendRecipe final : public ModelRecipe {
     std::vector<Score> scores;
     std::vector<std::string> growing;
     for (const BasisCandidate& basis : bases) {
-      scores.push_back(
-          {basis.fit->candidate.held_out_rmse, &basis.fit->candidate.held_out});
+      scores.push_back({basis.fit->candidate.held_out_rmse,
+                        basis.terms == TermSet::kLinear,
+                        &basis.fit->candidate.held_out});
       for (std::string& name : NamesOfGrowing(*basis.viewed)) {
         growing.push_back(std::move(name));
       }
@@ -154,10 +207,13 @@ class BlendRecipe final : public ModelRecipe {
     if (options_.net && options_.rule != WeightRule::kStack &&
         growing.empty()) {
       net = FitNet(training, context);
-      scores.push_back({net->inner_rmse, nullptr});
+      scores.push_back({.rmse = net->inner_rmse});
     }
-    const VectorXd weights =
-        WeightsFrom(options_.rule, folds, scores, training.target_values());
+    const VectorXd weights = WeightsFrom(options_.rule,
+                                         folds,
+                                         scores,
+                                         training.target_values(),
+                                         !growing.empty());
 
     std::vector<Part> parts = CollapseBases(training, bases, weights);
     if (net && weights[weights.size() - 1] > kLeastWeight) {
@@ -174,8 +230,8 @@ class BlendRecipe final : public ModelRecipe {
   }
 
  private:
-  // Less than this changes no digit that anyone prints.
-  static constexpr double kLeastWeight = 1e-4;
+  // Less than this is not worth its arithmetic in a control.
+  static constexpr double kLeastWeight = 0.01;
 
   // By default NetInViews, which a comparison fits, too.
   FittedModel FitNet(const Dataset& training, const FitContext& context) const {

@@ -10,18 +10,20 @@
 
 namespace errmap::models {
 
-/// Where weights come from: error^-n for n units of the inner hold-outs, as
-/// their likelihood would have it were each unit one error, error^-4, equal
-/// ones within 20 % of the best, stacking.
+/// Where weights come from: error^-n for n units of the inner hold-outs, at
+/// most 8, as their likelihood would have it were each unit one error, then
+/// averaged with the same of the straight lines alone; error^-4; equal ones
+/// within 20 % of the best; stacking.
 enum class WeightRule { kLikelihood, kPower4, kWithin20, kStack };
 
 /// blend: the weighted average of candidates (family x view x terms, each at
-/// its best penalty, and a net), with weights from the inner hold-outs of the
-/// training rows alone. One choice among near-equals is a gamble; averages of
-/// maps that see the inputs differently are not.
+/// its best penalty, and a net where one is asked for), with weights from the
+/// inner hold-outs of the training rows alone. One choice among near-equals is
+/// a gamble; averages of maps that see the inputs differently are not.
 struct BlendOptions {
   WeightRule rule = WeightRule::kLikelihood;
-  /// With a net in its views, but for kStack and where an input only grows.
+  /// With NetInViews in its views, but for kStack and where an input only
+  /// grows. Its figures differ from one processor to another.
   bool net = false;
   /// Views are what averaging lives on: without a `view` it is auto.
   BasisOptions bases = {.view = ViewOptions()};

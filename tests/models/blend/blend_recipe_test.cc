@@ -122,11 +122,48 @@ TEST(BlendRecipe, OneEquationForTheMembersOfOneBasisAndWeightsOfSumOne) {
   EXPECT_TRUE(fitted.guards.has_value());
 }
 
-TEST(BlendRecipe, EveryRuleGivesAMapAsGoodAsItsPartsAlone) {
+// The weight of straight lines in a blend of maps of the sensor as it is, which
+// the error follows to this power.
+double ShareOfLines(double power) {
+  const data::Dataset days = LaggingDays(0.0, 4);
+  data::Dataset::Parts parts{.source = "days",
+                             .inputs = days.inputs(),
+                             .input_values = days.input_values(),
+                             .target = days.target(),
+                             .target_values = {},
+                             .groups = {},
+                             .weights = {},
+                             .rows = {},
+                             .log = days.log(),
+                             .log_rows = days.log_rows()};
+  stats::Random random(11);
+  parts.target_values =
+      (0.1 * (days.input_values().col(0).array() - 20.0))
+          .pow(power)
+          .unaryExpr([&](double error) { return error + random.Uniform(); });
+  const FittedModel fitted =
+      Fitted("blend:view=raw", data::Dataset(std::move(parts)));
+  double share = 0.0;
+  const auto form = std::get<BlendForm>(fitted.model->Describe());
+  for (const BlendForm::Member& member : form.members) {
+    if (member.name.ends_with(", linear")) share += member.weight;
+  }
+  return share;
+}
+
+TEST(BlendRecipe, LinesHaveHalfOfItUnlessABendErrsLess) {
+  EXPECT_GT(ShareOfLines(1.0), 0.6);
+  EXPECT_LT(ShareOfLines(6.0), 0.1);
+}
+
+TEST(BlendRecipe, EveryChoiceOfMembersIsAsGoodAsItsPartsAlone) {
   const auto [first, last] = Split(LaggingDays(1.0), 4);
   const double mean = RmseOn(Fitted("mean", first), last);
-  for (const char* spec :
-       {"blend", "blend:rule=within20", "blend:rule=stack", "blend:net=yes"}) {
+  for (const char* spec : {"blend",
+                           "blend:rule=power4",
+                           "blend:rule=within20",
+                           "blend:rule=stack",
+                           "blend:net=yes"}) {
     EXPECT_LT(RmseOn(Fitted(spec, first), last), 0.3 * mean) << spec;
   }
 }
@@ -147,13 +184,37 @@ TEST(BlendRecipe, ReadBackFromItsFileItPredictsTheSameBits) {
 TEST(BlendRecipe, WhatIsSharedIsWhatEachWouldHaveMadeAlone) {
   const auto [first, last] = Split(LaggingDays(0.2), 4);
   SharedWork shared;
-  const FitContext together{.indifference = 0.02, .shared = &shared};
-  for (const char* spec :
-       {"poly:lasso:view=auto", "poly:ridge:view=auto", "blend"}) {
+  FitContext together{.indifference = 0.02, .shared = &shared};
+  for (const char* spec : {"poly:lasso:view=auto",
+                           "poly:ridge:view=auto",
+                           "blend:net=yes",
+                           "net:scg:view=auto"}) {
     EXPECT_EQ(MakeRecipe(spec)->Fit(first, together).Predict(last),
               Fitted(spec, first).Predict(last))
         << spec;
   }
+}
+
+TEST(BlendRecipe, ItsNetIsFittedOnceForItselfAndForTheBlend) {
+  const auto [first, last] = Split(LaggingDays(0.2), 4);
+  SharedWork shared;
+  FitContext together{.indifference = 0.02, .shared = &shared};
+  MakeRecipe("blend:net=yes")->Fit(first, together);
+  const auto net = shared.Get<FittedModel>(
+      "net:scg:view=auto", [&]() -> std::shared_ptr<const FittedModel> {
+        ADD_FAILURE() << "the blend left none";
+        return std::make_shared<const FittedModel>();
+      });
+  // Whoever wants its error-reduction curve has it, and nobody else.
+  const auto trace = [&] {
+    return MakeRecipe("net:scg:view=auto")
+        ->Fit(first, together)
+        .summary.trace.size();
+  };
+  EXPECT_EQ(trace(), 0U);
+  together.keep_trace = true;
+  EXPECT_EQ(trace(), net->summary.trace.size());
+  EXPECT_GT(trace(), 0U);
 }
 
 TEST(BlendRecipe, ALaterColumnThatHardlyMovedInTrainingDoesNotExplode) {
@@ -206,6 +267,7 @@ TEST(BlendRecipe, IsRecommendedWhereDaysAreTooFewToTellMapsApart) {
 
 TEST(BlendRecipe, RefusesWhatItDoesNotKnow) {
   EXPECT_THROW(MakeRecipe("blend:rule=best"), std::invalid_argument);
+  EXPECT_THROW(MakeRecipe("blend:net=maybe"), std::invalid_argument);
   EXPECT_THROW(MakeRecipe("blend:hidden=3"), std::invalid_argument);
   EXPECT_THROW(MakeRecipe("poly:ridge:view=auto:penalty=1"),
                std::invalid_argument);
