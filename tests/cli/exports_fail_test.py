@@ -117,8 +117,8 @@ WITH_STATUS = ["ridge", "stepwise", "strict", "pair"]
 
 # A fault in the exported Python, which the checks must find.
 PLANTS = {
-    "no limit": ("if target > self.max_error:", "if False:"),
-    "no rate": ("if target > (self.given + self.room):", "if False:"),
+    "no limit": ("if target < (-self.max_error):", "if False:"),
+    "no rate": ("if target < (self.given - self.room):", "if False:"),
     "steps are always taken": ("if not (status & NOT_TAKEN):", "if True:"),
     "a gap is no time": ("self.waited = self.waited + passed",
                          "self.waited = passed"),
@@ -430,7 +430,7 @@ def check_failure(exported, chance, others):
 def check_plants(exported, chance):
     """Limits so near that they are reached; then each fault is found."""
     right = (exported.folder / (exported.name + ".py")).read_text()
-    for limit, nearer in (("error", 0.3), ("rate", 0.05)):
+    for limit, nearer in (("error", 0.15), ("rate", 0.05)):
         right = re.sub(rf"(self\.max_{limit} =) ([0-9.e-]+)",
                        lambda most: f"{most[1]} {nearer * float(most[2])!r}",
                        right, count=1)
@@ -439,7 +439,7 @@ def check_plants(exported, chance):
         exported.load(right.replace(old, new) if old else right)
         found = len(failures)
         planted[:] = [fault] if fault else []
-        for _ in range(60):
+        for _ in range(20):
             check_failure(exported, chance, [])
         planted.clear()
         found = len(failures) - found
