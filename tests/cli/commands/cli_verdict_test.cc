@@ -36,8 +36,8 @@ TEST_F(Cli, RecommendsWhatHoldsOnUnseenCyclesAndSaysWhy) {
   // The headline says that even the best baseline is not surely beaten.
   EXPECT_EQ(advice["against_baseline"], "units correlated");
   EXPECT_THAT(advice["sentence"].get<std::string>(),
-              HasSubstr("The best baseline, poly:position, has 2.165 um, 2.9 "
-                        "times as much: 1.412 um more (95 % "));
+              HasSubstr("The best baseline, poly:position, has 2.165 um, 3.1 "
+                        "times as much: 1.464 um more (95 % "));
   EXPECT_FALSE(advice["reasons"].empty());
   EXPECT_FALSE(advice["caveats"].empty());
   for (const Json& row : component["gap"]["models"]) {
