@@ -396,6 +396,22 @@ class InputChooser {
   ChosenInputs chosen_;
 };
 
+// The word of a name that says that it counts: "cycle" of "elapsed_cycles".
+std::string CounterWordIn(std::string_view name) {
+  while (!name.empty()) {
+    const std::size_t end =
+        std::min(name.find_first_of("_ -.#:()"), name.size());
+    std::string word = CounterStem(name.substr(0, end));
+    if (word.ends_with('s')) word.pop_back();
+    // "no" and "test" are words of other names, too.
+    if (word.size() > 2 && word != "test" && IsOneOf(kCounters, word)) {
+      return word;
+    }
+    name.remove_prefix(std::min(end + 1, name.size()));
+  }
+  return "";
+}
+
 }  // namespace
 
 bool KeepsRecord(std::string_view name) {
@@ -405,21 +421,14 @@ bool KeepsRecord(std::string_view name) {
 }
 
 bool IsSensor(const ColumnInfo& column) {
-  if (NamesPosition(column.name)) return false;
-  if (!column.unit.symbol.empty()) return true;
-  std::string_view rest = column.name;
-  while (!rest.empty()) {
-    const std::size_t end =
-        std::min(rest.find_first_of("_ -.#:()"), rest.size());
-    std::string word = CounterStem(rest.substr(0, end));
-    if (word.ends_with('s')) word.pop_back();
-    // "no" and "test" are words of other names, too.
-    if (word.size() > 2 && word != "test" && IsOneOf(kCounters, word)) {
-      return false;
-    }
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
-  return true;
+  return !NamesPosition(column.name) &&
+         (!column.unit.symbol.empty() || CounterWordIn(column.name).empty());
+}
+
+bool CountsCycles(const ColumnInfo& column) {
+  const std::string word = CounterWordIn(column.name);
+  return column.unit.symbol.empty() && !word.empty() && word != "day" &&
+         word != "tag";
 }
 
 bool PartsComponents(const CsvTable& table, const CsvColumn& column) {

@@ -51,6 +51,10 @@ bool KeepsRecord(std::string_view name);
 /// counts no cycles, runs or alike ("elapsed_cycles", "n_runs").
 bool IsSensor(const ColumnInfo& column);
 
+/// Whether a column's name says that it counts cycles, runs or alike
+/// ("elapsed_cycles"). Days are none: an age in days is a state that wears.
+bool CountsCycles(const ColumnInfo& column);
+
 /// Whether the values of a column make errors of their own, as up and down
 /// motion differ by hysteresis: named direction, axis, machine or alike, with 2
 /// to 24

@@ -480,7 +480,7 @@ class DatasetBuilder {
     std::vector<bool> left_out(parts_.inputs.size(), false);
     for (std::size_t i = 0; i < left_out.size(); ++i) {
       const ColumnInfo& input = parts_.inputs[i];
-      if (IsNamed(input.name) || NamesPosition(input.name) || IsSensor(input) ||
+      if (IsNamed(input.name) || !CountsCycles(input) ||
           !CountsOn(parts_.input_values.col(static_cast<Eigen::Index>(i)),
                     sessions)) {
         continue;

@@ -273,5 +273,16 @@ TEST(ColumnRoles, TellSensorsFromPositionsAndCounters) {
   }
 }
 
+TEST(ColumnRoles, TellCountersFromAges) {
+  for (const char* name : {"elapsed_cycles", "n_runs", "sample index"}) {
+    EXPECT_TRUE(CountsCycles({.name = name, .unit = UnitOfColumn(name)}))
+        << name;
+  }
+  for (const char* name : {"age_days", "days since service", "cycles_degC"}) {
+    EXPECT_FALSE(CountsCycles({.name = name, .unit = UnitOfColumn(name)}))
+        << name;
+  }
+}
+
 }  // namespace
 }  // namespace errmap::data
