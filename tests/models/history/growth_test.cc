@@ -51,8 +51,9 @@ TEST(ColumnsThatOnlyGrow, AreThoseThatNeverReturnOverThreeSessions) {
 // What bends is not extrapolated, what is straight may go on for long.
 TEST(ColumnsThatOnlyGrow, HaveNoSquaresAndRoomToGoOn) {
   const data::Dataset days = AgeingDays(5);
-  for (const char* spec :
-       {"poly:ridge:view=raw:terms=squares", "blend:view=raw"}) {
+  for (const char* spec : {"poly:ridge:view=raw:terms=squares",
+                           "blend:view=raw",
+                           "poly:full:degree=1"}) {
     const FittedModel fitted = MakeRecipe(spec)->Fit(days, {});
     Eigen::MatrixXd inputs = fitted.FormInputs(days).topRows(3);
     const Index age = 0;
