@@ -66,13 +66,17 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
                                    "models/study/judgement "
     rooms["models/study/record"] = rooms["models/study"] "models/study " \
                                    "models/study/judgement " \
-                                   "models/study/rezero models/export "
+                                   "models/study/rezero models/export " \
+                                   "models/export/program "
     rooms["models/promise"] = rooms["models/study"] "models/study " \
                               "models/study/judgement models/study/record "
     rooms["models/fleet"] = rooms["models/promise"] "models/promise "
     rooms["models/kinematics"] = " models models/history "
-    rooms["models/export"] = " models models/history models/polynomial " \
-                             "models/net models/blend "
+    rooms["models/export/program"] = " models models/history " \
+                                     "models/polynomial models/net " \
+                                     "models/blend "
+    rooms["models/export"] = rooms["models/export/program"] \
+                             "models/export/program "
     rooms["models/certification"] = " models models/polynomial models/net "
     rooms["models/netcg"] = " models models/net "
     rooms["models/comparison"] = rooms["models/promise"] "models/promise " \

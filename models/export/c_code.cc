@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "models/export/c_language.h"
-#include "models/export/safe_names.h"
-#include "models/export/saved_state.h"
+#include "models/export/program/safe_names.h"
+#include "models/export/program/saved_state.h"
 #include "models/history/lag.h"
 
 namespace errmap::models {

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "models/export/controller.h"
-#include "models/export/safe_names.h"
+#include "models/export/program/controller.h"
+#include "models/export/program/safe_names.h"
 
 namespace errmap::models {
 namespace {

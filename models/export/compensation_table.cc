@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "data/csv.h"
-#include "models/export/safe_names.h"
+#include "models/export/program/safe_names.h"
 
 namespace errmap::models {
 namespace {

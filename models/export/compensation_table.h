@@ -3,7 +3,7 @@
 #include <string>
 
 #include "data/units.h"
-#include "models/export/error_curve.h"
+#include "models/export/program/error_curve.h"
 
 namespace errmap::models {
 

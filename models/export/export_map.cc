@@ -7,8 +7,8 @@
 
 #include "data/argument_name.h"
 #include "data/measurements/row_filters.h"
-#include "models/export/map_pair.h"
-#include "models/export/safe_names.h"
+#include "models/export/program/map_pair.h"
+#include "models/export/program/safe_names.h"
 
 namespace errmap::models {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "models/export/language.h"
-#include "models/export/map_program.h"
-#include "models/export/self_test.h"
+#include "models/export/program/map_program.h"
+#include "models/export/program/self_test.h"
 
 namespace errmap::models {
 

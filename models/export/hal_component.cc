@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "models/export/c_code.h"
-#include "models/export/error_curve.h"
-#include "models/export/safe_names.h"
+#include "models/export/program/error_curve.h"
+#include "models/export/program/safe_names.h"
 
 namespace errmap::models {
 namespace {

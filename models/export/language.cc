@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "models/export/error_curve.h"
-#include "models/export/safe_names.h"
+#include "models/export/program/error_curve.h"
+#include "models/export/program/safe_names.h"
 #include "models/history/lag.h"
 #include "models/version.h"
 

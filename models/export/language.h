@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "models/export/map_program.h"
-#include "models/export/run_program.h"
+#include "models/export/program/map_program.h"
+#include "models/export/program/run_program.h"
 
 namespace errmap::models {
 

@@ -9,7 +9,7 @@
 
 #include "data/atomic_file.h"
 #include "models/export/c_code.h"
-#include "models/export/safe_names.h"
+#include "models/export/program/safe_names.h"
 
 namespace errmap::models {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "models/export/map_program.h"
+#include "models/export/program/map_program.h"
 
 namespace errmap::models {
 

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "models/export/safe_names.h"
-#include "models/export/saved_state.h"
+#include "models/export/program/safe_names.h"
+#include "models/export/program/saved_state.h"
 #include "models/history/lag.h"
 
 namespace errmap::models {

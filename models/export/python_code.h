@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "models/export/language.h"
-#include "models/export/self_test.h"
+#include "models/export/program/self_test.h"
 
 namespace errmap::models {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "models/export/language.h"
-#include "models/export/map_program.h"
+#include "models/export/program/map_program.h"
 
 namespace errmap::models {
 

@@ -7,7 +7,7 @@
 #include "data/csv.h"
 #include "models/error_model.h"
 #include "models/export/compensation_table.h"
-#include "models/export/error_curve.h"
+#include "models/export/program/error_curve.h"
 
 namespace errmap::models {
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "models/error_model.h"
-#include "models/export/map_program.h"
+#include "models/export/program/map_program.h"
 #include "models/model_file.h"
 #include "models/recipe_catalog.h"
 #include "models/study/record/make_study_record.h"

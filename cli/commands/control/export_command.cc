@@ -21,10 +21,10 @@
 #include "models/export/c_code.h"
 #include "models/export/compensation_table.h"
 #include "models/export/export_map.h"
-#include "models/export/failing_sensors.h"
 #include "models/export/hal_component.h"
+#include "models/export/program/failing_sensors.h"
+#include "models/export/program/safe_names.h"
 #include "models/export/python_code.h"
-#include "models/export/safe_names.h"
 #include "models/export/structured_text.h"
 #include "models/model_file.h"
 

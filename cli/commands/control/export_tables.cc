@@ -14,8 +14,8 @@
 #include "data/input_error.h"
 #include "data/text.h"
 #include "models/export/compensation_table.h"
-#include "models/export/controller.h"
-#include "models/export/error_curve.h"
+#include "models/export/program/controller.h"
+#include "models/export/program/error_curve.h"
 #include "models/export/thermal_state.h"
 #include "models/model_file.h"
 

@@ -5,7 +5,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "data/sha256.h"
-#include "models/export/map_program.h"
+#include "models/export/program/map_program.h"
 #include "models/export/program_cost.h"
 #include "models/inner_folds.h"
 #include "models/jobs_arena.h"

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "models/export/safe_names.h"
+#include "models/export/program/safe_names.h"
 #include "models/polynomial/polynomial_model.h"
 
 namespace errmap::models {

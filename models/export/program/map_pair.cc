@@ -1,12 +1,12 @@
-#include "models/export/map_pair.h"
+#include "models/export/program/map_pair.h"
 
 #include <algorithm>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
-#include "models/export/error_curve.h"
-#include "models/export/safe_names.h"
+#include "models/export/program/error_curve.h"
+#include "models/export/program/safe_names.h"
 
 namespace errmap::models {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "models/export/map_program.h"
+#include "models/export/program/map_program.h"
 
 namespace errmap::models {
 

@@ -1,4 +1,4 @@
-#include "models/export/error_curve.h"
+#include "models/export/program/error_curve.h"
 
 #include <algorithm>
 #include <cmath>

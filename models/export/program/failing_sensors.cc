@@ -1,9 +1,9 @@
-#include "models/export/failing_sensors.h"
+#include "models/export/program/failing_sensors.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "models/export/run_program.h"
+#include "models/export/program/run_program.h"
 
 namespace errmap::models {
 namespace {

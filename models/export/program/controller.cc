@@ -1,4 +1,4 @@
-#include "models/export/controller.h"
+#include "models/export/program/controller.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "fitting/least_squares/decompositions.h"
-#include "models/export/controller_routines.h"
-#include "models/export/run_program.h"
+#include "models/export/program/controller_routines.h"
+#include "models/export/program/run_program.h"
 #include "models/history/view.h"
 #include "models/map_experience.h"
 

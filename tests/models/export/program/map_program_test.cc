@@ -1,4 +1,4 @@
-#include "models/export/map_program.h"
+#include "models/export/program/map_program.h"
 
 #include <cmath>
 #include <limits>
@@ -11,9 +11,9 @@
 
 #include "models/averaged_model.h"
 #include "models/export/export_map.h"
-#include "models/export/nested_polynomial.h"
-#include "models/export/run_program.h"
-#include "models/export/self_test.h"
+#include "models/export/program/nested_polynomial.h"
+#include "models/export/program/run_program.h"
+#include "models/export/program/self_test.h"
 #include "models/history/history.h"
 #include "models/net/feedforward_net.h"
 #include "models/polynomial/polynomial_model.h"

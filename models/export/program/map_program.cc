@@ -1,4 +1,4 @@
-#include "models/export/map_program.h"
+#include "models/export/program/map_program.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include <variant>
 
 #include "data/measurements/row_filters.h"
-#include "models/export/nested_polynomial.h"
-#include "models/export/safe_names.h"
+#include "models/export/program/nested_polynomial.h"
+#include "models/export/program/safe_names.h"
 #include "models/history/history.h"
 #include "models/history/lag.h"
 #include "models/map_experience.h"

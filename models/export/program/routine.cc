@@ -1,4 +1,4 @@
-#include "models/export/routine.h"
+#include "models/export/program/routine.h"
 
 #include <algorithm>
 #include <array>

@@ -8,7 +8,7 @@
 
 #include "data/units.h"
 #include "models/error_model.h"
-#include "models/export/map_program.h"
+#include "models/export/program/map_program.h"
 
 namespace errmap::models {
 

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "models/export/controller.h"
-#include "models/export/map_program.h"
+#include "models/export/program/controller.h"
+#include "models/export/program/map_program.h"
 
 namespace errmap::models {
 

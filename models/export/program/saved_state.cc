@@ -1,4 +1,4 @@
-#include "models/export/saved_state.h"
+#include "models/export/program/saved_state.h"
 
 #include <algorithm>
 #include <bit>

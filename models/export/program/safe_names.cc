@@ -1,4 +1,4 @@
-#include "models/export/safe_names.h"
+#include "models/export/program/safe_names.h"
 
 #include <algorithm>
 #include <set>

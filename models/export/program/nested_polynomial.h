@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/export/map_program.h"
+#include "models/export/program/map_program.h"
 
 namespace errmap::models {
 

@@ -1,11 +1,11 @@
-#include "models/export/self_test.h"
+#include "models/export/program/self_test.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "models/export/map_pair.h"
+#include "models/export/program/map_pair.h"
 #include "models/history/history.h"
 #include "models/history/history_state.h"
 #include "models/map_experience.h"

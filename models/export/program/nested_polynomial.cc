@@ -1,4 +1,4 @@
-#include "models/export/nested_polynomial.h"
+#include "models/export/program/nested_polynomial.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "models/export/controller.h"
+#include "models/export/program/controller.h"
 
 #include <cmath>
 #include <limits>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "models/export/run_program.h"
+#include "models/export/program/run_program.h"
 #include "models/polynomial/polynomial_model.h"
 #include "tests/numbers.h"
 

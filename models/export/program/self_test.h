@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "models/export/map_program.h"
-#include "models/export/run_program.h"
+#include "models/export/program/map_program.h"
+#include "models/export/program/run_program.h"
 
 namespace errmap::models {
 

@@ -9,8 +9,8 @@
 #include <Eigen/Core>
 
 #include "models/error_model.h"
-#include "models/export/operand.h"
-#include "models/export/routine.h"
+#include "models/export/program/operand.h"
+#include "models/export/program/routine.h"
 
 namespace errmap::models {
 

@@ -1,12 +1,12 @@
-#include "models/export/controller_routines.h"
+#include "models/export/program/controller_routines.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "models/export/controller.h"
-#include "models/export/error_curve.h"
+#include "models/export/program/controller.h"
+#include "models/export/program/error_curve.h"
 
 namespace errmap::models {
 namespace {

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "models/export/operand.h"
+#include "models/export/program/operand.h"
 
 // A small language of numbers, conditions and loops over the readings. What a
 // controller does around the arithmetic of a map is written in it once

@@ -1,4 +1,4 @@
-#include "models/export/run_program.h"
+#include "models/export/program/run_program.h"
 
 #include <cmath>
 
