@@ -1,6 +1,7 @@
 #include "data/text.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -115,6 +116,20 @@ bool ParseNumber(std::string_view text, double* value) {
   }
   *value = parsed;
   return true;
+}
+
+std::optional<double> ParseInterval(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, double>, 5> kSecondsOf = {
+      {{"s", 1.0}, {"min", 60.0}, {"h", 3600.0}, {"d", 86400.0}, {"", 1.0}}};
+  const std::size_t end = text.find_last_of("0123456789.") + 1;
+  double number = 0.0;
+  if (!ParseNumber(text.substr(0, end), &number) || !(number > 0.0)) {
+    return std::nullopt;
+  }
+  for (const auto& [unit, seconds] : kSecondsOf) {
+    if (text.substr(end) == unit) return number * seconds;
+  }
+  return std::nullopt;
 }
 
 std::string Printable(std::string_view text, std::size_t limit) {

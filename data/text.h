@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,10 @@ bool StartsWithIgnoringCase(std::string_view text, std::string_view prefix);
 /// number: an optional sign, a decimal point, an exponent; no hexadecimal, no
 /// "inf" or "nan", nothing beyond the range of a double.
 bool ParseNumber(std::string_view text, double* value);
+
+/// Seconds of "30s", "90min", "2h", "1d" or a bare number; nothing where it is
+/// none of them, or not above 0.
+std::optional<double> ParseInterval(std::string_view text);
 
 /// Text fit for a one-line message: control characters escaped, cut after
 /// `limit` characters.

@@ -38,4 +38,21 @@ FittedModel WithHistory(FittedModel fitted,
   return fitted;
 }
 
+bool CountsRows(const FittedModel& fitted) {
+  return fitted.history != nullptr && fitted.history->needs_time() &&
+         fitted.history->time_unit == "rows";
+}
+
+FittedModel WithRowsEvery(FittedModel fitted, double seconds) {
+  if (!CountsRows(fitted)) return fitted;
+  auto timed = std::make_shared<History>(*fitted.history);
+  timed->time_unit = "s";
+  timed->latest_start *= seconds;
+  timed->longest_step *= seconds;
+  timed->row_changes.clear();
+  for (DerivedInput& input : timed->derived) input.tau *= seconds;
+  fitted.history = std::move(timed);
+  return fitted;
+}
+
 }  // namespace errmap::models

@@ -13,4 +13,12 @@ FittedModel WithHistory(FittedModel fitted,
                         const data::Dataset& training,
                         const History& history);
 
+/// Whether its filters count rows, which only training files have.
+bool CountsRows(const FittedModel& fitted);
+
+/// Such a map where a row comes every `seconds` (above 0): its filters run in
+/// seconds, and errors of rows that come so are the same. Other maps as they
+/// are.
+FittedModel WithRowsEvery(FittedModel fitted, double seconds);
+
 }  // namespace errmap::models

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/control/map_for_control.h"
 #include "cli/commands/format_option.h"
 #include "cli/json_blocks.h"
 #include "cli/shell/standard_streams.h"
@@ -23,12 +24,14 @@ namespace {
 
 struct CostArguments {
   std::string model;
+  std::string every;
   bool single = false;
   std::string format = "table";
 };
 
 models::MapExport PrepareToMeasure(const CostArguments& arguments) {
-  const models::FittedModel fitted = models::LoadModel(arguments.model);
+  const models::FittedModel fitted =
+      LoadForControl(arguments.model, arguments.every);
   try {
     return models::PrepareExport({&fitted},
                                  "map",
@@ -133,6 +136,7 @@ void AddCostCommand(CLI::App* app, Run* run) {
       ->type_name("FILE.json");
   command->add_flag(
       "--float", arguments->single, "In single precision, but for the state");
+  AddEveryOption(command, &arguments->every);
   AddFormatOption(command, &arguments->format);
   command->footer(
       "Operations are counted from the program that errmap export writes; "

@@ -11,6 +11,7 @@
 
 #include "cli/command.h"
 #include "cli/commands/control/export_tables.h"
+#include "cli/commands/control/map_for_control.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/desk/given_error.h"
 #include "cli/output/claimed_folder.h"
@@ -43,6 +44,7 @@ struct ExportArguments {
   int joint = 0;
   std::string max_offset;
   std::string max_rate;
+  std::string every;
   TableArguments tables;
   std::string out;
   std::string name;
@@ -258,7 +260,7 @@ int RunExport(const ExportArguments& arguments) {
   }
   std::vector<models::FittedModel> maps;
   for (const std::string& file : MapsOf(arguments)) {
-    maps.push_back(models::LoadModel(file));
+    maps.push_back(LoadForControl(file, arguments.every));
   }
   const models::MapExport map = Prepare(arguments, maps);
   std::vector<models::ExportedFile> files = FilesOf(arguments, map);
@@ -390,6 +392,7 @@ void AddExportCommand(CLI::App* app, Run* run) {
                    "Largest change of it per second: 1um (default: 10 um or "
                    "10 urad)")
       ->type_name("X");
+  AddEveryOption(command, &arguments->every);
   AddTableOptions(command, &arguments->tables);
   AddForceFlag(command, &arguments->force);
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");

@@ -159,8 +159,7 @@ Table CostTable(const ReportView& view) {
   table.error = ErrorTextOf(view);
   table.note =
       "Operations and bytes of state of one step of the exported program "
-      "(errmap cost times it). No figures: its memory counts rows, which a "
-      "controller does not know.";
+      "(errmap cost times it).";
   table.columns = {{"model", false},
                    {WithUnit(view.decisive + " RMSE", view.shown_unit)},
                    {"sensors"},

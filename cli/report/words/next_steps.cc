@@ -114,15 +114,11 @@ std::vector<NextStep> NextSteps(const models::StudyRecord& record,
     }
     steps.push_back({"does it hold?", {"errmap", "check", map, "PROBES.csv"}});
     steps.push_back({"run it", {"errmap", "predict", map, "TODAY.csv"}});
-    if (model.step_cost) {
-      steps.push_back({"to the control",
-                       {"errmap", "export", map, "--c", "-o", "control"}});
-    } else {
-      steps.push_back({"to the control",
-                       {},
-                       "not yet: its memory counts rows; a column of times "
-                       "(--time) makes it exportable"});
+    Words to_control{"errmap", "export", map, "--c", "-o", "control"};
+    if (model.counts_rows) {
+      to_control.insert(to_control.end(), {"--every", "SECONDS"});
     }
+    steps.push_back({"to the control", std::move(to_control)});
   }
   if (std::string measure = MeasureNext(of); !measure.empty()) {
     steps.push_back({"measure next", {}, std::move(measure)});

@@ -9,11 +9,13 @@
 #include <utility>
 #include <variant>
 
+#include "data/argument_name.h"
 #include "data/measurements/row_filters.h"
 #include "models/export/program/nested_polynomial.h"
 #include "models/export/program/safe_names.h"
 #include "models/history/history.h"
 #include "models/history/lag.h"
+#include "models/history/with_history.h"
 #include "models/map_experience.h"
 #include "models/polynomial/polynomial_model.h"
 
@@ -553,11 +555,12 @@ Eigen::VectorXd MeanReadings(const MapProgram& program) {
 }
 
 MapProgram MakeMapProgram(const FittedModel& fitted) {
-  if (fitted.history != nullptr && fitted.history->needs_time() &&
-      fitted.history->time_unit != "s") {
+  if (CountsRows(fitted)) {
     throw std::invalid_argument(
-        "its filters run in " + fitted.history->time_unit +
-        ", and a controller counts seconds; fit it with a column of times");
+        "its memory counts rows, and a controller seconds; say how often a row "
+        "came (" +
+        data::ArgumentName("every", "30s") +
+        "), or fit it with a column of times");
   }
   MapProgram program;
   program.model = fitted.name;

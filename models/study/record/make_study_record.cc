@@ -7,6 +7,7 @@
 #include "data/sha256.h"
 #include "models/export/program/map_program.h"
 #include "models/export/program_cost.h"
+#include "models/history/with_history.h"
 #include "models/inner_folds.h"
 #include "models/jobs_arena.h"
 #include "models/study/record/fit_blocks.h"
@@ -158,7 +159,8 @@ MemorisationRecord MakeMemorisation(const Memorisation& found) {
 // Nothing for a map that no controller could run.
 LeftOut<StepCostRecord> StepCostOf(const FittedModel& map) {
   try {
-    const ProgramCost cost = CostOf(MakeMapProgram(map));
+    // How often rows come changes no operation.
+    const ProgramCost cost = CostOf(MakeMapProgram(WithRowsEvery(map, 1.0)));
     return StepCostRecord{.additions = cost.additions,
                           .multiplications = cost.multiplications,
                           .divisions = cost.divisions,
@@ -195,6 +197,7 @@ ModelRecord MakeModel(const ComponentStudy& study, std::size_t index) {
       inputs.push_back(input.column.name);
     }
     record.step_cost = StepCostOf(map);
+    if (CountsRows(map)) record.counts_rows = true;
     record.final = MakeFitRecord(model.final_fit_seconds,
                                  map.summary,
                                  map.remarks,

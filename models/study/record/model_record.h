@@ -129,6 +129,7 @@ struct ModelRecord {
   std::optional<std::vector<std::string>> inputs_used;
   LeftOut<std::string> file;  // of the map, beside results.json
   LeftOut<StepCostRecord> step_cost;
+  LeftOut<bool> counts_rows;  // its memory does, not seconds: true, or left out
   std::optional<FitRecord> final;  // the fit to all rows
   std::optional<RegressionRecord> regression;
   std::optional<MemorisationRecord> memorisation;

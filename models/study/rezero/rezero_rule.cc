@@ -1,8 +1,7 @@
 #include "models/study/rezero/rezero_rule.h"
 
-#include <array>
+#include <optional>
 #include <stdexcept>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,27 +11,11 @@
 namespace errmap::models {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, double>, 5> kSecondsOf = {
-    {{"s", 1.0}, {"min", 60.0}, {"h", 3600.0}, {"d", 86400.0}, {"", 1.0}}};
-
 [[noreturn]] void RefuseRule(std::string_view text) {
   throw std::invalid_argument(fmt::format(
       "must be an interval such as 2h or 90min, session or probe, and may end "
       "in :noise=0.5um; found {}",
       data::QuotedText(text)));
-}
-
-double SecondsOf(std::string_view text, std::string_view whole) {
-  const std::size_t end = text.find_last_of("0123456789.") + 1;
-  double number = 0.0;
-  if (end == 0 || !data::ParseNumber(text.substr(0, end), &number) ||
-      !(number > 0.0)) {
-    RefuseRule(whole);
-  }
-  for (const auto& [unit, seconds] : kSecondsOf) {
-    if (text.substr(end) == unit) return number * seconds;
-  }
-  RefuseRule(whole);
 }
 
 }  // namespace
@@ -54,7 +37,9 @@ RezeroRule ParseRezero(std::string_view text, std::string* noise) {
     rule.kind = RezeroKind::kProbe;
   } else {
     rule.kind = RezeroKind::kEvery;
-    rule.interval = SecondsOf(when, text);
+    const std::optional<double> interval = data::ParseInterval(when);
+    if (!interval) RefuseRule(text);
+    rule.interval = *interval;
   }
   return rule;
 }

@@ -294,6 +294,42 @@ TEST(History, MakesADatasetThatAnyRecipeFits) {
             DeriveInputs(dataset.SelectRows(some), history));
 }
 
+// A row each half minute: the same filters in seconds, to the last bit, since
+// tau and the steps are multiples of one power of two.
+TEST(History, CountsSecondsWhereItIsKnownHowOftenRowsCame) {
+  constexpr double kEvery = 32.0;
+  const Dataset days = WanderingDays();
+  const auto dataset = [&](double step, const std::string& unit) {
+    auto log = std::make_shared<data::SessionLog>(*days.log());
+    log->time_unit = unit;
+    log->time =
+        step * VectorXd::LinSpaced(log->time.size(),
+                                   0.0,
+                                   static_cast<double>(log->time.size() - 1));
+    Dataset::Parts parts;
+    parts.inputs = days.inputs();
+    parts.input_values = days.input_values();
+    parts.target = days.target();
+    parts.target_values = days.target_values();
+    parts.log = std::move(log);
+    parts.log_rows = days.log_rows();
+    return Dataset(std::move(parts));
+  };
+  const Dataset counted = dataset(1.0, "rows");
+  const FittedModel map =
+      MakeRecipe("poly:ridge:view=history:history=5")->Fit(counted, {});
+  ASSERT_TRUE(CountsRows(map));
+  const FittedModel timed = WithRowsEvery(map, kEvery);
+  EXPECT_FALSE(CountsRows(timed));
+  const Dataset in_seconds = dataset(kEvery, "s");
+  EXPECT_EQ(timed.Predict(in_seconds), map.Predict(counted));
+  EXPECT_EQ(timed.history->longest_bridged(),
+            kEvery * map.history->longest_bridged());
+  EXPECT_EQ(SettlesAfter(*timed.history), kEvery * SettlesAfter(*map.history));
+  // One that counts seconds stays as it is.
+  EXPECT_EQ(WithRowsEvery(timed, 2.0).history, timed.history);
+}
+
 TEST(History, TellsASessionWhoseFirstRowsAreMissing) {
   const auto data = [](double start, double offset) {
     VectorXd time(6);

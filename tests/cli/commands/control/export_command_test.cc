@@ -504,8 +504,46 @@ TEST_F(CliExport, RefusesAMapThatCountsRows) {
   Write("rows.json", rows.dump());
   EXPECT_THAT(
       RefusalOf(Run({"export", "rows.json", "--c", "-o", "."}), kUnusable),
-      HasSubstr("rows.json: its filters run in rows, and a controller counts "
-                "seconds"));
+      HasSubstr("rows.json: its memory counts rows, and a controller seconds; "
+                "say how often a row came (--every 30s)"));
+  EXPECT_THAT(
+      RefusalOf(
+          Run({"export", "rows.json", "--c", "-o", ".", "--every", "soon"}),
+          kWrongCommandLine),
+      HasSubstr("--every must be a time such as 30s"));
+  EXPECT_THAT(
+      RefusalOf(Run({"export", "map.json", "--c", "-o", ".", "--every", "30s"}),
+                kWrongCommandLine),
+      HasSubstr("that of map.json does not"));
+}
+
+// 600 rows of 1 s are 600 s: the very file of the map in seconds, apart from
+// what it says that it was made for.
+TEST_F(CliExport, TakesAMapThatCountsRowsByHowOftenTheyCame) {
+  FitMap(Simulated("x_displacement_up.csv"),
+         "poly:ridge:view=history:history=600",
+         "map.json");
+  const std::string seconds = Read("map.json");
+  Json rows = Json::parse(seconds);
+  rows["history"]["time_unit"] = "rows";
+  Write("map.json", rows.dump());
+  ASSERT_EQ(
+      Run({"export", "map.json", "--python", "-o", "rows", "--every", "1s"})
+          .status,
+      0);
+  ASSERT_EQ(
+      Run({"export", "map.json", "--python", "-o", "slow", "--every", "2min"})
+          .status,
+      0);
+  Write("map.json", seconds);
+  ASSERT_EQ(Run({"export", "map.json", "--python", "-o", "seconds"}).status, 0);
+  const std::string said = " with a row every 1s";
+  std::string of_rows = Read("rows/map.py");
+  ASSERT_THAT(of_rows, HasSubstr(said));
+  of_rows.erase(of_rows.find(said), said.size());
+  EXPECT_EQ(of_rows, Read("seconds/map.py"));
+  EXPECT_NE(Read("slow/map.py"), Read("seconds/map.py"));
+  Good("python3 -B slow/map.py");
 }
 
 TEST_F(CliExport, ReducesTheErrorOfTheSimulatedMachine) {

@@ -1,0 +1,45 @@
+#include "cli/commands/control/map_for_control.h"
+
+#include <optional>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "data/text.h"
+#include "models/history/with_history.h"
+#include "models/model_file.h"
+
+namespace errmap::cli {
+
+void AddEveryOption(CLI::App* command, std::string* every) {
+  command
+      ->add_option("--every",
+                   *every,
+                   "How often a row came, for a map whose memory counts rows: "
+                   "30s, 2min")
+      ->type_name("TIME");
+}
+
+models::FittedModel LoadForControl(const std::string& file,
+                                   const std::string& every) {
+  models::FittedModel map = models::LoadModel(file);
+  if (every.empty()) return map;
+  const std::optional<double> seconds = data::ParseInterval(every);
+  if (!seconds) {
+    throw UsageError(
+        fmt::format("--every must be a time such as 30s or 2min; found {}",
+                    data::QuotedText(every)));
+  }
+  if (!models::CountsRows(map)) {
+    throw UsageError(fmt::format(
+        "--every is for a map whose memory counts rows; that of {} does not",
+        data::PrintablePath(file)));
+  }
+  // What is written says what it was made for.
+  map.name += " with a row every " + every;
+  return models::WithRowsEvery(std::move(map), *seconds);
+}
+
+}  // namespace errmap::cli
