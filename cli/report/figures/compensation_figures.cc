@@ -494,10 +494,7 @@ std::vector<Figure> CostFigures(const ReportView& view,
   for (const ModelRecord* model : view.models) {
     const double rmse = TestRmse(*model, view.decisive) * view.scale;
     if (!model->step_cost || !(rmse > 0.0)) continue;
-    const models::StepCostRecord& cost = *model->step_cost;
-    const auto operations =
-        static_cast<double>(cost.additions + cost.multiplications +
-                            cost.divisions + cost.exponentials);
+    const auto operations = static_cast<double>(model->step_cost->operations());
     if (!(operations > 0.0)) continue;
     Series& series = model->name == view.recommended ? recommended : others;
     series.Add({operations, rmse});

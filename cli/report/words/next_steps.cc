@@ -54,11 +54,15 @@ void AddAnswers(const models::RecommendationRecord& advice,
                          ? HeldOutRows(folder, *model.file)
                          : "residuals.csv, which --out STUDY writes")});
   }
-  const auto net = std::ranges::find(advice.grounds,
-                                     models::RemarkKind::kBestNet,
-                                     &models::RemarkRecord::kind);
-  if (net != advice.grounds.end() && !net->text.empty()) {
-    steps->push_back({"why no net", {}, net->text});
+  constexpr std::pair<const char*, models::RemarkKind> kOthers[] = {
+      {"a smaller map", models::RemarkKind::kSmaller},
+      {"why no net", models::RemarkKind::kBestNet}};
+  for (const auto& [purpose, kind] : kOthers) {
+    const auto ground =
+        std::ranges::find(advice.grounds, kind, &models::RemarkRecord::kind);
+    if (ground != advice.grounds.end() && !ground->text.empty()) {
+      steps->push_back({purpose, {}, ground->text});
+    }
   }
 }
 

@@ -21,7 +21,8 @@ struct NextStep {
 };
 
 /// The file of the map, or the command that makes it; that checks it, runs it,
-/// exports it; what to measure next; which rows it extrapolated; why not a net.
+/// exports it; what to measure next; which rows it extrapolated; a smaller map;
+/// why not a net.
 /// `data`: the measurements as fit can open
 /// them, empty where it cannot have the same rows; `folder`: where compare
 /// --out has written the maps, "" nowhere.

@@ -138,6 +138,28 @@ std::string SimplestSentence(const ComponentNumbers& component,
   }
 }
 
+// "1.645 um, 0.837 um more (95 % 0.490 to 1.184)": another one beside the map.
+std::string BesideTheMap(const ComponentNumbers& component,
+                         const std::string& other) {
+  const RecommendationRecord& advice = component.Advice();
+  const double rmse = component.Rmse(other, advice.holdout);
+  const double more = rmse - component.Rmse(advice.model, advice.holdout);
+  const std::string text = fmt::format("{}, {} {}",
+                                       component.error.WithUnit(rmse),
+                                       component.error.WithUnit(std::abs(more)),
+                                       more < 0.0 ? "less" : "more");
+  const models::PairRecord* const pair =
+      FindPair(component.record, advice.holdout, advice.model, other);
+  if (pair == nullptr) return text;
+  const models::IntervalRecord excess =
+      IntervalOfExcess(*pair, more < 0.0 ? advice.model : other);
+  // As of a baseline: verdict_sentences.cc.
+  return text + component.In95(excess) +
+         (pair->established ? ""
+          : excess[0] > 0.0 ? "; call it likely"
+                            : "; that may be chance");
+}
+
 // "The best net, net:scg, has 1.645 um, 0.837 um more (95 % 0.490 to 1.184)."
 std::string BestNetSentence(const ComponentNumbers& component,
                             const std::string& net) {
@@ -158,22 +180,22 @@ std::string BestNetSentence(const ComponentNumbers& component,
                                          advice.parameters)
                            : "");
   }
-  const double more = rmse - component.Rmse(advice.model, advice.holdout);
-  std::string text = fmt::format("The best net, {}, has {}, {} {}",
-                                 net,
-                                 component.error.WithUnit(rmse),
-                                 component.error.WithUnit(std::abs(more)),
-                                 more < 0.0 ? "less" : "more");
-  const models::PairRecord* const pair =
-      FindPair(component.record, advice.holdout, advice.model, net);
-  if (pair == nullptr) return text + ".";
-  const models::IntervalRecord excess =
-      IntervalOfExcess(*pair, more < 0.0 ? advice.model : net);
-  text += component.In95(excess);
-  // As of a baseline: verdict_sentences.cc.
-  return text + (pair->established ? "."
-                 : excess[0] > 0.0 ? "; call it likely."
-                                   : "; that may be chance.");
+  return fmt::format(
+      "The best net, {}, has {}.", net, BesideTheMap(component, net));
+}
+
+// "poly:ridge takes 63 operations a step in place of 812 and has 0.900 um,
+// 0.199 um more (95 % 0.100 to 0.300)."
+std::string SmallerSentence(const ComponentNumbers& component,
+                            const std::string& smaller) {
+  const auto operations = [&](const std::string& model) {
+    return component.Model(model).step_cost->operations();
+  };
+  return fmt::format("{} takes {} operations a step in place of {} and has {}.",
+                     smaller,
+                     operations(smaller),
+                     operations(component.Advice().model),
+                     BesideTheMap(component, smaller));
 }
 
 // Few sessions were held out whole: what they promise is little known.
@@ -414,6 +436,8 @@ std::string RemarkText(const ComponentNumbers& component,
       return AgainstBaselineSentence(component);
     case RemarkKind::kBestNet:
       return BestNetSentence(component, There(remark.model));
+    case RemarkKind::kSmaller:
+      return SmallerSentence(component, There(remark.model));
     case RemarkKind::kGap: {
       const models::GapModelRecord& row = component.Gap(advice.model);
       return fmt::format(

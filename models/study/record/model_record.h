@@ -112,6 +112,11 @@ struct StepCostRecord {
   std::int64_t divisions = 0;
   std::int64_t exponentials = 0;
   std::int64_t state_bytes = 0;
+
+  /// All of them, an exponential as one.
+  std::int64_t operations() const {
+    return additions + multiplications + divisions + exponentials;
+  }
 };
 
 enum class ModelStatus { kFailed, kOk };

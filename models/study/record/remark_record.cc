@@ -18,6 +18,8 @@ std::string_view ToString(RemarkKind kind) {
       return "beats baseline";
     case RemarkKind::kBestNet:
       return "best net";
+    case RemarkKind::kSmaller:
+      return "smaller";
     case RemarkKind::kPromise:
       return "promise";
     case RemarkKind::kOneMoreSession:

@@ -45,6 +45,7 @@ enum class RemarkKind {
   kOtherCuts,
   kBetterWithoutMap,  // model: the predictions
   kBestNet,           // model: beside a map that is none
+  kSmaller,           // model: for a control with little time
   kFewSessions,       // holdouts: what the map was chosen by
   kProvenBetter,      // model: the blend, by separate sessions
   kSimpleHolds,       // holdouts: where the blend errs twice as much

@@ -119,6 +119,7 @@ class Remarks {
 
   void AddSimplest();
   void AddBestNet();
+  void AddSmaller();
   void AddNotNoise();
   void AddUnseen();
   void AddGrowing();
@@ -168,6 +169,31 @@ void Remarks::AddBestNet() {
   if (best) Add(RemarkKind::kBestNet, *best);
 }
 
+// For a control with little time: the smallest map that meets the goal as the
+// recommended one does, else the best one of half its operations or fewer.
+void Remarks::AddSmaller() {
+  if (!model_.step_cost) return;
+  const auto operations = [&](std::size_t model) {
+    const auto& cost = record_.models[model].step_cost;
+    return cost ? cost->operations() : 0;
+  };
+  const auto goal = [&](std::size_t model) {
+    return study_.judgement.goals[model][advice_.holdout].standing;
+  };
+  const bool by_goal = goal(advice_.model) == GoalStanding::kMet;
+  std::optional<std::size_t> smaller;
+  for (const std::size_t model : tests_.models) {
+    const std::int64_t own = operations(model);
+    if (own == 0 || 2 * own > operations(advice_.model)) continue;
+    if (by_goal && goal(model) != GoalStanding::kMet) continue;
+    if (!smaller || (by_goal ? own < operations(*smaller)
+                             : RmseOf(model) < RmseOf(*smaller))) {
+      smaller = model;
+    }
+  }
+  if (smaller) Add(RemarkKind::kSmaller, *smaller);
+}
+
 void Remarks::AddNotNoise() {
   const ResultRecord* result =
       FindNamed(model_.results, record_.recommendation->holdout);
@@ -205,6 +231,7 @@ std::vector<RemarkRecord> Remarks::Grounds() {
     Add(RemarkKind::kBeatsBaseline, advice_.best_baseline);
   }
   AddBestNet();
+  AddSmaller();
   const auto& gap = study_.judgement.gap;
   if (gap && std::ranges::any_of(gap->rows, [&](const auto& row) {
         return row.model == advice_.model;
