@@ -1,4 +1,7 @@
+#include <cmath>
+#include <limits>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -11,6 +14,7 @@
 #include "cli/json_blocks.h"
 #include "cli/report/number_text.h"
 #include "cli/report/words/check_text.h"
+#include "cli/report/words/when_text.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/input_error.h"
@@ -19,6 +23,7 @@
 #include "models/model_file.h"
 #include "models/promise/map_rows.h"
 #include "models/promise/session_check.h"
+#include "models/promise/zero_schedule.h"
 
 namespace errmap::cli {
 namespace {
@@ -26,6 +31,7 @@ namespace {
 struct CheckArguments {
   std::string model;
   std::vector<std::string> files;
+  std::optional<std::string> goal;
   // Rows without a target are readings between the probes.
   models::MapRowsOptions rows{.missing = data::MissingPolicy::kDropRows};
   std::string format = "table";
@@ -42,6 +48,17 @@ Json SitesJson(const std::vector<models::ProbeSite>& sites) {
                     {"factor", site.factor}});
   }
   return json;
+}
+
+// When to probe next: an interval of the clock, or null.
+Json NextProbeJson(const models::ZeroSchedule& schedule, double goal) {
+  const auto& clock = schedule.clock;
+  return {
+      {"goal", goal},
+      {"interval_s",
+       clock && std::isfinite(clock->trigger.time) ? Json(clock->trigger.time)
+                                                   : Json()},
+      {"kept", clock.has_value()}};
 }
 
 Json CheckJson(const models::SessionCheck& check) {
@@ -72,6 +89,13 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
         data::PrintablePath(arguments.model)));
   }
   const models::HeldOutErrors& errors = *fitted.held_out;
+  double goal = std::numeric_limits<double>::quiet_NaN();
+  std::optional<models::ZeroSchedule> schedule;
+  if (arguments.goal) {
+    goal = GoalOrDefault(arguments.goal, fitted.target.unit);
+    RequireAges(fitted, arguments.model);
+    schedule = models::ScheduleZeros(errors, goal);
+  }
   const models::MapRows rows =
       ReadMapRows(fitted, arguments.files, arguments.rows, arguments.quiet);
   const RowsJudged judged = JudgeMapRows(fitted, rows, arguments.quiet);
@@ -98,6 +122,7 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
     document["learnt_from"] = LearntJson(learnt);
     document.update(CheckJson(check));
     document["sites"] = SitesJson(sites);
+    if (schedule) document["next_probe"] = NextProbeJson(*schedule, goal);
     document["provenance"] =
         ProvenanceJson(command_line,
                        {{"missing", ToString(arguments.rows.missing)},
@@ -106,13 +131,16 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
     PrintResult(DumpJson(document));
   } else {
     PrintFitted(fmt::format(
-        "{}{} ({}) on {} of {}{}",
+        "{}{} ({}) on {} of {}{}{}",
         LearntText(learnt),
         arguments.model,
         fitted.name,
         report::Count(check.probes, "probe"),
         data::NamesOfFiles(arguments.files),
-        report::CheckText(check, errors, sites, elapsed, fitted.target.unit)));
+        report::CheckText(check, errors, sites, elapsed, fitted.target.unit),
+        schedule
+            ? report::ZeroAdvice(*schedule, errors, fitted.target.unit, goal)
+            : ""));
   }
   switch (check.status) {
     case models::SessionStatus::kHolds:
@@ -141,6 +169,12 @@ void AddCheckCommand(CLI::App* app, Run* run) {
                    "target; or several")
       ->required()
       ->type_name("PROBES.csv");
+  command
+      ->add_option("--goal",
+                   arguments->goal,
+                   "Also say how often to probe so that 90 % of the errors\n"
+                   "stay within this: 2um (errmap when has more)")
+      ->type_name("X");
   AddRowOptions(command, &arguments->rows.missing, &arguments->rows.faults);
   AddFormatOption(command, &arguments->format);
   AddMapLogArguments(command, &arguments->rows.log);

@@ -14,12 +14,23 @@
 #include "cli/report/words/fault_text.h"
 #include "cli/report/words/outside_text.h"
 #include "data/atomic_file.h"
+#include "data/input_error.h"
 #include "data/text.h"
 #include "models/promise/learnt_rows.h"
+#include "models/promise/zero_schedule.h"
 
 namespace errmap::cli {
 
 using Eigen::Index;
+
+void RequireAges(const models::FittedModel& fitted, const std::string& model) {
+  if (!models::KnowsAges(fitted)) {
+    throw data::InputError(fmt::format(
+        "{}: holds no errors of unseen sessions with times; fit the map to two "
+        "sessions or more and a column of times (without --no-interval)",
+        data::PrintablePath(model)));
+  }
+}
 
 models::Provenance ProvenanceOf(const std::string& model) {
   const Json document = Json::parse(data::ReadFile(model));

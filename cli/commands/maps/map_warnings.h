@@ -32,6 +32,9 @@ models::MapRows ReadMapRows(const models::FittedModel& fitted,
                             const models::MapRowsOptions& options,
                             bool quiet);
 
+/// Throws data::InputError, naming the file, unless models::KnowsAges.
+void RequireAges(const models::FittedModel& fitted, const std::string& model);
+
 /// What a model file says of where it comes from.
 models::Provenance ProvenanceOf(const std::string& model);
 

@@ -10,6 +10,7 @@
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
+#include "cli/commands/maps/map_warnings.h"
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/report/number_text.h"
@@ -124,12 +125,7 @@ Json WhenJson(const models::FittedModel& fitted,
 
 int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
   const models::FittedModel fitted = models::LoadModel(arguments.model);
-  if (!models::KnowsAges(fitted)) {
-    throw data::InputError(fmt::format(
-        "{}: holds no errors of unseen sessions with times; fit the map to two "
-        "sessions or more and a column of times (without --no-interval)",
-        data::PrintablePath(arguments.model)));
-  }
+  RequireAges(fitted, arguments.model);
   const models::HeldOutErrors& errors = *fitted.held_out;
   const data::Unit& unit = fitted.target.unit;
   const double goal = GoalOrDefault(arguments.goal, unit);

@@ -67,6 +67,24 @@ TEST_F(When, SaysWhenTheNextProbeIsDue) {
   EXPECT_THAT(now.out, HasSubstr("since the last probe: probe now.\n"));
 }
 
+// What probes say today and when to take the next ones, in one answer.
+TEST_F(When, IsSaidByCheckForAGoal) {
+  Write("probes.csv",
+        "day,time_s,position_mm,t1_degC,error_um\n" + Row(6, 600, 0) +
+            Row(6, 1200, 1) + Row(6, 1800, 2));
+  const Outcome text =
+      Run({"check", "map.json", "probes.csv", "--goal", "2um"});
+  EXPECT_THAT(text.out,
+              HasSubstr("\nA probe every 2 h keeps 90 % of the errors within "
+                        "2.000 um."));
+  const Json found = RunJson(
+      {"check", "map.json", "probes.csv", "--goal", "2um", "--format", "json"});
+  EXPECT_EQ(found["next_probe"]["interval_s"], 7200.0);
+  EXPECT_EQ(found["next_probe"]["kept"], true);
+  EXPECT_FALSE(RunJson({"check", "map.json", "probes.csv", "--format", "json"})
+                   .contains("next_probe"));
+}
+
 TEST_F(When, RefusesMapsOfOneSession) {
   Run({"fit", kDown, "--model", "poly:position", "-o", "one.json"});
   const Outcome found = Run({"when", "one.json"});
