@@ -8,6 +8,9 @@
 
 #include <Eigen/Dense>
 
+#include "fitting/least_squares/decompositions.h"
+#include "stats/f_test.h"
+
 namespace errmap::models {
 namespace {
 
@@ -73,6 +76,89 @@ class Plane {
 
 constexpr double kMostRoom = 3.0;
 
+// Least squares of the targets on some columns.
+struct Remainder {
+  Remainder(const MatrixXd& design, const VectorXd& targets) {
+    const Eigen::ColPivHouseholderQR<MatrixXd> qr(design);
+    // Less is rounding.
+    constexpr double kLeast = 1e-24;
+    squares = std::max((targets - design * qr.solve(targets)).squaredNorm(),
+                       kLeast * targets.squaredNorm());
+    degrees = static_cast<double>(targets.size() - qr.rank());
+  }
+
+  // That the columns which `more` has besides tell nothing.
+  double PValueAgainst(const Remainder& more) const {
+    const double taken = degrees - more.degrees;
+    return stats::FTestPValue(
+        ((squares - more.squares) / taken) / (more.squares / more.degrees),
+        taken,
+        more.degrees);
+  }
+
+  double squares = 0.0;
+  double degrees = 0.0;
+};
+
+enum class Course { kLevel, kStraight, kNeither };
+
+// What all sessions say of the error in what only grows: whether it changes
+// with it at all, and whether a straight line is all that can be seen, neither
+// bent nor of sessions that lie about it.
+Course CourseOf(const Dataset& all, const std::vector<bool>& only_grows) {
+  // Of very many rows some tell it as well.
+  constexpr Index kMostRows = 4000;
+  std::vector<Index> some;
+  for (Index row = 0; row < all.num_rows();
+       row += 1 + all.num_rows() / kMostRows) {
+    some.push_back(row);
+  }
+  const Dataset training = all.SelectRows(some);
+  constexpr double kTells = 0.01;
+  constexpr double kIsStraight = 0.2;
+  const auto count = std::ranges::count(only_grows, true);
+  const auto sessions = static_cast<Index>(RowsOfSessions(training).size());
+  const Index others = training.num_inputs() - count;
+  MatrixXd growing(training.num_rows(), count);
+  MatrixXd rest(training.num_rows(), others + 1);
+  rest.col(others).setOnes();
+  Index place_growing = 0;
+  Index place_rest = 0;
+  for (Index j = 0; j < training.num_inputs(); ++j) {
+    const VectorXd column = training.input_values().col(j);
+    const VectorXd centred = column.array() - column.mean();
+    if (only_grows[static_cast<std::size_t>(j)]) {
+      growing.col(place_growing++) = centred / centred.norm();
+    } else {
+      rest.col(place_rest++) = centred;
+    }
+  }
+  MatrixXd offsets = MatrixXd::Zero(training.num_rows(), sessions);
+  const std::vector<Index> codes = training.session_codes();
+  std::map<Index, Index> place_of;
+  for (std::size_t row = 0; row < codes.size(); ++row) {
+    const auto [at, is_new] =
+        place_of.emplace(codes[row], static_cast<Index>(place_of.size()));
+    offsets(static_cast<Index>(row), at->second) = 1.0;
+  }
+  const auto beside = [](const MatrixXd& left, const MatrixXd& right) {
+    MatrixXd both(left.rows(), left.cols() + right.cols());
+    both << left, right;
+    return both;
+  };
+  const MatrixXd straight = beside(rest, growing);
+  const VectorXd& targets = training.target_values();
+  const Remainder level(rest, targets);
+  const Remainder line(straight, targets);
+  const Remainder bend(beside(straight, growing.cwiseAbs2()), targets);
+  const Remainder own(beside(straight, offsets), targets);
+  if (level.PValueAgainst(line) >= kTells) return Course::kLevel;
+  return line.PValueAgainst(bend) > kIsStraight &&
+                 line.PValueAgainst(own) > kIsStraight
+             ? Course::kStraight
+             : Course::kNeither;
+}
+
 }  // namespace
 
 std::vector<bool> ColumnsThatOnlyGrow(const Dataset& rows) {
@@ -113,6 +199,9 @@ double RoomBeyond(const Dataset& training) {
   if (std::ranges::find(only_grows, true) == only_grows.end()) {
     return kMostRoom;
   }
+  const Course course = CourseOf(training, only_grows);
+  if (course == Course::kLevel) return 0.0;
+  if (course == Course::kStraight) return kMostRoom;
   constexpr std::array kRooms{0.0, 0.25, 0.5, 1.0, 2.0, kMostRoom};
   // Sums of the logarithms of later sessions' errors: no one decides alone. A
   // plane counts by the sessions that it knows.

@@ -16,10 +16,12 @@ namespace errmap::models {
 std::vector<bool> ColumnsThatOnlyGrow(const data::Dataset& rows);
 
 /// For how many trained ranges (0 to 3) a straight line in what only grows is
-/// to be believed beyond the last of `training`, by what sessions showed of it
-/// that came later than others: planes of the first two sessions, of the first
-/// three and so on foretell the rest, and stop after so many ranges. The
-/// longest of those that err least. 3 where nothing grows.
+/// to be believed beyond the last of `training`. 3 where nothing grows, or
+/// where F tests (beside a plane of the other inputs) see a slope and neither a
+/// bend nor sessions that lie about the line; 0 where they see no slope. Else
+/// by what sessions showed of it that came later than others: planes of the
+/// first two sessions, of the first three and so on foretell the rest, and stop
+/// after so many ranges; the longest of those that err least.
 double RoomBeyond(const data::Dataset& training);
 
 /// Guards of a map that is a straight line in the inputs named, which only grow

@@ -93,8 +93,8 @@ data::Dataset DaysOfError(Index days, const std::function<double(double)>& of) {
 TEST(RoomBeyond, IsAllOfItWhereALineWentOn) {
   EXPECT_EQ(RoomBeyond(DaysOfError(6, [](double age) { return 4.0 * age; })),
             3.0);
-  // Nothing that grows tells of the error: no reason to doubt.
-  EXPECT_EQ(RoomBeyond(DaysOfError(6, [](double) { return 0.0; })), 3.0);
+  // Nothing that grows tells of the error: no slope is to go on.
+  EXPECT_EQ(RoomBeyond(DaysOfError(6, [](double) { return 0.0; })), 0.0);
 }
 
 TEST(RoomBeyond, IsLittleWhereWhatGrewDidNotGoOn) {
