@@ -172,7 +172,10 @@ void Remarks::AddBestNet() {
 // For a control with little time: the smallest map that meets the goal as the
 // recommended one does, else the best one of half its operations or fewer.
 void Remarks::AddSmaller() {
-  if (!model_.step_cost) return;
+  constexpr std::int64_t kSmallAlready = 100;  // for any control
+  if (!model_.step_cost || model_.step_cost->operations() < kSmallAlready) {
+    return;
+  }
   const auto operations = [&](std::size_t model) {
     const auto& cost = record_.models[model].step_cost;
     return cost ? cost->operations() : 0;
