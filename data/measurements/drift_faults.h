@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "data/measurements/column_faults.h"
@@ -13,5 +14,13 @@ namespace errmap::data {
 std::vector<ColumnFault> FindDrift(const MeasuredColumns& measured,
                                    const std::vector<Thermometer>& thermometers,
                                    const std::vector<ColumnFault>& known);
+
+/// The thermometer that, where sessions begin (rows from 0), leaves the mean of
+/// the others by more from session to session: told of those too unlike for
+/// FindDrift, from four sessions on.
+std::optional<ColumnFault> FindColdDrift(
+    const MeasuredColumns& measured,
+    const std::vector<Eigen::Index>& session_starts,
+    const std::vector<ColumnFault>& known);
 
 }  // namespace errmap::data

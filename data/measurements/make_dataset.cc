@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/column_roles.h"
 #include "data/measurements/dataset.h"
+#include "data/measurements/drift_faults.h"
 #include "data/measurements/idle_inputs.h"
 #include "data/measurements/leaking_inputs.h"
 #include "data/measurements/rounded.h"
@@ -320,6 +322,27 @@ class DatasetBuilder {
     return static_cast<Eigen::Index>(found_.sessions.labels.size());
   }
 
+  std::vector<Eigen::Index> SessionOfRows() const {
+    std::vector<Eigen::Index> sessions;
+    for (const Eigen::Index row : parts_.rows) {
+      sessions.push_back(found_.sessions.codes[static_cast<std::size_t>(
+          std::ranges::lower_bound(log_rows_, row) - log_rows_.begin())]);
+    }
+    return sessions;
+  }
+
+  std::vector<Eigen::Index> SessionStarts() const {
+    std::vector<Eigen::Index> starts;
+    if (NumSessions() == 0) return starts;
+    const std::vector<Eigen::Index> sessions = SessionOfRows();
+    for (std::size_t i = 0; i < sessions.size(); ++i) {
+      if (i == 0 || sessions[i] != sessions[i - 1]) {
+        starts.push_back(static_cast<Eigen::Index>(i));
+      }
+    }
+    return starts;
+  }
+
   // Rows that change what every figure of a study means.
   void SayOfDoubtfulRows() {
     if (selection_.faults == FaultPolicy::kDropRows) return;
@@ -351,12 +374,17 @@ class DatasetBuilder {
 
   // Before anything is made of the rows.
   void LookForFaults() {
-    faults_ = FindColumnFaults({.target = parts_.target,
-                                .target_values = parts_.target_values,
-                                .inputs = parts_.inputs,
-                                .input_values = parts_.input_values,
-                                .rows = parts_.rows,
-                                .num_sessions = NumSessions()});
+    const MeasuredColumns measured{.target = parts_.target,
+                                   .target_values = parts_.target_values,
+                                   .inputs = parts_.inputs,
+                                   .input_values = parts_.input_values,
+                                   .rows = parts_.rows,
+                                   .num_sessions = NumSessions()};
+    faults_ = FindColumnFaults(measured);
+    if (std::optional<ColumnFault> drift =
+            FindColdDrift(measured, SessionStarts(), faults_)) {
+      faults_.push_back(*std::move(drift));
+    }
     if (!repeated_rows_.empty()) {
       faults_.insert(faults_.begin(),
                      {.kind = FaultKind::kRepeated,
@@ -472,11 +500,7 @@ class DatasetBuilder {
   // of them.
   void LeaveOutCounters() {
     if (selection_.only_to_judge || NumSessions() < 2) return;
-    std::vector<Eigen::Index> sessions;  // (rows)
-    for (const Eigen::Index row : parts_.rows) {
-      sessions.push_back(found_.sessions.codes[static_cast<std::size_t>(
-          std::ranges::lower_bound(log_rows_, row) - log_rows_.begin())]);
-    }
+    const std::vector<Eigen::Index> sessions = SessionOfRows();
     std::vector<bool> left_out(parts_.inputs.size(), false);
     for (std::size_t i = 0; i < left_out.size(); ++i) {
       const ColumnInfo& input = parts_.inputs[i];

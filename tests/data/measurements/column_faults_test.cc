@@ -3,12 +3,16 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "data/measurements/dataset.h"
+#include "data/measurements/drift_faults.h"
 #include "data/turning_centre/simulation.h"
+#include "tests/data/measurements/as_measured.h"
+#include "tests/data/measurements/make_dataset_test_data.h"
 #include "tests/places.h"
 
 namespace errmap::data {
@@ -17,6 +21,7 @@ namespace {
 using Eigen::Index;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using namespace as_measured;
 
 constexpr Index kRows = 240;
 constexpr double kPi = 3.14159265358979323846;
@@ -196,6 +201,61 @@ TEST(FindColumnFaults, NamesADriftFromSessionToSession) {
   EXPECT_THAT(machine.Faults(), IsEmpty());
 }
 
+// 0.04 degC an hour, with three other thermometers and, over a day more, with
+// one alone.
+TEST(FindColumnFaults, NamesASlowDriftBesideFewOthers) {
+  for (const int others : {3, 1}) {
+    Rows rows = Measured(others == 3 ? kDays : kDays + 1);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      for (int k = 3; k < 2 + others; ++k) {
+        const double own = 0.02 * Noise(static_cast<int>(i) + 2000 * k);
+        rows[i].push_back(
+            i == 0
+                ? "t" + std::to_string(k) + "_degC"
+                : Fixed(18.0 + 0.3 * k * (Number(rows[i][kT2]) - 19.0) + own));
+      }
+      if (i == 0) continue;
+      const double hours =
+          24.0 * Number(rows[i][kDay]) + Number(rows[i][kTime]) / 3600.0;
+      rows[i][kT1] = Fixed(Number(rows[i][kT1]) + 0.04 * hours);
+    }
+    const std::vector<ColumnFault> faults = Make(Joined(rows)).faults;
+    ASSERT_EQ(faults.size(), 1U) << others;
+    EXPECT_EQ(faults[0].kind, FaultKind::kDrifting);
+    EXPECT_EQ(faults[0].low, others);
+  }
+}
+
+// Others that go their own ways but where a day begins, of two days or more.
+TEST(FindColdDrift, NamesADriftBesideOthersUnlikeIt) {
+  const auto own_way = [](const std::vector<std::string>& cells, int k) {
+    const double hours = Number(cells[kTime]) / 3600.0;
+    return 3.0 * std::sin((2.4 + 0.6 * k) * Number(cells[kDay]) * hours);
+  };
+  for (const int others : {1, 2}) {
+    for (const double drift : {0.0, 0.04}) {
+      Rows rows = Measured(kDays + 2);
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (others == 2) rows[i].push_back(i == 0 ? "t3_degC" : rows[i][kT2]);
+        if (i == 0) continue;
+        const double day = Number(rows[i][kDay]);
+        const double hours = 24.0 * day + Number(rows[i][kTime]) / 3600.0;
+        rows[i][kT1] = Fixed(Number(rows[i][kT1]) + drift * hours);
+        rows[i][kT2] = Fixed(19.0 + 0.3 * day + own_way(rows[i], 1));
+        if (others == 2) {
+          rows[i].back() = Fixed(19.0 + 0.3 * day + own_way(rows[i], 4));
+        }
+      }
+      const std::vector<ColumnFault> faults = Make(Joined(rows)).faults;
+      ASSERT_EQ(faults.size(), drift > 0.0 ? 1U : 0U) << others;
+      if (faults.empty()) continue;
+      EXPECT_EQ(faults[0].kind, FaultKind::kDrifting);
+      EXPECT_EQ(faults[0].input, 1);
+      EXPECT_NEAR(faults[0].value, 0.04 * 24.0 * 4.0 + 0.4, 0.1);
+    }
+  }
+}
+
 TEST(FindColumnFaults, SaysNothingOfFewRows) {
   Machine machine;
   machine.values.conservativeResize(8, Eigen::NoChange);
@@ -234,6 +294,9 @@ struct SimulatedSweep {
     positions.resize(m);
     for (Index i = 0; i < m; ++i) {
       const turning_centre::Stop& stop = *stops[static_cast<std::size_t>(i)];
+      if (i == 0 || stop.day != stops[static_cast<std::size_t>(i - 1)]->day) {
+        session_starts.push_back(i);
+      }
       positions[i] = stop.position();
       for (Index t = 0; t < kSensors; ++t) {
         values(i, t) = stop.readings[static_cast<std::size_t>(t)];
@@ -248,12 +311,17 @@ struct SimulatedSweep {
   }
 
   std::vector<ColumnFault> Faults() const {
-    return FindColumnFaults({.target = target,
-                             .target_values = positions,
-                             .inputs = inputs,
-                             .input_values = values,
-                             .rows = rows,
-                             .num_sessions = num_sessions});
+    const MeasuredColumns measured{.target = target,
+                                   .target_values = positions,
+                                   .inputs = inputs,
+                                   .input_values = values,
+                                   .rows = rows,
+                                   .num_sessions = num_sessions};
+    std::vector<ColumnFault> faults = FindColumnFaults(measured);
+    if (const auto drift = FindColdDrift(measured, session_starts, faults)) {
+      faults.push_back(*drift);
+    }
+    return faults;
   }
 
   ColumnInfo target{"error_mm", UnitOfSymbol("mm")};
@@ -261,6 +329,7 @@ struct SimulatedSweep {
   std::vector<ColumnInfo> inputs;
   Eigen::MatrixXd values;
   std::vector<Index> rows;
+  std::vector<Index> session_starts;
   Index num_sessions = 0;
 };
 

@@ -6,13 +6,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/data/measurements/as_measured.h"
 #include "tests/data/measurements/make_dataset_test_data.h"
 
 namespace errmap::data {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using namespace as_measured;
 
 TEST(IdleInputs, LeavesOutDeadInputsWithARemark) {
   std::string text = "zero,constant,stuck,live,error_um\n";
@@ -81,6 +85,31 @@ TEST(IdleInputs, NamesInputsThatRepeatOthersAndKeepsThem) {
       prepared.remarks,
       ElementsAre("input t5 repeats t3 value for value; both are kept",
                   "input t6 repeats t4 value for value; both are kept"));
+}
+
+// What counts the cycles on through the days is a state that never returns.
+TEST(MessyFiles, ACounterThatNeverReturnsIsNoInput) {
+  const auto counted = [](const std::string& name, int cycles) {
+    return Joined(Changed(Measured(), [&](std::size_t i, auto* cells) {
+      const int cycle = i == 0 ? 0 : (static_cast<int>(i) - 1) / kPositions;
+      cells->insert(cells->end() - 1,
+                    i == 0 ? name : std::to_string(cycle % cycles));
+    }));
+  };
+  constexpr int kAll = kDays * kCycles;
+  const PreparedDataset made = Make(counted("elapsed_cycles", kAll));
+  EXPECT_THAT(DroppedNames(made), ElementsAre("elapsed_cycles"));
+  EXPECT_THAT(made.remarks,
+              Contains(HasSubstr("elapsed_cycles counts on from session to "
+                                 "session and is left out")));
+  // Where it begins anew with each day it tells how warm the machine is; an
+  // age, or what was asked for, may be meant.
+  EXPECT_THAT(Make(counted("elapsed_cycles", kCycles)).dropped, IsEmpty());
+  EXPECT_THAT(Make(counted("age", kAll)).dropped, IsEmpty());
+  EXPECT_THAT(Make(counted("elapsed_cycles", kAll),
+                   {.inputs = {"position_mm", "elapsed_cycles"}})
+                  .dropped,
+              IsEmpty());
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "data/gzip.h"
+#include "tests/data/measurements/as_measured.h"
 #include "tests/data/measurements/make_dataset_test_data.h"
 #include "tests/data/packed_parts.h"
 
@@ -25,74 +26,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-using Rows = std::vector<std::vector<std::string>>;
-
-// Three days of eight cycles of five positions.
-constexpr int kDays = 3;
-constexpr int kCycles = 8;
-constexpr int kPositions = 5;
-constexpr std::size_t kDay = 0;
-constexpr std::size_t kCycle = 1;
-constexpr std::size_t kTime = 2;
-constexpr std::size_t kPosition = 3;
-constexpr std::size_t kT1 = 4;
-constexpr std::size_t kT2 = 5;
-constexpr std::size_t kError = 6;
-
-// To three decimals, as instruments write.
-std::string Fixed(double value) {
-  return CsvNumber(std::round(1000.0 * value) / 1000.0);
-}
-
-// A number in [-1, 1) that looks random, the same on every machine.
-double Noise(int i) {
-  const double x = std::sin(12.9898 * (i + 1)) * 43758.5453;
-  return 2.0 * (x - std::floor(x)) - 1.0;
-}
-
-Rows Measured(int days = kDays) {
-  Rows rows = {{"day",
-                "cycle",
-                "time_s",
-                "position_mm",
-                "t1_degC",
-                "t2_degC",
-                "error_um"}};
-  int i = 0;
-  for (int day = 0; day < days; ++day) {
-    for (int cycle = 0; cycle < kCycles; ++cycle) {
-      for (int p = 0; p < kPositions; ++p, ++i) {
-        const double warm = 1.0 - std::exp(-0.3 * cycle - 0.02 * p);
-        const double t1 = 20.0 + 0.4 * day + 8.0 * warm + 0.02 * Noise(i);
-        const double t2 = 19.0 + 0.3 * day + 4.0 * warm + 0.02 * Noise(i + 500);
-        const double error =
-            3.0 + 1.5 * (t1 - 20.0) + 2.0 * p + 0.2 * Noise(i + 1000);
-        rows.push_back({std::to_string(day + 1),
-                        std::to_string(kCycles * day + cycle + 1),
-                        std::to_string(600 * cycle + 30 * p),
-                        std::to_string(100 * p),
-                        Fixed(t1),
-                        Fixed(t2),
-                        Fixed(error)});
-      }
-    }
-  }
-  return rows;
-}
-
-std::string Joined(const Rows& rows,
-                   const std::string& separator = ",",
-                   const std::string& line_end = "\n") {
-  std::string text;
-  for (const auto& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      text += (i == 0 ? "" : separator) + row[i];
-    }
-    text += line_end;
-  }
-  return text;
-}
+using namespace as_measured;
 
 std::string WithCommas(std::string text) {
   std::ranges::replace(text, '.', ',');
@@ -108,21 +42,11 @@ std::string InUtf16(const std::string& text, bool little, bool mark) {
   return wide;
 }
 
-// Each row changed; the header is row 0.
-Rows Changed(
-    Rows rows,
-    const std::function<void(std::size_t, std::vector<std::string>*)>& change) {
-  for (std::size_t i = 0; i < rows.size(); ++i) change(i, &rows[i]);
-  return rows;
-}
-
 Rows WithCell(std::size_t row, std::size_t column, const std::string& text) {
   Rows rows = Measured();
   rows[row + 1][column] = text;
   return rows;
 }
-
-double Number(const std::string& text) { return std::stod(text); }
 
 TEST(MessyFiles, WhatIsUnambiguousIsSimplyRead) {
   const Rows rows = Measured();
@@ -556,56 +480,6 @@ TEST(MessyFiles, ATargetOfTwoUnitsIsAskedFor) {
       ErrorOf(named("error_10um")),
       HasSubstr("'10um' can be read in several ways; rename the column, "
                 "its unit in brackets at the end: 'error [um]'"));
-}
-
-// 0.04 degC an hour, with three other thermometers and, over a day more, with
-// one alone.
-TEST(MessyFiles, ASlowDriftIsNamed) {
-  for (const int others : {3, 1}) {
-    Rows rows = Measured(others == 3 ? kDays : kDays + 1);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      for (int k = 3; k < 2 + others; ++k) {
-        const double own = 0.02 * Noise(static_cast<int>(i) + 2000 * k);
-        rows[i].push_back(
-            i == 0
-                ? "t" + std::to_string(k) + "_degC"
-                : Fixed(18.0 + 0.3 * k * (Number(rows[i][kT2]) - 19.0) + own));
-      }
-      if (i == 0) continue;
-      const double hours =
-          24.0 * Number(rows[i][kDay]) + Number(rows[i][kTime]) / 3600.0;
-      rows[i][kT1] = Fixed(Number(rows[i][kT1]) + 0.04 * hours);
-    }
-    const std::vector<ColumnFault> faults = Make(Joined(rows)).faults;
-    ASSERT_EQ(faults.size(), 1U) << others;
-    EXPECT_EQ(faults[0].kind, FaultKind::kDrifting);
-    EXPECT_EQ(faults[0].low, others);
-  }
-}
-
-// What counts the cycles on through the days is a state that never returns.
-TEST(MessyFiles, ACounterThatNeverReturnsIsNoInput) {
-  const auto counted = [](const std::string& name, int cycles) {
-    return Joined(Changed(Measured(), [&](std::size_t i, auto* cells) {
-      const int cycle = i == 0 ? 0 : (static_cast<int>(i) - 1) / kPositions;
-      cells->insert(cells->end() - 1,
-                    i == 0 ? name : std::to_string(cycle % cycles));
-    }));
-  };
-  constexpr int kAll = kDays * kCycles;
-  const PreparedDataset made = Make(counted("elapsed_cycles", kAll));
-  EXPECT_THAT(DroppedNames(made), ElementsAre("elapsed_cycles"));
-  EXPECT_THAT(made.remarks,
-              Contains(HasSubstr("elapsed_cycles counts on from session to "
-                                 "session and is left out")));
-  // Where it begins anew with each day it tells how warm the machine is; an
-  // age, or what was asked for, may be meant.
-  EXPECT_THAT(Make(counted("elapsed_cycles", kCycles)).dropped, IsEmpty());
-  EXPECT_THAT(Make(counted("age", kAll)).dropped, IsEmpty());
-  EXPECT_THAT(Make(counted("elapsed_cycles", kAll),
-                   {.inputs = {"position_mm", "elapsed_cycles"}})
-                  .dropped,
-              IsEmpty());
 }
 
 }  // namespace
