@@ -138,10 +138,11 @@ TEST(NeverExplodes, BeyondWhatOnlyGrows) {
         << mean << ", plane " << plane;
   }
   // Nobody can tell in each of them which of the two it will be: noise can
-  // hide that a line goes on (5 of 200).
+  // hide that a line goes on, or that it does not (3 of 200, worst 4.1).
   RecordProperty("above_better", above_better);
   RecordProperty("worst_percent", static_cast<int>(100.0 * worst));
-  EXPECT_LE(above_better, kDesigns / 40) << "worst " << worst;
+  EXPECT_LE(above_better, 3) << "worst " << worst;
+  EXPECT_LE(worst, 5.0);
 }
 
 }  // namespace
