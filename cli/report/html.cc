@@ -44,6 +44,20 @@ std::string HtmlText(std::string_view text) {
   return html;
 }
 
+std::string HtmlSentence(std::string_view text) {
+  constexpr std::string_view kNoBreak = "\u00a0";
+  std::string html = HtmlText(text);
+  for (std::size_t i = 1; i + 1 < html.size(); ++i) {
+    if (html[i] != ' ' || html[i - 1] < '0' || html[i - 1] > '9') continue;
+    const std::string_view next = std::string_view(html).substr(i + 1);
+    if (next.starts_with('%') || next.starts_with("µ") ||
+        next.starts_with("°")) {
+      html.replace(i, 1, kNoBreak);
+    }
+  }
+  return html;
+}
+
 std::string HtmlName(std::string_view name) {
   return "<bdi>" + HtmlText(name) + "</bdi>";
 }

@@ -10,6 +10,9 @@ namespace errmap::report {
 /// taken for Latin-1.
 std::string HtmlText(std::string_view text);
 
+/// The same, and no line ends between a figure and its % or unit.
+std::string HtmlSentence(std::string_view text);
+
 /// A name out of somebody's data: escaped, and kept from turning the text
 /// around it (<bdi>).
 std::string HtmlName(std::string_view name);

@@ -28,7 +28,7 @@ std::string Paragraph(const std::string& text, const char* style = "") {
   if (text.empty()) return "";
   return fmt::format("<p{}>{}</p>\n",
                      *style != '\0' ? fmt::format(" class=\"{}\"", style) : "",
-                     HtmlText(text));
+                     HtmlSentence(text));
 }
 
 std::string List(const std::string& title,
@@ -37,7 +37,7 @@ std::string List(const std::string& title,
   std::string html =
       title.empty() ? "<ul>" : fmt::format("<h4>{}</h4><ul>", HtmlText(title));
   for (const std::string& line : lines) {
-    html += "<li>" + HtmlText(line) + "</li>";
+    html += "<li>" + HtmlSentence(line) + "</li>";
   }
   return html + "</ul>\n";
 }
@@ -75,6 +75,18 @@ std::string FigureHtml(const Figure& figure) {
       HtmlName(figure.title),
       drawn,
       Paragraph(figure.note, "soft small"));
+}
+
+// The browser breaks lines, though not within an option, and what is copied is
+// one line.
+std::string HtmlCommand(const std::vector<std::string>& words) {
+  std::string html;
+  for (const std::string& word : words) {
+    const std::string shown = HtmlText(ShellWord(word));
+    html += html.empty() ? "<code>" : " ";
+    html += word.starts_with('-') ? "<span>" + shown + "</span>" : shown;
+  }
+  return html + "</code>";
 }
 
 std::string Grid(const std::string& figures, const char* style) {
@@ -302,17 +314,12 @@ std::string Page::Next(std::size_t index) const {
   const bool written = std::ranges::any_of(
       models, [](const ModelRecord& model) { return model.file.has_value(); });
   std::string html;
-  // The browser breaks lines, and what is copied is one.
-  constexpr std::size_t kLine = std::string::npos;
   for (const NextStep& step :
        NextSteps(record_, index, data, written ? "." : "")) {
-    html += fmt::format("<dt>{}</dt><dd>{}</dd>",
-                        HtmlText(step.purpose),
-                        step.words.empty()
-                            ? HtmlText(step.text)
-                            : "<code>" +
-                                  HtmlText(ShellCommand(step.words, kLine, 0)) +
-                                  "</code>");
+    html += fmt::format(
+        "<dt>{}</dt><dd>{}</dd>",
+        HtmlText(step.purpose),
+        step.words.empty() ? HtmlSentence(step.text) : HtmlCommand(step.words));
   }
   return html.empty() ? html : "<dl class=\"next\">" + html + "</dl>\n";
 }
@@ -320,7 +327,7 @@ std::string Page::Next(std::size_t index) const {
 std::string Page::Card(const ReportView& view) const {
   const Headline line = HeadlineOf(view);
   std::string html = "<div class=\"card\">\n";
-  html += "<p class=\"sentence\">" + HtmlText(line.sentence) + "</p>\n";
+  html += "<p class=\"sentence\">" + HtmlSentence(line.sentence) + "</p>\n";
   if (!line.error.empty()) {
     html += "<p class=\"number\">" + HtmlText(line.error) + "</p>\n";
     html += Paragraph(line.where +
@@ -332,7 +339,7 @@ std::string Page::Card(const ReportView& view) const {
                     line.goal_standing == models::GoalStanding::kNone  ? " none"
                     : line.goal_standing == models::GoalStanding::kMet ? " met"
                                                                        : "",
-                    HtmlText(line.goal));
+                    HtmlSentence(line.goal));
   }
   for (const std::string& told : line.told) html += Paragraph(told);
   return html + "</div>\n";

@@ -69,12 +69,12 @@ details.component>summary span{font-weight:400;color:var(--soft)}
 .next{display:grid;grid-template-columns:max-content minmax(0,1fr);gap:2px 12px;margin:.6rem 0;font-size:.875rem}
 .next dt{font-weight:600}
 .next dd{margin:0;overflow-wrap:anywhere}
-code{font:.8125rem/1.45 ui-monospace,SFMono-Regular,Menlo,Consolas,"Liberation Mono",monospace;white-space:pre-wrap;background:var(--tint);padding:0 3px}
+code{font:.8125rem/1.45 ui-monospace,SFMono-Regular,Menlo,Consolas,"Liberation Mono",monospace;white-space:pre-wrap;background:var(--tint);padding:0 3px}code span{white-space:nowrap}
 .spark{display:inline-block;vertical-align:middle;width:120px;height:18px}
 .notice{border:1px solid #a33a00;background:#fff4ec;border-radius:6px;padding:8px 14px;margin:.8rem 0}
 footer{border-top:1px solid var(--line);margin-top:2rem;padding-top:10px;padding-bottom:30px;font-size:.875rem;color:var(--soft)}
 @media (max-width:1000px){.answer,.figures.halves,.figures.thirds{grid-template-columns:minmax(0,1fr)}}
-@media (max-width:600px){main,header,footer{padding-left:14px;padding-right:14px}.card{padding:12px 14px}h1{font-size:1.3rem}.number{font-size:2rem}td:first-child{white-space:normal;overflow-wrap:anywhere;min-width:9.7rem}td.long:first-child{min-width:9.7rem}.bare svg{min-width:620px}td.long{min-width:11rem}th,td{padding:4px 8px}}
+@media (max-width:600px){main,header,footer{padding-left:14px;padding-right:14px}.card{padding:12px 14px}h1{font-size:1.3rem}.number{font-size:2rem}td:first-child{white-space:normal;overflow-wrap:anywhere;min-width:9.7rem}td.long:first-child{min-width:9.7rem}.bare svg{min-width:980px}td.long{min-width:11rem}th,td{padding:4px 8px}}
 @media print{@page{margin:10mm}
 body{font-size:8.5pt;line-height:1.35}
 main,header,footer{max-width:none;padding:0}
@@ -84,10 +84,11 @@ p{margin:2pt 0}.small,figcaption,.next{font-size:7.5pt}code{font-size:7pt}
 .scroll{overflow:visible;border:0;width:auto;margin:2pt 0}
 table{font-size:7pt;width:100%}th .soft{font-size:6pt}th,td{padding:1px 3px}
 td:first-child,th:first-child{position:static;min-width:0}td{white-space:nowrap}td:first-child,td.long{white-space:normal;min-width:0}
-.bare svg{min-width:0}.figures.halves figure.wide svg{max-width:82%}
+.bare svg{min-width:0}.plain figure svg{max-width:86%}
 .answer{grid-template-columns:minmax(0,1fr) minmax(0,1.1fr);gap:4pt 12pt;margin-top:3pt}
 .figures{gap:6pt 10pt}
-.figures.many,.figures.halves,.figures.thirds{grid-template-columns:repeat(3,minmax(0,1fr))}
+.figures.many,.figures.thirds{grid-template-columns:repeat(3,minmax(0,1fr))}
+.figures.halves{grid-template-columns:repeat(2,minmax(0,1fr))}
 .figures.halves figure.wide{grid-column:1/-1}
 .figures.thirds{margin-top:6pt}
 h2,h3,h4,summary{break-after:avoid}tr{break-inside:avoid}

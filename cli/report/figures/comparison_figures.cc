@@ -14,13 +14,13 @@ namespace {
 
 constexpr std::size_t kNameLength = 24;
 
-// "every:3 (neighbours known)", "groups:5 (unseen groups)".
+// "every:3 (neighbours known)", "groups:5 (unseen cycle)".
 std::string HoldoutLabel(const ReportView& view, const std::string& holdout) {
   const models::HoldoutRecord* record = HoldoutOf(view, holdout);
-  const char* words = " (neighbours known)";
-  if (record != nullptr && record->whole_groups) words = " (unseen groups)";
-  if (record != nullptr && record->whole_sessions) words = " (unseen sessions)";
-  return Shortened(holdout, kNameLength) + words;
+  return Shortened(holdout, kNameLength) +
+         (record != nullptr && (record->whole_groups || record->whole_sessions)
+              ? fmt::format(" (unseen {})", record->unit_of_analysis)
+              : " (neighbours known)");
 }
 
 std::string GapWords(const ReportView& view,

@@ -17,7 +17,7 @@ namespace errmap::report {
 namespace {
 
 constexpr int kWide = 1180;
-constexpr int kHalfWidth = 560;
+constexpr int kHalfWidth = 450;
 constexpr std::size_t kLongName = 34;  // characters under a figure
 
 Figure Begin(const ReportView& view,

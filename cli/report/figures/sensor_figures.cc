@@ -149,7 +149,7 @@ std::vector<Figure> ImportanceFigures(const ReportView& view,
   plot.y.quantity = "taken away";
   plot.y.low = rows - 0.5;
   plot.y.high = -0.5;
-  plot.width = 560;
+  plot.width = 450;
   constexpr int kFrame = 60;
   constexpr int kRow = 19;
   constexpr int kLeast = 150;  // the words along the axis need it

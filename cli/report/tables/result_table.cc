@@ -542,8 +542,7 @@ Table PageLeaderboard(const ReportView& view) {
          .explanation = column.explanation});
     if (column.key != "error") continue;
     table.columns.back().explanation =
-        view.decisive_is_unseen ? "on whole groups never seen; 95 % interval"
-                                : "on rows held out; 95 % interval";
+        fmt::format("{}; 95 % interval", UnseenWords(view));
   }
   for (const ModelRecord* model : view.models) {
     if (model->name == view.recommended) table.marked = table.rows.size();

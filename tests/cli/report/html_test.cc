@@ -23,6 +23,11 @@ TEST(HtmlText, IsAlwaysUtf8) {
 
 TEST(HtmlText, KeepsEmptyTextEmpty) { EXPECT_EQ(HtmlText(""), ""); }
 
+TEST(HtmlSentence, KeepsAFigureAndItsUnitInOneLine) {
+  EXPECT_EQ(HtmlSentence("5 µm (95 % 4 to 6) on 6 days, a % of 20 °C"),
+            "5\u00a0µm (95\u00a0% 4 to 6) on 6 days, a % of 20\u00a0°C");
+}
+
 TEST(HtmlName, KeepsANameFromTurningTheTextAroundIt) {
   EXPECT_EQ(HtmlName("\u202e<b>"), "<bdi>\u202e&lt;b&gt;</bdi>");
 }

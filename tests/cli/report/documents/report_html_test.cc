@@ -65,7 +65,8 @@ TEST(ReportHtml, OpensWithTheAnswer) {
   for (const char* words :
        {"Use poly:eq8 on another day.",
         "1.900 µm",
-        "RMSE, unseen cycle (groups:5); 95 % interval 1.520 to 2.470 µm",
+        "RMSE, unseen cycle (groups:5); 95\u00a0% interval 1.520 to "
+        "2.470\u00a0µm",
         "The goal is not met: RMSE 1.900 um.",
         "errmap check map.json PROBES.csv",
         "compensate by minus the predicted error",
@@ -276,8 +277,8 @@ TEST(ReportHtml, HasOneUnitOfLengthOnly) {
   const std::string text = VisibleText(Write(document));
   EXPECT_THAT(
       text,
-      HasSubstr("The goal (RMSE at most 0.5 µm) is not met: scatter 1.881 "
-                "µm"));
+      HasSubstr("The goal (RMSE at most 0.5\u00a0µm) is not met: scatter "
+                "1.881\u00a0µm"));
   EXPECT_FALSE(std::regex_search(text, std::regex("[0-9] um")));
 }
 
