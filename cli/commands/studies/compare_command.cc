@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -153,6 +154,7 @@ report::Screen Formatted(const desk::StudyRun& run,
                                              {.all = arguments.all,
                                               .details = arguments.details,
                                               .folder = arguments.out,
+                                              .page = arguments.page,
                                               .data = DataForFit(run),
                                               .terminal = OutputTerminal()});
   for (const models::ComponentRecord& component : record.components) {
@@ -171,6 +173,14 @@ void CheckPlaces(const desk::StudyPlan& plan,
     RequirePlaceFor(component.save_split);
   }
   CheckOutputName("-o", arguments.page, inputs);
+  // Without it a browser shows the source; and --out may have been meant.
+  if (const std::filesystem::path page = arguments.page;
+      page.has_filename() && !page.has_extension()) {
+    throw UsageError(fmt::format(
+        "-o writes a page alone: {0}.html; a folder with it, all maps and "
+        "figures: --out {0}",
+        data::PrintablePath(arguments.page)));
+  }
   RequirePlaceFor(arguments.page);
 }
 

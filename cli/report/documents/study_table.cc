@@ -116,8 +116,10 @@ void ComponentScreen::Answer() {
 }
 
 void ComponentScreen::Verdict() {
+  const std::string said =
+      fmt::format("{}", fmt::join(SaidFirst(record_, Width()), " "));
   bool first = true;
-  for (const std::string& line : VerdictLines(record_, Width())) {
+  for (const std::string& line : WrapLines(said, Width())) {
     screen_->Add(line + "\n", first);
     first = false;
   }
@@ -150,13 +152,12 @@ void ComponentScreen::Leaderboard() {
   std::vector<std::string> legend;
   if (!view_.recommended.empty()) legend.push_back(MarkWords(view_));
   std::string where =
-      fmt::format("RMSE, {} ({})", UnseenWords(view_), view_.decisive);
+      fmt::format("RMSE: {} ({})", UnseenWords(view_), view_.decisive);
   if (!view_.neighbours.empty()) {
-    where += fmt::format(", and next to known rows ({})", view_.neighbours);
+    where += fmt::format("; next to known rows ({})", view_.neighbours);
   }
   if (!view_.later.empty()) {
-    where += fmt::format(", and later ones foretold from those before ({})",
-                         view_.later);
+    where += fmt::format("; later, learnt from those before ({})", view_.later);
   }
   if (std::isfinite(record_.goal)) {
     where += fmt::format("; goal {:g}{}{} (--goal)",
@@ -192,7 +193,8 @@ void ComponentScreen::Next(const std::vector<std::string>& data) {
   constexpr std::size_t kIndent = 16;
   std::vector<NextStep> steps =
       NextSteps(study_, index_, data, options_.folder);
-  for (NextStep& step : PlacesToLook(study_, index_, data, options_.folder)) {
+  for (NextStep& step :
+       PlacesToLook(study_, index_, data, options_.folder, options_.page)) {
     steps.push_back(std::move(step));
   }
   for (const NextStep& step : steps) {
@@ -230,7 +232,7 @@ void ComponentScreen::Details() {
     Paragraph(UnconvergedNote(model));
     if (model.memorisation) Paragraph(model.memorisation->sentence);
   }
-  screen_->Add("\n" + VerdictParagraphs(record_, Width()));
+  screen_->Add("\n" + VerdictParagraphs(record_, Width(), options_.next_steps));
 }
 
 // How many meet their goal, and for how many nothing is proven.

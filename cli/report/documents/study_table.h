@@ -12,6 +12,7 @@ struct StudyTableOptions {
   bool all = false;         // every row of tables
   bool details = false;     // p values, gaps, times, every sentence
   std::string folder = {};  // that the maps are written to; "" none
+  std::string page = {};    // written alone; "" none
   /// The measurements as fit can open them, empty where it cannot have the same
   /// rows.
   std::vector<std::string> data = {};

@@ -40,12 +40,13 @@ std::string StatusText(const models::SessionCheck& check,
                                ? "The map does not hold in this session"
                                : "Not yet known whether the map holds";
   std::string text = fmt::format(
-      "{}: its error is {} to {} RMSE with 80 % confidence, above {} with a "
-      "probability of {:.0f} %.",
+      "{}: its error is {} to {} RMSE with 80 % confidence, above {} ({} times "
+      "the promise) with a probability of {:.0f} %.",
       lead,
       error(check.session_low),
       error.WithUnit(check.session_high),
       error.WithUnit(models::kOffRatio * check.promised),
+      models::kOffRatio,
       kPercent * check.off_probability);
   if (check.status == models::SessionStatus::kUnknown) {
     text += check.more_probes

@@ -48,7 +48,7 @@ void AddAnswers(const models::RecommendationRecord& advice,
         {"extrapolated",
          {},
          fmt::format("{:.0f} % of the held-out rows: inside = 0 in {}; predict "
-                     "marks new rows alike",
+                     "marks new rows in the same way",
                      kPercent * advice.extrapolated_share,
                      model.file && !folder.empty()
                          ? HeldOutRows(folder, *model.file)
@@ -146,7 +146,8 @@ std::vector<std::string> SensorsByNeed(
 std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
                                    std::size_t component,
                                    const Words& data,
-                                   const std::string& folder) {
+                                   const std::string& folder,
+                                   const std::string& page) {
   constexpr std::size_t kMostNamed = 6;
   const auto& advice = record.components[component].recommendation;
   std::vector<NextStep> steps;
@@ -168,7 +169,8 @@ std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
   }
   steps.push_back({"the page",
                    {},
-                   folder.empty()
+                   !page.empty() ? page
+                   : folder.empty()
                        ? "the same command with -o page.html"
                        : (std::filesystem::path(folder) / "report.html")
                              .lexically_normal()

@@ -37,11 +37,12 @@ std::vector<std::string> SensorsByNeed(
     const models::RecommendationRecord& advice);
 
 /// What the recommended map reads, the most needed sensor first where the
-/// record knows, and the command that tells which of them would do; the page in
-/// `folder`.
+/// record knows, and the command that tells which of them would do; `page`, or
+/// that in `folder`.
 std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
                                    std::size_t component,
                                    const Words& data,
-                                   const std::string& folder);
+                                   const std::string& folder,
+                                   const std::string& page);
 
 }  // namespace errmap::report

@@ -208,7 +208,9 @@ std::string FewSessionsSentence(const ComponentNumbers& component,
                    component.Holdout(advice.holdout)),
       decided_by == advice.holdout
           ? ""
-          : fmt::format(", so the map was chosen by {}", decided_by));
+          : fmt::format(", so the map was chosen by {} held out ({})",
+                        PluralOfUnit(component.Holdout(decided_by)),
+                        decided_by));
 }
 
 std::string GoalSentence(const ComponentNumbers& component) {
@@ -280,18 +282,19 @@ std::string TooFewSentence(const ComponentNumbers& component,
         found,
         maps,
         obstacle.needed > 0
-            ? fmt::format("measure {} or more, or ", obstacle.needed)
+            ? fmt::format("measure {} or more in all, or ", obstacle.needed)
             : "");
   }
   if (obstacle.kind == Kind::kPerhapsOneSession) {
     return fmt::format(
         "{} that may be of one day cannot prove which map is better: measure "
-        "{} or more, or on several days (a column day or session).",
+        "{} or more in all, or on several days (a column day or session).",
         found,
         obstacle.needed);
   }
   return fmt::format(
-      "{} alone cannot prove which map is better: measure {} or more.",
+      "{} alone cannot prove which map is better: measure {} or more in "
+      "all.",
       one ? "One " + holdout.unit_of_analysis : found,
       obstacle.needed);
 }
@@ -441,8 +444,9 @@ std::string RemarkText(const ComponentNumbers& component,
     case RemarkKind::kGap: {
       const models::GapModelRecord& row = component.Gap(advice.model);
       return fmt::format(
-          "Between neighbours ({}) it has {}, on unseen {} {} times that.",
+          "Next to known rows ({}) {} has {}, on unseen {} {} times that.",
           component.record.gap->neighbours,
+          advice.model,
           component.error.WithUnit(row.neighbours_rmse),
           PluralOfUnit(component.Holdout(component.record.gap->unseen)),
           RatioText(row.ratio));

@@ -25,8 +25,9 @@ using models::VerdictRecord;
 using Kind = models::Obstacle::Kind;
 
 // "10 cycles, at least 12 are needed where they may be of one session".
-std::string ObstacleText(const models::Obstacle& obstacle) {
-  const std::string found = Count(obstacle.units, "unit");
+std::string ObstacleText(const models::Obstacle& obstacle,
+                         const HoldoutRecord& holdout) {
+  const std::string found = CountOfUnits(obstacle.units, holdout);
   switch (obstacle.kind) {
     case Kind::kNone:
       return "";
@@ -147,7 +148,7 @@ std::string ChoiceSentence(const ComponentNumbers& component,
     return fmt::format(
         "Whether that is more than chance cannot be "
         "established: {}.",
-        ObstacleText(*verdict.obstacle));
+        ObstacleText(*verdict.obstacle, component.Holdout(verdict.holdout)));
   }
   if (!verdict.rival) return "";
   std::string text = TestSentence(component, verdict);

@@ -24,6 +24,12 @@ using models::RemarkKind;
 using models::RemarkRecord;
 using models::VerdictRecord;
 
+// What next_steps.cc answers in lines of their own.
+bool StandsInNextSteps(RemarkKind kind) {
+  return kind == RemarkKind::kSmaller || kind == RemarkKind::kBestNet ||
+         kind == RemarkKind::kExtrapolates;
+}
+
 }  // namespace
 
 const char* const kIntervalCoverage =
@@ -100,17 +106,19 @@ std::vector<std::string> FirstWords(const models::ComponentRecord& record) {
   return words;
 }
 
-std::vector<std::string> VerdictLines(const models::ComponentRecord& record,
-                                      std::size_t width) {
-  std::string told;
+std::vector<std::string> SaidFirst(const models::ComponentRecord& record,
+                                   std::size_t width) {
+  std::vector<std::string> said;
+  std::string text;
   for (const std::string& sentence : FirstWords(record)) {
-    const std::string longer = told + (told.empty() ? "" : " ") + sentence;
-    if (!told.empty() && WrapLines(longer, width).size() > kMostVerdictLines) {
+    const std::string longer = text + (text.empty() ? "" : " ") + sentence;
+    if (!text.empty() && WrapLines(longer, width).size() > kMostVerdictLines) {
       continue;  // a later one may be shorter
     }
-    told = longer;
+    text = longer;
+    said.push_back(sentence);
   }
-  return WrapLines(told, width);
+  return said;
 }
 
 std::string MeasureNext(const models::ComponentRecord& record) {
@@ -136,7 +144,7 @@ std::string MeasureNext(const models::ComponentRecord& record) {
       case RemarkKind::kTooFewUnits:
       case RemarkKind::kTooManyMaps:
         if (hindered) {
-          want(fmt::format("{} {} or more",
+          want(fmt::format("{} {} or more in all",
                            verdict->obstacle->needed,
                            PluralOfUnit(*holdout)));
         }
@@ -154,7 +162,8 @@ std::string MeasureNext(const models::ComponentRecord& record) {
 }
 
 std::string VerdictParagraphs(const models::ComponentRecord& record,
-                              std::size_t width) {
+                              std::size_t width,
+                              bool next_steps) {
   std::vector<std::string> paragraphs;
   for (const HoldoutRecord& holdout : record.holdouts) {
     const auto verdict = std::ranges::find(
@@ -164,15 +173,25 @@ std::string VerdictParagraphs(const models::ComponentRecord& record,
             ? verdict->why
             : fmt::format("Under {} no model could be fitted.", holdout.name));
   }
-  if (record.gap) paragraphs.push_back(record.gap->warning);
+  const std::string warning = record.gap ? record.gap->warning : "";
+  paragraphs.push_back(warning);
   if (record.recommendation) {
-    const RecommendationRecord& advice = *record.recommendation;
-    paragraphs.push_back(advice.why);
-    std::string doubts;
-    for (const RemarkRecord& doubt : advice.doubts) {
-      doubts += (doubts.empty() ? "" : " ") + doubt.text;
+    const std::vector<std::string> said = SaidFirst(record, width);
+    for (const auto* remarks :
+         {&record.recommendation->grounds, &record.recommendation->doubts}) {
+      std::string more;
+      for (const RemarkRecord& remark : *remarks) {
+        if (remark.text.empty() ||
+            (next_steps && StandsInNextSteps(remark.kind)) ||
+            (!warning.empty() &&
+             remark.kind == RemarkKind::kIgnoreNeighbours) ||
+            std::ranges::find(said, remark.text) != said.end()) {
+          continue;
+        }
+        more += (more.empty() ? "" : " ") + remark.text;
+      }
+      paragraphs.push_back(std::move(more));
     }
-    paragraphs.push_back(std::move(doubts));
   }
   std::string text;
   for (const std::string& paragraph : paragraphs) {

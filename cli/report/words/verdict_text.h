@@ -30,17 +30,19 @@ std::vector<const models::RemarkRecord*> ToldFirst(
 /// The recommendation and what is told with it first, most important first.
 std::vector<std::string> FirstWords(const models::ComponentRecord& record);
 
-/// As much of it as eight lines hold.
+/// As many of these sentences as eight lines hold.
 inline constexpr std::size_t kMostVerdictLines = 8;
-std::vector<std::string> VerdictLines(const models::ComponentRecord& record,
-                                      std::size_t width);
+std::vector<std::string> SaidFirst(const models::ComponentRecord& record,
+                                   std::size_t width);
 
 /// What measurements would make the answer surer: "cycles with t1 below 20 or
 /// above 27"; "" where nothing is known to.
 std::string MeasureNext(const models::ComponentRecord& record);
 
-/// All sentences in paragraphs.
+/// Every sentence that these have not, nor the next steps where they are shown,
+/// in paragraphs.
 std::string VerdictParagraphs(const models::ComponentRecord& record,
-                              std::size_t width);
+                              std::size_t width,
+                              bool next_steps);
 
 }  // namespace errmap::report

@@ -293,7 +293,7 @@ TEST_F(Screens, NameTheFileThatTellsWhichRowsWereExtrapolated) {
   EXPECT_THAT(Squeezed(Run(words).out),
               ContainsRegex("extrapolated +[0-9]+ % of the held-out rows: "
                             "inside = 0 in residuals.csv, which --out STUDY "
-                            "writes; predict marks new rows alike"));
+                            "writes; predict marks new rows in the same way"));
   EXPECT_THAT(Squeezed(Run(With(words, {"--out", "study"})).out),
               ContainsRegex("inside = 0 in study/residuals.csv; predict"));
   const Json component =
@@ -361,8 +361,14 @@ TEST_F(Screens, NameTheMapThatWasWritten) {
 }
 
 TEST_F(Screens, WriteThePageAlone) {
-  EXPECT_EQ(Run(With({"compare", kDown, "-o", "page.html"}, kQuick)).status, 0);
+  const Outcome outcome =
+      Run(With({"compare", kDown, "-o", "page.html"}, kQuick));
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.out, ContainsRegex("the page +page.html\n"));
   EXPECT_THAT(Read("page.html"), HasSubstr("</html>"));
+  EXPECT_THAT(Run({"compare", kDown, "-o", "study"}).err,
+              HasSubstr("study.html; a folder with it, all maps and figures: "
+                        "--out study"));
   EXPECT_EQ(Run(With({"compare", kDown, "-o", kDown}, kQuick)).status,
             kWrongCommandLine);
 }
@@ -437,7 +443,7 @@ TEST_F(Screens, SayEachFigureInOneWay) {
     if (c == '<' || c == '>') in_tag = c == '<';
     text += in_tag || c == '>' ? ' ' : c;
   }
-  const std::regex length("([0-9]+(\\.[0-9]+)?) (um|\u00b5m)");
+  const std::regex length("([0-9]+(\\.[0-9]+)?)(?: |\u00a0)(um|\u00b5m)");
   std::set<std::string> figures;
   for (std::sregex_iterator it(text.begin(), text.end(), length), end;
        it != end;

@@ -1,5 +1,7 @@
 #include "cli/report/words/verdict_text.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -334,7 +336,7 @@ TEST(Sentences, TellHowLittleFewSessionsSay) {
   remark.holdouts = std::vector<std::string>{kFar};
   EXPECT_EQ(DoubtOf(record, remark),
             "2 days tell little of another, so the map was chosen by "
-            "groups:5.");
+            "cycles held out (groups:5).");
 }
 
 TEST(Sentences, SayHowToCompareWithoutWhatOnlyGrows) {
@@ -381,7 +383,7 @@ TEST(Sentences, TellHowManyCyclesWouldProveADifference) {
   record.verdict = {Hindered(Kind::kTooManyPairs, 6, 11)};
   EXPECT_EQ(DoubtOf(record, {.kind = RemarkKind::kTooManyMaps}),
             "6 cycles cannot prove a difference between 2 maps: measure 11 or "
-            "more, or compare fewer.");
+            "more in all, or compare fewer.");
   record.verdict = {Hindered(Kind::kTooFewSignPatterns, 6, 0)};
   EXPECT_EQ(DoubtOf(record, {.kind = RemarkKind::kTooManyMaps}),
             "6 cycles cannot prove a difference between 2 maps: compare "
@@ -389,11 +391,11 @@ TEST(Sentences, TellHowManyCyclesWouldProveADifference) {
   record.verdict = {Hindered(Kind::kTooFewUnits, 5, 6)};
   EXPECT_EQ(DoubtOf(record, {.kind = RemarkKind::kTooFewUnits}),
             "5 cycles alone cannot prove which map is better: measure 6 or "
-            "more.");
+            "more in all.");
   record.verdict = {Hindered(Kind::kPerhapsOneSession, 8, 12)};
   EXPECT_EQ(DoubtOf(record, {.kind = RemarkKind::kTooFewUnits}),
             "8 cycles that may be of one day cannot prove which map is better: "
-            "measure 12 or more, or on several days (a column day or "
+            "measure 12 or more in all, or on several days (a column day or "
             "session).");
 }
 
@@ -439,7 +441,7 @@ TEST(Sentences, TellThatNeighboursProveLittle) {
 
 // --- The first screen ------------------------------------------------------
 
-TEST(VerdictLines, AreAtMostEightAndBeginWithTheHeadline) {
+TEST(SaidFirst, FillsAtMostEightLinesAndBeginsWithTheHeadline) {
   ComponentRecord record = Base();
   models::RecommendationRecord& advice = *record.recommendation;
   for (int i = 0; i < 20; ++i) {
@@ -449,14 +451,15 @@ TEST(VerdictLines, AreAtMostEightAndBeginWithTheHeadline) {
   }
   AddSentences(&record);
   for (const std::size_t width : {80U, 100U, 160U}) {
-    const std::vector<std::string> lines = VerdictLines(record, width);
+    const std::vector<std::string> lines = WrapLines(
+        fmt::format("{}", fmt::join(SaidFirst(record, width), " ")), width);
     EXPECT_THAT(lines, SizeIs(Le(kMostVerdictLines)));
     EXPECT_THAT(lines.front(), StartsWith("Use poly:eq8: 1.900 um RMSE"));
     for (const std::string& line : lines) EXPECT_LE(WidthOf(line), width);
   }
 }
 
-TEST(VerdictLines, TellFirstWhatMattersMost) {
+TEST(FirstWords, TellFirstWhatMattersMost) {
   ComponentRecord record = Base();
   RemarkRecord late{.kind = RemarkKind::kOneRunOnly};
   late.rank = 2;
@@ -472,10 +475,26 @@ TEST(VerdictLines, TellFirstWhatMattersMost) {
                           StartsWith("One run only")));
 }
 
-TEST(VerdictLines, SayWhereThereIsNothingToRecommend) {
+TEST(VerdictParagraphs, SayNothingThatWasSaidBefore) {
+  ComponentRecord record = Base();
+  RemarkRecord first{.kind = RemarkKind::kRemoves};
+  first.rank = 1;
+  record.recommendation->grounds = {first, {.kind = RemarkKind::kGoal}};
+  record.recommendation->doubts = {{.kind = RemarkKind::kExtrapolates}};
+  AddSentences(&record);
+  const std::string text = VerdictParagraphs(record, 1000, true);
+  EXPECT_THAT(text, HasSubstr("The goal "));
+  for (const char* said : {"Use ", "It removes", "the map extrapolates"}) {
+    EXPECT_THAT(text, Not(HasSubstr(said)));
+  }
+  EXPECT_THAT(VerdictParagraphs(record, 1000, false),
+              HasSubstr("the map extrapolates"));
+}
+
+TEST(SaidFirst, TellsWhereThereIsNothingToRecommend) {
   ComponentRecord record = Base();
   record.recommendation.reset();
-  EXPECT_THAT(VerdictLines(record, 80),
+  EXPECT_THAT(SaidFirst(record, 80),
               ElementsAre("No map can be recommended: none could be judged."));
 }
 
