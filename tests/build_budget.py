@@ -52,7 +52,7 @@ def read_by_object(build):
             lines[library_of(str(path))] += lengths[path]
     return {name: lines for name, lines in objects.items()
             if name.endswith(".o")  # else a precompiled header
-            and not name.startswith(("tests/", "cli/python/"))}
+            and not name.startswith(("tests/", "cli/python/", "CMakeFiles/"))}
 
 
 def excesses(objects, budget, most):

@@ -87,10 +87,11 @@ TEST_F(CliOutputs, ADashNamesNoFile) {
 
 // Found out after hours of fits it would cost the page.
 TEST_F(CliOutputs, PlacesThatCannotBeWrittenToAreRefusedBeforeAnyWork) {
-  std::filesystem::create_directory(scratch_ / "folder");
+  std::filesystem::create_directory(scratch_ / "folder.html");
   Fit("mean", "m.json");
   Write("file", "mine");
-  for (const std::string place : {"none/out", "folder", "file/out"}) {
+  for (const std::string place :
+       {"none/out.html", "folder.html", "file/out.html"}) {
     const std::vector<std::vector<std::string>> commands = {
         {"compare", kDown, "--models", "mean", "-o", place},
         {"compare", kDown, "--models", "mean", "--save-split", place},

@@ -386,7 +386,7 @@ TEST_F(CliPromise, PutsWhatWasLearntOnThePageOfTheStudy) {
   const std::string page = Read("study/report.html");
   EXPECT_THAT(page,
               AllOf(HasSubstr("What fewer sensors would do"),
-                    HasSubstr("of 3 sensors do it, within 5 % of all"),
+                    HasSubstr("of 3 sensors do it, within 5\u00a0% of all"),
                     HasSubstr("What each further day would bring"),
                     HasSubstr("with all 10:")));
   EXPECT_EQ(Run({"report", "study", "--format", "html"}).out, page);

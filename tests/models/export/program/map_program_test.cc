@@ -277,7 +277,7 @@ TEST(MapProgram, RefusesFiltersThatRunInRows) {
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(),
-                ::testing::HasSubstr("run in rows, and a controller counts"));
+                ::testing::HasSubstr("counts rows, and a controller seconds"));
   }
 }
 
