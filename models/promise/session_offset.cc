@@ -79,10 +79,6 @@ Candidate FitVariance(const Products& products, double memory) {
 
 }  // namespace
 
-double OffsetModel::Narrowing(double offset_variance) const {
-  return std::sqrt((offset_variance + noise) / (variance + noise));
-}
-
 OffsetModel FitOffset(const HeldOutErrors& errors) {
   // A rest of nothing would have one probe know everything.
   constexpr double kLeastNoise = 0.01;
@@ -130,6 +126,7 @@ void OffsetFilter::Update(double residual) {
   constexpr double kSurprise = 9.0;  // three standard deviations, squared
   const double miss = (residual - offset_) * (residual - offset_);
   const double foretold = variance_ + model_.noise;
+  surprise_ += miss / foretold;
   const bool is_surprise = miss > kSurprise * foretold;
   if (moved_ || !is_surprise) {
     misses_ += miss / foretold;
@@ -152,8 +149,18 @@ double OffsetFilter::MeanVariance() const {
   return count_ < 2 ? 0.0 : squares_ / (count_ - 1) / count_;
 }
 
+double OffsetFilter::Believed() const {
+  // Of 2 to 4 probes the least wide where all is well.
+  constexpr double kOfHeldOut = 4.0;
+  return kOfHeldOut + count_;
+}
+
+double OffsetFilter::Scale() const {
+  return 1.0 + (surprise_ - count_) / Believed();
+}
+
 double OffsetFilter::variance() const {
-  return std::max(variance_, MeanVariance());
+  return std::max(Scale() * variance_, MeanVariance());
 }
 
 bool OffsetFilter::contradicted() const {
@@ -164,25 +171,23 @@ bool OffsetFilter::contradicted() const {
 
 double OffsetFilter::Widening() const {
   constexpr double kUpper = 0.95;  // of 90 %
-  const double model_square = model_.variance + model_.noise;
-  const double widening = model_.Narrowing(variance());
   if (count_ == 0) return 1.0;
+  const double held_out = model_.variance + model_.noise;
+  const auto half_width = [&](double square, double freedom) {
+    return stats::StudentQuantile(kUpper, freedom) /
+           stats::NormalQuantile(kUpper) * std::sqrt(square / held_out);
+  };
+  const double widening =
+      half_width(variance() + Scale() * model_.noise, Believed());
   if (count_ == 1) {
     // An offset or a wrong shape: elsewhere the error may be none, or twice.
-    return std::max(
-        widening,
-        std::sqrt(1.0 + (moved_ ? mean_ * mean_ / model_square : 0.0)));
+    return std::max(widening, std::sqrt(1.0 + mean_ * mean_ / held_out));
   }
   if (!contradicted()) return widening;
   const double off_mean = mean_ - offset_;
   const double scatter =
       (squares_ + count_ * off_mean * off_mean) / (count_ - 1);
-  const double for_few = stats::StudentQuantile(kUpper, count_ - 1.0) /
-                         stats::NormalQuantile(kUpper);
-  return std::max(
-      {1.0,
-       widening,
-       for_few * std::sqrt((scatter + MeanVariance()) / model_square)});
+  return std::max(widening, half_width(scatter + MeanVariance(), count_ - 1.0));
 }
 
 OffsetTrack TrackOffset(const OffsetModel& model,

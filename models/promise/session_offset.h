@@ -16,10 +16,6 @@ struct OffsetModel {
   double variance = 0.0;  // of the offset, target's unit squared
   double memory = 0.0;    // in the errors' time unit; infinite: it never fades
   double noise = 0.0;     // variance of the rest, above 0
-
-  /// Of the standard deviation of an error, what is left where the offset is
-  /// known up to `offset_variance`: what an interval narrows by.
-  double Narrowing(double offset_variance) const;
 };
 
 /// Fits the autocovariance of the held-out errors within their units, each
@@ -43,18 +39,23 @@ class OffsetFilter {
 
   double offset() const { return offset_; }  // target's unit
   /// Of it; never below that of the mean of probes that scatter as these do.
+  /// Variances are as many times those of the model as the probes missed what
+  /// was foretold of them, where the held-out sessions count as four probes (a
+  /// variance known up to a factor: West & Harrison 1997, section 4.5).
   double variance() const;
   /// Whether the probes miss what the filter foretold of them by more than 95
   /// in 100 sets of probes of an offset would: it explains no such errors. The
   /// probe that begins an offset does not count.
   bool contradicted() const;
   /// Standard deviation of an error less the offset, over that of the model's
-  /// errors: what an interval is to be multiplied by. Not below 1 for one
-  /// probe, whose scatter is not known, nor where probes contradict the offset;
-  /// there it is their own scatter about it, with Student's t for so few.
+  /// errors, with Student's t for so few probes: what an interval is to be
+  /// multiplied by. Not below 1 for one probe, whose scatter is not known;
+  /// where probes contradict the offset not below their own scatter about it.
   double Widening() const;
 
  private:
+  double Believed() const;      // probes behind Scale, as degrees of freedom
+  double Scale() const;         // of today's variances, over the model's
   double MeanVariance() const;  // of the mean of the probes, by their scatter
 
   OffsetModel model_;
@@ -63,7 +64,8 @@ class OffsetFilter {
   double time_ = 0.0;
   double offset_ = 0.0;
   double variance_ = 0.0;
-  double misses_ = 0.0;  // sum of squared standardised innovations
+  double surprise_ = 0.0;  // sum of squared standardised innovations
+  double misses_ = 0.0;    // without that of a probe that begins an offset
   int num_misses_ = 0;
   int count_ = 0;  // of probes; their mean, and squares about it (Welford)
   double mean_ = 0.0;
