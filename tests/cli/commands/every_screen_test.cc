@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <map>
 #include <regex>
 #include <set>
 
@@ -248,7 +250,22 @@ TEST_F(OneResult, IsTheSameOnEveryScreen) {
   // Days of as many cycles each: groups:5 cuts as sessions:5 does.
   WriteComponent("five.csv", 6, 5);
   EXPECT_EQ(Agree("two.csv")["holdout"], "sessions:2");
-  EXPECT_EQ(Agree("six.csv")["holdout"], "sessions:5");
+  const Json six = Agree("six.csv");
+  EXPECT_EQ(six["holdout"], "sessions:5");
+  // A folder with a file of each of these days.
+  const std::vector<std::string> lines = SplitLines(Read("six.csv"));
+  std::map<std::string, std::string> days;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    std::string& day = days[lines[i].substr(0, lines[i].find(','))];
+    day += (day.empty() ? lines[0] + "\n" : "") + lines[i] + "\n";
+  }
+  ASSERT_EQ(days.size(), 6U);
+  std::filesystem::create_directories(scratch_ / "days");
+  for (const auto& [day, rows] : days) Write("days/" + day + ".csv", rows);
+  const Json folder = Agree("days");
+  for (const char* said : {"rmse", "holdout", "goal_standing", "sentence"}) {
+    EXPECT_EQ(folder[said], six[said]);
+  }
   EXPECT_EQ(Agree("five.csv")["holdout"], "sessions:5");
   EXPECT_THAT(Agree("run.csv")["holdout"].get<std::string>(),
               HasSubstr("groups:"));
