@@ -44,6 +44,10 @@ struct Applicability {
   Eigen::VectorXd relation_limit;  // (s) StateMeasures::relation
 };
 
+/// Of its trained range an input may leave it by so much and is still inside:
+/// the noise of a reading must not flag a row at the end of a range.
+inline constexpr double kRangeTolerance = 0.02;
+
 /// Errors of a map on units that had no part in it, with the time and place of
 /// each: what probes of a further unit are judged and weighed by. Long units
 /// and many of them are thinned evenly; `rmse` and the units' own are of all

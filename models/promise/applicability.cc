@@ -187,11 +187,9 @@ void JudgeRange(const data::ColumnInfo& column,
                 double min,
                 double max,
                 RowFlag* worst) {
-  // The noise of a reading must not flag a row at the end of a range.
-  constexpr double kTolerance = 0.02;
   const double width = max - min;
   const double beyond = std::max(min - value, value - max);
-  if (beyond <= kTolerance * width) return;
+  if (beyond <= kRangeTolerance * width) return;
   Worsen({.why = Outside::kRange,
           .column = column,
           .value = value,
