@@ -4,8 +4,12 @@
 #include <cstddef>
 #include <iterator>
 
+#include "data/argument_name.h"
 #include "data/measurements/cell_faults.h"
+#include "data/measurements/column_checks.h"
+#include "data/measurements/dataset.h"
 #include "data/measurements/drift_faults.h"
+#include "data/measurements/rounded.h"
 #include "data/measurements/row_faults.h"
 #include "data/measurements/thermometer_faults.h"
 
@@ -55,6 +59,31 @@ std::vector<ColumnFault> FindColumnFaults(const MeasuredColumns& measured) {
     }
   }
   return faults;
+}
+
+std::string DoubtOfRows(const ColumnFault& fault,
+                        const MeasuredColumns& measured) {
+  std::string what;
+  if (fault.kind == FaultKind::kRepeated) {
+    what = " rows repeat others value for value";
+  } else if (fault.kind == FaultKind::kOtherUnit) {
+    what = " rows have a target some " + Rounded(fault.value) +
+           " times smaller than the others, as if in another unit";
+  } else if (fault.kind == FaultKind::kZero) {
+    what = " rows have a target of 0 where the others say otherwise";
+  } else if (fault.kind == FaultKind::kImpossible ||
+             (fault.kind == FaultKind::kOutlying && fault.input < 0)) {
+    const ColumnInfo& column =
+        fault.input < 0
+            ? measured.target
+            : measured.inputs[static_cast<std::size_t>(fault.input)];
+    what = " rows have " + NameInRemark(column.name) + " " +
+           Rounded(fault.value) + ", which is no reading";
+  } else {
+    return "";
+  }
+  return std::to_string(fault.rows.size()) + what + "; " +
+         ArgumentName("faults", "drop-rows") + " leaves them out.";
 }
 
 std::vector<Index> RowsOfCellFaults(const std::vector<ColumnFault>& faults) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -63,6 +64,11 @@ struct MeasuredColumns {
   const std::vector<Eigen::Index>& rows;  // (m) data row in the file
   Eigen::Index num_sessions = 0;          // 0: not known
 };
+
+/// One sentence where rows like these change what every figure of a study
+/// means, and what leaves them out; "" otherwise.
+std::string DoubtOfRows(const ColumnFault& fault,
+                        const MeasuredColumns& measured);
 
 /// Looks through target and inputs for readings that no machine made.
 /// Thresholds are set so that healthy machines give none; the test of this unit

@@ -343,35 +343,6 @@ class DatasetBuilder {
     return starts;
   }
 
-  // Rows that change what every figure of a study means.
-  void SayOfDoubtfulRows() {
-    if (selection_.faults == FaultPolicy::kDropRows) return;
-    for (const ColumnFault& fault : faults_) {
-      std::string what;
-      if (fault.kind == FaultKind::kRepeated) {
-        what = " rows repeat others value for value";
-      } else if (fault.kind == FaultKind::kOtherUnit) {
-        what = " rows have a target some " + Rounded(fault.value) +
-               " times smaller than the others, as if in another unit";
-      } else if (fault.kind == FaultKind::kZero) {
-        what = " rows have a target of 0 where the others say otherwise";
-      } else if (fault.kind == FaultKind::kImpossible ||
-                 (fault.kind == FaultKind::kOutlying && fault.input < 0)) {
-        const std::string& name =
-            fault.input < 0
-                ? parts_.target.name
-                : parts_.inputs[static_cast<std::size_t>(fault.input)].name;
-        what = " rows have " + NameInRemark(name) + " " + Rounded(fault.value) +
-               ", which is no reading";
-      } else {
-        continue;
-      }
-      doubts_.push_back(std::to_string(fault.rows.size()) + what + "; " +
-                        ArgumentName("faults", "drop-rows") +
-                        " leaves them out.");
-    }
-  }
-
   // Before anything is made of the rows.
   void LookForFaults() {
     const MeasuredColumns measured{.target = parts_.target,
@@ -392,8 +363,14 @@ class DatasetBuilder {
                       .rows = repeated_rows_,
                       .of_cells = true});
     }
-    SayOfDoubtfulRows();
-    if (selection_.faults != FaultPolicy::kDropRows) return;
+    if (selection_.faults != FaultPolicy::kDropRows) {
+      for (const ColumnFault& fault : faults_) {
+        if (std::string doubt = DoubtOfRows(fault, measured); !doubt.empty()) {
+          doubts_.push_back(std::move(doubt));
+        }
+      }
+      return;
+    }
     const std::vector<Eigen::Index> faulty = RowsOfCellFaults(faults_);
     std::vector<Eigen::Index> kept;
     for (std::size_t i = 0; i < parts_.rows.size(); ++i) {
@@ -558,20 +535,7 @@ class DatasetBuilder {
                            " may need a map each, by " + ArgumentName("where"));
         continue;
       }
-      const Unit& unit = parts_.target.unit;
-      const auto shown = [&](double value) {
-        return Rounded(unit.display_scale * value) +
-               (unit.display_symbol.empty() ? "" : " " + unit.display_symbol);
-      };
-      std::string values;
-      for (const std::string& value : column.values) {
-        values += (values.empty() ? "" : ", ") + NameInRemark(value);
-      }
-      doubts_.push_back(
-          "Rows differ by " + NameInRemark(column.name) + " (" + values +
-          "): plain linear maps, one for each, miss by " + shown(effect.each) +
-          ", one for all by " + shown(effect.one) +
-          "; give each a map of its own, by " + ArgumentName("where") + ".");
+      doubts_.push_back(PartingText(column, effect, parts_.target.unit));
       remarks_.push_back(doubts_.back());
     }
   }

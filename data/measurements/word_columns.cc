@@ -6,7 +6,9 @@
 
 #include <Eigen/QR>
 
+#include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/rounded.h"
 
 namespace errmap::data {
 namespace {
@@ -78,6 +80,23 @@ PartingEffect EffectOfParting(const PartingColumn& column,
   };
   return {std::sqrt(SquaresLeft(all, target, input_values, p) / free_of(1)),
           std::sqrt(squares / free_of(parts))};
+}
+
+std::string PartingText(const PartingColumn& column,
+                        const PartingEffect& effect,
+                        const Unit& target) {
+  const auto shown = [&](double value) {
+    return Rounded(target.display_scale * value) +
+           (target.display_symbol.empty() ? "" : " " + target.display_symbol);
+  };
+  std::string values;
+  for (const std::string& value : column.values) {
+    values += (values.empty() ? "" : ", ") + NameInRemark(value);
+  }
+  return "Rows differ by " + NameInRemark(column.name) + " (" + values +
+         "): plain linear maps, one for each, miss by " + shown(effect.each) +
+         ", one for all by " + shown(effect.one) +
+         "; give each a map of its own, by " + ArgumentName("where") + ".";
 }
 
 }  // namespace errmap::data

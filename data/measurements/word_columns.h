@@ -32,5 +32,9 @@ struct PartingEffect {
 PartingEffect EffectOfParting(const PartingColumn& column,
                               const Eigen::VectorXd& target,
                               const Eigen::MatrixXd& input_values);
+/// That the rows differ by the column, as a sentence in the target's unit.
+std::string PartingText(const PartingColumn& column,
+                        const PartingEffect& effect,
+                        const Unit& target);
 
 }  // namespace errmap::data
