@@ -5,10 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 
 #include <Eigen/Dense>
 
 #include "fitting/least_squares/decompositions.h"
+#include "models/shared_work.h"
 #include "stats/f_test.h"
 
 namespace errmap::models {
@@ -90,6 +92,7 @@ struct Remainder {
   // That the columns which `more` has besides tell nothing.
   double PValueAgainst(const Remainder& more) const {
     const double taken = degrees - more.degrees;
+    if (taken == 0.0) return 1.0;
     return stats::FTestPValue(
         ((squares - more.squares) / taken) / (more.squares / more.degrees),
         taken,
@@ -152,6 +155,8 @@ Course CourseOf(const Dataset& all, const std::vector<bool>& only_grows) {
   const Remainder line(straight, targets);
   const Remainder bend(beside(straight, growing.cwiseAbs2()), targets);
   const Remainder own(beside(straight, offsets), targets);
+  // Rows no more than columns: anything fits.
+  if (bend.degrees == 0.0 || own.degrees == 0.0) return Course::kNeither;
   if (level.PValueAgainst(line) >= kTells) return Course::kLevel;
   return line.PValueAgainst(bend) > kIsStraight &&
                  line.PValueAgainst(own) > kIsStraight
@@ -194,7 +199,9 @@ std::vector<bool> ColumnsThatOnlyGrow(const Dataset& rows) {
   return only_grow;
 }
 
-double RoomBeyond(const Dataset& training) {
+namespace {
+
+double MakeRoomBeyond(const Dataset& training) {
   const std::vector<bool> only_grows = ColumnsThatOnlyGrow(training);
   if (std::ranges::find(only_grows, true) == only_grows.end()) {
     return kMostRoom;
@@ -244,6 +251,19 @@ double RoomBeyond(const Dataset& training) {
     if (errors[r] <= most) return kRooms[r];
   }
   return kMostRoom;
+}
+
+}  // namespace
+
+double RoomBeyond(const Dataset& training, SharedWork* shared) {
+  if (shared == nullptr) return MakeRoomBeyond(training);
+  std::string key = "room beyond";
+  for (const data::ColumnInfo& input : training.inputs()) {
+    key += ' ' + input.name;
+  }
+  return *shared->Get<double>(key, [&] {
+    return std::make_shared<const double>(MakeRoomBeyond(training));
+  });
 }
 
 void LeaveRoom(const std::vector<std::string>& growing,

@@ -21,8 +21,9 @@ std::vector<bool> ColumnsThatOnlyGrow(const data::Dataset& rows);
 /// bend nor sessions that lie about the line; 0 where they see no slope. Else
 /// by what sessions showed of it that came later than others: planes of the
 /// first two sessions, of the first three and so on foretell the rest, and stop
-/// after so many ranges; the longest of those that err least.
-double RoomBeyond(const data::Dataset& training);
+/// after so many ranges; the longest of those that err least. `shared` (may be
+/// null) has it of the same rows once.
+double RoomBeyond(const data::Dataset& training, SharedWork* shared = nullptr);
 
 /// Guards of a map that is a straight line in the inputs named, which only grow
 /// and so will leave their range: `room` ranges more for them, and for the

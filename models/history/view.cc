@@ -204,7 +204,8 @@ double LargestFirstError(const Dataset& training) {
 
 std::vector<ViewedRows> MakeViews(const Dataset& training,
                                   const std::optional<ViewOptions>& asked,
-                                  double indifference) {
+                                  double indifference,
+                                  SharedWork* shared) {
   const ViewOptions options = asked.value_or(ViewOptions{.view = View::kRaw});
   const bool with_history =
       !options.time_constants || !options.time_constants->empty();
@@ -240,7 +241,7 @@ std::vector<ViewedRows> MakeViews(const Dataset& training,
     for (const bool turned : angle_forms) forms.emplace_back(view, turned);
   }
   const double first_error = LargestFirstError(training);
-  const double room = RoomBeyond(training);
+  const double room = RoomBeyond(training, shared);
   std::vector<ViewedRows> views;
   for (const auto& [view, sine_and_cosine] : forms) {
     ViewedRows viewed;
@@ -275,7 +276,7 @@ std::shared_ptr<const std::vector<ViewedRows>> SharedViews(
     const FitContext& context) {
   const auto make = [&] {
     return std::make_shared<const std::vector<ViewedRows>>(
-        MakeViews(training, options, context.indifference));
+        MakeViews(training, options, context.indifference, context.shared));
   };
   if (context.shared == nullptr) return make();
   auto views = context.shared->GetWhileHeld<std::vector<ViewedRows>>(

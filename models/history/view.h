@@ -64,7 +64,8 @@ struct ViewedRows {
 /// for by name is not possible.
 std::vector<ViewedRows> MakeViews(const data::Dataset& training,
                                   const std::optional<ViewOptions>& options,
-                                  double indifference);
+                                  double indifference,
+                                  SharedWork* shared = nullptr);
 
 /// The same of the rows that are fitted, shared with the recipes that hold them
 /// at the same time by way of context.shared.

@@ -319,7 +319,7 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
   if (guarded_) {
     fitted.guards = MakeGuards(fitted.inputs, training.target_values());
     LeaveRoom(GrowsStraight(form, fitted.inputs, training),
-              RoomBeyond(training),
+              RoomBeyond(training, context.shared),
               fitted.inputs,
               &*fitted.guards);
   }

@@ -97,6 +97,17 @@ TEST(RoomBeyond, IsAllOfItWhereALineWentOn) {
   EXPECT_EQ(RoomBeyond(DaysOfError(6, [](double) { return 0.0; })), 0.0);
 }
 
+// An F test has no degrees of freedom there; the days themselves tell.
+TEST(RoomBeyond, AsksTheDaysWhereRowsAreNoMoreThanColumns) {
+  data::Dataset days = DaysOfError(3, [](double age) { return 40.0 * age; });
+  std::vector<Index> rows;
+  for (Index row = 0; row < days.num_rows(); row += days.num_rows() / 3) {
+    rows.push_back(row);
+  }
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(RoomBeyond(days.SelectRows(rows)), 3.0);
+}
+
 TEST(RoomBeyond, IsLittleWhereWhatGrewDidNotGoOn) {
   const auto saturates = [](double age) {
     return 4.0 * (1.0 - std::exp(-3.0 * age));
