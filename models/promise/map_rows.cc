@@ -51,6 +51,20 @@ data::Dataset WithMapLog(const data::Dataset& dataset, const MapLog& map) {
   return dataset.WithLog(map.log, std::move(log_rows));
 }
 
+data::FoundSessions FindSessionsOf(const FittedModel& fitted,
+                                   const data::CsvTable& table,
+                                   const std::vector<Index>& rows,
+                                   const MapLogArguments& arguments) {
+  data::DatasetSelection selection;
+  selection.time = arguments.time;
+  selection.session = arguments.session;
+  if (selection.session.empty() && fitted.history != nullptr &&
+      table.Find(fitted.history->session) >= 0) {
+    selection.session = fitted.history->session;
+  }
+  return data::FindSessions(table, selection, rows);
+}
+
 }  // namespace
 
 std::vector<data::ColumnFilter> FiltersFor(const FittedModel& fitted,
@@ -105,18 +119,20 @@ data::TableForMap ReadForMap(const FittedModel& fitted,
   return result;
 }
 
+std::string SessionColumn(const FittedModel& fitted,
+                          const data::CsvTable& table,
+                          const MapLogArguments& arguments) {
+  std::vector<Index> rows(table.num_rows);
+  std::iota(rows.begin(), rows.end(), Index{0});
+  return FindSessionsOf(fitted, table, rows, arguments).sessions.column;
+}
+
 std::vector<Moment> MomentsOf(const FittedModel& fitted,
                               const data::CsvTable& table,
                               const std::vector<Index>& rows,
                               const MapLogArguments& arguments) {
-  data::DatasetSelection selection;
-  selection.time = arguments.time;
-  selection.session = arguments.session;
-  if (selection.session.empty() && fitted.history != nullptr &&
-      table.Find(fitted.history->session) >= 0) {
-    selection.session = fitted.history->session;
-  }
-  const data::FoundSessions found = data::FindSessions(table, selection, rows);
+  const data::FoundSessions found =
+      FindSessionsOf(fitted, table, rows, arguments);
   const bool has_times = found.time_column >= 0;
   std::vector<Moment> moments;
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -65,6 +65,11 @@ MapRows MakeMapRows(const FittedModel& fitted,
                     data::CsvTable table,
                     const MapRowsOptions& options);
 
+/// The column that names the sessions of a table; "" where none does.
+std::string SessionColumn(const FittedModel& fitted,
+                          const data::CsvTable& table,
+                          const MapLogArguments& arguments);
+
 /// Session and time of these rows of a table, as far as it tells; one session
 /// and time 0 where it does not.
 std::vector<Moment> MomentsOf(const FittedModel& fitted,

@@ -99,8 +99,9 @@ std::string OffsetLine(const models::ProbeCorrection& correction,
   const double known = std::sqrt(track.variance[last]);
   const ErrorText error(unit, std::sqrt(correction.model.noise));
   std::string line =
-      fmt::format("{} move {} of {}; the offset in the last is {}, known to {}",
+      fmt::format("{} {} {} of {}; the offset in the last is {}, known to {}",
                   Count(correction.num_probes, "probe"),
+                  correction.num_probes == 1 ? "moves" : "move",
                   corrected,
                   Count(track.offset.size(), "row"),
                   error.WithUnit(track.offset[last]),

@@ -306,6 +306,39 @@ TEST_F(CliPromise, ProbesMoveLaterRowsAndNarrowTheInterval) {
   EXPECT_LT(width(after[0]), width(before[0]));
 }
 
+// A single row of each day does not show that its column names days.
+TEST_F(CliPromise, OneProbeOfEachOfSeveralDaysMovesTheDay) {
+  std::string probes;
+  std::string later;
+  for (const int day : {11, 12}) {
+    const std::vector<std::string> lines =
+        SplitLines(DaysInCliPromise(day, day, 9.0));
+    if (later.empty()) probes = later = lines[0] + "\n";
+    for (std::size_t row = 1; row < lines.size(); ++row) {
+      (row == 1 ? probes : later) += lines[row] + "\n";
+    }
+  }
+  Write("probes.csv", probes);
+  Write("later.csv", later);
+  // Without a memory the map knows no column of sessions.
+  ASSERT_EQ(Run({"fit",
+                 "train.csv",
+                 "--model",
+                 "poly:full:degree=1",
+                 "-o",
+                 "plane.json"})
+                .status,
+            0);
+  const Outcome outcome =
+      Run({"predict", "plane.json", "later.csv", "--probes", "probes.csv"});
+  EXPECT_THAT(outcome.err, HasSubstr("2 probes move 78 of 78 rows"));
+  Write("probes.csv",
+        probes.substr(0, probes.rfind('\n', probes.size() - 2) + 1));
+  EXPECT_THAT(
+      Run({"predict", "plane.json", "later.csv", "--probes", "probes.csv"}).err,
+      HasSubstr("1 probe moves 39 of 78 rows"));
+}
+
 TEST_F(CliPromise, LearnsFromDaysOneAfterAnother) {
   const std::vector<std::string> learn = {"learn",
                                           "train.csv",
