@@ -126,11 +126,12 @@ void OffsetFilter::Update(double residual) {
   constexpr double kSurprise = 9.0;  // three standard deviations, squared
   const double miss = (residual - offset_) * (residual - offset_);
   const double foretold = variance_ + model_.noise;
-  surprise_ += miss / foretold;
   const bool is_surprise = miss > kSurprise * foretold;
   if (moved_ || !is_surprise) {
     misses_ += miss / foretold;
     ++num_misses_;
+  } else {
+    beginning_ = kSurprise;
   }
   if (is_surprise) {
     variance_ = miss;
@@ -156,7 +157,7 @@ double OffsetFilter::Believed() const {
 }
 
 double OffsetFilter::Scale() const {
-  return 1.0 + (surprise_ - count_) / Believed();
+  return 1.0 + (beginning_ + misses_ - count_) / Believed();
 }
 
 double OffsetFilter::variance() const {

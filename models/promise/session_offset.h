@@ -41,7 +41,9 @@ class OffsetFilter {
   /// Of it; never below that of the mean of probes that scatter as these do.
   /// Variances are as many times those of the model as the probes missed what
   /// was foretold of them, where the held-out sessions count as four probes (a
-  /// variance known up to a factor: West & Harrison 1997, section 4.5).
+  /// variance known up to a factor: West & Harrison 1997, section 4.5). What
+  /// begins an offset counts as three standard deviations: it is the machine
+  /// that moved.
   double variance() const;
   /// Whether the probes miss what the filter foretold of them by more than 95
   /// in 100 sets of probes of an offset would: it explains no such errors. The
@@ -64,8 +66,9 @@ class OffsetFilter {
   double time_ = 0.0;
   double offset_ = 0.0;
   double variance_ = 0.0;
-  double surprise_ = 0.0;  // sum of squared standardised innovations
-  double misses_ = 0.0;    // without that of a probe that begins an offset
+  double beginning_ = 0.0;  // squared miss of the probe that begins an offset,
+                            // foretold variances, no more than a surprise has
+  double misses_ = 0.0;     // the sum of all others
   int num_misses_ = 0;
   int count_ = 0;  // of probes; their mean, and squares about it (Welford)
   double mean_ = 0.0;

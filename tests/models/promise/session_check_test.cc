@@ -340,7 +340,9 @@ TEST(TrackOffset, HoldsItsIntervalWhateverIsWrongToday) {
     EXPECT_NEAR(after_offset.within, 0.9, 0.05);
     EXPECT_LT(after_offset.widening, probes == 1 ? 3.3 : 2.9);
     // One probe does not show that the error differs by place: .44.
-    if (probes > 1) EXPECT_GE(AfterProbes(probes, gain).within, 0.8);
+    if (probes > 1) {
+      EXPECT_GE(AfterProbes(probes, gain).within, 0.8);
+    }
   }
 }
 
