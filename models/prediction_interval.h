@@ -17,6 +17,11 @@ struct PredictionInterval {
     double coverage = 0.0;  // 0.9, 0.95
     /// Target's unit; NaN where nothing is known.
     double half_width = std::numeric_limits<double>::quiet_NaN();
+    /// The same of rows inside of what was trained, and of the others
+    /// (promise/applicability.h): half_width where held-out rows tell no
+    /// difference.
+    double inside = std::numeric_limits<double>::quiet_NaN();
+    double outside = std::numeric_limits<double>::quiet_NaN();
     /// Too few units (9 for 0.9, 19 for 0.95) to promise this share without
     /// assuming how units differ.
     bool at_least = false;

@@ -210,6 +210,19 @@ HeldOutErrors ReadHeldOut(const Node& node) {
   return errors;
 }
 
+// Of rows inside or outside of what was trained; older files tell no
+// difference.
+double ReadHalfWidth(const Node& interval,
+                     const char* place,
+                     const std::string& key,
+                     double otherwise) {
+  const auto widths = interval.Find(place);
+  const auto width = widths ? widths->Find(key) : std::nullopt;
+  if (!width) return otherwise;
+  if (!(width->Number() >= 0.0)) width->Refuse("must be at least 0");
+  return width->Number();
+}
+
 PredictionInterval ReadInterval(const Node& node) {
   PredictionInterval interval{.holdout = node.At("holdout").Text(),
                               .unit = "",
@@ -228,6 +241,8 @@ PredictionInterval ReadInterval(const Node& node) {
       level.half_width = half_width->Number();
       if (!(level.half_width >= 0.0)) half_width->Refuse("must be at least 0");
     }
+    level.inside = ReadHalfWidth(node, "inside", key, level.half_width);
+    level.outside = ReadHalfWidth(node, "outside", key, level.half_width);
     level.at_least = std::ranges::find(at_least, key) != at_least.end();
   }
   const auto whole = node.Find("whole");

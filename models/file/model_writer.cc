@@ -34,13 +34,23 @@ Json ToJson(const PredictionInterval& interval) {
                {"unit", interval.unit},
                {"groups", interval.units}};
   Json at_least = Json::array();
+  Json inside = Json::object();
+  Json outside = Json::object();
   for (const PredictionInterval::Level& level : interval.levels) {
     const std::string key = CoverageKey(level.coverage);
     json[key] = std::isfinite(level.half_width) ? Json(level.half_width)
                                                 : Json(nullptr);
     if (level.at_least) at_least.push_back(key);
+    if (level.inside < level.outside) {
+      inside[key] = level.inside;
+      outside[key] = level.outside;
+    }
   }
   json["at_least"] = std::move(at_least);
+  if (!inside.empty()) {
+    json["inside"] = std::move(inside);
+    json["outside"] = std::move(outside);
+  }
   if (interval.of_sessions) json["whole"] = kWholeSessions;
   if (interval.good_for > 0) {
     json["lag1"] = interval.lag1;

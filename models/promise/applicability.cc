@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "fitting/least_squares/decompositions.h"
@@ -345,6 +346,38 @@ std::vector<RowFlag> FlagRows(const FittedModel& fitted,
     JudgeState(fitted, found, static_cast<Index>(row), states, &flags[row]);
   }
   return flags;
+}
+
+std::vector<bool> InsideOfFolds(const FittedModel& fitted,
+                                const data::Dataset& dataset,
+                                const Holdout& holdout) {
+  const data::Dataset& judged =
+      holdout.test_data == nullptr ? dataset : *holdout.test_data;
+  std::vector<Index> columns;
+  std::vector<Index> of_judged;
+  for (const TrainedInput& input : fitted.inputs) {
+    columns.push_back(dataset.FindInput(input.column.name));
+    of_judged.push_back(judged.FindInput(input.column.name));
+  }
+  std::vector<bool> inside;
+  for (const stats::Fold& fold : holdout.folds) {
+    const data::Dataset training = dataset.SelectRows(fold.train);
+    FittedModel of_fold = fitted;
+    of_fold.inputs = DescribeInputs(training, columns);
+    of_fold.applicability = nullptr;
+    if (auto trained = MakeApplicability(of_fold, training)) {
+      of_fold.applicability =
+          std::make_shared<const Applicability>(std::move(*trained));
+    }
+    const data::Dataset held = judged.SelectRows(fold.test);
+    for (const RowFlag& flag :
+         FlagRows(of_fold,
+                  held.input_values()(Eigen::all, of_judged),
+                  of_fold.FormInputs(held))) {
+      inside.push_back(!flag.outside());
+    }
+  }
+  return inside;
 }
 
 std::optional<RelationChange> ChangedRelation(const FittedModel& fitted,

@@ -9,6 +9,7 @@
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/map_experience.h"
+#include "models/study/study.h"
 
 namespace errmap::models {
 
@@ -60,6 +61,12 @@ struct RowFlag {
 std::vector<RowFlag> FlagRows(const FittedModel& fitted,
                               const Eigen::MatrixXd& inputs,
                               const Eigen::MatrixXd& form_inputs);
+
+/// (held-out rows, in the order of the folds) Whether each is inside of what
+/// the rows of its own fold's training showed.
+std::vector<bool> InsideOfFolds(const FittedModel& fitted,
+                                const data::Dataset& dataset,
+                                const Holdout& holdout);
 
 /// A column that stands elsewhere than the others tell, unlike in training.
 struct RelationChange {

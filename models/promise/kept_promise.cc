@@ -18,12 +18,21 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double ShareWithin(const FittedModel& fitted,
                    std::size_t level,
-                   const VectorXd& residuals) {
+                   const VectorXd& residuals,
+                   const std::vector<RowFlag>& flags) {
   if (!fitted.interval) return kNaN;
-  const double half_width = fitted.interval->levels[level].half_width;
-  if (!std::isfinite(half_width)) return kNaN;
-  return static_cast<double>((residuals.array().abs() <= half_width).count()) /
-         static_cast<double>(residuals.size());
+  const PredictionInterval::Level& promised = fitted.interval->levels[level];
+  if (!std::isfinite(promised.half_width)) return kNaN;
+  Index within = 0;
+  for (Index row = 0; row < residuals.size(); ++row) {
+    const bool outside =
+        !flags.empty() && flags[static_cast<std::size_t>(row)].outside();
+    if (std::abs(residuals[row]) <=
+        (outside ? promised.outside : promised.inside)) {
+      ++within;
+    }
+  }
+  return static_cast<double>(within) / static_cast<double>(residuals.size());
 }
 
 // Above kOffRatio times the promise the map is off here, as in CheckSession.
@@ -50,7 +59,8 @@ std::string_view ToString(ErrorShape shape) {
 
 KeptPromise HoldToPromise(const FittedModel& fitted,
                           const VectorXd& targets,
-                          const VectorXd& predicted) {
+                          const VectorXd& predicted,
+                          const std::vector<RowFlag>& flags) {
   if (targets.size() == 0 || targets.size() != predicted.size()) {
     throw std::invalid_argument(
         "HoldToPromise: needs one prediction for each of at least one target");
@@ -58,8 +68,8 @@ KeptPromise HoldToPromise(const FittedModel& fitted,
   const VectorXd residuals = targets - predicted;
   KeptPromise kept;
   kept.found = stats::RootMeanSquare(residuals);
-  kept.within_90 = ShareWithin(fitted, 0, residuals);
-  kept.within_95 = ShareWithin(fitted, 1, residuals);
+  kept.within_90 = ShareWithin(fitted, 0, residuals, flags);
+  kept.within_95 = ShareWithin(fitted, 1, residuals, flags);
   kept.uncompensated = stats::RootMeanSquare(targets);
   kept.constant = stats::RootMeanSquare(targets.array() - targets.mean());
   kept.mean = residuals.mean();

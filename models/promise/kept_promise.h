@@ -5,10 +5,12 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "models/error_model.h"
+#include "models/promise/applicability.h"
 
 namespace errmap::models {
 
@@ -44,9 +46,11 @@ struct KeptPromise {
   bool better_than_constant() const { return found < constant; }
 };
 
-/// `targets` and `predicted` (m, at least 1).
+/// `targets` and `predicted` (m, at least 1), and a flag for each (FlagRows) by
+/// which the interval of the row is chosen; none: all rows are inside.
 KeptPromise HoldToPromise(const FittedModel& fitted,
                           const Eigen::VectorXd& targets,
-                          const Eigen::VectorXd& predicted);
+                          const Eigen::VectorXd& predicted,
+                          const std::vector<RowFlag>& flags = {});
 
 }  // namespace errmap::models

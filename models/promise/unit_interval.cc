@@ -112,12 +112,34 @@ PredictionInterval::Level UnitIntervalLevel(const VectorXd& residuals,
   level.at_least = (count + 1.0) * coverage > count + kRounding;
   level.half_width =
       QuantileOverUnits(sizes, coverage) * Widening(sizes, coverage);
+  level.inside = level.outside = level.half_width;
   return level;
 }
 
+namespace {
+
+// Of those rows alone that are (not) inside of what was trained.
+double HalfWidthOf(const VectorXd& residuals,
+                   const std::vector<Index>& units,
+                   const std::vector<bool>& inside,
+                   bool wanted,
+                   double coverage) {
+  std::vector<Index> rows;
+  std::vector<Index> of_rows;
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    if (inside[i] != wanted) continue;
+    rows.push_back(static_cast<Index>(i));
+    of_rows.push_back(units[i]);
+  }
+  return UnitIntervalLevel(residuals(rows), of_rows, coverage).half_width;
+}
+
+}  // namespace
+
 std::optional<PredictionInterval> PromiseOf(const data::Dataset& dataset,
                                             const Holdout& holdout,
-                                            const HoldoutResult& result) {
+                                            const HoldoutResult& result,
+                                            const std::vector<bool>& inside) {
   if (!result.ok() || holdout.among_neighbours) return std::nullopt;
   const HeldOutRows held = GatherHeldOut(dataset, holdout);
   PredictionInterval interval;
@@ -130,7 +152,15 @@ std::optional<PredictionInterval> PromiseOf(const data::Dataset& dataset,
   if (interval.units < 2) return std::nullopt;
   const VectorXd residuals = ResidualsOf(held, result);
   for (const double coverage : PredictionInterval::kCoverages) {
-    interval.levels.push_back(UnitIntervalLevel(residuals, codes, coverage));
+    PredictionInterval::Level level =
+        UnitIntervalLevel(residuals, codes, coverage);
+    const double in = HalfWidthOf(residuals, codes, inside, true, coverage);
+    const double out = HalfWidthOf(residuals, codes, inside, false, coverage);
+    if (in <= out) {
+      level.inside = std::min(in, level.half_width);
+      level.outside = std::max(out, level.half_width);
+    }
+    interval.levels.push_back(level);
   }
   if (interval.of_sessions) FindMemory(residuals, codes, &interval);
   return interval;

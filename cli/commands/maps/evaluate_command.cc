@@ -198,7 +198,8 @@ int RunEvaluate(const EvaluateArguments& arguments,
       .judged = judged,
       .clipped = prediction.clipped.count(),
       .change = models::ChangedRelation(fitted, dataset.input_values()),
-      .kept = models::HoldToPromise(fitted, dataset.target_values(), predicted),
+      .kept = models::HoldToPromise(
+          fitted, dataset.target_values(), predicted, judged.flags),
       .learnt = FindRowsLearnt(fitted, arguments.model, arguments.files, rows),
       .residuals = dataset.target_values() - predicted,
       .metrics = models::Judge(dataset, predicted)};

@@ -89,10 +89,13 @@ models::ProbeCorrection Correct(const models::FittedModel& fitted,
 // Of the interval of one row; NaN without one.
 double HalfWidth(const models::FittedModel& fitted,
                  std::size_t level,
+                 bool inside,
                  const std::optional<models::ProbeCorrection>& probes,
                  Eigen::Index row) {
   if (!fitted.interval) return std::numeric_limits<double>::quiet_NaN();
-  return fitted.interval->levels[level].half_width *
+  const models::PredictionInterval::Level& promised =
+      fitted.interval->levels[level];
+  return (inside ? promised.inside : promised.outside) *
          (probes ? probes->track.widening[row] : 1.0);
 }
 
@@ -133,12 +136,15 @@ std::string_view WhyOutside(const Predicted& found, std::size_t row) {
 }
 
 // ",LOWER,UPPER" at each coverage; empty cells without an interval.
-std::string IntervalCells(const Predicted& found, Eigen::Index row) {
+std::string IntervalCells(const Predicted& found,
+                          bool inside,
+                          Eigen::Index row) {
   const double predicted = found.prediction.errors[row];
   std::string cells;
   for (std::size_t i = 0; i < models::PredictionInterval::kCoverages.size();
        ++i) {
-    const double half_width = HalfWidth(found.fitted, i, found.probes, row);
+    const double half_width =
+        HalfWidth(found.fitted, i, inside, found.probes, row);
     cells += std::isfinite(predicted) && std::isfinite(half_width)
                  ? fmt::format(",{},{}",
                                data::CsvNumber(predicted - half_width),
@@ -167,7 +173,7 @@ std::string PredictionsCsv(const Predicted& found) {
     const double predicted = found.prediction.errors[row];
     const std::string_view why = WhyOutside(found, at);
     text += std::isfinite(predicted) ? data::CsvNumber(predicted) : "";
-    text += IntervalCells(found, row);
+    text += IntervalCells(found, why.empty(), row);
     text += fmt::format(",{},{},{}\n",
                         why.empty() ? 1 : 0,
                         why,
@@ -190,6 +196,14 @@ void SayWhatIsPredicted(const Predicted& found) {
         models::MakeRecord(*fitted.interval),
         report::ErrorText(fitted.target.unit,
                           fitted.interval->levels[0].half_width)));
+    const models::PredictionInterval::Level& level = fitted.interval->levels[0];
+    if (level.inside < level.outside) {
+      const report::ErrorText error(fitted.target.unit, level.inside);
+      Say(fmt::format(
+          "of these, 90 % within {} where inside = 1, and {} where it is 0",
+          error.WithUnit(level.inside),
+          error.WithUnit(level.outside)));
+    }
   }
   if (found.probes) Say(report::OffsetLine(*found.probes, fitted.target.unit));
   SayUnless(false, found.map.warnings);

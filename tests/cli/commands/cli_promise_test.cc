@@ -92,6 +92,55 @@ TEST_F(CliPromise, PredictNamesWhatPutsARowOutside) {
   EXPECT_THAT(raised.err, HasSubstr("warning: farthest outside is data row"));
 }
 
+// What held-out rows showed of rows unlike their training, predict says of such
+// rows alone, and evaluate counts by it.
+TEST_F(CliPromise, TheIntervalIsWiderWhereTheMapWasNotTrained) {
+  Write("few.csv", DaysInCliPromise(1, 5));
+  ASSERT_EQ(Run({"fit",
+                 "few.csv",
+                 "--model",
+                 "poly:full:degree=1",
+                 "-o",
+                 "plane.json"})
+                .status,
+            0);
+  const Json interval = Json::parse(Read("plane.json"))["interval"];
+  const double inside = interval["inside"]["90"];
+  const double outside = interval["outside"]["90"];
+  EXPECT_LT(inside, interval["90"].get<double>());
+  EXPECT_GT(outside, interval["90"].get<double>());
+  // On one of the days a thermometer has moved.
+  const std::string moved = DaysInCliPromise(12, 12, 0.0, 3.0);
+  Write("day.csv",
+        DaysInCliPromise(11, 11) + moved.substr(moved.find('\n') + 1));
+  const Outcome outcome = Run({"predict", "plane.json", "day.csv"});
+  EXPECT_THAT(outcome.err, HasSubstr("where inside = 1"));
+  const std::vector<std::string> days = SplitLines(Read("day.csv"));
+  int rows = 0;
+  int outside_rows = 0;
+  int within = 0;
+  for (const auto& row : Records(outcome.out)) {
+    const double lower = std::stod(row.at("lower_90"));
+    const double upper = std::stod(row.at("upper_90"));
+    const bool is_inside = row.at("inside") == "1";
+    EXPECT_NEAR(upper - lower, 2.0 * (is_inside ? inside : outside), 1e-9);
+    const std::string& line = days[static_cast<std::size_t>(++rows)];
+    const double error = std::stod(line.substr(line.rfind(',') + 1));
+    within += lower <= error && error <= upper ? 1 : 0;
+    outside_rows += is_inside ? 0 : 1;
+  }
+  EXPECT_GT(outside_rows, 0);
+  EXPECT_LT(outside_rows, rows);
+  EXPECT_NEAR(RunJson({"evaluate",
+                       "plane.json",
+                       "day.csv",
+                       "--format",
+                       "json"})["promise"]["within_90"]
+                  .get<double>(),
+              static_cast<double>(within) / rows,
+              1e-12);
+}
+
 TEST_F(CliPromise, EvaluateHoldsTheMapToItsPromise) {
   Write("well.csv", DaysInCliPromise(11, 12));
   const Json well =

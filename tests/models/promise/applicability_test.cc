@@ -203,5 +203,33 @@ TEST(FlagRows, KnowsTheRangesOfWhatIsDerived) {
   EXPECT_EQ(flag.column.name, "zeroed(t2_degC)");
 }
 
+// A fold knows of no other session than those it was trained on.
+TEST(InsideOfFolds, HoldsEachRowAgainstTheTrainingOfItsOwnFold) {
+  const data::Dataset days = SimulatedDays(3, 4, 16);
+  FittedModel fitted = MakeRecipe("poly:full:degree=1")->Fit(days, {});
+  AddExperience(days, &fitted);
+  const Index per_day = days.num_rows() / 4;
+  Holdout holdout;
+  stats::Fold fold;
+  for (Index row = 0; row < days.num_rows(); ++row) {
+    (row / per_day == 2 ? fold.test : fold.train).push_back(row);
+  }
+  holdout.folds.push_back(fold);
+  const std::vector<bool> inside = InsideOfFolds(fitted, days, holdout);
+  const data::Dataset others = days.SelectRows(fold.train);
+  FittedModel of_others = MakeRecipe("poly:full:degree=1")->Fit(others, {});
+  AddExperience(others, &of_others);
+  const MatrixXd held = days.SelectRows(fold.test).input_values();
+  const std::vector<RowFlag> flags = FlagRows(of_others, held, held);
+  ASSERT_EQ(inside.size(), flags.size());
+  for (std::size_t row = 0; row < flags.size(); ++row) {
+    EXPECT_EQ(inside[row], !flags[row].outside()) << row;
+  }
+  EXPECT_GT(std::ranges::count(inside, false), 0);
+  EXPECT_LT(
+      std::ranges::count_if(FlagRows(fitted, held, held), &RowFlag::outside),
+      std::ranges::count(inside, false));
+}
+
 }  // namespace
 }  // namespace errmap::models

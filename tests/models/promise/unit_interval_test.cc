@@ -14,6 +14,7 @@
 #include "models/map_experience.h"
 #include "models/promise/promise.h"
 #include "models/recipe_catalog.h"
+#include "models/study/judgement/units_of_analysis.h"
 #include "models/study/study_defaults.h"
 #include "stats/distributions.h"
 #include "stats/random.h"
@@ -291,6 +292,45 @@ TEST(PromiseOf, ComesFromWholeUnitsAndTellsWhich) {
       promise->levels[0].half_width,
       UnitIntervalLevel(residuals, dataset.groups().codes, 0.9).half_width,
       1e-12);
+}
+
+TEST(PromiseOf, TellsRowsInsideAndOutsideOfWhatWasTrainedApart) {
+  const data::Dataset dataset = GroupedQuadratic(12);
+  const Holdout holdout =
+      MakeHoldout(stats::ParseHoldout("groups:5"), dataset, 1);
+  std::vector<std::unique_ptr<ModelRecipe>> recipes;
+  recipes.push_back(MakeRecipe("mean"));
+  const StudyResult study = RunStudy(dataset, {holdout}, recipes, {});
+  const HoldoutResult& result = study.models[0].holdouts[0];
+  const HeldOutRows held = GatherHeldOut(dataset, holdout);
+  const VectorXd residuals = ResidualsOf(held, result);
+  const double middle = residuals.cwiseAbs().mean();
+  std::vector<bool> small;
+  std::vector<bool> large;
+  std::vector<Index> rows;
+  std::vector<Index> groups;
+  for (Index i = 0; i < residuals.size(); ++i) {
+    small.push_back(std::abs(residuals[i]) < middle);
+    large.push_back(!small.back());
+    if (!small.back()) continue;
+    rows.push_back(i);
+    groups.push_back(dataset.groups().codes[static_cast<std::size_t>(
+        held.rows[static_cast<std::size_t>(i)])]);
+  }
+  const auto level = PromiseOf(dataset, holdout, result, small)->levels[0];
+  EXPECT_EQ(level.inside,
+            std::min(UnitIntervalLevel(residuals(rows), groups, 0.9).half_width,
+                     level.half_width));
+  EXPECT_LT(level.inside, level.half_width);
+  EXPECT_GE(level.outside, level.half_width);
+  // No row inside, and rows inside that err more than those outside.
+  const std::vector<bool> none(small.size(), false);
+  for (const std::vector<bool>& inside : {none, large, {}}) {
+    const auto same = PromiseOf(dataset, holdout, result, inside)->levels[0];
+    EXPECT_EQ(same.half_width, level.half_width);
+    EXPECT_EQ(same.inside, level.half_width);
+    EXPECT_EQ(same.outside, level.half_width);
+  }
 }
 
 TEST(PromiseOf, MakesNoneFromNeighbouringRowsOrAFitThatFails) {
