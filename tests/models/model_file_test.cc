@@ -151,11 +151,18 @@ TEST(ModelFile, ReproducesAMapWithAMemory) {
 TEST(ModelFile, KeepsWhatAMapPromises) {
   FittedModel fitted =
       MakeRecipe("poly:eq8")->Fit(errmap::testing::QuadraticData(40), {});
-  fitted.interval = PredictionInterval{
-      .holdout = "sessions:4",
-      .unit = "day",
-      .units = 12,
-      .levels = {{0.9, 1.25e-3, false}, {0.95, 2.5e-3, true}}};
+  fitted.interval = PredictionInterval{.holdout = "sessions:4",
+                                       .unit = "day",
+                                       .units = 12,
+                                       .levels = {{.coverage = 0.9,
+                                                   .half_width = 1.25e-3,
+                                                   .inside = 1e-3,
+                                                   .outside = 1.5e-3},
+                                                  {.coverage = 0.95,
+                                                   .half_width = 2.5e-3,
+                                                   .inside = 2.5e-3,
+                                                   .outside = 2.5e-3,
+                                                   .at_least = true}}};
   const FittedModel read =
       ModelFromJson(ModelToJson(fitted, {}), "memory.json");
   ASSERT_TRUE(read.interval.has_value());
@@ -164,6 +171,10 @@ TEST(ModelFile, KeepsWhatAMapPromises) {
   EXPECT_EQ(read.interval->units, 12);
   ASSERT_EQ(read.interval->levels.size(), 2U);
   EXPECT_EQ(read.interval->levels[0].half_width, 1.25e-3);
+  EXPECT_EQ(read.interval->levels[0].inside, 1e-3);
+  EXPECT_EQ(read.interval->levels[0].outside, 1.5e-3);
+  EXPECT_EQ(read.interval->levels[1].inside, 2.5e-3);
+  EXPECT_EQ(read.interval->levels[1].outside, 2.5e-3);
   EXPECT_FALSE(read.interval->levels[0].at_least);
   EXPECT_EQ(read.interval->levels[1].half_width, 2.5e-3);
   EXPECT_TRUE(read.interval->levels[1].at_least);

@@ -23,6 +23,14 @@ std::string TimesText(const models::HeldOutErrors& errors,
                      elapsed.maxCoeff() / kSecondsPerMinute);
 }
 
+// Some probes leave nothing certain.
+std::string ProbabilityText(double probability) {
+  constexpr double kLittle = 0.01;
+  if (probability < kLittle) return "less than 1 %";
+  if (probability > 1.0 - kLittle) return "more than 99 %";
+  return fmt::format("{:.0f} %", kPercent * probability);
+}
+
 std::string StatusText(const models::SessionCheck& check,
                        const ErrorText& error) {
   if (check.missing != models::Missing::kNothing) {
@@ -41,13 +49,13 @@ std::string StatusText(const models::SessionCheck& check,
                                : "Not yet known whether the map holds";
   std::string text = fmt::format(
       "{}: its error is {} to {} RMSE with 80 % confidence, above {} ({} times "
-      "the promise) with a probability of {:.0f} %.",
+      "the promise) with a probability of {}.",
       lead,
       error(check.session_low),
       error.WithUnit(check.session_high),
       error.WithUnit(models::kOffRatio * check.promised),
       models::kOffRatio,
-      kPercent * check.off_probability);
+      ProbabilityText(check.off_probability));
   if (check.status == models::SessionStatus::kUnknown) {
     text += check.more_probes
                 ? fmt::format(" {} like these would settle it.",

@@ -163,12 +163,15 @@ TEST_F(CliPromise, CheckTellsWhetherTheMapHolds) {
   Write("well.csv", DaysInCliPromise(11, 11, 0.0, 0.0, 13));
   const Outcome well = Run({"check", "map.json", "well.csv"});
   EXPECT_EQ(well.status, 0) << well.out;
-  EXPECT_THAT(well.out, HasSubstr("The map holds in this session"));
+  EXPECT_THAT(OneLine(well.out),
+              AllOf(HasSubstr("The map holds in this session"),
+                    HasSubstr("with a probability of less than 1 %.")));
   Write("moved.csv", DaysInCliPromise(11, 11, 9.0, 0.0, 13));
   const Outcome moved = Run({"check", "map.json", "moved.csv"});
   EXPECT_EQ(moved.status, kEveryFitFailed);
   EXPECT_THAT(OneLine(moved.out),
               AllOf(HasSubstr("does not hold"),
+                    HasSubstr("with a probability of more than 99 %."),
                     HasSubstr("re-zero by"),
                     HasSubstr("0 to 39 min after the session began")));
 }
