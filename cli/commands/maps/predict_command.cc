@@ -200,7 +200,7 @@ void SayWhatIsPredicted(const Predicted& found) {
     if (level.inside < level.outside) {
       const report::ErrorText error(fitted.target.unit, level.inside);
       Say(fmt::format(
-          "of these, 90 % within {} where inside = 1, and {} where it is 0",
+          "half-width written, 90 %: {} where inside = 1, {} where inside = 0",
           error.WithUnit(level.inside),
           error.WithUnit(level.outside)));
     }
