@@ -14,7 +14,7 @@
 #include <Eigen/Core>
 
 #include "data/measurements/dataset.h"
-#include "fitting/minimisers/optimizer.h"
+#include "fitting/minimisers/fit_summary.h"
 #include "models/prediction_interval.h"
 
 namespace errmap::models {

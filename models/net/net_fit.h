@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "data/measurements/dataset.h"
+#include "fitting/minimisers/optimizer.h"
 #include "models/error_model.h"
 #include "models/inner_folds.h"
 #include "models/net/net_design.h"

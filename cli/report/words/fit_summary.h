@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "fitting/minimisers/optimizer.h"
+#include "fitting/minimisers/fit_summary.h"
 
 namespace errmap::report {
 

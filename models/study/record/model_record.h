@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "fitting/minimisers/optimizer.h"
+#include "fitting/minimisers/fit_summary.h"
 #include "models/error_model.h"
 #include "models/study/judgement/choice.h"
 #include "models/study/judgement/goal.h"
