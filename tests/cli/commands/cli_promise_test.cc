@@ -2,7 +2,6 @@
 // words, check, and predict --probes.
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -10,67 +9,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "data/csv.h"
-#include "tests/cli/cli_fixture.h"
+#include "tests/cli/commands/promise_days.h"
 #include "tests/cli/one_line.h"
 
 namespace errmap {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-constexpr int kCliPromiseRowsPerDay = 40;
-
-// DaysInCliPromise of three thermometers that warm together, each day in its
-// own way, and an error that is theirs and the position's and a little more;
-// `offset` (um) moves the errors, `raise` (degC) the second thermometer.
-std::string DaysInCliPromise(int first,
-                             int last,
-                             double offset = 0.0,
-                             double raise = 0.0,
-                             int step = 1) {
-  std::string text =
-      "day,time_s,position_mm,t1_degC,t2_degC,t3_degC,error_um\n";
-  for (int day = first; day <= last; ++day) {
-    const double pace = 8.0 + 3.0 * std::sin(2.3 * day);
-    for (int row = 0; row < kCliPromiseRowsPerDay; row += step) {
-      const double warm = 1.0 - std::exp(-row / pace);
-      const double slow = 1.0 - std::exp(-row / (3.0 * pace));
-      const double air = 20.0 + std::sin(1.7 * day);
-      const double x = 40.0 * (row % 5);
-      const double t1 = air + 8.0 * warm + 0.05 * std::sin(7.1 * row + day);
-      const double t2 = air + 5.0 * warm + 0.05 * std::sin(5.3 * row + day);
-      const double t3 = air + 4.0 * slow + 0.05 * std::sin(3.7 * row + day);
-      const double rest =
-          0.5 * std::sin(0.8 * day) + 0.3 * std::sin(12.7 * row + 3.1 * day);
-      const double error = 2.0 * (t1 - 20.0) + 0.02 * x * (t3 - 20.0) + rest;
-      text += std::to_string(day) + "," + std::to_string(60 * row);
-      for (const double value : {x, t1, t2 + raise, t3, error + offset}) {
-        text += "," + data::CsvNumber(value);
-      }
-      text += "\n";
-    }
-  }
-  return text;
-}
-
-class CliPromise : public Cli {
- protected:
-  void SetUp() override {
-    Write("train.csv", DaysInCliPromise(1, 10));
-    const Outcome outcome = Run({"fit",
-                                 "train.csv",
-                                 "--model",
-                                 "poly:ridge:degree=2",
-                                 "-o",
-                                 "map.json"});
-    ASSERT_EQ(outcome.status, 0) << outcome.err;
-  }
-};
 
 TEST_F(CliPromise, PredictNamesWhatPutsARowOutside) {
   Write("well.csv", DaysInCliPromise(3, 3));
@@ -96,14 +44,7 @@ TEST_F(CliPromise, PredictNamesWhatPutsARowOutside) {
 // rows alone, and evaluate counts by it.
 TEST_F(CliPromise, TheIntervalIsWiderWhereTheMapWasNotTrained) {
   Write("few.csv", DaysInCliPromise(1, 5));
-  ASSERT_EQ(Run({"fit",
-                 "few.csv",
-                 "--model",
-                 "poly:full:degree=1",
-                 "-o",
-                 "plane.json"})
-                .status,
-            0);
+  FitPlane("few.csv");
   const Json interval = Json::parse(Read("plane.json"))["interval"];
   const double inside = interval["inside"]["90"];
   const double outside = interval["outside"]["90"];
@@ -373,14 +314,7 @@ TEST_F(CliPromise, OneProbeOfEachOfSeveralDaysMovesTheDay) {
   Write("probes.csv", probes);
   Write("later.csv", later);
   // Without a memory the map knows no column of sessions.
-  ASSERT_EQ(Run({"fit",
-                 "train.csv",
-                 "--model",
-                 "poly:full:degree=1",
-                 "-o",
-                 "plane.json"})
-                .status,
-            0);
+  FitPlane("train.csv");
   const Outcome outcome =
       Run({"predict", "plane.json", "later.csv", "--probes", "probes.csv"});
   EXPECT_THAT(outcome.err, HasSubstr("2 probes move 78 of 78 rows"));
@@ -389,265 +323,6 @@ TEST_F(CliPromise, OneProbeOfEachOfSeveralDaysMovesTheDay) {
   EXPECT_THAT(
       Run({"predict", "plane.json", "later.csv", "--probes", "probes.csv"}).err,
       HasSubstr("1 probe moves 39 of 78 rows"));
-}
-
-TEST_F(CliPromise, LearnsFromDaysOneAfterAnother) {
-  const std::vector<std::string> learn = {"learn",
-                                          "train.csv",
-                                          "--by",
-                                          "sessions",
-                                          "--models",
-                                          "mean,poly:full:degree=1",
-                                          "--goal",
-                                          "0.001",
-                                          "--out",
-                                          "study"};
-  const auto with = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> words = learn;
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-  };
-  const Json found = RunJson(with({"--format", "json"}));
-  const Json& curves = found["curves"];
-  EXPECT_EQ(curves["unit"], "day");
-  EXPECT_EQ(curves["units"], 10);
-  ASSERT_EQ(curves["models"].size(), 2U);
-  const Json& linear = curves["models"][1];
-  EXPECT_LT(linear["points"].back()["rmse"], linear["points"][0]["rmse"]);
-  EXPECT_GT(linear["law"]["never_reaches_goal"].get<double>(), 0.5);
-  EXPECT_TRUE(Exists("study/learn-sessions.json"));
-  EXPECT_THAT(Read("study/learn-sessions.svg"), HasSubstr("<svg"));
-  // The same again from the fits that were kept.
-  const Outcome again = Run(with({"--resume"}));
-  EXPECT_EQ(again.status, 0) << again.err;
-  EXPECT_THAT(again.out,
-              AllOf(HasSubstr("on an unseen day"), HasSubstr("expected")));
-}
-
-TEST_F(CliPromise, LearnsWhichSensorsDoIt) {
-  const Outcome outcome = Run({"learn", "train.csv", "--by", "sensors"});
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out,
-              AllOf(HasSubstr("of 3 sensors do it"), HasSubstr("t1_degC")));
-  const std::string begin = "With these alone:\n  errmap ";
-  const std::size_t at = outcome.out.find(begin);
-  ASSERT_NE(at, std::string::npos) << outcome.out;
-  std::istringstream line(outcome.out.substr(at + begin.size()));
-  std::vector<std::string> words;
-  for (std::string word; line >> word;) words.push_back(word);
-  EXPECT_THAT(words.at(0) + " " + words.at(1), "compare train.csv");
-  EXPECT_THAT(words.back(),
-              AllOf(HasSubstr("position_mm"), HasSubstr("t1_degC")));
-  words.insert(words.end(), {"--models", "poly:full:degree=1", "--quiet"});
-  EXPECT_EQ(Run(words).status, 0);
-}
-
-TEST_F(CliPromise, PutsWhatWasLearntOnThePageOfTheStudy) {
-  const std::vector<std::string> compare{"compare",
-                                         "train.csv",
-                                         "--models",
-                                         "mean,poly:full:degree=1",
-                                         "--out",
-                                         "study",
-                                         "--quiet"};
-  ASSERT_EQ(Run(compare).status, 0);
-  const std::string before = Read("study/report.html");
-  EXPECT_THAT(before, HasSubstr("What the error would be without a sensor"));
-  EXPECT_THAT(before, Not(HasSubstr("What fewer sensors would do")));
-  for (const char* by : {"sensors", "sessions"}) {
-    ASSERT_EQ(Run({"learn",
-                   "train.csv",
-                   "--by",
-                   by,
-                   "--models",
-                   "mean,poly:full:degree=1",
-                   "--out",
-                   "study",
-                   "--quiet"})
-                  .status,
-              0);
-  }
-  EXPECT_EQ(Run({"report", "study"}).status, 0);
-  const std::string page = Read("study/report.html");
-  EXPECT_THAT(page,
-              AllOf(HasSubstr("What fewer sensors would do"),
-                    HasSubstr("of 3 sensors do it, within 5\u00a0% of all"),
-                    HasSubstr("What each further day would bring"),
-                    HasSubstr("with all 10:")));
-  EXPECT_EQ(Run({"report", "study", "--format", "html"}).out, page);
-  // Of other data it tells nothing.
-  Write("train.csv", DaysInCliPromise(2, 11));
-  ASSERT_EQ(Run(compare).status, 0);
-  EXPECT_THAT(Read("study/report.html"),
-              Not(HasSubstr("What fewer sensors would do")));
-  Write("study/learn-sensors.json", "{ half");
-  const Outcome torn = Run({"report", "study"});
-  EXPECT_EQ(torn.status, 0);
-  EXPECT_THAT(torn.err, HasSubstr("learn-sensors.json is not drawn: is no"));
-}
-
-TEST_F(CliPromise, LearnsWhatToMeasureNext) {
-  Write("next.csv",
-        "position_mm,t1_degC,t2_degC,t3_degC\n"
-        "80,24,23,22\n80,45,38,34\n40,24,23,22\n");
-  const Json found =
-      RunJson({"learn", "train.csv", "--next", "next.csv", "--format", "json"});
-  EXPECT_EQ(found["next"][0]["row"], 1);
-  EXPECT_THAT(RefusalOf(Run({"learn", "train.csv"}), kWrongCommandLine),
-              HasSubstr("--by sessions|cycles|sensors"));
-}
-
-TEST_F(CliPromise, UpdatesAMapThatNewSessionsMakeBetter) {
-  Write("new.csv", DaysInCliPromise(11, 14, 9.0));
-  const Json moved = RunJson({"update",
-                              "map.json",
-                              "new.csv",
-                              "-o",
-                              "new.json",
-                              "--known",
-                              "new.csv",
-                              "--format",
-                              "json"});
-  EXPECT_EQ(moved["updated"], true);
-  EXPECT_LT(moved["new_rmse"], moved["old_rmse"]);
-  const Json judged =
-      RunJson({"evaluate", "new.json", "new.csv", "--format", "json"});
-  EXPECT_LT(judged["summary"]["rmse"].get<double>(), 2.0);
-}
-
-// What an updated map learnt from is not forgotten by its next update.
-TEST_F(CliPromise, UpdatesOnceMoreFromAllThatWasLearnt) {
-  const auto update = [this](const std::string& map, const std::string& data) {
-    return RunJson(
-        {"update", map, data, "-o", "newer.json", "--format", "json"});
-  };
-  const auto files = [](const Json& updated) {
-    std::vector<std::string> names;
-    for (const Json& input : updated["provenance"]["inputs"]) {
-      names.push_back(input["file"]);
-    }
-    return names;
-  };
-  Write("new.csv", DaysInCliPromise(11, 14, 9.0));
-  Write("newer.csv", DaysInCliPromise(15, 16, 30.0));
-  const Json once = update("map.json", "new.csv");
-  ASSERT_EQ(once["updated"], true);
-  EXPECT_THAT(files(once), ElementsAre("map.json", "train.csv", "new.csv"));
-  Write("once.json", Read("newer.json"));
-  EXPECT_THAT(files(update("once.json", "newer.csv")),
-              ElementsAre("once.json", "train.csv", "new.csv", "newer.csv"));
-  // A file that changed is named, and the rest still serves.
-  Write("train.csv", DaysInCliPromise(1, 9));
-  const Outcome lost =
-      Run({"update", "once.json", "newer.csv", "-o", "newer.json"});
-  EXPECT_EQ(lost.status, 0) << lost.err;
-  EXPECT_THAT(lost.err,
-              HasSubstr("warning: 'train.csv' is not at hand as it was"));
-  EXPECT_THAT(Run({"update",
-                   "once.json",
-                   "newer.csv",
-                   "-o",
-                   "newer.json",
-                   "--known",
-                   "train.csv",
-                   "--known",
-                   "new.csv"})
-                  .err,
-              Not(HasSubstr("warning")));
-}
-
-TEST_F(CliPromise, KeepsTheOldMapUnlessTheNewOneIsBetter) {
-  // DaysInCliPromise of the same kind: what ten days know, two more hardly
-  // better.
-  Write("same.csv", DaysInCliPromise(1, 2));
-  const Outcome outcome =
-      Run({"update", "map.json", "same.csv", "-o", "same.json"});
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("same.json is the old one"));
-  EXPECT_EQ(Read("same.json"), Read("map.json"));
-  Write("one.csv", DaysInCliPromise(11, 11));
-  EXPECT_THAT(
-      RefusalOf(
-          Run({"update", "map.json", "one.csv", "-o", "one.json", "--quiet"}),
-          kUnusable),
-      HasSubstr("two new sessions"));
-}
-
-TEST_F(CliPromise, ComparesMapsThatAreRezeroed) {
-  const std::vector<std::string> words = {"compare",
-                                          "train.csv",
-                                          "--models",
-                                          "zero,poly:full:degree=2",
-                                          "--rezero",
-                                          "15min:noise=0.01um",
-                                          "--quiet"};
-  std::vector<std::string> as_json = words;
-  as_json.insert(as_json.end(), {"--format", "json"});
-  const Json record = RunJson(as_json);
-  const Json component = record["components"][0];
-  const Json& rezero = component["rezero"];
-  EXPECT_EQ(rezero["interval"], 900.0);
-  EXPECT_NEAR(rezero["noise"].get<double>(), 0.01, 1e-12);
-  EXPECT_EQ(record["provenance"]["configuration"]["rezero"],
-            "15min:noise=0.01um");
-  // Of what this map leaves, each day has an offset of its own.
-  const Json& map = rezero["models"][1];
-  EXPECT_EQ(map["model"], "poly:full:degree=2");
-  EXPECT_LT(map["rmse"], 0.8 * map["never"].get<double>()) << map;
-  EXPECT_LT(map["rmse"], rezero["no_map"]);
-  EXPECT_NEAR(component["recommendation"]["rmse"].get<double>(),
-              map["rmse"].get<double>(),
-              1e-9);
-  const std::string text = OneLine(Run(words).out);
-  EXPECT_THAT(text,
-              AllOf(HasSubstr("All of this is re-zeroed every 15 min by "
-                              "probes of 0.01"),
-                    HasSubstr("does what a probe every 15 min does without"),
-                    HasSubstr("no re-zero")));
-}
-
-TEST_F(CliPromise, RefusesToRezeroWithoutTimesOrRows) {
-  const auto refusal = [&](const char* file, const char* rule, int status) {
-    return RefusalOf(
-        Run({"compare", file, "--models", "mean", "--rezero", rule, "--quiet"}),
-        status);
-  };
-  EXPECT_THAT(refusal("train.csv", "2x", kWrongCommandLine),
-              HasSubstr("--rezero must be an interval such as 2h"));
-  EXPECT_THAT(refusal("train.csv", "1s", kUnusable),
-              HasSubstr("leaves no row of a fold"));
-  Write("bare.csv",
-        "day,position_mm,error_mm\n1,1,1\n1,2,3\n1,3,2\n2,1,2\n2,2,1\n2,3,2"
-        "\n3,1,5\n3,3,2\n3,4,1\n");
-  EXPECT_THAT(refusal("bare.csv", "2h", kUnusable),
-              HasSubstr("name their column with --time"));
-}
-
-TEST_F(CliPromise, ComparesWhatProbesOfASessionBuy) {
-  const std::vector<std::string> words = {"compare",
-                                          "train.csv",
-                                          "--models",
-                                          "zero,poly:full:degree=2",
-                                          "--probes-per-session",
-                                          "0,1,4",
-                                          "--probe-spacing",
-                                          "300",
-                                          "--quiet"};
-  std::vector<std::string> as_json = words;
-  as_json.insert(as_json.end(), {"--format", "json"});
-  const Json probes = RunJson(as_json)["components"][0]["probes"];
-  EXPECT_EQ(probes["numbers"], Json({0, 1, 4}));
-  EXPECT_EQ(probes["spacing"], 300.0);
-  // Ten days of 40 rows, less four of each.
-  EXPECT_EQ(probes["scored_rows"], 360);
-  // Of what this map leaves, each day has an offset of its own.
-  const Json& map = probes["models"][1];
-  EXPECT_EQ(map["model"], "poly:full:degree=2");
-  EXPECT_LT(map["rmse"][1], 0.8 * map["rmse"][0].get<double>()) << map;
-  EXPECT_LT(map["rmse"][2], map["rmse"][1]) << map;
-  EXPECT_THAT(OneLine(Run(words).out),
-              AllOf(HasSubstr("after probes of each, 5 min apart"),
-                    HasSubstr("zero: probes without a map")));
 }
 
 }  // namespace

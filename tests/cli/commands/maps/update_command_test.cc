@@ -1,0 +1,98 @@
+// Maps that are fitted again with new sessions, and kept where those are no
+// better.
+
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/commands/promise_days.h"
+
+namespace errmap {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class UpdateCommand : public CliPromise {};
+
+TEST_F(UpdateCommand, UpdatesAMapThatNewSessionsMakeBetter) {
+  Write("new.csv", DaysInCliPromise(11, 14, 9.0));
+  const Json moved = RunJson({"update",
+                              "map.json",
+                              "new.csv",
+                              "-o",
+                              "new.json",
+                              "--known",
+                              "new.csv",
+                              "--format",
+                              "json"});
+  EXPECT_EQ(moved["updated"], true);
+  EXPECT_LT(moved["new_rmse"], moved["old_rmse"]);
+  const Json judged =
+      RunJson({"evaluate", "new.json", "new.csv", "--format", "json"});
+  EXPECT_LT(judged["summary"]["rmse"].get<double>(), 2.0);
+}
+
+// What an updated map learnt from is not forgotten by its next update.
+TEST_F(UpdateCommand, UpdatesOnceMoreFromAllThatWasLearnt) {
+  const auto update = [this](const std::string& map, const std::string& data) {
+    return RunJson(
+        {"update", map, data, "-o", "newer.json", "--format", "json"});
+  };
+  const auto files = [](const Json& updated) {
+    std::vector<std::string> names;
+    for (const Json& input : updated["provenance"]["inputs"]) {
+      names.push_back(input["file"]);
+    }
+    return names;
+  };
+  Write("new.csv", DaysInCliPromise(11, 14, 9.0));
+  Write("newer.csv", DaysInCliPromise(15, 16, 30.0));
+  const Json once = update("map.json", "new.csv");
+  ASSERT_EQ(once["updated"], true);
+  EXPECT_THAT(files(once), ElementsAre("map.json", "train.csv", "new.csv"));
+  Write("once.json", Read("newer.json"));
+  EXPECT_THAT(files(update("once.json", "newer.csv")),
+              ElementsAre("once.json", "train.csv", "new.csv", "newer.csv"));
+  // A file that changed is named, and the rest still serves.
+  Write("train.csv", DaysInCliPromise(1, 9));
+  const Outcome lost =
+      Run({"update", "once.json", "newer.csv", "-o", "newer.json"});
+  EXPECT_EQ(lost.status, 0) << lost.err;
+  EXPECT_THAT(lost.err,
+              HasSubstr("warning: 'train.csv' is not at hand as it was"));
+  EXPECT_THAT(Run({"update",
+                   "once.json",
+                   "newer.csv",
+                   "-o",
+                   "newer.json",
+                   "--known",
+                   "train.csv",
+                   "--known",
+                   "new.csv"})
+                  .err,
+              Not(HasSubstr("warning")));
+}
+
+TEST_F(UpdateCommand, KeepsTheOldMapUnlessTheNewOneIsBetter) {
+  // DaysInCliPromise of the same kind: what ten days know, two more hardly
+  // better.
+  Write("same.csv", DaysInCliPromise(1, 2));
+  const Outcome outcome =
+      Run({"update", "map.json", "same.csv", "-o", "same.json"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("same.json is the old one"));
+  EXPECT_EQ(Read("same.json"), Read("map.json"));
+  Write("one.csv", DaysInCliPromise(11, 11));
+  EXPECT_THAT(
+      RefusalOf(
+          Run({"update", "map.json", "one.csv", "-o", "one.json", "--quiet"}),
+          kUnusable),
+      HasSubstr("two new sessions"));
+}
+
+}  // namespace
+}  // namespace errmap
