@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 std::vector<MeasuredSession> SessionsOf(const FittedModel& fitted,
                                         const MapRows& rows) {
   const std::vector<Moment> moments =
-      MomentsOf(fitted, rows.table, rows.dataset.rows(), {});
+      MomentsOf(fitted, rows.table, rows.dataset.rows(), {}).at;
   std::vector<MeasuredSession> sessions;
   for (std::size_t i = 0; i < moments.size(); ++i) {
     if (sessions.empty() ||

@@ -261,6 +261,21 @@ double History::longest_bridged() const {
                                      : std::numeric_limits<double>::infinity();
 }
 
+double History::settles_after() const {
+  std::map<std::string, double> after;  // of derived inputs
+  double longest = 0.0;
+  for (const DerivedInput& input : derived) {
+    double& own = after[input.column.name];
+    own = after.contains(input.of) ? after.at(input.of) : 0.0;
+    if (input.filter == Filter::kEma) own += kSettledTaus * input.tau;
+    if (input.filter == Filter::kZero) {
+      own = std::numeric_limits<double>::infinity();
+    }
+    longest = std::max(longest, own);
+  }
+  return longest;
+}
+
 bool History::needs_time() const {
   return std::ranges::find(derived, Filter::kEma, &DerivedInput::filter) !=
          derived.end();
@@ -405,21 +420,6 @@ double LongestStep(const data::Dataset& training) {
   return longest;
 }
 
-double SettlesAfter(const History& history) {
-  std::map<std::string, double> after;  // of derived inputs
-  double longest = 0.0;
-  for (const DerivedInput& input : history.derived) {
-    double& own = after[input.column.name];
-    own = after.contains(input.of) ? after.at(input.of) : 0.0;
-    if (input.filter == Filter::kEma) own += kSettledTaus * input.tau;
-    if (input.filter == Filter::kZero) {
-      own = std::numeric_limits<double>::infinity();
-    }
-    longest = std::max(longest, own);
-  }
-  return longest;
-}
-
 std::vector<Missing> FindMissing(const data::SessionLog& log,
                                  const History& history) {
   const StepsApart steps(log, history);
@@ -429,7 +429,7 @@ std::vector<Missing> FindMissing(const data::SessionLog& log,
     const bool begins_inside = log.time[rows.front()] > history.latest_start;
     double known_again = log.time[rows.front()];
     double settled = known_again;
-    if (begins_inside) settled += SettlesAfter(history);
+    if (begins_inside) settled += history.settles_after();
     Index before = rows.front();
     for (const Index row : rows) {
       const double now = log.time[row];

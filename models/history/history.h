@@ -70,6 +70,12 @@ struct History {
   /// where that is more (models/history/README.md); infinity where nothing is
   /// known or nothing is filtered.
   double longest_bridged() const;
+  /// Time after which filters that began in the midst of a session, in the
+  /// steady state of its readings there, have forgotten that: kSettledTaus of
+  /// the longest time constant, those of filters of filters one after the
+  /// other. Infinity where an input is zeroed, since the zero was taken
+  /// elsewhere; 0 where nothing is remembered.
+  double settles_after() const;
   /// Whether any filter runs in time.
   bool needs_time() const;
   /// Whether any derived input depends on where sessions begin.
@@ -81,6 +87,7 @@ struct History {
   /// before needs no others.
   std::vector<Eigen::Index> remembered() const;
 };
+inline constexpr double kSettledTaus = 4.0;
 
 /// Derived inputs with their names and units.
 DerivedInput Ema(const data::ColumnInfo& of,

@@ -19,14 +19,4 @@ inline constexpr double kMeanDecaySeriesBelow = 0.0625;
 /// 1 - u/2 (1 - u/3 (... (1 - u/kMeanDecaySeriesTerms))).
 inline constexpr int kMeanDecaySeriesTerms = 9;
 
-struct History;
-
-/// Time after which filters that began in the midst of a session, in the steady
-/// state of its readings there, have forgotten that: kSettledTaus of the
-/// longest time constant, those of filters of filters one after the other.
-/// Infinity where an input is zeroed, since the zero was taken elsewhere; 0
-/// where nothing is remembered.
-double SettlesAfter(const History& history);
-inline constexpr double kSettledTaus = 4.0;
-
 }  // namespace errmap::models

@@ -11,6 +11,7 @@
 #include "models/history/view.h"
 #include "models/inner_folds.h"
 #include "models/scaling.h"
+#include "models/study/study.h"
 #include "stats/spread_sample.h"
 
 namespace errmap::models {

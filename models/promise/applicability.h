@@ -9,9 +9,10 @@
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/map_experience.h"
-#include "models/study/study.h"
 
 namespace errmap::models {
+
+struct Holdout;
 
 /// Of rows given as thermal states (m x s), against trained ones.
 struct StateMeasures {

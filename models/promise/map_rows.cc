@@ -119,25 +119,17 @@ data::TableForMap ReadForMap(const FittedModel& fitted,
   return result;
 }
 
-std::string SessionColumn(const FittedModel& fitted,
-                          const data::CsvTable& table,
-                          const MapLogArguments& arguments) {
-  std::vector<Index> rows(table.num_rows);
-  std::iota(rows.begin(), rows.end(), Index{0});
-  return FindSessionsOf(fitted, table, rows, arguments).sessions.column;
-}
-
-std::vector<Moment> MomentsOf(const FittedModel& fitted,
-                              const data::CsvTable& table,
-                              const std::vector<Index>& rows,
-                              const MapLogArguments& arguments) {
+MomentsOfRows MomentsOf(const FittedModel& fitted,
+                        const data::CsvTable& table,
+                        const std::vector<Index>& rows,
+                        const MapLogArguments& arguments) {
   const data::FoundSessions found =
       FindSessionsOf(fitted, table, rows, arguments);
   const bool has_times = found.time_column >= 0;
-  std::vector<Moment> moments;
+  MomentsOfRows moments{.at = {}, .session_column = found.sessions.column};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto session = static_cast<std::size_t>(found.sessions.codes[i]);
-    moments.push_back(
+    moments.at.push_back(
         {.session = found.sessions.labels[session],
          .time = has_times ? found.time[static_cast<Index>(i)] : 0.0});
   }
@@ -150,7 +142,7 @@ Eigen::VectorXd ElapsedSinceStart(const FittedModel& fitted,
   std::vector<Index> all(rows.table.num_rows);
   std::iota(all.begin(), all.end(), Index{0});
   const std::vector<Moment> moments =
-      MomentsOf(fitted, rows.table, all, arguments);
+      MomentsOf(fitted, rows.table, all, arguments).at;
   std::map<std::string, double> start;
   const auto begin = [&](const std::string& session, double time) {
     const auto [at, is_new] = start.try_emplace(session, time);

@@ -65,17 +65,16 @@ MapRows MakeMapRows(const FittedModel& fitted,
                     data::CsvTable table,
                     const MapRowsOptions& options);
 
-/// The column that names the sessions of a table; "" where none does.
-std::string SessionColumn(const FittedModel& fitted,
-                          const data::CsvTable& table,
-                          const MapLogArguments& arguments);
-
-/// Session and time of these rows of a table, as far as it tells; one session
-/// and time 0 where it does not.
-std::vector<Moment> MomentsOf(const FittedModel& fitted,
-                              const data::CsvTable& table,
-                              const std::vector<Eigen::Index>& rows,
-                              const MapLogArguments& arguments);
+/// Session and time of rows of a table, as far as it tells; one session and
+/// time 0 where it does not.
+struct MomentsOfRows {
+  std::vector<Moment> at;      // a row each
+  std::string session_column;  // that names the sessions; "" where none does
+};
+MomentsOfRows MomentsOf(const FittedModel& fitted,
+                        const data::CsvTable& table,
+                        const std::vector<Eigen::Index>& rows,
+                        const MapLogArguments& arguments);
 
 /// (rows of the data set) Time since the first row of the session in the
 /// table, or in the rows before it; 0 where there are no times.

@@ -48,22 +48,22 @@ ProbeCorrection CorrectByProbes(const FittedModel& fitted,
       fitted.Predict(RunsBetweenProbes(fitted, log)
                          ? WithRowsBetween(fitted, probes, today, log)
                          : probes.dataset);
-  // Few probes do not show which of their columns names sessions.
-  MapLogArguments of_probes = log;
-  if (log.session.empty()) {
-    const std::string column = SessionColumn(fitted, today.table, log);
-    if (probes.table.Find(column) >= 0) of_probes.session = column;
-  }
   std::vector<Index> rows(today.table.num_rows);
   std::iota(rows.begin(), rows.end(), Index{0});
+  const MomentsOfRows of_today = MomentsOf(fitted, today.table, rows, log);
+  // Few probes do not show which of their columns names sessions.
+  MapLogArguments of_probes = log;
+  if (log.session.empty() && probes.table.Find(of_today.session_column) >= 0) {
+    of_probes.session = of_today.session_column;
+  }
   ProbeCorrection correction{.num_probes = predicted.size(),
                              .model = FitOffset(*fitted.held_out),
                              .track = {}};
   correction.track = TrackOffset(
       correction.model,
-      MomentsOf(fitted, probes.table, probes.dataset.rows(), of_probes),
+      MomentsOf(fitted, probes.table, probes.dataset.rows(), of_probes).at,
       probes.dataset.target_values() - predicted,
-      MomentsOf(fitted, today.table, rows, log));
+      of_today.at);
   return correction;
 }
 

@@ -26,11 +26,9 @@ void AddPromise(const data::Dataset& dataset,
                 const Holdout& holdout,
                 const HoldoutResult& result,
                 FittedModel* fitted) {
-  fitted->interval = PromiseOf(dataset, holdout, result);
-  if (fitted->interval) {
-    fitted->interval = PromiseOf(
-        dataset, holdout, result, InsideOfFolds(*fitted, dataset, holdout));
-  }
+  fitted->interval = PromiseOf(dataset, holdout, result, [&] {
+    return InsideOfFolds(*fitted, dataset, holdout);
+  });
   if (auto errors = HeldOutErrorsOf(dataset, holdout, result)) {
     fitted->held_out =
         std::make_shared<const HeldOutErrors>(std::move(*errors));

@@ -15,6 +15,8 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+// Three standard deviations, squared: no probe of an offset as the model's.
+constexpr double kSurprise = 9.0;
 
 // Products of two errors of one unit, and how far apart in time they are; the
 // weight of each is one over the pairs of its unit.
@@ -123,16 +125,10 @@ void OffsetFilter::Advance(double time) {
 }
 
 void OffsetFilter::Update(double residual) {
-  constexpr double kSurprise = 9.0;  // three standard deviations, squared
   const double miss = (residual - offset_) * (residual - offset_);
   const double foretold = variance_ + model_.noise;
   const bool is_surprise = miss > kSurprise * foretold;
-  if (moved_ || !is_surprise) {
-    misses_ += miss / foretold;
-    ++num_misses_;
-  } else {
-    beginning_ = kSurprise;
-  }
+  if (moved_ || !is_surprise) misses_ += miss / foretold;
   if (is_surprise) {
     variance_ = miss;
     moved_ = true;
@@ -157,7 +153,8 @@ double OffsetFilter::Believed() const {
 }
 
 double OffsetFilter::Scale() const {
-  return 1.0 + (beginning_ + misses_ - count_) / Believed();
+  const double beginning = moved_ ? kSurprise : 0.0;
+  return 1.0 + (beginning + misses_ - count_) / Believed();
 }
 
 double OffsetFilter::variance() const {
@@ -166,8 +163,9 @@ double OffsetFilter::variance() const {
 
 bool OffsetFilter::contradicted() const {
   constexpr double kSure = 0.95;
-  return num_misses_ > 0 &&
-         misses_ > stats::ChiSquaredQuantile(kSure, num_misses_);
+  const int num_misses = count_ - (moved_ ? 1 : 0);
+  return num_misses > 0 &&
+         misses_ > stats::ChiSquaredQuantile(kSure, num_misses);
 }
 
 double OffsetFilter::Widening() const {

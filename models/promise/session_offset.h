@@ -66,10 +66,9 @@ class OffsetFilter {
   double time_ = 0.0;
   double offset_ = 0.0;
   double variance_ = 0.0;
-  double beginning_ = 0.0;  // squared miss of the probe that begins an offset,
-                            // foretold variances, no more than a surprise has
-  double misses_ = 0.0;     // the sum of all others
-  int num_misses_ = 0;
+  // Squared misses, in foretold variances, but of the probe that begins an
+  // offset.
+  double misses_ = 0.0;
   int count_ = 0;  // of probes; their mean, and squares about it (Welford)
   double mean_ = 0.0;
   double squares_ = 0.0;

@@ -136,10 +136,11 @@ double HalfWidthOf(const VectorXd& residuals,
 
 }  // namespace
 
-std::optional<PredictionInterval> PromiseOf(const data::Dataset& dataset,
-                                            const Holdout& holdout,
-                                            const HoldoutResult& result,
-                                            const std::vector<bool>& inside) {
+std::optional<PredictionInterval> PromiseOf(
+    const data::Dataset& dataset,
+    const Holdout& holdout,
+    const HoldoutResult& result,
+    const std::function<std::vector<bool>()>& inside) {
   if (!result.ok() || holdout.among_neighbours) return std::nullopt;
   const HeldOutRows held = GatherHeldOut(dataset, holdout);
   PredictionInterval interval;
@@ -151,11 +152,13 @@ std::optional<PredictionInterval> PromiseOf(const data::Dataset& dataset,
   interval.of_sessions = units.are_sessions;
   if (interval.units < 2) return std::nullopt;
   const VectorXd residuals = ResidualsOf(held, result);
+  const std::vector<bool> is_inside = inside ? inside() : std::vector<bool>{};
   for (const double coverage : PredictionInterval::kCoverages) {
     PredictionInterval::Level level =
         UnitIntervalLevel(residuals, codes, coverage);
-    const double in = HalfWidthOf(residuals, codes, inside, true, coverage);
-    const double out = HalfWidthOf(residuals, codes, inside, false, coverage);
+    const double in = HalfWidthOf(residuals, codes, is_inside, true, coverage);
+    const double out =
+        HalfWidthOf(residuals, codes, is_inside, false, coverage);
     if (in <= out) {
       level.inside = std::min(in, level.half_width);
       level.outside = std::max(out, level.half_width);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -30,15 +31,16 @@ PredictionInterval::Level UnitIntervalLevel(
 
 /// The promise of a model from its predictions of `holdout`'s held-out rows;
 /// nothing where they fall into fewer than two units, or lie between rows that
-/// it was fitted to. `inside` tells of each of these rows whether it is inside
-/// of what its fold was trained on (InsideOfFolds): rows inside and outside
-/// then have half-widths of their own, as UnitIntervalLevel of such rows alone
-/// but inside no more and outside no less than that of all, unless the inside
-/// has the larger or one of them is in fewer than two units.
+/// it was fitted to. `inside`, asked once there are units, tells of each of
+/// these rows whether it is inside of what its fold was trained on
+/// (InsideOfFolds): rows inside and outside then have half-widths of their own,
+/// as UnitIntervalLevel of such rows alone but inside no more and outside no
+/// less than that of all, unless the inside has the larger or one of them is in
+/// fewer than two units.
 std::optional<PredictionInterval> PromiseOf(
     const data::Dataset& dataset,
     const Holdout& holdout,
     const HoldoutResult& result,
-    const std::vector<bool>& inside = {});
+    const std::function<std::vector<bool>()>& inside = {});
 
 }  // namespace errmap::models

@@ -196,14 +196,9 @@ void SayWhatIsPredicted(const Predicted& found) {
         models::MakeRecord(*fitted.interval),
         report::ErrorText(fitted.target.unit,
                           fitted.interval->levels[0].half_width)));
-    const models::PredictionInterval::Level& level = fitted.interval->levels[0];
-    if (level.inside < level.outside) {
-      const report::ErrorText error(fitted.target.unit, level.inside);
-      Say(fmt::format(
-          "half-width written, 90 %: {} where inside = 1, {} where inside = 0",
-          error.WithUnit(level.inside),
-          error.WithUnit(level.outside)));
-    }
+    const std::string halves =
+        report::HalfWidthsLine(*fitted.interval, fitted.target.unit);
+    if (!halves.empty()) Say(halves);
   }
   if (found.probes) Say(report::OffsetLine(*found.probes, fitted.target.unit));
   SayUnless(false, found.map.warnings);

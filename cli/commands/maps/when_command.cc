@@ -50,7 +50,7 @@ SinceProbe ReadSinceProbe(const models::FittedModel& fitted,
   std::vector<Eigen::Index> rows(table.num_rows);
   std::iota(rows.begin(), rows.end(), Eigen::Index{0});
   const std::vector<models::Moment> moments =
-      models::MomentsOf(fitted, table, rows, arguments.log);
+      models::MomentsOf(fitted, table, rows, arguments.log).at;
   SinceProbe since{.age = moments.back().time - moments.front().time};
   if (!(since.age >= 0.0)) {
     throw data::InputError(fmt::format(

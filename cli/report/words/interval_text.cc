@@ -40,4 +40,16 @@ std::string IntervalLine(const models::PromiseRecord& promise,
                      PluralOf(promise.unit));
 }
 
+std::string HalfWidthsLine(const models::PredictionInterval& interval,
+                           const data::Unit& unit) {
+  const models::PredictionInterval::Level& level = interval.levels[0];
+  if (!(level.inside < level.outside)) return "";
+  const ErrorText error(unit, level.inside);
+  return fmt::format(
+      "half-width written, {:.0f} %: {} where inside = 1, {} where inside = 0",
+      kPercent * level.coverage,
+      error.WithUnit(level.inside),
+      error.WithUnit(level.outside));
+}
+
 }  // namespace errmap::report

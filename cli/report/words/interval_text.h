@@ -3,6 +3,7 @@
 #include <string>
 
 #include "cli/report/number_text.h"
+#include "models/prediction_interval.h"
 #include "models/study/record/study_record.h"
 
 namespace errmap::report {
@@ -14,5 +15,9 @@ std::string IntervalText(const models::PromiseRecord& promise,
 /// ... and where from: " (groups:5: 35 cycles held out whole)".
 std::string IntervalLine(const models::PromiseRecord& promise,
                          const ErrorText& error);
+/// The two half-widths of 90 % where rows inside and outside of what was
+/// trained have their own; "" where they have the same.
+std::string HalfWidthsLine(const models::PredictionInterval& interval,
+                           const data::Unit& unit);
 
 }  // namespace errmap::report

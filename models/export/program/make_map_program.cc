@@ -502,7 +502,7 @@ MapProgram MakeMapProgram(const FittedModel& fitted) {
     // A zero is never right again by itself; 1e9 s are for ever.
     constexpr double kForEver = 1e9;
     program.longest_bridged = fitted.history->longest_bridged();
-    program.settles_after = std::min(SettlesAfter(*fitted.history), kForEver);
+    program.settles_after = std::min(fitted.history->settles_after(), kForEver);
   }
   if (fitted.applicability != nullptr) {
     AddDerivedRanges(fitted, layout.form(), &form.ranges);

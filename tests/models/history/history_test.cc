@@ -325,7 +325,8 @@ TEST(History, CountsSecondsWhereItIsKnownHowOftenRowsCame) {
   EXPECT_EQ(timed.Predict(in_seconds), map.Predict(counted));
   EXPECT_EQ(timed.history->longest_bridged(),
             kEvery * map.history->longest_bridged());
-  EXPECT_EQ(SettlesAfter(*timed.history), kEvery * SettlesAfter(*map.history));
+  EXPECT_EQ(timed.history->settles_after(),
+            kEvery * map.history->settles_after());
   // One that counts seconds stays as it is.
   EXPECT_EQ(WithRowsEvery(timed, 2.0).history, timed.history);
 }
@@ -348,11 +349,11 @@ TEST(History, TellsASessionWhoseFirstRowsAreMissing) {
               ElementsAre(kHere, kHere, kHere, kStart, kStart, kStart));
   // A filter forgets where it began, a zero does not.
   history.derived = {Ema(ColumnNamed("t1_degC"), 2.0, "s")};
-  EXPECT_EQ(SettlesAfter(history), 2.0 * kSettledTaus);
+  EXPECT_EQ(history.settles_after(), 2.0 * kSettledTaus);
   EXPECT_THAT(FindMissing(*data(0.0, 56.0).log(), history),
               ElementsAre(kHere, kHere, kHere, kStart, kHere, kHere));
   history = Everything();
-  EXPECT_TRUE(std::isinf(SettlesAfter(history)));
+  EXPECT_TRUE(std::isinf(history.settles_after()));
   // Sessions by the clock on the wall: the start of a session tells nothing.
   history.latest_start = LatestStart(data(0.0, 86400.0));
   EXPECT_TRUE(std::isnan(history.latest_start));

@@ -317,7 +317,8 @@ TEST(PromiseOf, TellsRowsInsideAndOutsideOfWhatWasTrainedApart) {
     groups.push_back(dataset.groups().codes[static_cast<std::size_t>(
         held.rows[static_cast<std::size_t>(i)])]);
   }
-  const auto level = PromiseOf(dataset, holdout, result, small)->levels[0];
+  const auto level =
+      PromiseOf(dataset, holdout, result, [&] { return small; })->levels[0];
   EXPECT_EQ(level.inside,
             std::min(UnitIntervalLevel(residuals(rows), groups, 0.9).half_width,
                      level.half_width));
@@ -326,7 +327,8 @@ TEST(PromiseOf, TellsRowsInsideAndOutsideOfWhatWasTrainedApart) {
   // No row inside, and rows inside that err more than those outside.
   const std::vector<bool> none(small.size(), false);
   for (const std::vector<bool>& inside : {none, large, {}}) {
-    const auto same = PromiseOf(dataset, holdout, result, inside)->levels[0];
+    const auto same =
+        PromiseOf(dataset, holdout, result, [&] { return inside; })->levels[0];
     EXPECT_EQ(same.half_width, level.half_width);
     EXPECT_EQ(same.inside, level.half_width);
     EXPECT_EQ(same.outside, level.half_width);
