@@ -32,10 +32,10 @@ std::string Entry(const std::string& name,
   return entry;
 }
 
-// Whether a line of a footer stands for itself; the others go on with the
-// line before.
+// Whether a line of a footer stands for itself, as a command that is indented
+// does; the others go on with the line before.
 bool BeginsAnew(const std::string& line) {
-  if (line.empty()) return true;
+  if (line.empty() || line.front() == ' ') return true;
   constexpr const char* kBegins[] = {"Example", "Exit status", "- ", "errmap "};
   return std::ranges::any_of(
       kBegins, [&](const char* begin) { return line.starts_with(begin); });
@@ -45,7 +45,8 @@ std::string Wrapped(const std::string& text, std::size_t width) {
   std::istringstream lines(text);
   std::vector<std::string> paragraphs;
   for (std::string line; std::getline(lines, line);) {
-    if (paragraphs.empty() || BeginsAnew(line) || paragraphs.back().empty()) {
+    if (paragraphs.empty() || BeginsAnew(line) || paragraphs.back().empty() ||
+        paragraphs.back().front() == ' ') {
       paragraphs.push_back(line);
     } else {
       paragraphs.back() += " " + line;

@@ -40,7 +40,6 @@ class CWriter {
   std::string Helpers() const;
   std::string Locals(const std::vector<const Instructions*>& parts) const;
   std::string StateFunctions() const;
-  int NumKept() const;
   std::string SetCells(bool of_session) const;
   std::string ReadFunction() const;
   std::string MoveFunction() const;
@@ -144,21 +143,13 @@ std::string CWriter::Declarations() const {
       bits,
       kMapNotTaken,
       kept,
-      NumKept() + 1,
+      NumSaved(program_),
       LongestAge(program_),
       program_.settles_after > 0.0
           ? " Without it, and without a saved\n * state, one may "
             "have begun before: SETTLING, for\n * "
             "state->settles_in seconds."
           : "");
-}
-
-int CWriter::NumKept() const {
-  int count = program_.size(Space::kState);
-  for (const CellInfo& cell : KeptCells(program_)) {
-    count += cell.is_array ? program_.size(Space::kReading) : 1;
-  }
-  return count;
 }
 
 std::string CWriter::Header() const {

@@ -53,6 +53,12 @@ pin in bit zero "Rising edge: take the zero anew";
 pin in bit step "Rising edge: a step of step-s seconds";
 pin in float step_s = 0.0 "0: a step in every period of the thread";
 pin in bit machine_on = 1 "For external offsets: on and homed";
+pin io float kept_state_###[{7}] "What the map remembers, for a restart";
+pin in bit keep_state "Another value: kept-state takes it";
+pin out bit state_kept "The same value once it has";
+pin in bit restore_state "Rising edge: goes on from kept-state";
+pin in float away_s "How old kept-state is then, s";
+pin out bit state_restored "It did: neither too old nor of another map";
 pin out float offset "-error, {2}";
 pin out bit valid "The last step had all its readings, and they were believed";
 pin out bit outside "A reading is outside of its trained range";
@@ -71,17 +77,24 @@ function _ fp;
 constexpr const char* kBody = R"(
 static {0}_state errmap_kept;
 static double silent;       /* s since the last edge of step */
-static int begun, was_begin, was_step, was_zero, periods_on, of_reading;
+static double errmap_saved[{0}_SAVED];
+static int begun, was_begin, was_step, was_zero, was_restore;
+static int periods_on, of_reading;
 static unsigned made;
 
 FUNCTION(_) {{
   double x[{2}];
   double error = 0.0;
-  int of_moving;
+  int of_moving, i;
 {3}  if (!begun) {0}_init(&errmap_kept);
   begun = 1;
   errmap_kept.max_error = fmax(max_offset, 0.0) / {1};
   errmap_kept.max_rate = fmax(max_rate_, 0.0) / {1};
+  if (restore_state && !was_restore) {{
+    for (i = 0; i < {0}_SAVED; ++i) errmap_saved[i] = kept_state(i);
+    state_restored = {0}_set_state(&errmap_kept, errmap_saved, away_s) == 0;
+  }}
+  was_restore = restore_state;
   if (begin && !was_begin) {0}_begin(&errmap_kept);
   was_begin = begin;
   if (zero && !was_zero) {0}_zero(&errmap_kept);
@@ -101,6 +114,11 @@ FUNCTION(_) {{
   }}
   was_step = step;
   of_moving = {0}_move(&errmap_kept, fperiod, &error);
+  if (keep_state != state_kept) {{
+    {0}_get_state(&errmap_kept, errmap_saved);
+    for (i = 0; i < {0}_SAVED; ++i) kept_state(i) = errmap_saved[i];
+    state_kept = keep_state;
+  }}
   steps = made;
   status_ = (unsigned)(of_reading | of_moving);
   valid = made > 0 && (of_reading & {0}_NOT_TAKEN) == 0;
@@ -114,6 +132,91 @@ FUNCTION(_) {{
   counts_enable = periods_on > 1;
   counts = periods_on < {4} ? 0 : (int)floor(offset / counts_scale + 0.5);
 }}
+)";
+
+// HAL's user part.
+constexpr const char* kStateFile = R"(#!/usr/bin/python3
+"""Keeps what {0} remembers in a file, to go on there after a restart.
+
+  loadusr -Wn {1}-state python3 ./{0}_state.py FILE [SECONDS]
+
+FILE is written every 10 SECONDS and at the end. One that is too old, or of
+another map, is not taken: the component then says how long it settles.
+"""
+
+import json
+import os
+import signal
+import sys
+import time
+
+import hal
+
+NUMBERS = {2}
+
+
+def get(pin):
+    return hal.get_value("{1}." + pin)
+
+
+def put(pin, value):
+    hal.set_p("{1}." + pin, repr(value))
+
+
+def restore(file):
+    """Before the thread starts, which then takes it."""
+    try:
+        with open(file, encoding="utf-8") as text:
+            kept = json.load(text)
+        numbers = [float(number) for number in kept["state"]]
+        away = time.time() - float(kept["time"])
+    except (OSError, ValueError, TypeError, KeyError):
+        return
+    if len(numbers) != NUMBERS:
+        return
+    for i, number in enumerate(numbers):
+        put("kept-state-%03d" % i, number)
+    put("away-s", away)
+    put("restore-state", 1)
+
+
+def keep(file):
+    """Nothing where the thread does not run."""
+    turn = int(not get("state-kept"))
+    put("keep-state", turn)
+    end = time.monotonic() + 0.5
+    while int(get("state-kept")) != turn:
+        if time.monotonic() > end:
+            return
+        time.sleep(0.001)
+    kept = {{"time": time.time(),
+            "state": [get("kept-state-%03d" % i) for i in range(NUMBERS)]}}
+    with open(file + ".new", "w", encoding="utf-8") as text:
+        json.dump(kept, text)
+        text.flush()
+        os.fsync(text.fileno())
+    os.replace(file + ".new", file)
+
+
+def main():
+    if len(sys.argv) not in (2, 3):
+        sys.exit(__doc__)
+    file = sys.argv[1]
+    seconds = float(sys.argv[2]) if len(sys.argv) == 3 else 10.0
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
+    part = hal.component("{1}-state")
+    restore(file)
+    part.ready()
+    try:
+        while True:
+            time.sleep(seconds)
+            keep(file)
+    finally:
+        keep(file)
+
+
+if __name__ == "__main__":
+    main()
 )";
 
 class HalWriter {
@@ -137,9 +240,13 @@ class HalWriter {
       made.pins.push_back(
           {HalName(pins_[i]), map_.program.readings[i].column.name});
     }
-    made.files = {{name_ + ".comp", Component()},
-                  {name_ + ".hal", OffsetWiring()},
-                  {name_ + "_eoffset.hal", ExternalOffsetWiring()}};
+    made.files = {
+        {name_ + ".comp", Component()},
+        {name_ + ".hal", OffsetWiring()},
+        {name_ + "_eoffset.hal", ExternalOffsetWiring()},
+        {name_ + "_state.py",
+         fmt::format(
+             kStateFile, name_, HalName(name_), NumSaved(map_.program))}};
     return made;
   }
 
@@ -175,6 +282,7 @@ class HalWriter {
   std::string OffsetWiring() const;
   std::string ExternalOffsetWiring() const;
   std::string SensorComments() const;
+  std::string StateComment() const;
 
   const MapExport& map_;
   const HalOptions& options_;
@@ -204,7 +312,8 @@ std::string HalWriter::Component() const {
                      pins,
                      RealText(scale * program.limits.max_error),
                      RealText(scale * program.limits.max_rate),
-                     RealText(count)) +
+                     RealText(count),
+                     NumSaved(program)) +
          CFragment(program, map_name) +
          fmt::format(kBody,
                      map_name,
@@ -232,6 +341,14 @@ std::string HalWriter::SensorComments() const {
   return text;
 }
 
+std::string HalWriter::StateComment() const {
+  return fmt::format(
+      "# To go on where it was after a restart:\n"
+      "# loadusr -Wn {}-state python3 ./{}_state.py FILE\n",
+      HalName(name_),
+      name_);
+}
+
 std::string HalWriter::OffsetWiring() const {
   std::string text = fmt::format(
       R"(# {0}.hal: compensates joint {1} by {2}, offset = -error in {3}.
@@ -256,8 +373,9 @@ addf {2}-add.update-output servo-thread
                         options_.joint);
   }
   text += SensorComments();
-  return text + fmt::format(
-                    R"(
+  return text + StateComment() +
+         fmt::format(
+             R"(
 net {0}-cmd joint.{1}.motor-pos-cmd => {0}-add.in
 net {0}-by {0}.offset => {0}-add.offset
 net {0}-fb {0}-add.fb-out => joint.{1}.motor-pos-fb
@@ -265,8 +383,8 @@ net {0}-fb {0}-add.fb-out => joint.{1}.motor-pos-fb
 # comes to add.fb-in.
 net {0}-motor {0}-add.out => {0}-add.fb-in
 )",
-                    HalName(name_),
-                    options_.joint);
+             HalName(name_),
+             options_.joint);
 }
 
 std::string HalWriter::ExternalOffsetWiring() const {
@@ -293,8 +411,9 @@ addf {2} servo-thread
         "net {0}-at joint.{1}.pos-cmd => {0}.position\n", hal, options_.joint);
   }
   text += SensorComments();
-  return text + fmt::format(
-                    R"(
+  return text + StateComment() +
+         fmt::format(
+             R"(
 setp axis.{1}.eoffset-scale {2}
 setp {0}.counts-scale {2}
 net {0}-on motion.motion-enabled => {0}-ready.in0
@@ -303,9 +422,9 @@ net {0}-set {0}-ready.out => {0}.machine-on
 net {0}-enable {0}.counts-enable => axis.{1}.eoffset-enable
 net {0}-counts {0}.counts => axis.{1}.eoffset-counts
 )",
-                    hal,
-                    axis,
-                    RealText(InMachine(1e-6, data::UnitOfSymbol("mm"))));
+             hal,
+             axis,
+             RealText(InMachine(1e-6, data::UnitOfSymbol("mm"))));
 }
 
 }  // namespace

@@ -31,10 +31,10 @@ struct HalExport {
 
 /// A component for LinuxCNC, COMPONENT.comp (the C of the map within), with
 /// COMPONENT.hal, which wires it by the stock offset component between the
-/// motor position of a joint and its feedback, and COMPONENT_eoffset.hal, which
-/// wires it as an external offset of the joint's axis. The offset is -error in
-/// the machine's unit. Throws std::invalid_argument where the error is no
-/// length.
+/// motor position of a joint and its feedback, COMPONENT_eoffset.hal, which
+/// wires it as an external offset of the joint's axis, and COMPONENT_state.py,
+/// which keeps its state in a file over a restart. The offset is -error in the
+/// machine's unit. Throws std::invalid_argument where the error is no length.
 HalExport HalComponent(const MapExport& map, const HalOptions& options);
 
 }  // namespace errmap::models

@@ -105,7 +105,19 @@ Lines Language::WriteOne(const MapProgram& program,
     const char* relation = it.op == Op::kFloor ? " < " : " > ";
     return Bound(to + relation + bound, to, bound, it.guards);
   }
-  return {Assign(to, ValueText(it, single), narrow_place && !single)};
+  const bool narrows = narrow_place && !single;
+  const std::string value = ValueText(it, single);
+  return it.op == Op::kLag || it.op == Op::kAddProduct
+             ? Grow(it.to, value, narrows)
+             : Set(it.to, value, narrows);
+}
+
+Lines Language::Set(Operand to, const std::string& value, bool narrows) const {
+  return {Assign(Place(to), value, narrows)};
+}
+
+Lines Language::Grow(Operand to, const std::string& by, bool narrows) const {
+  return {Assign(Place(to), Place(to) + " + " + by, narrows)};
 }
 
 std::string Language::ValueText(const Instruction& it, bool single) const {
@@ -139,9 +151,9 @@ std::string Language::ValueText(const Instruction& it, bool single) const {
     case Op::kGain:
       return a + " / " + c + " * " + b;
     case Op::kLag:
-      return to + " + " + a + " * (" + b + " - " + to + ")";
+      return a + " * (" + b + " - " + to + ")";
     case Op::kAddProduct:
-      return to + " + " + a + " * " + b;
+      return a + " * " + b;
     case Op::kSine:
       return Call(Function::kSine, a + " * " + c, single);
     case Op::kCosine:
@@ -290,6 +302,14 @@ std::vector<CellInfo> KeptCells(const MapProgram& program) {
   return kept;
 }
 
+int NumSaved(const MapProgram& program) {
+  int count = 1 + program.size(Space::kState);
+  for (const CellInfo& cell : KeptCells(program)) {
+    count += cell.is_array ? program.size(Space::kReading) : 1;
+  }
+  return count;
+}
+
 std::string StatusNames(int mask,
                         const std::string& before,
                         const std::string& between) {
@@ -357,7 +377,7 @@ Lines AboutMap(const MapProgram& program,
   lines.push_back("");
   const int states = program.size(Space::kState);
   lines.push_back(
-      states > 0 ? fmt::format("Its filters and zeros: {} doubles.", states)
+      states > 0 ? fmt::format("Its filters and zeros: {} numbers.", states)
                  : "It has no memory but for what holds the error.");
   if (single) {
     lines.push_back("Single precision; the state stays double.");

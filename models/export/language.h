@@ -65,6 +65,9 @@ class Language {
   virtual std::string Assign(const std::string& to,
                              const std::string& value,
                              bool narrows) const = 0;
+  /// To a place, a value of its own or what it grows by.
+  virtual Lines Set(Operand to, const std::string& value, bool narrows) const;
+  virtual Lines Grow(Operand to, const std::string& by, bool narrows) const;
   virtual std::string Call(Function function,
                            const std::string& argument,
                            bool single) const = 0;
@@ -119,6 +122,10 @@ inline constexpr LocalArray kLocalArrays[] = {{Space::kGain, 'g'},
 
 /// What the routines of a program keep from step to step.
 std::vector<CellInfo> KeptCells(const MapProgram& program);
+
+/// How many numbers a saved state has: which map it is of, then the filters'
+/// and those of KeptCells.
+int NumSaved(const MapProgram& program);
 
 /// The names of the bits in `mask`, with `between` them.
 std::string StatusNames(int mask,

@@ -13,18 +13,26 @@ namespace {
 
 using Eigen::Index;
 
-constexpr Syntax kStructuredText{.conjunction = "AND",
-                                 .disjunction = "OR",
-                                 .negation = "NOT ",
-                                 .equal = "=",
-                                 .absolute = "ABS",
-                                 .when = "IF {} THEN",
-                                 .otherwise = "ELSE",
-                                 .end_when = "END_IF;",
-                                 .loop = "FOR I := 0 TO {1} DO",
-                                 .end_loop = "END_FOR;",
-                                 .index = "I",
-                                 .indent = "  "};
+constexpr Syntax kStandard{.conjunction = "AND",
+                           .disjunction = "OR",
+                           .negation = "NOT ",
+                           .equal = "=",
+                           .absolute = "ABS",
+                           .when = "IF {} THEN",
+                           .otherwise = "ELSE",
+                           .end_when = "END_IF;",
+                           .loop = "FOR I := 0 TO {1} DO",
+                           .end_loop = "END_FOR;",
+                           .index = "I",
+                           .indent = "  "};
+
+// Siemens marks what is local.
+constexpr Syntax kScl = [] {
+  Syntax syntax = kStandard;
+  syntax.loop = "FOR #I := 0 TO {1} DO";
+  syntax.index = "#I";
+  return syntax;
+}();
 
 // "zero_due" -> "ZeroDue": every word of the language has capitals only.
 std::string CamelCase(const std::string& name) {
@@ -49,23 +57,42 @@ std::string BitName(const StatusBit& bit) {
 // Arrays and bits of the status are variables of the block.
 class StructuredTextLanguage final : public Language {
  public:
-  explicit StructuredTextLanguage(std::string name)
-      : Language(Precision::kDouble, kStructuredText), name_(std::move(name)) {}
+  StructuredTextLanguage(std::string name, Precision precision, TextForm form)
+      : Language(precision, form == TextForm::kScl ? kScl : kStandard),
+        name_(std::move(name)),
+        is_scl_(form == TextForm::kScl) {}
+
+  // A variable of the block at hand.
+  std::string Local(const std::string& name) const {
+    return is_scl_ ? '#' + name : name;
+  }
+
+  // All of a file is single, or nothing.
+  std::string Number(double value, bool /*single*/ = false) const override {
+    return RealText(value, is_single());
+  }
+
+  std::string MeanDecayName() const { return name_ + "_mean_decay"; }
+  std::string SigmoidName() const { return name_ + "_sigmoid"; }
+  bool is_single() const { return precision() == Precision::kSingle; }
+
+  static std::string VariableOf(Cell cell) {
+    return cell == Cell::kError ? "Found" : CamelCase(InfoOf(cell).name);
+  }
 
   std::string CellName(Cell cell) const override {
-    if (cell == Cell::kError) return "Found";
-    return CamelCase(InfoOf(cell).name);
+    return Local(VariableOf(cell));
   }
 
   std::string TrainedState(int form, int coordinate) const override {
-    return fmt::format("States{}_{}[I]", form, coordinate);
+    return Local(fmt::format("States{}_{}[{}]", form, coordinate, Local("I")));
   }
 
   std::string HasAny(int mask) const override {
     std::string names;
     for (const StatusBit& bit : StatusBits()) {
       if ((mask & bit.bit) == 0) continue;
-      names += (names.empty() ? "" : " OR ") + BitName(bit);
+      names += (names.empty() ? "" : " OR ") + Local(BitName(bit));
     }
     return names;
   }
@@ -76,6 +103,7 @@ class StructuredTextLanguage final : public Language {
     std::string place = Language::Place(operand);
     if (operand.space != Space::kTime) {
       place.front() = static_cast<char>(place.front() - 'a' + 'A');
+      place = Local(place);
     }
     return place;
   }
@@ -95,15 +123,52 @@ class StructuredTextLanguage final : public Language {
                    bool /*single*/) const override {
     switch (function) {
       case Function::kMeanDecay:
-        return fmt::format("{}_mean_decay(U := {})", name_, argument);
+        return CallOf(MeanDecayName(), "U", argument);
       case Function::kSine:
         return "SIN(" + argument + ")";
       case Function::kCosine:
         return "COS(" + argument + ")";
       case Function::kSigmoid:
-        return fmt::format("{}_sigmoid(A := {})", name_, argument);
+        return CallOf(SigmoidName(), "A", argument);
     }
     return "";
+  }
+
+  std::string CallOf(const std::string& function,
+                     const char* named,
+                     const std::string& argument) const {
+    const char* quote = is_scl_ ? "\"" : "";
+    return fmt::format(
+        "{0}{1}{0}({2} := {3})", quote, function, named, argument);
+  }
+
+  // A slow filter would stand still in single precision: what a step is less
+  // than the last digit of its state is kept (Kahan 1965).
+  Lines Grow(Operand to, const std::string& by, bool narrows) const override {
+    if (!is_single() || to.space != Space::kState) {
+      return Language::Grow(to, by, narrows);
+    }
+    const std::string state = Place(to);
+    const std::string step = Local("Step");
+    const std::string sum = Local("Sum");
+    return {
+        Assign(step, by + " - " + Lost(to), false),
+        Assign(sum, state + " + " + step, false),
+        Assign(
+            Lost(to), fmt::format("({} - {}) - {}", sum, state, step), false),
+        Assign(state, sum, false)};
+  }
+
+  Lines Set(Operand to, const std::string& value, bool narrows) const override {
+    Lines lines = Language::Set(to, value, narrows);
+    if (is_single() && to.space == Space::kState) {
+      lines.push_back(Assign(Lost(to), "0.0", false));
+    }
+    return lines;
+  }
+
+  std::string Lost(Operand state) const {
+    return fmt::format("{}[{}]", Local("Lost"), state.index);
   }
 
   Lines Bound(const std::string& condition,
@@ -125,7 +190,7 @@ class StructuredTextLanguage final : public Language {
     const Index num_inputs = table.cols() - 1;
     for (int row = 0; row < it.count; ++row) {
       const std::string to = Place({it.to.space, it.to.index + row});
-      lines.push_back(Assign(to, RealText(table(row, num_inputs)), false));
+      lines.push_back(Assign(to, Number(table(row, num_inputs)), false));
       for (Index first = 0; first < num_inputs; first += kProductsPerLine) {
         std::string sum = to;
         for (Index i = first;
@@ -133,7 +198,7 @@ class StructuredTextLanguage final : public Language {
              ++i) {
           sum += fmt::format(
               " + ({}) * {}",
-              RealText(table(row, i)),
+              Number(table(row, i)),
               Place({it.a.space, it.a.index + static_cast<int>(i)}));
         }
         lines.push_back(Assign(to, sum, false));
@@ -152,6 +217,7 @@ class StructuredTextLanguage final : public Language {
   }
 
   std::string name_;
+  bool is_scl_;
 };
 
 std::vector<std::string> InputNames(const MapProgram& program) {
@@ -166,64 +232,60 @@ std::vector<std::string> InputNames(const MapProgram& program) {
   return names;
 }
 
-std::string Comment(const Lines& lines) {
-  return "(* " + Joined(lines, "   ").substr(3) + "*)\n";
-}
+using Type = TextVariable::Type;
 
-std::string Functions(const MapProgram& program, const std::string& name) {
-  std::string text;
+std::vector<TextFunction> Functions(const MapProgram& program,
+                                    const StructuredTextLanguage& language) {
+  std::vector<TextFunction> functions;
+  const auto add = [&](const std::string& name,
+                       const char* argument,
+                       const char* comment,
+                       const std::string& condition,
+                       const std::string& value,
+                       const std::string& otherwise) {
+    functions.push_back(
+        {.name = name,
+         .argument = argument,
+         .comment = comment,
+         .body = fmt::format("IF {1} THEN\n  {0} := {2};\nELSE\n"
+                             "  {0} := {3};\nEND_IF;\n",
+                             language.Local(name),
+                             condition,
+                             value,
+                             otherwise)});
+  };
   if (program.Uses(Op::kMeanDecay)) {
-    text += fmt::format(R"(
-FUNCTION {0}_mean_decay : LREAL
-(* (1 - exp(-U)) / U; of a short step by its series, since the difference would
-   keep no digits. *)
-VAR_INPUT
-  U : LREAL;
-END_VAR
-IF U >= {1} THEN
-  {0}_mean_decay := (1.0 - EXP(-U)) / U;
-ELSE
-  {0}_mean_decay := {2};
-END_IF;
-END_FUNCTION
-)",
-                        name,
-                        RealText(kMeanDecaySeriesBelow),
-                        MeanDecaySeries("U"));
+    const std::string u = language.Local("U");
+    add(language.MeanDecayName(),
+        "U",
+        "(1 - exp(-U)) / U; of a short step by its series, since the "
+        "difference "
+        "would\n   keep no digits.",
+        u + " >= " + language.Number(kMeanDecaySeriesBelow),
+        fmt::format("(1.0 - EXP(-{0})) / {0}", u),
+        MeanDecaySeries(u));
   }
   if (program.Uses(Op::kSigmoid)) {
-    text += fmt::format(R"(
-FUNCTION {0}_sigmoid : LREAL
-VAR_INPUT
-  A : LREAL;
-END_VAR
-IF A > -700.0 THEN
-  {0}_sigmoid := 1.0 / (1.0 + EXP(-A));
-ELSE
-  {0}_sigmoid := 0.0;
-END_IF;
-END_FUNCTION
-)",
-                        name);
+    const std::string a = language.Local("A");
+    // What EXP can take.
+    add(language.SigmoidName(),
+        "A",
+        "",
+        a + (language.is_single() ? " > -80.0" : " > -700.0"),
+        fmt::format("1.0 / (1.0 + EXP(-{}))", a),
+        "0.0");
   }
-  return text;
-}
-
-std::string ArrayText(const std::string& name, int size) {
-  return fmt::format("  {} : ARRAY[0..{}] OF LREAL", name, size - 1);
+  return functions;
 }
 
 // Constants of the readings, and the trained states.
-std::string Tables(const MapProgram& program,
-                   const StructuredTextLanguage& language) {
-  std::string text;
-  const auto add = [&](const std::string& name,
-                       const std::vector<double>& values) {
-    std::vector<std::string> numbers;
-    for (const double value : values) numbers.push_back(RealText(value));
-    text += ArrayText(name, static_cast<int>(values.size())) + " := [\n" +
-            Joined(Wrapped(numbers, "    "), "");
-    text.insert(text.size() - 1, "];");
+void AddTables(const MapProgram& program,
+               const StructuredTextLanguage& language,
+               std::vector<TextVariable>* variables) {
+  const auto add = [&](const std::string& name, std::vector<double> values) {
+    variables->push_back({.name = name,
+                          .size = static_cast<int>(values.size()),
+                          .initial = std::move(values)});
   };
   for (const Cell cell : kTables) {
     if (!program.Uses(cell)) continue;
@@ -231,7 +293,7 @@ std::string Tables(const MapProgram& program,
     for (const ProgramReading& reading : program.readings) {
       values.push_back(TableValue(reading, cell));
     }
-    add(language.CellName(cell), values);
+    add(language.VariableOf(cell), std::move(values));
   }
   for (std::size_t form = 0; form < program.forms.size(); ++form) {
     const Eigen::MatrixXd& states = program.forms[form].states;
@@ -240,32 +302,35 @@ std::string Tables(const MapProgram& program,
           {states.col(k).begin(), states.col(k).end()});
     }
   }
-  return text;
 }
 
-std::string Inputs(const MapProgram& program,
-                   const std::vector<std::string>& inputs) {
-  std::string text =
-      "VAR_INPUT\n"
-      "  Start : BOOL; (* a session begins with the next step taken: filters "
-      "in their steady state, the zero taken *)\n"
-      "  TakeZero : BOOL; (* the next step taken takes the zero anew *)\n"
-      "  DtSeconds : LREAL; (* since the call before *)\n"
-      "  AwaySeconds : LREAL := 1.0E+30; (* in the first call after a restart: "
-      "how long it was; from an hour on it begins anew *)\n";
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const ProgramReading& reading = program.readings[i];
-    text += fmt::format("  {} : LREAL; (* {}{}{} *)\n",
-                        inputs[i],
-                        CommentText(reading.column.name),
-                        reading.column.unit.symbol.empty() ? "" : ", ",
-                        CommentText(reading.column.unit.symbol));
+std::vector<TextVariable> Inputs(const MapProgram& program,
+                                 const std::vector<std::string>& names) {
+  std::vector<TextVariable> inputs{
+      {.name = "Start",
+       .type = Type::kBool,
+       .comment = "a session begins with the next step taken: filters in their "
+                  "steady state, the zero taken"},
+      {.name = "TakeZero",
+       .type = Type::kBool,
+       .comment = "the next step taken takes the zero anew"},
+      {.name = "DtSeconds", .comment = "since the call before"},
+      {.name = "AwaySeconds",
+       .initial = {1e30},
+       .comment = "in the first call after a restart: how long it was; from an "
+                  "hour on it begins anew"}};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const data::ColumnInfo& column = program.readings[i].column;
+    const std::string unit = CommentText(column.unit.symbol);
+    inputs.push_back({.name = names[i],
+                      .comment = CommentText(column.name) +
+                                 (unit.empty() ? "" : ", " + unit)});
   }
-  return text + fmt::format(
-                    "  MaxError : LREAL := {}; (* limits *)\n"
-                    "  MaxRate : LREAL := {};\nEND_VAR\n",
-                    RealText(program.limits.max_error),
-                    RealText(program.limits.max_rate));
+  inputs.push_back({.name = "MaxError",
+                    .initial = {program.limits.max_error},
+                    .comment = "limits"});
+  inputs.push_back({.name = "MaxRate", .initial = {program.limits.max_rate}});
+  return inputs;
 }
 
 // The limits, which the block's caller may set.
@@ -273,112 +338,180 @@ bool IsInput(Cell cell) {
   return cell == Cell::kMostError || cell == Cell::kMostRate;
 }
 
-std::string Declarations(const MapProgram& program,
-                         const std::vector<std::string>& inputs,
-                         const StructuredTextLanguage& language) {
-  std::string text = Inputs(program, inputs) + R"(VAR_OUTPUT
-  Error : LREAL; (* within the limits *)
-  Compensation : LREAL; (* -Error *)
-  Valid : BOOL; (* the step was taken *)
-)";
+std::vector<TextVariable> Outputs(const MapProgram& program) {
+  std::vector<TextVariable> outputs{
+      {.name = "Error", .comment = "within the limits"},
+      {.name = "Compensation", .comment = "-Error"},
+      {.name = "Valid", .type = Type::kBool, .comment = "the step was taken"}};
   if (program.Uses(Cell::kSettling)) {
-    text += "  Settles : LREAL; (* s until what filters remember is good *)\n";
+    outputs.push_back({.name = "Settles",
+                       .comment = "s until what filters remember is good"});
   }
   for (const StatusBit& bit : StatusBits()) {
-    text += fmt::format("  {} : BOOL; (* {} *)\n", BitName(bit), bit.what);
+    outputs.push_back(
+        {.name = BitName(bit), .type = Type::kBool, .comment = bit.what});
   }
-  text += "END_VAR\nVAR\n" + Tables(program, language);
-  const auto array = [&](const std::string& name, int size) {
-    if (size > 0) text += ArrayText(name, size) + ";\n";
-  };
-  array("X", program.size(Space::kReading));
+  return outputs;
+}
+
+void AddArray(const std::string& name,
+              int size,
+              std::vector<TextVariable>* variables) {
+  if (size > 0) variables->push_back({.name = name, .size = size});
+}
+
+// What is computed anew in each call. Over a warm restart `Running` is lost,
+// but what is retained is not.
+std::vector<TextVariable> Locals(const MapProgram& program,
+                                 const StructuredTextLanguage& language) {
+  std::vector<TextVariable> locals;
+  AddTables(program, language, &locals);
+  AddArray("X", program.size(Space::kReading), &locals);
   for (const LocalArray local : kLocalArrays) {
-    array({static_cast<char>(local.name - 'a' + 'A')},
-          program.size(local.space));
+    AddArray({static_cast<char>(local.name - 'a' + 'A')},
+             program.size(local.space),
+             &locals);
   }
   for (const Cell cell :
        {Cell::kDt, Cell::kCommon, Cell::kAway, Cell::kTarget, Cell::kError}) {
     if (program.Uses(cell) || cell == Cell::kError) {
-      text += fmt::format("  {} : LREAL;\n", language.CellName(cell));
+      locals.push_back({.name = language.VariableOf(cell)});
     }
   }
-  if (!inputs.empty()) text += "  I : INT;\n";
-  // Over a warm restart these are kept, but the first is not.
-  text += "  Running : BOOL;\nEND_VAR\nVAR RETAIN\n  OfMap : LREAL;\n";
-  array("S", program.size(Space::kState));
+  if (language.is_single() && program.has_memory()) {
+    for (const char* name : {"Step", "Sum"}) locals.push_back({.name = name});
+  }
+  if (!program.readings.empty()) {
+    locals.push_back({.name = "I", .type = Type::kInt});
+  }
+  locals.push_back({.name = "Running", .type = Type::kBool});
+  return locals;
+}
+
+std::vector<TextVariable> Retained(const MapProgram& program,
+                                   const StructuredTextLanguage& language) {
+  std::vector<TextVariable> retained{{.name = "OfMap"}};
+  AddArray("S", program.size(Space::kState), &retained);
+  if (language.is_single()) {
+    AddArray("Lost", program.size(Space::kState), &retained);
+  }
   for (const CellInfo& cell : KeptCells(program)) {
     if (IsInput(cell.cell)) continue;
-    const std::string name = language.CellName(cell.cell);
-    if (cell.is_array) {
-      array(name, program.size(Space::kReading));
-    } else {
-      text += fmt::format("  {} : LREAL;\n", name);
-    }
+    retained.push_back(
+        {.name = language.VariableOf(cell.cell),
+         .size = cell.is_array ? program.size(Space::kReading) : 0});
   }
-  return text + "END_VAR\n";
+  return retained;
 }
 
 // What stands before the routines.
 std::string Prelude(const MapProgram& program,
                     const std::vector<std::string>& inputs,
                     const StructuredTextLanguage& language) {
+  const auto local = [&](const char* name) { return language.Local(name); };
   std::string text;
   std::string anew;
   std::string session;
   for (const CellInfo& cell : KeptCells(program)) {
     if (IsInput(cell.cell) || cell.is_array) continue;
     const std::string name = language.CellName(cell.cell);
-    anew += fmt::format(
-        "    {} := {};\n", name, RealText(InitialValue(program, cell.cell)));
+    anew += fmt::format("    {} := {};\n",
+                        name,
+                        language.Number(InitialValue(program, cell.cell)));
     if (IsOfSession(cell.cell)) session += fmt::format("  {} := 0.0;\n", name);
   }
-  text += fmt::format(R"(IF NOT Running THEN
-  Running := TRUE;
-  IF OfMap = {0} AND AwaySeconds >= 0.0 AND AwaySeconds <= {1} THEN
-    Waited := Waited + AwaySeconds;
-    Missed := Missed + AwaySeconds;
-    Room := Room + MaxRate * AwaySeconds;
+  text += fmt::format(
+      R"(IF NOT {running} THEN
+  {running} := TRUE;
+  IF {of_map} = {fingerprint} AND {away} >= 0.0 AND {away} <= {longest} THEN
+    {waited} := {waited} + {away};
+    {missed} := {missed} + {away};
+    {room} := {room} + {rate} * {away};
   ELSE
-    OfMap := {0};
-{2}  END_IF;
+    {of_map} := {fingerprint};
+{anew}  END_IF;
 END_IF;
 )",
-                      RealText(Fingerprint(program)),
-                      RealText(LongestAge(program)),
-                      anew);
+      fmt::arg("running", local("Running")),
+      fmt::arg("of_map", local("OfMap")),
+      fmt::arg("fingerprint", language.Number(Fingerprint(program))),
+      fmt::arg("away", local("AwaySeconds")),
+      fmt::arg("longest", language.Number(LongestAge(program))),
+      fmt::arg("waited", local("Waited")),
+      fmt::arg("missed", local("Missed")),
+      fmt::arg("room", local("Room")),
+      fmt::arg("rate", local("MaxRate")),
+      fmt::arg("anew", anew));
   for (const StatusBit& bit : StatusBits()) {
-    text += BitName(bit) + " := FALSE;\n";
+    text += language.Local(BitName(bit)) + " := FALSE;\n";
   }
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    text += fmt::format("X[{}] := {};\n", i, inputs[i]);
+    text += fmt::format(
+        "{}[{}] := {};\n", local("X"), i, language.Local(inputs[i]));
   }
-  text += "Passed := DtSeconds;\nIF Start THEN\n" + session + "END_IF;\n";
+  text += fmt::format("{} := {};\nIF {} THEN\n{}END_IF;\n",
+                      local("Passed"),
+                      local("DtSeconds"),
+                      local("Start"),
+                      session);
   if (!program.zero.empty()) {
-    text += "IF TakeZero THEN ZeroDue := 1.0; END_IF;\n";
+    text += fmt::format(
+        "IF {} THEN {} := 1.0; END_IF;\n", local("TakeZero"), local("ZeroDue"));
   }
   return text;
 }
 
+std::string Body(const MapProgram& program,
+                 const std::vector<std::string>& inputs,
+                 const StructuredTextLanguage& language) {
+  const auto assign = [&](const char* to, const std::string& value) {
+    return language.Local(to) + " := " + value + ";\n";
+  };
+  const std::string given = language.Local("Given");
+  return Prelude(program, inputs, language) +
+         Joined(language.Write(program, program.read), "") +
+         Joined(language.Write(program, program.move), "") +
+         assign("Error", given) + assign("Compensation", "-" + given) +
+         assign("Valid", "NOT (" + language.HasAny(kMapNotTaken) + ")") +
+         (program.Uses(Cell::kSettling)
+              ? assign("Settles", language.Local("SettlesIn"))
+              : "");
+}
+
+Lines About(const MapProgram& program,
+            const std::string& name,
+            Precision precision) {
+  Lines about = AboutMap(program, name, Precision::kDouble);
+  if (precision == Precision::kSingle) {
+    about.insert(
+        about.end(),
+        {"Single precision; what a slow filter would lose of a step is "
+         "kept beside it.",
+         "Call it at most a hundred times each second."});
+  }
+  return about;
+}
+
 }  // namespace
 
-std::vector<ExportedFile> StructuredText(const MapProgram& program,
-                                         const std::string& name) {
+ExportedFile StructuredText(const MapProgram& program,
+                            const std::string& name,
+                            Precision precision,
+                            TextForm form) {
+  using Kind = TextSection::Kind;
   const std::vector<std::string> inputs = InputNames(program);
-  const StructuredTextLanguage language(name);
-  const std::string text =
-      Comment(AboutMap(program, name, Precision::kDouble)) +
-      Functions(program, name) +
-      fmt::format("\nFUNCTION_BLOCK {}_map\n", name) +
-      Declarations(program, inputs, language) + "\n" +
-      Prelude(program, inputs, language) +
-      Joined(language.Write(program, program.read), "") +
-      Joined(language.Write(program, program.move), "") +
-      fmt::format(
-          "Error := Given;\nCompensation := -Given;\nValid := NOT ({});\n{}",
-          language.HasAny(kMapNotTaken),
-          program.Uses(Cell::kSettling) ? "Settles := SettlesIn;\n" : "") +
-      "END_FUNCTION_BLOCK\n";
-  return {{name + ".st", text}};
+  const StructuredTextLanguage language(name, precision, form);
+  return TextFile({.name = name + "_map",
+                   .precision = precision,
+                   .about = About(program, name, precision),
+                   .functions = Functions(program, language),
+                   .sections = {{Kind::kInput, Inputs(program, inputs)},
+                                {Kind::kOutput, Outputs(program)},
+                                {Kind::kLocal, Locals(program, language)},
+                                {Kind::kRetained, Retained(program, language)}},
+                   .body = Body(program, inputs, language)},
+                  name,
+                  form);
 }
 
 }  // namespace errmap::models

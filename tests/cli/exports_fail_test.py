@@ -7,7 +7,7 @@ while it reads 0, stands still, reads 50 more, no number, another input or
 itself some rows ago. Whatever it is: no error leaves the limit of the file, no
 step of it exceeds the rate and what the axis' own motion adds, and the languages
 agree, status and all, structured text also as matiec compiles it, where that is
-at hand. Of failures that are told, the filters are afterwards
+at hand; with REAL alone it is near; SCL and PLCopen's XML say the same text. Of failures that are told, the filters are afterwards
 where they would be if the rows had never been. Healthy rows are believed and
 equal `errmap predict`, and say of each row what it does; a control that kept
 its state goes on as if it had not been away. In the end faults are planted, and
@@ -26,10 +26,12 @@ import subprocess
 import sys
 import tempfile
 import types
+import xml.etree.ElementTree
 
 HERE = pathlib.Path(__file__).resolve().parent
 READER = HERE / "commands" / "read_structured_text.py"
 LANGUAGES_AGREE = 1e-12  # of the error's limit
+SINGLE_AGREES = 1e-5  # of it; a filter that stands still loses 5e-5
 RECOVERS = 1e-9  # mm
 PREDICTS = 1e-12  # mm
 RESTARTS = 1e-12  # of the error's limit
@@ -210,8 +212,10 @@ class Exported:
             make_strict(folder / files[0])
         maps = (files if len(files) == 1 else
                 ["--increasing", files[0], "--decreasing", files[1]])
-        run(errmap, "export", *maps, "--c", "--python", "--st", "--name", name,
-            "-o", ".", "--quiet", folder=folder)
+        for forms, where in ((["--c", "--python", "--st", "--scl", "--plcopen"],
+                              "."), (["--st", "--float"], "single")):
+            run(errmap, "export", *maps, *forms, "--name", name, "-o", where,
+                "--quiet", folder=folder)
         (folder / "driver.c").write_text(DRIVER.format(name))
         run("cc", "-std=c99", "-O2", "driver.c", name + ".c", "-o",
             name + ".exe", "-lm", folder=folder)
@@ -261,9 +265,9 @@ class Exported:
         return [(float(error), int(status)) for error, status in
                 (line.split() for line in out.splitlines())]
 
-    def in_structured_text(self, rows, **how):
+    def in_structured_text(self, rows, where=".", **how):
         out = run(sys.executable, "-B", str(READER),
-                  str(self.folder / (self.name + ".st")),
+                  str(self.folder / where / (self.name + ".st")),
                   text=self.lines(rows, **how))
         return [(float(line.split()[0]), int(line.split()[6]))
                 for line in out.splitlines()]
@@ -500,6 +504,109 @@ def check_status(exported, errmap, counts):
                       (status, row["why"]))
 
 
+def from_scl(text):
+    """A source of TIA Portal as IEC 61131-3 has it."""
+    text = re.sub(r"^\{ S7_.*\}\nVERSION : 0\.1\n", "", text, flags=re.M)
+    text = re.sub(r"(\nFUNCTION .*?)\nBEGIN\n", r"\1\n", text, flags=re.S)
+    return text.replace("\nBEGIN\n", "\n\n").replace("#", "").replace('"', "")
+
+
+def from_plcopen(text, single=False):
+    """The same of a project in PLCopen's XML."""
+    spaces = {"p": "http://www.plcopen.org/xml/tc6_0201",
+              "x": "http://www.w3.org/1999/xhtml"}
+    real = "REAL" if single else "LREAL"
+    root = xml.etree.ElementTree.fromstring(text)
+
+    def text_of(element, path):
+        found = element.find(path + "/x:p", spaces)
+        return None if found is None else found.text
+
+    def name_of(kind):
+        return kind.tag.partition("}")[2]
+
+    def variable(element):
+        kind = element.find("p:type", spaces)[0]
+        values = [value.get("value") for value in
+                  element.iterfind(".//p:simpleValue", spaces)]
+        if name_of(kind) == "array":
+            upper = kind.find("p:dimension", spaces).get("upper")
+            of = name_of(kind.find("p:baseType", spaces)[0])
+            kind, values = f"ARRAY[0..{upper}] OF {of}", (
+                ["[" + ", ".join(values) + "]"] if values else [])
+        else:
+            kind = name_of(kind)
+        comment = text_of(element, "p:documentation")
+        return (f"{element.get('name')} : {kind}"
+                + "".join(" := " + value for value in values) + ";"
+                + (f" (* {comment} *)" if comment else ""))
+
+    out = []
+    for pou in root.iterfind(".//p:pou", spaces):
+        is_block = pou.get("pouType") == "functionBlock"
+        about = text_of(pou, "p:documentation")
+        if is_block:
+            out.insert(0, f"(* {about} *)")
+        out.append(f"FUNCTION_BLOCK {pou.get('name')}" if is_block else
+                   f"FUNCTION {pou.get('name')} : {real}"
+                   + (f" (* {about} *)" if about else ""))
+        for section in pou.find("p:interface", spaces):
+            word = {"inputVars": "VAR_INPUT", "outputVars": "VAR_OUTPUT",
+                    "localVars": "VAR"}.get(name_of(section))
+            if word is None:
+                assert section[0].tag.endswith("}" + real)
+                continue
+            out.append(word + (" RETAIN" if section.get("retain") else ""))
+            out += map(variable, section)
+            out.append("END_VAR")
+        out.append(text_of(pou, "p:body/p:ST"))
+        out.append("END_FUNCTION_BLOCK" if is_block else "END_FUNCTION")
+    return "\n".join(out)
+
+
+def check_forms(exported):
+    """What Siemens and PLCopen read is the text that is tested."""
+    def read(end):
+        return (exported.folder / (exported.name + end)).read_text(
+            encoding="ascii")
+
+    def words(text):
+        return re.findall(r"[\w.]+|\S", text)
+
+    check(exported.name + ": SCL is the same text",
+          from_scl(read(".scl")) == read(".st"))
+    check(exported.name + ": PLCopen's XML is the same text",
+          words(from_plcopen(read(".xml"))) == words(read(".st")))
+
+
+def check_single(exported):
+    """With REAL alone: near, and no slower filter stands still."""
+    allowed = SINGLE_AGREES * exported.map.Map().max_error
+    day = next(iter(exported.days.values()))
+    for rows in (steps_of(day), slow(steps_of(day))):
+        for i, (mine, other) in enumerate(zip(
+                exported.in_python(rows),
+                exported.in_structured_text(rows, where="single"))):
+            check(f"{exported.name}: row {i} with REAL alone",
+                  abs(mine[0] - other[0]) <= allowed, (mine, other, allowed))
+
+
+def slow(rows):
+    """The first hours of a day in steps of a second, where each of them moves a
+    filter of hours by less than the last digit of a REAL."""
+    steps = [rows[0]]
+    for before, row in zip(rows, rows[1:]):
+        if len(steps) > 4000:
+            break
+        count = max(1, round(row[0]))
+        for i in range(1, count + 1):
+            share = i / count
+            steps.append([row[0] / count] + [
+                (1 - share) * a + share * b
+                for a, b in zip(before[1:], row[1:])])
+    return steps
+
+
 def check_restart(exported, chance):
     """A control that kept its state goes on as if it had not been away."""
     rows = steps_of(chance.choice(list(exported.days.values())))
@@ -539,6 +646,8 @@ def main():
         counts = {}
         for exported in maps:
             check_healthy(exported)
+            check_forms(exported)
+            check_single(exported)
             if exported.name in WITH_STATUS:
                 check_status(exported, errmap, counts)
             for _ in range(3):

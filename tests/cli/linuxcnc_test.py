@@ -35,7 +35,7 @@ addf integ.0 servo-thread
 setp integ.0.in 1
 setp {hal}.max-rate 1e9
 setp {hal}.step-s 1
-start
+{more}start
 loadusr -w {python} {here}/feed_component.py {hal} case.json result.json
 """
 
@@ -207,14 +207,14 @@ class Bench:
              "halrun", "-f", "probe.hal"], cwd=self.folder,
             capture_output=True, timeout=SECONDS, check=False).returncode == 0
 
-    def feed(self, what, name="up", **case):
+    def feed(self, what, name="up", more="", **case):
         case = {"what": what,
                 "pins": ["position"] + ["in-" + name.replace("_", "-")
                                         for name in SENSORS], **case}
         (self.folder / "case.json").write_text(json.dumps(case))
         (self.folder / "run.hal").write_text(HALRUN.format(
             component="errmap_" + name, hal="errmap-" + name, python=PYTHON,
-            here=HERE))
+            here=HERE, more=more))
         return self.as_user("halrun", "-f", "run.hal")
 
     # At lower accelerations LinuxCNC's filter of a COMP_FILE may stand still
@@ -284,6 +284,45 @@ def check_component(bench):
           counts != 0 and found.get("machine") == [
               [0, 0, False], [1, counts, True], [0, 0, False],
               [1, counts, True]], found)
+
+
+def check_restart(bench):
+    """The user part keeps the state in a file, and a restart goes on there."""
+    rows = bench.rows()[:40]
+    at = 20
+    state = bench.folder / "kept.json"
+    # At rates of no limit a step after the restart shows the filters alone.
+    part = (f"loadusr -Wn errmap-up-state {PYTHON} ./errmap_up_state.py "
+            "kept.json 0.2\n")
+    found = bench.feed("leave", more=part, rows=rows[:at])
+    check("the state is kept in a file",
+          "failed" not in found and state.exists(), found)
+    found = bench.feed("go_on", more=part, rows=rows[at:])
+    away = found.get("away", 0.0)
+    unbroken = [list(row) for row in rows]
+    unbroken[at][0] += away
+    expected = bench.predict(unbroken)[at:]
+    given = found.get("given", [])
+    check("restarted with its state it goes on as if it had not been away",
+          found.get("restored") is True and 0.0 < away < SECONDS
+          and len(given) == len(expected) and all(
+              abs(offset + error) < 1e-9
+              for (offset, _), error in zip(given, expected)),
+          (found, expected))
+    check("and does not settle",
+          given and all(settling == 0.0 for _, settling in given), given)
+    kept = json.loads(state.read_text())
+    for what, wrong in (
+            ("too old", {**kept, "time": kept["time"] - 1e8}),
+            ("of another map", {**kept, "state": [1.5] + kept["state"][1:]}),
+            ("cut", {**kept, "state": kept["state"][:-1]}),
+            ("no state", {})):
+        state.write_text(json.dumps(wrong))
+        found = bench.feed("go_on", more=part, rows=rows[at:at + 2])
+        check(f"a file that is {what} is not taken, and it settles",
+              found.get("restored") is False and all(
+                  settling > 0.0 for _, settling in found.get("given", [(0, 0)])),
+              found)
 
 
 def check_pair(bench):
@@ -456,6 +495,7 @@ def main():
                 bench.install("pair", "--increasing", "up.json", "--decreasing",
                               "down.json")
                 check_component(bench)
+                check_restart(bench)
                 check_pair(bench)
                 check_failures(bench)
                 check_comp_file(bench)

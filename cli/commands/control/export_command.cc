@@ -36,7 +36,7 @@ struct ExportArguments {
   std::string model;
   bool c = false;
   bool python = false;
-  bool structured_text = false;
+  std::vector<models::TextForm> text;
   bool single = false;
   bool table = false;
   bool linuxcnc = false;
@@ -71,7 +71,7 @@ models::LimitOptions LimitsOf(const ExportArguments& arguments,
 }
 
 bool WritesProgram(const ExportArguments& arguments) {
-  return arguments.c || arguments.python || arguments.structured_text ||
+  return arguments.c || arguments.python || !arguments.text.empty() ||
          arguments.hal;
 }
 
@@ -149,8 +149,9 @@ std::vector<models::ExportedFile> FilesOf(const ExportArguments& arguments,
   if (arguments.python) {
     add(models::PythonCode(map.program, map.name, map.rows, map.tolerance()));
   }
-  if (arguments.structured_text) {
-    add(models::StructuredText(map.program, map.name));
+  for (const models::TextForm form : arguments.text) {
+    files.push_back(
+        models::StructuredText(map.program, map.name, map.precision, form));
   }
   if (arguments.hal) add(HalFiles(arguments, map));
   return files;
@@ -218,17 +219,18 @@ void CheckArguments(const ExportArguments& arguments) {
   const bool program = WritesProgram(arguments);
   if (!program && !arguments.table && !arguments.linuxcnc) {
     throw UsageError(
-        "export: say what to write: --c, --python, --st, --hal, --table or "
-        "--linuxcnc");
+        "export: say what to write: --c, --python, --st, --scl, --plcopen, "
+        "--hal, --table or --linuxcnc");
   }
   if (!program && !arguments.max_rate.empty()) {
     throw UsageError(
         "export: --max-rate is for programs; a table has no time, and acts as "
         "fast as the axis moves");
   }
-  if (arguments.single && (!arguments.c || arguments.python ||
-                           arguments.structured_text || arguments.hal)) {
-    throw UsageError("export: --float goes with --c alone");
+  if (arguments.single && (arguments.python || arguments.hal ||
+                           !(arguments.c || !arguments.text.empty()))) {
+    throw UsageError(
+        "export: --float goes with --c, --st, --scl and --plcopen alone");
   }
   if (arguments.linuxcnc && (program || arguments.table)) {
     throw UsageError("export: --linuxcnc writes one file and goes alone");
@@ -294,8 +296,8 @@ void AddTableOptions(CLI::App* command, TableArguments* tables) {
   command
       ->add_option("--increasing",
                    tables->increasing,
-                   "Map of the motion towards increasing positions (on some "
-                   "slides the\nreverse), in place of MODEL")
+                   "Map of the motion towards increasing positions, in place "
+                   "of MODEL\n(on some slides that is the reverse)")
       ->type_name("FILE.json");
   command
       ->add_option("--decreasing",
@@ -352,30 +354,41 @@ void AddExportCommand(CLI::App* app, Run* run) {
       ->type_name("FILE.json");
   command->add_flag("--c", arguments->c, "NAME.h and NAME.c in C99");
   command->add_flag("--python", arguments->python, "NAME.py in plain Python 3");
-  command->add_flag("--st",
-                    arguments->structured_text,
-                    "NAME.st in IEC 61131-3 structured text");
+  const auto add_text =
+      [&](const char* flag, models::TextForm form, const char* what) {
+        command->add_flag_callback(
+            flag, [arguments, form] { arguments->text.push_back(form); }, what);
+      };
+  add_text("--st",
+           models::TextForm::kStandard,
+           "NAME.st in IEC 61131-3 structured text");
+  add_text("--scl",
+           models::TextForm::kScl,
+           "NAME.scl, the same for Siemens' TIA Portal");
+  add_text("--plcopen",
+           models::TextForm::kPlcOpen,
+           "NAME.xml, the same as PLCopen exchanges it");
   command->add_flag(
-      "--float", arguments->single, "C in single precision, but for the state");
+      "--float",
+      arguments->single,
+      "Single precision: C but for the state, text with REAL alone");
   command->add_option("-o,--output", arguments->out, "Folder to write into")
       ->required()
       ->type_name("DIR");
   command
       ->add_option("--name",
                    arguments->name,
-                   "What every symbol begins with (default: the model file's "
-                   "name, made safe)")
+                   "What symbols begin with (default: the file's name)")
       ->type_name("NAME");
   command->add_flag("--hal",
                     arguments->hal,
-                    "A component for LinuxCNC (.comp) and its wiring (.hal)");
+                    "A LinuxCNC component (.comp), its wiring (.hal)");
   command->add_option("--joint", arguments->joint, "--hal: joint to compensate")
       ->check(CLI::Range(0, 8))
       ->capture_default_str();
   command->add_flag("--table",
                     arguments->table,
-                    "NAME.csv, the compensation over position and one other "
-                    "input");
+                    "NAME.csv over position and one other input");
   command->add_flag("--linuxcnc",
                     arguments->linuxcnc,
                     "A COMP_FILE of type 0 for a joint of LinuxCNC");
@@ -383,8 +396,7 @@ void AddExportCommand(CLI::App* app, Run* run) {
       ->add_option(
           "--max-offset",
           arguments->max_offset,
-          "Largest compensation: 20um (default: 1.3 times the range of "
-          "the\ntrained errors)")
+          "Largest compensation: 20um (default: 1.3 times the trained errors)")
       ->type_name("X");
   command
       ->add_option("--max-rate",
@@ -397,7 +409,13 @@ void AddExportCommand(CLI::App* app, Run* run) {
   AddForceFlag(command, &arguments->force);
   command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
   MarkSeldom(command,
-             {"--float", "--joint", "--row", "--points", "--over", "--grid"});
+             {"--float",
+              "--joint",
+              "--row",
+              "--points",
+              "--over",
+              "--grid",
+              "--resolution"});
   command->footer(
       "Every file states inputs, their order and units, and the sign: "
       "compensation = -error.\nWhat is written is checked against errmap "

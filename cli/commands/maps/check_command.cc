@@ -172,8 +172,8 @@ void AddCheckCommand(CLI::App* app, Run* run) {
   command
       ->add_option("--goal",
                    arguments->goal,
-                   "Also say how often to probe so that 90 % of the errors\n"
-                   "stay within this: 2um (errmap when has more)")
+                   "Also say how often to probe to keep 90 % of the errors "
+                   "within this: 2um\n(errmap when has more)")
       ->type_name("X");
   AddRowOptions(command, &arguments->rows.missing, &arguments->rows.faults);
   AddFormatOption(command, &arguments->format);

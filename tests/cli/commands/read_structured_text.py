@@ -1,6 +1,6 @@
 """A reader of the IEC 61131-3 structured text that errmap writes, and of no
 more: functions and one function block of LREAL, BOOL, INT and arrays of LREAL,
-assignments, IF and FOR. Debian 12 has no parser of the language, so this one is
+or REAL in its place, rounded after each operation; assignments, IF and FOR. Debian 12 has no parser of the language, so this one is
 written from the standard's grammar (IEC 61131-3:2013, Annex A) and strict: a
 word that it does not know, a type that does not fit, `__` or a trailing `_` in
 a name, a real literal without a point, a line over 200 characters ends it.
@@ -14,6 +14,7 @@ for dt, what it retains was not, and the call comes dt after. Prints Error,
 Compensation, Valid, Outside, Far, Clipped and the status after each call.
 """
 
+import ctypes
 import math
 import re
 import sys
@@ -72,6 +73,11 @@ class Reader:
         self.functions = {}
         self.inputs = []
         self.scope = {}
+        # Of all reals of a file.
+        self.real = "REAL" if ("word", "REAL") in self.tokens else "LREAL"
+
+    def rounded(self, text):
+        return f"single({text})" if self.real == "REAL" else text
 
     def peek(self):
         return self.tokens[self.at]
@@ -104,8 +110,8 @@ class Reader:
         self.take("word", "FUNCTION")
         name = self.take("name")
         self.take("sign", ":")
-        self.take("word", "LREAL")
-        self.scope = {name: "LREAL"}
+        self.take("word", self.real)
+        self.scope = {name: self.real}
         self.take("word", "VAR_INPUT")
         parameters = [self.declaration() for _ in range(1)]
         self.take("word", "END_VAR")
@@ -128,18 +134,18 @@ class Reader:
             size = int(self.take("integer")) + 1
             self.take("sign", "]")
             self.take("word", "OF")
-            self.take("word", "LREAL")
+            self.take("word", self.real)
             self.scope[name] = size
             value = f"[0.0] * {size}"
             if self.accept("sign", ":="):
                 value = self.initial_values(size)
         else:
             kind = self.take("word")
-            assert kind in ("LREAL", "BOOL", "INT"), kind
+            assert kind in (self.real, "BOOL", "INT"), kind
             self.scope[name] = kind
-            value = {"LREAL": "0.0", "BOOL": "False", "INT": "0"}[kind]
+            value = {self.real: "0.0", "BOOL": "False", "INT": "0"}[kind]
             if self.accept("sign", ":="):
-                value = (self.take("real") if kind == "LREAL"
+                value = (self.rounded(self.take("real")) if kind == self.real
                          else str(self.take("word") == "TRUE"))
         self.take("sign", ";")
         if owner is not None:
@@ -151,7 +157,7 @@ class Reader:
         values = []
         while True:
             sign = "-" if self.accept("sign", "-") else ""
-            values.append(sign + self.take("real"))
+            values.append(self.rounded(sign + self.take("real")))
             if not self.accept("sign", ","):
                 break
         self.take("sign", "]")
@@ -228,7 +234,7 @@ class Reader:
                 index, of = self.variable(self.take("name"))
                 assert of == "INT", of
             self.take("sign", "]")
-            return f"self.{name}[{index}]", "LREAL"
+            return f"self.{name}[{index}]", self.real
         return f"self.{name}", kind
 
     def typed(self, kind):
@@ -260,7 +266,7 @@ class Reader:
         for sign in ("<=", ">=", "<", ">", "="):
             if self.accept("sign", sign):
                 other, other_kind = self.sum()
-                assert kind == other_kind == "LREAL"
+                assert kind == other_kind == self.real
                 sign = "==" if sign == "=" else sign
                 return f"({text} {sign} {other})", "BOOL"
         return text, kind
@@ -270,8 +276,8 @@ class Reader:
         while self.peek() in [("sign", sign) for sign in signs]:
             sign = self.take("sign")
             other, other_kind = part()
-            assert kind == other_kind == "LREAL"
-            text = f"({text} {sign} {other})"
+            assert kind == other_kind == self.real
+            text = self.rounded(f"({text} {sign} {other})")
         return text, kind
 
     def sum(self):
@@ -283,7 +289,7 @@ class Reader:
     def unary(self):
         if self.accept("sign", "-"):
             text, kind = self.primary()
-            assert kind == "LREAL"
+            assert kind == self.real
             return f"(-{text})", kind
         if self.accept("word", "NOT"):
             text, kind = self.primary()
@@ -295,7 +301,7 @@ class Reader:
         kind, value = self.peek()
         self.at += 1
         if kind == "real":
-            return value, "LREAL"
+            return self.rounded(value), self.real
         if (kind, value) == ("sign", "("):
             text, inner = self.expression()
             self.take("sign", ")")
@@ -304,18 +310,18 @@ class Reader:
             return value.capitalize(), "BOOL"
         if kind == "word" and value in ("EXP", "SIN", "COS", "ABS"):
             self.take("sign", "(")
-            text = self.typed("LREAL")
+            text = self.typed(self.real)
             self.take("sign", ")")
             function = "abs" if value == "ABS" else "math." + value.lower()
-            return f"{function}({text})", "LREAL"
+            return self.rounded(f"{function}({text})"), self.real
         assert kind == "name", (kind, value)
         if value in self.functions:
             self.take("sign", "(")
             self.take("name", self.functions[value])
             self.take("sign", ":=")
-            text = self.typed("LREAL")
+            text = self.typed(self.real)
             self.take("sign", ")")
-            return f"F_{value}({text})", "LREAL"
+            return f"F_{value}({text})", self.real
         return self.variable(value)
 
 
@@ -324,12 +330,13 @@ def main():
         text = file.read()
     assert max(map(len, text.split("\n"))) <= 200, "a long line"
     reader = Reader(text)
-    names = {"math": math}
+    names = {"math": math, "single": lambda x: ctypes.c_float(x).value}
+    taken = names["single"] if reader.real == "REAL" else float
     exec(compile(reader.read(), sys.argv[1], "exec"), names)
     block = names["Block"]()
     for row in sys.stdin:
         start, dt, *inputs = map(float, row.split())
-        values = iter(inputs)
+        values = map(taken, inputs)
         for name in reader.inputs:
             if name == "START":
                 block.START = start == 1.0

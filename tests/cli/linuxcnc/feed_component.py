@@ -89,6 +89,26 @@ def failures(component, case, result):
         result["given"].append(given)
 
 
+def leave(component, case, result):
+    """Rows, and time for the user part to keep what they left."""
+    component.pulse("begin")
+    for dt, *readings in case["rows"]:
+        component.row(max(dt, 1.0), readings)
+    time.sleep(1.0)
+
+
+def go_on(component, case, result):
+    """Rows without a session that begins."""
+    component.periods()
+    result["away"] = component.get("away-s")
+    result["restored"] = bool(component.get("state-restored"))
+    result["given"] = []
+    for dt, *readings in case["rows"]:
+        component.row(dt, readings)
+        result["given"].append([component.get("offset"),
+                                component.get("settling-s")])
+
+
 def missing(component, case, result):
     """A sensor that fails keeps the last good offset; the gap is one step."""
     rows, predicted = case["rows"], case["predicted"]

@@ -53,7 +53,7 @@ TEST(HalComponent, KeepsPinNamesWithinHalAndApart) {
     EXPECT_TRUE(pins.insert(pin.pin).second) << pin.pin;
   }
   EXPECT_EQ(made.pins.front().pin, "position");
-  ASSERT_EQ(made.files.size(), 3);
+  ASSERT_EQ(made.files.size(), 4);
   // The wiring lists the columns behind the pins.
   EXPECT_THAT(
       made.files[1].content,

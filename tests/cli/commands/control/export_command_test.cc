@@ -484,9 +484,9 @@ TEST_F(CliExport, RefusesWhatItCannotWrite) {
       RefusalOf(Run({"export", "map.json", "-o", "."}), kWrongCommandLine),
       HasSubstr("say what to write"));
   EXPECT_THAT(
-      RefusalOf(Run({"export", "map.json", "--st", "--float", "-o", "."}),
+      RefusalOf(Run({"export", "map.json", "--python", "--float", "-o", "."}),
                 kWrongCommandLine),
-      HasSubstr("--float goes with --c alone"));
+      HasSubstr("--float goes with --c, --st, --scl and --plcopen alone"));
   Json opaque = Json::parse(Read("map.json"));
   opaque["kind"] = "opaque";
   Write("opaque.json", opaque.dump());
