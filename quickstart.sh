@@ -20,7 +20,7 @@ python_packages="pybind11-dev python3-dev python3-pip python3-setuptools python3
 optional_packages="pybind11-dev python3-dev python3-pandas python3-sklearn
   python3-tqdm python3-nbclient python3-ipykernel mypy r-base-core
   r-cran-jsonlite clang cmark-gfm linuxcnc-uspace linuxcnc-uspace-dev slurm-wlm munge
-  openmpi-bin"
+  openmpi-bin mosquitto python3-paho-mqtt"
 example="data/sets/nistir5367_xdisp_down.csv"
 
 usage="usage: sh quickstart.sh [test|python]"

@@ -10,6 +10,7 @@ set(manual_pages
   fewer-sensors
   measure-next
   controller
+  feeding
   still-holds
   re-zero
   components
