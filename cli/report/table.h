@@ -104,10 +104,12 @@ struct Table {
   std::vector<Column> columns = {};
   std::vector<std::vector<Cell>> rows = {};
   std::size_t marked = std::string::npos;  // row that stands out
-  /// Why there are no rows; shown in their place.
+  /// Where there are no rows, why; shown in their place.
   std::string missing = {};
   std::string nothing = "-";  // stands where nothing is known
   std::optional<ErrorText> error = {};
+
+  bool has_nothing() const { return rows.empty() && !missing.empty(); }
 
   /// A cell as people read it.
   std::string Shown(const Cell& cell) const;

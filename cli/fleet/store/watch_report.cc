@@ -18,6 +18,20 @@ namespace {
 
 using models::WatchStatus;
 
+// The sessions checked at their places from 1 on; of many some, and the newest.
+std::vector<std::pair<std::string, double>> Sessions(
+    const WatchedComponent& component) {
+  constexpr std::size_t kMost = 8;
+  const std::size_t count = component.checks.size();
+  const std::size_t apart = (count + kMost - 1) / kMost;
+  std::vector<std::pair<std::string, double>> names;
+  for (std::size_t i = count; i > 0; i -= std::min(i, apart)) {
+    names.emplace_back(component.checks[i - 1].session.label,
+                       static_cast<double>(i));
+  }
+  return names;
+}
+
 std::string Figure(const WatchedComponent& component, std::size_t number) {
   const double scale = component.deployment.shown_scale;
   report::Series found{.label = "found", .mark = report::Mark::kPoints};
@@ -39,7 +53,8 @@ std::string Figure(const WatchedComponent& component, std::size_t number) {
   line.columns = found.columns;
   report::Plot plot;
   plot.name = fmt::format("watched-{}", number);
-  plot.x = {.quantity = "session since it was deployed"};
+  plot.x = {.quantity = "session since it was deployed",
+            .names = Sessions(component)};
   plot.y = {
       .quantity = "RMSE", .unit = component.deployment.shown_unit, .low = 0.0};
   plot.series = {promised, line, found};

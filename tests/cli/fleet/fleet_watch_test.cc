@@ -92,7 +92,13 @@ TEST_F(Watch, TellsHealthyWorseAndDriftingApart) {
               AllOf(HasSubstr("errmap update store/maps/"),
                     HasSubstr("errmap deploy store 'm1/x_displacement, down' "
                               "--model new.json")));
-  EXPECT_TRUE(Exists("store/watch.html"));
+  // What is to be done stands before the figures, and all in a table.
+  const std::string page = Read("store/watch.html");
+  const std::size_t command = page.find("errmap deploy store");
+  EXPECT_LT(command, page.find("<svg"));
+  EXPECT_LT(page.find("All components"), page.rfind("m1/x_displacement, down"));
+  EXPECT_THAT(Run({"watch", "store", "later", "--format", "md"}).out,
+              HasSubstr("| m1/x\\_displacement, down | worse |"));
 
   ASSERT_EQ(Run({"deploy", "store", kName}).status, 0);
   Simulate("drifting",
