@@ -244,7 +244,7 @@ std::string MarkdownTable(const Table& whole, const std::string& level) {
       table.title.empty()
           ? ""
           : fmt::format("{} {}\n\n", level, MarkdownText(table.title));
-  if (table.has_nothing()) {
+  if (!table.missing.empty()) {
     return text + MarkdownText(table.missing) + "\n\n";
   }
   text += "|";
@@ -270,7 +270,7 @@ std::string MarkdownTable(const Table& whole, const std::string& level) {
 
 std::string HtmlTable(const Table& whole) {
   // What does not apply is left out of a page.
-  if (whole.has_nothing()) return "";
+  if (!whole.missing.empty()) return "";
   const Table table = WithoutEmptyColumns(whole);
   std::string html;
   if (!table.title.empty()) html += "<h4>" + HtmlText(table.title) + "</h4>\n";

@@ -104,12 +104,10 @@ struct Table {
   std::vector<Column> columns = {};
   std::vector<std::vector<Cell>> rows = {};
   std::size_t marked = std::string::npos;  // row that stands out
-  /// Where there are no rows, why; shown in their place.
+  /// Why there are no rows; shown in their place.
   std::string missing = {};
   std::string nothing = "-";  // stands where nothing is known
   std::optional<ErrorText> error = {};
-
-  bool has_nothing() const { return rows.empty() && !missing.empty(); }
 
   /// A cell as people read it.
   std::string Shown(const Cell& cell) const;

@@ -166,7 +166,7 @@ class FleetPage {
                             report::Cell(count.first),
                             report::Cell(count.second)});
     }
-    table.missing = "no component has a map";
+    if (table.rows.empty()) table.missing = "no component has a map";
     return table;
   }
 

@@ -166,7 +166,9 @@ report::Table WatchTable(const std::vector<WatchedComponent>& components,
     row.resize(table.columns.size());
     table.rows.push_back(std::move(row));
   }
-  table.missing = "no component has a map deployed and new measurements";
+  if (table.rows.empty()) {
+    table.missing = "no component has a map deployed and new measurements";
+  }
   return table;
 }
 
@@ -211,7 +213,7 @@ report::Table ToDo(const std::string& store,
          report::Cell(std::string_view(deployment.shown_unit)),
          report::Cell(std::string_view(proposal))});
   }
-  table.missing = "nothing is to be done";
+  if (table.rows.empty()) table.missing = "nothing is to be done";
   return table;
 }
 

@@ -554,7 +554,7 @@ Table PageLeaderboard(const ReportView& view) {
     table.note += drawn + " ";
   }
   table.note += fmt::format("{}.", kIntervalCoverage);
-  table.missing = "No model was fitted.";
+  if (table.rows.empty()) table.missing = "No model was fitted.";
   return table;
 }
 
