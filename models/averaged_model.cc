@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -44,6 +45,11 @@ AveragedModel::AveragedModel(Index num_inputs,
     }
     total += member.weight;
   }
+  // Those that come to 1 but for rounding are of a model that was described:
+  // divided again, some would change in their last bit.
+  const double rounding = std::numeric_limits<double>::epsilon() *
+                          static_cast<double>(members_.size());
+  if (std::abs(total - 1.0) <= rounding) return;
   for (AveragedMember& member : members_) member.weight /= total;
 }
 

@@ -10,7 +10,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "models/averaged_model.h"
+#include "models/blend/form_to_model.h"
 #include "models/model_file.h"
+#include "models/polynomial/polynomial_model.h"
 #include "models/recipe_catalog.h"
 #include "models/shared_work.h"
 #include "models/study/judgement/judgement.h"
@@ -271,6 +274,29 @@ TEST(BlendRecipe, RefusesWhatItDoesNotKnow) {
   EXPECT_THROW(MakeRecipe("blend:hidden=3"), std::invalid_argument);
   EXPECT_THROW(MakeRecipe("poly:ridge:view=auto:penalty=1"),
                std::invalid_argument);
+}
+
+TEST(AveragedModel, OfItsOwnDescriptionPredictsTheSameBits) {
+  stats::Random random(5);
+  for (int members = 1; members <= 20; ++members) {
+    std::vector<AveragedMember> averaged;
+    for (int i = 0; i < members; ++i) {
+      averaged.push_back({.name = "mean",
+                          .weight = 0.001 + random.Uniform(),
+                          .inputs = {},
+                          .lowest = -10.0,
+                          .highest = 10.0,
+                          .model = std::make_shared<PolynomialModel>(
+                              PolynomialForm{.input_offset = {},
+                                             .input_scale = {},
+                                             .intercept = random.Uniform(),
+                                             .terms = {}},
+                              1)});
+    }
+    const AveragedModel model(0, "equal", std::move(averaged));
+    const auto again = ModelOfForm(model.Describe(), members);
+    EXPECT_EQ(again->PredictRow({}), model.PredictRow({})) << members;
+  }
 }
 
 }  // namespace
