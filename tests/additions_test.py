@@ -4,8 +4,8 @@
     additions_test.py SOURCE_FOLDER BUILD_FOLDER CMAKE
 
 Each patch of additions/ adds one, in as many files as the READMEs of the rooms
-say. A column, a format of tables, a hold-out and a certified problem are applied
-to a copy of the sources and the program is built with them: the rooms whose sources they edit are compiled anew and linked before the
+say. A column, a format of tables, a hold-out, a certified problem and a filter of
+a map's memory are applied to a copy of the sources and the program is built with them: the rooms whose sources they edit are compiled anew and linked before the
 libraries of BUILD_FOLDER, which is made by Ninja with its rooms together (else
 skipped, status 77; so where there is no patch(1)). Rooms that only include an
 edited header are not: an enumerator or a declaration more at its end changes
@@ -27,6 +27,7 @@ import concurrent.futures
 import csv
 import io
 import json
+import math
 import os
 import pathlib
 import re
@@ -37,7 +38,8 @@ import tempfile
 
 SKIPPED = 77
 # Files that each addition may edit or make, beside READMEs.
-MOST_FILES = {"column": 1, "format": 1, "holdout": 3, "problem": 2}
+MOST_FILES = {"column": 1, "format": 1, "holdout": 3, "problem": 2,
+              "filter": 4}
 # Likewise, without what they make, and the headers of their lists.
 OF_STRUCTS = {"option": (3, "cli/desk/study_options.h"),
               "family": (6, "models/file/map_members_json.h")}
@@ -217,6 +219,50 @@ def check_problem(program):
                    found["lre_rss"]) >= 10.0, str(found))
 
 
+def check_filter(program, folder):
+    """A map with one lag made a lead predicts what that is by hand, and its
+    exported program does."""
+    run(program, "simulate", "turning-centre", "-o", folder / "sim", "--days",
+        "2", "--cycles", "2", "--quiet")
+    data = folder / "sim/x_displacement_down.csv"
+    run(program, "fit", data, "--model", "poly:ridge:view=history:terms=linear",
+        "--inputs", "position_mm,t12_degC", "-o", folder / "lag.json",
+        "--quiet", "--no-interval")
+    model = json.loads((folder / "lag.json").read_text())
+    lag = model["history"]["derived"][0]
+    lag["filter"] = "lead"
+    at = model["history"]["form_inputs"].index(lag["name"])
+    polynomial = model["polynomial"]
+    by = sum(term["coefficient"] for term in polynomial["terms"]
+             if term["powers"][at] == 1) * polynomial["input_scale"][at]
+    model.update(guards=None, applicability=None, name="lead")
+    (folder / "lead.json").write_text(json.dumps(model))
+    (folder / "lag.json").write_text(json.dumps(
+        {**model, "history": {**model["history"], "derived": [
+            {**lag, "filter": "ema"}, *model["history"]["derived"][1:]]}}))
+    found = [[float(row["predicted"]) for row in csv.DictReader(io.StringIO(
+        run(program, "predict", folder / name, data, "--quiet")))]
+        for name in ("lag.json", "lead.json")]
+    rows = list(csv.DictReader(io.StringIO(data.read_text())))
+    day, time, x, y = None, 0.0, 0.0, 0.0
+    for row, of_lag, of_lead in zip(rows, *found):
+        now, reading = float(row["time_s"]), float(row["t12_degC"])
+        if row["day"] != day:
+            y = reading
+        else:
+            u = (now - time) / lag["tau"]
+            m = -math.expm1(-u) / u
+            y += u * m * (x - y) + (1.0 - m) * (reading - x)
+        day, time, x = row["day"], now, reading
+        # of reading - y in the place of y
+        expect(abs(of_lead - of_lag - by * (reading - 2.0 * y)) < 1e-12,
+               f"row at {now}: {of_lead}, with a lag {of_lag}, y {y}")
+    run(program, "export", folder / "lead.json", "--python", "-o", folder / "out",
+        "--quiet")
+    expect("right" in run(sys.executable, "-B", folder / "out/lead.py"),
+           "its exported program")
+
+
 def main():
     source, build = (pathlib.Path(name).resolve() for name in sys.argv[1:3])
     if (not (build / "build.ninja").exists() or not shutil.which("patch")
@@ -235,6 +281,7 @@ def main():
         check_format(program, table)
         check_holdout(program, table)
         check_problem(program)
+        check_filter(program, folder)
     with tempfile.TemporaryDirectory() as scratch:
         units = check_structs(source, pathlib.Path(scratch), build, sys.argv[3])
     print(f"additions: {len(MOST_FILES)}, {len(edited)} files edited or made; of "

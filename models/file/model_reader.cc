@@ -94,7 +94,7 @@ History ReadHistory(const Node& node, const std::vector<TrainedInput>& inputs) {
     input.column = ReadColumn(element);
     input.of = element.At("of").Text();
     input.filter = ReadWord<Filter>(element.At("filter"));
-    if (input.filter == Filter::kEma) {
+    if (RunsInTime(input.filter)) {
       input.tau = element.At("tau").Number();
       // The first maps held the later reading and do not say so.
       const auto between = element.Find("between");

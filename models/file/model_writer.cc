@@ -22,7 +22,7 @@ using Json = ModelJson;
 Json ToJson(const History& history) {
   Json json = MembersToJson(history);
   for (std::size_t i = 0; i < history.derived.size(); ++i) {
-    if (history.derived[i].filter == Filter::kEma) continue;
+    if (RunsInTime(history.derived[i].filter)) continue;
     json["derived"][i].erase("tau");
     json["derived"][i].erase("between");
   }

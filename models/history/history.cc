@@ -243,6 +243,22 @@ std::string_view ToString(Filter filter) {
   return "";
 }
 
+bool RunsInTime(Filter filter) {
+  switch (filter) {
+    case Filter::kEma:
+      return true;
+    case Filter::kZero:
+    case Filter::kSine:
+    case Filter::kCosine:
+      break;
+  }
+  return false;
+}
+
+bool Remembers(Filter filter) {
+  return RunsInTime(filter) || filter == Filter::kZero;
+}
+
 std::string_view ToString(Between between) {
   return between == Between::kLinear ? "linear" : "held";
 }
@@ -252,7 +268,7 @@ double History::longest_bridged() const {
   constexpr double kTimeConstants = 3.0;
   double shortest_tau = std::numeric_limits<double>::infinity();
   for (const DerivedInput& input : derived) {
-    if (input.filter == Filter::kEma) {
+    if (RunsInTime(input.filter)) {
       shortest_tau = std::min(shortest_tau, input.tau);
     }
   }
@@ -267,7 +283,7 @@ double History::settles_after() const {
   for (const DerivedInput& input : derived) {
     double& own = after[input.column.name];
     own = after.contains(input.of) ? after.at(input.of) : 0.0;
-    if (input.filter == Filter::kEma) own += kSettledTaus * input.tau;
+    if (RunsInTime(input.filter)) own += kSettledTaus * input.tau;
     if (input.filter == Filter::kZero) {
       own = std::numeric_limits<double>::infinity();
     }
@@ -277,14 +293,11 @@ double History::settles_after() const {
 }
 
 bool History::needs_time() const {
-  return std::ranges::find(derived, Filter::kEma, &DerivedInput::filter) !=
-         derived.end();
+  return std::ranges::any_of(derived, RunsInTime, &DerivedInput::filter);
 }
 
 bool History::needs_sessions() const {
-  return std::ranges::any_of(derived, [](const DerivedInput& input) {
-    return input.filter == Filter::kEma || input.filter == Filter::kZero;
-  });
+  return std::ranges::any_of(derived, Remembers, &DerivedInput::filter);
 }
 
 std::vector<std::string> History::columns() const {
@@ -302,7 +315,7 @@ std::vector<Index> History::remembered() const {
   const std::vector<std::string> names = columns();
   std::set<Index> found;
   for (const DerivedInput& input : derived) {
-    if (input.filter != Filter::kEma && input.filter != Filter::kZero) continue;
+    if (!Remembers(input.filter)) continue;
     found.insert(std::ranges::find(names, RootOf(*this, input.of)) -
                  names.begin());
   }
@@ -381,7 +394,7 @@ std::vector<RowChange> RowChanges(const data::Dataset& training,
   for (const std::string& name : history.columns()) {
     const bool is_filtered =
         std::ranges::any_of(history.derived, [&](const DerivedInput& input) {
-          return input.filter == Filter::kEma && input.of == name;
+          return RunsInTime(input.filter) && input.of == name;
         });
     if (!is_filtered) continue;
     const auto column = log.input_values.col(training.FindInput(name));

@@ -22,6 +22,10 @@ enum class Filter {
 
 /// "ema", "zero", "sine", "cosine".
 std::string_view ToString(Filter filter);
+/// Whether it goes on in time, by a time constant.
+bool RunsInTime(Filter filter);
+/// Whether it remembers anything of its session.
+bool Remembers(Filter filter);
 
 /// How an input is taken to go from one reading to the next.
 enum class Between {
@@ -38,8 +42,9 @@ struct DerivedInput {
   data::ColumnInfo column;  // ema(t12_degC,1800s), zeroed(t12_degC)
   std::string of;           // a column of the data, or an earlier derived input
   Filter filter = Filter::kEma;
-  double tau = 0.0;                    // of kEma: above 0, in the unit of time
-  Between between = Between::kLinear;  // of kEma
+  /// Of what runs in time; above 0, in the unit of time.
+  double tau = 0.0;
+  Between between = Between::kLinear;  // likewise
 };
 
 /// How a column that is filtered changed from row to row of training.

@@ -68,10 +68,10 @@ struct Course {
 struct Derivation {
   Filter filter = Filter::kEma;
   Operand source = {};
-  Operand state = {};  // of kEma and kZero
+  Operand state = {};  // of what remembers
   Operand value = {};  // kEma: the state itself
-  Operand decay = {};  // of kEma
-  /// Of kEma with Between::kLinear.
+  Operand decay = {};  // of what runs in time
+  /// Likewise, with Between::kLinear.
   std::optional<std::size_t> course = std::nullopt;
   double radians = 1.0;
 
@@ -190,8 +190,8 @@ Instructions Lag(const Layout& layout, const Derivation& derivation) {
 Instructions StateUpdate(const Layout& layout,
                          const Derivation& derivation,
                          Moment moment) {
-  const bool is_filter = derivation.filter == Filter::kEma;
-  if (!is_filter && derivation.filter != Filter::kZero) return {};
+  if (!Remembers(derivation.filter)) return {};
+  const bool is_filter = RunsInTime(derivation.filter);
   if (is_filter && moment == Moment::kAdvance) return Lag(layout, derivation);
   // The first reading is the filter's steady state; a zero is where it is
   // taken.
