@@ -68,8 +68,7 @@ class Tuner {
         const FitContext& context)
       : design_(design),
         trainers_(trainers),
-        compares_(tuning.wfactor && trainers.brief ? *trainers.brief
-                                                   : *trainers.full),
+        compares_(ComparesBy(tuning, trainers)),
         training_(training),
         context_(context),
         inner_(MakeInnerFolds(training, context)),
@@ -199,6 +198,13 @@ class Tuner {
   }
 
  private:
+  static const NetTrainer& ComparesBy(const NetTuning& tuning,
+                                      const NetTrainers& trainers) {
+    if (!tuning.wfactor) return *trainers.full;
+    if (trainers.along_path) return *trainers.along_path;
+    return trainers.brief ? *trainers.brief : *trainers.full;
+  }
+
   const NetDesign& design_;
   const NetTrainers& trainers_;
   const NetTrainer& compares_;

@@ -21,8 +21,10 @@ struct NetTuning {
 /// The trainers of a recipe's fits.
 struct NetTrainers {
   std::shared_ptr<const NetTrainer> full;
-  /// Of a tuned net that takes no path: compares wfactors, and may be all that
-  /// its fit needs; else null.
+  /// Of a tuned net: compares wfactors. Along a path it is as `full`, in single
+  /// precision where the method has one; else brief, and may be all that the
+  /// fit needs. Null: `full` compares.
+  std::shared_ptr<const NetTrainer> along_path;
   std::shared_ptr<const NetTrainer> brief;
   std::int64_t full_iterations = 0;
   std::int64_t brief_iterations = 0;
