@@ -3,7 +3,6 @@
 # libraries what no linker needs.
 cmake_policy(VERSION 3.25)
 find_program(gzip gzip REQUIRED)
-find_program(strip strip REQUIRED)
 
 function(pack file)
   execute_process(COMMAND ${gzip} -9nf ${file} COMMAND_ERROR_IS_FATAL ANY)
@@ -41,7 +40,7 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   file(GLOB libraries ${root}/usr/lib/*.a ${root}/usr/lib/*/*.a)
   foreach(library IN LISTS libraries)
     execute_process(
-      COMMAND ${strip} --strip-debug --remove-section=.comment
+      COMMAND ${CPACK_ERRMAP_STRIP} --strip-debug --remove-section=.comment
               --remove-section=.note --enable-deterministic-archives ${library}
       COMMAND_ERROR_IS_FATAL ANY)
   endforeach()

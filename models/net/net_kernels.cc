@@ -39,18 +39,18 @@ std::vector<NetKernels<Scalar>> Versions(
 template <>
 std::span<const NetKernels<double>> AvailableNetKernels<double>() {
   static const std::vector<NetKernels<double>> versions =
-      Versions(kBaselineDouble,
-               ERRMAP_ADDRESS(kAvx2Double),
-               ERRMAP_ADDRESS(kAvx512Double));
+      Versions<double>(kBaselineDouble,
+                       ERRMAP_ADDRESS(kAvx2Double),
+                       ERRMAP_ADDRESS(kAvx512Double));
   return versions;
 }
 
 template <>
 std::span<const NetKernels<float>> AvailableNetKernels<float>() {
   static const std::vector<NetKernels<float>> versions =
-      Versions(kBaselineSingle,
-               ERRMAP_ADDRESS(kAvx2Single),
-               ERRMAP_ADDRESS(kAvx512Single));
+      Versions<float>(kBaselineSingle,
+                      ERRMAP_ADDRESS(kAvx2Single),
+                      ERRMAP_ADDRESS(kAvx512Single));
   return versions;
 }
 

@@ -284,7 +284,7 @@ class MapFile:
         ----------
         folder : path
             Where the files go.
-        *languages : {"c", "st", "python", "hal", "table"}
+        *languages : {"c", "st", "scl", "plcopen", "python", "hal", "table"}
         **options
             Those of ``errmap export``: ``name``, ``float``, ``units``,
             ``joint``, ``at``, ``force``, ...
