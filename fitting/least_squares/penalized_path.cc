@@ -296,6 +296,24 @@ PenalizedPath::PenalizedPath(Penalty penalty,
   covariance_.array() *= scales_.array();
 }
 
+PenalizedPath::PenalizedPath(const CrossProducts& sums,
+                             bool intercept,
+                             const MatrixXd& columns,
+                             const VectorXd& response,
+                             const VectorXd& weights)
+    : PenalizedPath(Penalty::kRidge, sums, intercept) {
+  const VectorXd roots =
+      weights.size() > 0
+          ? VectorXd((weights / weight_).cwiseSqrt())
+          : VectorXd::Constant(columns.rows(), std::sqrt(1.0 / weight_));
+  rows_ = roots.asDiagonal() * (columns.rowwise() - means_.transpose()) *
+          scales_.asDiagonal();
+  response_ = roots.cwiseProduct(
+      response - VectorXd::Constant(response.size(), mean_response_));
+  correlation_.resize(rows_.rows(), rows_.rows());
+  Multiply(rows_, MatrixXd(rows_.transpose()), correlation_);
+}
+
 std::vector<double> PenalizedPath::Grid() const {
   if (penalty_ == Penalty::kRidge) return FallingGrid(10.0, 10, 1);
   const double largest =
@@ -308,6 +326,7 @@ std::vector<double> PenalizedPath::Grid() const {
 MatrixXd PenalizedPath::Shifted(double strength) const {
   MatrixXd shifted = correlation_;
   shifted.diagonal().array() += strength;
+  if (in_rows()) return shifted;
   for (Index j = 0; j < scales_.size(); ++j) {
     if (scales_[j] == 0.0) shifted(j, j) = 1.0;
   }
@@ -327,8 +346,10 @@ MatrixXd PenalizedPath::RidgeSolutions(
       factor = Shifted(strengths[s] + kWeak);
       FactorizeCholesky(factor);
     }
-    VectorXd solution = covariance_;
+    VectorXd solution = in_rows() ? response_ : covariance_;
     SolveCholesky(factor, &solution);
+    // (A'A + s I)^-1 A' = A' (A A' + s I)^-1.
+    if (in_rows()) solution = rows_.transpose() * solution;
     solutions.col(static_cast<Index>(s)) = solution;
   }
   return solutions;
@@ -364,9 +385,9 @@ double PenalizedPath::DegreesOfFreedom(double strength,
   MatrixXd factor = Shifted(strength);
   if (strength > 0.0 && FactorizeCholesky(factor)) {
     const VectorXd inverse = DiagonalOfInverse(factor);
-    return of_intercept + (scales_.array() > 0.0)
-                              .select(1.0 - strength * inverse.array(), 0.0)
-                              .sum();
+    const Eigen::ArrayXd shares = 1.0 - strength * inverse.array();
+    if (in_rows()) return of_intercept + shares.sum();
+    return of_intercept + (scales_.array() > 0.0).select(shares, 0.0).sum();
   }
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(correlation_,
                                                       Eigen::EigenvaluesOnly);

@@ -18,12 +18,20 @@ std::string_view ToString(Penalty penalty);  // "ridge", "lasso"
 ///
 /// with P = |b|^2 / 2 (ridge: Hoerl and Kennard 1970) or the sum of |b_j|
 /// (lasso: Tibshirani 1996), b being of columns scaled to (weighted) variance
-/// 1, from cross-products alone. The intercept is not penalised; constant
+/// 1, from cross-products. The intercept is not penalised; constant
 /// columns have coefficient 0. Without an intercept columns are scaled to mean
 /// square 1 in place of variance 1, and b0 = 0.
 class PenalizedPath {
  public:
   PenalizedPath(Penalty penalty, const CrossProducts& sums, bool intercept);
+  /// A ridge of fewer rows than columns, in the space of the rows (n x n),
+  /// whose `sums` these are: `columns` (n x k), `response` (n), `weights` (n),
+  /// or (0) where all are 1.
+  PenalizedPath(const CrossProducts& sums,
+                bool intercept,
+                const Eigen::MatrixXd& columns,
+                const Eigen::VectorXd& response,
+                const Eigen::VectorXd& weights);
 
   /// Strengths worth trying, falling: for ridge from 10 times a column's
   /// variance down to where rounding begins, for the lasso from where every
@@ -47,6 +55,8 @@ class PenalizedPath {
                           const Eigen::VectorXd& coefficients) const;
 
  private:
+  bool in_rows() const { return rows_.size() > 0; }
+  // What is factorised: a matrix of the columns, or of the rows, plus strength.
   Eigen::MatrixXd Shifted(double strength) const;
   Eigen::MatrixXd RidgeSolutions(const std::vector<double>& strengths) const;
   Eigen::MatrixXd LassoSolutions(const std::vector<double>& strengths) const;
@@ -59,6 +69,9 @@ class PenalizedPath {
   double mean_response_ = 0.0;   // 0 without an intercept
   Eigen::MatrixXd correlation_;  // (k x k) of the scaled columns
   Eigen::VectorXd covariance_;   // (k) of the scaled columns and the response
+  // In the space of the rows, where correlation_ is of them (n x n).
+  Eigen::MatrixXd rows_;      // (n x k) scaled, by the root of their weight
+  Eigen::VectorXd response_;  // (n) less its mean, likewise
 };
 
 }  // namespace errmap::fitting

@@ -195,20 +195,23 @@ class SummedBasis {
   }
   // Nothing where the penalty is given.
   const std::optional<InnerFolds>& inner() const { return folds_; }
-  const CrossProducts& All() const { return all_; }
-
-  // Of the rows that predict a fold.
-  CrossProducts TrainingOf(Index fold) const {
-    if (!folds_->folds.forward) {
-      CrossProducts others = all_;
-      others -= sums_[static_cast<std::size_t>(fold)];
-      return others;
+  // Of all rows, or of those that predict a fold.
+  fitting::PenalizedPath PathOf(Penalty penalty,
+                                std::optional<Index> fold) const {
+    const CrossProducts sums = fold ? TrainingOf(*fold) : all_;
+    const bool intercept = viewed_->intercept;
+    std::vector<Index> rows;
+    for (Index f = 0; f < static_cast<Index>(members_.size()); ++f) {
+      if (fold && !Predicts(f, *fold)) continue;
+      const std::vector<Index>& more = members_[static_cast<std::size_t>(f)];
+      rows.insert(rows.end(), more.begin(), more.end());
     }
-    CrossProducts earlier = fitting::NoRows(design_->num_terms());
-    for (Index f = 0; f < fold; ++f) {
-      earlier += sums_[static_cast<std::size_t>(f)];
+    // The space of the rows is the smaller one of many filtered sensors.
+    if (penalty != Penalty::kRidge || rows.empty() ||
+        static_cast<Index>(rows.size()) >= design_->num_terms()) {
+      return {penalty, sums, intercept};
     }
-    return earlier;
+    return {sums, intercept, Terms(Inputs(rows)), Targets(rows), Weights(rows)};
   }
 
   // Predictions (rows of the fold x solutions), clipped where guarded.
@@ -219,7 +222,7 @@ class SummedBasis {
     const Guards margins;
     Ranges trained(static_cast<Index>(design_->inputs().size()));
     for (Index f = 0; f < folds_->folds.count(); ++f) {
-      if (f != fold && (!folds_->folds.forward || f < fold)) {
+      if (Predicts(f, fold)) {
         trained.Include(ranges_[static_cast<std::size_t>(f)]);
       }
     }
@@ -259,6 +262,25 @@ class SummedBasis {
   }
 
  private:
+  // Whether the rows of fold `of` are among those that predict `fold`.
+  bool Predicts(Index of, Index fold) const {
+    return of != fold && (!folds_->folds.forward || of < fold);
+  }
+
+  // Of the rows that predict a fold.
+  CrossProducts TrainingOf(Index fold) const {
+    if (!folds_->folds.forward) {
+      CrossProducts others = all_;
+      others -= sums_[static_cast<std::size_t>(fold)];
+      return others;
+    }
+    CrossProducts earlier = fitting::NoRows(design_->num_terms());
+    for (Index f = 0; f < fold; ++f) {
+      earlier += sums_[static_cast<std::size_t>(f)];
+    }
+    return earlier;
+  }
+
   MatrixXd Inputs(const std::vector<Index>& rows) const {
     const MatrixXd inputs =
         design_->dataset().input_values()(rows, design_->inputs());
@@ -343,8 +365,7 @@ class StrengthSearch {
         keeps_(rows.design()->rows() <= kMostKept) {
     for (Index fold = folds_.folds.first_judged(); fold < folds_.folds.count();
          ++fold) {
-      paths_.emplace_back(
-          penalty, rows.TrainingOf(fold), rows.viewed()->intercept);
+      paths_.push_back(rows.PathOf(penalty, fold));
     }
   }
 
@@ -446,8 +467,7 @@ std::shared_ptr<const PenalizedFit> FitPenalty(
   PenalizedCandidate candidate;
   candidate.penalty = penalty;
   candidate.held_out_rmse = kNaN;
-  const fitting::PenalizedPath path(
-      penalty, basis->All(), basis->viewed()->intercept);
+  const fitting::PenalizedPath path = basis->PathOf(penalty, std::nullopt);
   if (rule.strength) {
     candidate.strength = *rule.strength;
   } else if (!basis->inner()) {

@@ -44,6 +44,20 @@ CrossProducts SumsOf(const Sample& sample) {
   return SumProducts(sample.terms, sample.response, sample.weights);
 }
 
+// Those ways of a ridge that a sample allows: by columns, and by rows.
+std::vector<PenalizedPath> RidgesOf(const Sample& sample, bool intercept) {
+  std::vector<PenalizedPath> paths{
+      {Penalty::kRidge, SumsOf(sample), intercept}};
+  if (sample.terms.rows() < sample.terms.cols()) {
+    paths.push_back({SumsOf(sample),
+                     intercept,
+                     sample.terms,
+                     sample.response,
+                     sample.weights});
+  }
+  return paths;
+}
+
 // Weighted, centred columns of variance 1 and the residual, by definition.
 void Standardise(const Sample& sample,
                  const VectorXd& coefficients,
@@ -110,22 +124,46 @@ TEST(PenalizedPath, RidgeSolvesItsNormalEquations) {
   for (const auto& [rows, cols, weighted] :
        {std::tuple<Index, Index, bool>{40, 8, false},
         {40, 8, true},
-        {20, 50, false}}) {
+        {20, 50, false},
+        {20, 50, true}}) {
     const Sample sample = MakeSample(rows, cols, weighted, 30);
     const std::vector<double> strengths = {10.0, 0.1, 1e-4};
-    const auto solutions =
-        PenalizedPath(Penalty::kRidge, SumsOf(sample), true).Solve(strengths);
-    for (Index s = 0; s < solutions.coefficients.cols(); ++s) {
-      const double strength = strengths[static_cast<std::size_t>(s)];
-      const VectorXd coefficients = solutions.coefficients.col(s);
-      MatrixXd x;
-      VectorXd residual;
-      VectorXd w;
-      VectorXd spread;
-      Standardise(sample, coefficients, &x, &residual, &w, &spread);
-      const VectorXd gradient = x.transpose() * w.cwiseProduct(residual) -
-                                strength * coefficients.cwiseProduct(spread);
-      EXPECT_LT(gradient.cwiseAbs().maxCoeff(), kSlack);
+    for (const PenalizedPath& path : RidgesOf(sample, true)) {
+      const auto solutions = path.Solve(strengths);
+      for (Index s = 0; s < solutions.coefficients.cols(); ++s) {
+        const double strength = strengths[static_cast<std::size_t>(s)];
+        const VectorXd coefficients = solutions.coefficients.col(s);
+        MatrixXd x;
+        VectorXd residual;
+        VectorXd w;
+        VectorXd spread;
+        Standardise(sample, coefficients, &x, &residual, &w, &spread);
+        const VectorXd gradient = x.transpose() * w.cwiseProduct(residual) -
+                                  strength * coefficients.cwiseProduct(spread);
+        EXPECT_LT(gradient.cwiseAbs().maxCoeff(), kSlack);
+      }
+    }
+  }
+}
+
+TEST(PenalizedPath, RidgeInTheSpaceOfTheRowsIsThatOfTheColumns) {
+  constexpr double kSlack = 1e-9;  // of the largest
+  const std::vector<double> strengths = {10.0, 0.1, 1e-3};
+  for (const Index rows : {2, 7, 20}) {
+    for (const bool weighted : {false, true}) {
+      for (const bool intercept : {false, true}) {
+        Sample sample = MakeSample(rows, 30, weighted, 60);
+        sample.terms.col(2).setConstant(3.0);
+        sample.terms.col(3).setZero();
+        sample.terms.col(4) = sample.terms.col(5);
+        const std::vector<PenalizedPath> paths = RidgesOf(sample, intercept);
+        const auto columns = paths[0].Solve(strengths);
+        const auto in_rows = paths[1].Solve(strengths);
+        EXPECT_LT((in_rows.coefficients - columns.coefficients).norm(),
+                  kSlack * columns.coefficients.norm());
+        EXPECT_LT((in_rows.intercepts - columns.intercepts).norm(),
+                  kSlack * (1.0 + columns.intercepts.norm()));
+      }
     }
   }
 }
@@ -136,7 +174,6 @@ TEST(PenalizedPath, RidgeHasTheDegreesOfFreedomOfItsEigenvalues) {
        {std::pair<Index, Index>{40, 8}, {20, 50}, {60, 30}}) {
     Sample sample = MakeSample(rows, cols, true, 40);
     sample.terms.col(2).setConstant(3.0);
-    const PenalizedPath path(Penalty::kRidge, SumsOf(sample), true);
     MatrixXd x;
     VectorXd residual;
     VectorXd w;
@@ -149,10 +186,12 @@ TEST(PenalizedPath, RidgeHasTheDegreesOfFreedomOfItsEigenvalues) {
     for (const double strength : {10.0, 0.1, 1e-4, 1e-9}) {
       const double expected =
           1.0 + (squares.array() / (squares.array() + strength)).sum();
-      EXPECT_NEAR(path.DegreesOfFreedom(strength, VectorXd()),
-                  expected,
-                  kSlack * expected)
-          << strength;
+      for (const PenalizedPath& path : RidgesOf(sample, true)) {
+        EXPECT_NEAR(path.DegreesOfFreedom(strength, VectorXd()),
+                    expected,
+                    kSlack * expected)
+            << strength;
+      }
     }
   }
 }
