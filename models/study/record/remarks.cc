@@ -170,9 +170,11 @@ void Remarks::AddBestNet() {
 }
 
 // For a control with little time: the smallest map that meets the goal as the
-// recommended one does, else the best one of half its operations or fewer.
+// recommended one does, else the best one of half its operations or fewer that
+// errs at most twice as much.
 void Remarks::AddSmaller() {
   constexpr std::int64_t kSmallAlready = 100;  // for any control
+  constexpr double kMostLoss = 2.0;
   if (!model_.step_cost || model_.step_cost->operations() < kSmallAlready) {
     return;
   }
@@ -188,7 +190,10 @@ void Remarks::AddSmaller() {
   for (const std::size_t model : tests_.models) {
     const std::int64_t own = operations(model);
     if (own == 0 || 2 * own > operations(advice_.model)) continue;
-    if (by_goal && goal(model) != GoalStanding::kMet) continue;
+    if (by_goal ? goal(model) != GoalStanding::kMet
+                : RmseOf(model) > kMostLoss * RmseOf(advice_.model)) {
+      continue;
+    }
     if (!smaller || (by_goal ? own < operations(*smaller)
                              : RmseOf(model) < RmseOf(*smaller))) {
       smaller = model;

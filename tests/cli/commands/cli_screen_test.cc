@@ -287,6 +287,16 @@ TEST_F(Screens, SayWhyNotTheNet) {
               Not(HasSubstr("why no net")));
 }
 
+TEST_F(Screens, NameASmallerMapThatErrsAtMostTwiceAsMuch) {
+  const auto screen = [&](const std::string& models) {
+    return Squeezed(Run({"compare", kDown, "--models", models, "--quiet"}).out);
+  };
+  EXPECT_THAT(screen("poly:full:degree=3,blend"),
+              ContainsRegex("a smaller map +poly:full:degree=3 takes "));
+  // The baselines have three times its error.
+  EXPECT_THAT(screen("blend"), Not(HasSubstr("a smaller map")));
+}
+
 TEST_F(Screens, NameTheFileThatTellsWhichRowsWereExtrapolated) {
   const std::vector<std::string> words{
       "compare", kDown, "--models", "poly:full:degree=3", "--quiet"};
