@@ -276,24 +276,11 @@ PenalizedPath::PenalizedPath(Penalty penalty,
                              const CrossProducts& sums,
                              bool intercept)
     : penalty_(penalty), intercept_(intercept), weight_(sums.weight) {
-  // What is left of a constant column is rounding of its mean square.
-  constexpr double kConstant = 1e-12;
-  const Index k = sums.columns.size();
-  means_ = intercept ? VectorXd(sums.columns / weight_) : VectorXd::Zero(k);
-  mean_response_ = intercept ? sums.response / weight_ : 0.0;
+  Standardise(sums);
   correlation_ = sums.products.selfadjointView<Eigen::Lower>();
   correlation_ /= weight_;
-  const VectorXd mean_squares = correlation_.diagonal();
   correlation_.noalias() -= means_ * means_.transpose();
-  covariance_ = sums.with_response / weight_ - mean_response_ * means_;
-  scales_.setZero(k);
-  for (Index j = 0; j < k; ++j) {
-    if (correlation_(j, j) > kConstant * mean_squares[j]) {
-      scales_[j] = 1.0 / std::sqrt(correlation_(j, j));
-    }
-  }
   correlation_ = scales_.asDiagonal() * correlation_ * scales_.asDiagonal();
-  covariance_.array() *= scales_.array();
 }
 
 PenalizedPath::PenalizedPath(const CrossProducts& sums,
@@ -301,7 +288,8 @@ PenalizedPath::PenalizedPath(const CrossProducts& sums,
                              const MatrixXd& columns,
                              const VectorXd& response,
                              const VectorXd& weights)
-    : PenalizedPath(Penalty::kRidge, sums, intercept) {
+    : penalty_(Penalty::kRidge), intercept_(intercept), weight_(sums.weight) {
+  Standardise(sums);
   const VectorXd roots =
       weights.size() > 0
           ? VectorXd((weights / weight_).cwiseSqrt())
@@ -310,8 +298,26 @@ PenalizedPath::PenalizedPath(const CrossProducts& sums,
           scales_.asDiagonal();
   response_ = roots.cwiseProduct(
       response - VectorXd::Constant(response.size(), mean_response_));
-  correlation_.resize(rows_.rows(), rows_.rows());
-  Multiply(rows_, MatrixXd(rows_.transpose()), correlation_);
+  correlation_ = MatrixXd::Zero(rows_.rows(), rows_.rows());
+  MultiplyByOwnTranspose(rows_, correlation_);
+}
+
+void PenalizedPath::Standardise(const CrossProducts& sums) {
+  // What is left of a constant column is rounding of its mean square.
+  constexpr double kConstant = 1e-12;
+  const Index k = sums.columns.size();
+  means_ = intercept_ ? VectorXd(sums.columns / weight_) : VectorXd::Zero(k);
+  mean_response_ = intercept_ ? sums.response / weight_ : 0.0;
+  covariance_ = sums.with_response / weight_ - mean_response_ * means_;
+  scales_.setZero(k);
+  for (Index j = 0; j < k; ++j) {
+    const double mean_square = sums.products(j, j) / weight_;
+    const double variance = mean_square - means_[j] * means_[j];
+    if (variance > kConstant * mean_square) {
+      scales_[j] = 1.0 / std::sqrt(variance);
+    }
+  }
+  covariance_.array() *= scales_.array();
 }
 
 std::vector<double> PenalizedPath::Grid() const {

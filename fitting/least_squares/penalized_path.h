@@ -55,6 +55,8 @@ class PenalizedPath {
                           const Eigen::VectorXd& coefficients) const;
 
  private:
+  // Means, scales and the covariance with the response.
+  void Standardise(const CrossProducts& sums);
   bool in_rows() const { return rows_.size() > 0; }
   // What is factorised: a matrix of the columns, or of the rows, plus strength.
   Eigen::MatrixXd Shifted(double strength) const;
@@ -69,7 +71,8 @@ class PenalizedPath {
   double mean_response_ = 0.0;   // 0 without an intercept
   Eigen::MatrixXd correlation_;  // (k x k) of the scaled columns
   Eigen::VectorXd covariance_;   // (k) of the scaled columns and the response
-  // In the space of the rows, where correlation_ is of them (n x n).
+  // In the space of the rows, where correlation_ is of them (n x n, the lower
+  // triangle alone).
   Eigen::MatrixXd rows_;      // (n x k) scaled, by the root of their weight
   Eigen::VectorXd response_;  // (n) less its mean, likewise
 };

@@ -259,8 +259,7 @@ std::vector<TextFunction> Functions(const MapProgram& program,
     add(language.MeanDecayName(),
         "U",
         "(1 - exp(-U)) / U; of a short step by its series, since the "
-        "difference "
-        "would\n   keep no digits.",
+        "difference would\n   keep no digits.",
         u + " >= " + language.Number(kMeanDecaySeriesBelow),
         fmt::format("(1.0 - EXP(-{0})) / {0}", u),
         MeanDecaySeries(u));
