@@ -277,10 +277,19 @@ PenalizedPath::PenalizedPath(Penalty penalty,
                              bool intercept)
     : penalty_(penalty), intercept_(intercept), weight_(sums.weight) {
   Standardise(sums);
-  correlation_ = sums.products.selfadjointView<Eigen::Lower>();
-  correlation_ /= weight_;
-  correlation_.noalias() -= means_ * means_.transpose();
-  correlation_ = scales_.asDiagonal() * correlation_ * scales_.asDiagonal();
+  const Index k = means_.size();
+  correlation_.resize(k, k);
+  for (Index j = 0; j < k; ++j) {
+    const Index below = k - j;
+    correlation_.col(j).tail(below) =
+        scales_[j] * scales_.tail(below).cwiseProduct(
+                         sums.products.col(j).tail(below) / weight_ -
+                         means_[j] * means_.tail(below));
+  }
+  if (penalty == Penalty::kLasso) {
+    correlation_.triangularView<Eigen::StrictlyUpper>() =
+        correlation_.transpose();
+  }
 }
 
 PenalizedPath::PenalizedPath(const CrossProducts& sums,
@@ -330,7 +339,8 @@ std::vector<double> PenalizedPath::Grid() const {
 
 // R + strength I; constant columns, which R has as zeros, stand by themselves.
 MatrixXd PenalizedPath::Shifted(double strength) const {
-  MatrixXd shifted = correlation_;
+  MatrixXd shifted(correlation_.rows(), correlation_.cols());
+  shifted.triangularView<Eigen::Lower>() = correlation_;
   shifted.diagonal().array() += strength;
   if (in_rows()) return shifted;
   for (Index j = 0; j < scales_.size(); ++j) {
@@ -376,6 +386,34 @@ PenalizedPath::Solutions PenalizedPath::Solve(
   solutions.intercepts = VectorXd::Constant(scaled.cols(), mean_response_) -
                          solutions.coefficients.transpose() * means_;
   return solutions;
+}
+
+VectorXd PenalizedPath::TimesInverse(double strength, const VectorXd& b) const {
+  MatrixXd factor = Shifted(strength);
+  FactorizeCholesky(factor);
+  VectorXd solution = in_rows() ? VectorXd(rows_ * b) : b;
+  SolveCholesky(factor, &solution);
+  if (!in_rows()) return solution;
+  return (b - rows_.transpose() * solution) / strength;
+}
+
+void PenalizedPath::Refine(double strength,
+                           double residuals,
+                           const VectorXd& with_columns,
+                           Solutions* solution) const {
+  VectorXd coefficients = solution->coefficients.col(0);
+  // In the scaled columns, of which one that is constant has scale 0.
+  const auto scaled = [&](const VectorXd& values) {
+    return (scales_.array() > 0.0)
+        .select(values.array() / scales_.array(), 0.0)
+        .matrix();
+  };
+  const VectorXd left =
+      scales_.cwiseProduct(with_columns - residuals * means_) / weight_ -
+      strength * scaled(coefficients);
+  coefficients += scales_.cwiseProduct(TimesInverse(strength, left));
+  solution->coefficients.col(0) = coefficients;
+  solution->intercepts[0] = mean_response_ - coefficients.dot(means_);
 }
 
 double PenalizedPath::DegreesOfFreedom(double strength,

@@ -168,6 +168,61 @@ TEST(PenalizedPath, RidgeInTheSpaceOfTheRowsIsThatOfTheColumns) {
   }
 }
 
+TEST(PenalizedPath, RefinesARidgeOfColumnsNearDependence) {
+  using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  constexpr double kStrength = 1e-9;
+  for (const auto& [rows, cols, weighted] :
+       {std::tuple<Index, Index, bool>{60, 8, false},
+        {60, 8, true},
+        {20, 30, true}}) {
+    Sample sample = MakeSample(rows, cols, weighted, 70);
+    for (Index j = 4; j < cols; ++j) {
+      sample.terms.col(j) =
+          sample.terms.col(j - 4) +
+          1e-4 * UniformMatrix(rows, 1, 90 + static_cast<std::uint64_t>(j));
+    }
+    MatrixXd x;
+    VectorXd residual;
+    VectorXd w;
+    VectorXd spread;
+    Standardise(sample, VectorXd::Zero(cols), &x, &residual, &w, &spread);
+    // Rows for the penalty below the others: no product of columns.
+    LongMatrix stacked = LongMatrix::Zero(rows + cols, cols + 1);
+    stacked.topLeftCorner(rows, cols) =
+        (w.cwiseSqrt().asDiagonal() * x).cast<long double>();
+    stacked.topRightCorner(rows, 1) =
+        w.cwiseSqrt().cwiseProduct(residual).cast<long double>();
+    stacked.bottomLeftCorner(cols, cols)
+        .diagonal()
+        .setConstant(std::sqrt(static_cast<long double>(kStrength)));
+    const VectorXd expected = stacked.leftCols(cols)
+                                  .householderQr()
+                                  .solve(stacked.col(cols))
+                                  .cast<double>()
+                                  .cwiseQuotient(spread.cast<double>());
+    for (const PenalizedPath& path : RidgesOf(sample, true)) {
+      auto solution = path.Solve({kStrength});
+      const auto error = [&] {
+        return (solution.coefficients.col(0) - expected).norm() /
+               expected.norm();
+      };
+      EXPECT_GT(error(), 1e-9);  // what there is to mend
+      const VectorXd left =
+          (sample.response - sample.terms * solution.coefficients.col(0))
+              .array() -
+          solution.intercepts[0];
+      const VectorXd weights =
+          weighted ? sample.weights : VectorXd(VectorXd::Ones(rows));
+      const VectorXd weighed = left.cwiseProduct(weights);
+      path.Refine(kStrength,
+                  weighed.sum(),
+                  sample.terms.transpose() * weighed,
+                  &solution);
+      EXPECT_LT(error(), 1e-10);
+    }
+  }
+}
+
 TEST(PenalizedPath, RidgeHasTheDegreesOfFreedomOfItsEigenvalues) {
   constexpr double kSlack = 1e-6;
   for (const auto& [rows, cols] :
