@@ -163,10 +163,14 @@ class OneLayerRecipe final : public NetRecipe {
     const std::vector<ViewedRows>& views = *shared;
     std::vector<TunedNet> tuned;
     std::vector<double> scores;
+    double least = std::numeric_limits<double>::infinity();
     for (const ViewedRows& viewed : views) {
-      tuned.push_back(Tune(
-          Sample(*viewed.rows, kMostTuningRows), views.size() > 1, context));
+      tuned.push_back(Tune(Sample(*viewed.rows, kMostTuningRows),
+                           views.size() > 1,
+                           least,
+                           context));
       scores.push_back(tuned.back().rmse);
+      least = std::fmin(least, scores.back());
     }
     const std::size_t best = IndexOfLowest(scores);
     const ViewedRows& viewed = views[best];
@@ -308,14 +312,16 @@ class OneLayerRecipe final : public NetRecipe {
   }
 
   // What inner hold-outs choose on rows as they stand; where nothing is to be
-  // chosen but is to be `judged`, its error.
+  // chosen but is to be `judged`, its error. `rival`: that of another view.
   TunedNet Tune(const Dataset& training,
                 bool judged,
+                double rival,
                 const FitContext& context) const {
     const NetTuning tuning = {.hidden = options_.tunes_hidden(),
                               .wfactor = options_.tunes_wfactor(),
                               .fixed_wfactor = options_.given_wfactor(),
-                              .along_path = *options_.path};
+                              .along_path = *options_.path,
+                              .rival = rival};
     if (tuning.hidden || tuning.wfactor) {
       return TuneNet(design_, tuning, trainers_, training, context);
     }

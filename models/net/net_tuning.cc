@@ -74,7 +74,8 @@ class Tuner {
         inner_(MakeInnerFolds(training, context)),
         hidden_(design.hidden),
         wfactor_(tuning.fixed_wfactor),
-        along_path_(tuning.along_path) {
+        along_path_(tuning.along_path),
+        hopeless_(2.0 * tuning.rival) {
     Index rows = training.num_rows();
     const fitting::FoldCodes& folds = inner_.folds;
     for (Index fold = folds.first_judged(); fold < folds.count(); ++fold) {
@@ -111,6 +112,7 @@ class Tuner {
 
   void ChooseWfactor() {
     constexpr std::size_t kPatience = 4;  // places on the path
+    constexpr std::size_t kTrials = 3;    // before it is given up
     NetDesign design = design_;
     design.hidden = hidden_;
     WfactorWalk walk(design,
@@ -129,9 +131,11 @@ class Tuner {
       for (std::size_t i = 0; i < path.size() && i < best + kPatience + stride;
            i += stride) {
         tried[i] = walk.Step(path[i]);
-        if (!(tried[i] < least)) continue;
-        least = tried[i];
-        best = i;
+        if (tried[i] < least) {
+          least = tried[i];
+          best = i;
+        }
+        if (tried.size() >= kTrials && least > hopeless_) break;
       }
       return best;
     };
@@ -215,6 +219,7 @@ class Tuner {
   std::int64_t hidden_;
   double wfactor_;
   bool along_path_;
+  double hopeless_;  // an RMSE
   double hidden_rmse_ = std::numeric_limits<double>::quiet_NaN();
   double wfactor_rmse_ = std::numeric_limits<double>::quiet_NaN();
   Scores<std::int64_t> by_hidden_;

@@ -214,6 +214,26 @@ class SummedBasis {
     return {sums, intercept, Terms(Inputs(rows)), Targets(rows), Weights(rows)};
   }
 
+  // A ridge's solution to all rows, to full precision.
+  void Refine(const fitting::PenalizedPath& path,
+              double strength,
+              fitting::PenalizedPath::Solutions* solution) const {
+    double residuals = 0.0;
+    VectorXd with_columns = VectorXd::Zero(design_->num_terms());
+    for (const std::vector<Index>& rows : members_) {
+      ForBlocks(rows, [&](const std::vector<Index>& block) {
+        const MatrixXd terms = Terms(Inputs(block));
+        VectorXd left = Targets(block) - terms * solution->coefficients.col(0);
+        left.array() -= solution->intercepts[0];
+        const VectorXd weights = Weights(block);
+        if (weights.size() > 0) left.array() *= weights.array();
+        residuals += left.sum();
+        with_columns += terms.transpose() * left;
+      });
+    }
+    path.Refine(strength, residuals, with_columns, solution);
+  }
+
   // Predictions (rows of the fold x solutions), clipped where guarded.
   template <typename Take>
   void PredictFold(Index fold,
@@ -403,6 +423,9 @@ class StrengthSearch {
   }
 
   double Best() const { return -Lowest()->first; }
+  double LeastRmse() const {
+    return std::sqrt(Lowest()->second.error.mean_square);
+  }
 
   // The chosen strength and all that was found, into `candidate`.
   void Report(bool one_standard_error, PenalizedCandidate* candidate) const {
@@ -448,6 +471,12 @@ class StrengthSearch {
   Results judged_;
 };
 
+std::vector<double> EverySecond(const std::vector<double>& values) {
+  std::vector<double> taken;
+  for (std::size_t i = 0; i < values.size(); i += 2) taken.push_back(values[i]);
+  return taken;
+}
+
 }  // namespace
 
 std::shared_ptr<const SummedBasis> SumBasis(
@@ -463,7 +492,8 @@ std::shared_ptr<const PenalizedFit> FitPenalty(
     const std::shared_ptr<const SummedBasis>& basis,
     Penalty penalty,
     const PenaltyRule& rule,
-    double indifference) {
+    double indifference,
+    double promising) {
   PenalizedCandidate candidate;
   candidate.penalty = penalty;
   candidate.held_out_rmse = kNaN;
@@ -474,16 +504,23 @@ std::shared_ptr<const PenalizedFit> FitPenalty(
     throw std::invalid_argument("FitPenalty: there are no folds to choose by");
   } else {
     StrengthSearch search(*basis, penalty, indifference);
-    search.Judge(path.Grid());
-    if (penalty == Penalty::kRidge) {
-      // Its grid is coarse, since each strength costs a factorisation.
-      const double half_a_decade = std::sqrt(10.0);
-      const double best = search.Best();
-      search.Judge({best * half_a_decade, best / half_a_decade});
+    std::vector<double> strengths = path.Grid();
+    // Each strength of a ridge costs a factorisation.
+    const bool ridge = penalty == Penalty::kRidge;
+    if (ridge && !rule.one_standard_error) strengths = EverySecond(strengths);
+    search.Judge(strengths);
+    if (ridge && search.LeastRmse() <= promising) {
+      for (const double step : {10.0, std::sqrt(10.0)}) {
+        const double best = search.Best();
+        search.Judge({best * step, best / step});
+      }
     }
     search.Report(rule.one_standard_error, &candidate);
   }
-  const auto solutions = path.Solve({candidate.strength});
+  auto solutions = path.Solve({candidate.strength});
+  if (penalty == Penalty::kRidge && candidate.strength > 0.0) {
+    basis->Refine(path, candidate.strength, &solutions);
+  }
   candidate.coefficients = solutions.coefficients.col(0);
   candidate.intercept = solutions.intercepts[0];
   candidate.degrees_of_freedom =

@@ -77,12 +77,15 @@ std::shared_ptr<const SummedBasis> SumBasis(
 
 /// Fits a penalty to a basis. Held-out rows are clipped as the basis says, at
 /// what their own fold trained on. Errors far below `indifference` (target's
-/// unit) count alike. Throws std::invalid_argument where folds are missing.
+/// unit) count alike. A ridge is searched closely where a coarse search finds
+/// an RMSE of at most `promising`. Throws std::invalid_argument where folds are
+/// missing.
 std::shared_ptr<const PenalizedFit> FitPenalty(
     const std::shared_ptr<const SummedBasis>& basis,
     fitting::Penalty penalty,
     const PenaltyRule& rule,
-    double indifference);
+    double indifference,
+    double promising);
 
 /// The map of a candidate over the basis `design` of `viewed`, history and
 /// guards attached. `raw` are the training rows before any view.

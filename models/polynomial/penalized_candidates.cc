@@ -1,6 +1,8 @@
 #include "models/polynomial/penalized_candidates.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 
 #include <fmt/format.h>
@@ -54,9 +56,11 @@ class BasisJudge {
     return {TermSet::kFull};
   }
 
-  BasisCandidate Judge(const std::shared_ptr<const ViewedRows>& viewed,
-                       TermSet set,
-                       Penalty penalty) const {
+  // Every one of `penalties` over a basis.
+  void Judge(const std::shared_ptr<const ViewedRows>& viewed,
+             TermSet set,
+             const std::vector<Penalty>& penalties,
+             std::vector<BasisCandidate>* judged) {
     const PenalizedBasis basis{
         .terms = set,
         .degree = options_.degree.value_or(DefaultDegreeOf(
@@ -64,16 +68,24 @@ class BasisJudge {
         .centring = options_.centring,
         .exclude = options_.exclude,
         .guarded = options_.clip};
-    return {.viewed = viewed,
-            .fit = FitOf(viewed, basis, penalty),
-            .terms = set,
-            .degree = basis.degree,
-            .num_excluded = static_cast<Index>(options_.exclude.size()),
-            .guarded = basis.guarded,
-            .label = fmt::format("{}, {}, {}",
-                                 fitting::ToString(penalty),
-                                 viewed->label(),
-                                 ToString(set))};
+    const auto fits = FitsOf(viewed, basis, penalties);
+    for (const Penalty penalty : penalties) {
+      judged->push_back(
+          {.viewed = viewed,
+           .fit = fits->at(penalty),
+           .terms = set,
+           .degree = basis.degree,
+           .num_excluded = static_cast<Index>(options_.exclude.size()),
+           .guarded = basis.guarded,
+           .label = fmt::format("{}, {}, {}",
+                                fitting::ToString(penalty),
+                                viewed->label(),
+                                ToString(set))});
+    }
+    const auto ridge = fits->find(Penalty::kRidge);
+    if (ridge == fits->end()) return;
+    least_ridge_ =
+        std::fmin(least_ridge_, ridge->second->candidate.held_out_rmse);
   }
 
  private:
@@ -84,7 +96,7 @@ class BasisJudge {
   }
 
   // One pass over the rows serves all that are wanted.
-  std::shared_ptr<FitsByPenalty> FitsOf(
+  std::shared_ptr<const FitsByPenalty> FitAll(
       const std::shared_ptr<const ViewedRows>& viewed,
       const PenalizedBasis& basis,
       const std::vector<Penalty>& wanted) const {
@@ -92,45 +104,49 @@ class BasisJudge {
         SumBasis(viewed, basis, rule_.strength ? nullptr : &folds_, context_);
     auto fits = std::make_shared<FitsByPenalty>();
     for (const Penalty penalty : wanted) {
-      fits->emplace(penalty,
-                    FitPenalty(sums, penalty, rule_, context_.indifference));
+      fits->emplace(
+          penalty,
+          FitPenalty(
+              sums, penalty, rule_, context_.indifference, promising_rmse()));
     }
     return fits;
   }
 
-  FitsByPenalty::mapped_type FitOf(
+  std::shared_ptr<const FitsByPenalty> FitsOf(
       const std::shared_ptr<const ViewedRows>& viewed,
       const PenalizedBasis& basis,
-      Penalty penalty) const {
-    if (!is_shareable()) return FitsOf(viewed, basis, {penalty})->at(penalty);
-    const bool all = context_.shared->every_penalty;
-    const std::string key = fmt::format(
-        "{} view={} {} terms={} degree={} centring={} guarded={}"
-        " in_turn={}",
-        all ? "penalized" : fitting::ToString(penalty),
+      const std::vector<Penalty>& penalties) const {
+    if (!is_shareable()) return FitAll(viewed, basis, penalties);
+    const std::vector<Penalty> wanted =
+        context_.shared->every_penalty
+            ? std::vector{Penalty::kRidge, Penalty::kLasso}
+            : penalties;
+    std::string key;
+    for (const Penalty penalty : wanted) key += fitting::ToString(penalty);
+    key += fmt::format(
+        " view={} {} terms={} degree={} centring={} guarded={} in_turn={}"
+        " promising={}",
         viewed->label(),
         KeyOf(options_.view),
         ToString(basis.terms),
         basis.degree,
         static_cast<int>(basis.centring),
         basis.guarded,
-        folds_.in_turn);
-    return context_.shared
-        ->Get<FitsByPenalty>(
-            key,
-            [&] {
-              return FitsOf(viewed,
-                            basis,
-                            all ? std::vector{Penalty::kRidge, Penalty::kLasso}
-                                : std::vector{penalty});
-            })
-        ->at(penalty);
+        folds_.in_turn,
+        promising_rmse());
+    return context_.shared->Get<FitsByPenalty>(
+        key, [&] { return FitAll(viewed, basis, wanted); });
   }
+
+  // A basis that errs more than twice as much as another is not searched
+  // closely: no strength makes up for that (of 1095 searches in none).
+  double promising_rmse() const { return 2.0 * least_ridge_; }
 
   const BasisOptions& options_;
   const PenaltyRule& rule_;
   const InnerFolds& folds_;
   const FitContext& context_;
+  double least_ridge_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace
@@ -169,15 +185,13 @@ std::vector<BasisCandidate> JudgeBases(const Dataset& training,
                                        const InnerFolds& folds,
                                        const FitContext& context) {
   std::vector<BasisCandidate> judged;
-  const BasisJudge judge(options, rule, folds, context);
+  BasisJudge judge(options, rule, folds, context);
   const auto views = SharedViews(training, options.view, context);
   for (const ViewedRows& made : *views) {
     // Holds all of them.
     const std::shared_ptr<const ViewedRows> viewed(views, &made);
     for (const TermSet set : judge.SetsFor(*viewed)) {
-      for (const Penalty penalty : penalties) {
-        judged.push_back(judge.Judge(viewed, set, penalty));
-      }
+      judge.Judge(viewed, set, penalties, &judged);
     }
   }
   return judged;

@@ -1,6 +1,8 @@
 #include "models/net/net_tuning.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -221,6 +223,25 @@ TEST(NetTuning, IsTheOptionThatTookEffect) {
   EXPECT_THAT(options, HasSubstr("choose=cv"));
   // How many weights is not known before the fit.
   EXPECT_EQ(recipe->NumCoefficients(QuadraticData(20)), std::nullopt);
+}
+
+TEST(NetTuning, GivesUpWhereARivalIsOutOfReach) {
+  const data::Dataset dataset = QuadraticData(120);
+  NetDesign design;
+  design.hidden = 5;
+  NetTrainers trainers;
+  trainers.full = MakeNetTrainer(ScgTraining{}, {.iterations = 20});
+  const auto tune = [&](double rival) {
+    const NetTuning tuning{.wfactor = true, .along_path = true, .rival = rival};
+    return TuneNet(design, tuning, trainers, dataset, {});
+  };
+  const auto tried = [](const TunedNet& net) {
+    return std::ranges::count(net.chosen.front().scores, ':');
+  };
+  const TunedNet alone = tune(std::numeric_limits<double>::infinity());
+  EXPECT_GT(tried(alone), 4);
+  EXPECT_EQ(tried(tune(1e-3 * alone.rmse)), 3);
+  EXPECT_EQ(tune(10.0 * alone.rmse).rmse, alone.rmse);
 }
 
 }  // namespace

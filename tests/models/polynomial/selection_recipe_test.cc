@@ -1,11 +1,15 @@
 // poly:stepwise, poly:best, poly:ridge, poly:lasso and poly:formula as recipes.
 #include <cmath>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "models/inner_folds.h"
+#include "models/polynomial/penalized_basis.h"
 #include "models/polynomial/polynomial_basis.h"
 #include "models/polynomial/polynomial_model.h"
 #include "models/polynomial/polynomial_options.h"
@@ -24,6 +28,7 @@ using errmap::testing::ShippedMeasurements;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::SizeIs;
 
 constexpr FitContext kExplain{.explain = true};
 
@@ -497,6 +502,26 @@ TEST(SelectionRecipe, NamesAliasedTerms) {
         named || (alias.name == "t2_degC" && alias.why == "repeats t1_degC");
   }
   EXPECT_TRUE(named);
+}
+
+TEST(FitPenalty, SearchesCloselyWhereTheBasisIsPromising) {
+  const data::Dataset dataset = ManyRows(false, 240);
+  const FitContext context;
+  const auto viewed = std::make_shared<const ViewedRows>(
+      MakeViews(dataset, std::nullopt, 0.0).front());
+  const InnerFolds folds = MakeInnerFolds(dataset, context);
+  const auto basis = SumBasis(viewed, PenalizedBasis(), &folds, context);
+  const auto search = [&](double promising, PenaltyRule rule = {}) {
+    return FitPenalty(basis, fitting::Penalty::kRidge, rule, 0.0, promising)
+        ->candidate;
+  };
+  const PenalizedCandidate coarse = search(0.0);
+  const PenalizedCandidate close = search(coarse.held_out_rmse);
+  EXPECT_THAT(coarse.strengths, SizeIs(6));
+  EXPECT_THAT(close.strengths, SizeIs(10));
+  EXPECT_LE(close.held_out_rmse, coarse.held_out_rmse);
+  // One standard error is counted over every decade.
+  EXPECT_GE(search(0.0, {.one_standard_error = true}).strengths.size(), 11);
 }
 
 }  // namespace
