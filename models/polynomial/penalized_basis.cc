@@ -477,6 +477,22 @@ std::vector<double> EverySecond(const std::vector<double>& values) {
   return taken;
 }
 
+// Each strength of a ridge costs a factorisation: the falling `grid` first,
+// then the strengths around the best; no further where the first few leave the
+// basis behind.
+void SearchRidge(const std::vector<double>& grid,
+                 double promising,
+                 StrengthSearch* search) {
+  const auto few = grid.begin() + 3;
+  search->Judge({grid.begin(), few});
+  if (!(search->LeastRmse() <= promising)) return;
+  search->Judge({few, grid.end()});
+  for (const double step : {10.0, std::sqrt(10.0)}) {
+    const double best = search->Best();
+    search->Judge({best * step, best / step});
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const SummedBasis> SumBasis(
@@ -504,16 +520,13 @@ std::shared_ptr<const PenalizedFit> FitPenalty(
     throw std::invalid_argument("FitPenalty: there are no folds to choose by");
   } else {
     StrengthSearch search(*basis, penalty, indifference);
-    std::vector<double> strengths = path.Grid();
-    // Each strength of a ridge costs a factorisation.
-    const bool ridge = penalty == Penalty::kRidge;
-    if (ridge && !rule.one_standard_error) strengths = EverySecond(strengths);
-    search.Judge(strengths);
-    if (ridge && search.LeastRmse() <= promising) {
-      for (const double step : {10.0, std::sqrt(10.0)}) {
-        const double best = search.Best();
-        search.Judge({best * step, best / step});
-      }
+    const std::vector<double> grid = path.Grid();
+    if (penalty == Penalty::kLasso) {
+      search.Judge(grid);
+    } else if (rule.one_standard_error) {
+      SearchRidge(grid, std::numeric_limits<double>::infinity(), &search);
+    } else {
+      SearchRidge(EverySecond(grid), promising, &search);
     }
     search.Report(rule.one_standard_error, &candidate);
   }

@@ -77,9 +77,9 @@ std::shared_ptr<const SummedBasis> SumBasis(
 
 /// Fits a penalty to a basis. Held-out rows are clipped as the basis says, at
 /// what their own fold trained on. Errors far below `indifference` (target's
-/// unit) count alike. A ridge is searched closely where a coarse search finds
-/// an RMSE of at most `promising`. Throws std::invalid_argument where folds are
-/// missing.
+/// unit) count alike. A ridge is searched on where the first three strengths
+/// find an RMSE of at most `promising`. Throws std::invalid_argument where
+/// folds are missing.
 std::shared_ptr<const PenalizedFit> FitPenalty(
     const std::shared_ptr<const SummedBasis>& basis,
     fitting::Penalty penalty,

@@ -138,8 +138,8 @@ class BasisJudge {
         key, [&] { return FitAll(viewed, basis, wanted); });
   }
 
-  // A basis that errs more than twice as much as another is not searched
-  // closely: no strength makes up for that (of 1095 searches in none).
+  // A basis that errs more than twice as much as one before it is not searched
+  // further: no strength made up for that in any of 1,095 searches.
   double promising_rmse() const { return 2.0 * least_ridge_; }
 
   const BasisOptions& options_;
