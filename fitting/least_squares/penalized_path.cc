@@ -339,8 +339,11 @@ std::vector<double> PenalizedPath::Grid() const {
 
 // R + strength I; constant columns, which R has as zeros, stand by themselves.
 MatrixXd PenalizedPath::Shifted(double strength) const {
-  MatrixXd shifted(correlation_.rows(), correlation_.cols());
-  shifted.triangularView<Eigen::Lower>() = correlation_;
+  const Index k = correlation_.rows();
+  MatrixXd shifted(k, k);
+  for (Index j = 0; j < k; ++j) {
+    shifted.col(j).tail(k - j) = correlation_.col(j).tail(k - j);
+  }
   shifted.diagonal().array() += strength;
   if (in_rows()) return shifted;
   for (Index j = 0; j < scales_.size(); ++j) {

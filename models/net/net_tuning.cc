@@ -111,7 +111,7 @@ class Tuner {
   }
 
   void ChooseWfactor() {
-    constexpr std::size_t kPatience = 4;  // places on the path
+    constexpr std::size_t kPatience = 3;  // places on the path
     constexpr std::size_t kTrials = 3;    // before it is given up
     NetDesign design = design_;
     design.hidden = hidden_;

@@ -65,17 +65,17 @@ std::pair<std::int64_t, double> FewestGoodNodes(
 /// Chooses by the pooled error on the inner hold-outs of MakeInnerFolds; every
 /// fit starts from the weights of context.seed.
 ///
-/// wfactor: down WfactorPath, until two decades bring no lower error or a rival
-/// is out of reach; of equal errors the larger wfactor. Along the path a fit
-/// goes on from the last, so that all of them cost little more than one. Else
-/// each starts anew and trains briefly, whole decades first, then the half ones
-/// beside the best; what was chosen then trains in full, too, and is taken with
-/// the iterations that err less (early stopping). Hidden nodes: the fewest of
-/// HiddenToTry whose error is at most 5 % above the least, which is what
-/// another start alone changes. Both: wfactor with the design's nodes (or the
-/// most below them that are tried), then the nodes with that wfactor, then, if
-/// their number changed, the wfactor again; the iterations last. Throws
-/// std::invalid_argument where none could be judged.
+/// wfactor: down WfactorPath, until three more (whole decades: two) bring no
+/// lower error or a rival is out of reach; of equal errors the larger. Along
+/// the path a fit goes on from the last, so that all of them cost little more
+/// than one. Else each starts anew and trains briefly, whole decades first,
+/// then the half ones beside the best; what was chosen then trains in full,
+/// too, and is taken with the iterations that err less (early stopping). Hidden
+/// nodes: the fewest of HiddenToTry whose error is at most 5 % above the least,
+/// which is what another start alone changes. Both: wfactor with the design's
+/// nodes (or the most below them that are tried), then the nodes with that
+/// wfactor, then, if their number changed, the wfactor again; the iterations
+/// last. Throws std::invalid_argument where none could be judged.
 TunedNet TuneNet(const NetDesign& design,
                  const NetTuning& tuning,
                  const NetTrainers& trainers,
