@@ -17,9 +17,10 @@ struct NetDesign {
   InputScaling scaling = InputScaling::kStandard;
   OutputFunction output = OutputFunction::kSigmoid;
   double slope = 1.0;
+  bool free_biases = false;
 
   NetShape ShapeFor(const data::Dataset& dataset) const {
-    return {dataset.num_inputs(), hidden, 1, output, slope};
+    return {dataset.num_inputs(), hidden, 1, output, slope, free_biases};
   }
 };
 

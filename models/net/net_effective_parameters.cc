@@ -63,6 +63,25 @@ MatrixXd WeightGram(const NetTraining& training, const VectorXd& w) {
   return gram;
 }
 
+// The trace of G (G + c D)^-1, G = J'J, with D 0 for biases and else 1: N less
+// c times the diagonal of the inverse where D is 1.
+double WithFreeBiases(NetTraining training, const VectorXd& w) {
+  const Index n = w.size();
+  training.shape.free_biases = false;  // residuals are those of any decay
+  MatrixXd damped = WeightGram(training, w);
+  const double tiny = damped.diagonal().maxCoeff() * static_cast<double>(n) *
+                      std::numeric_limits<double>::epsilon();
+  VectorXd decay =
+      VectorXd::Constant(n, training.wfactor / static_cast<double>(n));
+  for (const auto& [first, count] : training.shape.biases()) {
+    decay.segment(first, count).setZero();
+  }
+  decay.array() += tiny;
+  damped.diagonal() += decay;
+  if (!fitting::FactorizeCholesky(damped)) return kNaN;
+  return static_cast<double>(n) - decay.dot(fitting::DiagonalOfInverse(damped));
+}
+
 }  // namespace
 
 double EffectiveParameters(const NetTraining& training, const VectorXd& w) {
@@ -78,6 +97,9 @@ double EffectiveParameters(const NetTraining& training, const VectorXd& w) {
                           static_cast<double>(dimensions) *
                           static_cast<double>(dimensions);
   if (dimensions > kMostDimensions || products > kMostProducts) return kNaN;
+  if (training.shape.free_biases) {
+    return weights > kMostDimensions ? kNaN : WithFreeBiases(training, w);
+  }
   const MatrixXd gram =
       residuals <= weights ? PatternGram(training, w) : WeightGram(training, w);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(gram,

@@ -10,6 +10,7 @@ namespace errmap::models {
 ///
 /// J (P x N) and c being those of E = 1/2 |r|^2 + 1/2 c |w|^2 (net_residuals.h;
 /// Moody 1992; MacKay 1992, Eq. 4.9, with J'J for the Hessian of the misfit).
+/// Where biases bear no decay, I is without them.
 /// It is the number of directions in the space of the targets that the fit
 /// follows: the rank of J where wfactor is 0, and less the larger it is.
 ///

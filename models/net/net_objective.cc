@@ -166,8 +166,8 @@ Scalar BasicNetObjective<Scalar>::Evaluate(const Vector& w,
     }
   }
   if (gradient != nullptr) scratch.gradient.Finish(w, gradient);
-  return static_cast<Scalar>(
-      Cost(problem_, sum, static_cast<double>(w.squaredNorm())));
+  return static_cast<Scalar>(Cost(
+      problem_, sum, DecayingProduct(problem_.shape, w, w, w.squaredNorm())));
 }
 
 template <typename Scalar>
@@ -179,7 +179,7 @@ std::unique_ptr<fitting::Path<Scalar>> BasicNetObjective<Scalar>::NewPath(
 template <typename Scalar>
 const fitting::ResidualFunction* BasicNetObjective<Scalar>::residuals() const {
   if constexpr (std::is_same_v<Scalar, double>) {
-    if (residuals_ == nullptr) {
+    if (residuals_ == nullptr && !problem_.shape.free_biases) {
       residuals_ = std::make_unique<NetResiduals>(problem_);
     }
   }

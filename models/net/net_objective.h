@@ -11,7 +11,8 @@ namespace errmap::models {
 
 /// E(w) = (sum of squared residuals of the scaled target) / (2 P J)
 ///        + wfactor |w|^2 / (2 N)
-/// over P patterns (Eq. 20 as the report's program codes it), with its
+/// over P patterns (Eq. 20 as the report's program codes it; w without biases
+/// where the shape says so, N with them), with its
 /// back-propagated gradient (Eq. 40-67) and exact curvatures along a path.
 /// Memory beyond the patterns is that of a block of rows.
 template <typename Scalar>
@@ -36,7 +37,8 @@ class BasicNetObjective final : public fitting::BasicObjective<Scalar> {
   Scalar Evaluate(const Vector& w, Vector* gradient) const override;
   std::unique_ptr<fitting::Path<Scalar>> NewPath(
       const Vector& w) const override;
-  /// models/net/net_residuals.h; in double precision only, else null.
+  /// models/net/net_residuals.h; in double precision and with decay on all
+  /// weights only, else null.
   const fitting::ResidualFunction* residuals() const override;
 
  private:

@@ -18,6 +18,12 @@ fitting::StoppingRules DefaultRules(const NetMethod& method) {
              : fitting::StoppingRules();
 }
 
+// By its Jacobian, damped by one number for all weights.
+bool SolvesLeastSquares(const NetMethod& method) {
+  return std::holds_alternative<LmTraining>(method) ||
+         std::holds_alternative<CeresTraining>(method);
+}
+
 std::string Contradiction(const NetOptions& options) {
   const bool by_discrepancy = options.discrepancy.has_value();
   const bool many_starts = options.starts && *options.starts > 1;
@@ -38,6 +44,9 @@ std::string Contradiction(const NetOptions& options) {
       (many_starts || by_discrepancy)) {
     return "members= averages several starts; starts= and discrepancy= choose "
            "one";
+  }
+  if (options.decay == Decay::kWeights && SolvesLeastSquares(options.method)) {
+    return "decay=weights is not for net:lm and net:ceres, which damp all";
   }
   if (by_discrepancy && options.path == true) {
     return "discrepancy= walks a path of its own";
@@ -76,6 +85,13 @@ OptionList<NetOptions> CommonList() {
                            WordOr<GivenOrByCv<double>, Number>{
                                "cv", kByCrossValidation, kWfactors})
                      .Always());
+  list.push_back(OptionFor("decay",
+                           "what it draws to 0: biases too, or not",
+                           &Options::decay,
+                           EnumWords<Decay>({"all", "weights"}))
+                     .When([](const Options& options) {
+                       return options.decay == Decay::kWeights;
+                     }));
   list.push_back(OptionFor("discrepancy",
                            "the RMS residual that finds the wfactor",
                            &Options::discrepancy,
@@ -282,6 +298,10 @@ NetOptions NetOptions::Resolved() const {
       all.wfactor = kDefaultWfactor;
     }
   }
+  if (!decay) {
+    all.decay =
+        view && !SolvesLeastSquares(method) ? Decay::kWeights : Decay::kAll;
+  }
   if (!path) all.path = all.tunes_wfactor() && view.has_value();
   if (!iterations) {
     const std::int64_t usual = DefaultRules(method).iterations;
@@ -300,7 +320,8 @@ NetDesign NetOptions::design() const {
   return {.hidden = tunes_hidden() ? usual : std::int64_t{*hidden},
           .scaling = scale,
           .output = output,
-          .slope = slope};
+          .slope = slope,
+          .free_biases = *decay == Decay::kWeights};
 }
 
 fitting::StoppingRules NetOptions::stopping() const {

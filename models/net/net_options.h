@@ -94,6 +94,12 @@ using NetMethod = std::variant<ScgTraining,
                                CeresTraining,
                                NloptTraining>;
 
+/// What wfactor draws towards 0.
+enum class Decay {
+  kAll,      // every weight and bias, as in the report
+  kWeights,  // no bias: where the inputs lie costs nothing
+};
+
 /// Which of several starts is taken: of lowest cost, or of least error on inner
 /// hold-outs.
 enum class StartRule { kCost, kCrossValidation };
@@ -107,6 +113,8 @@ struct NetOptions {
   /// The wfactor of Eq. 20, 0 .. 1e6; empty: 1e-5, in a view by
   /// cross-validation.
   std::optional<GivenOrByCv<double>> wfactor = {};
+  /// Empty: all, in a view the weights. net:lm and net:ceres have all alone.
+  std::optional<Decay> decay = {};
   /// In place of a wfactor: the largest whose RMS residual on the training rows
   /// is at most this, above 0, in the target's unit (Eq. 126-135).
   std::optional<double> discrepancy = {};

@@ -58,7 +58,7 @@ void NetPath<Scalar>::ForEachBlock(Work work) const {
 
 template <typename Scalar>
 void NetPath<Scalar>::Renew() {
-  w_squared_ = static_cast<double>(w_.squaredNorm());
+  w_squared_ = DecayingProduct(problem_.shape, w_, w_, w_.squaredNorm());
   weights_.Pack(problem_.shape, w_);
   if (!keeps_) return;
   ForEachBlock([&](Index begin, Index columns) {
@@ -121,8 +121,8 @@ template <typename Scalar>
 void NetPath<Scalar>::SetDirection(const Vector& p) {
   std::copy_n(p.data(), p.size(), p_.data());
   const fitting::VectorSums<Scalar> sums = fitting::SquaresAndProduct(p_, w_);
-  p_squared_ = static_cast<double>(sums.squares);
-  w_along_ = static_cast<double>(sums.product);
+  p_squared_ = DecayingProduct(problem_.shape, p_, p_, sums.squares);
+  w_along_ = DecayingProduct(problem_.shape, p_, w_, sums.product);
   has_along_ = true;
   direction_.Pack(problem_.shape, p_);
   has_trial_ = false;
@@ -175,7 +175,7 @@ Scalar NetPath<Scalar>::Value(Scalar a) {
     trial_.Move(weights_, a, direction_);
   }
   if (!has_along_) {
-    w_along_ = static_cast<double>(p_.dot(w_));
+    w_along_ = DecayingProduct(problem_.shape, p_, w_, p_.dot(w_));
     has_along_ = true;
   }
   double sum = 0.0;
@@ -210,7 +210,8 @@ void NetPath<Scalar>::Accept(Scalar a) {
   const bool is_at_trial = has_trial_ && a == trial_a_ && !is_at_point_;
   if (!is_at_trial) Value(a);
   has_trial_ = false;
-  w_squared_ = static_cast<double>(fitting::MoveAndSquare(a, p_, &w_));
+  const Scalar squares = fitting::MoveAndSquare(a, p_, &w_);
+  w_squared_ = DecayingProduct(problem_.shape, w_, w_, squares);
   if (++accepted_ % kRenewal == 0) {
     Renew();
   } else {

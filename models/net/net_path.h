@@ -59,6 +59,7 @@ class NetPath final : public fitting::Path<Scalar> {
   PackedWeights<Scalar> direction_;  // p
   PackedWeights<Scalar> trial_;      // w + a p
   GradientSum<Scalar> gradient_sum_;
+  // Of what bears decay:
   double w_squared_ = 0.0;  // |w|^2
   double w_along_ = 0.0;    // p'w, where it is found
   double p_squared_ = 0.0;  // |p|^2

@@ -293,6 +293,10 @@ void GradientSum<Scalar>::Finish(const fitting::VectorOf<Scalar>& w,
                                  fitting::VectorOf<Scalar>* gradient) const {
   gradient->resize(w.size());
   sum_.UnpackAndAdd(problem_.shape, problem_.decay, w, gradient);
+  if (!problem_.shape.free_biases) return;
+  for (const auto& [first, count] : problem_.shape.biases()) {
+    gradient->segment(first, count) -= problem_.decay * w.segment(first, count);
+  }
 }
 
 template struct NetProblem<double>;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -25,13 +27,33 @@ struct NetShape {
   Eigen::Index hidden = 0;   // H
   Eigen::Index outputs = 1;  // J
   OutputFunction output = OutputFunction::kSigmoid;
-  double slope = 1.0;  // c of f(s) = 1 / (1 + e^(-c s)), Eq. 12; above 0
+  double slope = 1.0;        // c of f(s) = 1 / (1 + e^(-c s)), Eq. 12; above 0
+  bool free_biases = false;  // wfactor counts no bias
 
   Eigen::Index num_weights1() const { return hidden * (inputs + 1); }
   Eigen::Index num_weights() const {
     return num_weights1() + outputs * (hidden + 1);
   }
+  /// First place and number of the biases of each layer.
+  std::array<std::pair<Eigen::Index, Eigen::Index>, 2> biases() const {
+    return {{{hidden * inputs, hidden}, {num_weights() - outputs, outputs}}};
+  }
 };
+
+/// Product of two weight vectors without what bears no decay.
+template <typename Scalar>
+double DecayingProduct(const NetShape& shape,
+                       const fitting::VectorOf<Scalar>& a,
+                       const fitting::VectorOf<Scalar>& b,
+                       Scalar of_all) {
+  double product = static_cast<double>(of_all);
+  if (!shape.free_biases) return product;
+  for (const auto& [first, count] : shape.biases()) {
+    product -= static_cast<double>(
+        a.segment(first, count).dot(b.segment(first, count)));
+  }
+  return product;
+}
 
 /// Slope of the output nodes: that of `shape`, but 1 for linear ones.
 inline double OutputSlope(const NetShape& shape) {

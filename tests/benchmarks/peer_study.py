@@ -41,7 +41,7 @@ FAMILIES = {
     "ridge1": "poly:ridge:view=raw:terms=full:degree=1",
     "ridge2": "poly:ridge:view=raw:terms=full:degree=2",
     "lasso2": "poly:lasso:view=raw:terms=full:degree=2",
-    "net": "net:scg:hidden=10:output=linear:wfactor=cv",
+    "net": "net:scg:hidden=10:output=linear:wfactor=cv:decay=weights",
     "forward": "poly:stepwise:degree=1",
 }
 

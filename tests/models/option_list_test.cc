@@ -297,6 +297,11 @@ TEST(ModelOptions, EachBoundBites) {
       {[] { NetOptions{.members = 101}.Validate(); }, "members must be"},
       {[] { NetOptions{.rows = 99}.Validate(); },
        "rows must be all or a whole number from 100 on, found '99'"},
+      {[] {
+         NetOptions{.method = LmTraining{}, .decay = Decay::kWeights}
+             .Validate();
+       },
+       "decay=weights is not for net:lm and net:ceres"},
       {[] { NetOptions{.wfactor = 1.0, .discrepancy = 0.1}.Validate(); },
        "discrepancy= finds the wfactor, which wfactor= fixes"},
       {[] {

@@ -82,6 +82,35 @@ TEST(EffectiveParameters, AgreeWithTheSingularValuesOfTheJacobian) {
   }
 }
 
+TEST(EffectiveParameters, CountFreeBiasesWhole) {
+  constexpr double kRounding = 1e-8;
+  const NetShape shape{3, 6};
+  for (const bool weighted : {false, true}) {
+    NetTraining training = RowsOf(90, shape, weighted);
+    training.wfactor = 0.5;
+    const VectorXd w = 3.0 * InitialWeights(shape, 7);
+    const NetObjective objective(training.shape,
+                                 training.inputs,
+                                 training.targets,
+                                 training.wfactor,
+                                 training.row_weights);
+    VectorXd residuals;
+    MatrixXd jacobian;
+    objective.residuals()->Evaluate(w, &residuals, &jacobian);
+    VectorXd decay =
+        VectorXd::Constant(w.size(), 0.5 / static_cast<double>(w.size()));
+    decay.segment(18, 6).setZero();  // of the hidden nodes, after 3 x 6 weights
+    decay[w.size() - 1] = 0.0;
+    const MatrixXd gram = jacobian.transpose() * jacobian;
+    const MatrixXd damped = gram + MatrixXd(decay.asDiagonal());
+    const double expected = damped.ldlt().solve(gram).trace();
+    training.shape.free_biases = true;
+    EXPECT_NEAR(EffectiveParameters(training, w), expected, kRounding);
+    training.wfactor = 1e12;  // the hidden nodes are at their constants
+    EXPECT_NEAR(EffectiveParameters(training, w), 7.0, 1e-6);
+  }
+}
+
 TEST(EffectiveParameters, AreTheRankWithoutDecayAndNoneWithMuch) {
   const NetShape shape{2, 3};
   const VectorXd w = 3.0 * InitialWeights(shape, 5);

@@ -112,7 +112,8 @@ TEST_P(NetObjectiveGradient, IsTheSameCostWithAndWithoutGradient) {
 
 INSTANTIATE_TEST_SUITE_P(Shapes,
                          NetObjectiveGradient,
-                         ::testing::ValuesIn(errmap::testing::ManyNets()),
+                         ::testing::ValuesIn(errmap::testing::WithFreeBiases(
+                             errmap::testing::ManyNets())),
                          [](const ::testing::TestParamInfo<NetCase>& instance) {
                            return instance.param.Name();
                          });

@@ -170,12 +170,13 @@ TEST_P(NetPathOfShape, IsTheSameTwice) {
   EXPECT_EQ(walk(), walk());
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes,
-                         NetPathOfShape,
-                         ::testing::ValuesIn(ManyNets()),
-                         [](const ::testing::TestParamInfo<NetCase>& instance) {
-                           return instance.param.Name();
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Shapes,
+    NetPathOfShape,
+    ::testing::ValuesIn(errmap::testing::WithFreeBiases(ManyNets())),
+    [](const ::testing::TestParamInfo<NetCase>& instance) {
+      return instance.param.Name();
+    });
 
 // A zero direction, as after rounding: nothing happens along it.
 TEST(NetPath, HasNoCurvatureAlongNothing) {

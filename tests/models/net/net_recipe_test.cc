@@ -281,6 +281,24 @@ TEST(NetRecipe, ALinearOutputExtrapolatesWhereASigmoidSaturates) {
   EXPECT_NEAR(predict("linear"), truth, 0.5);
 }
 
+TEST(NetRecipe, FreeBiasesKeepTheMeanWhereDecayIsStrong) {
+  const data::Dataset ramp = Ramp(50);  // errors of 1 to 3, mean 2
+  for (const std::string decay : {"weights", "all"}) {
+    const FittedModel fitted = FitSpecInNetRecipe(
+        "net:scg:hidden=4:output=linear:wfactor=1e6:decay=" + decay, ramp);
+    const double mean = fitted.Predict(ramp).mean();
+    if (decay == "weights") {
+      EXPECT_NEAR(mean, 2.0, 1e-6);
+    } else {
+      EXPECT_LT(mean, 1.1);  // all weights 0: the least error of the ramp
+    }
+  }
+  EXPECT_EQ(OptionOf("net:scg:view=auto", "decay"), "weights");
+  EXPECT_EQ(OptionOf("net:scg:view=auto:decay=all", "decay"), "-");
+  EXPECT_EQ(OptionOf("net:scg:wfactor=cv", "decay"), "-");
+  EXPECT_EQ(OptionOf("net:lm:view=auto", "decay"), "-");
+}
+
 TEST(NetRecipe, TheSameSeedGivesTheSameBits) {
   const data::Dataset dataset = QuadraticData(60);
   for (const char* spec : {"net:scg:hidden=5:iterations=40",

@@ -46,6 +46,7 @@ struct NetCase {
     name += shape.output == models::OutputFunction::kLinear ? "Linear" : "";
     name += shape.slope != 1.0 ? "Steep" : "";
     name += weighted ? "Weighted" : "";
+    name += shape.free_biases ? "FreeBiases" : "";
     name += arithmetic == models::NetArithmetic::kPlain ? "Plain" : "";
     return name;
   }
@@ -89,6 +90,16 @@ inline std::vector<NetCase> ManyNets() {
     }
   }
   return all;
+}
+
+/// These, and some whose biases bear no decay.
+inline std::vector<NetCase> WithFreeBiases(std::vector<NetCase> nets) {
+  for (NetCase net : ManyNets()) {
+    if (net.shape.hidden < 4) continue;
+    net.shape.free_biases = true;
+    nets.push_back(net);
+  }
+  return nets;
 }
 
 /// p'Hp at w as a derivative by Ridders: of g'p along w + a p.
