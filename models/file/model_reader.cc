@@ -387,14 +387,19 @@ FittedModel ModelFromJson(const std::string& text, const std::string& source) {
     document = ParseUniqueKeys(text);
   } catch (const data::InputError& error) {
     throw data::InputError(fmt::format("{}: {}", source, error.what()));
-  } catch (const Json::exception& error) {
+  } catch (const Json::parse_error& error) {
     throw data::InputError(
         text.find('{') != text.find_first_not_of(" \t\r\n")
             ? source +
                   ": is no map, which is JSON that errmap wrote; a map is "
                   "named first, its data after it"
-            : fmt::format(
-                  "{}: is no JSON model file: {}", source, error.what()));
+            : fmt::format("{}: is no whole map: its JSON breaks at byte {} of "
+                          "{}; take another copy, or errmap fit again",
+                          source,
+                          error.byte,
+                          text.size()));
+  } catch (const Json::out_of_range&) {
+    throw data::InputError(source + ": has a number that is too large");
   }
   return ReadModel(Node(document, "", source));
 }

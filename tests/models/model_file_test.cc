@@ -231,6 +231,19 @@ TEST(ModelFile, RefusesWhatIsNoJson) {
   EXPECT_THROW(LoadModel("/nonexistent/map.json"), data::InputError);
 }
 
+TEST(ModelFile, SaysWhereAFileBreaks) {
+  const auto reading = [](const std::string& text) {
+    return [text] { ModelFromJson(text, "map.json"); };
+  };
+  EXPECT_THAT(reading("{\"schema\": 1"),
+              ::testing::ThrowsMessage<data::InputError>(
+                  "map.json: is no whole map: its JSON breaks at byte 13 of "
+                  "12; take another copy, or errmap fit again"));
+  EXPECT_THAT(reading("{\"schema\": 1e999}"),
+              ::testing::ThrowsMessage<data::InputError>(
+                  "map.json: has a number that is too large"));
+}
+
 TEST(ModelFile, RefusesAKeyThatStandsTwiceInOneObject) {
   std::string text = SavedModel("poly:eq8");
   const std::size_t intercept = text.find("\"intercept\"");
