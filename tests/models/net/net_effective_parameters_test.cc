@@ -30,7 +30,7 @@ NetTraining RowsOf(Index rows, const NetShape& shape, bool weighted = false) {
   return training;
 }
 
-VectorXd SingularValues(const NetTraining& training, const VectorXd& w) {
+MatrixXd JacobianOf(const NetTraining& training, const VectorXd& w) {
   const NetObjective objective(training.shape,
                                training.inputs,
                                training.targets,
@@ -39,14 +39,16 @@ VectorXd SingularValues(const NetTraining& training, const VectorXd& w) {
   VectorXd residuals;
   MatrixXd jacobian;
   objective.residuals()->Evaluate(w, &residuals, &jacobian);
-  return Eigen::BDCSVD<MatrixXd>(jacobian).singularValues();
+  return jacobian;
 }
 
 // Sum of s^2 / (s^2 + c) over the singular values s of the whole Jacobian.
 double BySingularValues(const NetTraining& training, const VectorXd& w) {
   const double c = training.wfactor / static_cast<double>(w.size());
   double sum = 0.0;
-  for (const double s : SingularValues(training, w)) {
+  const VectorXd values =
+      Eigen::BDCSVD<MatrixXd>(JacobianOf(training, w)).singularValues();
+  for (const double s : values) {
     sum += s * s / (s * s + c);
   }
   return sum;
@@ -89,14 +91,7 @@ TEST(EffectiveParameters, CountFreeBiasesWhole) {
     NetTraining training = RowsOf(90, shape, weighted);
     training.wfactor = 0.5;
     const VectorXd w = 3.0 * InitialWeights(shape, 7);
-    const NetObjective objective(training.shape,
-                                 training.inputs,
-                                 training.targets,
-                                 training.wfactor,
-                                 training.row_weights);
-    VectorXd residuals;
-    MatrixXd jacobian;
-    objective.residuals()->Evaluate(w, &residuals, &jacobian);
+    const MatrixXd jacobian = JacobianOf(training, w);
     VectorXd decay =
         VectorXd::Constant(w.size(), 0.5 / static_cast<double>(w.size()));
     decay.segment(18, 6).setZero();  // of the hidden nodes, after 3 x 6 weights
