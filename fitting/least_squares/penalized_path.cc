@@ -391,19 +391,12 @@ PenalizedPath::Solutions PenalizedPath::Solve(
   return solutions;
 }
 
-VectorXd PenalizedPath::TimesInverse(double strength, const VectorXd& b) const {
-  MatrixXd factor = Shifted(strength);
-  FactorizeCholesky(factor);
-  VectorXd solution = in_rows() ? VectorXd(rows_ * b) : b;
-  SolveCholesky(factor, &solution);
-  if (!in_rows()) return solution;
-  return (b - rows_.transpose() * solution) / strength;
-}
-
 void PenalizedPath::Refine(double strength,
                            double residuals,
                            const VectorXd& with_columns,
                            Solutions* solution) const {
+  MatrixXd factor = Shifted(strength);
+  if (!FactorizeCholesky(factor)) return;
   VectorXd coefficients = solution->coefficients.col(0);
   // In the scaled columns, of which one that is constant has scale 0.
   const auto scaled = [&](const VectorXd& values) {
@@ -414,7 +407,11 @@ void PenalizedPath::Refine(double strength,
   const VectorXd left =
       scales_.cwiseProduct(with_columns - residuals * means_) / weight_ -
       strength * scaled(coefficients);
-  coefficients += scales_.cwiseProduct(TimesInverse(strength, left));
+  VectorXd step = in_rows() ? VectorXd(rows_ * left) : left;
+  SolveCholesky(factor, &step);
+  // (A'A + s I)^-1 = (I - A' (A A' + s I)^-1 A) / s.
+  if (in_rows()) step = (left - rows_.transpose() * step) / strength;
+  coefficients += scales_.cwiseProduct(step);
   solution->coefficients.col(0) = coefficients;
   solution->intercepts[0] = mean_response_ - coefficients.dot(means_);
 }

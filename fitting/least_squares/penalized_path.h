@@ -52,7 +52,8 @@ class PenalizedPath {
   /// One step of iterative refinement of a ridge's solution for `strength`,
   /// above 0, from what it leaves over: the sums of w e, and (k) of w e x, over
   /// the residuals e. Normal equations lose twice the digits that columns near
-  /// dependence cost; this brings back the half (Björck 1996, 2.9.3).
+  /// dependence cost; this brings back the half (Björck 1996, 2.9.3). Leaves a
+  /// solution as it is that a strength this weak did not make definite.
   void Refine(double strength,
               double residuals,
               const Eigen::VectorXd& with_columns,
@@ -70,8 +71,6 @@ class PenalizedPath {
   // What is factorised: a matrix of the columns, or of the rows, plus strength;
   // its lower triangle.
   Eigen::MatrixXd Shifted(double strength) const;
-  // (R + strength I)^-1 times b, R being of the columns.
-  Eigen::VectorXd TimesInverse(double strength, const Eigen::VectorXd& b) const;
   Eigen::MatrixXd RidgeSolutions(const std::vector<double>& strengths) const;
   Eigen::MatrixXd LassoSolutions(const std::vector<double>& strengths) const;
 

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "models/out_of_reach.h"
+
 namespace errmap::models {
 namespace {
 
@@ -75,7 +77,7 @@ class Tuner {
         hidden_(design.hidden),
         wfactor_(tuning.fixed_wfactor),
         along_path_(tuning.along_path),
-        hopeless_(2.0 * tuning.rival) {
+        hopeless_(kOutOfReach * tuning.rival) {
     Index rows = training.num_rows();
     const fitting::FoldCodes& folds = inner_.folds;
     for (Index fold = folds.first_judged(); fold < folds.count(); ++fold) {
@@ -112,7 +114,6 @@ class Tuner {
 
   void ChooseWfactor() {
     constexpr std::size_t kPatience = 3;  // places on the path
-    constexpr std::size_t kTrials = 3;    // before it is given up
     NetDesign design = design_;
     design.hidden = hidden_;
     WfactorWalk walk(design,
@@ -135,7 +136,7 @@ class Tuner {
           least = tried[i];
           best = i;
         }
-        if (tried.size() >= kTrials && least > hopeless_) break;
+        if (tried.size() >= kTrialsBeforeGivenUp && least > hopeless_) break;
       }
       return best;
     };

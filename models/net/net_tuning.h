@@ -17,8 +17,7 @@ struct NetTuning {
   bool wfactor = false;  // else the one below
   double fixed_wfactor = 0.0;
   bool along_path = false;  // each fit as TrainAlong WfactorPathTo its wfactor
-  /// RMSE of a rival. Wfactors are tried no further where three of them err
-  /// more than twice as much (of 467 choices of a view this changed 10).
+  /// RMSE of a rival (out_of_reach.h).
   double rival = std::numeric_limits<double>::infinity();
 };
 

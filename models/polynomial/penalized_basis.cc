@@ -12,6 +12,7 @@
 #include "fitting/least_squares/cross_products.h"
 #include "fitting/matrix_product.h"
 #include "models/history/with_history.h"
+#include "models/out_of_reach.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/polynomial/polynomial_model.h"
 
@@ -483,7 +484,7 @@ std::vector<double> EverySecond(const std::vector<double>& values) {
 void SearchRidge(const std::vector<double>& grid,
                  double promising,
                  StrengthSearch* search) {
-  const auto few = grid.begin() + 3;
+  const auto few = grid.begin() + kTrialsBeforeGivenUp;
   search->Judge({grid.begin(), few});
   if (!(search->LeastRmse() <= promising)) return;
   search->Judge({few, grid.end()});

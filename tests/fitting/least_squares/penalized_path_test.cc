@@ -223,6 +223,25 @@ TEST(PenalizedPath, RefinesARidgeOfColumnsNearDependence) {
   }
 }
 
+TEST(PenalizedPath, RefinesNothingWhereThePenaltyIsLostInRoundings) {
+  Sample sample = MakeSample(60, 6, false, 70);
+  sample.terms.col(4) = sample.terms.col(0);
+  sample.terms.col(5) = sample.terms.col(1) + sample.terms.col(2);
+  constexpr double kLost = 1e-30;
+  const PenalizedPath path(Penalty::kRidge, SumsOf(sample), true);
+  auto solution = path.Solve({kLost});
+  const auto residual = [&] {
+    return VectorXd(
+        (sample.response - sample.terms * solution.coefficients.col(0))
+            .array() -
+        solution.intercepts[0]);
+  };
+  const VectorXd before = residual();
+  path.Refine(
+      kLost, before.sum(), sample.terms.transpose() * before, &solution);
+  EXPECT_LT((residual() - before).norm(), 1e-6 * before.norm());
+}
+
 TEST(PenalizedPath, RidgeHasTheDegreesOfFreedomOfItsEigenvalues) {
   constexpr double kSlack = 1e-6;
   for (const auto& [rows, cols] :
