@@ -10,7 +10,9 @@ namespace errmap::models {
 namespace {
 
 constexpr double kDefaultWfactor = 1e-5;
-constexpr std::int64_t kFewNodes = 10;  // of a net in a view
+// Of a net in a view: as many as a vector of the widest kind holds in single
+// precision, which compares its wfactors.
+constexpr std::int64_t kFewNodes = 16;
 
 fitting::StoppingRules DefaultRules(const NetMethod& method) {
   return std::holds_alternative<LmTraining>(method)
@@ -287,7 +289,7 @@ std::string_view NetOptions::type() const {
 void NetOptions::Validate() const { ValidateOptions(*this); }
 
 NetOptions NetOptions::Resolved() const {
-  constexpr std::int64_t kFewSteps = 750;
+  constexpr std::int64_t kFewSteps = 500;
   constexpr std::int64_t kSomeMembers = 3;
   NetOptions all = *this;
   if (!hidden) all.hidden = view ? kFewNodes : NetDesign().hidden;

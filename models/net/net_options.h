@@ -108,7 +108,7 @@ enum class StartRule { kCost, kCrossValidation };
 /// (Resolved): a net in a view is to hold where it was not trained.
 struct NetOptions {
   NetMethod method = ScgTraining{};
-  /// Nodes, 1 .. 10,000; empty: 20, in a view 10.
+  /// Nodes, 1 .. 10,000; empty: 20, in a view 16.
   std::optional<GivenOrByCv<std::int64_t>> hidden = {};
   /// The wfactor of Eq. 20, 0 .. 1e6; empty: 1e-5, in a view by
   /// cross-validation.
@@ -121,7 +121,7 @@ struct NetOptions {
   /// Goes down WfactorPath to its wfactor; empty: where a view's is chosen.
   std::optional<bool> path = {};
   /// Limits of a fit, its path included; 1 .. 1e9. Empty: 1500, of net:lm 200,
-  /// in a view at most 750.
+  /// in a view at most 500.
   std::optional<std::int64_t> iterations = {};
   /// 0 .. 1e12 (fitting::StoppingRules::cost_goal).
   double egoal = fitting::StoppingRules().cost_goal;
