@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "data/units.h"
 
@@ -120,22 +122,32 @@ ReportView ViewOf(const ComponentRecord& component) {
 
 namespace {
 
+// The roundings that a map of exact data leaves ask for no decimals.
+double SmallestThatMatters(const std::vector<double>& errors) {
+  constexpr double kRounding = 1e-6;  // of the largest
+  double largest = 0.0;
+  for (const double error : errors) largest = std::fmax(largest, error);
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const double error : errors) {
+    if (error > kRounding * largest) smallest = std::min(smallest, error);
+  }
+  return smallest;
+}
+
 ErrorText ErrorTextIn(const std::string& shown_unit,
                       const ComponentRecord& component) {
-  double smallest = std::numeric_limits<double>::infinity();
+  std::vector<double> errors;
   for (const ModelRecord& model : component.models) {
     for (const auto& [holdout, result] : model.results) {
-      if (result.test.rmse > 0.0) {
-        smallest = std::min(smallest, result.test.rmse);
-      }
+      errors.push_back(result.test.rmse);
     }
   }
-  if (!std::isfinite(smallest)) smallest = component.goal;
+  const double smallest = SmallestThatMatters(errors);
   return {data::Unit{.symbol = component.data.unit,
                      .quantity = data::Quantity::kOther,
                      .display_scale = component.display.scale,
                      .display_symbol = shown_unit},
-          smallest};
+          std::isfinite(smallest) ? smallest : component.goal};
 }
 
 }  // namespace

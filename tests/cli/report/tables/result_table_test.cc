@@ -53,6 +53,15 @@ TEST(TerminalLeaderboard, AlwaysHoldsTheRecommended) {
   EXPECT_EQ(table.marked, 0U);
 }
 
+TEST(ErrorTextOf, TakesRoundingsForNoError) {
+  models::StudyRecord record = Recorded(MakeReportDocument());
+  models::ComponentRecord& component = record.components[0];
+  const std::string before = ErrorTextOf(component)(0.0012345);
+  models::ModelRecord& net = component.models.back();
+  for (auto& [holdout, result] : net.results) result.test.rmse = 1e-17;
+  EXPECT_EQ(ErrorTextOf(component)(0.0012345), before);
+}
+
 TEST(DrawnRowsWords, NameWhatLearntFromAPart) {
   models::StudyRecord record = Recorded(MakeReportDocument());
   models::ComponentRecord& component = record.components[0];
