@@ -10,6 +10,7 @@
 
 #include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/sessions.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -415,8 +416,7 @@ std::string CounterWordIn(std::string_view name) {
 }  // namespace
 
 bool KeepsRecord(std::string_view name) {
-  return IsOneOf(kCounters, CounterStem(name)) ||
-         StartsWithIgnoringCase(name, "time") ||
+  return IsOneOf(kCounters, CounterStem(name)) || NamesTime(name) ||
          StartsWithIgnoringCase(name, "truth");
 }
 

@@ -168,8 +168,8 @@ struct DatasetSelection {
   std::vector<std::string> inputs = {};   // default: every other numeric column
   std::vector<std::string> exclude = {};  // never inputs
   std::string group = {};                 // default: "cycle" if there is one
-  std::string time = {};     // default: the only column "time*"; see sessions.h
-  std::string session = {};  // default: "session", "day" or "run"
+  std::string time = {};     // default: the only "time*", "zeit*"; sessions.h
+  std::string session = {};  // default: the first of kSessionColumns
   std::string weight = {};   // default: none
   Alignment align = Alignment::kNone;
   MissingPolicy missing = MissingPolicy::kError;

@@ -109,9 +109,12 @@ class SessionFinder {
     if (named) {
       candidates.push_back(NamedColumn(selection_.time, ArgumentName("time")));
     } else {
-      candidates = ColumnsOf([](const CsvColumn& column) {
-        return StartsWithIgnoringCase(column.name, "time");
-      });
+      for (const char* word : kTimeWords) {
+        candidates = ColumnsOf([&](const CsvColumn& column) {
+          return StartsWithIgnoringCase(column.name, word);
+        });
+        if (!candidates.empty()) break;
+      }
       if (candidates.empty()) {
         candidates = ColumnsOf([](const CsvColumn& column) {
           const TextTimes times = ReadTimes(column);
@@ -412,6 +415,12 @@ std::vector<Index> FirstRows(const Grouping& sessions,
     if (complete[session] != kNone) first[session] = complete[session];
   }
   return first;
+}
+
+bool NamesTime(std::string_view name) {
+  return std::ranges::any_of(kTimeWords, [&](const char* word) {
+    return StartsWithIgnoringCase(name, word);
+  });
 }
 
 FoundSessions FindSessions(const CsvTable& table,

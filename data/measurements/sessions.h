@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "data/csv.h"
@@ -12,7 +13,11 @@ namespace errmap::data {
 
 /// What a column of sessions is called where nobody names one, in this order.
 inline constexpr auto kSessionColumns =
-    std::to_array<const char*>({"session", "day", "run"});
+    std::to_array<const char*>({"session", "day", "run", "tag"});
+
+/// What a column of times begins with where nobody names one, in this order.
+inline constexpr auto kTimeWords = std::to_array<const char*>({"time", "zeit"});
+bool NamesTime(std::string_view name);  // by one of these
 
 /// A step of time of more than this many median ones is a break.
 inline constexpr double kLeapSteps = 20.0;
@@ -41,15 +46,16 @@ struct FoundSessions {
 /// Finds sessions, uninterrupted runs with rows in order of time, by the
 /// columns `time`, `session` and the policy `missing` of the selection.
 ///
-/// Time is the column named, else the only one whose name starts with "time",
-/// else the only one that holds nothing but times of day: numbers in seconds by
-/// its unit (s, ms, min, h), or what ParseDateTime reads; else the number of
-/// the row. Sessions are the column named, else `session`, else `day`, else
-/// `run`, else of several files kFileColumn, else, where time has no dates, the
-/// only column that holds nothing but dates; without one they are cut where
-/// time goes back or leaps by more than 20 median steps. A column that nobody
-/// named and that will not do is passed over with a remark; "none" names none,
-/// save where a column is called so. The target and the weight are neither.
+/// Time is the column named, else the only one whose name begins with "time",
+/// else with "zeit", else the only one that holds nothing but times of day:
+/// numbers in seconds by its unit (s, ms, min, h), or what ParseDateTime reads;
+/// else the number of the row. Sessions are the column named, else the first of
+/// kSessionColumns that there is, else of several files kFileColumn, else,
+/// where time has no dates, the only column that holds nothing but dates;
+/// without one they are cut where time goes back or leaps by more than 20
+/// median steps. A column that nobody named and that will not do is passed over
+/// with a remark; "none" names none, save where a column is called so. The
+/// target and the weight are neither.
 ///
 /// Throws InputError, with row and remedy, where a named column is not there,
 /// is the target or the weight, holds no times, lacks a cell (kDropRows: such

@@ -12,6 +12,7 @@
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/dataset.h"
+#include "data/measurements/sessions.h"
 #include "data/text.h"
 
 namespace errmap::desk {
@@ -24,9 +25,10 @@ constexpr const char* kDiagonals = "diagonals.csv";
 
 std::string SessionColumn(const data::CsvTable& points,
                           const std::string& wanted) {
-  for (const std::string& name :
-       wanted.empty() ? std::vector<std::string>{"session", "day", "run"}
-                      : std::vector<std::string>{wanted}) {
+  std::vector<std::string> names(data::kSessionColumns.begin(),
+                                 data::kSessionColumns.end());
+  if (!wanted.empty()) names = {wanted};
+  for (const std::string& name : names) {
     if (points.Find(name) >= 0) return name;
   }
   throw data::InputError(fmt::format(

@@ -58,7 +58,9 @@ std::string RatioText(double ratio) {
 }
 
 std::string PluralOf(std::string unit) {
-  return unit.insert(std::min(unit.find(' '), unit.size()), "s");
+  const std::size_t end = std::min(unit.find(' '), unit.size());
+  const bool is_plural = end > 0 && unit[end - 1] == 's';  // "Zyklus", "series"
+  return is_plural ? unit : unit.insert(end, "s");
 }
 
 std::string PluralOfUnit(const models::HoldoutRecord& holdout) {

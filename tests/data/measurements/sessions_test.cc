@@ -50,6 +50,11 @@ TEST(Sessions, AreThoseOfTheColumnSessionElseDayElseRun) {
   EXPECT_THAT(Times(found), ElementsAre(0, 1, 2, 3, 4, 5));
 }
 
+TEST(Sessions, AreDaysInGerman) {
+  const FoundSessions found = Find("Tag,x\n1,1\n1,2\n2,3\n2,4\n");
+  EXPECT_EQ(found.sessions.column, "Tag");
+}
+
 TEST(Sessions, AreTextsToo) {
   const FoundSessions found = Find("session,x\nmo,1\nmo,2\ntu,3\ntu,4\n");
   EXPECT_THAT(found.sessions.labels, ElementsAre("mo", "tu"));
@@ -75,6 +80,11 @@ TEST(Sessions, TimeIsInSecondsByItsUnit) {
               ElementsAre(HasSubstr("time by 'time', taken for seconds")));
   EXPECT_THAT(Times(Find("clock\n5\n7\n", {.time = "clock"})),
               ElementsAre(5, 7));
+}
+
+TEST(Sessions, TimeIsFoundInGerman) {
+  EXPECT_THAT(Times(Find("Zeit [min],x\n1,5\n2,6\n")), ElementsAre(60, 120));
+  EXPECT_EQ(Find("Zeit [s],time_s\n5,1\n6,2\n").time_column, 1);
 }
 
 TEST(Sessions, TimeMayBeDates) {

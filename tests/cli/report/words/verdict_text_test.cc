@@ -161,6 +161,14 @@ TEST(Marks, SayWhyALowerErrorIsNotTaken) {
               HasSubstr("2 days do not choose between them"));
 }
 
+TEST(Headline, LeavesAUnitThatEndsInSAsItIs) {
+  ComponentRecord record = Base();
+  for (models::HoldoutRecord& holdout : record.holdouts) {
+    holdout.unit_of_analysis = "Zyklus";
+  }
+  EXPECT_THAT(Headline(record), HasSubstr("on Zyklus it never saw"));
+}
+
 TEST(Headline, SaysWhereNoTemperatureMapEarnsItsSensors) {
   ComponentRecord record = Base();
   models::RecommendationRecord& advice = *record.recommendation;
