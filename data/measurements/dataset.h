@@ -42,9 +42,10 @@ struct SessionLog {
   /// were cut by time or the table is one.
   Grouping sessions;
   std::vector<Eigen::Index> first_rows;  // (sessions) sessions.h: FirstRows
-  Eigen::VectorXd time;   // (rows) finite, never falling within a session
-  std::string time_unit;  // "s", or "rows": the number of the row
-  bool dated = false;     // the time counts from 1970, by dates
+  Eigen::VectorXd time;     // (rows) finite, never falling within a session
+  std::string time_unit;    // "s", or "rows": the number of the row
+  std::string time_column;  // "" where time is the number of the row
+  bool dated = false;       // the time counts from 1970, by dates
   Eigen::MatrixXd input_values;  // (rows x p) NaN: no number; (0 x 0): made
 };
 

@@ -51,6 +51,9 @@ void TakeLog(const CsvTable& table,
   log->sessions = std::move(found.sessions);
   log->time = std::move(found.time);
   log->time_unit = std::move(found.time_unit);
+  if (found.time_column >= 0) {
+    log->time_column = table.At(found.time_column).name;
+  }
   log->dated = found.dated;
   // Both lists ascend, and the rows kept are among those of the log.
   auto at = log_rows.begin();

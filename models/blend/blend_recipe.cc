@@ -333,6 +333,7 @@ class BlendRecipe final : public ModelRecipe {
         const History& own = *part.map.history;
         history.time_unit = own.time_unit;
         history.session = own.session;
+        history.time = own.time;
         for (const DerivedInput& input : own.derived) {
           if (std::ranges::none_of(
                   history.derived, [&](const DerivedInput& known) {

@@ -83,6 +83,7 @@ History ReadHistory(const Node& node, const std::vector<TrainedInput>& inputs) {
     node.At("time_unit").Refuse("must be 's' or 'rows'");
   }
   history.session = node.At("session").Text();
+  if (const auto time = node.Find("time")) history.time = time->Text();
   if (const auto start = node.Find("latest_start")) {
     history.latest_start = start->Number();
   }

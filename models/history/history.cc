@@ -487,6 +487,7 @@ data::Dataset DeriveDataset(const data::Dataset& dataset,
   log->first_rows = dataset.log()->first_rows;
   log->time = dataset.log()->time;
   log->time_unit = dataset.log()->time_unit;
+  log->time_column = dataset.log()->time_column;
   parts.log = std::move(log);
   return data::Dataset(std::move(parts));
 }

@@ -23,6 +23,11 @@ data::DatasetSelection SelectionFor(const History& history,
                                     const MapLogArguments& arguments) {
   data::DatasetSelection selection;
   selection.time = history.time_unit == "rows" ? "none" : arguments.time;
+  // Of several that could be the time, the one that the map was fitted by.
+  if (selection.time.empty() && !history.time.empty() &&
+      table.Find(history.time) >= 0) {
+    selection.time = history.time;
+  }
   selection.session = arguments.session;
   if (selection.session.empty()) {
     selection.session = history.session.empty() ? "none" : history.session;

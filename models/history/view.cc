@@ -57,6 +57,7 @@ History DefineView(const Dataset& training,
   if (training.log() != nullptr) {
     history.time_unit = training.log()->time_unit;
     history.session = training.log()->sessions.column;
+    history.time = training.log()->time_column;
   }
   // Columns that filters and zeros are taken of, and columns that stay.
   std::vector<data::ColumnInfo> varying;

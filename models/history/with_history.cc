@@ -14,6 +14,7 @@ FittedModel WithHistory(FittedModel fitted,
   auto read = std::make_shared<History>();
   read->time_unit = history.time_unit;
   read->session = history.session;
+  read->time = history.time;
   read->latest_start = LatestStart(training);
   read->longest_step = LongestStep(training);
   std::set<std::string> needed;

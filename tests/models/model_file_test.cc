@@ -120,6 +120,7 @@ FittedModel MapWithMemoryInModelFile(const data::Dataset& dataset) {
   const History history{
       .time_unit = "s",
       .session = "day",
+      .time = "time_s",
       .derived = {Ema(dataset.inputs()[0], 600.0, "s"),
                   Zeroed(dataset.inputs()[1])},
       .form_inputs = {"ema(t1_degC,600s)", "zeroed(t2_degC)"}};
@@ -142,6 +143,7 @@ TEST(ModelFile, ReproducesAMapWithAMemory) {
   EXPECT_EQ(loaded.align, data::Alignment::kFirst);
   EXPECT_EQ(ModelToJson(loaded, {}), text);
   const Json document = Json::parse(text);
+  EXPECT_EQ(loaded.history->time, "time_s");
   EXPECT_EQ(document["history"]["derived"][0]["tau"], 600.0);
   EXPECT_EQ(document["history"]["form_inputs"].size(), 2U);
   EXPECT_EQ(document["guards"]["input_margin"], 2.0);

@@ -79,6 +79,7 @@ class RowDigests {
       AddText(label, stream);
     }
     AddText(log.time_unit, stream);
+    AddText(log.time_column, stream);
     AddBytes(log.sessions.codes, stream);
     AddBytes(log.first_rows, stream);
     AddBytes(log.time, stream);

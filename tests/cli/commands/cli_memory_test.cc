@@ -62,6 +62,7 @@ class CliMemory : public CliTest {
     const models::History history{
         .time_unit = "s",
         .session = "day",
+        .time = dataset.log()->time_column,
         .derived = {models::Ema(dataset.inputs()[0], 600.0, "s")},
         .form_inputs = {"ema(t1_degC,600s)"}};
     models::FittedModel fitted =
@@ -151,6 +152,16 @@ TEST_F(CliMemory, RefusesDataWithoutSessionsOrTimes) {
                 HasSubstr("no_time.csv: no column of times, which the map's "
                           "filters need"));
   }
+}
+
+TEST_F(CliMemory, TakesTheTimeByWhichTheMapWasFitted) {
+  WriteMap("map.json", Days(3));
+  Write("plain.csv", "day,time_s,t1_degC\n9,0,20\n9,60,21\n9,120,23\n");
+  Write("both.csv",
+        "day,time_of_shift_h,time_s,t1_degC\n9,6,0,20\n9,6.1,60,21\n"
+        "9,6.2,120,23\n");
+  EXPECT_EQ(ColumnOf(Run({"predict", "map.json", "both.csv"}), "predicted"),
+            ColumnOf(Run({"predict", "map.json", "plain.csv"}), "predicted"));
 }
 
 TEST_F(CliMemory, CountsWhatIsClipped) {

@@ -209,6 +209,7 @@ std::vector<Mutation> MutationsOfTheModel() {
       [](auto* o) { o->fitted->history.reset(); },
       [](auto* o) { Memory(o).time_unit = "rows"; },
       [](auto* o) { Memory(o).session = "x"; },
+      [](auto* o) { Memory(o).time = "x"; },
       [](auto* o) { Memory(o).derived[0].column.name = "x"; },
       [](auto* o) { Memory(o).derived[0].of = "x"; },
       [](auto* o) { Memory(o).derived[0].filter = Filter::kSine; },
