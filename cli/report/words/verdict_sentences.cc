@@ -231,32 +231,33 @@ std::string AgainstBaselineSentence(const ComponentNumbers& component) {
                     PluralOfUnit(holdout));
 }
 
+// Why a baseline is recommended.
+std::string BaselineSentence(const ComponentNumbers& component) {
+  if (std::ranges::all_of(component.record.models,
+                          &models::ModelRecord::baseline)) {
+    return "Only baselines were compared.";
+  }
+  const RecommendationRecord& advice = component.Advice();
+  std::string text = "No richer map earns its effort";
+  if (advice.sensors.empty()) text = "No temperature map earns its sensors";
+  if (advice.model == "zero") text = "No map is worth its effort";
+  const bool proven = advice.against_baseline == Confidence::kEstablished;
+  return text + " here" +
+         (proven ? ", and that is proven." : ", as far as these data tell.");
+}
+
 std::string AdviceSentence(const ComponentNumbers& component) {
   const RecommendationRecord& advice = component.Advice();
-  const std::string use =
-      fmt::format("Use {}: {} {}.",
-                  advice.model,
-                  component.RmseWithInterval(advice.model, advice.holdout),
-                  WhereJudged(component, component.Holdout(advice.holdout)));
   const bool sure = !advice.against_baseline ||
                     There(advice.against_baseline) == Confidence::kEstablished;
+  const std::string use =
+      fmt::format("{}: {} {}.",
+                  advice.model == "zero" ? "Compensate with nothing"
+                                         : "Use " + advice.model,
+                  component.RmseWithInterval(advice.model, advice.holdout),
+                  WhereJudged(component, component.Holdout(advice.holdout)));
   if (advice.choice == Choice::kBaseline) {
-    const char* const proven = advice.against_baseline && sure
-                                   ? ", and that is proven"
-                                   : ", as far as these data tell";
-    if (advice.model == "zero") {
-      return fmt::format(
-          "No map is worth its effort here{}. Compensate with nothing: {} {}.",
-          proven,
-          component.RmseWithInterval(advice.model, advice.holdout),
-          WhereJudged(component, component.Holdout(advice.holdout)));
-    }
-    return fmt::format("{} here{}. {}",
-                       advice.sensors.empty()
-                           ? "No temperature map earns its sensors"
-                           : "No richer map earns its effort",
-                       proven,
-                       use);
+    return BaselineSentence(component) + " " + use;
   }
   std::string text;
   if (advice.choice == Choice::kNoPracticalDifference) {

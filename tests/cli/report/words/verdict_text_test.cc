@@ -184,6 +184,15 @@ TEST(Headline, SaysWhereNoTemperatureMapEarnsItsSensors) {
                          "is proven. Use poly:eq8: "));
 }
 
+TEST(Headline, SaysWhereOnlyBaselinesWereCompared) {
+  ComponentRecord record = Base();
+  record.recommendation->choice = models::Choice::kBaseline;
+  for (models::ModelRecord& model : record.models) model.baseline = true;
+  EXPECT_THAT(
+      Headline(record),
+      StartsWith("Only baselines were compared. Use poly:eq8: 1.900 um"));
+}
+
 TEST(Headline, SaysWhereNothingIsBetter) {
   ComponentRecord record = Base();
   record.recommendation->choice = models::Choice::kBaseline;
