@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <math.h>  // lgammal_r
 #include <numbers>
 
 #include <boost/math/distributions/students_t.hpp>
@@ -79,6 +80,12 @@ double StudentQuantile(double p, double degrees_of_freedom) {
   return boost::math::quantile(
       boost::math::students_t_distribution<double, Policy>(degrees_of_freedom),
       p);
+}
+
+long double LogFactorial(std::ptrdiff_t n) {
+  // std::lgamma leaves the sign in a variable of all threads: a race.
+  int sign = 0;
+  return ::lgammal_r(static_cast<long double>(n) + 1.0L, &sign);
 }
 
 std::string BoostVersion() {

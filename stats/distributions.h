@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace errmap::stats {
@@ -34,6 +35,9 @@ double StudentTwoSided(double t, double degrees_of_freedom);
 /// t with P(T <= t) = p, 0 < p < 1, for Student's t with `degrees_of_freedom`
 /// > 0.
 double StudentQuantile(double p, double degrees_of_freedom);
+
+/// log n! for n >= 0.
+long double LogFactorial(std::ptrdiff_t n);
 
 /// Version of Boost, whose special functions these are: "1.74.0".
 std::string BoostVersion();

@@ -45,10 +45,8 @@ double MedianOf(VectorXd values) {
 
 double LogChoose(Index n, Index k) {
   if (k < 0 || k > n) return -std::numeric_limits<double>::infinity();
-  const auto log_factorial = [](Index i) {
-    return std::lgamma(static_cast<double>(i) + 1.0);
-  };
-  return log_factorial(n) - log_factorial(k) - log_factorial(n - k);
+  return static_cast<double>(LogFactorial(n) - LogFactorial(k) -
+                             LogFactorial(n - k));
 }
 
 // P(runs = r) for counts a, b >= 1 in random order.

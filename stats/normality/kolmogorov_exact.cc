@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "stats/distributions.h"
+
 namespace errmap::stats {
 namespace {
 
@@ -74,7 +76,7 @@ double BodyByDurbinMatrix(double d, Index n) {
   }
   const auto long_size = static_cast<long double>(n);
   const long double log_factor =
-      std::lgamma(long_size + 1.0L) -
+      LogFactorial(n) -
       long_size * std::log(long_size * static_cast<long double>(kScale));
   return static_cast<double>(static_cast<long double>(v[k - 1]) *
                              std::exp(log_factor));

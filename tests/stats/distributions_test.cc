@@ -96,5 +96,15 @@ TEST(Distributions, HaveTheirLimits) {
   EXPECT_TRUE(std::isnan(FUpperTail(std::nan(""), 3.0, 4.0)));
 }
 
+TEST(LogFactorial, IsTheSumOfLogarithms) {
+  long double sum = 0.0L;
+  for (std::ptrdiff_t n = 0; n <= 200; ++n) {
+    if (n > 1) sum += std::log(static_cast<long double>(n));
+    EXPECT_NEAR(
+        static_cast<double>(LogFactorial(n)), static_cast<double>(sum), 1e-12)
+        << n;
+  }
+}
+
 }  // namespace
 }  // namespace errmap::stats
