@@ -118,7 +118,7 @@ VectorXd Stacked(const std::vector<Score>& scores, const VectorXd& targets) {
 // more, and an eighth as much where they err twice as much.
 VectorXd AveragedWithLines(const std::vector<Score>& scores, double power) {
   constexpr double kShrinkPower = 3.0;
-  const VectorXd all = WeightsAmong(scores, Among::kAll, power);
+  VectorXd all = WeightsAmong(scores, Among::kAll, power);
   const double least = LeastOf(scores, Among::kStraight);
   if (std::isinf(least)) return all;
   const double share =
