@@ -33,10 +33,10 @@
 #include "cli/shell/terminal.h"
 #include "cli/shell/topics.h"
 #include "data/argument_name.h"
+#include "data/files/shown_path.h"
 #include "data/input_error.h"
-#include "data/shown_path.h"
 #include "data/text.h"
-#include "models/study/record/make_provenance.h"
+#include "models/study/record/making/make_provenance.h"
 #include "models/version.h"
 
 namespace errmap::cli {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 #include "data/sha256.h"
 #include "models/model_file.h"
 

@@ -46,9 +46,14 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     rooms["fitting/nonlinear"] = " fitting fitting/least_squares " \
                                  "fitting/minimisers "
     rooms["data"] = ""
-    rooms["data/measurements"] = " data "
-    rooms["data/formats"] = " data data/measurements "
-    rooms["data/turning_centre"] = " data data/measurements "
+    rooms["data/files"] = " data "
+    rooms["data/tables"] = " data data/files "
+    rooms["data/measurements"] = " data data/files "
+    rooms["data/measurements/faults"] = " data data/measurements "
+    rooms["data/measurements/making"] = " data data/measurements " \
+                                        "data/measurements/faults "
+    rooms["data/formats"] = " data data/files data/measurements "
+    rooms["data/turning_centre"] = rooms["data/formats"]
     rooms["models"] = ""
     rooms["models/history"] = " models "
     rooms["models/polynomial"] = " models models/history "
@@ -68,6 +73,8 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
                                    "models/study/judgement " \
                                    "models/study/rezero models/export " \
                                    "models/export/program "
+    rooms["models/study/record/making"] = rooms["models/study/record"] \
+                                          "models/study/record "
     rooms["models/promise"] = rooms["models/study"] "models/study " \
                               "models/study/judgement models/study/record "
     rooms["models/fleet"] = rooms["models/promise"] "models/promise "
@@ -221,16 +228,16 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
       violation("<" name "> belongs in cli/fleet/store/sqlite*.cc")
       next
     }
-    if (name ~ /^zlib/ && FILENAME !~ /^data\/gzip\.cc$/) {
-      violation("<" name "> belongs in data/gzip.cc")
+    if (name ~ /^zlib/ && FILENAME !~ /^data\/tables\/gzip\.cc$/) {
+      violation("<" name "> belongs in data/tables/gzip.cc")
       next
     }
-    if (name ~ /^minizip\// && FILENAME !~ /^data\/zip_archive\.cc$/) {
-      violation("<" name "> belongs in data/zip_archive.cc")
+    if (name ~ /^minizip\// && FILENAME !~ /^data\/tables\/zip_archive\.cc$/) {
+      violation("<" name "> belongs in data/tables/zip_archive.cc")
       next
     }
-    if (name ~ /^pugixml/ && FILENAME !~ /^data\/spreadsheet\.cc$/) {
-      violation("<" name "> belongs in data/spreadsheet.cc")
+    if (name ~ /^pugixml/ && FILENAME !~ /^data\/tables\/spreadsheet\.cc$/) {
+      violation("<" name "> belongs in data/tables/spreadsheet.cc")
       next
     }
     if (name ~ /^(gtest|gmock|benchmark)\//) {

@@ -8,7 +8,7 @@
 #include "cli/commands/data_arguments.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 #include "data/formats/pattern_file.h"
 #include "data/text.h"
 

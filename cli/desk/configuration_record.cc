@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/desk/study_options.h"
-#include "data/shown_path.h"
+#include "data/files/shown_path.h"
 
 namespace errmap::desk {
 namespace {

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "data/files/shown_path.h"
 #include "data/files_in_memory.h"
 #include "data/measurements/measured_files.h"
-#include "data/shown_path.h"
-#include "models/study/record/make_provenance.h"
+#include "models/study/record/making/make_provenance.h"
 
 namespace errmap::desk {
 namespace {

@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
+#include "data/files/prepare_folder.h"
+#include "data/files/same_file.h"
 #include "data/formats/nesting.h"
-#include "data/prepare_folder.h"
-#include "data/same_file.h"
 #include "data/sha256.h"
 #include "data/text.h"
 #include "models/study/record/record_json.h"

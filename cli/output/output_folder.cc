@@ -5,7 +5,7 @@
 
 #include "cli/desk/plan/run_files.h"
 #include "cli/output/report_files.h"
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 
 namespace errmap::cli {
 

@@ -11,7 +11,7 @@
 #include "cli/report/figures/learning_figures.h"
 #include "cli/report/report.h"
 #include "cli/shell/standard_streams.h"
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 #include "data/text.h"
 #include "models/promise/learning_record.h"
 

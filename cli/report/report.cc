@@ -4,8 +4,8 @@
 #include "cli/report/documents/study_table.h"
 #include "cli/report/tables/result_table.h"
 #include "cli/report/words/verdict_text.h"
-#include "models/study/record/make_provenance.h"
 #include "models/study/record/make_study_record.h"
+#include "models/study/record/making/make_provenance.h"
 #include "models/version.h"
 
 namespace errmap::report {

@@ -4,8 +4,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "data/atomic_file.h"
 #include "data/csv.h"
+#include "data/files/atomic_file.h"
 #include "data/formats/fortran_format.h"
 #include "data/formats/record_reader.h"
 #include "data/input_error.h"

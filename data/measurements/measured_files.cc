@@ -9,10 +9,10 @@
 #include <set>
 #include <string_view>
 
+#include "data/files/sheet_path.h"
 #include "data/files_in_memory.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
-#include "data/sheet_path.h"
 #include "data/text.h"
 
 namespace errmap::data {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 #include "models/export/c_code.h"
 #include "models/export/program/safe_names.h"
 

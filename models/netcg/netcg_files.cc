@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 
 #include "data/argument_name.h"
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
+#include "data/files/same_file.h"
 #include "data/formats/pattern_file.h"
 #include "data/input_error.h"
-#include "data/same_file.h"
 #include "data/text.h"
 
 namespace errmap::models {

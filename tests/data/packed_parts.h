@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "data/gzip.h"
+#include "data/tables/gzip.h"
 
 namespace errmap::testing {
 

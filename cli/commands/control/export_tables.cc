@@ -10,7 +10,7 @@
 #include "cli/commands/maps/map_warnings.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
 #include "models/export/compensation_table.h"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "data/prepare_folder.h"
+#include "data/files/prepare_folder.h"
 #include "data/text.h"
 
 namespace errmap::cli {

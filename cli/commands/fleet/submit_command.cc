@@ -18,8 +18,8 @@
 #include "cli/fleet/run/fleet_plan.h"
 #include "cli/fleet/run/fleet_run.h"
 #include "cli/shell/terminal.h"
-#include "data/atomic_file.h"
-#include "data/prepare_folder.h"
+#include "data/files/atomic_file.h"
+#include "data/files/prepare_folder.h"
 #include "data/text.h"
 
 extern char** environ;

@@ -17,7 +17,7 @@
 #include "cli/json_blocks.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
 

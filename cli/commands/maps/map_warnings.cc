@@ -13,7 +13,7 @@
 #include "cli/report/number_text.h"
 #include "cli/report/words/fault_text.h"
 #include "cli/report/words/outside_text.h"
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
 #include "models/promise/learnt_rows.h"

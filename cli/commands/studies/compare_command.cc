@@ -27,7 +27,7 @@
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 #include "data/text.h"
 #include "models/study/journal/fit_journal_file.h"
 #include "models/study/split_file.h"

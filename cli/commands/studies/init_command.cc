@@ -14,7 +14,7 @@
 #include "cli/report/number_text.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
 

@@ -16,7 +16,7 @@
 #include "cli/report/report.h"
 #include "cli/report/words/data_words.h"
 #include "cli/shell/standard_streams.h"
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
 #include "models/study/record/study_record.h"

@@ -13,7 +13,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/desk/toml/toml_keys.h"
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
 #include "models/model_file.h"

@@ -15,8 +15,8 @@
 
 #include "cli/desk/machine/machine_points.h"
 #include "cli/desk/machine/true_poses.h"
+#include "data/files/shown_path.h"
 #include "data/measurements/dataset.h"
-#include "data/shown_path.h"
 #include "models/comparison/compare.h"
 #include "models/kinematics/iso230.h"
 #include "models/kinematics/plane_cells.h"

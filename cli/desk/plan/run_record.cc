@@ -3,7 +3,7 @@
 #include "cli/desk/configuration_record.h"
 #include "cli/desk/provenance.h"
 #include "cli/report/report.h"
-#include "data/shown_path.h"
+#include "data/files/shown_path.h"
 
 namespace errmap::desk {
 

@@ -13,7 +13,7 @@
 #include "cli/desk/toml/toml_keys.h"
 #include "cli/desk/toml/toml_text.h"
 #include "data/argument_name.h"
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/sha256.h"
 #include "data/text.h"

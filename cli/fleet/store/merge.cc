@@ -7,7 +7,7 @@
 
 #include "cli/fleet/store/fleet_report.h"
 #include "cli/fleet/store/store.h"
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/text.h"
 

@@ -6,7 +6,7 @@
 
 #include "cli/fleet/store/sqlite.h"
 #include "cli/fleet/store/store_folder.h"
-#include "data/file_descriptor.h"
+#include "data/files/file_descriptor.h"
 #include "models/fleet/component_summary.h"
 
 namespace errmap::fleet {

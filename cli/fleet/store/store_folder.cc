@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 #include "data/formats/nesting.h"
-#include "data/gzip.h"
 #include "data/input_error.h"
 #include "data/sha256.h"
+#include "data/tables/gzip.h"
 #include "data/text.h"
 #include "models/study/record/record_json.h"
 

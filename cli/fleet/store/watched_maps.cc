@@ -9,7 +9,7 @@
 #include <span>
 #include <utility>
 
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 #include "data/sha256.h"
 #include "data/text.h"
 #include "models/fleet/session_measures.h"

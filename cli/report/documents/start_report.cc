@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "models/study/record/fit_blocks.h"
+#include "models/study/record/making/fit_blocks.h"
 
 namespace errmap::report {
 

@@ -7,7 +7,7 @@
 
 #include "cli/report/number_text.h"
 #include "data/argument_name.h"
-#include "data/measurements/thermometers.h"
+#include "data/measurements/faults/thermometers.h"
 #include "data/text.h"
 #include "models/fault_effect.h"
 

@@ -12,7 +12,7 @@
 #include "cli/report/table.h"
 #include "cli/report/wrap_text.h"
 #include "data/text.h"
-#include "models/study/record/make_figure_record.h"
+#include "models/study/record/making/make_figure_record.h"
 
 namespace errmap::report {
 namespace {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "data/file_descriptor.h"
+#include "data/files/file_descriptor.h"
 #include "models/study/fit_outcome.h"
 #include "models/study/journal/fit_label.h"
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/sha256.h"
 #include "models/version.h"

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "data/measurements/dataset.h"
-#include "data/measurements/drift_faults.h"
+#include "data/measurements/faults/drift_faults.h"
 #include "data/turning_centre/simulation.h"
 #include "tests/data/measurements/as_measured.h"
 #include "tests/data/measurements/make_dataset_test_data.h"

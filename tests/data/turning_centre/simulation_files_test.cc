@@ -9,8 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "data/atomic_file.h"
 #include "data/csv.h"
+#include "data/files/atomic_file.h"
 #include "data/measurements/dataset.h"
 #include "tests/places.h"
 

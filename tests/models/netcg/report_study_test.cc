@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "data/turning_centre/simulation_files.h"
 

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 #include "tests/cli/report/report_document.h"
 
 namespace errmap::report {

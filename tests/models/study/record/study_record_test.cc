@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "data/atomic_file.h"
+#include "data/files/atomic_file.h"
 #include "data/input_error.h"
 #include "models/study/record/record_json.h"
 #include "tests/places.h"

@@ -1,0 +1,101 @@
+#include "data/measurements/column_faults.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+
+#include "data/argument_name.h"
+#include "data/measurements/column_checks.h"
+#include "data/measurements/dataset.h"
+#include "data/measurements/faults/cell_faults.h"
+#include "data/measurements/faults/drift_faults.h"
+#include "data/measurements/faults/row_faults.h"
+#include "data/measurements/faults/thermometer_faults.h"
+#include "data/measurements/rounded.h"
+
+namespace errmap::data {
+
+using Eigen::Index;
+
+std::string_view ToString(FaultKind kind) {
+  switch (kind) {
+    case FaultKind::kImpossible:
+      return "impossible";
+    case FaultKind::kOutlying:
+      return "outlying";
+    case FaultKind::kJump:
+      return "jump";
+    case FaultKind::kStep:
+      return "step";
+    case FaultKind::kStuck:
+      return "stuck";
+    case FaultKind::kNoisy:
+      return "noisy";
+    case FaultKind::kDrifting:
+      return "drifting";
+    case FaultKind::kRepeated:
+      return "repeated";
+    case FaultKind::kZero:
+      return "zero";
+    case FaultKind::kOtherUnit:
+      return "other-unit";
+  }
+  return "";
+}
+
+std::vector<ColumnFault> FindColumnFaults(const MeasuredColumns& measured) {
+  if (measured.target_values.size() < kFewestRows) return {};
+  auto [faults, thermometers] = FindCellFaults(measured);
+  const auto append = [&faults = faults](std::vector<ColumnFault> more) {
+    std::ranges::move(more, std::back_inserter(faults));
+  };
+  append(FindThermometerFaults(measured, thermometers));
+  append(FindDrift(measured, thermometers, faults));
+  append(FindTargetFaults(measured));
+  std::ranges::stable_sort(faults, {}, &ColumnFault::input);
+  for (ColumnFault& fault : faults) {
+    for (Index& row : fault.rows) {
+      row = measured.rows[static_cast<std::size_t>(row)];
+    }
+  }
+  return faults;
+}
+
+std::string DoubtOfRows(const ColumnFault& fault,
+                        const MeasuredColumns& measured) {
+  std::string what;
+  if (fault.kind == FaultKind::kRepeated) {
+    what = " rows repeat others value for value";
+  } else if (fault.kind == FaultKind::kOtherUnit) {
+    what = " rows have a target some " + Rounded(fault.value) +
+           " times smaller than the others, as if in another unit";
+  } else if (fault.kind == FaultKind::kZero) {
+    what = " rows have a target of 0 where the others say otherwise";
+  } else if (fault.kind == FaultKind::kImpossible ||
+             (fault.kind == FaultKind::kOutlying && fault.input < 0)) {
+    const ColumnInfo& column =
+        fault.input < 0
+            ? measured.target
+            : measured.inputs[static_cast<std::size_t>(fault.input)];
+    what = " rows have " + NameInRemark(column.name) + " " +
+           Rounded(fault.value) + ", which is no reading";
+  } else {
+    return "";
+  }
+  return std::to_string(fault.rows.size()) + what + "; " +
+         ArgumentName("faults", "drop-rows") + " leaves them out.";
+}
+
+std::vector<Index> RowsOfCellFaults(const std::vector<ColumnFault>& faults) {
+  std::vector<Index> rows;
+  for (const ColumnFault& fault : faults) {
+    if (fault.of_cells) {
+      rows.insert(rows.end(), fault.rows.begin(), fault.rows.end());
+    }
+  }
+  std::ranges::sort(rows);
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  return rows;
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,84 @@
+#include "data/measurements/making/idle_inputs.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "data/argument_name.h"
+#include "data/measurements/column_checks.h"
+
+namespace errmap::data {
+namespace {
+
+// The share of rows with one value from which an input is worth a word.
+constexpr Eigen::Index kIdlePercent = 90;
+
+std::uint64_t Hash(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  // Multiplicative mixing by 2^64 / golden ratio; zeros of both signs agree.
+  std::uint64_t hash = 0;
+  for (const double value : values) {
+    hash ^= std::bit_cast<std::uint64_t>(value + 0.0);
+    hash *= 0x9E3779B97F4A7C15U;
+    hash ^= hash >> 32U;
+  }
+  return hash;
+}
+
+}  // namespace
+
+IdleInput HowIdle(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  // The only value that more than half of the rows can have (Boyer and
+  // Moore, 1981): it outlasts all others that cancel it one for one.
+  double candidate = 0.0;
+  Eigen::Index lead = 0;
+  for (const double value : values) {
+    if (lead == 0) candidate = value;
+    lead += value == candidate ? 1 : -1;
+  }
+  const Eigen::Index count = (values.array() == candidate).count();
+  const Eigen::Index m = values.size();
+  if (100 * count < kIdlePercent * m) return {};
+  return {.how = CsvNumber(candidate + 0.0) + " in " +
+                 (count == m ? "all " : std::to_string(count) + " of ") +
+                 std::to_string(m) + " rows",
+          .dead = count == m};
+}
+
+bool CountsOn(const Eigen::Ref<const Eigen::VectorXd>& values,
+              const std::vector<Eigen::Index>& sessions) {
+  double highest = -std::numeric_limits<double>::infinity();
+  double before = highest;  // of the sessions before
+  for (std::size_t i = 0; i < sessions.size(); ++i) {
+    if (i > 0 && sessions[i] != sessions[i - 1]) before = highest;
+    const double value = values[static_cast<Eigen::Index>(i)];
+    if (value <= before) return false;
+    highest = std::max(highest, value);
+  }
+  return true;
+}
+
+std::vector<std::string> RepeatedInputs::Look(const Dataset::Parts& parts) {
+  const auto used = static_cast<Eigen::Index>(parts.inputs.size()) - 1;
+  std::vector<std::string> remarks;
+  const auto values = parts.input_values.col(used);
+  const std::string name =
+      NameInRemark(parts.inputs[static_cast<std::size_t>(used)].name);
+  if (values == parts.target_values) {
+    remarks.push_back("input " + name + " repeats the target " +
+                      NameInRemark(parts.target.name) + " value for value; " +
+                      ArgumentName("exclude", name) + " leaves it out");
+  }
+  std::vector<Eigen::Index>& alike = inputs_by_hash_[Hash(values)];
+  for (const Eigen::Index other : alike) {
+    if (parts.input_values.col(other) != values) continue;
+    remarks.push_back(
+        "input " + name + " repeats " +
+        NameInRemark(parts.inputs[static_cast<std::size_t>(other)].name) +
+        " value for value; both are kept");
+    return remarks;
+  }
+  alike.push_back(used);
+  return remarks;
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,261 @@
+#include "data/measurements/making/leaking_inputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <optional>
+#include <set>
+
+#include <Eigen/QR>
+
+#include "data/measurements/column_checks.h"
+#include "data/measurements/rounded.h"
+
+namespace errmap::data {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr Index kFewestRowsToTell = 12;
+constexpr Index kMostRowsLooked = 4000;
+constexpr std::size_t kMostForTriples = 40;
+constexpr std::size_t kMostCandidates = 200;
+
+// What rounding may leave, of the target's standard deviation: of a difference
+// of large columns, and of any other sum, which a good map may come near.
+constexpr double kMostOfDifference = 0.5;
+constexpr double kMostOfOther = 0.05;
+constexpr double kCancels = 10.0;    // times the target's standard deviation
+constexpr double kUnitSlack = 0.02;  // of coefficients that are alike
+// Parts that add up (coefficients of one) may be rounded to their digits, some
+// to fewer decimals than others.
+constexpr double kMostOfParts = 0.005;
+
+// The step of the decimals that values are written with; 0 of raw doubles.
+double ResolutionOf(const VectorXd& values) {
+  constexpr int kMostDecimals = 10;
+  double step = 1.0;
+  for (int decimals = 0; decimals <= kMostDecimals; ++decimals, step /= 10.0) {
+    const double scale = std::pow(10.0, decimals);
+    const bool whole = std::ranges::all_of(values, [&](double value) {
+      const double scaled = value * scale;
+      return std::abs(scaled - std::round(scaled)) <=
+             1e-6 + 4e-16 * std::abs(scaled);
+    });
+    if (whole) return step;
+  }
+  return 0.0;
+}
+
+class LeakFinder {
+ public:
+  LeakFinder(const ColumnInfo& target,
+             const VectorXd& target_values,
+             const std::vector<ColumnInfo>& inputs,
+             const Eigen::MatrixXd& input_values)
+      : inputs_(inputs) {
+    const Index m = target_values.size();
+    const Index stride = 1 + (m - 1) / kMostRowsLooked;
+    for (Index row = 0; row < m; row += stride) rows_.push_back(row);
+    target_ = target_values(rows_);
+    resolution_ = ResolutionOf(target_);
+    target_.array() -= target_.mean();
+    sd_ = std::sqrt(target_.squaredNorm() / static_cast<double>(rows_.size()));
+    for (Index j = 0; j < input_values.cols(); ++j) {
+      TakeCandidate(target, j, input_values.col(j)(rows_));
+    }
+  }
+
+  std::vector<Leak> Find() {
+    if (static_cast<Index>(rows_.size()) < kFewestRowsToTell || !(sd_ > 0.0) ||
+        candidates_.size() > kMostCandidates) {
+      return {};
+    }
+    const auto size = static_cast<Index>(candidates_.size());
+    Eigen::MatrixXd values(target_.size(), size);
+    for (Index k = 0; k < size; ++k) values.col(k) = Of(k).values;
+    products_ = values.transpose() * values;
+    with_target_ = values.transpose() * target_;
+    std::vector<Leak> leaks;
+    for (std::size_t members = 1; members <= 3; ++members) {
+      if (members == 3 && candidates_.size() > kMostForTriples) break;
+      LookAtSets({}, 0, members, &leaks);
+    }
+    return leaks;
+  }
+
+ private:
+  struct Candidate {
+    Index input;
+    VectorXd values;  // of the rows looked at, less their mean
+    double sd;
+    double resolution;
+    bool position;
+    bool settings;  // few values, as of a grid
+    bool used = false;
+  };
+
+  const Candidate& Of(Index k) const {
+    return candidates_[static_cast<std::size_t>(k)];
+  }
+
+  void TakeCandidate(const ColumnInfo& target, Index input, VectorXd values) {
+    const ColumnInfo& column = inputs_[static_cast<std::size_t>(input)];
+    const Quantity quantity = column.unit.quantity;
+    if (!column.unit.symbol.empty() && quantity != target.unit.quantity &&
+        quantity != Quantity::kLength) {
+      return;
+    }
+    Candidate candidate{.input = input,
+                        .values = std::move(values),
+                        .sd = 0.0,
+                        .resolution = 0.0,
+                        .position = NamesPosition(column.name),
+                        .settings = false};
+    const std::set<double> levels(candidate.values.begin(),
+                                  candidate.values.end());
+    candidate.settings = 3 * levels.size() <= rows_.size();
+    // What is set is no rounded reading.
+    candidate.resolution =
+        candidate.settings ? 0.0 : ResolutionOf(candidate.values);
+    candidate.values.array() -= candidate.values.mean();
+    candidate.sd = std::sqrt(candidate.values.squaredNorm() /
+                             static_cast<double>(rows_.size()));
+    if (candidate.sd > 0.0) candidates_.push_back(std::move(candidate));
+  }
+
+  // All sets of that many that begin with `set`.
+  void LookAtSets(std::vector<Index> set,
+                  Index next,
+                  std::size_t members,
+                  std::vector<Leak>* leaks) {
+    if (set.size() == members) {
+      if (const auto leak = LeakOf(set)) leaks->push_back(*leak);
+      return;
+    }
+    for (Index k = next; k < static_cast<Index>(candidates_.size()); ++k) {
+      if (std::ranges::any_of(set, [&](Index i) { return Of(i).used; })) return;
+      if (Of(k).used) continue;
+      set.push_back(k);
+      LookAtSets(set, k + 1, members, leaks);
+      set.pop_back();
+    }
+  }
+
+  // What the rounding of all columns may leave.
+  double RoundingOf(const std::vector<Index>& set, const VectorXd& b) const {
+    constexpr double kSlack = 0.505;
+    double rounding = resolution_ + 1e-12 * sd_;
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      rounding += std::abs(b[static_cast<Index>(i)]) *
+                  (Of(set[i]).resolution + 1e-12 * Of(set[i]).sd);
+    }
+    return kSlack * rounding;
+  }
+
+  bool MayBe(const std::vector<Index>& set, const VectorXd& b) const {
+    const double rounding = RoundingOf(set, b);
+    const double least = b.cwiseAbs().minCoeff();
+    const double most = b.cwiseAbs().maxCoeff();
+    double size = 0.0;
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      size = std::max(size, std::abs(b[static_cast<Index>(i)]) * Of(set[i]).sd);
+    }
+    if (set.size() > 1 && least > (1.0 - kUnitSlack) * most &&
+        size > kCancels * sd_) {
+      return rounding <= kMostOfDifference * sd_;
+    }
+    if (rounding > kMostOfOther * sd_) return false;
+    return !std::ranges::all_of(
+        set, [&](Index k) { return Of(k).position || Of(k).settings; });
+  }
+
+  std::optional<Leak> LeakOf(const std::vector<Index>& set) {
+    const auto rows = static_cast<double>(rows_.size());
+    // By the products first, which costs little and tells nearly all.
+    const Eigen::MatrixXd products = products_(set, set);
+    const VectorXd rough =
+        products.colPivHouseholderQr().solve(VectorXd(with_target_(set)));
+    const double left =
+        (target_.squaredNorm() - rough.dot(with_target_(set))) / rows;
+    const double bound = 2.0 * RoundingOf(set, rough);
+    if (!(left <= bound * bound + kMostOfParts * kMostOfParts * sd_ * sd_))
+      return std::nullopt;
+    Eigen::MatrixXd values(target_.size(), static_cast<Index>(set.size()));
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      values.col(static_cast<Index>(i)) = Of(set[i]).values;
+    }
+    const VectorXd b = values.colPivHouseholderQr().solve(target_);
+    const double worst = (target_ - values * b).cwiseAbs().maxCoeff();
+    // The mean of rounded values is off by less than their rounding.
+    const bool adds_up =
+        ((b.cwiseAbs().array() - 1.0).abs() < kUnitSlack).all();
+    const double allowed =
+        std::max(2.0 * RoundingOf(set, b), adds_up ? kMostOfParts * sd_ : 0.0);
+    if (!b.allFinite() || worst > allowed || !MayBe(set, b)) {
+      return std::nullopt;
+    }
+    return MakeLeak(set, b);
+  }
+
+  Leak MakeLeak(const std::vector<Index>& set, const VectorXd& b) {
+    Leak leak;
+    std::vector<std::size_t> places(set.size());
+    std::iota(places.begin(), places.end(), std::size_t{0});
+    std::ranges::stable_sort(places, std::greater<>(), [&](std::size_t i) {
+      return b[static_cast<Index>(i)];
+    });
+    for (const std::size_t i : places) {
+      const double factor = b[static_cast<Index>(i)];
+      const bool one = std::abs(std::abs(factor) - 1.0) < kUnitSlack;
+      if (!leak.formula.empty() || factor < 0.0) {
+        leak.formula += leak.formula.empty() ? "-"
+                        : factor < 0.0       ? " - "
+                                             : " + ";
+      }
+      leak.formula +=
+          (one ? "" : Rounded(std::abs(factor)) + " ") +
+          NameInRemark(
+              inputs_[static_cast<std::size_t>(Of(set[i]).input)].name);
+    }
+    for (const Index k : set) {
+      leak.inputs.push_back(Of(k).input);
+      if (!Of(k).position && !Of(k).settings) {
+        candidates_[static_cast<std::size_t>(k)].used = true;
+        leak.left_out.push_back(Of(k).input);
+      }
+    }
+    // Two positions: the measured one is written with more digits.
+    if (leak.left_out.empty()) {
+      const Index k = *std::ranges::max_element(set, {}, [&](Index i) {
+        const VectorXd& values = Of(i).values;
+        return std::set<double>(values.begin(), values.end()).size();
+      });
+      candidates_[static_cast<std::size_t>(k)].used = true;
+      leak.left_out.push_back(Of(k).input);
+    }
+    return leak;
+  }
+
+  const std::vector<ColumnInfo>& inputs_;
+  std::vector<Index> rows_;  // looked at
+  VectorXd target_;          // of these, less its mean
+  double sd_ = 0.0;
+  double resolution_ = 0.0;
+  std::vector<Candidate> candidates_;
+  Eigen::MatrixXd products_;
+  VectorXd with_target_;
+};
+
+}  // namespace
+
+std::vector<Leak> FindLeaks(const ColumnInfo& target,
+                            const VectorXd& target_values,
+                            const std::vector<ColumnInfo>& inputs,
+                            const Eigen::MatrixXd& input_values) {
+  return LeakFinder(target, target_values, inputs, input_values).Find();
+}
+
+}  // namespace errmap::data

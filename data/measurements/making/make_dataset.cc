@@ -1,0 +1,567 @@
+// MakeDataset of data/measurements/dataset.h: the columns that
+// column_roles.h chooses become values, checked and in their units.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "data/argument_name.h"
+#include "data/measurements/column_checks.h"
+#include "data/measurements/column_roles.h"
+#include "data/measurements/dataset.h"
+#include "data/measurements/faults/drift_faults.h"
+#include "data/measurements/faults/row_faults.h"
+#include "data/measurements/making/idle_inputs.h"
+#include "data/measurements/making/leaking_inputs.h"
+#include "data/measurements/making/word_columns.h"
+#include "data/measurements/rounded.h"
+#include "data/measurements/session_log.h"
+#include "data/measurements/sessions.h"
+#include "data/text.h"
+
+namespace errmap::data {
+namespace {
+
+class DatasetBuilder {
+ public:
+  DatasetBuilder(const CsvTable& table, const DatasetSelection& selection)
+      : table_(table), selection_(selection) {}
+
+  PreparedDataset Build() {
+    roles_ = ChooseRoles(table_, selection_);
+    ChooseRows();
+    TakeChosenInputs();
+    ReadUnits();
+    CheckColumns();
+    TakeTarget();
+    TakeWeights();
+    TakeInputs();
+    LeaveOutLeaks();
+    LeaveOutCounters();
+    LookForFaults();
+    LeaveOutStuck();
+    LookForParts();
+    if (roles_.group != kNoColumn) {
+      parts_.groups = GroupByColumn(table_, Name(roles_.group), parts_.rows);
+    }
+    const std::string time_column =
+        found_.time_column >= 0 ? Name(found_.time_column) : "";
+    if (selection_.with_log) {
+      TakeLog(table_, log_rows_, BlankedInLog(), std::move(found_), &parts_);
+    }
+    if (selection_.align == Alignment::kFirst) {
+      remarks_.push_back(AlignTarget(&parts_));
+    }
+    parts_.source = table_.file;
+    return {.dataset = Dataset(std::move(parts_)),
+            .dropped = std::move(dropped_),
+            .remarks = std::move(remarks_),
+            .doubts = std::move(doubts_),
+            .time_column = time_column,
+            .where = selection_.where,
+            .faults = std::move(faults_)};
+  }
+
+ private:
+  template <typename Index>
+  const std::string& Name(Index index) const {
+    return table_.At(index).name;
+  }
+  ColumnInfo Info(std::size_t index) const {
+    return {.name = Name(index), .unit = UnitOfColumn(Name(index))};
+  }
+
+  void Drop(std::size_t index, const std::string& why) {
+    dropped_.push_back({.column = Name(index), .why = why});
+  }
+
+  // ---- Which rows and columns.
+
+  // Those that may be used, and their sessions.
+  void ChooseRows() {
+    passes_ = RowsThatPass(table_, selection_.where);
+    RefuseRowsOfWords(table_, NumberingColumns(), passes_);
+    LookForRepeatedRows();
+    if (!selection_.with_log) return;
+    for (std::size_t row = 0; row < passes_.size(); ++row) {
+      if (passes_[row]) log_rows_.push_back(static_cast<Eigen::Index>(row));
+    }
+    FindSessionsOfRows();
+    remarks_.insert(
+        remarks_.end(), found_.remarks.begin(), found_.remarks.end());
+    std::size_t num_unknown = 0;
+    for (std::size_t i = 0; i < log_rows_.size(); ++i) {
+      if (found_.known[i]) continue;
+      passes_[static_cast<std::size_t>(log_rows_[i])] = false;
+      ++num_unknown;
+    }
+    if (num_unknown > 0) {
+      remarks_.push_back(std::to_string(num_unknown) + " of " +
+                         std::to_string(log_rows_.size()) +
+                         " rows have no time or session and are dropped");
+    }
+  }
+
+  std::vector<bool> NumberingColumns() const {
+    std::vector<bool> numbering;
+    for (const CsvColumn& column : table_.columns) {
+      numbering.push_back(KeepsRecord(column.name));
+    }
+    if (roles_.group != kNoColumn) {
+      numbering[static_cast<std::size_t>(roles_.group)] = true;
+    }
+    return numbering;
+  }
+
+  void LookForRepeatedRows() {
+    if (selection_.only_to_judge) return;
+    repeated_rows_ = RepeatedRows(table_, roles_.target, passes_);
+    if (selection_.faults != FaultPolicy::kDropRows) return;
+    for (const Eigen::Index row : repeated_rows_) {
+      passes_[static_cast<std::size_t>(row)] = false;
+    }
+  }
+
+  // Rows that stand twice go back in time, which is not what is wrong.
+  void FindSessionsOfRows() {
+    try {
+      found_ = FindSessions(table_, selection_, log_rows_);
+    } catch (const InputError& error) {
+      if (repeated_rows_.empty() ||
+          selection_.faults == FaultPolicy::kDropRows) {
+        throw;
+      }
+      throw InputError(std::string(error.what()) + " (" +
+                       std::to_string(repeated_rows_.size()) +
+                       " rows repeat others value for value, the first at "
+                       "line " +
+                       std::to_string(table_.LineOfRow(
+                           static_cast<std::size_t>(repeated_rows_.front()))) +
+                       "; " + ArgumentName("faults", "drop-rows") +
+                       " leaves them out)");
+    }
+  }
+
+  void TakeChosenInputs() {
+    ChosenInputs chosen = ChooseInputs(table_, selection_, roles_, found_);
+    inputs_ = std::move(chosen.inputs);
+    dropped_ = std::move(chosen.dropped);
+    words_ = std::move(chosen.words);
+    remarks_.insert(
+        remarks_.end(), chosen.remarks.begin(), chosen.remarks.end());
+  }
+
+  // ---- In which units.
+
+  void ReadUnits() {
+    RequireKnownUnit(table_, {roles_.target, ColumnUse::kTarget});
+    if (const Header target = ReadHeader(Name(roles_.target));
+        target.source == UnitSource::kAssumed) {
+      remarks_.push_back(NameInRemark(Name(roles_.target)) +
+                         ": no unit in its name, taken as " +
+                         target.unit.symbol);
+    }
+    std::vector<std::string> unread;
+    for (const std::size_t input : inputs_) {
+      RequireKnownUnit(table_, {input, ColumnUse::kInput});
+      if (ReadHeader(Name(input)).source == UnitSource::kUnread) {
+        unread.push_back(Name(input));
+      }
+    }
+    if (unread.empty()) return;
+    remarks_.push_back("no unit is read from " + ListOfNames(unread) + ": " +
+                       WhyNoUnit(ReadHeader(unread.front())));
+  }
+
+  // ---- Which rows, and what is in them.
+
+  void CheckColumns() {
+    std::vector<ColumnInUse> columns = {{roles_.target, ColumnUse::kTarget}};
+    for (const std::size_t input : inputs_) {
+      columns.push_back({input, ColumnUse::kInput});
+    }
+    if (roles_.group != kNoColumn) {
+      columns.push_back(
+          {static_cast<std::size_t>(roles_.group), ColumnUse::kGroup});
+    }
+    if (roles_.weight != kNoColumn) {
+      columns.push_back(
+          {static_cast<std::size_t>(roles_.weight), ColumnUse::kWeight});
+    }
+    RefuseMixedDecimals(table_, columns);
+    KeptRows kept = CheckCells(table_, columns, passes_, selection_.missing);
+    if (!kept.first_missing.empty()) {
+      const std::size_t dropped = kept.num_passed - kept.rows.size();
+      // Readings without a target still run through a map's filters.
+      remarks_.push_back(
+          std::to_string(dropped) + " of " + std::to_string(kept.num_passed) +
+          (dropped == 1 ? " rows is " : " rows are ") +
+          (selection_.only_to_judge ? "not judged" : "dropped") +
+          " for missing cells; the first: " + kept.first_missing);
+    }
+    parts_.rows = std::move(kept.rows);
+  }
+
+  void TakeTarget() {
+    parts_.target = Info(roles_.target);
+    parts_.target_values = ValuesOfRows(table_.At(roles_.target), parts_.rows);
+    RequireSquares();
+    if (selection_.only_to_judge) return;
+    SayIfUnlikely();
+    const double first = parts_.target_values(0);
+    if (!(parts_.target_values.array() == first).all()) return;
+    ThrowUnusable(
+        table_,
+        "target " + QuotedName(Name(roles_.target)) +
+            (parts_.rows.size() == 1
+                 ? " has a single row"
+                 : " is constant (" + CsvNumber(first) + " in all " +
+                       std::to_string(parts_.rows.size()) + " rows)") +
+            ", so there is nothing to map; name another with " +
+            ArgumentName("target"));
+  }
+
+  // A machine that errs by millimetres, or by less than most can measure, is
+  // one whose numbers are in another unit, more often than not.
+  void SayIfUnlikely() {
+    constexpr double kMost = 1000.0;  // um, RMS
+    constexpr double kLeast = 0.05;
+    const Unit& unit = parts_.target.unit;
+    const Unit um = UnitOfSymbol("um");
+    if (!AreConvertible(unit, um)) return;
+    const double rms =
+        parts_.target_values.norm() /
+        std::sqrt(static_cast<double>(parts_.target_values.size()));
+    const double size = Converted(rms, unit, um);
+    if (size == 0.0 || (size >= kLeast && size <= kMost)) return;
+    remarks_.push_back(
+        NameInRemark(parts_.target.name) + " is " + Rounded(rms) + " " +
+        unit.symbol + " RMS, " + (size > kMost ? "more" : "less") +
+        " than machine tools err by; if it is in another unit, write that into "
+        "its name: error_um, 'error [mm]'");
+  }
+
+  // Every figure of a target is a sum of squares.
+  void RequireSquares() const {
+    constexpr double kMost = 1e100;
+    constexpr double kLeast = 1e-100;
+    Eigen::Index row = 0;
+    const double largest = parts_.target_values.cwiseAbs().maxCoeff(&row);
+    if (largest == 0.0 || (largest >= kLeast && largest <= kMost)) return;
+    throw InputError(
+        table_.Where(static_cast<std::size_t>(
+                         parts_.rows[static_cast<std::size_t>(row)]),
+                     Name(roles_.target)) +
+        ": the largest target, " + CsvNumber(parts_.target_values[row]) +
+        ", is no size between 1e-100 and 1e100, whose squares can be summed; "
+        "correct it or choose another unit");
+  }
+
+  // Only the ratios of weights mean something. Their mean becomes 1, so that
+  // weights which are all equal are none.
+  void TakeWeights() {
+    if (roles_.weight == kNoColumn) return;
+    const CsvColumn& column = table_.At(roles_.weight);
+    parts_.weights = ValuesOfRows(column, parts_.rows);
+    for (std::size_t i = 0; i < parts_.rows.size(); ++i) {
+      const double weight = parts_.weights(static_cast<Eigen::Index>(i));
+      if (weight > 0.0) continue;
+      throw InputError(
+          table_.Where(static_cast<std::size_t>(parts_.rows[i]), column.name) +
+          ": weight " + CsvNumber(weight) +
+          " is not positive; correct it or remove the row");
+    }
+    Eigen::Index least = 0;
+    parts_.weights /= parts_.weights.maxCoeff();
+    constexpr double kLeastShare = 1e-30;
+    if (parts_.weights.minCoeff(&least) < kLeastShare) {
+      const auto row = static_cast<std::size_t>(
+          parts_.rows[static_cast<std::size_t>(least)]);
+      throw InputError(table_.Where(row, column.name) + ": weight " +
+                       CsvNumber(column.values[row]) +
+                       " is less than 1e-30 of the largest; remove the row");
+    }
+    parts_.weights /= parts_.weights.mean();
+  }
+
+  void TakeInputs() {
+    const Eigen::VectorXd& target = parts_.target_values;
+    parts_.input_values.resize(target.size(),
+                               static_cast<Eigen::Index>(inputs_.size()));
+    Eigen::Index used = 0;
+    for (const std::size_t input : inputs_) {
+      // A dead column is overwritten by the next.
+      parts_.input_values.col(used) =
+          ValuesOfRows(table_.At(input), parts_.rows);
+      const IdleInput idle = selection_.only_to_judge
+                                 ? IdleInput{}
+                                 : HowIdle(parts_.input_values.col(used));
+      if (!idle.how.empty()) ReportIdle(Name(input), idle);
+      if (idle.dead && !selection_.keep_dead) continue;
+      parts_.inputs.push_back(Info(input));
+      if (!idle.dead && !selection_.only_to_judge) {
+        std::ranges::move(repeated_.Look(parts_), std::back_inserter(remarks_));
+      }
+      ++used;
+    }
+    if (used == 0 && !inputs_.empty()) ThrowNoInputs(table_, dropped_);
+    parts_.input_values.conservativeResize(Eigen::NoChange, used);
+  }
+
+  // Of rows left out, the log keeps what else they hold.
+  std::span<const ColumnFault> BlankedInLog() const {
+    if (selection_.faults != FaultPolicy::kDropRows) return {};
+    return faults_;
+  }
+
+  Eigen::Index NumSessions() const {
+    return static_cast<Eigen::Index>(found_.sessions.labels.size());
+  }
+
+  std::vector<Eigen::Index> SessionOfRows() const {
+    std::vector<Eigen::Index> sessions;
+    for (const Eigen::Index row : parts_.rows) {
+      sessions.push_back(found_.sessions.codes[static_cast<std::size_t>(
+          std::ranges::lower_bound(log_rows_, row) - log_rows_.begin())]);
+    }
+    return sessions;
+  }
+
+  std::vector<Eigen::Index> SessionStarts() const {
+    std::vector<Eigen::Index> starts;
+    if (NumSessions() == 0) return starts;
+    const std::vector<Eigen::Index> sessions = SessionOfRows();
+    for (std::size_t i = 0; i < sessions.size(); ++i) {
+      if (i == 0 || sessions[i] != sessions[i - 1]) {
+        starts.push_back(static_cast<Eigen::Index>(i));
+      }
+    }
+    return starts;
+  }
+
+  // Before anything is made of the rows.
+  void LookForFaults() {
+    const MeasuredColumns measured{.target = parts_.target,
+                                   .target_values = parts_.target_values,
+                                   .inputs = parts_.inputs,
+                                   .input_values = parts_.input_values,
+                                   .rows = parts_.rows,
+                                   .num_sessions = NumSessions()};
+    faults_ = FindColumnFaults(measured);
+    if (std::optional<ColumnFault> drift =
+            FindColdDrift(measured, SessionStarts(), faults_)) {
+      faults_.push_back(*std::move(drift));
+    }
+    if (!repeated_rows_.empty()) {
+      faults_.insert(faults_.begin(),
+                     {.kind = FaultKind::kRepeated,
+                      .input = -1,
+                      .rows = repeated_rows_,
+                      .of_cells = true});
+    }
+    if (selection_.faults != FaultPolicy::kDropRows) {
+      for (const ColumnFault& fault : faults_) {
+        if (std::string doubt = DoubtOfRows(fault, measured); !doubt.empty()) {
+          doubts_.push_back(std::move(doubt));
+        }
+      }
+      return;
+    }
+    const std::vector<Eigen::Index> faulty = RowsOfCellFaults(faults_);
+    std::vector<Eigen::Index> kept;
+    for (std::size_t i = 0; i < parts_.rows.size(); ++i) {
+      if (!std::ranges::binary_search(faulty, parts_.rows[i])) {
+        kept.push_back(static_cast<Eigen::Index>(i));
+      }
+    }
+    if (kept.size() == parts_.rows.size()) return;
+    std::vector<Eigen::Index> rows;
+    for (const Eigen::Index i : kept) {
+      rows.push_back(parts_.rows[static_cast<std::size_t>(i)]);
+    }
+    parts_.rows = std::move(rows);
+    parts_.target_values = parts_.target_values(kept).eval();
+    parts_.input_values = parts_.input_values(kept, Eigen::all).eval();
+    if (parts_.weights.size() != 0) {
+      parts_.weights = parts_.weights(kept).eval();
+    }
+  }
+
+  bool IsNamed(const std::string& input) const {
+    return std::ranges::find(selection_.inputs, input) !=
+           selection_.inputs.end();
+  }
+
+  // A remark, which the answer repeats where somebody asked for the input.
+  void SayLeftOut(const std::string& input, const std::string& what) {
+    remarks_.push_back("input " + NameInRemark(input) + " " + what);
+    if (IsNamed(input)) {
+      doubts_.push_back("The input " + NameInRemark(input) + ", asked for by " +
+                        ArgumentName("inputs") + ", " + what + ".");
+    }
+  }
+
+  void ReportIdle(const std::string& input, const IdleInput& idle) {
+    if (!idle.dead) {
+      remarks_.push_back("input " + NameInRemark(input) + " is " + idle.how +
+                         " and is kept: what it does rests on the others");
+      return;
+    }
+    const std::string why = "is dead (" + idle.how + ")";
+    if (selection_.keep_dead) {
+      remarks_.push_back("input " + NameInRemark(input) + " " + why +
+                         " and is kept");
+      return;
+    }
+    dropped_.push_back({.column = input, .why = why});
+    SayLeftOut(
+        input,
+        why + " and is left out; " + ArgumentName("keep_dead") + " keeps it");
+  }
+
+  // Those of `parts_.inputs` that are not marked.
+  void KeepInputs(const std::vector<bool>& left_out) {
+    std::vector<Eigen::Index> kept;
+    std::vector<ColumnInfo> inputs;
+    std::vector<Eigen::Index> place(left_out.size(), -1);
+    for (std::size_t i = 0; i < left_out.size(); ++i) {
+      if (left_out[i]) continue;
+      place[i] = static_cast<Eigen::Index>(kept.size());
+      kept.push_back(static_cast<Eigen::Index>(i));
+      inputs.push_back(std::move(parts_.inputs[i]));
+    }
+    if (kept.size() == left_out.size()) {
+      parts_.inputs = std::move(inputs);
+      return;
+    }
+    if (kept.empty()) ThrowNoInputs(table_, dropped_);
+    parts_.inputs = std::move(inputs);
+    parts_.input_values = parts_.input_values(Eigen::all, kept).eval();
+    std::erase_if(faults_, [&](const ColumnFault& fault) {
+      return fault.input >= 0 &&
+             left_out[static_cast<std::size_t>(fault.input)];
+    });
+    for (ColumnFault& fault : faults_) {
+      if (fault.input < 0) continue;
+      fault.input = place[static_cast<std::size_t>(fault.input)];
+    }
+  }
+
+  void LeaveOutLeaks() {
+    if (selection_.only_to_judge) return;
+    std::vector<bool> left_out(parts_.inputs.size(), false);
+    for (const Leak& leak : FindLeaks(parts_.target,
+                                      parts_.target_values,
+                                      parts_.inputs,
+                                      parts_.input_values)) {
+      for (const Eigen::Index input : leak.left_out) {
+        left_out[static_cast<std::size_t>(input)] = true;
+        const std::string& name =
+            parts_.inputs[static_cast<std::size_t>(input)].name;
+        const std::string what = "holds the error itself (" +
+                                 NameInRemark(parts_.target.name) + " = " +
+                                 leak.formula + " in all rows, to rounding)";
+        dropped_.push_back({.column = name, .why = what});
+        SayLeftOut(name,
+                   what + " and is left out: no control knows it beforehand");
+      }
+    }
+    KeepInputs(left_out);
+  }
+
+  // What numbers the cycles on through the sessions is a thermal state in none
+  // of them.
+  void LeaveOutCounters() {
+    if (selection_.only_to_judge || NumSessions() < 2) return;
+    const std::vector<Eigen::Index> sessions = SessionOfRows();
+    std::vector<bool> left_out(parts_.inputs.size(), false);
+    for (std::size_t i = 0; i < left_out.size(); ++i) {
+      const ColumnInfo& input = parts_.inputs[i];
+      if (IsNamed(input.name) || !CountsCycles(input) ||
+          !CountsOn(parts_.input_values.col(static_cast<Eigen::Index>(i)),
+                    sessions)) {
+        continue;
+      }
+      left_out[i] = true;
+      const std::string what = "counts on from session to session";
+      dropped_.push_back({.column = input.name, .why = what});
+      SayLeftOut(input.name,
+                 what + " and is left out; name it in " +
+                     ArgumentName("inputs") + " to use it");
+    }
+    KeepInputs(left_out);
+  }
+
+  // A thermometer that was alive and ends stuck is of no use to a map.
+  void LeaveOutStuck() {
+    if (selection_.only_to_judge || selection_.keep_dead) return;
+    std::vector<bool> left_out(parts_.inputs.size(), false);
+    for (const ColumnFault& fault : faults_) {
+      if (fault.kind != FaultKind::kStuck || parts_.rows.empty() ||
+          fault.rows.back() != parts_.rows.back()) {
+        continue;
+      }
+      const std::string& name =
+          parts_.inputs[static_cast<std::size_t>(fault.input)].name;
+      if (IsNamed(name)) continue;  // the fault is told
+      left_out[static_cast<std::size_t>(fault.input)] = true;
+      const std::string what = "is dead (stuck at " + CsvNumber(fault.value) +
+                               " from data row " +
+                               std::to_string(fault.rows.front()) + " on)";
+      dropped_.push_back({.column = name, .why = what});
+      SayLeftOut(name,
+                 what + " and is left out; " + ArgumentName("keep_dead") +
+                     " keeps it");
+    }
+    KeepInputs(left_out);
+  }
+
+  // Rows of several machines, tools or directions, which err differently.
+  void LookForParts() {
+    constexpr double kDiffers = 0.7;
+    if (selection_.only_to_judge) return;
+    for (const std::size_t index : words_) {
+      const PartingColumn column =
+          PartBy(table_, table_.At(index), parts_.rows);
+      const PartingEffect effect =
+          EffectOfParting(column, parts_.target_values, parts_.input_values);
+      if (!(effect.each < kDiffers * effect.one)) {
+        if (!PartsComponents(table_, table_.At(index))) continue;
+        remarks_.push_back("rows that differ in " + QuotedName(column.name) +
+                           " may need a map each, by " + ArgumentName("where"));
+        continue;
+      }
+      doubts_.push_back(PartingText(column, effect, parts_.target.unit));
+      remarks_.push_back(doubts_.back());
+    }
+  }
+
+  const CsvTable& table_;
+  const DatasetSelection& selection_;
+  ColumnRoles roles_;
+  std::vector<std::size_t> inputs_;  // columns of the table
+  Dataset::Parts parts_;
+  std::vector<bool> passes_;            // (rows of the table)
+  std::vector<Eigen::Index> log_rows_;  // rows that may be used
+  FoundSessions found_;                 // of those
+  RepeatedInputs repeated_;
+  std::vector<DroppedColumn> dropped_;
+  std::vector<std::string> remarks_;
+  std::vector<ColumnFault> faults_;
+  std::vector<std::size_t> words_;  // columns that name things
+  std::vector<Eigen::Index> repeated_rows_;
+  std::vector<std::string> doubts_;
+};
+
+}  // namespace
+
+PreparedDataset MakeDataset(const CsvTable& table,
+                            const DatasetSelection& selection) {
+  return DatasetBuilder(table, selection).Build();
+}
+
+}  // namespace errmap::data

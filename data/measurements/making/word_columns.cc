@@ -1,0 +1,102 @@
+#include "data/measurements/making/word_columns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/QR>
+
+#include "data/argument_name.h"
+#include "data/measurements/column_checks.h"
+#include "data/measurements/rounded.h"
+
+namespace errmap::data {
+namespace {
+
+using Eigen::Index;
+
+constexpr std::size_t kMostParts = 12;
+constexpr Index kMostInputsLooked = 8;
+constexpr std::size_t kMostRowsOfPart = 2000;
+
+// Sum of squares that a linear map of these rows misses.
+double SquaresLeft(const std::vector<Index>& rows,
+                   const Eigen::VectorXd& target,
+                   const Eigen::MatrixXd& input_values,
+                   Index num_inputs) {
+  Eigen::MatrixXd design(static_cast<Index>(rows.size()), num_inputs + 1);
+  design << Eigen::VectorXd::Ones(design.rows()),
+      input_values(rows, Eigen::seqN(0, num_inputs));
+  const Eigen::VectorXd wanted = target(rows);
+  const Eigen::VectorXd b = design.colPivHouseholderQr().solve(wanted);
+  return (wanted - design * b).squaredNorm();
+}
+
+}  // namespace
+
+PartingColumn PartBy(const CsvTable& table,
+                     const CsvColumn& column,
+                     const std::vector<Index>& rows) {
+  PartingColumn parting{.name = column.name, .values = {}, .codes = {}};
+  for (const Index row : rows) {
+    std::string value = table.CellText(column, static_cast<std::size_t>(row));
+    if (IsMissingText(value)) return {.name = column.name};
+    const auto found = std::ranges::find(parting.values, value);
+    parting.codes.push_back(
+        static_cast<std::size_t>(found - parting.values.begin()));
+    if (found != parting.values.end()) continue;
+    if (parting.values.size() == kMostParts) return {.name = column.name};
+    parting.values.push_back(std::move(value));
+  }
+  if (parting.values.size() < 2) return {.name = column.name};
+  return parting;
+}
+
+PartingEffect EffectOfParting(const PartingColumn& column,
+                              const Eigen::VectorXd& target,
+                              const Eigen::MatrixXd& input_values) {
+  constexpr PartingEffect kNothing{std::numeric_limits<double>::quiet_NaN(),
+                                   std::numeric_limits<double>::quiet_NaN()};
+  const Index p = std::min(input_values.cols(), kMostInputsLooked);
+  const std::size_t parts = column.values.size();
+  const std::size_t stride =
+      1 +
+      column.codes.size() / (kMostRowsOfPart * std::max<std::size_t>(parts, 1));
+  std::vector<Index> all;
+  std::vector<std::vector<Index>> of_part(parts);
+  for (std::size_t i = 0; i < column.codes.size(); i += stride) {
+    all.push_back(static_cast<Index>(i));
+    of_part[column.codes[i]].push_back(static_cast<Index>(i));
+  }
+  if (parts < 2) return kNothing;
+  double squares = 0.0;
+  for (const std::vector<Index>& rows : of_part) {
+    if (static_cast<Index>(rows.size()) < 2 * (p + 1)) return kNothing;
+    squares += SquaresLeft(rows, target, input_values, p);
+  }
+  const auto free_of = [&](std::size_t maps) {
+    return static_cast<double>(all.size()) -
+           static_cast<double>(maps) * static_cast<double>(p + 1);
+  };
+  return {std::sqrt(SquaresLeft(all, target, input_values, p) / free_of(1)),
+          std::sqrt(squares / free_of(parts))};
+}
+
+std::string PartingText(const PartingColumn& column,
+                        const PartingEffect& effect,
+                        const Unit& target) {
+  const auto shown = [&](double value) {
+    return Rounded(target.display_scale * value) +
+           (target.display_symbol.empty() ? "" : " " + target.display_symbol);
+  };
+  std::string values;
+  for (const std::string& value : column.values) {
+    values += (values.empty() ? "" : ", ") + NameInRemark(value);
+  }
+  return "Rows differ by " + NameInRemark(column.name) + " (" + values +
+         "): plain linear maps, one for each, miss by " + shown(effect.each) +
+         ", one for all by " + shown(effect.one) +
+         "; give each a map of its own, by " + ArgumentName("where") + ".";
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,104 @@
+#include "data/csv.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+
+#include "data/files/atomic_file.h"
+#include "data/files_in_memory.h"
+#include "data/formula_text.h"
+#include "data/sha256.h"
+#include "data/text.h"
+
+namespace errmap::data {
+
+std::ptrdiff_t CsvTable::Find(std::string_view name) const {
+  const auto found =
+      std::find_if(columns.begin(), columns.end(), [&](const CsvColumn& c) {
+        return c.name == name;
+      });
+  return found == columns.end() ? -1 : found - columns.begin();
+}
+
+std::size_t CsvTable::LineOfRow(std::size_t row) const {
+  const auto next = std::upper_bound(
+      line_runs.begin(),
+      line_runs.end(),
+      row,
+      [](std::size_t value, const auto& run) { return value < run.first; });
+  // A table made in memory has no lines.
+  if (next == line_runs.begin()) return 0;
+  const auto& [first_row, first_line] = *std::prev(next);
+  return first_line + (row - first_row);
+}
+
+std::string CsvTable::Where(std::size_t row, std::string_view column) const {
+  const auto next = std::ranges::upper_bound(
+      parts, row, {}, &std::pair<std::size_t, std::string>::first);
+  const bool is_one = next == parts.begin();
+  const std::size_t first = is_one ? 0 : std::prev(next)->first;
+  const std::string at = std::to_string(row - first);
+  return PrintablePath(is_one ? file : std::prev(next)->second) + ": " +
+         (line_runs.empty() ? "row " + at
+                            : "line " + std::to_string(LineOfRow(row)) +
+                                  " (data row " + at + ")") +
+         ", column " + QuotedName(column);
+}
+
+std::string CsvTable::CellText(const CsvColumn& column, std::size_t row) const {
+  const auto found = std::lower_bound(
+      column.exceptions.begin(),
+      column.exceptions.end(),
+      row,
+      [](const auto& exception, std::size_t r) { return exception.first < r; });
+  if (found != column.exceptions.end() && found->first == row) {
+    return column.texts[found->second];
+  }
+  return CsvNumber(column.values[row]);
+}
+
+CsvTable ReadCsv(const std::string& path) {
+  if (const CsvTable* const table = FilesInMemory::FindTable(path)) {
+    return *table;
+  }
+  return ParseCsv(ReadFile(path), path);
+}
+
+CsvTable ReadCsv(const std::string& path, std::string* sha256) {
+  if (FilesInMemory::FindTable(path) != nullptr) {
+    *sha256 = Sha256OfFile(path);
+    return ReadCsv(path);
+  }
+  const std::string text = ReadFile(path);
+  *sha256 = Sha256(text);
+  return ParseCsv(text, path);
+}
+
+std::string CsvField(std::string_view text) {
+  const std::string safe =
+      (NeedsApostrophe(text) ? "'" : "") + std::string(text);
+  text = safe;
+  const bool needs_quotes =
+      text.find_first_of(",;\"\t\r\n") != std::string_view::npos ||
+      text.starts_with('#') || Trimmed(text).size() != text.size();
+  if (!needs_quotes) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string CsvNumber(double value) {
+  if (std::isnan(value)) return "";
+  // The longest is of the form -2.2250738585072014e-308.
+  std::array<char, 32> buffer{};
+  const auto [end, error] =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), end};
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,390 @@
+#include "models/study/record/making/make_judgement_record.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "models/history/history.h"
+#include "models/study/judgement/units_of_analysis.h"
+
+namespace errmap::models {
+namespace {
+
+using Eigen::Index;
+
+IntervalRecord IntervalOf(const stats::Bounds95& bounds) {
+  if (!bounds.exist()) return {kNotKnown, kNotKnown};
+  return {bounds.lower, bounds.upper};
+}
+
+// What is said of models by their index is written by their name.
+class JudgementRecord {
+ public:
+  explicit JudgementRecord(const ComponentStudy& study)
+      : study_(study), judgement_(study.judgement) {}
+
+  std::optional<GapRecord> Gap() const;
+  std::vector<PairRecord> Pairs() const;
+  ByName<std::vector<std::vector<std::string>>> Tiers() const;
+  std::vector<StabilityRecord> Stability() const;
+  std::vector<VerdictRecord> Verdicts() const;
+  std::optional<RecommendationRecord> Advice() const;
+
+ private:
+  const ComponentStudy& study_;
+  const Judgement& judgement_;
+
+  const std::string& Name(std::size_t model) const {
+    return study_.study.models[model].name;
+  }
+  std::vector<std::string> Names(const std::vector<std::size_t>& models) const {
+    std::vector<std::string> names;
+    for (const std::size_t model : models) names.push_back(Name(model));
+    return names;
+  }
+  PairRecord Pair(const HoldoutComparison& tests, std::size_t index) const;
+  double RemovedShare(std::size_t holdout, const HoldoutResult& of_map) const;
+};
+
+// Against the same rows without compensation.
+double JudgementRecord::RemovedShare(std::size_t holdout,
+                                     const HoldoutResult& of_map) const {
+  const auto zero =
+      std::ranges::find(study_.study.models, "zero", &ModelResult::name);
+  if (zero == study_.study.models.end() || !zero->holdouts[holdout].ok()) {
+    return kNotKnown;
+  }
+  const double without = zero->holdouts[holdout].test.rmse;
+  return without > 0.0 ? 1.0 - of_map.test.rmse / without : kNotKnown;
+}
+
+std::optional<GapRecord> JudgementRecord::Gap() const {
+  const auto& gap = judgement_.gap;
+  if (!gap) return std::nullopt;
+  GapRecord record{.neighbours = study_.holdouts[gap->neighbours].name,
+                   .unseen = study_.holdouts[gap->unseen].name,
+                   .warning = {},
+                   .models = {}};
+  for (const InterpolationGap::Row& row : gap->rows) {
+    record.models.push_back({.model = Name(row.model),
+                             .neighbours_rmse = row.neighbours_rmse,
+                             .unseen_rmse = row.unseen_rmse,
+                             .ratio = row.ratio(),
+                             .flatters = row.flatters()});
+  }
+  return record;
+}
+
+MeanTestRecord MeanTestOf(const stats::MeanDifferenceTest& test) {
+  return {.statistic = test.test.statistic,
+          .df = test.degrees_of_freedom,
+          .p = test.test.p};
+}
+
+std::optional<MeanTestRecord> MeanTestOf(
+    const std::optional<stats::MeanDifferenceTest>& test) {
+  return test ? std::optional(MeanTestOf(*test)) : std::nullopt;
+}
+
+PairRecord JudgementRecord::Pair(const HoldoutComparison& tests,
+                                 std::size_t index) const {
+  const stats::PairComparison& pair = tests.tests.pairs[index];
+  const auto name = [&](Eigen::Index place) {
+    return Name(tests.models[static_cast<std::size_t>(place)]);
+  };
+  return {.a = name(pair.a),
+          .b = name(pair.b),
+          .holdout = tests.holdout,
+          .rmse_a = tests.tests.rmse[pair.a],
+          .rmse_b = tests.tests.rmse[pair.b],
+          .difference = pair.difference,
+          .ci95 = IntervalOf(pair.bounds),
+          .p = pair.sign_flip.test.p,
+          .p_holm = pair.p_holm,
+          .holm_pairs = pair.num_adjusted,
+          .test = "sign-flip permutation",
+          .exact = pair.sign_flip.exact,
+          .smallest_p = pair.sign_flip.smallest_p,
+          .unit_of_analysis = tests.units.name,
+          .units = tests.tests.num_units,
+          .lag1 = pair.lag1.statistic,
+          .correlated = pair.correlated,
+          .established = tests.differ[index] == Confidence::kEstablished,
+          .confidence = tests.differ[index],
+          .tests = {.wilcoxon = {.statistic = pair.wilcoxon.test.statistic,
+                                 .p = pair.wilcoxon.test.p,
+                                 .exact = pair.wilcoxon.exact},
+                    .memory_t = {.statistic = pair.memory.test.statistic,
+                                 .df = pair.memory.effective_units - 1.0,
+                                 .p = pair.memory.test.p,
+                                 .p_holm = pair.p_memory_holm,
+                                 .memory = pair.memory.memory},
+                    .block_t = MeanTestOf(pair.block_t),
+                    .corrected_t = MeanTestOf(pair.corrected_t),
+                    .diebold_mariano = MeanTestOf(pair.diebold_mariano)}};
+}
+
+std::vector<PairRecord> JudgementRecord::Pairs() const {
+  std::vector<PairRecord> pairs;
+  for (const HoldoutComparison& tests : judgement_.comparisons) {
+    for (std::size_t i = 0; i < tests.tests.pairs.size(); ++i) {
+      pairs.push_back(Pair(tests, i));
+    }
+  }
+  return pairs;
+}
+
+ByName<std::vector<std::vector<std::string>>> JudgementRecord::Tiers() const {
+  ByName<std::vector<std::vector<std::string>>> tiers;
+  for (const HoldoutComparison& tests : judgement_.comparisons) {
+    tiers.push_back({tests.holdout, {}});
+    auto& of_holdout = tiers.back().second;
+    for (const std::vector<Eigen::Index>& tier : tests.tests.tiers) {
+      std::vector<std::string>& names = of_holdout.emplace_back();
+      for (const Eigen::Index place : tier) {
+        names.push_back(Name(tests.models[static_cast<std::size_t>(place)]));
+      }
+    }
+  }
+  return tiers;
+}
+
+std::vector<StabilityRecord> JudgementRecord::Stability() const {
+  std::vector<StabilityRecord> stability;
+  for (std::size_t h = 0; h < study_.holdouts.size(); ++h) {
+    const HoldoutComparison& tests = judgement_.comparisons[h];
+    if (tests.wins.empty()) continue;
+    StabilityRecord& record = stability.emplace_back(
+        StabilityRecord{.holdout = tests.holdout,
+                        .repeats = study_.holdouts[h].repeats,
+                        .wins = {}});
+    for (const WinShare& win : tests.wins) {
+      record.wins.push_back({.model = Name(win.model), .share = win.share});
+    }
+  }
+  return stability;
+}
+
+std::vector<VerdictRecord> JudgementRecord::Verdicts() const {
+  std::vector<VerdictRecord> verdicts;
+  for (std::size_t h = 0; h < judgement_.verdicts.size(); ++h) {
+    const std::optional<Verdict>& verdict = judgement_.verdicts[h];
+    if (!verdict) continue;
+    const HoldoutComparison& tests = judgement_.comparisons[h];
+    VerdictRecord record{.holdout = verdict->holdout,
+                         .choice = verdict->choice,
+                         .model = Name(verdict->best),
+                         .rival = {},
+                         .against_rival = {},
+                         .best_baseline = {},
+                         .obstacle = {},
+                         .established = verdict->established(),
+                         .confidence = verdict->confidence,
+                         .why = {}};
+    if (verdict->rival) {
+      record.rival = Name(*verdict->rival);
+      record.against_rival =
+          tests.ThatItIsBetter(verdict->best, *verdict->rival);
+    }
+    if (verdict->best_baseline) {
+      record.best_baseline = Name(*verdict->best_baseline);
+    }
+    if (tests.obstacle.exists()) {
+      record.obstacle = {.kind = tests.obstacle.kind,
+                         .units = tests.obstacle.units,
+                         .needed = tests.obstacle.needed,
+                         .pairs = tests.obstacle.pairs};
+    }
+    verdicts.push_back(std::move(record));
+  }
+  return verdicts;
+}
+
+MemoryRecord MemoryOf(const History& history) {
+  MemoryRecord record;
+  record.time_unit = history.time_unit;
+  for (const DerivedInput& input : history.derived) {
+    record.longest = std::max(record.longest, input.tau);
+    record.zeroed = record.zeroed || input.filter == Filter::kZero;
+  }
+  return record;
+}
+
+// A heating machine's error settles over hours: the first ones are told apart.
+std::vector<SinceStartRecord> SinceStart(const ComponentStudy& study,
+                                         const HoldoutResult& result,
+                                         std::size_t holdout) {
+  constexpr double kMinute = 60.0;
+  constexpr std::array<double, 6> kMinutes = {0, 15, 30, 60, 120, 240};
+  const HeldOutRows held =
+      GatherHeldOut(study.data.dataset, study.holdouts[holdout]);
+  const data::SessionLog* log = held.source->log().get();
+  if (log == nullptr || log->time_unit != "s") return {};
+  const std::vector<Index> sessions = held.source->session_codes();
+  const Eigen::VectorXd residuals = ResidualsOf(held, result);
+  std::array<std::vector<double>, kMinutes.size()> parts;
+  for (std::size_t i = 0; i < held.rows.size(); ++i) {
+    const auto row = static_cast<std::size_t>(held.rows[i]);
+    const Index first =
+        log->first_rows[static_cast<std::size_t>(sessions[row])];
+    const double elapsed =
+        log->time[held.source->log_rows()[row]] - log->time[first];
+    const auto after = std::ranges::upper_bound(kMinutes, elapsed / kMinute) -
+                       kMinutes.begin();
+    parts[static_cast<std::size_t>(std::max<std::ptrdiff_t>(after, 1) - 1)]
+        .push_back(residuals[static_cast<Index>(i)]);
+  }
+  std::vector<SinceStartRecord> records;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    if (parts[part].empty()) continue;
+    const Eigen::Map<const Eigen::VectorXd> values(
+        parts[part].data(), static_cast<Index>(parts[part].size()));
+    records.push_back({.from = kMinutes[part] * kMinute,
+                       .until = part + 1 < kMinutes.size()
+                                    ? kMinutes[part + 1] * kMinute
+                                    : kNotKnown,
+                       .n = values.size(),
+                       .mean = values.mean(),
+                       .rmse = std::sqrt(values.squaredNorm() /
+                                         static_cast<double>(values.size()))});
+  }
+  // One part alone tells nothing beside the whole.
+  return records.size() > 1 ? records : std::vector<SinceStartRecord>();
+}
+
+std::optional<RecommendationRecord> JudgementRecord::Advice() const {
+  const auto& advice = judgement_.recommendation;
+  if (!advice) return std::nullopt;
+  const ModelResult& model = study_.study.models[advice->model];
+  const HoldoutResult& result = model.holdouts[advice->holdout];
+  RecommendationRecord record;
+  record.choice = advice->choice;
+  record.model = model.name;
+  record.holdout = study_.holdouts[advice->holdout].name;
+  record.decided_by = study_.holdouts[advice->decided_by].name;
+  record.rmse = result.test.rmse;
+  record.ci95 =
+      RmseInterval(judgement_.comparisons[advice->holdout], advice->model);
+  record.first_tier = Names(advice->first_tier);
+  if (advice->has_baseline) {
+    record.best_baseline = Name(advice->best_baseline);
+    record.against_baseline = advice->against_baseline;
+  }
+  record.sensors = SensorsOf(*model.final_fit);
+  record.parameters = model.final_fit->model->num_parameters();
+  record.predict_ns = model.predict_ns;
+  record.goal_standing =
+      judgement_.goals[advice->model][advice->holdout].standing;
+  record.meets_goal = MeetsGoal(record.goal_standing);
+  record.extrapolated_share = advice->extrapolated_share;
+  record.removed_share = RemovedShare(advice->holdout, result);
+  if (model.final_fit->history != nullptr) {
+    record.memory = MemoryOf(*model.final_fit->history);
+  }
+  if (model.final_fit->interval) {
+    record.promise = MakeRecord(*model.final_fit->interval);
+  }
+  record.since_start = SinceStart(study_, result, advice->holdout);
+  if (study_.session_worth) record.session_worth = *study_.session_worth;
+  if (study_.importance) record.importance = *study_.importance;
+  return record;
+}
+
+std::string_view WordOf(RezeroKind kind) {
+  switch (kind) {
+    case RezeroKind::kEvery:
+      return "interval";
+    case RezeroKind::kSession:
+      return "session";
+    case RezeroKind::kProbe:
+      return "probe";
+  }
+  return "";
+}
+
+double FiniteOrNothing(double value) {
+  return std::isfinite(value) ? value : kNotKnown;
+}
+
+}  // namespace
+
+IntervalRecord RmseInterval(const HoldoutComparison& tests, std::size_t model) {
+  // Two bound nothing: a factor of ten thousand either way is no statement.
+  constexpr Index kFewestUnits = 3;
+  if (tests.tests.num_units < kFewestUnits) return {kNotKnown, kNotKnown};
+  stats::Bounds95 bounds =
+      tests.tests.rmse_bounds[static_cast<std::size_t>(*tests.PlaceOf(model))];
+  bounds.lower = std::max(bounds.lower, 0.0);
+  return IntervalOf(bounds);
+}
+
+std::optional<bool> MeetsGoal(GoalStanding standing) {
+  switch (standing) {
+    case GoalStanding::kNone:
+    case GoalStanding::kNotJudged:
+      return std::nullopt;
+    default:
+      return standing == GoalStanding::kMet;
+  }
+}
+
+PromiseRecord MakeRecord(const PredictionInterval& interval) {
+  PromiseRecord record{.holdout = interval.holdout,
+                       .unit = interval.unit,
+                       .units = interval.units,
+                       .levels = {},
+                       .lag1 = {},
+                       .good_for = {}};
+  if (interval.good_for > 0) {
+    record.lag1 = interval.lag1;
+    record.good_for = interval.good_for;
+  }
+  for (const PredictionInterval::Level& level : interval.levels) {
+    record.levels.push_back({level.coverage, level.half_width, level.at_least});
+  }
+  return record;
+}
+
+void AddJudgement(const ComponentStudy& study, ComponentRecord* record) {
+  const JudgementRecord judgement(study);
+  record->gap = judgement.Gap();
+  record->comparisons = judgement.Pairs();
+  record->tiers = judgement.Tiers();
+  record->stability = judgement.Stability();
+  record->verdict = judgement.Verdicts();
+  record->recommendation = judgement.Advice();
+}
+
+RezeroRecord MakeRezeroRecord(const ComponentStudy& study) {
+  const RezeroRule& rule = *study.rezero;
+  const RezeroWorth& worth = *study.rezero_worth;
+  RezeroRecord record{
+      .rule = rule.text,
+      .when = std::string(WordOf(rule.kind)),
+      .interval = FiniteOrNothing(rule.interval),
+      .noise = rule.noise,
+      .holdout = study.holdouts[study.judgement.recommendation->holdout].name,
+      .probes = worth.probes,
+      .scored_rows = worth.scored_rows,
+      .no_map = worth.no_map,
+      .models = {},
+      .curve = {},
+      .needs = worth.does_as_well_never            ? "never"
+               : std::isnan(worth.does_as_well_at) ? "more"
+               : std::isinf(worth.does_as_well_at) ? "session"
+                                                   : "every",
+      .needs_interval = worth.does_as_well_never
+                            ? kNotKnown
+                            : FiniteOrNothing(worth.does_as_well_at),
+      .sentence = {}};
+  for (const RezeroWorth::Model& model : worth.models) {
+    record.models.push_back(
+        {study.study.models[model.model].name, model.rmse, model.never});
+  }
+  for (const RezeroWorth::At& at : worth.curve) {
+    record.curve.push_back({FiniteOrNothing(at.interval), at.map, at.no_map});
+  }
+  return record;
+}
+
+}  // namespace errmap::models
