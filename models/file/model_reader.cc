@@ -397,7 +397,7 @@ FittedModel ModelFromJson(const std::string& text, const std::string& source) {
             : fmt::format("{}: is no whole map: its JSON breaks at byte {} of "
                           "{}; take another copy, or errmap fit again",
                           source,
-                          error.byte,
+                          std::min(error.byte, text.size()),
                           text.size()));
   } catch (const Json::out_of_range&) {
     throw data::InputError(source + ": has a number that is too large");

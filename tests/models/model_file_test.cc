@@ -239,7 +239,7 @@ TEST(ModelFile, SaysWhereAFileBreaks) {
   };
   EXPECT_THAT(reading("{\"schema\": 1"),
               ::testing::ThrowsMessage<data::InputError>(
-                  "map.json: is no whole map: its JSON breaks at byte 13 of "
+                  "map.json: is no whole map: its JSON breaks at byte 12 of "
                   "12; take another copy, or errmap fit again"));
   EXPECT_THAT(reading("{\"schema\": 1e999}"),
               ::testing::ThrowsMessage<data::InputError>(
