@@ -159,7 +159,8 @@ void AddMapLogArguments(CLI::App* command, models::MapLogArguments* arguments) {
   command
       ->add_option("--time",
                    arguments->time,
-                   "Column of times (default: the only time*)\nor of dates")
+                   "Column of times (default: the one that the map was\nfitted "
+                   "by, else the only time* or zeit*) or of dates")
       ->type_name("COL");
   command
       ->add_option("--session",

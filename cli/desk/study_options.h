@@ -62,18 +62,20 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
                     .reach = Reach::kMachine,
                     .example = "group = \"cycle\""},
         selection.group);
-  visit(StudyOption{.key = "time",
-                    .value = "COL",
-                    .help = "Column of times (default: the only time*)\nor of "
-                            "dates; none: the number of the row counts",
-                    .reach = Reach::kMachine,
-                    .example = "time = \"time_s\""},
-        selection.time);
+  visit(
+      StudyOption{.key = "time",
+                  .value = "COL",
+                  .help =
+                      "Column of times (default: the only time* or\nzeit*) or "
+                      "of dates; none: the number of the row counts",
+                  .reach = Reach::kMachine,
+                  .example = "time = \"time_s\""},
+      selection.time);
   visit(StudyOption{.key = "session",
                     .value = "COL",
-                    .help = "Column of sessions (default: session, day or "
-                            "run)\nthat is, uninterrupted runs; none: cut "
-                            "where time breaks off",
+                    .help = "Column of sessions (default: session, day, run "
+                            "or\ntag), uninterrupted runs; none: cut where "
+                            "time breaks off",
                     .reach = Reach::kMachine,
                     .example = "session = \"day\""},
         selection.session);

@@ -365,7 +365,8 @@ class SessionFinder {
               " goes back or leaps (first at data row " +
               std::to_string(first_cut_) + ")";
     } else {
-      text += " (no column session, day or run, no break in time)";
+      text += std::string(" (no column ") + kSessionColumnsText +
+              ", no break in time)";
     }
     return text;
   }

@@ -14,6 +14,7 @@ namespace errmap::data {
 /// What a column of sessions is called where nobody names one, in this order.
 inline constexpr auto kSessionColumns =
     std::to_array<const char*>({"session", "day", "run", "tag"});
+inline constexpr const char* kSessionColumnsText = "session, day, run or tag";
 
 /// What a column of times begins with where nobody names one, in this order.
 inline constexpr auto kTimeWords = std::to_array<const char*>({"time", "zeit"});

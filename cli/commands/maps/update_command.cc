@@ -248,12 +248,12 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
   command
       ->add_option("--time",
                    arguments->time,
-                   "Column of times (default: the only time*)")
+                   "Column of times (default: the only time* or zeit*)")
       ->type_name("COL");
   command
       ->add_option("--session",
                    arguments->session,
-                   "Column of sessions (default: session, day or run)")
+                   "Column of sessions (default: session, day, run or tag)")
       ->type_name("COL");
   AddRowOptions(command, &arguments->missing, &arguments->faults);
   AddSeedOption(command, &arguments->seed);

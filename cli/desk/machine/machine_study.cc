@@ -34,7 +34,7 @@ std::string SessionColumn(const data::CsvTable& points,
   throw data::InputError(fmt::format(
       "{}: no column {} that tells days apart; add one, or name it with {}",
       data::PrintablePath(points.file),
-      wanted.empty() ? "session, day or run" : data::QuotedName(wanted),
+      wanted.empty() ? data::kSessionColumnsText : data::QuotedName(wanted),
       data::ArgumentName("session")));
 }
 

@@ -29,7 +29,7 @@ struct MachineStudy {
 };
 
 /// Reads machine and points; `later` is the number of sessions to judge by,
-/// `session` their column ("": session, day or run).
+/// `session` their column ("": one of kSessionColumns).
 /// Throws data::InputError where a file is missing, the points have no column
 /// of sessions, or no session but the later ones.
 MachineStudy ReadMachineStudy(const std::string& machine,

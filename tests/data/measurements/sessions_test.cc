@@ -167,7 +167,7 @@ TEST(Sessions, AreOneWhereNothingTells) {
   EXPECT_THAT(found.remarks, IsEmpty());
   EXPECT_THAT(found.known, Each(true));
   EXPECT_THAT(Find("time_s\n1\n2\n").remarks,
-              ElementsAre("one session (no column session, day or run, no "
+              ElementsAre("one session (no column session, day, run or tag, no "
                           "break in time); time by 'time_s'"));
 }
 
