@@ -12,11 +12,10 @@
 #include <string>
 #include <unordered_map>
 
-#include <Eigen/QR>
-
 #include "data/measurements/column_checks.h"
 #include "data/measurements/dataset.h"
 #include "data/measurements/faults/thermometers.h"
+#include "data/measurements/least_squares.h"
 #include "data/measurements/text_times.h"
 #include "data/text.h"
 
@@ -79,8 +78,7 @@ VectorXd LinearPrediction(const MeasuredColumns& measured,
   Eigen::MatrixXd design(static_cast<Index>(rows.size()), p + 1);
   design << VectorXd::Ones(design.rows()),
       measured.input_values(rows, Eigen::seqN(0, p));
-  const VectorXd b = design.colPivHouseholderQr().solve(
-      VectorXd(measured.target_values(rows)));
+  const VectorXd b = SolveLeastSquares(design, measured.target_values(rows));
   return (measured.input_values.leftCols(p) * b.tail(p)).array() + b[0];
 }
 

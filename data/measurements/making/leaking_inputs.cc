@@ -7,9 +7,8 @@
 #include <optional>
 #include <set>
 
-#include <Eigen/QR>
-
 #include "data/measurements/column_checks.h"
+#include "data/measurements/least_squares.h"
 #include "data/measurements/rounded.h"
 
 namespace errmap::data {
@@ -176,8 +175,7 @@ class LeakFinder {
     const auto rows = static_cast<double>(rows_.size());
     // By the products first, which costs little and tells nearly all.
     const Eigen::MatrixXd products = products_(set, set);
-    const VectorXd rough =
-        products.colPivHouseholderQr().solve(VectorXd(with_target_(set)));
+    const VectorXd rough = SolveLeastSquares(products, with_target_(set));
     const double left =
         (target_.squaredNorm() - rough.dot(with_target_(set))) / rows;
     const double bound = 2.0 * RoundingOf(set, rough);
@@ -187,7 +185,7 @@ class LeakFinder {
     for (std::size_t i = 0; i < set.size(); ++i) {
       values.col(static_cast<Index>(i)) = Of(set[i]).values;
     }
-    const VectorXd b = values.colPivHouseholderQr().solve(target_);
+    const VectorXd b = SolveLeastSquares(values, target_);
     const double worst = (target_ - values * b).cwiseAbs().maxCoeff();
     // The mean of rounded values is off by less than their rounding.
     const bool adds_up =

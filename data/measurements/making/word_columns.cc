@@ -4,10 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/QR>
-
 #include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/least_squares.h"
 #include "data/measurements/rounded.h"
 
 namespace errmap::data {
@@ -28,7 +27,7 @@ double SquaresLeft(const std::vector<Index>& rows,
   design << Eigen::VectorXd::Ones(design.rows()),
       input_values(rows, Eigen::seqN(0, num_inputs));
   const Eigen::VectorXd wanted = target(rows);
-  const Eigen::VectorXd b = design.colPivHouseholderQr().solve(wanted);
+  const Eigen::VectorXd b = SolveLeastSquares(design, wanted);
   return (wanted - design * b).squaredNorm();
 }
 
