@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <Eigen/QR>
+#include <Eigen/Householder>
 
 namespace errmap::fitting {
 namespace {
@@ -52,6 +52,26 @@ ExtendedMatrix Scaled(const ExtendedMatrix& matrix,
   return scaled;
 }
 
+// Turns A = Q R of at least as many rows as columns to R (below it: what is
+// left of the reflections), and y to Q' y, reflection by reflection.
+template <typename Matrix, typename Vector>
+void Rotate(Matrix* a, Vector* y) {
+  using Scalar = typename Matrix::Scalar;
+  const Index n = a->rows();
+  const Index p = a->cols();
+  Vector workspace(p);
+  for (Index k = 0; k < p; ++k) {
+    Scalar tau;
+    Scalar length;
+    a->col(k).tail(n - k).makeHouseholderInPlace(tau, length);
+    const auto direction = a->col(k).tail(n - k - 1);
+    a->bottomRightCorner(n - k, p - k - 1)
+        .applyHouseholderOnTheLeft(direction, tau, workspace.data());
+    y->tail(n - k).applyHouseholderOnTheLeft(direction, tau, workspace.data());
+    (*a)(k, k) = length;
+  }
+}
+
 template <typename Scalar>
 ExtendedLeastSquaresFit Solve(const ExtendedMatrix& scaled,
                               const ExtendedVector& response,
@@ -63,10 +83,10 @@ ExtendedLeastSquaresFit Solve(const ExtendedMatrix& scaled,
   using std::sqrt;
   const Index n = scaled.rows();
   const Index p = scaled.cols();
-  const Matrix design = scaled.cast<Scalar>();
-  const Vector y = response.cast<Scalar>();
-  const Eigen::HouseholderQR<Matrix> qr(design);
-  const Matrix r = qr.matrixQR().topRows(p);
+  Matrix design = scaled.cast<Scalar>();
+  Vector rotated = response.cast<Scalar>();
+  Rotate(&design, &rotated);
+  const Matrix r = design.topRows(p);
 
   ExtendedLeastSquaresFit fit;
   fit.bits = bits;
@@ -93,7 +113,6 @@ ExtendedLeastSquaresFit Solve(const ExtendedMatrix& scaled,
   fit.full_rank =
       fit.condition * std::ldexp(1.0, -bits) * static_cast<double>(n) < 1.0;
 
-  const Vector rotated = qr.householderQ().adjoint() * y;
   const Vector b =
       inverse.template triangularView<Eigen::Upper>() * rotated.head(p);
   // The residuals always in 106 bits: they cancel.

@@ -280,10 +280,9 @@ Decomposition Decompose(Problem* problem, bool with_basis) {
       result.kept.push_back(j);
     }
     if (all_stay) {
-      result.rotated = (qr.householderQ().transpose() * problem->y()).head(p);
+      result.rotated = TimesQTransposed(qr, problem->y()).head(p);
       if (with_basis) {
-        result.basis =
-            qr.householderQ() * MatrixXd::Identity(columns.rows(), p);
+        result.basis = ThinQ(qr);
       }
       return result;
     }

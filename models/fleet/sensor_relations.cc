@@ -49,8 +49,7 @@ SensorRelations RegressOnOthers(const MatrixXd& values) {
   const MatrixXd covariance =
       centred.transpose() * centred / static_cast<double>(values.rows()) +
       kLeastVariance * MatrixXd::Identity(size, size);
-  const MatrixXd precision =
-      covariance.llt().solve(MatrixXd::Identity(size, size));
+  const MatrixXd precision = fitting::CholeskyInverse(covariance);
   found.variance = precision.diagonal().cwiseInverse();
   found.weights = precision * found.variance.asDiagonal();
   return found;

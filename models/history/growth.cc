@@ -7,8 +7,6 @@
 #include <map>
 #include <memory>
 
-#include <Eigen/Dense>
-
 #include "fitting/least_squares/decompositions.h"
 #include "models/shared_work.h"
 #include "stats/f_test.h"
@@ -48,8 +46,9 @@ class Plane {
     // A column that never moved has no slope.
     products.diagonal() += kShrink * squares.transpose() +
                            VectorXd::Constant(squares.size(), rows * kTiny);
-    slopes_ = products.ldlt().solve(centred.transpose() *
-                                    (targets.array() - intercept_).matrix());
+    const VectorXd along =
+        centred.transpose() * (targets.array() - intercept_).matrix();
+    slopes_ = products.ldlt().solve(along);
   }
 
   // What grows stops `room` trained ranges beyond.

@@ -272,8 +272,7 @@ StateMeasures MeasureStates(const Applicability& trained,
       scores.rowwise().squaredNorm().array() / (rows - 1.0) + 1.0 / rows;
   MatrixXd covariance = trained.directions * trained.directions.transpose();
   covariance.diagonal() += trained.rest;
-  const MatrixXd precision = covariance.llt().solve(
-      MatrixXd::Identity(covariance.rows(), covariance.cols()));
+  const MatrixXd precision = fitting::CholeskyInverse(covariance);
   // Of a normal vector with precision P, x_j less its mean given the others is
   // (P x)_j / P_jj, with variance 1 / P_jj.
   const MatrixXd pulled = scaled * precision;

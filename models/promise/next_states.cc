@@ -26,8 +26,9 @@ Whitened Whiten(const MatrixXd& measured, const MatrixXd& candidates) {
   constexpr Index kMostStateDirections = 6;
   const Eigen::RowVectorXd mean = measured.colwise().mean();
   const MatrixXd centred = measured.rowwise() - mean;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
-      centred.transpose() * centred / static_cast<double>(measured.rows()));
+  const MatrixXd covariance =
+      centred.transpose() * centred / static_cast<double>(measured.rows());
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(covariance);
   const VectorXd& values = eigen.eigenvalues();
   Index count = 0;
   while (count < std::min(kMostStateDirections, values.size()) &&
@@ -93,13 +94,14 @@ std::vector<NextState> ChooseNext(const data::Dataset& measured,
   MatrixXd information = rows.transpose() * rows;
   information.diagonal().array() += 1e-6 * static_cast<double>(rows.rows());
   const double before = MeanVariance(information, products);
+  const MatrixXd all_wanted = wanted.transpose();
   std::vector<NextState> chosen;
   std::vector<bool> is_chosen(static_cast<std::size_t>(wanted.rows()));
   while (static_cast<Index>(chosen.size()) <
          std::min(most, candidates.rows())) {
     // Adding r rows phi to M lowers trace(M^-1 P) by
     // r phi' M^-1 P M^-1 phi / (1 + r phi' M^-1 phi) (Sherman-Morrison).
-    const MatrixXd solved = information.ldlt().solve(wanted.transpose());
+    const MatrixXd solved = information.ldlt().solve(all_wanted);
     Index best = -1;
     double most_gained = -1.0;
     for (Index i = 0; i < wanted.rows(); ++i) {

@@ -48,7 +48,7 @@ MatrixXd PrecisionOf(const std::vector<LearningPoint>& points, double last) {
   }
   MatrixXd covariance = kCommon * spread * spread.transpose();
   covariance.diagonal() += kAlone * spread.cwiseAbs2() + misfit.cwiseAbs2();
-  return covariance.llt().solve(MatrixXd::Identity(count, count));
+  return fitting::CholeskyInverse(covariance);
 }
 
 }  // namespace

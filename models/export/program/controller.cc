@@ -158,9 +158,8 @@ void AddJudgement(const Applicability& trained,
   const MatrixXd weighted =
       trained.rest.cwiseInverse().asDiagonal() * trained.directions;
   const MatrixXd inner =
-      Eigen::LLT<MatrixXd>(MatrixXd::Identity(directions, directions) +
-                           trained.directions.transpose() * weighted)
-          .solve(MatrixXd::Identity(directions, directions));
+      fitting::CholeskyInverse(MatrixXd::Identity(directions, directions) +
+                               trained.directions.transpose() * weighted);
   const VectorXd own =
       trained.rest.cwiseInverse() -
       (weighted * inner).cwiseProduct(weighted).rowwise().sum();
