@@ -165,7 +165,7 @@ std::string PackResults(models::StudyRecord record) {
       if (restores && RowsOf(without) == all) holdout.train_rows.clear();
     }
   }
-  return data::Gzip(models::JsonText(record, -1));
+  return data::Gzip(models::ToJsonLine(record));
 }
 
 std::string WhyNoMap(const std::string& component, const std::string& why) {

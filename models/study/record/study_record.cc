@@ -73,6 +73,10 @@ std::string ToJsonText(const StudyRecord& record) {
   return json.Text(kIndent) + "\n";
 }
 
+std::string ToJsonLine(const StudyRecord& record) {
+  return JsonText(record, -1);
+}
+
 StudyRecord FromJsonText(std::string_view text) {
   data::RequireShallowJson(text);
   record_json::Tree json;

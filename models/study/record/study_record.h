@@ -92,6 +92,9 @@ const PairRecord* FindPair(const ComponentRecord& component,
 /// provenance, is of all else but measured times (keys with "seconds" or that
 /// end in _ns): the same of the same study, however the file is indented.
 std::string ToJsonText(const StudyRecord& record);
+/// In one line, as the record stands: with its doubt, without a hash of its
+/// own.
+std::string ToJsonLine(const StudyRecord& record);
 
 /// What ToJsonText wrote: Same(FromJsonText(ToJsonText(r)), r). Of a document
 /// that is older, incomplete or of a failed run what is missing, null or of
