@@ -10,6 +10,7 @@
 #include "cli/json_blocks.h"
 #include "cli/report/number_text.h"
 #include "cli/report/words/certify_text.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "models/certification/certification.h"
@@ -72,7 +73,8 @@ int RunCertify(const CertifyArguments& arguments,
 
 void AddCertifyCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<CertifyArguments>();
-  CLI::App* command = app->add_subcommand(
+  CLI::App* command = AddCommand(
+      app,
       "certify",
       "Prove solvers and statistics on problems whose answers are known");
   command

@@ -8,6 +8,7 @@
 #include "cli/commands/data_arguments.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
+#include "cli/shell/add_command.h"
 #include "data/files/atomic_file.h"
 #include "data/formats/pattern_file.h"
 #include "data/text.h"
@@ -41,7 +42,8 @@ int RunConvert(const ConvertArguments& arguments) {
 
 void AddConvertCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<ConvertArguments>();
-  CLI::App* command = app->add_subcommand(
+  CLI::App* command = AddCommand(
+      app,
       "convert",
       "Turn the report's pattern files, tables and CSV into each other");
   command->add_option("IN", arguments->in, "File to read")

@@ -8,6 +8,7 @@
 #include "cli/command.h"
 #include "cli/report/table.h"
 #include "cli/report/wrap_text.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "models/recipe_catalog.h"
@@ -56,7 +57,7 @@ std::string ModelText(const std::string& type, std::size_t width) {
 void AddModelsCommand(CLI::App* app, Run* run) {
   auto model = std::make_shared<std::string>();
   CLI::App* command =
-      app->add_subcommand("models", "List the models, or a model's options");
+      AddCommand(app, "models", "List the models, or a model's options");
   command->add_option("MODEL", *model, "Its options with their ranges")
       ->type_name("");
   command->footer("Example: errmap models net:scg");

@@ -11,6 +11,7 @@
 #include "cli/commands/format_option.h"
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/files/atomic_file.h"
@@ -165,7 +166,8 @@ int RunNetcgCommand(NetcgArguments* arguments,
 void AddNetcgCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<NetcgArguments>();
   models::NetcgStudyOptions& options = arguments->options;
-  CLI::App* command = app->add_subcommand(
+  CLI::App* command = AddCommand(
+      app,
       "netcg",
       "Run the report's own program of 1995, with its errors or without");
   command

@@ -16,6 +16,7 @@
 #include "cli/report/words/residual_text.h"
 #include "cli/report/words/residual_words.h"
 #include "cli/report/wrap_text.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/csv.h"
@@ -352,8 +353,8 @@ void AddColumnOptions(CLI::App* command, ResidualsArguments* arguments) {
 
 void AddResidualsCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<ResidualsArguments>();
-  CLI::App* command = app->add_subcommand(
-      "residuals", "Statistics of a column of residuals (or of anything)");
+  CLI::App* command = AddCommand(
+      app, "residuals", "Statistics of a column of residuals (or of anything)");
   command->add_option("FILE", arguments->file, "CSV file")
       ->required()
       ->type_name("FILE.csv");

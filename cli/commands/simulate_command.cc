@@ -10,6 +10,7 @@
 #include "cli/commands/data_arguments.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
+#include "cli/shell/add_command.h"
 #include "data/turning_centre/simulation.h"
 #include "data/turning_centre/simulation_files.h"
 
@@ -63,8 +64,8 @@ int RunSimulate(const SimulateArguments& arguments) {
 void AddSimulateCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<SimulateArguments>();
   SimulationOptions& options = arguments->simulation;
-  CLI::App* command = app->add_subcommand(
-      "simulate", "Make measurements of a machine whose truth is known");
+  CLI::App* command = AddCommand(
+      app, "simulate", "Make measurements of a machine whose truth is known");
   command
       ->add_option("MACHINE",
                    arguments->machine,

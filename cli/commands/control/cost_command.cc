@@ -10,6 +10,7 @@
 #include "cli/commands/control/map_for_control.h"
 #include "cli/commands/format_option.h"
 #include "cli/json_blocks.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/input_error.h"
@@ -129,8 +130,8 @@ int RunCost(const CostArguments& arguments) {
 
 void AddCostCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<CostArguments>();
-  CLI::App* command = app->add_subcommand(
-      "cost", "Count and time what a map asks of a controller");
+  CLI::App* command =
+      AddCommand(app, "cost", "Count and time what a map asks of a controller");
   command->add_option("MODEL", arguments->model, "Model file")
       ->required()
       ->type_name("FILE.json");

@@ -16,6 +16,7 @@
 #include "cli/desk/given_error.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
+#include "cli/shell/add_command.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
@@ -348,8 +349,8 @@ void AddTableOptions(CLI::App* command, TableArguments* tables) {
 
 void AddExportCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<ExportArguments>();
-  CLI::App* command = app->add_subcommand(
-      "export", "Write a map as a program that a controller runs");
+  CLI::App* command = AddCommand(
+      app, "export", "Write a map as a program that a controller runs");
   command->add_option("MODEL", arguments->model, "Model file")
       ->type_name("FILE.json");
   command->add_flag("--c", arguments->c, "NAME.h and NAME.c in C99");

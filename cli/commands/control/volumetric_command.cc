@@ -22,6 +22,7 @@
 #include "cli/desk/machine/true_poses.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/standard_streams.h"
 #include "data/csv.h"
 #include "data/files/atomic_file.h"
@@ -370,8 +371,10 @@ int RunVolumetric(const VolumetricArguments& arguments) {
 
 void AddVolumetricCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<VolumetricArguments>();
-  CLI::App* command = app->add_subcommand(
-      "volumetric", "The error at the tool by the maps of all its components");
+  CLI::App* command =
+      AddCommand(app,
+                 "volumetric",
+                 "The error at the tool by the maps of all its components");
   command
       ->add_option("MACHINE",
                    arguments->machine,

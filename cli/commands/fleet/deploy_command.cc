@@ -17,6 +17,7 @@
 #include "cli/fleet/store/deployments.h"
 #include "cli/fleet/store/store.h"
 #include "cli/report/number_text.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/terminal.h"
 #include "data/files/atomic_file.h"
 #include "data/files/prepare_folder.h"
@@ -260,8 +261,8 @@ int RunDeploy(const DeployArguments& arguments) {
 
 void AddDeployCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<DeployArguments>();
-  CLI::App* command = app->add_subcommand(
-      "deploy", "Write down which map a machine has from now on");
+  CLI::App* command = AddCommand(
+      app, "deploy", "Write down which map a machine has from now on");
   command->add_option("STORE", arguments->store, "Folder with an errmap.sqlite")
       ->required()
       ->type_name("DIR");

@@ -8,6 +8,7 @@
 #include "cli/commands/format_option.h"
 #include "cli/fleet/store/fleet_table.h"
 #include "cli/fleet/store/merge.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 
@@ -32,8 +33,8 @@ int RunMerge(const MergeArguments& arguments) {
 
 void AddMergeCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<MergeArguments>();
-  CLI::App* command = app->add_subcommand(
-      "merge", "Put the shares of a fleet study together in one database");
+  CLI::App* command = AddCommand(
+      app, "merge", "Put the shares of a fleet study together in one database");
   command
       ->add_option("STORE",
                    arguments->store,

@@ -11,6 +11,7 @@
 #include "cli/fleet/store/store.h"
 #include "cli/json_blocks.h"
 #include "cli/report/table.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 
@@ -114,8 +115,8 @@ int RunQuery(const QueryArguments& arguments) {
 
 void AddQueryCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<QueryArguments>();
-  CLI::App* command = app->add_subcommand(
-      "query", "Ask a fleet's database something in SQL; changes nothing");
+  CLI::App* command = AddCommand(
+      app, "query", "Ask a fleet's database something in SQL; changes nothing");
   command->add_option("STORE", arguments->store, "Folder with an errmap.sqlite")
       ->required()
       ->type_name("DIR");

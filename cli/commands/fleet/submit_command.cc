@@ -17,6 +17,7 @@
 #include "cli/commands/fleet/fleet_commands.h"
 #include "cli/fleet/run/fleet_plan.h"
 #include "cli/fleet/run/fleet_run.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/terminal.h"
 #include "data/files/atomic_file.h"
 #include "data/files/prepare_folder.h"
@@ -188,8 +189,8 @@ int RunSubmit(const SubmitArguments& arguments,
 
 void AddSubmitCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<SubmitArguments>();
-  CLI::App* command = app->add_subcommand(
-      "submit", "Write the scripts that have a cluster do a fleet study");
+  CLI::App* command = AddCommand(
+      app, "submit", "Write the scripts that have a cluster do a fleet study");
   command->add_option("SCHEDULER", arguments->scheduler, "slurm: a job array")
       ->required()
       ->check(CLI::IsMember({"slurm"}))

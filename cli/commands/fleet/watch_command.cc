@@ -15,6 +15,7 @@
 #include "cli/fleet/store/watched_files.h"
 #include "cli/fleet/store/watched_maps.h"
 #include "cli/json_blocks.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/files/atomic_file.h"
@@ -186,8 +187,8 @@ int RunWatch(const WatchArguments& arguments) {
 
 void AddWatchCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<WatchArguments>();
-  CLI::App* command = app->add_subcommand(
-      "watch", "Tell by new measurements which deployed maps still hold");
+  CLI::App* command = AddCommand(
+      app, "watch", "Tell by new measurements which deployed maps still hold");
   command->add_option("STORE", arguments->store, "Folder with an errmap.sqlite")
       ->required()
       ->type_name("DIR");

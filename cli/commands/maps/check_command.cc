@@ -15,6 +15,7 @@
 #include "cli/report/number_text.h"
 #include "cli/report/words/check_text.h"
 #include "cli/report/words/when_text.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/input_error.h"
@@ -157,8 +158,10 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
 
 void AddCheckCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<CheckArguments>();
-  CLI::App* command = app->add_subcommand(
-      "check", "Tell from a few probes whether a map holds in this session");
+  CLI::App* command =
+      AddCommand(app,
+                 "check",
+                 "Tell from a few probes whether a map holds in this session");
   command->add_option("MODEL", arguments->model, "Model file")
       ->required()
       ->type_name("FILE.json");

@@ -15,6 +15,7 @@
 #include "cli/report/number_text.h"
 #include "cli/report/words/data_words.h"
 #include "cli/report/words/kept_promise_text.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/measurements/measured_files.h"
@@ -227,8 +228,8 @@ int RunEvaluate(const EvaluateArguments& arguments,
 
 void AddEvaluateCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<EvaluateArguments>();
-  CLI::App* command = app->add_subcommand(
-      "evaluate", "Judge a fitted map on measurements it may not know");
+  CLI::App* command = AddCommand(
+      app, "evaluate", "Judge a fitted map on measurements it may not know");
   command->add_option("MODEL", arguments->model, "Model file")
       ->required()
       ->type_name("FILE.json");

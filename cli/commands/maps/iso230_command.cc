@@ -18,6 +18,7 @@
 #include "cli/report/number_text.h"
 #include "cli/report/plot.h"
 #include "cli/report/table.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/files/atomic_file.h"
@@ -463,7 +464,8 @@ int RunIso230(const Iso230Arguments& arguments,
 
 void AddIso230Command(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<Iso230Arguments>();
-  CLI::App* command = app->add_subcommand(
+  CLI::App* command = AddCommand(
+      app,
       "iso230",
       "Figures of a positioning test (ISO 230-2), with a map or without");
   command

@@ -26,6 +26,7 @@
 #include "cli/report/shell_word.h"
 #include "cli/report/words/learning_text.h"
 #include "cli/report/words/next_steps.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
@@ -332,8 +333,10 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
 
 void AddLearnCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<LearnArguments>();
-  CLI::App* command = app->add_subcommand(
-      "learn", "What more days, cycles or fewer sensors would do to the error");
+  CLI::App* command = AddCommand(
+      app,
+      "learn",
+      "What more days, cycles or fewer sensors would do to the error");
   AddDataArguments(command, &arguments->data);
   command
       ->add_option("--by",

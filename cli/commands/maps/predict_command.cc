@@ -15,6 +15,7 @@
 #include "cli/report/number_text.h"
 #include "cli/report/words/interval_text.h"
 #include "cli/report/words/kept_promise_text.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/standard_streams.h"
 #include "data/csv.h"
 #include "data/files/atomic_file.h"
@@ -277,8 +278,8 @@ int RunPredict(const PredictArguments& arguments) {
 
 void AddPredictCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<PredictArguments>();
-  CLI::App* command = app->add_subcommand(
-      "predict", "Predict the error of every row with a fitted map");
+  CLI::App* command = AddCommand(
+      app, "predict", "Predict the error of every row with a fitted map");
   command->add_option("MODEL", arguments->model, "Model file")
       ->required()
       ->type_name("FILE.json");

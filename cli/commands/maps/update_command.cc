@@ -14,6 +14,7 @@
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/words/kept_promise_text.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
@@ -224,8 +225,10 @@ int RunUpdate(const UpdateArguments& arguments,
 
 void AddUpdateCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<UpdateArguments>();
-  CLI::App* command = app->add_subcommand(
-      "update", "Fit a map again with new sessions, if that makes it better");
+  CLI::App* command =
+      AddCommand(app,
+                 "update",
+                 "Fit a map again with new sessions, if that makes it better");
   command->add_option("MODEL", arguments->model, "Model file")
       ->required()
       ->type_name("FILE.json");

@@ -15,6 +15,7 @@
 #include "cli/json_blocks.h"
 #include "cli/report/number_text.h"
 #include "cli/report/words/when_text.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/files/shown_path.h"
@@ -166,7 +167,7 @@ int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
 void AddWhenCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<WhenArguments>();
   CLI::App* command =
-      app->add_subcommand("when", "Tell when a map wants its next probe");
+      AddCommand(app, "when", "Tell when a map wants its next probe");
   command->add_option("MODEL", arguments->model, "Model file")
       ->required()
       ->type_name("FILE.json");

@@ -24,6 +24,7 @@
 #include "cli/report/documents/study_table.h"
 #include "cli/report/report.h"
 #include "cli/report/words/check_text.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
@@ -270,8 +271,10 @@ int RunCompare(const CompareArguments& arguments) {
 
 void AddCompareCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<CompareArguments>();
-  CLI::App* command = app->add_subcommand(
-      "compare", "Fit several maps to the same rows and judge them on others");
+  CLI::App* command =
+      AddCommand(app,
+                 "compare",
+                 "Fit several maps to the same rows and judge them on others");
   AddCompareOptions(command, arguments.get());
   command->footer(
       "Exit status: 0 done, 2 wrong command line, 3 unusable input, 4 every "

@@ -20,6 +20,7 @@
 #include "cli/report/words/kept_promise_text.h"
 #include "cli/report/words/regression_text.h"
 #include "cli/report/wrap_text.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
@@ -288,7 +289,7 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
 void AddFitCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<FitArguments>();
   CLI::App* command =
-      app->add_subcommand("fit", "Fit one map to all rows and write it");
+      AddCommand(app, "fit", "Fit one map to all rows and write it");
   AddDataArguments(command, &arguments->data);
   command->add_option("--model", arguments->model, "The model, e.g. poly:eq8")
       ->required()

@@ -12,6 +12,7 @@
 #include "cli/desk/toml/study_file_text.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/files/atomic_file.h"
@@ -95,8 +96,8 @@ int RunInit(const InitArguments& arguments) {
 
 void AddInitCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<InitArguments>();
-  CLI::App* command = app->add_subcommand(
-      "init", "Write a commented study file for a data file or a folder");
+  CLI::App* command = AddCommand(
+      app, "init", "Write a commented study file for a data file or a folder");
   command
       ->add_option(
           "DATA",

@@ -15,6 +15,7 @@
 #include "cli/report/figures/figures.h"
 #include "cli/report/report.h"
 #include "cli/report/words/data_words.h"
+#include "cli/shell/add_command.h"
 #include "cli/shell/standard_streams.h"
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
@@ -117,7 +118,9 @@ models::StudyRecord OfComponent(models::StudyRecord record,
   const auto place =
       static_cast<std::size_t>(std::distance(record.components.begin(), found));
   if (place < configured.size()) configured = {configured[place]};
-  record.components = {std::move(*found)};
+  std::iter_swap(record.components.begin(), found);
+  record.components.erase(std::next(record.components.begin()),
+                          record.components.end());
   record.machine.reset();
   return record;
 }
@@ -179,8 +182,8 @@ int RunReport(const ReportArguments& arguments) {
 
 void AddReportCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<ReportArguments>();
-  CLI::App* command = app->add_subcommand(
-      "report", "Draw the report of a comparison anew, without fitting");
+  CLI::App* command = AddCommand(
+      app, "report", "Draw the report of a comparison anew, without fitting");
   command
       ->add_option("DIR",
                    arguments->folder,
