@@ -1,7 +1,6 @@
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
@@ -10,7 +9,7 @@
 #include "cli/json_blocks.h"
 #include "cli/report/number_text.h"
 #include "cli/report/words/certify_text.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "models/certification/certification.h"
@@ -77,23 +76,23 @@ void AddCertifyCommand(CLI::App* app, Run* run) {
       app,
       "certify",
       "Prove solvers and statistics on problems whose answers are known");
-  command
-      ->add_option("PART",
-                   arguments->part,
-                   "nist: NIST's reference data sets; gradients: derivatives "
-                   "against extrapolated differences; agreement: every solver "
-                   "on one net")
-      ->check(CLI::IsMember({"nist", "gradients", "agreement", "all"}))
-      ->type_name("nist|gradients|agreement|all")
-      ->capture_default_str();
-  command->add_flag("--details",
-                    arguments->details,
-                    "Every run of every solver, with its own words");
+  AddOption(command,
+            "PART nist|gradients|agreement|all",
+            arguments->part,
+            "nist: NIST's reference data sets; gradients: derivatives "
+            "against extrapolated differences; agreement: every solver "
+            "on one net")
+      .OneOf({"nist", "gradients", "agreement", "all"})
+      .ShowDefault();
+  AddFlag(command,
+          "--details",
+          arguments->details,
+          "Every run of every solver, with its own words");
   AddFormatOption(command, &arguments->format);
-  command->footer(
-      "Exit status: 0 every floor is reached, 4 one is missed.\n"
-      "Example: errmap certify nist --format json");
-  command->callback([arguments, run] {
+  SetFooter(command,
+            "Exit status: 0 every floor is reached, 4 one is missed.\n"
+            "Example: errmap certify nist --format json");
+  OnRun(command, [arguments, run] {
     run->status = RunCertify(*arguments, run->command_line);
   });
 }

@@ -1,14 +1,13 @@
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "data/files/atomic_file.h"
 #include "data/formats/pattern_file.h"
 #include "data/text.h"
@@ -46,23 +45,21 @@ void AddConvertCommand(CLI::App* app, Run* run) {
       app,
       "convert",
       "Turn the report's pattern files, tables and CSV into each other");
-  command->add_option("IN", arguments->in, "File to read")
-      ->required()
-      ->type_name("FILE");
-  command
-      ->add_option("OUT",
-                   arguments->out,
-                   "File to write; the endings decide: .csv, .tab (plain "
-                   "table), any other the report's stacked form (Table 2)")
-      ->required()
-      ->type_name("FILE");
-  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
-  command->footer(
+  AddOption(command, "IN FILE", arguments->in, "File to read").Required();
+  AddOption(command,
+            "OUT FILE",
+            arguments->out,
+            "File to write; the endings decide: .csv, .tab (plain "
+            "table), any other the report's stacked form (Table 2)")
+      .Required();
+  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  SetFooter(
+      command,
       "Of a CSV file that convert did not write, the column error* is the "
       "target; inputs\nare the position and the other numeric columns, dead "
       "ones too.\n"
       "Example: errmap convert x_displacement_down.csv down.pat");
-  command->callback([arguments, run] { run->status = RunConvert(*arguments); });
+  OnRun(command, [arguments, run] { run->status = RunConvert(*arguments); });
 }
 
 }  // namespace errmap::cli

@@ -8,12 +8,12 @@
 #include <thread>
 #include <type_traits>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "cli/command.h"
 #include "cli/report/words/fault_text.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/command_reference.h"
 #include "cli/shell/standard_streams.h"
 #include "data/files/shown_path.h"
@@ -60,9 +60,10 @@ std::string FlagOf(std::string_view key) {
 void FlagAdder::operator()(const desk::StudyOption& option,
                            std::string& text) const {
   if (option.check == nullptr) {
-    command_->add_option(FlagOf(option.key), text, option.help);
+    AddOption(command_, FlagOf(option.key), text, option.help);
   } else {
-    command_->add_option_function<std::string>(
+    AddOption(
+        command_,
         FlagOf(option.key),
         [&text, flag = FlagOf(option.key), check = option.check](
             const std::string& given) {
@@ -80,7 +81,8 @@ void FlagAdder::operator()(const desk::StudyOption& option,
 
 void FlagAdder::operator()(const desk::StudyOption& option,
                            std::vector<std::string>& names) const {
-  command_->add_option_function<std::string>(
+  AddOption(
+      command_,
       FlagOf(option.key),
       [&names, flag = FlagOf(option.key)](const std::string& list) {
         names = SplitNames(flag, list);
@@ -90,13 +92,14 @@ void FlagAdder::operator()(const desk::StudyOption& option,
 }
 
 void FlagAdder::operator()(const desk::StudyOption& option, bool& flag) const {
-  command_->add_flag(FlagOf(option.key), flag, option.help);
+  AddFlag(command_, FlagOf(option.key), flag, option.help);
   Finish(option);
 }
 
 void FlagAdder::operator()(const desk::StudyOption& option,
                            desk::GivenError& error) const {
-  command_->add_option_function<std::string>(
+  AddOption(
+      command_,
       FlagOf(option.key),
       [&error, flag = FlagOf(option.key), may_be_zero = option.may_be_zero](
           const std::string& text) {
@@ -107,22 +110,23 @@ void FlagAdder::operator()(const desk::StudyOption& option,
 }
 
 void FlagAdder::Finish(const desk::StudyOption& option) const {
-  CLI::Option* const added = command_->get_option(FlagOf(option.key));
-  if (*option.value != '\0') added->type_name(option.value);
-  if (option.seldom) added->group(kSeldom);
+  const Option added = FindOption(command_, FlagOf(option.key));
+  if (*option.value != '\0') added.Value(option.value);
+  if (option.seldom) added.Seldom();
 }
 
 void AddDataArguments(CLI::App* command, DataArguments* arguments) {
-  command
-      ->add_option("DATA",
-                   arguments->files,
-                   "CSV file, one row per sample; several, or a folder, are "
-                   "days of one component")
-      ->required()
-      ->type_name("FILE.csv");
+  AddOption(command,
+            "DATA FILE.csv",
+            arguments->files,
+            "CSV file, one row per sample; several, or a folder, are "
+            "days of one component")
+      .Required();
   desk::ForSelectionOptions(arguments->selection, FlagAdder(command));
-  command->add_flag(
-      "--quiet", arguments->quiet, "No remarks and no progress on stderr");
+  AddFlag(command,
+          "--quiet",
+          arguments->quiet,
+          "No remarks and no progress on stderr");
 }
 
 std::vector<std::string> DataArguments::PathsWith(
@@ -150,24 +154,21 @@ void AddRowOptions(CLI::App* command,
 }
 
 void AddMapLogArguments(CLI::App* command, models::MapLogArguments* arguments) {
-  command
-      ->add_option("--after",
-                   arguments->after,
-                   "Rows before these: the filters of a map with a memory run "
-                   "through them first")
-      ->type_name("EARLIER.csv");
-  command
-      ->add_option("--time",
-                   arguments->time,
-                   "Column of times (default: the one that the map was\nfitted "
-                   "by, else the only time* or zeit*) or of dates")
-      ->type_name("COL");
-  command
-      ->add_option("--session",
-                   arguments->session,
-                   "Column of sessions (default: that of the map)\nthat is, "
-                   "uninterrupted runs")
-      ->type_name("COL");
+  AddOption(command,
+            "--after EARLIER.csv",
+            arguments->after,
+            "Rows before these: the filters of a map with a memory run "
+            "through them first");
+  AddOption(command,
+            "--time COL",
+            arguments->time,
+            "Column of times (default: the one that the map was\nfitted "
+            "by, else the only time* or zeit*) or of dates");
+  AddOption(command,
+            "--session COL",
+            arguments->session,
+            "Column of sessions (default: that of the map)\nthat is, "
+            "uninterrupted runs");
 }
 
 data::PreparedDataset ReadData(const DataArguments& arguments) {
@@ -232,7 +233,8 @@ std::function<void(const std::string&)> Sayer(bool quiet) {
 }
 
 void AddKeepPathsFlag(CLI::App* command) {
-  command->add_flag_callback(
+  AddFlag(
+      command,
       "--keep-paths",
       [] { data::KeepPaths(); },
       "Write absolute paths into reports, maps and journals; without it, the "
@@ -242,7 +244,8 @@ void AddKeepPathsFlag(CLI::App* command) {
 
 void AddCacheFlag(CLI::App* command, std::string* cache) {
   *cache = models::DefaultCacheFolder();
-  command->add_flag_callback(
+  AddFlag(
+      command,
       "--no-cache",
       [cache] { cache->clear(); },
       "Make every fit anew\nElse those of the last runs on the same data are "
@@ -251,32 +254,28 @@ void AddCacheFlag(CLI::App* command, std::string* cache) {
 }
 
 void AddForceFlag(CLI::App* command, bool* force) {
-  command->add_flag("--force",
-                    *force,
-                    "Replace files in the folder that errmap did not write, or "
-                    "that were changed since; never one that is read");
+  AddFlag(command,
+          "--force",
+          *force,
+          "Replace files in the folder that errmap did not write, or "
+          "that were changed since; never one that is read");
   MarkSeldom(command, {"--force"});
-}
-
-void MarkSeldom(CLI::App* command, const std::vector<const char*>& names) {
-  for (const char* name : names) command->get_option(name)->group(kSeldom);
 }
 
 void AddSeedOption(CLI::App* command,
                    std::uint64_t* seed,
                    const std::string& what) {
-  command->add_option("--seed", *seed, what)
-      ->check([](const std::string& text) {
-        // CLI11 would take -1 and 2^64 for the largest number there is.
+  // CLI11 would take -1 and 2^64 for the largest number there is.
+  AddOption(command, "--seed N", *seed, what)
+      .ShowDefault()
+      .Check([](const std::string& text) {
         std::uint64_t number = 0;
         const char* const end = text.data() + text.size();
         const auto [rest, error] = std::from_chars(text.data(), end, number);
         return error == std::errc() && rest == end
                    ? ""
                    : "give a whole number from 0 to 18446744073709551615";
-      })
-      ->capture_default_str()
-      ->type_name("N");
+      });
 }
 
 }  // namespace errmap::cli

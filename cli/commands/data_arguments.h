@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/commands/choice_option.h"
 #include "cli/desk/given_error.h"
 #include "cli/desk/study_options.h"
+#include "cli/shell/command_options.h"
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
 #include "models/history/map_log.h"
@@ -20,9 +20,6 @@ class App;
 }
 
 namespace errmap::cli {
-
-/// Leaves options that are there already to help COMMAND --all.
-void MarkSeldom(CLI::App* command, const std::vector<const char*>& names);
 
 /// What a command is told about the data files.
 struct DataArguments {

@@ -2,11 +2,11 @@
 
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "cli/report/table.h"
+#include "cli/shell/command_options.h"
 
 namespace errmap::cli {
 namespace {
@@ -15,10 +15,10 @@ void AddFormats(CLI::App* command,
                 const std::string& words,
                 const std::vector<std::string>& formats,
                 std::string* format) {
-  command->add_option("--format", *format, words)
-      ->check(CLI::IsMember(formats))
-      ->type_name(fmt::format("{}", fmt::join(formats, "|")))
-      ->capture_default_str();
+  AddOption(command, "--format", *format, words)
+      .OneOf(formats)
+      .Value(fmt::format("{}", fmt::join(formats, "|")))
+      .ShowDefault();
 }
 
 }  // namespace

@@ -2,13 +2,12 @@
 #include <stdexcept>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
 #include "cli/report/table.h"
 #include "cli/report/wrap_text.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "models/recipe_catalog.h"
@@ -58,10 +57,10 @@ void AddModelsCommand(CLI::App* app, Run* run) {
   auto model = std::make_shared<std::string>();
   CLI::App* command =
       AddCommand(app, "models", "List the models, or a model's options");
-  command->add_option("MODEL", *model, "Its options with their ranges")
-      ->type_name("");
-  command->footer("Example: errmap models net:scg");
-  command->callback([model, run] {
+  AddOption(command, "MODEL", *model, "Its options with their ranges")
+      .Value("");
+  SetFooter(command, "Example: errmap models net:scg");
+  OnRun(command, [model, run] {
     const std::size_t width = OutputTerminal().columns;
     try {
       PrintResult(model->empty() ? ListText(width) : ModelText(*model, width));

@@ -3,7 +3,6 @@
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
@@ -11,7 +10,7 @@
 #include "cli/commands/format_option.h"
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/files/atomic_file.h"
@@ -170,70 +169,67 @@ void AddNetcgCommand(CLI::App* app, Run* run) {
       app,
       "netcg",
       "Run the report's own program of 1995, with its errors or without");
-  command
-      ->add_option("RUNFILE",
-                   arguments->file,
-                   "Run specification file as Appendix A reads it (netcg.in); "
-                   "names in it are relative to its folder")
-      ->type_name("FILE");
-  command
-      ->add_option("--study",
-                   arguments->study,
-                   "Instead, the report's nine experiments (Tables 3 and 4) on "
-                   "a folder of errmap simulate turning-centre")
-      ->type_name("DIR");
-  command
-      ->add_option("--precision",
-                   arguments->precision,
-                   "Arithmetic: single is the program's own")
-      ->check(CLI::IsMember({"single", "double"}))
-      ->type_name("single|double")
-      ->capture_default_str();
-  command->add_flag("--corrected",
-                    arguments->corrected,
-                    "Right statistics in the report files, and the training "
-                    "run's scaling in testing runs");
-  command
-      ->add_option("--training",
-                   options.netcg.training_file,
-                   "Pattern file that the weights of testing runs were trained "
-                   "on, where nothing else tells its scaling")
-      ->type_name("FILE");
-  command->add_flag("--full-weights",
-                    arguments->full_weights,
-                    "Weights files with all digits and the scaling, in place "
-                    "of six digits");
-  command
-      ->add_option("--out",
-                   options.netcg.out,
-                   "Folder to write to, in place of the run file's")
-      ->type_name("DIR");
-  command
-      ->add_option("--iterations",
-                   options.iterations,
-                   "Iterations of each experiment of --study")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  command
-      ->add_option("--jobs",
-                   options.jobs,
-                   "Experiments of --study at a time; 0: one per processor")
-      ->check(CLI::Range(0, 1024))
-      ->type_name("N")
-      ->capture_default_str();
+  AddOption(command,
+            "RUNFILE FILE",
+            arguments->file,
+            "Run specification file as Appendix A reads it (netcg.in); "
+            "names in it are relative to its folder");
+  AddOption(command,
+            "--study DIR",
+            arguments->study,
+            "Instead, the report's nine experiments (Tables 3 and 4) on "
+            "a folder of errmap simulate turning-centre");
+  AddOption(command,
+            "--precision single|double",
+            arguments->precision,
+            "Arithmetic: single is the program's own")
+      .OneOf({"single", "double"})
+      .ShowDefault();
+  AddFlag(command,
+          "--corrected",
+          arguments->corrected,
+          "Right statistics in the report files, and the training "
+          "run's scaling in testing runs");
+  AddOption(command,
+            "--training FILE",
+            options.netcg.training_file,
+            "Pattern file that the weights of testing runs were trained "
+            "on, where nothing else tells its scaling");
+  AddFlag(command,
+          "--full-weights",
+          arguments->full_weights,
+          "Weights files with all digits and the scaling, in place "
+          "of six digits");
+  AddOption(command,
+            "--out DIR",
+            options.netcg.out,
+            "Folder to write to, in place of the run file's");
+  AddOption(command,
+            "--iterations",
+            options.iterations,
+            "Iterations of each experiment of --study")
+      .Range(1, 1000000)
+      .ShowDefault();
+  AddOption(command,
+            "--jobs N",
+            options.jobs,
+            "Experiments of --study at a time; 0: one per processor")
+      .Range(0, 1024)
+      .ShowDefault();
   AddFormatOption(command, &arguments->format);
   AddForceFlag(command, &arguments->force);
-  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
+  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
   MarkSeldom(command,
              {"--precision",
               "--training",
               "--full-weights",
               "--iterations",
               "--jobs"});
-  command->footer(
+  SetFooter(
+      command,
       models::NetcgErrata() +
-      "\nExample: errmap netcg netcg.in --precision double --out results");
-  command->callback([arguments, run] {
+          "\nExample: errmap netcg netcg.in --precision double --out results");
+  OnRun(command, [arguments, run] {
     run->status = RunNetcgCommand(arguments.get(), run->command_line);
   });
 }

@@ -3,7 +3,6 @@
 #include <memory>
 #include <numeric>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -16,7 +15,7 @@
 #include "cli/report/words/residual_text.h"
 #include "cli/report/words/residual_words.h"
 #include "cli/report/wrap_text.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/csv.h"
@@ -323,30 +322,25 @@ int RunResiduals(const ResidualsArguments& arguments,
 }
 
 void AddColumnOptions(CLI::App* command, ResidualsArguments* arguments) {
-  command->add_option("--column", arguments->column, "The column")
-      ->required()
-      ->type_name("COL");
-  command
-      ->add_option("--order",
-                   arguments->order,
-                   "Numbers that tell the measured order (default: the file's)")
-      ->type_name("COL");
-  command
-      ->add_option("--group",
-                   arguments->group,
-                   "Warm-up cycles, days or segments (default: cycle)")
-      ->type_name("COL");
-  command
-      ->add_option("--position",
-                   arguments->position,
-                   "Look for bias along it (default: the first position*)")
-      ->type_name("COL");
-  command
-      ->add_option("--fitted",
-                   arguments->fitted,
-                   "Does the spread change with it? (default: the first "
-                   "predicted*)")
-      ->type_name("COL");
+  AddOption(command, "--column COL", arguments->column, "The column")
+      .Required();
+  AddOption(command,
+            "--order COL",
+            arguments->order,
+            "Numbers that tell the measured order (default: the file's)");
+  AddOption(command,
+            "--group COL",
+            arguments->group,
+            "Warm-up cycles, days or segments (default: cycle)");
+  AddOption(command,
+            "--position COL",
+            arguments->position,
+            "Look for bias along it (default: the first position*)");
+  AddOption(command,
+            "--fitted COL",
+            arguments->fitted,
+            "Does the spread change with it? (default: the first "
+            "predicted*)");
 }
 
 }  // namespace
@@ -355,40 +349,37 @@ void AddResidualsCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<ResidualsArguments>();
   CLI::App* command = AddCommand(
       app, "residuals", "Statistics of a column of residuals (or of anything)");
-  command->add_option("FILE", arguments->file, "CSV file")
-      ->required()
-      ->type_name("FILE.csv");
+  AddOption(command, "FILE FILE.csv", arguments->file, "CSV file").Required();
   AddColumnOptions(command, arguments.get());
-  command
-      ->add_option("--monte-carlo",
-                   arguments->monte_carlo,
-                   "Simulate p with this many normal samples (0: none)")
-      ->check(CLI::Range(0LL, 10'000'000LL))
-      ->type_name("N")
-      ->capture_default_str();
+  AddOption(command,
+            "--monte-carlo N",
+            arguments->monte_carlo,
+            "Simulate p with this many normal samples (0: none)")
+      .Range(0LL, 10'000'000LL)
+      .ShowDefault();
   AddSeedOption(command, &arguments->seed, "Of the simulation");
-  command
-      ->add_option("--bins",
-                   arguments->bins,
-                   "Bins of the histogram (0: by Freedman and Diaconis)")
-      ->check(CLI::Range(0LL, 10'000LL))
-      ->type_name("N")
-      ->capture_default_str();
-  command
-      ->add_option("--missing",
-                   arguments->missing,
-                   "What empty, NA and NaN cells do: error or drop-rows")
-      ->check(CLI::IsMember({"error", "drop-rows"}))
-      ->type_name("error|drop-rows")
-      ->capture_default_str();
-  command->add_flag("--details",
-                    arguments->details,
-                    "Also bias per group and position, histogram, PPCC curve");
-  command->add_flag("--as-printed-1995",
-                    arguments->as_printed_1995,
-                    "Also what the program of NISTIR 5367 prints for them");
+  AddOption(command,
+            "--bins N",
+            arguments->bins,
+            "Bins of the histogram (0: by Freedman and Diaconis)")
+      .Range(0LL, 10'000LL)
+      .ShowDefault();
+  AddOption(command,
+            "--missing error|drop-rows",
+            arguments->missing,
+            "What empty, NA and NaN cells do: error or drop-rows")
+      .OneOf({"error", "drop-rows"})
+      .ShowDefault();
+  AddFlag(command,
+          "--details",
+          arguments->details,
+          "Also bias per group and position, histogram, PPCC curve");
+  AddFlag(command,
+          "--as-printed-1995",
+          arguments->as_printed_1995,
+          "Also what the program of NISTIR 5367 prints for them");
   AddFormatOption(command, &arguments->format);
-  command->callback([arguments, run] {
+  OnRun(command, [arguments, run] {
     run->status = RunResiduals(*arguments, run->command_line);
   });
 }

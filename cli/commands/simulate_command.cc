@@ -3,14 +3,13 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "data/turning_centre/simulation.h"
 #include "data/turning_centre/simulation_files.h"
 
@@ -66,90 +65,87 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
   SimulationOptions& options = arguments->simulation;
   CLI::App* command = AddCommand(
       app, "simulate", "Make measurements of a machine whose truth is known");
-  command
-      ->add_option("MACHINE",
-                   arguments->machine,
-                   "turning-centre: two slides, a spindle, 40 thermocouples")
-      ->required()
-      ->check(CLI::IsMember({"turning-centre"}))
-      ->type_name("NAME");
-  command->add_option("-o,--output", arguments->folder, "Folder to write")
-      ->required()
-      ->type_name("DIR");
+  AddOption(command,
+            "MACHINE NAME",
+            arguments->machine,
+            "turning-centre: two slides, a spindle, 40 thermocouples")
+      .Required()
+      .OneOf({"turning-centre"});
+  AddOption(command, "-o,--output DIR", arguments->folder, "Folder to write")
+      .Required();
   AddSeedOption(command, &options.seed, "Seed of all that is drawn");
-  command
-      ->add_option("--days",
-                   options.days,
-                   "Days; the first is calibrated to the report of 1995, the "
-                   "others are drawn")
-      ->capture_default_str();
-  command->add_option("--cycles", options.cycles, "Warm-up cycles per day")
-      ->capture_default_str();
-  command
-      ->add_option("--duty", options.workload.duty, "Factor on every feed duty")
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--speed", options.workload.speed, "Factor on every spindle speed")
-      ->capture_default_str();
-  command
-      ->add_option("--warm",
-                   options.warm_hours,
-                   "Hours of work, unmeasured, and a break before the first "
-                   "cycle of each day from the second on")
-      ->capture_default_str();
-  command
-      ->add_option("--air",
-                   options.air_factor,
-                   "Factor on every heat conductance to the air")
-      ->capture_default_str();
-  command
-      ->add_option("--noise",
-                   options.noise_um,
-                   "Standard deviation of a reading of length, um")
-      ->capture_default_str();
-  command
-      ->add_option("--angle-noise",
-                   options.noise_urad,
-                   "Standard deviation of a reading of an angle, urad")
-      ->capture_default_str();
-  command
-      ->add_option("--sensor-noise",
-                   options.sensor_noise,
-                   "Standard deviation of a thermocouple's reading, degC")
-      ->capture_default_str();
+  AddOption(command,
+            "--days",
+            options.days,
+            "Days; the first is calibrated to the report of 1995, the "
+            "others are drawn")
+      .ShowDefault();
+  AddOption(command, "--cycles", options.cycles, "Warm-up cycles per day")
+      .ShowDefault();
+  AddOption(
+      command, "--duty", options.workload.duty, "Factor on every feed duty")
+      .ShowDefault();
+  AddOption(command,
+            "--speed",
+            options.workload.speed,
+            "Factor on every spindle speed")
+      .ShowDefault();
+  AddOption(command,
+            "--warm",
+            options.warm_hours,
+            "Hours of work, unmeasured, and a break before the first "
+            "cycle of each day from the second on")
+      .ShowDefault();
+  AddOption(command,
+            "--air",
+            options.air_factor,
+            "Factor on every heat conductance to the air")
+      .ShowDefault();
+  AddOption(command,
+            "--noise",
+            options.noise_um,
+            "Standard deviation of a reading of length, um")
+      .ShowDefault();
+  AddOption(command,
+            "--angle-noise",
+            options.noise_urad,
+            "Standard deviation of a reading of an angle, urad")
+      .ShowDefault();
+  AddOption(command,
+            "--sensor-noise",
+            options.sensor_noise,
+            "Standard deviation of a thermocouple's reading, degC")
+      .ShowDefault();
   const auto add_fault =
       [&](const char* flag, std::vector<int>* list, const char* what) {
-        command->add_option(flag, *list, what)
-            ->delimiter(',')
-            ->type_name("N,N,...");
+        AddOption(command, flag, *list, what).SeparatedBy(',').Value("N,N,...");
       };
   add_fault("--dead", &options.dead, "Thermocouples (0 to 39) that read 0");
   add_fault("--stuck", &options.stuck, "... that stop on the first day");
   add_fault("--drifting", &options.drifting, "... that gain 0.04 degC an hour");
   add_fault("--noisy", &options.noisy, "... with 25 times the noise");
-  command
-      ->add_option("--from-day",
-                   options.from_day,
-                   "Day on which these faults and --shift-um begin")
-      ->capture_default_str();
-  command
-      ->add_option("--shift-um",
-                   options.shift_um,
-                   "From then on the displacements of both slides are larger "
-                   "by so much: the machine changed")
-      ->capture_default_str();
-  command
-      ->add_option("--points",
-                   options.points_per_day,
-                   "Random poses per day in tool_tip.csv")
-      ->capture_default_str();
-  command->add_flag(
-      "--truth",
-      arguments->files.truth,
-      "Add the error without reading noise: truth_mm, truth_urad");
+  AddOption(command,
+            "--from-day",
+            options.from_day,
+            "Day on which these faults and --shift-um begin")
+      .ShowDefault();
+  AddOption(command,
+            "--shift-um",
+            options.shift_um,
+            "From then on the displacements of both slides are larger "
+            "by so much: the machine changed")
+      .ShowDefault();
+  AddOption(command,
+            "--points",
+            options.points_per_day,
+            "Random poses per day in tool_tip.csv")
+      .ShowDefault();
+  AddFlag(command,
+          "--truth",
+          arguments->files.truth,
+          "Add the error without reading noise: truth_mm, truth_urad");
   AddForceFlag(command, &arguments->force);
-  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
+  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
   MarkSeldom(command,
              {"--duty",
               "--speed",
@@ -158,11 +154,11 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
               "--angle-noise",
               "--sensor-noise",
               "--points"});
-  command->footer(
+  SetFooter(
+      command,
       "Example: errmap simulate turning-centre -o simulated --days 3 --dead "
       "3,4,16,19\nThe same options give the same files, byte for byte.");
-  command->callback(
-      [arguments, run] { run->status = RunSimulate(*arguments); });
+  OnRun(command, [arguments, run] { run->status = RunSimulate(*arguments); });
 }
 
 }  // namespace errmap::cli

@@ -3,14 +3,13 @@
 #include <stdexcept>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
 #include "cli/commands/control/map_for_control.h"
 #include "cli/commands/format_option.h"
 #include "cli/json_blocks.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/input_error.h"
@@ -132,20 +131,22 @@ void AddCostCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<CostArguments>();
   CLI::App* command =
       AddCommand(app, "cost", "Count and time what a map asks of a controller");
-  command->add_option("MODEL", arguments->model, "Model file")
-      ->required()
-      ->type_name("FILE.json");
-  command->add_flag(
-      "--float", arguments->single, "In single precision, but for the state");
+  AddOption(command, "MODEL FILE.json", arguments->model, "Model file")
+      .Required();
+  AddFlag(command,
+          "--float",
+          arguments->single,
+          "In single precision, but for the state");
   AddEveryOption(command, &arguments->every);
   AddFormatOption(command, &arguments->format);
-  command->footer(
+  SetFooter(
+      command,
       "Operations are counted from the program that errmap export writes; "
       "bytes and times are\nmeasured on its C, compiled here. A polynomial of "
       "10 terms takes some 10 ns, a net with\n37 inputs and 10 hidden nodes "
       "some 200 ns: both fit a servo period of 1 ms.\n"
       "Example: errmap cost map.json");
-  command->callback([arguments, run] { run->status = RunCost(*arguments); });
+  OnRun(command, [arguments, run] { run->status = RunCost(*arguments); });
 }
 
 }  // namespace errmap::cli

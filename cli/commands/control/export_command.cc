@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
@@ -16,7 +15,7 @@
 #include "cli/desk/given_error.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "data/input_error.h"
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
@@ -294,55 +293,51 @@ int RunExport(const ExportArguments& arguments) {
 }
 
 void AddTableOptions(CLI::App* command, TableArguments* tables) {
-  command
-      ->add_option("--increasing",
-                   tables->increasing,
-                   "Map of the motion towards increasing positions, in place "
-                   "of MODEL\n(on some slides that is the reverse)")
-      ->type_name("FILE.json");
-  command
-      ->add_option("--decreasing",
-                   tables->decreasing,
-                   "Map of the motion towards decreasing positions; both act "
-                   "in one file")
-      ->type_name("FILE.json");
-  command
-      ->add_option("--at",
-                   tables->at,
-                   "Tables: thermal state (default: the trained means)")
-      ->type_name("NAME=VALUE,...");
-  command
-      ->add_option("--log",
-                   tables->log,
-                   "Tables: thermal state where this session leads to")
-      ->type_name("FILE.csv");
-  command
-      ->add_option(
-          "--row", tables->row, "Row of --log, from 0 (default: the last)")
-      ->check(CLI::NonNegativeNumber);
-  command
-      ->add_option("--resolution",
-                   tables->resolution,
-                   "--linuxcnc: errors in steps of this (machine unit)")
-      ->check(CLI::PositiveNumber);
-  command
-      ->add_option("--units",
-                   tables->units,
-                   "--hal, --linuxcnc: the machine's unit of length")
-      ->check(CLI::IsMember({"mm", "in"}))
-      ->capture_default_str();
-  command->add_option("--points", tables->points, "--linuxcnc: at most so many")
-      ->check(CLI::Range(2, models::kMostCompPoints))
-      ->capture_default_str();
-  command
-      ->add_option("--over",
-                   tables->over,
-                   "--table: the input across the columns (default: the only "
-                   "one beside the position)")
-      ->type_name("NAME");
-  command->add_option("--grid", tables->grid, "--table: positions and columns")
-      ->type_name("ROWSxCOLUMNS")
-      ->capture_default_str();
+  AddOption(command,
+            "--increasing FILE.json",
+            tables->increasing,
+            "Map of the motion towards increasing positions, in place "
+            "of MODEL\n(on some slides that is the reverse)");
+  AddOption(command,
+            "--decreasing FILE.json",
+            tables->decreasing,
+            "Map of the motion towards decreasing positions; both act "
+            "in one file");
+  AddOption(command,
+            "--at NAME=VALUE,...",
+            tables->at,
+            "Tables: thermal state (default: the trained means)");
+  AddOption(command,
+            "--log FILE.csv",
+            tables->log,
+            "Tables: thermal state where this session leads to");
+  AddOption(
+      command, "--row", tables->row, "Row of --log, from 0 (default: the last)")
+      .NotNegative();
+  AddOption(command,
+            "--resolution",
+            tables->resolution,
+            "--linuxcnc: errors in steps of this (machine unit)")
+      .Positive();
+  AddOption(command,
+            "--units",
+            tables->units,
+            "--hal, --linuxcnc: the machine's unit of length")
+      .OneOf({"mm", "in"})
+      .ShowDefault();
+  AddOption(command, "--points", tables->points, "--linuxcnc: at most so many")
+      .Range(2, models::kMostCompPoints)
+      .ShowDefault();
+  AddOption(command,
+            "--over NAME",
+            tables->over,
+            "--table: the input across the columns (default: the only "
+            "one beside the position)");
+  AddOption(command,
+            "--grid ROWSxCOLUMNS",
+            tables->grid,
+            "--table: positions and columns")
+      .ShowDefault();
 }
 
 }  // namespace
@@ -351,14 +346,16 @@ void AddExportCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<ExportArguments>();
   CLI::App* command = AddCommand(
       app, "export", "Write a map as a program that a controller runs");
-  command->add_option("MODEL", arguments->model, "Model file")
-      ->type_name("FILE.json");
-  command->add_flag("--c", arguments->c, "NAME.h and NAME.c in C99");
-  command->add_flag("--python", arguments->python, "NAME.py in plain Python 3");
+  AddOption(command, "MODEL FILE.json", arguments->model, "Model file");
+  AddFlag(command, "--c", arguments->c, "NAME.h and NAME.c in C99");
+  AddFlag(command, "--python", arguments->python, "NAME.py in plain Python 3");
   const auto add_text =
       [&](const char* flag, models::TextForm form, const char* what) {
-        command->add_flag_callback(
-            flag, [arguments, form] { arguments->text.push_back(form); }, what);
+        AddFlag(
+            command,
+            flag,
+            [arguments, form] { arguments->text.push_back(form); },
+            what);
       };
   add_text("--st",
            models::TextForm::kStandard,
@@ -369,46 +366,45 @@ void AddExportCommand(CLI::App* app, Run* run) {
   add_text("--plcopen",
            models::TextForm::kPlcOpen,
            "NAME.xml, the same as PLCopen exchanges it");
-  command->add_flag(
-      "--float",
-      arguments->single,
-      "Single precision: C but for the state, text with REAL alone");
-  command->add_option("-o,--output", arguments->out, "Folder to write into")
-      ->required()
-      ->type_name("DIR");
-  command
-      ->add_option("--name",
-                   arguments->name,
-                   "What symbols begin with (default: the file's name)")
-      ->type_name("NAME");
-  command->add_flag("--hal",
-                    arguments->hal,
-                    "A LinuxCNC component (.comp), its wiring (.hal)");
-  command->add_option("--joint", arguments->joint, "--hal: joint to compensate")
-      ->check(CLI::Range(0, 8))
-      ->capture_default_str();
-  command->add_flag("--table",
-                    arguments->table,
-                    "NAME.csv over position and one other input");
-  command->add_flag("--linuxcnc",
-                    arguments->linuxcnc,
-                    "A COMP_FILE of type 0 for a joint of LinuxCNC");
-  command
-      ->add_option(
-          "--max-offset",
-          arguments->max_offset,
-          "Largest compensation: 20um (default: 1.3 times the trained errors)")
-      ->type_name("X");
-  command
-      ->add_option("--max-rate",
-                   arguments->max_rate,
-                   "Largest change of it per second: 1um (default: 10 um or "
-                   "10 urad)")
-      ->type_name("X");
+  AddFlag(command,
+          "--float",
+          arguments->single,
+          "Single precision: C but for the state, text with REAL alone");
+  AddOption(command, "-o,--output DIR", arguments->out, "Folder to write into")
+      .Required();
+  AddOption(command,
+            "--name NAME",
+            arguments->name,
+            "What symbols begin with (default: the file's name)");
+  AddFlag(command,
+          "--hal",
+          arguments->hal,
+          "A LinuxCNC component (.comp), its wiring (.hal)");
+  AddOption(command, "--joint", arguments->joint, "--hal: joint to compensate")
+      .Range(0, 8)
+      .ShowDefault();
+  AddFlag(command,
+          "--table",
+          arguments->table,
+          "NAME.csv over position and one other input");
+  AddFlag(command,
+          "--linuxcnc",
+          arguments->linuxcnc,
+          "A COMP_FILE of type 0 for a joint of LinuxCNC");
+  AddOption(
+      command,
+      "--max-offset X",
+      arguments->max_offset,
+      "Largest compensation: 20um (default: 1.3 times the trained errors)");
+  AddOption(command,
+            "--max-rate X",
+            arguments->max_rate,
+            "Largest change of it per second: 1um (default: 10 um or "
+            "10 urad)");
   AddEveryOption(command, &arguments->every);
   AddTableOptions(command, &arguments->tables);
   AddForceFlag(command, &arguments->force);
-  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
+  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
   MarkSeldom(command,
              {"--float",
               "--joint",
@@ -417,7 +413,8 @@ void AddExportCommand(CLI::App* app, Run* run) {
               "--over",
               "--grid",
               "--resolution"});
-  command->footer(
+  SetFooter(
+      command,
       "Every file states inputs, their order and units, and the sign: "
       "compensation = -error.\nWhat is written is checked against errmap "
       "predict first, and tests itself:\n"
@@ -426,7 +423,7 @@ void AddExportCommand(CLI::App* app, Run* run) {
       "Examples: errmap export map.json --c -o controller\n"
       "  errmap export --linuxcnc --increasing up.json --decreasing down.json "
       "-o x.comp.txt");
-  command->callback([arguments, run] { run->status = RunExport(*arguments); });
+  OnRun(command, [arguments, run] { run->status = RunExport(*arguments); });
 }
 
 }  // namespace errmap::cli

@@ -3,10 +3,10 @@
 #include <optional>
 #include <utility>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/shell/command_options.h"
 #include "data/text.h"
 #include "models/history/with_history.h"
 #include "models/model_file.h"
@@ -14,12 +14,11 @@
 namespace errmap::cli {
 
 void AddEveryOption(CLI::App* command, std::string* every) {
-  command
-      ->add_option("--every",
-                   *every,
-                   "How often a row came, for a map whose memory counts rows: "
-                   "30s, 2min")
-      ->type_name("TIME");
+  AddOption(command,
+            "--every TIME",
+            *every,
+            "How often a row came, for a map whose memory counts rows: "
+            "30s, 2min");
 }
 
 models::FittedModel LoadForControl(const std::string& file,

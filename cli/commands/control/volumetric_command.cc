@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -22,7 +21,7 @@
 #include "cli/desk/machine/true_poses.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "data/csv.h"
 #include "data/files/atomic_file.h"
@@ -375,32 +374,31 @@ void AddVolumetricCommand(CLI::App* app, Run* run) {
       AddCommand(app,
                  "volumetric",
                  "The error at the tool by the maps of all its components");
-  command
-      ->add_option("MACHINE",
-                   arguments->machine,
-                   "Kinematic chain with a map for each error")
-      ->required()
-      ->type_name("FILE.toml");
-  command
-      ->add_option("--at",
-                   arguments->points,
-                   "Points: coordinates, directions, temperatures")
-      ->required()
-      ->type_name("POINTS.csv");
-  command
-      ->add_option(
-          "-o,--output", arguments->out, "File to write (default: stdout)")
-      ->type_name("OUT.csv");
+  AddOption(command,
+            "MACHINE FILE.toml",
+            arguments->machine,
+            "Kinematic chain with a map for each error")
+      .Required();
+  AddOption(command,
+            "--at POINTS.csv",
+            arguments->points,
+            "Points: coordinates, directions, temperatures")
+      .Required();
+  AddOption(command,
+            "-o,--output OUT.csv",
+            arguments->out,
+            "File to write (default: stdout)");
   AddMapLogArguments(command, &arguments->log);
-  command
-      ->add_option("--draws",
-                   arguments->options.draws,
-                   "Monte Carlo draws per point for lower_90 and upper_90; 0 "
-                   "for none")
-      ->capture_default_str();
+  AddOption(command,
+            "--draws",
+            arguments->options.draws,
+            "Monte Carlo draws per point for lower_90 and upper_90; 0 "
+            "for none")
+      .ShowDefault();
   AddSeedOption(command, &arguments->options.seed, "Seed of the draws");
-  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
-  command->footer(
+  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  SetFooter(
+      command,
       "Columns, in the machine's unit of length: error_x ... error_z, tool "
       "less work in the base frame\n(the product of the matrices), "
       "error_sensitive (its length in the machine's sensitive "
@@ -415,8 +413,7 @@ void AddVolumetricCommand(CLI::App* app, Run* run) {
       "and Z along it) and diagonal_direction, the deviations of ISO 230-6. "
       "Exit\nstatus 4 where an error is not finite. Examples: "
       "data/sets/machines/README.md.");
-  command->callback(
-      [arguments, run] { run->status = RunVolumetric(*arguments); });
+  OnRun(command, [arguments, run] { run->status = RunVolumetric(*arguments); });
 }
 
 }  // namespace errmap::cli

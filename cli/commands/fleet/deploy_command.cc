@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
@@ -17,7 +16,7 @@
 #include "cli/fleet/store/deployments.h"
 #include "cli/fleet/store/store.h"
 #include "cli/report/number_text.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/terminal.h"
 #include "data/files/atomic_file.h"
 #include "data/files/prepare_folder.h"
@@ -263,25 +262,27 @@ void AddDeployCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<DeployArguments>();
   CLI::App* command = AddCommand(
       app, "deploy", "Write down which map a machine has from now on");
-  command->add_option("STORE", arguments->store, "Folder with an errmap.sqlite")
-      ->required()
-      ->type_name("DIR");
-  command->add_option("COMPONENT", arguments->components, "Names of components")
-      ->type_name("NAME");
-  command->add_flag(
-      "--all", arguments->all, "Every component that has a recommended map");
-  command
-      ->add_option("--model",
-                   arguments->model,
-                   "Map to deploy in place of the recommended one")
-      ->type_name("FILE.json");
-  command->footer(
+  AddOption(
+      command, "STORE DIR", arguments->store, "Folder with an errmap.sqlite")
+      .Required();
+  AddOption(
+      command, "COMPONENT NAME", arguments->components, "Names of components");
+  AddFlag(command,
+          "--all",
+          arguments->all,
+          "Every component that has a recommended map");
+  AddOption(command,
+            "--model FILE.json",
+            arguments->model,
+            "Map to deploy in place of the recommended one");
+  SetFooter(
+      command,
       "The map is kept in the store's maps/ with what it promised, and errmap "
       "watch holds new\nmeasurements against it. What the component had before "
       "is ended. Several are deployed\nall or none.\nExit status: 0 done, 2 no "
       "such component, 3 no map, no store, or one of a newer errmap.\nExample: "
       "errmap deploy fleet \"m01/x, down\"");
-  command->callback([arguments, run] { run->status = RunDeploy(*arguments); });
+  OnRun(command, [arguments, run] { run->status = RunDeploy(*arguments); });
 }
 
 }  // namespace errmap::cli

@@ -1,14 +1,12 @@
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/fleet/fleet_commands.h"
 #include "cli/commands/format_option.h"
 #include "cli/fleet/store/fleet_table.h"
 #include "cli/fleet/store/merge.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 
@@ -35,23 +33,23 @@ void AddMergeCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<MergeArguments>();
   CLI::App* command = AddCommand(
       app, "merge", "Put the shares of a fleet study together in one database");
-  command
-      ->add_option("STORE",
-                   arguments->store,
-                   "Folder that errmap compare --shard wrote into")
-      ->required()
-      ->type_name("DIR");
+  AddOption(command,
+            "STORE DIR",
+            arguments->store,
+            "Folder that errmap compare --shard wrote into")
+      .Required();
   AddTableFormatOption(command,
                        "What to print; csv and md have a row per component",
                        &arguments->format);
-  command->footer(
+  SetFooter(
+      command,
       "Reads the components' summaries and writes errmap.sqlite and "
       "report.html there, whole or\nnot at all; others may read the database "
       "meanwhile.\nExit status: 0 done, 3 no store, or one of a newer errmap, "
       "4 components are missing.\nExample: errmap merge fleet && errmap query "
       "fleet \"SELECT name, after, unit FROM fleet WHERE goal_standing = 'not "
       "met'\"");
-  command->callback([arguments, run] { run->status = RunMerge(*arguments); });
+  OnRun(command, [arguments, run] { run->status = RunMerge(*arguments); });
 }
 
 }  // namespace errmap::cli

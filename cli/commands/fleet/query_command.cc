@@ -3,7 +3,6 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/commands/fleet/fleet_commands.h"
@@ -11,7 +10,7 @@
 #include "cli/fleet/store/store.h"
 #include "cli/json_blocks.h"
 #include "cli/report/table.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 
@@ -117,21 +116,21 @@ void AddQueryCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<QueryArguments>();
   CLI::App* command = AddCommand(
       app, "query", "Ask a fleet's database something in SQL; changes nothing");
-  command->add_option("STORE", arguments->store, "Folder with an errmap.sqlite")
-      ->required()
-      ->type_name("DIR");
-  command->add_option("SQL", arguments->sql, "One SELECT, in quotes")
-      ->required()
-      ->type_name("TEXT");
+  AddOption(
+      command, "STORE DIR", arguments->store, "Folder with an errmap.sqlite")
+      .Required();
+  AddOption(command, "SQL TEXT", arguments->sql, "One SELECT, in quotes")
+      .Required();
   AddTableFormatOption(command, "What to print", &arguments->format);
-  command->footer(
+  SetFooter(
+      command,
       "The view fleet has a line per component: name, status, choice, model, "
       "before and after\n(RMSE held out without and with the map), goal_"
       "standing, in the unit that it names; the tables\nhave the data file's "
       "own unit. cli/fleet/README.md has ten queries.\nExit status: 0 done, 2 "
       "wrong SQL, 3 no store, or one of a newer errmap.\nExample: errmap query "
       "fleet \"SELECT choice, count(*) FROM recommendations GROUP BY choice\"");
-  command->callback([arguments, run] { run->status = RunQuery(*arguments); });
+  OnRun(command, [arguments, run] { run->status = RunQuery(*arguments); });
 }
 
 }  // namespace errmap::cli

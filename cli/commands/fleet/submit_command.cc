@@ -8,7 +8,6 @@
 #include <string>
 #include <system_error>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <sys/wait.h>
 
@@ -17,7 +16,7 @@
 #include "cli/commands/fleet/fleet_commands.h"
 #include "cli/fleet/run/fleet_plan.h"
 #include "cli/fleet/run/fleet_run.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/terminal.h"
 #include "data/files/atomic_file.h"
 #include "data/files/prepare_folder.h"
@@ -191,34 +190,30 @@ void AddSubmitCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<SubmitArguments>();
   CLI::App* command = AddCommand(
       app, "submit", "Write the scripts that have a cluster do a fleet study");
-  command->add_option("SCHEDULER", arguments->scheduler, "slurm: a job array")
-      ->required()
-      ->check(CLI::IsMember({"slurm"}))
-      ->type_name("NAME");
-  command->add_option("--config", arguments->config, "Study file")
-      ->required()
-      ->type_name("FILE.toml");
-  command->add_option("--out", arguments->store, "Store to fill")
-      ->required()
-      ->type_name("DIR");
-  command->add_option("--tasks", arguments->tasks, "Tasks of the array")
-      ->required()
-      ->check(CLI::Range(1, 100000))
-      ->type_name("N");
-  command->add_option("--cpus", arguments->cpus, "Processors of each task")
-      ->check(CLI::Range(1, 1024))
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_flag("--now", arguments->now, "Submit them, too");
+  AddOption(
+      command, "SCHEDULER NAME", arguments->scheduler, "slurm: a job array")
+      .Required()
+      .OneOf({"slurm"});
+  AddOption(command, "--config FILE.toml", arguments->config, "Study file")
+      .Required();
+  AddOption(command, "--out DIR", arguments->store, "Store to fill").Required();
+  AddOption(command, "--tasks N", arguments->tasks, "Tasks of the array")
+      .Required()
+      .Range(1, 100000);
+  AddOption(command, "--cpus N", arguments->cpus, "Processors of each task")
+      .Range(1, 1024)
+      .ShowDefault();
+  AddFlag(command, "--now", arguments->now, "Submit them, too");
   AddForceFlag(command, &arguments->force);
-  command->footer(
+  SetFooter(
+      command,
       "Writes STORE/slurm/shards.sh, a job array, merge.sh, which runs after "
       "it whatever became of its\ntasks, and submit.sh, which submits both. "
       "Time and memory are those of a dry run, with margins; memory is asked "
       "for where a node says\nthat it has so much.\nExit status: 0 "
       "done, 1 sbatch refused, 3 unusable study file.\nExample: errmap submit "
       "slurm --config fleet.toml --out fleet --tasks 64 --cpus 4");
-  command->callback([arguments, run] {
+  OnRun(command, [arguments, run] {
     run->status = RunSubmit(*arguments, run->command_line);
   });
 }

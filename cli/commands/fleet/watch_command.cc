@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/commands/data_arguments.h"
@@ -15,7 +14,7 @@
 #include "cli/fleet/store/watched_files.h"
 #include "cli/fleet/store/watched_maps.h"
 #include "cli/json_blocks.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/files/atomic_file.h"
@@ -189,21 +188,21 @@ void AddWatchCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<WatchArguments>();
   CLI::App* command = AddCommand(
       app, "watch", "Tell by new measurements which deployed maps still hold");
-  command->add_option("STORE", arguments->store, "Folder with an errmap.sqlite")
-      ->required()
-      ->type_name("DIR");
-  command
-      ->add_option("DATA",
-                   arguments->data,
-                   "New measurements: CSV files named as those of the study, "
-                   "folders of such, or COMPONENT=FILE")
-      ->required()
-      ->type_name("FILE|DIR");
+  AddOption(
+      command, "STORE DIR", arguments->store, "Folder with an errmap.sqlite")
+      .Required();
+  AddOption(command,
+            "DATA FILE|DIR",
+            arguments->data,
+            "New measurements: CSV files named as those of the study, "
+            "folders of such, or COMPONENT=FILE")
+      .Required();
   AddTableFormatOption(command,
                        "What to print; all but table have every component",
                        &arguments->format);
-  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
-  command->footer(
+  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  SetFooter(
+      command,
       "Each session's offset and RMS are held against the sessions held out "
       "when the map was made\n(t statistics; part of a session against the "
       "same part of those), each sensor against what\nthe others tell of it. "
@@ -215,7 +214,7 @@ void AddWatchCommand(CLI::App* app, Run* run) {
       "data that cannot be read, 4 some map is worse than promised, 5 nothing "
       "could be judged.\n"
       "Example: errmap watch fleet september/");
-  command->callback([arguments, run] { run->status = RunWatch(*arguments); });
+  OnRun(command, [arguments, run] { run->status = RunWatch(*arguments); });
 }
 
 }  // namespace errmap::cli

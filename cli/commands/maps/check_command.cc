@@ -3,7 +3,6 @@
 #include <memory>
 #include <optional>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
@@ -15,7 +14,7 @@
 #include "cli/report/number_text.h"
 #include "cli/report/words/check_text.h"
 #include "cli/report/words/when_text.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/input_error.h"
@@ -162,27 +161,25 @@ void AddCheckCommand(CLI::App* app, Run* run) {
       AddCommand(app,
                  "check",
                  "Tell from a few probes whether a map holds in this session");
-  command->add_option("MODEL", arguments->model, "Model file")
-      ->required()
-      ->type_name("FILE.json");
-  command
-      ->add_option("PROBES",
-                   arguments->files,
-                   "CSV file of a few measurements of one session, inputs and "
-                   "target; or several")
-      ->required()
-      ->type_name("PROBES.csv");
-  command
-      ->add_option("--goal",
-                   arguments->goal,
-                   "Also say how often to probe to keep 90 % of the errors "
-                   "within this: 2um\n(errmap when has more)")
-      ->type_name("X");
+  AddOption(command, "MODEL FILE.json", arguments->model, "Model file")
+      .Required();
+  AddOption(command,
+            "PROBES PROBES.csv",
+            arguments->files,
+            "CSV file of a few measurements of one session, inputs and "
+            "target; or several")
+      .Required();
+  AddOption(command,
+            "--goal X",
+            arguments->goal,
+            "Also say how often to probe to keep 90 % of the errors "
+            "within this: 2um\n(errmap when has more)");
   AddRowOptions(command, &arguments->rows.missing, &arguments->rows.faults);
   AddFormatOption(command, &arguments->format);
   AddMapLogArguments(command, &arguments->rows.log);
-  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
-  command->footer(
+  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  SetFooter(
+      command,
       "A session is off where its RMSE is above 1.5 times the promised one. "
       "What so many\nprobes at these times tell of a session is taken from "
       "the map's held-out days.\nExit status: 0 the map holds, 4 it does not "
@@ -190,7 +187,7 @@ void AddCheckCommand(CLI::App* app, Run* run) {
       "between the probes, through which a map's memory\nruns; readings before "
       "the first row come by --after, "
       "which needs\nno positions.");
-  command->callback([arguments, run] {
+  OnRun(command, [arguments, run] {
     run->status = RunCheck(*arguments, run->command_line);
   });
 }

@@ -1,7 +1,6 @@
 #include <memory>
 #include <optional>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -15,7 +14,7 @@
 #include "cli/report/number_text.h"
 #include "cli/report/words/data_words.h"
 #include "cli/report/words/kept_promise_text.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/measurements/measured_files.h"
@@ -230,21 +229,19 @@ void AddEvaluateCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<EvaluateArguments>();
   CLI::App* command = AddCommand(
       app, "evaluate", "Judge a fitted map on measurements it may not know");
-  command->add_option("MODEL", arguments->model, "Model file")
-      ->required()
-      ->type_name("FILE.json");
-  command
-      ->add_option("DATA",
-                   arguments->files,
-                   "CSV file with inputs and target, or several: days of one "
-                   "component")
-      ->required()
-      ->type_name("FILE.csv");
+  AddOption(command, "MODEL FILE.json", arguments->model, "Model file")
+      .Required();
+  AddOption(command,
+            "DATA FILE.csv",
+            arguments->files,
+            "CSV file with inputs and target, or several: days of one "
+            "component")
+      .Required();
   AddRowOptions(command, &arguments->rows.missing, &arguments->rows.faults);
   AddFormatOption(command, &arguments->format);
   AddMapLogArguments(command, &arguments->rows.log);
-  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
-  command->callback([arguments, run] {
+  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  OnRun(command, [arguments, run] {
     run->status = RunEvaluate(*arguments, run->command_line);
   });
 }

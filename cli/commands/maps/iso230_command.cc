@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
@@ -18,7 +17,7 @@
 #include "cli/report/number_text.h"
 #include "cli/report/plot.h"
 #include "cli/report/table.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/files/atomic_file.h"
@@ -468,42 +467,37 @@ void AddIso230Command(CLI::App* app, Run* run) {
       app,
       "iso230",
       "Figures of a positioning test (ISO 230-2), with a map or without");
-  command
-      ->add_option("DATA",
-                   arguments->files,
-                   "CSV files with the error at each approach to a position: "
-                   "of both directions, or one of each")
-      ->required()
-      ->type_name("FILE.csv");
-  command
-      ->add_option("--map",
-                   arguments->maps,
-                   "Map to compensate by: one for all files, or one per file "
-                   "in their order")
-      ->allow_extra_args(false)
-      ->type_name("MODEL.json");
-  command
-      ->add_option("--target",
-                   arguments->target,
-                   "Column of the error (default: the only one named error*)")
-      ->type_name("COL");
-  command
-      ->add_option("--position",
-                   arguments->position,
-                   "Column of the target positions (default: the first named "
-                   "position*)")
-      ->type_name("COL");
-  command
-      ->add_option("--direction",
-                   arguments->direction,
-                   "Column of the direction of approach: up or down, + or - "
-                   "(default: direction, else the order of the positions)")
-      ->type_name("COL");
-  command->add_option("--figure", arguments->figure, "Draw it")
-      ->type_name("FILE.svg");
+  AddOption(command,
+            "DATA FILE.csv",
+            arguments->files,
+            "CSV files with the error at each approach to a position: "
+            "of both directions, or one of each")
+      .Required();
+  AddOption(command,
+            "--map MODEL.json",
+            arguments->maps,
+            "Map to compensate by: one for all files, or one per file "
+            "in their order")
+      .OneAtATime();
+  AddOption(command,
+            "--target COL",
+            arguments->target,
+            "Column of the error (default: the only one named error*)");
+  AddOption(command,
+            "--position COL",
+            arguments->position,
+            "Column of the target positions (default: the first named "
+            "position*)");
+  AddOption(command,
+            "--direction COL",
+            arguments->direction,
+            "Column of the direction of approach: up or down, + or - "
+            "(default: direction, else the order of the positions)");
+  AddOption(command, "--figure FILE.svg", arguments->figure, "Draw it");
   AddTableFormatOption(command, "What to print", &arguments->format);
-  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
-  command->footer(
+  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  SetFooter(
+      command,
       "Each row is one run to one position. ISO 230-2:2014: A accuracy, R "
       "repeatability, E systematic\nerror, M mean bidirectional error, B "
       "reversal error, from the means and standard deviations\nof the runs at "
@@ -511,7 +505,7 @@ void AddIso230Command(CLI::App* app, Run* run) {
       "The standard's test is short and of a settled machine: rows of a "
       "warm-up show its drift in R and A.\n"
       "Example: errmap iso230 down.csv up.csv --map down.json --map up.json");
-  command->callback([arguments, run] {
+  OnRun(command, [arguments, run] {
     run->status = RunIso230(*arguments, run->command_line);
   });
 }

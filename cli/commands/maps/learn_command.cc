@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -26,7 +25,7 @@
 #include "cli/report/shell_word.h"
 #include "cli/report/words/learning_text.h"
 #include "cli/report/words/next_steps.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
@@ -338,69 +337,64 @@ void AddLearnCommand(CLI::App* app, Run* run) {
       "learn",
       "What more days, cycles or fewer sensors would do to the error");
   AddDataArguments(command, &arguments->data);
-  command
-      ->add_option("--by",
-                   arguments->by,
-                   "What is learnt from one after another: sessions, cycles "
-                   "(the groups) or sensors")
-      ->check(CLI::IsMember(std::vector<std::string>(models::kLearntBy.begin(),
-                                                     models::kLearntBy.end())))
-      ->type_name(fmt::format("{}", fmt::join(models::kLearntBy, "|")));
-  command
-      ->add_option(
-          "--models",
-          arguments->model_list,
-          "Models, separated by commas, whose curves are drawn (default: "
-          "baselines, a plane, ridge and blend)")
-      ->type_name("LIST");
-  command
-      ->add_option("--next",
-                   arguments->candidates,
-                   "States that could be measured next, a row each with the "
-                   "inputs: which of them lower the predicted error most")
-      ->type_name("CANDIDATES.csv");
-  command
-      ->add_option("--repeats",
-                   arguments->repeats,
-                   "Draws of the units learnt from, per size and fold")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
-  command->add_option("--sensors", arguments->sensors, "Sensors chosen at most")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
-  command
-      ->add_option("--goal",
-                   arguments->goal,
-                   "RMSE wanted: 2um (default for lengths: 0.5 um)")
-      ->type_name("X");
+  AddOption(command,
+            "--by",
+            arguments->by,
+            "What is learnt from one after another: sessions, cycles "
+            "(the groups) or sensors")
+      .OneOf(std::vector<std::string>(models::kLearntBy.begin(),
+                                      models::kLearntBy.end()))
+      .Value(fmt::format("{}", fmt::join(models::kLearntBy, "|")));
+  AddOption(command,
+            "--models LIST",
+            arguments->model_list,
+            "Models, separated by commas, whose curves are drawn (default: "
+            "baselines, a plane, ridge and blend)");
+  AddOption(command,
+            "--next CANDIDATES.csv",
+            arguments->candidates,
+            "States that could be measured next, a row each with the "
+            "inputs: which of them lower the predicted error most");
+  AddOption(command,
+            "--repeats",
+            arguments->repeats,
+            "Draws of the units learnt from, per size and fold")
+      .Range(1, 100)
+      .ShowDefault();
+  AddOption(command, "--sensors", arguments->sensors, "Sensors chosen at most")
+      .Range(1, 100)
+      .ShowDefault();
+  AddOption(command,
+            "--goal X",
+            arguments->goal,
+            "RMSE wanted: 2um (default for lengths: 0.5 um)");
   AddSeedOption(command, &arguments->seed);
-  command
-      ->add_option("--jobs",
-                   arguments->jobs,
-                   "Fits at the same time (default: one per core)")
-      ->check(CLI::PositiveNumber)
-      ->type_name("N");
-  command
-      ->add_option(
-          "--out",
-          arguments->out,
-          "Folder for learn-*.json, learn-*.svg and the journal of "
-          "fits\nerrmap report puts the curves of a study's folder on its "
-          "page")
-      ->type_name("DIR");
-  command->add_flag("--resume",
-                    arguments->resume,
-                    "Go on with the fits of an earlier run in --out");
+  AddOption(command,
+            "--jobs N",
+            arguments->jobs,
+            "Fits at the same time (default: one per core)")
+      .Positive();
+  AddOption(command,
+            "--out DIR",
+            arguments->out,
+            "Folder for learn-*.json, learn-*.svg and the journal of "
+            "fits\nerrmap report puts the curves of a study's folder on its "
+            "page");
+  AddFlag(command,
+          "--resume",
+          arguments->resume,
+          "Go on with the fits of an earlier run in --out");
   AddForceFlag(command, &arguments->force);
   AddFormatOption(command, &arguments->format);
   AddCacheFlag(command, &arguments->cache);
   MarkSeldom(command, {"--repeats", "--sensors", "--seed", "--resume"});
-  command->footer(
+  SetFooter(
+      command,
       "Example: errmap learn days.csv --by sessions --goal 2um\nWhole units "
       "are held out, others learnt from; a power law through the curve tells\n"
       "how many more would reach the goal, or that none would. Sensors are "
       "chosen inside\nthe folds, by a map linear in each.");
-  command->callback([arguments, run] {
+  OnRun(command, [arguments, run] {
     if (arguments->by.empty() && arguments->candidates.empty()) {
       throw UsageError(
           "learn: say --by sessions|cycles|sensors or --next FILE");

@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
@@ -15,7 +14,7 @@
 #include "cli/report/number_text.h"
 #include "cli/report/words/interval_text.h"
 #include "cli/report/words/kept_promise_text.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "data/csv.h"
 #include "data/files/atomic_file.h"
@@ -280,30 +279,27 @@ void AddPredictCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<PredictArguments>();
   CLI::App* command = AddCommand(
       app, "predict", "Predict the error of every row with a fitted map");
-  command->add_option("MODEL", arguments->model, "Model file")
-      ->required()
-      ->type_name("FILE.json");
-  command
-      ->add_option(
-          "DATA",
-          arguments->files,
-          "CSV file with its inputs, or several: days of one component")
-      ->required()
-      ->type_name("FILE.csv");
-  command
-      ->add_option(
-          "-o,--output", arguments->out, "File to write (default: stdout)")
-      ->type_name("FILE.csv");
-  command
-      ->add_option("--probes",
-                   arguments->probes,
-                   "Measurements of the same session: the map is moved by the "
-                   "offset that they show up to each row; the interval "
-                   "narrows, or widens where they contradict an offset")
-      ->type_name("PROBES.csv");
+  AddOption(command, "MODEL FILE.json", arguments->model, "Model file")
+      .Required();
+  AddOption(command,
+            "DATA FILE.csv",
+            arguments->files,
+            "CSV file with its inputs, or several: days of one component")
+      .Required();
+  AddOption(command,
+            "-o,--output FILE.csv",
+            arguments->out,
+            "File to write (default: stdout)");
+  AddOption(command,
+            "--probes PROBES.csv",
+            arguments->probes,
+            "Measurements of the same session: the map is moved by the "
+            "offset that they show up to each row; the interval "
+            "narrows, or widens where they contradict an offset");
   AddMapLogArguments(command, &arguments->log);
-  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
-  command->footer(
+  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  SetFooter(
+      command,
       "Columns: record and cycle where the data have them, predicted (in the "
       "target's unit),\nlower_90 ... upper_95 (empty without an interval), "
       "inside (1 as in training, 0 not),\nwhy not (range: a column leaves its "
@@ -315,7 +311,7 @@ void AddPredictCommand(CLI::App* app, Run* run) {
       "are\nconverted. Exit status 4 where a prediction is not finite: its "
       "cell "
       "stays empty.");
-  command->callback([arguments, run] { run->status = RunPredict(*arguments); });
+  OnRun(command, [arguments, run] { run->status = RunPredict(*arguments); });
 }
 
 }  // namespace errmap::cli

@@ -3,7 +3,6 @@
 #include <optional>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
@@ -14,7 +13,7 @@
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/words/kept_promise_text.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
@@ -229,46 +228,42 @@ void AddUpdateCommand(CLI::App* app, Run* run) {
       AddCommand(app,
                  "update",
                  "Fit a map again with new sessions, if that makes it better");
-  command->add_option("MODEL", arguments->model, "Model file")
-      ->required()
-      ->type_name("FILE.json");
-  command
-      ->add_option("NEW",
-                   arguments->file,
-                   "CSV file of new sessions, two at least: inputs and target")
-      ->required()
-      ->type_name("NEW.csv");
-  command->add_option("-o,--output", arguments->out, "Model file to write")
-      ->required()
-      ->type_name("FILE.json");
-  command
-      ->add_option("--known",
-                   arguments->known,
-                   "Rows that the map was fitted to, may be repeated (default: "
-                   "the files that it names, if unchanged)")
-      ->type_name("DATA.csv")
-      ->allow_extra_args(false);
-  command
-      ->add_option("--time",
-                   arguments->time,
-                   "Column of times (default: the only time* or zeit*)")
-      ->type_name("COL");
-  command
-      ->add_option("--session",
-                   arguments->session,
-                   "Column of sessions (default: session, day, run or tag)")
-      ->type_name("COL");
+  AddOption(command, "MODEL FILE.json", arguments->model, "Model file")
+      .Required();
+  AddOption(command,
+            "NEW NEW.csv",
+            arguments->file,
+            "CSV file of new sessions, two at least: inputs and target")
+      .Required();
+  AddOption(
+      command, "-o,--output FILE.json", arguments->out, "Model file to write")
+      .Required();
+  AddOption(command,
+            "--known DATA.csv",
+            arguments->known,
+            "Rows that the map was fitted to, may be repeated (default: "
+            "the files that it names, if unchanged)")
+      .OneAtATime();
+  AddOption(command,
+            "--time COL",
+            arguments->time,
+            "Column of times (default: the only time* or zeit*)");
+  AddOption(command,
+            "--session COL",
+            arguments->session,
+            "Column of sessions (default: session, day, run or tag)");
   AddRowOptions(command, &arguments->missing, &arguments->faults);
   AddSeedOption(command, &arguments->seed);
   AddFormatOption(command, &arguments->format);
-  command->add_flag("--quiet", arguments->quiet, "No remarks on stderr");
-  command->footer(
+  AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
+  SetFooter(
+      command,
       "The same type of model is fitted to old and new sessions, with the "
       "map's own inputs. Each new session is\npredicted by the old map and by "
       "one that has not seen it; the new one is taken where its RMSE is lower "
       "by\nmore than makes a difference, and lower in the geometric mean over "
       "the sessions. Else FILE.json is the old map.");
-  command->callback([arguments, run] {
+  OnRun(command, [arguments, run] {
     run->status = RunUpdate(*arguments, run->command_line);
   });
 }

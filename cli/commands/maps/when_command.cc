@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
@@ -15,7 +14,7 @@
 #include "cli/json_blocks.h"
 #include "cli/report/number_text.h"
 #include "cli/report/words/when_text.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/files/shown_path.h"
@@ -168,20 +167,18 @@ void AddWhenCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<WhenArguments>();
   CLI::App* command =
       AddCommand(app, "when", "Tell when a map wants its next probe");
-  command->add_option("MODEL", arguments->model, "Model file")
-      ->required()
-      ->type_name("FILE.json");
-  command
-      ->add_option("--goal",
-                   arguments->goal,
-                   "What 90 % of the errors are to stay within: 2um\n"
-                   "(default for lengths: 0.5 um)")
-      ->type_name("X");
+  AddOption(command, "MODEL FILE.json", arguments->model, "Model file")
+      .Required();
+  AddOption(command,
+            "--goal X",
+            arguments->goal,
+            "What 90 % of the errors are to stay within: 2um\n"
+            "(default for lengths: 0.5 um)");
   AddMapLogArguments(command, &arguments->log);
-  command->get_option("--after")->description(
-      "Readings from the last probe to now");
+  FindOption(command, "--after").About("Readings from the last probe to now");
   AddFormatOption(command, &arguments->format);
-  command->footer(
+  SetFooter(
+      command,
       "Probes are played through on the map's held-out sessions, as compare "
       "--rezero does:\na session's first row is a probe, a later one is judged "
       "by the last probe before it.\nA rule with a temperature is advised "
@@ -189,7 +186,7 @@ void AddWhenCommand(CLI::App* app, Run* run) {
       "it errs at least 5 % less than the best\nclock with no more probes, in "
       "two thirds of the sessions, none of which chose it.\nExit status: 0; 4 "
       "where --after says that a probe is due now.");
-  command->callback([arguments, run] {
+  OnRun(command, [arguments, run] {
     run->status = RunWhen(*arguments, run->command_line);
   });
 }

@@ -49,9 +49,6 @@ struct CompareArguments {
 /// Adds all options of the command and DATA.
 void AddCompareOptions(CLI::App* command, CompareArguments* arguments);
 
-/// Notes which flags stand on the command line that was parsed.
-void NoteGiven(const CLI::App& command, CompareArguments* arguments);
-
 /// What words after "compare" say. Throws UsageError.
 CompareArguments ReadCompareArguments(std::vector<std::string> words);
 

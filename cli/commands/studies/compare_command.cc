@@ -3,7 +3,6 @@
 #include <memory>
 #include <optional>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
@@ -24,7 +23,7 @@
 #include "cli/report/documents/study_table.h"
 #include "cli/report/report.h"
 #include "cli/report/words/check_text.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
@@ -276,13 +275,14 @@ void AddCompareCommand(CLI::App* app, Run* run) {
                  "compare",
                  "Fit several maps to the same rows and judge them on others");
   AddCompareOptions(command, arguments.get());
-  command->footer(
+  SetFooter(
+      command,
       "Exit status: 0 done, 2 wrong command line, 3 unusable input, 4 every "
       "fit failed, 130 interrupted.\n"
       "Example: errmap compare xdown.csv --models mean,poly:eq8,net:scg "
       "--out study");
-  command->callback([arguments, run, command] {
-    NoteGiven(*command, arguments.get());
+  OnRun(command, [arguments, run, command] {
+    arguments->given = GivenOptions(*command);
     arguments->command_line = run->command_line;
     run->status = RunCompare(*arguments);
   });

@@ -3,7 +3,6 @@
 #include <optional>
 #include <sstream>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -20,7 +19,7 @@
 #include "cli/report/words/kept_promise_text.h"
 #include "cli/report/words/regression_text.h"
 #include "cli/report/wrap_text.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
@@ -291,28 +290,32 @@ void AddFitCommand(CLI::App* app, Run* run) {
   CLI::App* command =
       AddCommand(app, "fit", "Fit one map to all rows and write it");
   AddDataArguments(command, &arguments->data);
-  command->add_option("--model", arguments->model, "The model, e.g. poly:eq8")
-      ->required()
-      ->type_name("SPEC");
-  command->add_option("-o,--output", arguments->out, "Model file to write")
-      ->required()
-      ->type_name("FILE.json");
+  AddOption(
+      command, "--model SPEC", arguments->model, "The model, e.g. poly:eq8")
+      .Required();
+  AddOption(
+      command, "-o,--output FILE.json", arguments->out, "Model file to write")
+      .Required();
   AddSeedOption(command, &arguments->seed);
-  command->add_flag("--correlations",
-                    arguments->correlations,
-                    "Also print the correlations of inputs and target");
-  command->add_flag("--no-interval",
-                    arguments->no_interval,
-                    "Do not fit again with days, cycles or blocks held out to "
-                    "find what the map may promise there");
-  command->add_flag("--details",
-                    arguments->details,
-                    "Print the equation and tables whatever their size");
+  AddFlag(command,
+          "--correlations",
+          arguments->correlations,
+          "Also print the correlations of inputs and target");
+  AddFlag(command,
+          "--no-interval",
+          arguments->no_interval,
+          "Do not fit again with days, cycles or blocks held out to "
+          "find what the map may promise there");
+  AddFlag(command,
+          "--details",
+          arguments->details,
+          "Print the equation and tables whatever their size");
   AddKeepPathsFlag(command);
   AddFormatOption(command, &arguments->format);
-  command->footer(
+  SetFooter(
+      command,
       "Example: errmap fit xdown.csv --model poly:full:degree=3 -o map.json");
-  command->callback([arguments, run] {
+  OnRun(command, [arguments, run] {
     run->status = RunFit(*arguments, run->command_line);
   });
 }

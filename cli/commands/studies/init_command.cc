@@ -2,7 +2,6 @@
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
@@ -12,7 +11,7 @@
 #include "cli/desk/toml/study_file_text.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/number_text.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/files/atomic_file.h"
@@ -98,30 +97,30 @@ void AddInitCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<InitArguments>();
   CLI::App* command = AddCommand(
       app, "init", "Write a commented study file for a data file or a folder");
-  command
-      ->add_option(
-          "DATA",
-          arguments->data,
-          "CSV file, one row per sample; or a folder with such of many "
-          "machines and components below it")
-      ->required()
-      ->type_name("FILE.csv|DIR");
-  command
-      ->add_option("--target",
-                   arguments->target,
-                   "Column to be mapped (default: the only one named error*)")
-      ->type_name("COL");
-  command->add_option("-o,--output", arguments->out, "Study file to write")
-      ->type_name("study.toml")
-      ->capture_default_str();
-  command->add_flag(
-      "--force", arguments->force, "Replace a file that is there already");
-  command->footer(
+  AddOption(command,
+            "DATA FILE.csv|DIR",
+            arguments->data,
+            "CSV file, one row per sample; or a folder with such of many "
+            "machines and components below it")
+      .Required();
+  AddOption(command,
+            "--target COL",
+            arguments->target,
+            "Column to be mapped (default: the only one named error*)");
+  AddOption(
+      command, "-o,--output study.toml", arguments->out, "Study file to write")
+      .ShowDefault();
+  AddFlag(command,
+          "--force",
+          arguments->force,
+          "Replace a file that is there already");
+  SetFooter(
+      command,
       "A column such as direction with few values becomes one component per "
       "value.\n"
       "Example: errmap init xdown.csv -o study.toml && errmap compare --config "
       "study.toml");
-  command->callback([arguments, run] { run->status = RunInit(*arguments); });
+  OnRun(command, [arguments, run] { run->status = RunInit(*arguments); });
 }
 
 }  // namespace errmap::cli

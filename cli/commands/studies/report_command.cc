@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command.h"
@@ -15,7 +14,7 @@
 #include "cli/report/figures/figures.h"
 #include "cli/report/report.h"
 #include "cli/report/words/data_words.h"
-#include "cli/shell/add_command.h"
+#include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
@@ -184,43 +183,41 @@ void AddReportCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<ReportArguments>();
   CLI::App* command = AddCommand(
       app, "report", "Draw the report of a comparison anew, without fitting");
-  command
-      ->add_option("DIR",
-                   arguments->folder,
-                   "Folder that errmap compare --out wrote: report.html and "
-                   "report.md are drawn from its results.json; or a store")
-      ->required()
-      ->type_name("");
-  command
-      ->add_option("--figures",
-                   arguments->figures,
-                   "Also write every figure here: NAME.svg, and NAME.gp, a "
-                   "gnuplot script with its data")
-      ->type_name("DIR2");
-  command
-      ->add_option(
-          "--image", arguments->image, "What the scripts draw: pdf, png or svg")
-      ->check(CLI::IsMember({"pdf", "png", "svg"}))
-      ->type_name("pdf|png|svg")
-      ->capture_default_str();
-  command
-      ->add_option("--format",
-                   arguments->format,
-                   "Print html or md instead of writing into DIR")
-      ->check(CLI::IsMember({"html", "md"}))
-      ->type_name("html|md");
-  command
-      ->add_option("--component",
-                   arguments->component,
-                   "Draw this component's page, in full; without it the page "
-                   "of all")
-      ->type_name("NAME");
+  AddOption(command,
+            "DIR",
+            arguments->folder,
+            "Folder that errmap compare --out wrote: report.html and "
+            "report.md are drawn from its results.json; or a store")
+      .Required()
+      .Value("");
+  AddOption(command,
+            "--figures DIR2",
+            arguments->figures,
+            "Also write every figure here: NAME.svg, and NAME.gp, a "
+            "gnuplot script with its data");
+  AddOption(command,
+            "--image pdf|png|svg",
+            arguments->image,
+            "What the scripts draw: pdf, png or svg")
+      .OneOf({"pdf", "png", "svg"})
+      .ShowDefault();
+  AddOption(command,
+            "--format html|md",
+            arguments->format,
+            "Print html or md instead of writing into DIR")
+      .OneOf({"html", "md"});
+  AddOption(command,
+            "--component NAME",
+            arguments->component,
+            "Draw this component's page, in full; without it the page "
+            "of all");
   AddForceFlag(command, &arguments->force);
-  command->footer(
+  SetFooter(
+      command,
       "Exit status: 0 done, 2 wrong command line, 3 unusable results.json.\n"
       "Example: errmap report study --figures paper, then in paper gnuplot "
       "*.gp");
-  command->callback([arguments, run] { run->status = RunReport(*arguments); });
+  OnRun(command, [arguments, run] { run->status = RunReport(*arguments); });
 }
 
 }  // namespace errmap::cli
