@@ -2,16 +2,14 @@
 
 namespace Eigen {
 
-template class HouseholderQR<MatrixXd>;
+template void HouseholderQR<MatrixXd>::computeInPlace();
 template void HouseholderQR<MatrixXd>::_solve_impl(const VectorXd&,
                                                    VectorXd&) const;
-template class ColPivHouseholderQR<MatrixXd>;
+template void ColPivHouseholderQR<MatrixXd>::computeInPlace();
 template void ColPivHouseholderQR<MatrixXd>::_solve_impl(const VectorXd&,
                                                          VectorXd&) const;
-template class SelfAdjointEigenSolver<MatrixXd>;
 template SelfAdjointEigenSolver<MatrixXd>&
 SelfAdjointEigenSolver<MatrixXd>::compute(const EigenBase<MatrixXd>&, int);
-template class LDLT<MatrixXd>;
 template LDLT<MatrixXd>& LDLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
 template void LDLT<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
 template void LDLT<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;

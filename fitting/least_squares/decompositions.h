@@ -10,16 +10,14 @@
 // be compiled anew: give it a name first.
 namespace Eigen {
 
-extern template class HouseholderQR<MatrixXd>;
+extern template void HouseholderQR<MatrixXd>::computeInPlace();
 extern template void HouseholderQR<MatrixXd>::_solve_impl(const VectorXd&,
                                                           VectorXd&) const;
-extern template class ColPivHouseholderQR<MatrixXd>;
+extern template void ColPivHouseholderQR<MatrixXd>::computeInPlace();
 extern template void ColPivHouseholderQR<MatrixXd>::_solve_impl(
     const VectorXd&, VectorXd&) const;
-extern template class SelfAdjointEigenSolver<MatrixXd>;
 extern template SelfAdjointEigenSolver<MatrixXd>&
 SelfAdjointEigenSolver<MatrixXd>::compute(const EigenBase<MatrixXd>&, int);
-extern template class LDLT<MatrixXd>;
 extern template LDLT<MatrixXd>& LDLT<MatrixXd>::compute(
     const EigenBase<MatrixXd>&);
 extern template void LDLT<MatrixXd>::_solve_impl(const VectorXd&,
