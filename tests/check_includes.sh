@@ -199,6 +199,11 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
       next
     }
     if (folder == "tests") next  # May use the other libraries.
+    if (name ~ /^(oneapi\/)?tbb\// && name !~ /version/ &&
+        FILENAME != "fitting/parallel_for.cc") {
+      violation("<" name "> belongs in fitting/parallel_for.cc")
+      next
+    }
     if (name ~ /^boost\// && FILENAME !~ /^stats\/.*\.cc$/) {
       violation("<" name "> belongs in stats/*.cc")
       next

@@ -6,11 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include "fitting/interruption.h"
 #include "fitting/matrix_product.h"
+#include "fitting/parallel_for.h"
 
 // LAPACK 3.4: QR of a triangle on top of a pentagonal block, and its reflectors
 // applied to further columns.
@@ -192,23 +190,16 @@ MatrixXd ReduceToTriangle(Index rows,
   const Index chains = std::clamp<Index>(blocks, 1, options.chains);
   std::vector<MatrixXd> triangles(static_cast<std::size_t>(chains),
                                   MatrixXd::Zero(columns, columns));
-  tbb::task_arena arena(options.threads);
-  arena.execute([&] {
-    tbb::parallel_for(
-        Index{0},
-        chains,
-        [&](Index chain) {
-          MatrixXd block(options.block_rows, columns);
-          const Index end = (chain + 1) * blocks / chains;
-          for (Index b = chain * blocks / chains; b < end; ++b) {
-            const Index first = b * options.block_rows;
-            const Index count = std::min(options.block_rows, rows - first);
-            fill(first, block.topRows(count));
-            FoldIntoTriangle(&triangles[static_cast<std::size_t>(chain)],
-                             block.topRows(count));
-          }
-        },
-        tbb::simple_partitioner());
+  ParallelFor(options.threads, chains, [&](Index chain) {
+    MatrixXd block(options.block_rows, columns);
+    const Index end = (chain + 1) * blocks / chains;
+    for (Index b = chain * blocks / chains; b < end; ++b) {
+      const Index first = b * options.block_rows;
+      const Index count = std::min(options.block_rows, rows - first);
+      fill(first, block.topRows(count));
+      FoldIntoTriangle(&triangles[static_cast<std::size_t>(chain)],
+                       block.topRows(count));
+    }
   });
   for (std::size_t apart = 1; apart < triangles.size(); apart *= 2) {
     for (std::size_t i = 0; i + apart < triangles.size(); i += 2 * apart) {

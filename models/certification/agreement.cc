@@ -1,6 +1,6 @@
 
-#include <oneapi/tbb/parallel_for.h>
 
+#include "fitting/parallel_for.h"
 #include "models/certification/certification.h"
 #include "models/certification/net_example.h"
 #include "models/certification/solvers.h"
@@ -44,7 +44,7 @@ void CertifyAgreement(Certification* certification) {
   }
   std::vector<AgreementCertificate> rows(solvers.size());
   std::vector<VectorXd> predictions(solvers.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, solvers.size(), [&](std::size_t i) {
+  fitting::ParallelFor(0, solvers.size(), [&](std::size_t i) {
     // The slowest, nonlinear conjugate gradients, comes within the floor after
     // some 20000 iterations: sooner or later by the processor's rounding.
     constexpr fitting::StoppingRules kStopping{

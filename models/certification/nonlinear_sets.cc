@@ -1,7 +1,6 @@
 #include <algorithm>
 
-#include <oneapi/tbb/parallel_for.h>
-
+#include "fitting/parallel_for.h"
 #include "models/certification/certification.h"
 #include "models/certification/solvers.h"
 #include "models/certification/strd_functions.h"
@@ -118,7 +117,7 @@ void CertifyNonlinear(Certification* certification) {
     }
   }
   certification->nonlinear.resize(cases.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
+  fitting::ParallelFor(0, cases.size(), [&](std::size_t i) {
     certification->nonlinear[i] = RunCase(cases[i]);
   });
   for (const CertifiedSolver* solver : solvers) {

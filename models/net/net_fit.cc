@@ -6,9 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include <oneapi/tbb/parallel_for.h>
-
-#include "models/jobs_arena.h"
+#include "fitting/parallel_for.h"
 #include "models/net/feedforward_net.h"
 #include "models/net/training_sample.h"
 
@@ -19,17 +17,6 @@ using data::Dataset;
 using Eigen::Index;
 
 constexpr double kNotYet = std::numeric_limits<double>::quiet_NaN();
-
-// Every job writes to a place of its own, so their order does not matter.
-template <typename Job>
-void RunJobs(std::size_t count, int threads, const Job& job) {
-  if (threads <= 1 || count <= 1) {
-    for (std::size_t i = 0; i < count; ++i) job(i);
-    return;
-  }
-  InJobsArena(threads,
-              [&] { oneapi::tbb::parallel_for(std::size_t{0}, count, job); });
-}
 
 ColumnScaling ScalingOf(InputScaling kind, const Eigen::MatrixXd& inputs) {
   switch (kind) {
@@ -258,15 +245,16 @@ std::vector<double> InnerHoldoutRmse(const NetDesign& design,
         static_cast<double>(split[static_cast<std::size_t>(fold)].test.size());
   }
   Eigen::MatrixXd squares(count, static_cast<Index>(trials.size()));
-  RunJobs(trials.size() * split.size(), context.threads, [&](std::size_t job) {
-    squares.reshaped()[static_cast<Index>(job)] =
-        HeldOutSquares(design,
-                       trainer,
-                       training,
-                       split[job % split.size()],
-                       trials[job / split.size()],
-                       context);
-  });
+  fitting::ParallelFor(
+      context.threads, trials.size() * split.size(), [&](std::size_t job) {
+        squares.reshaped()[static_cast<Index>(job)] =
+            HeldOutSquares(design,
+                           trainer,
+                           training,
+                           split[job % split.size()],
+                           trials[job / split.size()],
+                           context);
+      });
   std::vector<double> rmse;
   for (Index trial = 0; trial < squares.cols(); ++trial) {
     rmse.push_back(PooledRmse(folds, squares.col(trial), rows, context));
@@ -310,7 +298,7 @@ WfactorWalk::WfactorWalk(const NetDesign& design,
 WfactorWalk::~WfactorWalk() = default;
 
 double WfactorWalk::Step(double wfactor) {
-  RunJobs(folds_.size(), context_.threads, [&](std::size_t job) {
+  fitting::ParallelFor(context_.threads, folds_.size(), [&](std::size_t job) {
     Fold& fold = folds_[job];
     if (!fold.rows) return;
     NetTraining training = fold.rows->From(seed_, wfactor);
@@ -342,7 +330,7 @@ std::vector<fitting::Minimum> TrainFromStarts(
     std::vector<std::uint64_t>* seeds,
     const FitContext& context) {
   std::vector<fitting::Minimum> minima(seeds->size());
-  RunJobs(seeds->size(), context.threads, [&](std::size_t i) {
+  fitting::ParallelFor(context.threads, seeds->size(), [&](std::size_t i) {
     if (i > 0 && IsStopped(context)) return;
     minima[i] =
         TrainAlong(rows,

@@ -8,15 +8,13 @@
 #include <numbers>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for_each.h>
 
 #include "data/csv.h"
 #include "data/formats/pattern_file.h"
 #include "data/input_error.h"
 #include "data/measurements/dataset.h"
 #include "data/text.h"
-#include "models/jobs_arena.h"
+#include "fitting/parallel_for.h"
 
 namespace errmap::models {
 namespace {
@@ -432,12 +430,8 @@ NetcgStudy RunReportStudy(const std::string& folder,
     return s.patterns * s.num_weights();
   });
   const auto begin = std::chrono::steady_clock::now();
-  const int jobs =
-      options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();
-  InJobsArena(jobs, [&] {
-    tbb::parallel_for_each(order, [&](NetcgStudyRun* run) {
-      Train(run->report.down ? down : up, options.netcg.precision, run);
-    });
+  fitting::ParallelFor(options.jobs, order.size(), [&](std::size_t i) {
+    Train(order[i]->report.down ? down : up, options.netcg.precision, order[i]);
   });
   study.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)

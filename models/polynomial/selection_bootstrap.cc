@@ -4,9 +4,7 @@
 #include <map>
 #include <mutex>
 
-#include <tbb/parallel_for.h>
-
-#include "models/jobs_arena.h"
+#include "fitting/parallel_for.h"
 #include "models/regression_report.h"
 #include "stats/random.h"
 
@@ -45,23 +43,21 @@ VectorXd BootstrapInclusion(const DictionaryRows& rows,
   VectorXd shares = VectorXd::Zero(rows.candidates->cols());
   std::mutex mutex;
   bool stopped = false;
-  InJobsArena(context.threads, [&] {
-    tbb::parallel_for(0, repetitions, [&](int i) {
-      if (context.stop != nullptr && context.stop->load()) {
-        const std::lock_guard lock(mutex);
-        stopped = true;
-        return;
-      }
-      const fitting::SelectionProblem problem{
-          *rows.candidates,
-          rows.response,
-          weights[static_cast<std::size_t>(i)],
-          rows.intercept,
-          rows.observations};
-      const std::vector<Index> chosen = choose(problem);
+  fitting::ParallelFor(context.threads, repetitions, [&](int i) {
+    if (context.stop != nullptr && context.stop->load()) {
       const std::lock_guard lock(mutex);
-      for (const Index term : chosen) shares[term] += 1.0;
-    });
+      stopped = true;
+      return;
+    }
+    const fitting::SelectionProblem problem{
+        *rows.candidates,
+        rows.response,
+        weights[static_cast<std::size_t>(i)],
+        rows.intercept,
+        rows.observations};
+    const std::vector<Index> chosen = choose(problem);
+    const std::lock_guard lock(mutex);
+    for (const Index term : chosen) shares[term] += 1.0;
   });
   if (stopped) {
     return VectorXd::Constant(shares.size(),

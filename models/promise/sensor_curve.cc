@@ -9,15 +9,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include "fitting/fold_codes.h"
 #include "fitting/interruption.h"
 #include "fitting/least_squares/decompositions.h"
+#include "fitting/parallel_for.h"
 #include "models/error_model.h"
 #include "models/history/view.h"
 #include "models/inner_folds.h"
-#include "models/jobs_arena.h"
 #include "models/scaling.h"
 #include "stats/random.h"
 
@@ -480,9 +478,7 @@ SensorCurve LearnSensors(const data::Dataset& dataset,
     }
     if (search.progress) search.progress(++done, static_cast<int>(folds) + 1);
   };
-  InJobsArena(search.jobs, [&] {
-    oneapi::tbb::parallel_for(Index{0}, folds + 1, choose_in);
-  });
+  fitting::ParallelFor(search.jobs, folds + 1, choose_in);
 
   const VectorXd rmse =
       (squares.rowwise().sum() / static_cast<double>(dataset.num_rows()))

@@ -10,11 +10,10 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "data/argument_name.h"
 #include "fitting/interruption.h"
-#include "models/jobs_arena.h"
+#include "fitting/parallel_for.h"
 #include "models/recipe_catalog.h"
 #include "models/shared_work.h"
 #include "models/study/fold_pool.h"
@@ -247,14 +246,8 @@ class StudyRun {
   }
 
   StudyResult Run() {
-    // Each worker takes the next task, so that they start in their order.
-    std::atomic<std::size_t> next{0};
-    InJobsArena(options_.jobs, [&] {
-      oneapi::tbb::parallel_for(0, options_.jobs, [&](int /*worker*/) {
-        for (std::size_t i = next++; i < tasks_.size(); i = next++) {
-          RunTask(tasks_[i]);
-        }
-      });
+    fitting::ParallelFor(options_.jobs, tasks_.size(), [&](std::size_t i) {
+      RunTask(tasks_[i]);
     });
     StudyResult result;
     for (std::size_t model = 0; model < recipes_.size(); ++model) {

@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-#include <tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 int main() {

@@ -20,8 +20,6 @@
 
 namespace tbb {
 
-struct simple_partitioner {};
-
 namespace info {
 inline int default_concurrency() {
   return std::max(2, static_cast<int>(std::thread::hardware_concurrency()));
@@ -94,20 +92,6 @@ void parallel_for(Index begin, Index end, const Work& work) {
   take_turns();
   for (std::thread& thread : threads) thread.join();
   if (thrown != nullptr) std::rethrow_exception(thrown);
-}
-
-template <typename Index, typename Work>
-void parallel_for(Index begin,
-                  Index end,
-                  const Work& work,
-                  const simple_partitioner& /*partitioner*/) {
-  parallel_for(begin, end, work);
-}
-
-template <typename Container, typename Work>
-void parallel_for_each(Container& items, const Work& work) {
-  parallel_for(
-      std::size_t{0}, items.size(), [&](std::size_t i) { work(items[i]); });
 }
 
 }  // namespace tbb

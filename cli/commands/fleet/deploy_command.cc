@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/fleet/fleet_commands.h"
@@ -24,6 +23,7 @@
 #include "data/sha256.h"
 #include "data/tables/gzip.h"
 #include "data/text.h"
+#include "fitting/parallel_for.h"
 #include "models/fleet/session_measures.h"
 #include "models/model_file.h"
 
@@ -186,7 +186,7 @@ std::vector<Deployed> PrepareAll(const fleet::StorePaths& paths,
       std::filesystem::path(paths.Map("")).parent_path().string();
   data::PrepareFolder(folder);
   std::vector<Deployed> deployed(asked.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, asked.size(), [&](std::size_t i) {
+  fitting::ParallelFor(0, asked.size(), [&](std::size_t i) {
     deployed[i] = Prepare(paths, model, since, asked[i]);
   });
   data::FlushFileSystemOf(folder);

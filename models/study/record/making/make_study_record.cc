@@ -2,14 +2,12 @@
 
 #include <cstddef>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include "data/sha256.h"
+#include "fitting/parallel_for.h"
 #include "models/export/program/map_program.h"
 #include "models/export/program_cost.h"
 #include "models/history/with_history.h"
 #include "models/inner_folds.h"
-#include "models/jobs_arena.h"
 #include "models/study/record/making/fit_blocks.h"
 #include "models/study/record/making/held_out_residuals.h"
 #include "models/study/record/making/make_figure_record.h"
@@ -251,11 +249,8 @@ ComponentRecord MakeComponentRecord(const ComponentStudy& study, int jobs) {
   }
   record.models.resize(study.study.models.size());
   // The tests of a million residuals take seconds.
-  InJobsArena(jobs, [&] {
-    oneapi::tbb::parallel_for(
-        std::size_t{0}, record.models.size(), [&](std::size_t i) {
-          record.models[i] = MakeModel(study, i);
-        });
+  fitting::ParallelFor(jobs, record.models.size(), [&](std::size_t i) {
+    record.models[i] = MakeModel(study, i);
   });
   AddJudgement(study, &record);
   if (record.recommendation) {

@@ -6,10 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include "fitting/interruption.h"
-#include "models/jobs_arena.h"
+#include "fitting/parallel_for.h"
 
 namespace errmap::models {
 namespace {
@@ -86,16 +84,13 @@ std::optional<SessionWorth> WorthOfASession(const Dataset& dataset,
                      .indifference = options.indifference};
   context.inner_holdout = holdout.inner;
   std::vector<Loss> losses(holdout.folds.size());
-  InJobsArena(options.jobs, [&] {
-    oneapi::tbb::parallel_for(
-        std::size_t{0}, losses.size(), [&](std::size_t i) {
-          losses[i] = LossOfFold(dataset,
-                                 holdout.folds[i],
-                                 i,
-                                 recipe,
-                                 result.folds[i].test_rmse,
-                                 context);
-        });
+  fitting::ParallelFor(options.jobs, losses.size(), [&](std::size_t i) {
+    losses[i] = LossOfFold(dataset,
+                           holdout.folds[i],
+                           i,
+                           recipe,
+                           result.folds[i].test_rmse,
+                           context);
   });
   if (options.stop != nullptr && options.stop->load()) return std::nullopt;
   double log_ratio = 0.0;

@@ -1,2 +1,0 @@
-#pragma once
-#include "tests/thread_sanitizer/tbb_by_threads.h"
