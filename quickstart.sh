@@ -281,9 +281,9 @@ quietly cmake --preset "$preset" -DERRMAP_BUILD_TESTS="$tests"
 
 jobs=$(compile_jobs)
 if [ "$mode" = test ]; then
-  build "errmap and its tests" 14 all
+  build "errmap and its tests" 16 all
 else
-  build errmap 6 errmap
+  build errmap 7 errmap
 fi
 
 say "running: build/errmap compare $example"
