@@ -4,7 +4,7 @@
 #include <atomic>
 
 #include <oneapi/tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+#include <oneapi/tbb/task_arena.h>
 
 int main() {
   volatile int count = 0;
