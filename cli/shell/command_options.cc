@@ -126,20 +126,19 @@ ERRMAP_OPTION(std::vector<std::string>);
 
 Option AddOption(CLI::App* command,
                  const std::string& usage,
-                 std::function<void(const std::string&)> take,
+                 const std::function<void(const std::string&)>& take,
                  const std::string& about) {
-  return WithValue(
-      command->add_option_function(NamesOf(usage), std::move(take), about),
-      usage);
+  return WithValue(command->add_option_function(NamesOf(usage), take, about),
+                   usage);
 }
 
-Option AddOption(CLI::App* command,
-                 const std::string& usage,
-                 std::function<void(const std::vector<std::string>&)> take,
-                 const std::string& about) {
-  return WithValue(
-      command->add_option_function(NamesOf(usage), std::move(take), about),
-      usage);
+Option AddOption(
+    CLI::App* command,
+    const std::string& usage,
+    const std::function<void(const std::vector<std::string>&)>& take,
+    const std::string& about) {
+  return WithValue(command->add_option_function(NamesOf(usage), take, about),
+                   usage);
 }
 
 void AddWordOption(CLI::App* command,
@@ -148,12 +147,12 @@ void AddWordOption(CLI::App* command,
                    const std::vector<std::string>& words,
                    const std::string& usual,
                    std::function<void(std::size_t)> choose) {
-  std::function<void(const std::string&)> take =
+  const std::function<void(const std::string&)> take =
       [words, choose = std::move(choose)](const std::string& word) {
         choose(static_cast<std::size_t>(std::ranges::find(words, word) -
                                         words.begin()));
       };
-  AddOption(command, name, std::move(take), about)
+  AddOption(command, name, take, about)
       .OneOf(words)
       .Value(fmt::format("{}", fmt::join(words, "|")))
       .Default(usual);

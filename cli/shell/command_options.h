@@ -63,12 +63,13 @@ Option AddOption(CLI::App* command,
                  const std::string& about);
 Option AddOption(CLI::App* command,
                  const std::string& usage,
-                 std::function<void(const std::string&)> take,
+                 const std::function<void(const std::string&)>& take,
                  const std::string& about);
-Option AddOption(CLI::App* command,
-                 const std::string& usage,
-                 std::function<void(const std::vector<std::string>&)> take,
-                 const std::string& about);
+Option AddOption(
+    CLI::App* command,
+    const std::string& usage,
+    const std::function<void(const std::vector<std::string>&)>& take,
+    const std::string& about);
 /// One that takes one of `words`; `choose` is told which.
 void AddWordOption(CLI::App* command,
                    const std::string& name,

@@ -89,6 +89,7 @@ class Dataset {
   }
   const std::vector<ColumnInfo>& inputs() const { return parts_.inputs; }
   const Eigen::MatrixXd& input_values() const {
+    // NOLINTNEXTLINE(clang-analyzer-core.uninitialized.UndefReturn): has a log
     return reads_log() ? parts_.log->input_values : parts_.input_values;
   }
   const ColumnInfo& target() const { return parts_.target; }

@@ -109,7 +109,7 @@ std::string MapText(const fleet::StorePaths& paths,
                     const Recommended& recommended) {
   if (!model.empty()) return data::ReadFile(model, data::kMostTextOfPrograms);
   const std::string& component = recommended.component;
-  const std::string text = Unpacked(paths, component, fleet::kMapFile);
+  std::string text = Unpacked(paths, component, fleet::kMapFile);
   if (!recommended.sha256.empty() && data::Sha256(text) == recommended.sha256) {
     return text;
   }
@@ -121,7 +121,7 @@ std::string MapText(const fleet::StorePaths& paths,
 
 // Keeps a text under its hash, which is returned; flushed by the caller.
 std::string Keep(const fleet::StorePaths& paths, const std::string& text) {
-  const std::string sha256 = data::Sha256(text);
+  std::string sha256 = data::Sha256(text);
   const std::string path = paths.Map(sha256);
   std::error_code ignored;
   const bool is_kept = std::filesystem::exists(path, ignored) &&
