@@ -6,6 +6,7 @@
 namespace errmap::fitting {
 
 namespace parallel {
+/// ParallelFor, compiled once.
 void Run(int threads,
          std::size_t count,
          const std::function<void(std::size_t)>& job);
