@@ -77,7 +77,7 @@ void AddCertifyCommand(CLI::App* app, Run* run) {
       "certify",
       "Prove solvers and statistics on problems whose answers are known");
   AddOption(command,
-            "PART nist|gradients|agreement|all",
+            "PART",
             arguments->part,
             "nist: NIST's reference data sets; gradients: derivatives "
             "against extrapolated differences; agreement: every solver "

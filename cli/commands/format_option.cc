@@ -2,9 +2,6 @@
 
 #include <vector>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include "cli/report/table.h"
 #include "cli/shell/command_options.h"
 
@@ -15,10 +12,7 @@ void AddFormats(CLI::App* command,
                 const std::string& words,
                 const std::vector<std::string>& formats,
                 std::string* format) {
-  AddOption(command, "--format", *format, words)
-      .OneOf(formats)
-      .Value(fmt::format("{}", fmt::join(formats, "|")))
-      .ShowDefault();
+  AddOption(command, "--format", *format, words).OneOf(formats).ShowDefault();
 }
 
 }  // namespace

@@ -180,7 +180,7 @@ void AddNetcgCommand(CLI::App* app, Run* run) {
             "Instead, the report's nine experiments (Tables 3 and 4) on "
             "a folder of errmap simulate turning-centre");
   AddOption(command,
-            "--precision single|double",
+            "--precision",
             arguments->precision,
             "Arithmetic: single is the program's own")
       .OneOf({"single", "double"})

@@ -365,7 +365,7 @@ void AddResidualsCommand(CLI::App* app, Run* run) {
       .Range(0LL, 10'000LL)
       .ShowDefault();
   AddOption(command,
-            "--missing error|drop-rows",
+            "--missing",
             arguments->missing,
             "What empty, NA and NaN cells do: error or drop-rows")
       .OneOf({"error", "drop-rows"})

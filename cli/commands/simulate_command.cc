@@ -66,11 +66,12 @@ void AddSimulateCommand(CLI::App* app, Run* run) {
   CLI::App* command = AddCommand(
       app, "simulate", "Make measurements of a machine whose truth is known");
   AddOption(command,
-            "MACHINE NAME",
+            "MACHINE",
             arguments->machine,
             "turning-centre: two slides, a spindle, 40 thermocouples")
       .Required()
-      .OneOf({"turning-centre"});
+      .OneOf({"turning-centre"})
+      .Value("NAME");
   AddOption(command, "-o,--output DIR", arguments->folder, "Folder to write")
       .Required();
   AddSeedOption(command, &options.seed, "Seed of all that is drawn");

@@ -71,6 +71,7 @@ const Option& Option::NotNegative() const {
 
 const Option& Option::OneOf(const std::vector<std::string>& words) const {
   option_->check(CLI::IsMember(words));
+  option_->type_name(fmt::format("{}", fmt::join(words, "|")));
   return *this;
 }
 
@@ -152,10 +153,7 @@ void AddWordOption(CLI::App* command,
         choose(static_cast<std::size_t>(std::ranges::find(words, word) -
                                         words.begin()));
       };
-  AddOption(command, name, take, about)
-      .OneOf(words)
-      .Value(fmt::format("{}", fmt::join(words, "|")))
-      .Default(usual);
+  AddOption(command, name, take, about).OneOf(words).Default(usual);
 }
 
 Option AddFlag(CLI::App* command,

@@ -11,13 +11,14 @@ class App;
 class Option;
 }  // namespace CLI
 
-// How commands say what they take. Here and in cli/application.cc alone CLI11
-// is known by its headers: they take a compiler three seconds, used or not.
+// How commands say what they take. In this room and in cli/application.cc alone
+// CLI11 is known by its headers: they take a compiler three seconds, used or
+// not.
 
 namespace errmap::cli {
 
-/// An option or a positional word of a command, which outlives it; each call
-/// says one thing more of it.
+/// An option or a positional word of a command, for as long as that lives; each
+/// call says one thing more of it.
 class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
@@ -35,6 +36,7 @@ class Option {
       std::function<std::string(const std::string&)> complaint) const;
   const Option& Positive() const;
   const Option& NotNegative() const;
+  /// Its value is one of `words`, and help says so.
   const Option& OneOf(const std::vector<std::string>& words) const;
   /// Takes "a,b" for two values.
   const Option& SeparatedBy(char delimiter) const;
@@ -70,6 +72,7 @@ Option AddOption(
     const std::string& usage,
     const std::function<void(const std::vector<std::string>&)>& take,
     const std::string& about);
+
 /// One that takes one of `words`; `choose` is told which.
 void AddWordOption(CLI::App* command,
                    const std::string& name,

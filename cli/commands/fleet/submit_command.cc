@@ -190,10 +190,10 @@ void AddSubmitCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<SubmitArguments>();
   CLI::App* command = AddCommand(
       app, "submit", "Write the scripts that have a cluster do a fleet study");
-  AddOption(
-      command, "SCHEDULER NAME", arguments->scheduler, "slurm: a job array")
+  AddOption(command, "SCHEDULER", arguments->scheduler, "slurm: a job array")
       .Required()
-      .OneOf({"slurm"});
+      .OneOf({"slurm"})
+      .Value("NAME");
   AddOption(command, "--config FILE.toml", arguments->config, "Study file")
       .Required();
   AddOption(command, "--out DIR", arguments->store, "Store to fill").Required();

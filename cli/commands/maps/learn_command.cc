@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
@@ -343,8 +342,7 @@ void AddLearnCommand(CLI::App* app, Run* run) {
             "What is learnt from one after another: sessions, cycles "
             "(the groups) or sensors")
       .OneOf(std::vector<std::string>(models::kLearntBy.begin(),
-                                      models::kLearntBy.end()))
-      .Value(fmt::format("{}", fmt::join(models::kLearntBy, "|")));
+                                      models::kLearntBy.end()));
   AddOption(command,
             "--models LIST",
             arguments->model_list,

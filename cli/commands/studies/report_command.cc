@@ -196,13 +196,13 @@ void AddReportCommand(CLI::App* app, Run* run) {
             "Also write every figure here: NAME.svg, and NAME.gp, a "
             "gnuplot script with its data");
   AddOption(command,
-            "--image pdf|png|svg",
+            "--image",
             arguments->image,
             "What the scripts draw: pdf, png or svg")
       .OneOf({"pdf", "png", "svg"})
       .ShowDefault();
   AddOption(command,
-            "--format html|md",
+            "--format",
             arguments->format,
             "Print html or md instead of writing into DIR")
       .OneOf({"html", "md"});
