@@ -33,6 +33,7 @@
 #include "cli/shell/terminal.h"
 #include "cli/shell/topics.h"
 #include "data/argument_name.h"
+#include "data/files/atomic_file.h"
 #include "data/files/shown_path.h"
 #include "data/input_error.h"
 #include "data/text.h"
@@ -377,6 +378,7 @@ int RunCommand(int argc, char** argv) {
   } catch (...) {
     Fail(kOtherFailure, "ended by an error that has no text");
   }
+  data::EndWriting();
   std::_Exit(kOtherFailure);
 }
 

@@ -1,7 +1,9 @@
 #include "data/files/atomic_file.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <fcntl.h>
@@ -10,6 +12,7 @@
 #include <random>
 #include <string_view>
 #include <system_error>
+#include <thread>
 #include <unistd.h>
 #include <utility>
 
@@ -190,6 +193,24 @@ void FlushFolder(const std::filesystem::path& folder) {
   if (descriptor.is_open()) fsync(descriptor.get());
 }
 
+std::atomic<int> num_writing = 0;
+std::atomic<bool> writing_has_ended = false;
+
+// Lives while a file is written. Counted before it looks, so that either it
+// sees the end or the end sees it.
+class Writing {
+ public:
+  Writing() {
+    ++num_writing;
+    if (!writing_has_ended) return;
+    --num_writing;
+    for (;;) pause();
+  }
+  Writing(const Writing&) = delete;
+  Writing& operator=(const Writing&) = delete;
+  ~Writing() { --num_writing; }
+};
+
 enum class Flush { kNow, kLater };
 
 void ReplaceFile(const std::string& path,
@@ -203,6 +224,7 @@ void ReplaceFile(const std::string& path,
     target = std::filesystem::canonical(path, error);
     if (error) ThrowUnwritable(path, error.value());
   }
+  const Writing writing;
   // Never open to more people than the old file was, not even for a moment.
   auto [temporary_name, file] =
       MakeTemporary(target, old_permissions ? kPrivateMode : kNewFileMode);
@@ -259,6 +281,15 @@ void FlushFileSystemOf(const std::string& folder) {
       open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!descriptor.is_open() || syncfs(descriptor.get()) != 0) {
     ThrowUnwritable(folder, errno);
+  }
+}
+
+void EndWriting() {
+  constexpr int kMostMilliseconds = 1000;
+  writing_has_ended = true;
+  for (int waited = 0; num_writing > 0 && waited < kMostMilliseconds;
+       ++waited) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 }
 

@@ -20,6 +20,10 @@ void WriteFileUnflushed(const std::string& path, std::string_view content);
 /// Throws std::system_error naming it.
 void FlushFileSystemOf(const std::string& folder);
 
+/// Waits, a second at most, until no file is being written, and lets no thread
+/// begin one: for a process that is about to end whatever its threads do.
+void EndWriting();
+
 /// Removes from `folder` what a killed process had begun to write; files that
 /// another process is writing now stay, and what cannot be removed is let be.
 void RemoveAbandonedFiles(const std::string& folder);

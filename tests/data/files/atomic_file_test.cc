@@ -26,6 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
@@ -154,6 +155,28 @@ TEST_F(AtomicFile, IsWrittenByManyAtATime) {
   for (std::thread& writer : writers) writer.join();
   EXPECT_EQ(ReadFile(Path("file")), content);
   EXPECT_EQ(NumEntries(), 1);
+}
+
+TEST_F(AtomicFile, LeavesNothingHalfWhereAProcessEndsBesideItsThreads) {
+  for (int round = 0; round < 20; ++round) {
+    EXPECT_EXIT(
+        {
+          for (const char* name : {"one", "two"}) {
+            std::thread([this, name] {
+              for (;;) WriteFileAtomically(Path(name), "x");
+            }).detach();
+          }
+          while (NumEntries() < 2) std::this_thread::yield();
+          EndWriting();
+          std::_Exit(0);
+        },
+        ::testing::ExitedWithCode(0),
+        "");
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+      EXPECT_THAT(entry.path().filename(), AnyOf("one", "two"));
+      fs::remove(entry.path());
+    }
+  }
 }
 
 TEST_F(AtomicFile, RemovesWhatAKilledProcessHadBegunAndNothingElse) {
