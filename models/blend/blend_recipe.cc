@@ -47,14 +47,18 @@ struct Score {
   const VectorXd* held_out = nullptr;  // null where not known
 };
 
-// The power of the errors' inverse. Units of one run resemble each other, so
-// that many of them say less than they are many.
+// The power of the errors' inverse: one error a unit. Of days one goes into how
+// large errors are at all; below four that does not count, or what a study
+// holds out would be mapped by another rule than what it hands over. Groups of
+// one run resemble each other, so that many say less than they are many.
 double PowerOf(WeightRule rule, const InnerFolds& folds) {
+  constexpr Index kLeastOfSessions = 3;
   constexpr Index kMost = 8;
   constexpr double kAlways = 4.0;
-  return rule == WeightRule::kLikelihood
-             ? static_cast<double>(std::min(folds.units, kMost))
-             : kAlways;
+  if (rule != WeightRule::kLikelihood) return kAlways;
+  const Index units = std::min(folds.units, kMost);
+  return static_cast<double>(
+      folds.whole_sessions ? std::max(units - 1, kLeastOfSessions) : units);
 }
 
 std::string TextOf(WeightRule rule, const InnerFolds& folds) {

@@ -10,10 +10,10 @@
 
 namespace errmap::models {
 
-/// Where weights come from: error^-n for n units of the inner hold-outs, at
-/// most 8, as their likelihood would have it were each unit one error, then
-/// averaged with the same of the straight lines alone; error^-4; equal ones
-/// within 20 % of the best; stacking.
+/// Where weights come from: error^-p, then averaged with the same of the
+/// straight lines alone, where p is the number of groups held out, at most 8,
+/// as their likelihood would have it were each one error, or of sessions less
+/// one (3 to 7); error^-4; equal ones within 20 % of the best; stacking.
 enum class WeightRule { kLikelihood, kPower4, kWithin20, kStack };
 
 /// blend: the weighted average of candidates (family x view x terms, each at

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -29,6 +30,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using errmap::testing::ColumnNamed;
 using errmap::testing::WithLog;
+using ::testing::HasSubstr;
 
 // Six days of a body that follows the sensor with 600 s: the error is of that
 // body, less its value at the start of the day, and a day begins where it
@@ -157,6 +159,16 @@ double ShareOfLines(double power) {
 TEST(BlendRecipe, LinesHaveHalfOfItUnlessABendErrsLess) {
   EXPECT_GT(ShareOfLines(1.0), 0.6);
   EXPECT_LT(ShareOfLines(6.0), 0.1);
+}
+
+TEST(BlendRecipe, TheMoreDaysItIsFittedToTheMoreTheirErrorsDecide) {
+  for (const auto& [days, rule] : std::vector<std::pair<Index, std::string>>{
+           {3, "error^-3"}, {4, "error^-3"}, {6, "error^-5"}}) {
+    const FittedModel fitted = MakeRecipe("blend")->Fit(
+        LaggingDays(0.2, days),
+        {.inner_holdout = InnerHoldout::kWholeSessions});
+    EXPECT_THAT(fitted.summary.message, HasSubstr(rule));
+  }
 }
 
 TEST(BlendRecipe, EveryChoiceOfMembersIsAsGoodAsItsPartsAlone) {
