@@ -15,7 +15,6 @@
 #include <CLI/CLI.hpp>
 #include <CLI/Version.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 
@@ -172,7 +171,7 @@ void RequireKnownCommand(const CLI::App& app, const std::string& word) {
   throw UsageError(fmt::format("no command '{}'; {}there are {}",
                                word,
                                Suggestion(word, meant),
-                               fmt::join(known, ", ")));
+                               data::Joined(known, ", ")));
 }
 
 // CLI11 says what it did not expect, and not what was probably meant.
@@ -212,7 +211,7 @@ std::string WithSuggestion(const CLI::App& app,
     known = CLI::detail::split(text.substr(list, text.size() - list - 1), ',');
     return fmt::format("{} must be one of {}, found '{}'; {}{}",
                        text.substr(0, begin),
-                       fmt::join(known, ", "),
+                       data::Joined(known, ", "),
                        found,
                        Suggestion(found, known),
                        help);
@@ -291,7 +290,7 @@ void PrintHelp(const CLI::App& app, const std::string& name, bool all) {
   throw UsageError(fmt::format("no command or topic '{}'; {}there are {}",
                                name,
                                Suggestion(name, known),
-                               fmt::join(known, ", ")));
+                               data::Joined(known, ", ")));
 }
 
 void AddHelpCommand(CLI::App* app) {
@@ -325,7 +324,7 @@ int RunParsed(int argc, char** argv) {
   }
   Run run{.command_line = ProvenanceCommandLine(argc, argv)};
   CLI::App app(kAbout, "errmap");
-  app.footer(kExample + fmt::format("{}", fmt::join(TopicNames(), ", ")));
+  app.footer(kExample + data::Joined(TopicNames(), ", "));
   app.set_version_flag("--version", std::string("errmap ") + models::Version());
   app.require_subcommand(1);
   AddCommands(&app, &run);

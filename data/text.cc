@@ -189,6 +189,16 @@ std::string AsUtf8(std::string_view text) {
   return utf8;
 }
 
+std::string Joined(const std::vector<std::string>& words,
+                   std::string_view between) {
+  std::string text;
+  for (const std::string& word : words) {
+    if (&word != words.data()) text += between;
+    text += word;
+  }
+  return text;
+}
+
 std::string NearestName(std::string_view name,
                         const std::vector<std::string>& candidates) {
   constexpr std::size_t kMaxDistance = 2;

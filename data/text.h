@@ -35,6 +35,10 @@ std::string PrintablePath(std::string_view path);
 std::string QuotedText(std::string_view text);
 std::string QuotedName(std::string_view name);
 
+/// "x, y, z" of three words with ", " between them.
+std::string Joined(const std::vector<std::string>& words,
+                   std::string_view between);
+
 /// The text as UTF-8. What is no valid UTF-8 is taken for Latin-1, as
 /// spreadsheets of western Windows write it, so that a degree sign survives.
 std::string AsUtf8(std::string_view text);

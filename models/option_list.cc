@@ -5,7 +5,6 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "data/text.h"
 
@@ -54,7 +53,7 @@ std::optional<std::string> Words::Read(const std::string& text) const {
 }
 
 std::string OneOfWords(const std::vector<std::string>& words) {
-  return fmt::format("one of {}", fmt::join(words, ", "));
+  return fmt::format("one of {}", data::Joined(words, ", "));
 }
 
 void RefuseValue(std::string_view spec,
@@ -86,7 +85,7 @@ void RefuseOthers(const ModelSpec& spec, const std::vector<OptionInfo>& known) {
                     key,
                     nearest.empty() ? "" : "did you mean '" + nearest + "'? ",
                     spec.type,
-                    fmt::join(names, ", ")));
+                    data::Joined(names, ", ")));
   }
 }
 

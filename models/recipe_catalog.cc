@@ -4,7 +4,6 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "data/text.h"
 #include "models/blend/blend_recipe.h"
@@ -60,7 +59,7 @@ const ModelType& TypeOf(const ModelSpec& spec) {
       spec.text,
       fmt::format("unknown; {}there are {}, poly:formula=..., file:model.json",
                   nearest.empty() ? "" : "did you mean '" + nearest + "'? ",
-                  fmt::join(ModelTypes(), ", ")));
+                  data::Joined(ModelTypes(), ", ")));
 }
 
 // Types that cannot be fitted for want of one thing.
@@ -167,7 +166,7 @@ DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
   }
   for (const auto& [what, types] : lacking) {
     defaults.left_out.push_back(fmt::format("{} {} left out: the data lack {}",
-                                            fmt::join(types, ", "),
+                                            data::Joined(types, ", "),
                                             types.size() == 1 ? "is" : "are",
                                             what));
   }

@@ -9,7 +9,6 @@
 #include <type_traits>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/command.h"
 #include "cli/report/words/fault_text.h"
@@ -18,6 +17,7 @@
 #include "cli/shell/standard_streams.h"
 #include "data/files/shown_path.h"
 #include "data/measurements/joined_tables.h"
+#include "data/text.h"
 #include "models/model_spec.h"
 #include "models/recipe_catalog.h"
 #include "models/study/journal/fit_cache.h"

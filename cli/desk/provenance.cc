@@ -3,11 +3,11 @@
 #include <map>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "data/files/shown_path.h"
 #include "data/files_in_memory.h"
 #include "data/measurements/measured_files.h"
+#include "data/text.h"
 #include "models/study/record/making/make_provenance.h"
 
 namespace errmap::desk {
@@ -39,7 +39,7 @@ std::vector<InputFile> HashInputs(const std::vector<std::string>& given,
 std::string ShownNames(const std::vector<std::string>& files) {
   std::vector<std::string> shown;
   for (const std::string& file : files) shown.push_back(data::ShownPath(file));
-  return fmt::format("{}", fmt::join(shown, ", "));
+  return data::Joined(shown, ", ");
 }
 
 models::ProvenanceRecord MakeProvenance(const std::string& command_line,

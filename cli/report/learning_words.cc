@@ -5,7 +5,6 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/report/number_text.h"
 #include "data/text.h"
@@ -94,7 +93,7 @@ std::string SensorWords(const models::SensorCurveRecord& curve,
                           ? chosen.sensor
                           : fmt::format("{} (or {})",
                                         chosen.sensor,
-                                        fmt::join(substitutes, ", ")));
+                                        data::Joined(substitutes, ", ")));
   }
   const auto number = static_cast<std::int64_t>(curve.chosen.size());
   const auto point = std::ranges::find(
@@ -106,8 +105,7 @@ std::string SensorWords(const models::SensorCurveRecord& curve,
       number == 1 ? "it" : "them",
       error.WithUnit(curve.all.rmse),
       sensors.empty() ? "" : ". ",
-      data::Printable(fmt::format("{}", fmt::join(sensors, ", ")),
-                      std::string::npos));
+      data::Printable(data::Joined(sensors, ", "), std::string::npos));
 }
 
 ErrorText ErrorTextOf(const models::LearningCurvesRecord& curves,

@@ -6,11 +6,10 @@
 #include <utility>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/command.h"
 #include "cli/shell/command_reference.h"
+#include "data/text.h"
 
 namespace errmap::cli {
 namespace {
@@ -71,7 +70,7 @@ const Option& Option::NotNegative() const {
 
 const Option& Option::OneOf(const std::vector<std::string>& words) const {
   option_->check(CLI::IsMember(words));
-  option_->type_name(fmt::format("{}", fmt::join(words, "|")));
+  option_->type_name(data::Joined(words, "|"));
   return *this;
 }
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/report/wrap_text.h"
+#include "data/text.h"
 
 namespace errmap::cli {
 namespace {
@@ -74,7 +74,7 @@ std::string OptionEntry(const OptionReference& option,
                         HelpOptions options,
                         std::size_t width) {
   constexpr std::size_t kColumn = 30;
-  std::string name = fmt::format("{}", fmt::join(option.names, ","));
+  std::string name = data::Joined(option.names, ",");
   if (!option.value.empty()) name += " " + option.value;
   return Entry(name, Explained(option, options), kColumn, width);
 }

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/shell/help_text.h"
 #include "cli/shell/man_page.h"
+#include "data/text.h"
 #include "models/recipe_catalog.h"
 #include "stats/holdout.h"
 
@@ -31,7 +31,7 @@ std::string TableHead(const char* left, const char* right) {
 }
 
 std::string OptionRow(const OptionReference& option) {
-  std::string name = fmt::format("{}", fmt::join(option.names, ", "));
+  std::string name = data::Joined(option.names, ", ");
   if (!option.value.empty()) name += " " + option.value;
   std::string text = option.description;
   if (!option.fallback.empty()) {

@@ -2,10 +2,10 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
+#include "data/text.h"
 #include "models/certification/certification.h"
 #include "models/certification/strd_functions.h"
 #include "models/recipe_catalog.h"
@@ -26,9 +26,9 @@ double Lre(double value, const std::string& certified) {
 
 // The problem's data as the CSV file that a user would have of them.
 std::string CsvText(const data::StrdProblem& problem) {
-  std::string text = fmt::format("{}\n", fmt::join(problem.columns, ","));
+  std::string text = fmt::format("{}\n", data::Joined(problem.columns, ","));
   for (const std::vector<std::string>& row : problem.rows) {
-    text += fmt::format("{}\n", fmt::join(row, ","));
+    text += fmt::format("{}\n", data::Joined(row, ","));
   }
   return text;
 }
@@ -46,7 +46,7 @@ std::string FormulaSpec(const data::StrdProblem& problem) {
     terms.assign(problem.columns.begin() + 1, problem.columns.end());
   }
   return fmt::format("poly:formula={}:centred=no{}",
-                     fmt::join(terms, "+"),
+                     data::Joined(terms, "+"),
                      intercept ? "" : ":intercept=no");
 }
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "data/argument_name.h"
 #include "data/text.h"
@@ -133,9 +132,9 @@ GridOptions ParseGrid(const std::string& grid,
         "{}: name the input across the columns with {}, one of {}",
         data::ArgumentName("table"),
         data::ArgumentName("over"),
-        fmt::join(
-            others.begin(),
-            others.begin() + std::min<std::ptrdiff_t>(6, std::ssize(others)),
+        data::Joined(
+            {others.begin(),
+             others.begin() + std::min<std::ptrdiff_t>(6, std::ssize(others))},
             ", ")));
   } else if (!over.empty()) {
     const auto found = std::ranges::find(others, over);

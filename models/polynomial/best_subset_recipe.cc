@@ -3,8 +3,8 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "data/text.h"
 #include "fitting/selection/best_subset.h"
 #include "models/history/view_options.h"
 #include "models/option_list.h"
@@ -108,7 +108,7 @@ class BestSubsetRecipe final : public PolynomialRecipe {
     }
     fitted.remarks.push_back(
         chosen.empty() ? "no term was chosen"
-                       : fmt::format("chosen: {}", fmt::join(chosen, ", ")));
+                       : fmt::format("chosen: {}", data::Joined(chosen, ", ")));
     return fitted;
   }
 

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "data/text.h"
 
@@ -168,7 +167,7 @@ std::vector<TermPowers> ResolveTerms(const std::vector<NamedTerm>& terms,
                         term.position,
                         factor.input,
                         names.size() == 1 ? "is" : "are",
-                        fmt::join(names, ", "),
+                        data::Joined(names, ", "),
                         DidYouMean(factor.input, names)));
       }
       powers[static_cast<std::size_t>(found - names.begin())] += factor.power;
@@ -201,9 +200,9 @@ std::string TermsText(const std::vector<NamedTerm>& terms) {
     for (const NamedTerm::Factor& factor : term.factors) {
       factors.push_back(TermName({factor.power}, {factor.input}));
     }
-    products.push_back(fmt::format("{}", fmt::join(factors, "*")));
+    products.push_back(data::Joined(factors, "*"));
   }
-  return fmt::format("{}", fmt::join(products, "+"));
+  return data::Joined(products, "+");
 }
 
 }  // namespace errmap::models

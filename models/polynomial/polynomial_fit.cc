@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "data/text.h"
 #include "fitting/interruption.h"
 #include "models/history/growth.h"
 #include "models/history/view.h"
@@ -60,7 +60,7 @@ std::string FirstOf(std::vector<std::string> names) {
   const std::size_t more = names.size() - std::min(names.size(), kMostNamed);
   names.resize(names.size() - more);
   return fmt::format("{}{}",
-                     fmt::join(names, ", "),
+                     data::Joined(names, ", "),
                      more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
@@ -367,7 +367,7 @@ std::string WhyAliased(const VectorXd& column,
   }
   return fmt::format("{} {}",
                      parts.size() == 1 ? "repeats" : "follows from",
-                     fmt::join(parts, ", "));
+                     data::Joined(parts, ", "));
 }
 
 void FillCoefficientTable(const PolynomialDesign& design,

@@ -2,7 +2,6 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "models/history/view_options.h"
 #include "models/option_list.h"

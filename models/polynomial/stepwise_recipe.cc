@@ -4,8 +4,8 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "data/text.h"
 #include "fitting/selection/stepwise_selection.h"
 #include "models/history/fit_in_view.h"
 #include "models/history/view_options.h"
@@ -307,7 +307,7 @@ class StepwiseRecipe final : public PolynomialRecipe {
     }
     fitted->remarks.push_back(
         chosen.empty() ? "no term was chosen"
-                       : fmt::format("chosen: {}", fmt::join(chosen, ", ")));
+                       : fmt::format("chosen: {}", data::Joined(chosen, ", ")));
     for (const Index term : selection.aliased_includes) {
       fitted->remarks.push_back(
           fmt::format("{} was to be included but follows from the terms "

@@ -3,7 +3,8 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+
+#include "data/text.h"
 
 namespace errmap::models {
 
@@ -29,7 +30,7 @@ void RowTable::Require(const std::vector<std::string>& columns) const {
         fmt::format("{}: no column '{}'; the header must have {}",
                     table_.file,
                     column,
-                    fmt::join(columns, ",")));
+                    data::Joined(columns, ",")));
   }
 }
 

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/command.h"
 #include "cli/commands/data_arguments.h"
@@ -163,7 +162,7 @@ class OutputTable {
       if (!s_.maps.outside[k][static_cast<std::size_t>(row)]) continue;
       names.push_back(s_.machine.errors[k].name);
     }
-    return fmt::format("{}", fmt::join(names, " "));
+    return data::Joined(names, " ");
   }
 
   const Synthesis& s_;
@@ -180,11 +179,12 @@ double Quantile95(const VectorXd& values) {
 }
 
 std::string SensitiveText(const Machine& machine) {
-  std::vector<char> letters;
+  std::vector<std::string> letters;
   for (std::size_t d = 0; d < machine.sensitive.size(); ++d) {
-    if (machine.sensitive[d]) letters.push_back(static_cast<char>('X' + d));
+    if (!machine.sensitive[d]) continue;
+    letters.emplace_back(1, static_cast<char>('X' + d));
   }
-  return fmt::format("{}", fmt::join(letters, ", "));
+  return data::Joined(letters, ", ");
 }
 
 void SayErrors(const Synthesis& s) {
@@ -224,8 +224,9 @@ void SayContributions(const Synthesis& s) {
   for (const auto& [size, name] : sizes) {
     parts.push_back(fmt::format("{} {}", name, text(size)));
   }
-  Say(fmt::format(
-      "RMS of what each adds, {}: {}", text.symbol(), fmt::join(parts, ", ")));
+  Say(fmt::format("RMS of what each adds, {}: {}",
+                  text.symbol(),
+                  data::Joined(parts, ", ")));
 }
 
 // Where the points have true errors, what compensation would leave of them.
@@ -264,7 +265,7 @@ std::string DiagonalText(const Synthesis& s,
     parts.push_back(
         fmt::format("{} {}", diagonal.name, text(diagonal.figures.systematic)));
   }
-  return fmt::format("{} {}", fmt::join(parts, ", "), text.symbol());
+  return fmt::format("{} {}", data::Joined(parts, ", "), text.symbol());
 }
 
 // ISO 230-6:2002, both ways together, where the points lie on diagonals.
@@ -300,7 +301,7 @@ void SayOutsidePoints(const Synthesis& s) {
   Say(fmt::format(
       "warning: maps extrapolate (inside = 0): {}: outside a trained "
       "range, or in a session whose first rows are missing",
-      fmt::join(parts, ", ")));
+      data::Joined(parts, ", ")));
 }
 
 // ---- The command.

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include "cli/command.h"
 #include "cli/commands/format_option.h"
 #include "cli/shell/command_options.h"
+#include "data/text.h"
 #include "models/recipe_catalog.h"
 #include "stats/holdout.h"
 
@@ -23,9 +21,7 @@ desk::PredictionsFile ParsePredictions(const std::string& pair) {
   return {pair.substr(0, equals), pair.substr(equals + 1)};
 }
 
-std::string KnownModels() {
-  return fmt::format("{}", fmt::join(models::ModelTypes(), ", "));
-}
+std::string KnownModels() { return data::Joined(models::ModelTypes(), ", "); }
 
 void AddJudgingOptions(CLI::App* command, CompareArguments* arguments) {
   AddOption(command,

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/desk/plan/rough_time.h"
 #include "cli/report/number_text.h"
@@ -35,7 +34,7 @@ std::string HoldoutList(const std::vector<models::Holdout>& holdouts) {
         Shown(holdout.name),
         report::Count(static_cast<long long>(holdout.folds.size()), "fold")));
   }
-  return fmt::format("{}", fmt::join(parts, ", "));
+  return data::Joined(parts, ", ");
 }
 
 // "  hold-outs every:3 (1 fold), ...", what follows below its beginning.
@@ -75,7 +74,7 @@ std::string ComponentText(const models::ComponentPlan& component,
                     InUnit(component.comparison.goal, dataset.target().unit));
   }
   text += ListLine("hold-outs", HoldoutList(component.comparison.holdouts));
-  text += ListLine("models", fmt::format("{}", fmt::join(models, ", ")));
+  text += ListLine("models", data::Joined(models, ", "));
   text += fmt::format("  fits      {}\n", component.num_fits());
   return text;
 }

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/desk/toml/toml_keys.h"
 #include "data/files/atomic_file.h"
@@ -79,8 +78,9 @@ class MachineFileReader {
     for (const data::Unit& of : data::UnitsOf(quantity)) {
       known.push_back(of.symbol);
     }
-    keys.RefuseType(
-        key, *keys.Find(key), fmt::format("one of {}", fmt::join(known, ", ")));
+    keys.RefuseType(key,
+                    *keys.Find(key),
+                    fmt::format("one of {}", data::Joined(known, ", ")));
   }
 
   static std::array<bool, 3> ReadSensitive(const Keys& keys) {
@@ -141,7 +141,7 @@ class MachineFileReader {
     }
     std::vector<std::string> known;
     for (const auto& [name, value] : words) known.push_back('"' + name + '"');
-    const std::string wanted = fmt::format("{}", fmt::join(known, " or "));
+    const std::string wanted = data::Joined(known, " or ");
     if (keys.Find(key) == nullptr) {
       keys.RefuseTable(fmt::format("needs {} = {}", key, wanted));
     }

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/desk/machine/machine_points.h"
 #include "cli/desk/machine/true_poses.h"

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/report/number_text.h"
 #include "data/argument_name.h"
@@ -126,7 +125,7 @@ class MachineEvaluator {
       }
     }
     if (files.empty()) return error.name;
-    return fmt::format("{} of {}", error.name, fmt::join(files, ", "));
+    return fmt::format("{} of {}", error.name, data::Joined(files, ", "));
   }
 
   MatrixXd Coordinates() const {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/desk/plan/study_plan.h"
 #include "cli/desk/toml/toml_text.h"
@@ -213,7 +212,8 @@ class LevelPatterns {
   }
   static std::string Words(const std::string& field,
                            const std::set<std::string>& words) {
-    return fmt::format("{{{}:{}}}", field, fmt::join(words, "|"));
+    return fmt::format(
+        "{{{}:{}}}", field, data::Joined({words.begin(), words.end()}, "|"));
   }
 
   static std::string Component(const std::string& beside,

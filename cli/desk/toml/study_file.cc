@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/desk/study_options.h"
 #include "cli/desk/toml/component_pattern.h"
@@ -66,9 +65,8 @@ class Taker {
       }
       words.push_back(fmt::format("\"{}\"", ToString(value)));
     }
-    keys_.RefuseType(option.key,
-                     *keys_.Find(option.key),
-                     fmt::format("{}", fmt::join(words, " or ")));
+    keys_.RefuseType(
+        option.key, *keys_.Find(option.key), data::Joined(words, " or "));
   }
 
  private:
@@ -281,7 +279,7 @@ class StudyFileReader {
       if (!item.is_string()) keys.RefuseType(key, item, kWanted);
       names.push_back(Quoted(item.ref<std::string>()));
     }
-    return fmt::format(":{}={}", key, fmt::join(names, "+"));
+    return fmt::format(":{}={}", key, data::Joined(names, "+"));
   }
 
   const std::string& file_;

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/desk/study_options.h"
 #include "cli/desk/toml/toml_text.h"
@@ -56,7 +55,7 @@ std::string WhereText(const Filters& filters) {
     parts.push_back(TomlKey(filter.column) + " = " +
                     (text != nullptr ? TomlText(*text) : ValueText(filter)));
   }
-  return fmt::format("{{ {} }}", fmt::join(parts, ", "));
+  return fmt::format("{{ {} }}", data::Joined(parts, ", "));
 }
 
 std::string Commented(const std::string& text) {

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/ranges.h>
-
 #include "cli/desk/toml/toml_text.h"
 #include "data/argument_name.h"
 #include "data/input_error.h"
+#include "data/text.h"
 
 namespace errmap::desk {
 namespace {
@@ -106,7 +105,7 @@ void Keys::AllowOnly(const std::vector<std::string>& known) const {
                        QuotedName(key.str()),
                        where_,
                        Suggestion(key.str(), known),
-                       fmt::join(known, ", ")));
+                       data::Joined(known, ", ")));
   }
 }
 

@@ -3,7 +3,6 @@
 #include <filesystem>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/fleet/store/fleet_report.h"
 #include "cli/fleet/store/store.h"
@@ -25,7 +24,7 @@ std::string MissingWords(const FleetSummaries& found) {
       "{} of {} components are missing: {}{}; run the shards again",
       found.missing.size(),
       found.fleet.components.size(),
-      fmt::join(names, "; "),
+      data::Joined(names, "; "),
       names.size() < found.missing.size() ? "; ..." : "");
 }
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/report/tables/result_table.h"
 #include "cli/report/words/verdict_text.h"

@@ -5,7 +5,6 @@
 #include <map>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/report/number_text.h"
 #include "cli/report/shell_word.h"
@@ -53,7 +52,7 @@ std::string UnconvergedNote(const ModelRecord& model) {
                      model.name,
                      unconverged,
                      Count(fits, "fit"),
-                     fmt::join(parts, ", "));
+                     data::Joined(parts, ", "));
 }
 
 // What is written about one component, line by line.
@@ -116,8 +115,7 @@ void ComponentScreen::Answer() {
 }
 
 void ComponentScreen::Verdict() {
-  const std::string said =
-      fmt::format("{}", fmt::join(SaidFirst(record_, Width()), " "));
+  const std::string said = data::Joined(SaidFirst(record_, Width()), " ");
   bool first = true;
   for (const std::string& line : WrapLines(said, Width())) {
     screen_->Add(line + "\n", first);
@@ -135,14 +133,14 @@ void ComponentScreen::Data() {
   const std::size_t more =
       inputs.size() - std::min(inputs.size(), kMostInputsNamed);
   inputs.resize(inputs.size() - more);
-  Paragraph(fmt::format(
-      "{}: {}{}; {} from {}{}",
-      data.file,
-      Count(data.rows, "row"),
-      UnitsWords(data),
-      TargetWords(data),
-      inputs.empty() ? "no inputs" : fmt::format("{}", fmt::join(inputs, ", ")),
-      more > 0 ? fmt::format(" and {} more", more) : ""));
+  Paragraph(
+      fmt::format("{}: {}{}; {} from {}{}",
+                  data.file,
+                  Count(data.rows, "row"),
+                  UnitsWords(data),
+                  TargetWords(data),
+                  inputs.empty() ? "no inputs" : data::Joined(inputs, ", "),
+                  more > 0 ? fmt::format(" and {} more", more) : ""));
 }
 
 void ComponentScreen::Leaderboard() {
@@ -181,7 +179,7 @@ void ComponentScreen::Leaderboard() {
   if (!options_.details) {
     legend.emplace_back("p values, gaps and times with --details.");
   }
-  Paragraph(fmt::format("{}", fmt::join(legend, " ")));
+  Paragraph(data::Joined(legend, " "));
   for (const ModelRecord& model : record_.models) {
     if (model.why) {
       Paragraph(fmt::format("{} failed, {}", model.name, *model.why));
@@ -263,7 +261,7 @@ std::string OverallWords(const models::StudyRecord& record) {
   // Where none has a goal there is nothing to say of it.
   if (!goals.empty() &&
       (goals.size() > 1 || standings[GoalStanding::kNone] == 0)) {
-    text += fmt::format(": goal {}", fmt::join(goals, ", "));
+    text += fmt::format(": goal {}", data::Joined(goals, ", "));
   }
   text += ".";
   if (maps > 0) {

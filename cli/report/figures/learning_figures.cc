@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/report/figures/figure_parts.h"
 #include "cli/report/learning_words.h"
+#include "data/text.h"
 
 namespace errmap::report {
 namespace {
@@ -68,7 +68,7 @@ Figure CurvesFigure(const models::LearningCurvesRecord& curves,
     }
     if (of_model.empty()) continue;
     told.push_back(
-        fmt::format("{}: {}", model.model, fmt::join(of_model, ", ")));
+        fmt::format("{}: {}", model.model, data::Joined(of_model, ", ")));
     const std::string law = LawWords(curves, model, error);
     if (!law.empty()) words.push_back(model.model + ": " + law + ".");
     AddCurve(Shortened(model.model, 34),
@@ -82,11 +82,11 @@ Figure CurvesFigure(const models::LearningCurvesRecord& curves,
              static_cast<double>(curves.units),
              &plot);
   }
-  figure.note = fmt::format("{}", fmt::join(words, " "));
+  figure.note = data::Joined(words, " ");
   figure.description =
       fmt::format("Held-out error against the number of {} learnt from. {}.",
                   curves.unit,
-                  fmt::join(told, "; "));
+                  data::Joined(told, "; "));
   return figure;
 }
 
@@ -122,7 +122,7 @@ Figure SensorsFigure(const models::SensorCurveRecord& curve,
   figure.description = fmt::format(
       "Held-out error against the number of sensors: {}; {} with "
       "all {}.",
-      fmt::join(told, ", "),
+      data::Joined(told, ", "),
       error.WithUnit(curve.all.rmse),
       curve.all.sensors);
   return figure;

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/report/figures/figure_parts.h"
+#include "data/text.h"
 #include "data/units.h"
 
 namespace errmap::report {
@@ -279,7 +279,7 @@ class MachinePictures {
         "origin.",
         choice.points,
         machine_.later.size() == 1 ? "session" : "sessions",
-        fmt::join(machine_.later, ", "),
+        data::Joined(machine_.later, ", "),
         choice.maps.empty() ? "without" : choice.name,
         machine_.plane->across,
         machine_.plane->up);

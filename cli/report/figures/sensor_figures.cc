@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/report/figures/figure_parts.h"
+#include "data/text.h"
 
 namespace errmap::report {
 namespace {
@@ -62,7 +62,7 @@ Series Dots(const char* label, const char* colour, Shape shape) {
 
 std::string Words(const ErrorText& error, const Without& without) {
   return fmt::format("without {} {}",
-                     fmt::join(without.sensors, ", "),
+                     data::Joined(without.sensors, ", "),
                      error.WithUnit(without.rmse));
 }
 
@@ -168,7 +168,7 @@ std::vector<Figure> ImportanceFigures(const ReportView& view,
   }
   figure.description = fmt::format("Held-out error {} with every sensor; {}.",
                                    error.WithUnit(importance.rmse),
-                                   fmt::join(words, "; "));
+                                   data::Joined(words, "; "));
   return {std::move(figure)};
 }
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "data/text.h"
 #include "data/units.h"
 
 namespace errmap::report {
@@ -88,7 +88,7 @@ std::string CalibrationOf(const MachineChoiceRecord& choice) {
   return fmt::format(
       "by the errors at the tool on {}, each session held out of the fits in "
       "its turn",
-      fmt::join(choice.held_out, ", "));
+      data::Joined(choice.held_out, ", "));
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ Table ToolTipTable(const MachineRecord& machine) {
           "no fit saw ({}).{}",
           machine.sensitive,
           machine.points,
-          fmt::join(machine.later, ", "),
+          data::Joined(machine.later, ", "),
           machine.later.size() < 2
               ? ""
               : " Over days: 95 % interval of the geometric mean of the days' "
@@ -184,7 +184,7 @@ Table ToolTipIntervalTable(const MachineRecord& machine) {
   for (const auto& [how, names] : calibrated) {
     table.note += calibrated.size() == 1
                       ? fmt::format(" They are {}.", how)
-                      : fmt::format(" {}: {}.", fmt::join(names, ", "), how);
+                      : fmt::format(" {}: {}.", data::Joined(names, ", "), how);
   }
   return table;
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/report/plot.h"
 #include "cli/report/words/verdict_text.h"
@@ -383,7 +382,7 @@ std::string DrawnRowsWords(const ReportView& view) {
   }
   if (names.empty()) return "";
   return fmt::format("{} learnt from {} of {} rows (all by rows=all).",
-                     fmt::join(names, ", "),
+                     data::Joined(names, ", "),
                      most,
                      view.component->data.rows);
 }

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "data/input_error.h"
+#include "data/text.h"
 
 namespace errmap::report {
 
@@ -77,7 +77,7 @@ std::string ListBesides(const std::vector<std::string>& names,
                         const std::string& besides) {
   std::vector<std::string> others = names;
   std::erase(others, besides);
-  return fmt::format("{}", fmt::join(others, ", "));
+  return data::Joined(others, ", ");
 }
 
 }  // namespace errmap::report

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/report/number_text.h"
 #include "cli/report/table.h"
@@ -74,11 +73,11 @@ std::string InRoom(Table table, const Terminal& room) {
                          "more row"));
   }
   if (!dropped.empty()) {
-    more.push_back(fmt::format("{}", fmt::join(dropped, ", ")));
+    more.push_back(data::Joined(dropped, ", "));
   }
   if (more.empty()) return text;
   return text +
-         WrapText(fmt::format("{} with --details.", fmt::join(more, "; ")),
+         WrapText(fmt::format("{} with --details.", data::Joined(more, "; ")),
                   room.text_columns()) +
          "\n";
 }
@@ -184,7 +183,7 @@ std::string CoefficientTable(const RegressionReport& report,
     }
     text += WrapText(fmt::format("In this table an input stands for its value "
                                  "less its centre: {}.",
-                                 fmt::join(moved, ", ")),
+                                 data::Joined(moved, ", ")),
                      room.text_columns()) +
             "\n";
   }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/report/number_text.h"
 #include "cli/report/words/interval_text.h"
@@ -78,7 +77,7 @@ std::string CostSentence(const RecommendationRecord& advice) {
       for (const std::string& sensor : advice.sensors) {
         names.push_back(data::Printable(sensor, std::string_view::npos));
       }
-      sensors += fmt::format(" ({})", fmt::join(names, ", "));
+      sensors += fmt::format(" ({})", data::Joined(names, ", "));
     }
   }
   std::string cost = Count(advice.cost.multiplications, "multiplication");
@@ -247,7 +246,7 @@ std::string DisagreementSentence(const ComponentNumbers& component,
                     component.error.WithUnit(component.Rmse(best, holdout))));
   }
   return fmt::format("The hold-outs of unseen rows disagree: {}.",
-                     fmt::join(parts, "; "));
+                     data::Joined(parts, "; "));
 }
 
 std::string CorrelationSentence(const ComponentNumbers& component,
@@ -312,9 +311,9 @@ std::string OtherCutsSentence(const ComponentNumbers& component) {
                                 parts.empty() ? "Of" : "of",
                                 cuts.repeats,
                                 cuts.holdout,
-                                fmt::join(shares, ", ")));
+                                data::Joined(shares, ", ")));
   }
-  return fmt::format("{}.", fmt::join(parts, "; "));
+  return fmt::format("{}.", data::Joined(parts, "; "));
 }
 
 // What a person does to bring a column below, or above, all its values so far.
@@ -408,7 +407,7 @@ std::string RemarkText(const ComponentNumbers& component,
       return fmt::format(
           "{} hardly ever returns to values it had: {} to come lie beyond all "
           "that were held out{}. Compare without: --exclude {}.",
-          fmt::join(*remark.columns, ", "),
+          data::Joined(*remark.columns, ", "),
           PluralOfUnit(holdout),
           remark.holdouts
               ? fmt::format("; foretold from those before ({}) it has {}",
@@ -416,7 +415,7 @@ std::string RemarkText(const ComponentNumbers& component,
                             component.error.WithUnit(component.Rmse(
                                 advice.model, remark.holdouts->front())))
               : "",
-          fmt::join(*remark.columns, ","));
+          data::Joined(*remark.columns, ","));
     case RemarkKind::kSimpleHolds:
       return fmt::format(
           "It is simple: under {} the average of maps typically errs more than "
@@ -548,9 +547,9 @@ std::string WhereToMeasure(const RemarkRecord& remark) {
   }
   std::vector<std::string> parts;
   for (const auto& [state, shown] : states) {
-    parts.push_back(fmt::format("{} ({})", state, fmt::join(shown, ", ")));
+    parts.push_back(fmt::format("{} ({})", state, data::Joined(shown, ", ")));
   }
-  return fmt::format("{}", fmt::join(parts, "; "));
+  return data::Joined(parts, "; ");
 }
 
 }  // namespace errmap::report

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/report/number_text.h"
+#include "data/text.h"
 #include "stats/comparison/paired_comparison.h"
 
 namespace errmap::report {
@@ -290,7 +290,7 @@ std::string GapSentence(const ComponentNumbers& component) {
                                 RatioText(row.ratio)));
   }
   std::string text = fmt::format(
-      "Warning: {} flatters {}", gap.neighbours, fmt::join(parts, ", "));
+      "Warning: {} flatters {}", gap.neighbours, data::Joined(parts, ", "));
   if (flattered.size() > kMostNamed) {
     text += fmt::format(" and {} more", flattered.size() - kMostNamed);
   }

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/report/words/component_numbers.h"
 #include "cli/report/words/remark_text.h"
@@ -13,6 +12,7 @@
 #include "cli/report/words/verdict_sentences.h"
 #include "cli/report/wrap_text.h"
 #include "data/input_error.h"
+#include "data/text.h"
 
 namespace errmap::report {
 namespace {
@@ -158,7 +158,7 @@ std::string MeasureNext(const models::ComponentRecord& record) {
         break;
     }
   }
-  return fmt::format("{}", fmt::join(wanted, "; "));
+  return data::Joined(wanted, "; ");
 }
 
 std::string VerdictParagraphs(const models::ComponentRecord& record,
