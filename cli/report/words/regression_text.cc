@@ -34,7 +34,7 @@ std::string Text(const Cell& cell) { return TextTable({}).Shown(cell); }
 
 // Blank, not "n/a", where a row has no such figure.
 Cell OrBlank(double value, Cell cell) {
-  return std::isnan(value) ? Cell("") : cell;
+  return std::isnan(value) ? Cell("") : std::move(cell);
 }
 
 std::string Percent(double share) {

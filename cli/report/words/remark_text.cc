@@ -143,10 +143,10 @@ std::string BesideTheMap(const ComponentNumbers& component,
   const RecommendationRecord& advice = component.Advice();
   const double rmse = component.Rmse(other, advice.holdout);
   const double more = rmse - component.Rmse(advice.model, advice.holdout);
-  const std::string text = fmt::format("{}, {} {}",
-                                       component.error.WithUnit(rmse),
-                                       component.error.WithUnit(std::abs(more)),
-                                       more < 0.0 ? "less" : "more");
+  std::string text = fmt::format("{}, {} {}",
+                                 component.error.WithUnit(rmse),
+                                 component.error.WithUnit(std::abs(more)),
+                                 more < 0.0 ? "less" : "more");
   const models::PairRecord* const pair =
       FindPair(component.record, advice.holdout, advice.model, other);
   if (pair == nullptr) return text;

@@ -111,11 +111,13 @@ std::vector<std::string> SaidFirst(const models::ComponentRecord& record,
   std::vector<std::string> said;
   std::string text;
   for (const std::string& sentence : FirstWords(record)) {
-    const std::string longer = text + (text.empty() ? "" : " ") + sentence;
+    std::string longer = text;
+    if (!longer.empty()) longer += " ";
+    longer += sentence;
     if (!text.empty() && WrapLines(longer, width).size() > kMostVerdictLines) {
       continue;  // a later one may be shorter
     }
-    text = longer;
+    text = std::move(longer);
     said.push_back(sentence);
   }
   return said;
