@@ -171,7 +171,7 @@ void RequireKnownCommand(const CLI::App& app, const std::string& word) {
   throw UsageError(fmt::format("no command '{}'; {}there are {}",
                                word,
                                Suggestion(word, meant),
-                               data::Joined(known, ", ")));
+                               data::JoinWords(known, ", ")));
 }
 
 // CLI11 says what it did not expect, and not what was probably meant.
@@ -211,7 +211,7 @@ std::string WithSuggestion(const CLI::App& app,
     known = CLI::detail::split(text.substr(list, text.size() - list - 1), ',');
     return fmt::format("{} must be one of {}, found '{}'; {}{}",
                        text.substr(0, begin),
-                       data::Joined(known, ", "),
+                       data::JoinWords(known, ", "),
                        found,
                        Suggestion(found, known),
                        help);
@@ -290,7 +290,7 @@ void PrintHelp(const CLI::App& app, const std::string& name, bool all) {
   throw UsageError(fmt::format("no command or topic '{}'; {}there are {}",
                                name,
                                Suggestion(name, known),
-                               data::Joined(known, ", ")));
+                               data::JoinWords(known, ", ")));
 }
 
 void AddHelpCommand(CLI::App* app) {
@@ -324,7 +324,7 @@ int RunParsed(int argc, char** argv) {
   }
   Run run{.command_line = ProvenanceCommandLine(argc, argv)};
   CLI::App app(kAbout, "errmap");
-  app.footer(kExample + data::Joined(TopicNames(), ", "));
+  app.footer(kExample + data::JoinWords(TopicNames(), ", "));
   app.set_version_flag("--version", std::string("errmap ") + models::Version());
   app.require_subcommand(1);
   AddCommands(&app, &run);

@@ -189,8 +189,8 @@ std::string AsUtf8(std::string_view text) {
   return utf8;
 }
 
-std::string Joined(const std::vector<std::string>& words,
-                   std::string_view between) {
+std::string JoinWords(const std::vector<std::string>& words,
+                      std::string_view between) {
   std::string text;
   for (const std::string& word : words) {
     if (&word != words.data()) text += between;

@@ -36,8 +36,8 @@ std::string QuotedText(std::string_view text);
 std::string QuotedName(std::string_view name);
 
 /// "x, y, z" of three words with ", " between them.
-std::string Joined(const std::vector<std::string>& words,
-                   std::string_view between);
+std::string JoinWords(const std::vector<std::string>& words,
+                      std::string_view between);
 
 /// The text as UTF-8. What is no valid UTF-8 is taken for Latin-1, as
 /// spreadsheets of western Windows write it, so that a degree sign survives.

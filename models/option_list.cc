@@ -53,7 +53,7 @@ std::optional<std::string> Words::Read(const std::string& text) const {
 }
 
 std::string OneOfWords(const std::vector<std::string>& words) {
-  return fmt::format("one of {}", data::Joined(words, ", "));
+  return fmt::format("one of {}", data::JoinWords(words, ", "));
 }
 
 void RefuseValue(std::string_view spec,
@@ -85,7 +85,7 @@ void RefuseOthers(const ModelSpec& spec, const std::vector<OptionInfo>& known) {
                     key,
                     nearest.empty() ? "" : "did you mean '" + nearest + "'? ",
                     spec.type,
-                    data::Joined(names, ", ")));
+                    data::JoinWords(names, ", ")));
   }
 }
 

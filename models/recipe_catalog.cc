@@ -59,7 +59,7 @@ const ModelType& TypeOf(const ModelSpec& spec) {
       spec.text,
       fmt::format("unknown; {}there are {}, poly:formula=..., file:model.json",
                   nearest.empty() ? "" : "did you mean '" + nearest + "'? ",
-                  data::Joined(ModelTypes(), ", ")));
+                  data::JoinWords(ModelTypes(), ", ")));
 }
 
 // Types that cannot be fitted for want of one thing.
@@ -166,7 +166,7 @@ DefaultRecipes MakeDefaultRecipes(const data::Dataset& dataset,
   }
   for (const auto& [what, types] : lacking) {
     defaults.left_out.push_back(fmt::format("{} {} left out: the data lack {}",
-                                            data::Joined(types, ", "),
+                                            data::JoinWords(types, ", "),
                                             types.size() == 1 ? "is" : "are",
                                             what));
   }

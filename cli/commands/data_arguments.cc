@@ -17,7 +17,6 @@
 #include "cli/shell/standard_streams.h"
 #include "data/files/shown_path.h"
 #include "data/measurements/joined_tables.h"
-#include "data/text.h"
 #include "models/model_spec.h"
 #include "models/recipe_catalog.h"
 #include "models/study/journal/fit_cache.h"

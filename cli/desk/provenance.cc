@@ -39,7 +39,7 @@ std::vector<InputFile> HashInputs(const std::vector<std::string>& given,
 std::string ShownNames(const std::vector<std::string>& files) {
   std::vector<std::string> shown;
   for (const std::string& file : files) shown.push_back(data::ShownPath(file));
-  return data::Joined(shown, ", ");
+  return data::JoinWords(shown, ", ");
 }
 
 models::ProvenanceRecord MakeProvenance(const std::string& command_line,

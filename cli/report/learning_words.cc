@@ -93,7 +93,7 @@ std::string SensorWords(const models::SensorCurveRecord& curve,
                           ? chosen.sensor
                           : fmt::format("{} (or {})",
                                         chosen.sensor,
-                                        data::Joined(substitutes, ", ")));
+                                        data::JoinWords(substitutes, ", ")));
   }
   const auto number = static_cast<std::int64_t>(curve.chosen.size());
   const auto point = std::ranges::find(
@@ -105,7 +105,7 @@ std::string SensorWords(const models::SensorCurveRecord& curve,
       number == 1 ? "it" : "them",
       error.WithUnit(curve.all.rmse),
       sensors.empty() ? "" : ". ",
-      data::Printable(data::Joined(sensors, ", "), std::string::npos));
+      data::Printable(data::JoinWords(sensors, ", "), std::string::npos));
 }
 
 ErrorText ErrorTextOf(const models::LearningCurvesRecord& curves,

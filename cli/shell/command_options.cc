@@ -70,7 +70,7 @@ const Option& Option::NotNegative() const {
 
 const Option& Option::OneOf(const std::vector<std::string>& words) const {
   option_->check(CLI::IsMember(words));
-  option_->type_name(data::Joined(words, "|"));
+  option_->type_name(data::JoinWords(words, "|"));
   return *this;
 }
 

@@ -74,7 +74,7 @@ std::string OptionEntry(const OptionReference& option,
                         HelpOptions options,
                         std::size_t width) {
   constexpr std::size_t kColumn = 30;
-  std::string name = data::Joined(option.names, ",");
+  std::string name = data::JoinWords(option.names, ",");
   if (!option.value.empty()) name += " " + option.value;
   return Entry(name, Explained(option, options), kColumn, width);
 }

@@ -31,7 +31,7 @@ std::string TableHead(const char* left, const char* right) {
 }
 
 std::string OptionRow(const OptionReference& option) {
-  std::string name = data::Joined(option.names, ", ");
+  std::string name = data::JoinWords(option.names, ", ");
   if (!option.value.empty()) name += " " + option.value;
   std::string text = option.description;
   if (!option.fallback.empty()) {

@@ -26,9 +26,9 @@ double Lre(double value, const std::string& certified) {
 
 // The problem's data as the CSV file that a user would have of them.
 std::string CsvText(const data::StrdProblem& problem) {
-  std::string text = fmt::format("{}\n", data::Joined(problem.columns, ","));
+  std::string text = data::JoinWords(problem.columns, ",") + "\n";
   for (const std::vector<std::string>& row : problem.rows) {
-    text += fmt::format("{}\n", data::Joined(row, ","));
+    text += data::JoinWords(row, ",") + "\n";
   }
   return text;
 }
@@ -46,7 +46,7 @@ std::string FormulaSpec(const data::StrdProblem& problem) {
     terms.assign(problem.columns.begin() + 1, problem.columns.end());
   }
   return fmt::format("poly:formula={}:centred=no{}",
-                     data::Joined(terms, "+"),
+                     data::JoinWords(terms, "+"),
                      intercept ? "" : ":intercept=no");
 }
 

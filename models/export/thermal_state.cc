@@ -132,7 +132,7 @@ GridOptions ParseGrid(const std::string& grid,
         "{}: name the input across the columns with {}, one of {}",
         data::ArgumentName("table"),
         data::ArgumentName("over"),
-        data::Joined(
+        data::JoinWords(
             {others.begin(),
              others.begin() + std::min<std::ptrdiff_t>(6, std::ssize(others))},
             ", ")));

@@ -107,8 +107,9 @@ class BestSubsetRecipe final : public PolynomialRecipe {
       chosen.push_back(names[static_cast<std::size_t>(term)]);
     }
     fitted.remarks.push_back(
-        chosen.empty() ? "no term was chosen"
-                       : fmt::format("chosen: {}", data::Joined(chosen, ", ")));
+        chosen.empty()
+            ? "no term was chosen"
+            : fmt::format("chosen: {}", data::JoinWords(chosen, ", ")));
     return fitted;
   }
 

@@ -167,7 +167,7 @@ std::vector<TermPowers> ResolveTerms(const std::vector<NamedTerm>& terms,
                         term.position,
                         factor.input,
                         names.size() == 1 ? "is" : "are",
-                        data::Joined(names, ", "),
+                        data::JoinWords(names, ", "),
                         DidYouMean(factor.input, names)));
       }
       powers[static_cast<std::size_t>(found - names.begin())] += factor.power;
@@ -200,9 +200,9 @@ std::string TermsText(const std::vector<NamedTerm>& terms) {
     for (const NamedTerm::Factor& factor : term.factors) {
       factors.push_back(TermName({factor.power}, {factor.input}));
     }
-    products.push_back(data::Joined(factors, "*"));
+    products.push_back(data::JoinWords(factors, "*"));
   }
-  return data::Joined(products, "+");
+  return data::JoinWords(products, "+");
 }
 
 }  // namespace errmap::models

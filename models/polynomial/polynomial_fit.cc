@@ -60,7 +60,7 @@ std::string FirstOf(std::vector<std::string> names) {
   const std::size_t more = names.size() - std::min(names.size(), kMostNamed);
   names.resize(names.size() - more);
   return fmt::format("{}{}",
-                     data::Joined(names, ", "),
+                     data::JoinWords(names, ", "),
                      more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
@@ -367,7 +367,7 @@ std::string WhyAliased(const VectorXd& column,
   }
   return fmt::format("{} {}",
                      parts.size() == 1 ? "repeats" : "follows from",
-                     data::Joined(parts, ", "));
+                     data::JoinWords(parts, ", "));
 }
 
 void FillCoefficientTable(const PolynomialDesign& design,

@@ -306,8 +306,9 @@ class StepwiseRecipe final : public PolynomialRecipe {
       chosen.push_back(dictionary.design.NameOf(term));
     }
     fitted->remarks.push_back(
-        chosen.empty() ? "no term was chosen"
-                       : fmt::format("chosen: {}", data::Joined(chosen, ", ")));
+        chosen.empty()
+            ? "no term was chosen"
+            : fmt::format("chosen: {}", data::JoinWords(chosen, ", ")));
     for (const Index term : selection.aliased_includes) {
       fitted->remarks.push_back(
           fmt::format("{} was to be included but follows from the terms "

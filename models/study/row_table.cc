@@ -30,7 +30,7 @@ void RowTable::Require(const std::vector<std::string>& columns) const {
         fmt::format("{}: no column '{}'; the header must have {}",
                     table_.file,
                     column,
-                    data::Joined(columns, ",")));
+                    data::JoinWords(columns, ",")));
   }
 }
 

@@ -5,11 +5,11 @@
 namespace errmap::data {
 namespace {
 
-TEST(Joined, HasWhatIsBetweenBetweenWordsAlone) {
-  EXPECT_EQ(Joined({}, ", "), "");
-  EXPECT_EQ(Joined({"x"}, ", "), "x");
-  EXPECT_EQ(Joined({"x", "y", "z"}, ", "), "x, y, z");
-  EXPECT_EQ(Joined({"x", "x", ""}, "+"), "x+x+");
+TEST(JoinWords, HasWhatIsBetweenBetweenWordsAlone) {
+  EXPECT_EQ(JoinWords({}, ", "), "");
+  EXPECT_EQ(JoinWords({"x"}, ", "), "x");
+  EXPECT_EQ(JoinWords({"x", "y", "z"}, ", "), "x, y, z");
+  EXPECT_EQ(JoinWords({"x", "x", ""}, "+"), "x+x+");
 }
 
 TEST(NearestName, IsAFewLettersOffAndNeverAnotherWord) {

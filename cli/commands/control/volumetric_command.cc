@@ -162,7 +162,7 @@ class OutputTable {
       if (!s_.maps.outside[k][static_cast<std::size_t>(row)]) continue;
       names.push_back(s_.machine.errors[k].name);
     }
-    return data::Joined(names, " ");
+    return data::JoinWords(names, " ");
   }
 
   const Synthesis& s_;
@@ -184,7 +184,7 @@ std::string SensitiveText(const Machine& machine) {
     if (!machine.sensitive[d]) continue;
     letters.emplace_back(1, static_cast<char>('X' + d));
   }
-  return data::Joined(letters, ", ");
+  return data::JoinWords(letters, ", ");
 }
 
 void SayErrors(const Synthesis& s) {
@@ -226,7 +226,7 @@ void SayContributions(const Synthesis& s) {
   }
   Say(fmt::format("RMS of what each adds, {}: {}",
                   text.symbol(),
-                  data::Joined(parts, ", ")));
+                  data::JoinWords(parts, ", ")));
 }
 
 // Where the points have true errors, what compensation would leave of them.
@@ -265,7 +265,7 @@ std::string DiagonalText(const Synthesis& s,
     parts.push_back(
         fmt::format("{} {}", diagonal.name, text(diagonal.figures.systematic)));
   }
-  return fmt::format("{} {}", data::Joined(parts, ", "), text.symbol());
+  return fmt::format("{} {}", data::JoinWords(parts, ", "), text.symbol());
 }
 
 // ISO 230-6:2002, both ways together, where the points lie on diagonals.
@@ -301,7 +301,7 @@ void SayOutsidePoints(const Synthesis& s) {
   Say(fmt::format(
       "warning: maps extrapolate (inside = 0): {}: outside a trained "
       "range, or in a session whose first rows are missing",
-      data::Joined(parts, ", ")));
+      data::JoinWords(parts, ", ")));
 }
 
 // ---- The command.

@@ -21,7 +21,9 @@ desk::PredictionsFile ParsePredictions(const std::string& pair) {
   return {pair.substr(0, equals), pair.substr(equals + 1)};
 }
 
-std::string KnownModels() { return data::Joined(models::ModelTypes(), ", "); }
+std::string KnownModels() {
+  return data::JoinWords(models::ModelTypes(), ", ");
+}
 
 void AddJudgingOptions(CLI::App* command, CompareArguments* arguments) {
   AddOption(command,

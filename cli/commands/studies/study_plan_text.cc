@@ -34,7 +34,7 @@ std::string HoldoutList(const std::vector<models::Holdout>& holdouts) {
         Shown(holdout.name),
         report::Count(static_cast<long long>(holdout.folds.size()), "fold")));
   }
-  return data::Joined(parts, ", ");
+  return data::JoinWords(parts, ", ");
 }
 
 // "  hold-outs every:3 (1 fold), ...", what follows below its beginning.
@@ -74,7 +74,7 @@ std::string ComponentText(const models::ComponentPlan& component,
                     InUnit(component.comparison.goal, dataset.target().unit));
   }
   text += ListLine("hold-outs", HoldoutList(component.comparison.holdouts));
-  text += ListLine("models", data::Joined(models, ", "));
+  text += ListLine("models", data::JoinWords(models, ", "));
   text += fmt::format("  fits      {}\n", component.num_fits());
   return text;
 }

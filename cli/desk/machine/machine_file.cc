@@ -80,7 +80,7 @@ class MachineFileReader {
     }
     keys.RefuseType(key,
                     *keys.Find(key),
-                    fmt::format("one of {}", data::Joined(known, ", ")));
+                    fmt::format("one of {}", data::JoinWords(known, ", ")));
   }
 
   static std::array<bool, 3> ReadSensitive(const Keys& keys) {
@@ -141,7 +141,7 @@ class MachineFileReader {
     }
     std::vector<std::string> known;
     for (const auto& [name, value] : words) known.push_back('"' + name + '"');
-    const std::string wanted = data::Joined(known, " or ");
+    const std::string wanted = data::JoinWords(known, " or ");
     if (keys.Find(key) == nullptr) {
       keys.RefuseTable(fmt::format("needs {} = {}", key, wanted));
     }

@@ -125,7 +125,7 @@ class MachineEvaluator {
       }
     }
     if (files.empty()) return error.name;
-    return fmt::format("{} of {}", error.name, data::Joined(files, ", "));
+    return fmt::format("{} of {}", error.name, data::JoinWords(files, ", "));
   }
 
   MatrixXd Coordinates() const {

@@ -213,7 +213,7 @@ class LevelPatterns {
   static std::string Words(const std::string& field,
                            const std::set<std::string>& words) {
     return fmt::format(
-        "{{{}:{}}}", field, data::Joined({words.begin(), words.end()}, "|"));
+        "{{{}:{}}}", field, data::JoinWords({words.begin(), words.end()}, "|"));
   }
 
   static std::string Component(const std::string& beside,

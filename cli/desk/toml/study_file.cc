@@ -66,7 +66,7 @@ class Taker {
       words.push_back(fmt::format("\"{}\"", ToString(value)));
     }
     keys_.RefuseType(
-        option.key, *keys_.Find(option.key), data::Joined(words, " or "));
+        option.key, *keys_.Find(option.key), data::JoinWords(words, " or "));
   }
 
  private:
@@ -279,7 +279,7 @@ class StudyFileReader {
       if (!item.is_string()) keys.RefuseType(key, item, kWanted);
       names.push_back(Quoted(item.ref<std::string>()));
     }
-    return fmt::format(":{}={}", key, data::Joined(names, "+"));
+    return fmt::format(":{}={}", key, data::JoinWords(names, "+"));
   }
 
   const std::string& file_;

@@ -55,7 +55,7 @@ std::string WhereText(const Filters& filters) {
     parts.push_back(TomlKey(filter.column) + " = " +
                     (text != nullptr ? TomlText(*text) : ValueText(filter)));
   }
-  return fmt::format("{{ {} }}", data::Joined(parts, ", "));
+  return fmt::format("{{ {} }}", data::JoinWords(parts, ", "));
 }
 
 std::string Commented(const std::string& text) {

@@ -105,7 +105,7 @@ void Keys::AllowOnly(const std::vector<std::string>& known) const {
                        QuotedName(key.str()),
                        where_,
                        Suggestion(key.str(), known),
-                       data::Joined(known, ", ")));
+                       data::JoinWords(known, ", ")));
   }
 }
 

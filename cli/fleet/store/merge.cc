@@ -24,7 +24,7 @@ std::string MissingWords(const FleetSummaries& found) {
       "{} of {} components are missing: {}{}; run the shards again",
       found.missing.size(),
       found.fleet.components.size(),
-      data::Joined(names, "; "),
+      data::JoinWords(names, "; "),
       names.size() < found.missing.size() ? "; ..." : "");
 }
 

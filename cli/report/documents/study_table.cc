@@ -52,7 +52,7 @@ std::string UnconvergedNote(const ModelRecord& model) {
                      model.name,
                      unconverged,
                      Count(fits, "fit"),
-                     data::Joined(parts, ", "));
+                     data::JoinWords(parts, ", "));
 }
 
 // What is written about one component, line by line.
@@ -115,7 +115,7 @@ void ComponentScreen::Answer() {
 }
 
 void ComponentScreen::Verdict() {
-  const std::string said = data::Joined(SaidFirst(record_, Width()), " ");
+  const std::string said = data::JoinWords(SaidFirst(record_, Width()), " ");
   bool first = true;
   for (const std::string& line : WrapLines(said, Width())) {
     screen_->Add(line + "\n", first);
@@ -139,7 +139,7 @@ void ComponentScreen::Data() {
                   Count(data.rows, "row"),
                   UnitsWords(data),
                   TargetWords(data),
-                  inputs.empty() ? "no inputs" : data::Joined(inputs, ", "),
+                  inputs.empty() ? "no inputs" : data::JoinWords(inputs, ", "),
                   more > 0 ? fmt::format(" and {} more", more) : ""));
 }
 
@@ -179,7 +179,7 @@ void ComponentScreen::Leaderboard() {
   if (!options_.details) {
     legend.emplace_back("p values, gaps and times with --details.");
   }
-  Paragraph(data::Joined(legend, " "));
+  Paragraph(data::JoinWords(legend, " "));
   for (const ModelRecord& model : record_.models) {
     if (model.why) {
       Paragraph(fmt::format("{} failed, {}", model.name, *model.why));
@@ -261,7 +261,7 @@ std::string OverallWords(const models::StudyRecord& record) {
   // Where none has a goal there is nothing to say of it.
   if (!goals.empty() &&
       (goals.size() > 1 || standings[GoalStanding::kNone] == 0)) {
-    text += fmt::format(": goal {}", data::Joined(goals, ", "));
+    text += fmt::format(": goal {}", data::JoinWords(goals, ", "));
   }
   text += ".";
   if (maps > 0) {

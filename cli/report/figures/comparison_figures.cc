@@ -37,11 +37,11 @@ std::string GapWords(const ReportView& view,
     }
     if (!parts.empty()) {
       words.push_back(
-          fmt::format("{}: {}", model->name, data::Joined(parts, ", ")));
+          fmt::format("{}: {}", model->name, data::JoinWords(parts, ", ")));
     }
   }
   return fmt::format("Held-out error of each model. {}.",
-                     data::Joined(words, "; "));
+                     data::JoinWords(words, "; "));
 }
 
 // Intervals of the errors under one hold-out, where results have them.
@@ -276,7 +276,7 @@ std::vector<Figure> TrainingFigures(const ReportView& view,
       figure.plot.series.push_back(std::move(series));
     }
     figure.description =
-        fmt::format("Falling error curves: {}.", data::Joined(words, "; "));
+        fmt::format("Falling error curves: {}.", data::JoinWords(words, "; "));
     figures.push_back(std::move(figure));
   }
   return figures;
@@ -336,7 +336,7 @@ std::vector<Figure> StartFigures(const ReportView& view,
       fmt::format("Final sqrt(2 E) of every start, from {:.3g} to {:.3g}: {}.",
                   low,
                   high,
-                  data::Joined(words, "; "));
+                  data::JoinWords(words, "; "));
   return {std::move(figure)};
 }
 

@@ -68,7 +68,7 @@ Figure CurvesFigure(const models::LearningCurvesRecord& curves,
     }
     if (of_model.empty()) continue;
     told.push_back(
-        fmt::format("{}: {}", model.model, data::Joined(of_model, ", ")));
+        fmt::format("{}: {}", model.model, data::JoinWords(of_model, ", ")));
     const std::string law = LawWords(curves, model, error);
     if (!law.empty()) words.push_back(model.model + ": " + law + ".");
     AddCurve(Shortened(model.model, 34),
@@ -82,11 +82,11 @@ Figure CurvesFigure(const models::LearningCurvesRecord& curves,
              static_cast<double>(curves.units),
              &plot);
   }
-  figure.note = data::Joined(words, " ");
+  figure.note = data::JoinWords(words, " ");
   figure.description =
       fmt::format("Held-out error against the number of {} learnt from. {}.",
                   curves.unit,
-                  data::Joined(told, "; "));
+                  data::JoinWords(told, "; "));
   return figure;
 }
 
@@ -122,7 +122,7 @@ Figure SensorsFigure(const models::SensorCurveRecord& curve,
   figure.description = fmt::format(
       "Held-out error against the number of sensors: {}; {} with "
       "all {}.",
-      data::Joined(told, ", "),
+      data::JoinWords(told, ", "),
       error.WithUnit(curve.all.rmse),
       curve.all.sensors);
   return figure;

@@ -279,7 +279,7 @@ class MachinePictures {
         "origin.",
         choice.points,
         machine_.later.size() == 1 ? "session" : "sessions",
-        data::Joined(machine_.later, ", "),
+        data::JoinWords(machine_.later, ", "),
         choice.maps.empty() ? "without" : choice.name,
         machine_.plane->across,
         machine_.plane->up);

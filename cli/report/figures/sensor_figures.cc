@@ -62,7 +62,7 @@ Series Dots(const char* label, const char* colour, Shape shape) {
 
 std::string Words(const ErrorText& error, const Without& without) {
   return fmt::format("without {} {}",
-                     data::Joined(without.sensors, ", "),
+                     data::JoinWords(without.sensors, ", "),
                      error.WithUnit(without.rmse));
 }
 
@@ -168,7 +168,7 @@ std::vector<Figure> ImportanceFigures(const ReportView& view,
   }
   figure.description = fmt::format("Held-out error {} with every sensor; {}.",
                                    error.WithUnit(importance.rmse),
-                                   data::Joined(words, "; "));
+                                   data::JoinWords(words, "; "));
   return {std::move(figure)};
 }
 

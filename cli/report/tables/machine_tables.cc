@@ -88,7 +88,7 @@ std::string CalibrationOf(const MachineChoiceRecord& choice) {
   return fmt::format(
       "by the errors at the tool on {}, each session held out of the fits in "
       "its turn",
-      data::Joined(choice.held_out, ", "));
+      data::JoinWords(choice.held_out, ", "));
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ Table ToolTipTable(const MachineRecord& machine) {
           "no fit saw ({}).{}",
           machine.sensitive,
           machine.points,
-          data::Joined(machine.later, ", "),
+          data::JoinWords(machine.later, ", "),
           machine.later.size() < 2
               ? ""
               : " Over days: 95 % interval of the geometric mean of the days' "
@@ -182,9 +182,10 @@ Table ToolTipIntervalTable(const MachineRecord& machine) {
     }
   }
   for (const auto& [how, names] : calibrated) {
-    table.note += calibrated.size() == 1
-                      ? fmt::format(" They are {}.", how)
-                      : fmt::format(" {}: {}.", data::Joined(names, ", "), how);
+    table.note +=
+        calibrated.size() == 1
+            ? fmt::format(" They are {}.", how)
+            : fmt::format(" {}: {}.", data::JoinWords(names, ", "), how);
   }
   return table;
 }

@@ -382,7 +382,7 @@ std::string DrawnRowsWords(const ReportView& view) {
   }
   if (names.empty()) return "";
   return fmt::format("{} learnt from {} of {} rows (all by rows=all).",
-                     data::Joined(names, ", "),
+                     data::JoinWords(names, ", "),
                      most,
                      view.component->data.rows);
 }

@@ -77,7 +77,7 @@ std::string ListBesides(const std::vector<std::string>& names,
                         const std::string& besides) {
   std::vector<std::string> others = names;
   std::erase(others, besides);
-  return data::Joined(others, ", ");
+  return data::JoinWords(others, ", ");
 }
 
 }  // namespace errmap::report

@@ -154,7 +154,7 @@ std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
     Words sensors = SensorsByNeed(*advice);
     const std::size_t all = sensors.size();
     sensors.resize(std::min(all, kMostNamed));
-    std::string text = data::Joined(sensors, ", ");
+    std::string text = data::JoinWords(sensors, ", ");
     if (all > kMostNamed) text += fmt::format(" and {} more", all - kMostNamed);
     if (all > 1) text += "; --exclude leaves some out";
     steps.push_back({"its sensors", {}, data::Printable(text, text.size())});

@@ -73,12 +73,13 @@ std::string InRoom(Table table, const Terminal& room) {
                          "more row"));
   }
   if (!dropped.empty()) {
-    more.push_back(data::Joined(dropped, ", "));
+    more.push_back(data::JoinWords(dropped, ", "));
   }
   if (more.empty()) return text;
   return text +
-         WrapText(fmt::format("{} with --details.", data::Joined(more, "; ")),
-                  room.text_columns()) +
+         WrapText(
+             fmt::format("{} with --details.", data::JoinWords(more, "; ")),
+             room.text_columns()) +
          "\n";
 }
 
@@ -183,7 +184,7 @@ std::string CoefficientTable(const RegressionReport& report,
     }
     text += WrapText(fmt::format("In this table an input stands for its value "
                                  "less its centre: {}.",
-                                 data::Joined(moved, ", ")),
+                                 data::JoinWords(moved, ", ")),
                      room.text_columns()) +
             "\n";
   }

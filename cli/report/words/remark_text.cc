@@ -77,7 +77,7 @@ std::string CostSentence(const RecommendationRecord& advice) {
       for (const std::string& sensor : advice.sensors) {
         names.push_back(data::Printable(sensor, std::string_view::npos));
       }
-      sensors += fmt::format(" ({})", data::Joined(names, ", "));
+      sensors += fmt::format(" ({})", data::JoinWords(names, ", "));
     }
   }
   std::string cost = Count(advice.cost.multiplications, "multiplication");
@@ -246,7 +246,7 @@ std::string DisagreementSentence(const ComponentNumbers& component,
                     component.error.WithUnit(component.Rmse(best, holdout))));
   }
   return fmt::format("The hold-outs of unseen rows disagree: {}.",
-                     data::Joined(parts, "; "));
+                     data::JoinWords(parts, "; "));
 }
 
 std::string CorrelationSentence(const ComponentNumbers& component,
@@ -311,9 +311,9 @@ std::string OtherCutsSentence(const ComponentNumbers& component) {
                                 parts.empty() ? "Of" : "of",
                                 cuts.repeats,
                                 cuts.holdout,
-                                data::Joined(shares, ", ")));
+                                data::JoinWords(shares, ", ")));
   }
-  return fmt::format("{}.", data::Joined(parts, "; "));
+  return fmt::format("{}.", data::JoinWords(parts, "; "));
 }
 
 // What a person does to bring a column below, or above, all its values so far.
@@ -407,7 +407,7 @@ std::string RemarkText(const ComponentNumbers& component,
       return fmt::format(
           "{} hardly ever returns to values it had: {} to come lie beyond all "
           "that were held out{}. Compare without: --exclude {}.",
-          data::Joined(*remark.columns, ", "),
+          data::JoinWords(*remark.columns, ", "),
           PluralOfUnit(holdout),
           remark.holdouts
               ? fmt::format("; foretold from those before ({}) it has {}",
@@ -415,7 +415,7 @@ std::string RemarkText(const ComponentNumbers& component,
                             component.error.WithUnit(component.Rmse(
                                 advice.model, remark.holdouts->front())))
               : "",
-          data::Joined(*remark.columns, ","));
+          data::JoinWords(*remark.columns, ","));
     case RemarkKind::kSimpleHolds:
       return fmt::format(
           "It is simple: under {} the average of maps typically errs more than "
@@ -547,9 +547,10 @@ std::string WhereToMeasure(const RemarkRecord& remark) {
   }
   std::vector<std::string> parts;
   for (const auto& [state, shown] : states) {
-    parts.push_back(fmt::format("{} ({})", state, data::Joined(shown, ", ")));
+    parts.push_back(
+        fmt::format("{} ({})", state, data::JoinWords(shown, ", ")));
   }
-  return data::Joined(parts, "; ");
+  return data::JoinWords(parts, "; ");
 }
 
 }  // namespace errmap::report

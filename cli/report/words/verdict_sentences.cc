@@ -290,7 +290,7 @@ std::string GapSentence(const ComponentNumbers& component) {
                                 RatioText(row.ratio)));
   }
   std::string text = fmt::format(
-      "Warning: {} flatters {}", gap.neighbours, data::Joined(parts, ", "));
+      "Warning: {} flatters {}", gap.neighbours, data::JoinWords(parts, ", "));
   if (flattered.size() > kMostNamed) {
     text += fmt::format(" and {} more", flattered.size() - kMostNamed);
   }

@@ -109,16 +109,12 @@ std::vector<std::string> FirstWords(const models::ComponentRecord& record) {
 std::vector<std::string> SaidFirst(const models::ComponentRecord& record,
                                    std::size_t width) {
   std::vector<std::string> said;
-  std::string text;
   for (const std::string& sentence : FirstWords(record)) {
-    std::string longer = text;
-    if (!longer.empty()) longer += " ";
-    longer += sentence;
-    if (!text.empty() && WrapLines(longer, width).size() > kMostVerdictLines) {
-      continue;  // a later one may be shorter
-    }
-    text = std::move(longer);
     said.push_back(sentence);
+    if (said.size() > 1 && WrapLines(data::JoinWords(said, " "), width).size() >
+                               kMostVerdictLines) {
+      said.pop_back();  // a later one may be shorter
+    }
   }
   return said;
 }
@@ -160,7 +156,7 @@ std::string MeasureNext(const models::ComponentRecord& record) {
         break;
     }
   }
-  return data::Joined(wanted, "; ");
+  return data::JoinWords(wanted, "; ");
 }
 
 std::string VerdictParagraphs(const models::ComponentRecord& record,
