@@ -186,13 +186,18 @@ std::string WithSuggestion(const CLI::App& app,
                   of_command ? std::string(argv[1]) + " " : std::string());
   std::vector<std::string> known =
       OptionNames(of_command ? *app.get_subcommand(argv[1]) : app);
+  // CLI11 names it, or misses what may be there under a misspelt name.
+  const bool lacks = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+  const auto at_fault = [&](const std::string& flag) {
+    if (!of_command || text.find(flag) != std::string::npos) return true;
+    return lacks && !data::NearestName(flag, known).empty();
+  };
   for (int i = of_command ? 2 : 1; i < argc; ++i) {
     const std::string word(argv[i]);
     const std::string flag = word.substr(0, word.find('='));
     double number = 0.0;
     if (!flag.starts_with("-") || data::ParseNumber(word, &number) ||
-        (of_command && text.find(flag) == std::string::npos) ||
-        std::ranges::find(known, flag) != known.end()) {
+        !at_fault(flag) || std::ranges::find(known, flag) != known.end()) {
       continue;
     }
     // One letter is as near to any other.

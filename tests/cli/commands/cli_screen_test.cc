@@ -426,6 +426,9 @@ TEST_F(Screens, GuessWhatWasMeant) {
   EXPECT_THAT(err({"help", "comprae"}), HasSubstr("did you mean 'compare'?"));
   EXPECT_THAT(err({"compare", kDown, "--modles", "mean"}),
               HasSubstr("no option '--modles'; did you mean '--models'?"));
+  EXPECT_THAT(err({"fit", kDown, "--modle", "mean"}),
+              HasSubstr("no option '--modle'; did you mean '--model'?"));
+  EXPECT_THAT(err({"fit", kDown}), HasSubstr("--model is required"));
   EXPECT_THAT(err({"compare", kDown, "--models", "poly:eq88"}),
               HasSubstr("did you mean 'poly:eq8'?"));
   EXPECT_THAT(err({"compare", kDown, "--models", "ridge"}),
