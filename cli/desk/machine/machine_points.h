@@ -28,9 +28,9 @@ struct MachinePoints {
 /// through the rows of `log` (may be null) and the points together, in order of
 /// time, session by session. Half-widths are those of 90 %, by Student's t from
 /// the errors on units held out, else the interval that stands in the model
-/// file. Throws
-/// data::InputError naming file, error and column where one is missing, holds
-/// no numbers, no "forward" or "reverse", or has a unit of another quantity.
+/// file. Throws data::InputError naming file, error and column where one is
+/// missing, holds no numbers, no "forward" or "reverse", or has a unit of
+/// another quantity.
 MachinePoints EvaluateAt(const models::Machine& machine,
                          const data::CsvTable& points,
                          const data::CsvTable* log,

@@ -16,7 +16,7 @@ constexpr std::size_t kMostTogether = 5;
 
 using Without = models::SensorImportance::Without;
 
-// "all 27 sensors", "t1 and t2", "t1 and 3 alike", "t1".
+// "all 27 sensors", "t1 and 3 alike", "t1".
 std::string Label(const Without& without, std::size_t all) {
   constexpr std::size_t kMost = 30;
   constexpr std::size_t kRoomBeside = 12;
