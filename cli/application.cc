@@ -190,10 +190,13 @@ std::string WithSuggestion(const CLI::App& app,
   const bool lacks = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
   const auto at_fault = [&](const std::string& flag) {
     if (!of_command || text.find(flag) != std::string::npos) return true;
-    return lacks && !data::NearestName(flag, known).empty();
+    // Short ones may be values: "-o -x".
+    return lacks && flag.starts_with("--") &&
+           !data::NearestName(flag, known).empty();
   };
   for (int i = of_command ? 2 : 1; i < argc; ++i) {
     const std::string word(argv[i]);
+    if (word == "--") break;  // no options from here on
     const std::string flag = word.substr(0, word.find('='));
     double number = 0.0;
     if (!flag.starts_with("-") || data::ParseNumber(word, &number) ||

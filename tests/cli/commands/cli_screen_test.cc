@@ -429,6 +429,10 @@ TEST_F(Screens, GuessWhatWasMeant) {
   EXPECT_THAT(err({"fit", kDown, "--modle", "mean"}),
               HasSubstr("no option '--modle'; did you mean '--model'?"));
   EXPECT_THAT(err({"fit", kDown}), HasSubstr("--model is required"));
+  EXPECT_THAT(err({"fit", "--model", "mean", "-o", "-x"}),
+              HasSubstr("DATA is required"));
+  EXPECT_THAT(err({"fit", kDown, "--", "--modle"}),
+              HasSubstr("--model is required"));
   EXPECT_THAT(err({"compare", kDown, "--models", "poly:eq88"}),
               HasSubstr("did you mean 'poly:eq8'?"));
   EXPECT_THAT(err({"compare", kDown, "--models", "ridge"}),
