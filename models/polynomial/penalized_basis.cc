@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -159,6 +160,7 @@ class SummedBasis {
         guarded_(basis.guarded),
         stop_(context.stop) {
     if (folds != nullptr) folds_ = *folds;
+    if (basis.between < 1.0) TakeSessionMeans(std::sqrt(basis.between));
     const Index n = design_->rows();
     if (folds_ && (static_cast<Index>(folds_->folds.codes.size()) != n ||
                    folds_->folds.count() < 2)) {
@@ -178,10 +180,10 @@ class SummedBasis {
       ranges_.emplace_back(static_cast<Index>(design_->inputs().size()));
       ForBlocks(rows, [&](const std::vector<Index>& block) {
         const MatrixXd inputs = Inputs(block);
-        const VectorXd targets = Targets(block);
-        ranges_.back().Include(inputs, targets);
+        ranges_.back().Include(inputs, Targets(block));
+        const Rows fitted = FittedRows(block, Terms(inputs));
         sums_.back() +=
-            fitting::SumProducts(Terms(inputs), targets, Weights(block));
+            fitting::SumProducts(fitted.terms, fitted.targets, Weights(block));
       });
     }
     all_ = sums_.front();
@@ -212,27 +214,40 @@ class SummedBasis {
         static_cast<Index>(rows.size()) >= design_->num_terms()) {
       return {penalty, sums, intercept};
     }
-    return {sums, intercept, Terms(Inputs(rows)), Targets(rows), Weights(rows)};
+    const Rows fitted = FittedRows(rows, Terms(Inputs(rows)));
+    return {sums, intercept, fitted.terms, fitted.targets, Weights(rows)};
+  }
+
+  // Of the errors as they are; those of the fitted rows are less.
+  fitting::PenalizedPath::Solutions Solve(
+      const fitting::PenalizedPath& path,
+      const std::vector<double>& strengths) const {
+    auto solutions = path.Solve(strengths);
+    solutions.intercepts /= offset_kept_;
+    return solutions;
   }
 
   // A ridge's solution to all rows, to full precision.
   void Refine(const fitting::PenalizedPath& path,
               double strength,
               fitting::PenalizedPath::Solutions* solution) const {
+    solution->intercepts *= offset_kept_;
     double residuals = 0.0;
     VectorXd with_columns = VectorXd::Zero(design_->num_terms());
     for (const std::vector<Index>& rows : members_) {
       ForBlocks(rows, [&](const std::vector<Index>& block) {
-        const MatrixXd terms = Terms(Inputs(block));
-        VectorXd left = Targets(block) - terms * solution->coefficients.col(0);
+        const Rows fitted = FittedRows(block, Terms(Inputs(block)));
+        VectorXd left =
+            fitted.targets - fitted.terms * solution->coefficients.col(0);
         left.array() -= solution->intercepts[0];
         const VectorXd weights = Weights(block);
         if (weights.size() > 0) left.array() *= weights.array();
         residuals += left.sum();
-        with_columns += terms.transpose() * left;
+        with_columns += fitted.terms.transpose() * left;
       });
     }
     path.Refine(strength, residuals, with_columns, solution);
+    solution->intercepts /= offset_kept_;
   }
 
   // Predictions (rows of the fold x solutions), clipped where guarded.
@@ -283,6 +298,53 @@ class SummedBasis {
   }
 
  private:
+  // As they are fitted.
+  struct Rows {
+    MatrixXd terms;
+    VectorXd targets;
+  };
+
+  // Less the share of their session's mean that does not count.
+  Rows FittedRows(const std::vector<Index>& rows, MatrixXd terms) const {
+    Rows fitted{std::move(terms), Targets(rows)};
+    if (offset_kept_ == 1.0) return fitted;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Index session = sessions_[static_cast<std::size_t>(rows[i])];
+      const auto row = static_cast<Index>(i);
+      fitted.terms.row(row) -=
+          (1.0 - offset_kept_) * session_means_.terms.row(session);
+      fitted.targets[row] -=
+          (1.0 - offset_kept_) * session_means_.targets[session];
+    }
+    return fitted;
+  }
+
+  void TakeSessionMeans(double offset_kept) {
+    offset_kept_ = offset_kept;
+    sessions_ = design_->dataset().session_codes();
+    const Index count = 1 + std::ranges::max(sessions_);
+    session_means_ = {MatrixXd::Zero(count, design_->num_terms()),
+                      VectorXd::Zero(count)};
+    VectorXd weight = VectorXd::Zero(count);
+    std::vector<Index> all(static_cast<std::size_t>(design_->rows()));
+    std::iota(all.begin(), all.end(), Index{0});
+    ForBlocks(all, [&](const std::vector<Index>& block) {
+      const MatrixXd terms = Terms(Inputs(block));
+      const VectorXd targets = Targets(block);
+      const VectorXd weights = Weights(block);
+      for (Index i = 0; i < terms.rows(); ++i) {
+        const Index session = sessions_[static_cast<std::size_t>(
+            block[static_cast<std::size_t>(i)])];
+        const double w = weights.size() == 0 ? 1.0 : weights[i];
+        weight[session] += w;
+        session_means_.terms.row(session) += w * terms.row(i);
+        session_means_.targets[session] += w * targets[i];
+      }
+    });
+    session_means_.terms.array().colwise() /= weight.array();
+    session_means_.targets.array() /= weight.array();
+  }
+
   // Whether the rows of fold `of` are among those that predict `fold`.
   bool Predicts(Index of, Index fold) const {
     return of != fold && (!folds_->folds.forward || of < fold);
@@ -366,6 +428,9 @@ class SummedBasis {
   std::shared_ptr<const PolynomialDesign> design_;
   std::vector<bool> excluded_;
   bool guarded_;
+  double offset_kept_ = 1.0;     // of a session's mean, in the fitted rows
+  std::vector<Index> sessions_;  // of each row, where less than all is kept
+  Rows session_means_;           // (sessions)
   const std::atomic<bool>* stop_;
   std::optional<InnerFolds> folds_;
   std::vector<std::vector<Index>> members_;
@@ -403,7 +468,7 @@ class StrengthSearch {
     for (Index i = 0; i < judged; ++i) {
       rows_.PredictFold(
           i + folds_.folds.first_judged(),
-          paths_[static_cast<std::size_t>(i)].Solve(strengths),
+          rows_.Solve(paths_[static_cast<std::size_t>(i)], strengths),
           [&](const std::vector<Index>& block, const MatrixXd& predicted) {
             VectorXd w = rows_.Weights(block);
             if (w.size() == 0) w = VectorXd::Ones(predicted.rows());
@@ -531,7 +596,7 @@ std::shared_ptr<const PenalizedFit> FitPenalty(
     }
     search.Report(rule.one_standard_error, &candidate);
   }
-  auto solutions = path.Solve({candidate.strength});
+  auto solutions = basis->Solve(path, {candidate.strength});
   if (penalty == Penalty::kRidge && candidate.strength > 0.0) {
     basis->Refine(path, candidate.strength, &solutions);
   }

@@ -26,6 +26,12 @@ struct PenalizedBasis {
   Centring centring = Centring::kStandardised;
   std::vector<NamedTerm> exclude;
   bool guarded = false;  // inputs and predictions clipped at the trained range
+  /// How much squares of what differs between sessions weigh, of what changes
+  /// within one: above 0, at most 1. Less than 1 is least squares where rows of
+  /// a session share an offset of its own, by Fuller and Battese (1973): rows
+  /// less 1 - sqrt(between) of their session's mean. Takes folds of whole
+  /// sessions.
+  double between = 1.0;
 };
 
 /// Held-out errors along the penalties of one family, and its fit to all rows

@@ -68,7 +68,8 @@ class BasisJudge {
             set, static_cast<Index>(viewed->is_position.size()))),
         .centring = options_.centring,
         .exclude = options_.exclude,
-        .guarded = options_.clip};
+        .guarded = options_.clip,
+        .between = BetweenIn(*viewed)};
     const auto fits = FitsOf(viewed, basis, penalties);
     for (const Penalty penalty : penalties) {
       judged->push_back(
@@ -126,7 +127,7 @@ class BasisJudge {
     for (const Penalty penalty : wanted) key += fitting::ToString(penalty);
     key += fmt::format(
         " view={} {} terms={} degree={} centring={} guarded={} in_turn={}"
-        " promising={}",
+        " between={} promising={}",
         viewed->label(),
         KeyOf(options_.view),
         ToString(basis.terms),
@@ -134,9 +135,19 @@ class BasisJudge {
         static_cast<int>(basis.centring),
         basis.guarded,
         folds_.in_turn,
+        basis.between,
         promising_rmse());
     return context_.shared->Get<FitsByPenalty>(
         key, [&] { return FitAll(viewed, basis, wanted); });
+  }
+
+  // What only grows tells most by how sessions differ, and a drift is no offset
+  // of each.
+  double BetweenIn(const ViewedRows& viewed) const {
+    constexpr double kInViews = 0.25;
+    if (!folds_.whole_sessions) return 1.0;
+    const bool grows = std::ranges::count(viewed.only_grows, true) > 0;
+    return options_.between.value_or(options_.view && !grows ? kInViews : 1.0);
   }
 
   double promising_rmse() const { return kOutOfReach * least_ridge_; }
@@ -174,6 +185,11 @@ OptionList<BasisOptions> BasisOptionList() {
       Within<BasisOptions>(TermsOption("exclude", "terms that are never in"),
                            [](auto& options) { return &options.exclude; }));
   list.push_back(ClipOption<BasisOptions>());
+  list.push_back(OptionFor<BasisOptions>(
+      "between",
+      "weight of what differs between sessions",
+      [](auto& options) { return &options.between; },
+      Number{0.0001, 1.0}));
   return list;
 }
 

@@ -11,8 +11,8 @@
 
 namespace errmap::models {
 
-/// What a SPEC may say of a basis: views, terms, degree, centred, exclude and
-/// clip.
+/// What a SPEC may say of a basis: views, terms, degree, centred, exclude,
+/// clip and between.
 OptionList<BasisOptions> BasisOptionList();
 
 /// A family over one basis, judged.

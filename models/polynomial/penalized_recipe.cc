@@ -56,10 +56,10 @@ class PenalizedRecipe final : public PolynomialRecipe {
       throw std::invalid_argument(
           fmt::format("needs at least 3 rows, found {}", training.num_rows()));
     }
-    const InnerFolds folds =
-        options_.penalty.strength
-            ? InnerFolds()
-            : MakeInnerFolds(training, context, DealFor(options_.basis));
+    InnerFolds folds =
+        MakeInnerFolds(training, context, DealFor(options_.basis));
+    // A penalty that is given is chosen over none.
+    if (options_.penalty.strength) folds.text.clear();
     const std::vector<BasisCandidate> candidates = JudgeBases(training,
                                                               options_.basis,
                                                               options_.penalty,

@@ -139,6 +139,10 @@ struct BasisOptions {
   Centring centring = Centring::kStandardised;  // or kAll, kNone
   std::vector<NamedTerm> exclude = {};
   bool clip = true;  // whether the map is guarded (Guards)
+  /// What PenalizedBasis::between is where whole sessions are held out inside;
+  /// above 0, at most 1; empty: a quarter where a view is given and no column
+  /// only grows, else 1.
+  std::optional<double> between = {};
 
   bool operator==(const BasisOptions&) const = default;
 

@@ -34,9 +34,9 @@ from program_runs import read, run, seeds, simulate, write
 COMPETITORS = {
     "mean": "mean",
     "linear": "poly:full:degree=1",
-    "ridge": "poly:ridge:view=raw:terms=linear",
+    "ridge": "poly:ridge:view=raw:between=1:terms=linear",
     "stepwise": "poly:stepwise:degree=2:criterion=bic",
-    "lasso": "poly:lasso:view=raw:terms=full:degree=2",
+    "lasso": "poly:lasso:view=raw:between=1:terms=full:degree=2",
 }
 SLOW = ("stepwise", "lasso")
 
