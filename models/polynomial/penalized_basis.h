@@ -1,11 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <memory>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "fitting/least_squares/cross_products.h"
 #include "fitting/least_squares/penalized_path.h"
 #include "models/error_model.h"
 #include "models/history/view.h"
@@ -13,6 +15,7 @@
 #include "models/polynomial/formula.h"
 #include "models/polynomial/polynomial_design.h"
 #include "models/polynomial/polynomial_options.h"
+#include "models/polynomial/session_offsets.h"
 #include "models/polynomial/term_set.h"
 
 namespace errmap::models {
@@ -26,80 +29,92 @@ struct PenalizedBasis {
   Centring centring = Centring::kStandardised;
   std::vector<NamedTerm> exclude;
   bool guarded = false;  // inputs and predictions clipped at the trained range
-  /// How much squares of what differs between sessions weigh, of what changes
-  /// within one: above 0, at most 1. Less than 1 is least squares where rows of
-  /// a session share an offset of its own, by Fuller and Battese (1973): rows
-  /// less 1 - sqrt(between) of their session's mean. Takes folds of whole
-  /// sessions.
+  /// Weight of what differs between sessions, above 0 and at most 1
+  /// (SessionOffsets); less than 1 takes folds of whole sessions.
   double between = 1.0;
 };
 
-/// Held-out errors along the penalties of one family, and its fit to all rows
-/// at the one chosen.
-struct PenalizedCandidate {
-  fitting::Penalty penalty = fitting::Penalty::kRidge;
-  double strength = 0.0;
-  double degrees_of_freedom = 0.0;
-  // The inner hold-outs, falling strengths; empty where the strength was given.
-  std::vector<double> strengths;
-  std::vector<double> mean_squared_errors;  // TypicalError
-  std::vector<double> standard_errors;      // of those means, over folds
-  /// Root of the mean squared error of the chosen strength; NaN without inner
-  /// hold-outs.
-  double held_out_rmse = 0.0;
-  /// (n) predictions of the rows held out, at the chosen strength; NaN for
-  /// rows never held out; (0) where they were not kept.
-  Eigen::VectorXd held_out;
-  double intercept = 0.0;
-  Eigen::VectorXd coefficients;  // (terms) in the scaled inputs of the design
-};
+/// Where a set of rows lies: their scaled inputs and their target.
+struct RowRanges {
+  explicit RowRanges(Eigen::Index inputs);
 
-/// A candidate and the basis that its coefficients belong to, without the rows:
-/// those of all folds would be many.
-struct PenalizedFit {
-  std::vector<Eigen::Index> inputs;  // of the rows in their view
-  ColumnScaling scaling;
-  std::vector<TermPowers> terms;
-  PenalizedCandidate candidate;
+  void Include(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& targets);
+  void Include(const RowRanges& other);
 
-  /// `viewed` are the rows that were fitted; they must outlive the design.
-  PolynomialDesign DesignOf(const ViewedRows& viewed) const {
-    return {*viewed.rows, inputs, scaling, terms};
-  }
+  Eigen::VectorXd input_min;  // (inputs) NaN without rows, as all
+  Eigen::VectorXd input_max;
+  double error_min;
+  double error_max;
 };
 
 /// Cross-products of a basis over each inner fold, from one pass over the rows:
 /// all that its penalties need of them.
-class SummedBasis;
+class SummedBasis {
+ public:
+  using Rows = std::vector<Eigen::Index>;
 
-/// `folds` are needed where the penalty is to be chosen by them; null where it
-/// is given. Throws std::invalid_argument on too many terms or folds that are
-/// missing; interrupted by context.stop with FitInterrupted's message.
-std::shared_ptr<const SummedBasis> SumBasis(
-    std::shared_ptr<const ViewedRows> viewed,
-    const PenalizedBasis& basis,
-    const InnerFolds* folds,
-    const FitContext& context);
+  /// `folds` are needed where the penalty is to be chosen by them; null where
+  /// it is given. Throws std::invalid_argument on too many terms or folds that
+  /// are missing; interrupted by context.stop with FitInterrupted's message.
+  SummedBasis(std::shared_ptr<const ViewedRows> viewed,
+              const PenalizedBasis& basis,
+              const InnerFolds* folds,
+              const FitContext& context);
 
-/// Fits a penalty to a basis. Held-out rows are clipped as the basis says, at
-/// what their own fold trained on. Errors far below `indifference` (target's
-/// unit) count alike. A ridge is searched on where the first three strengths
-/// find an RMSE of at most `promising`. Throws std::invalid_argument where
-/// folds are missing.
-std::shared_ptr<const PenalizedFit> FitPenalty(
-    const std::shared_ptr<const SummedBasis>& basis,
-    fitting::Penalty penalty,
-    const PenaltyRule& rule,
-    double indifference,
-    double promising);
+  const PolynomialDesign& design() const { return design_; }
+  /// Nothing where the penalty is given.
+  const std::optional<InnerFolds>& inner() const { return folds_; }
 
-/// The map of a candidate over the basis `design` of `viewed`, history and
-/// guards attached. `raw` are the training rows before any view.
-FittedModel MapOfCandidate(const std::string& name,
-                           const data::Dataset& raw,
-                           const ViewedRows& viewed,
-                           const PolynomialDesign& design,
-                           const PenalizedCandidate& candidate,
-                           bool guarded);
+  /// Of all rows, or of those that predict a fold.
+  fitting::PenalizedPath PathOf(fitting::Penalty penalty,
+                                std::optional<Eigen::Index> fold) const;
+  /// A path's solutions for `strengths`, falling, with the errors' intercepts:
+  /// the rows are fitted less a share of their offsets.
+  fitting::PenalizedPath::Solutions Solve(
+      const fitting::PenalizedPath& path,
+      const std::vector<double>& strengths) const;
+  /// A ridge's to all rows for a strength above 0, to full precision.
+  fitting::PenalizedPath::Solutions SolveRefined(
+      const fitting::PenalizedPath& path, double strength) const;
+
+  /// Gives `take` rows of a fold and their predictions (rows x solutions), some
+  /// after the other, clipped where guarded.
+  void PredictFold(
+      Eigen::Index fold,
+      const fitting::PenalizedPath::Solutions& solutions,
+      const std::function<void(const Rows&, const Eigen::MatrixXd&)>& take)
+      const;
+
+  Eigen::VectorXd Targets(const Rows& rows) const;
+  Eigen::VectorXd Weights(const Rows& rows) const;  // (0): all 1
+
+ private:
+  // Whether the rows of fold `of` are among those that predict `fold`.
+  bool Predicts(Eigen::Index of, Eigen::Index fold) const;
+  // Of the rows that predict a fold.
+  fitting::CrossProducts TrainingOf(Eigen::Index fold) const;
+  Eigen::MatrixXd Inputs(const Rows& rows) const;  // scaled
+  Eigen::MatrixXd Terms(const Eigen::MatrixXd& inputs) const;
+  // Terms that bend see inputs held near where the fold was trained, as in
+  // MapOfTerms.
+  Eigen::MatrixXd GuardedTerms(const Eigen::MatrixXd& inputs,
+                               const RowRanges& trained) const;
+  TermRows RowsAsMeasured(const Rows& rows) const;
+  TermRows RowsAsFitted(const Rows& rows) const;
+  void ForBlocks(const Rows& rows,
+                 const std::function<void(const Rows&)>& work) const;
+
+  std::shared_ptr<const ViewedRows> viewed_;
+  PolynomialDesign design_;
+  std::vector<bool> excluded_;
+  bool guarded_;
+  const std::atomic<bool>* stop_;
+  std::optional<InnerFolds> folds_;
+  SessionOffsets offsets_;
+  std::vector<Rows> members_;  // of each fold
+  std::vector<fitting::CrossProducts> sums_;
+  std::vector<RowRanges> ranges_;
+  fitting::CrossProducts all_;
+};
 
 }  // namespace errmap::models

@@ -102,8 +102,8 @@ class BasisJudge {
       const std::shared_ptr<const ViewedRows>& viewed,
       const PenalizedBasis& basis,
       const std::vector<Penalty>& wanted) const {
-    const auto sums =
-        SumBasis(viewed, basis, rule_.strength ? nullptr : &folds_, context_);
+    const SummedBasis sums(
+        viewed, basis, rule_.strength ? nullptr : &folds_, context_);
     auto fits = std::make_shared<FitsByPenalty>();
     for (const Penalty penalty : wanted) {
       fits->emplace(
@@ -146,8 +146,8 @@ class BasisJudge {
   double BetweenIn(const ViewedRows& viewed) const {
     constexpr double kInViews = 0.25;
     if (!folds_.whole_sessions) return 1.0;
-    const bool grows = std::ranges::count(viewed.only_grows, true) > 0;
-    return options_.between.value_or(options_.view && !grows ? kInViews : 1.0);
+    const bool has_offsets = options_.view && NamesOfGrowing(viewed).empty();
+    return options_.between.value_or(has_offsets ? kInViews : 1.0);
   }
 
   double promising_rmse() const { return kOutOfReach * least_ridge_; }

@@ -6,7 +6,7 @@
 
 #include "models/history/view.h"
 #include "models/option_list.h"
-#include "models/polynomial/penalized_basis.h"
+#include "models/polynomial/penalized_fit.h"
 #include "models/polynomial/polynomial_options.h"
 
 namespace errmap::models {

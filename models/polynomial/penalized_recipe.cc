@@ -56,10 +56,10 @@ class PenalizedRecipe final : public PolynomialRecipe {
       throw std::invalid_argument(
           fmt::format("needs at least 3 rows, found {}", training.num_rows()));
     }
-    InnerFolds folds =
+    const InnerFolds folds =
         MakeInnerFolds(training, context, DealFor(options_.basis));
-    // A penalty that is given is chosen over none.
-    if (options_.penalty.strength) folds.text.clear();
+    // What the penalty is chosen over; one that is given, over nothing.
+    const std::string over = options_.penalty.strength ? "" : folds.text;
     const std::vector<BasisCandidate> candidates = JudgeBases(training,
                                                               options_.basis,
                                                               options_.penalty,
@@ -79,7 +79,7 @@ class PenalizedRecipe final : public PolynomialRecipe {
         "penalty {:.3g}{}, {:.1f} effective parameters, {} of {} terms up to "
         "degree {}",
         chosen.strength,
-        folds.text.empty() ? "" : " by cross-validation over " + folds.text,
+        over.empty() ? "" : " by cross-validation over " + over,
         chosen.degrees_of_freedom,
         (chosen.coefficients.array() != 0.0).count(),
         chosen.coefficients.size(),
@@ -96,13 +96,13 @@ class PenalizedRecipe final : public PolynomialRecipe {
       fitted.remarks.push_back(
           fmt::format("{} by cross-validation over {} of {} bases",
                       best.label,
-                      folds.text,
+                      over,
                       candidates.size()));
     }
     if (options_.family == Penalty::kLasso) {
       fitted.remarks.push_back("chosen: " + ChosenNames(design, chosen));
     }
-    if (context.explain) Explain(training, design, best, folds, &fitted);
+    if (context.explain) Explain(training, design, best, over, &fitted);
     return fitted;
   }
 
@@ -122,7 +122,7 @@ class PenalizedRecipe final : public PolynomialRecipe {
   void Explain(const Dataset& training,
                const PolynomialDesign& design,
                const BasisCandidate& best,
-               const InnerFolds& folds,
+               const std::string& over,
                FittedModel* fitted) const {
     auto report = std::make_shared<RegressionReport>();
     const PenalizedCandidate& fit = best.fit->candidate;
@@ -133,11 +133,11 @@ class PenalizedRecipe final : public PolynomialRecipe {
         design.num_terms() - best.num_excluded,
         best.degree,
         fit.strength,
-        folds.text.empty() ? "" : " by cross-validation over " + folds.text);
+        over.empty() ? "" : " by cross-validation over " + over);
     report->penalised = true;
     report->weighted = training.weights().size() != 0;
     report->candidates = design.num_terms();
-    report->cross_validation = folds.text;
+    report->cross_validation = over;
     report->strength = fit.strength;
     report->degrees_of_freedom = fit.degrees_of_freedom;
     report->strengths = fit.strengths;

@@ -42,6 +42,22 @@ inline data::Dataset WithLog(std::vector<data::ColumnInfo> inputs,
   return data::Dataset(std::move(parts));
 }
 
+/// The same rows with other errors and weights; (0): all 1.
+inline data::Dataset WithTargets(const data::Dataset& dataset,
+                                 const Eigen::VectorXd& targets,
+                                 const Eigen::VectorXd& weights = {}) {
+  data::Dataset::Parts parts;
+  parts.source = dataset.source();
+  parts.inputs = dataset.inputs();
+  parts.input_values = dataset.input_values();
+  parts.target = dataset.target();
+  parts.target_values = targets;
+  parts.weights = weights;
+  parts.log = dataset.log();
+  parts.log_rows = dataset.log_rows();
+  return data::Dataset(std::move(parts));
+}
+
 inline data::ColumnInfo ColumnNamed(const std::string& name) {
   return {name, data::UnitOfColumn(name)};
 }

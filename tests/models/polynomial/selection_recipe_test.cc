@@ -8,8 +8,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "models/inner_folds.h"
-#include "models/polynomial/penalized_basis.h"
 #include "models/polynomial/polynomial_basis.h"
 #include "models/polynomial/polynomial_model.h"
 #include "models/polynomial/polynomial_options.h"
@@ -17,9 +15,7 @@
 #include "models/regression_report.h"
 #include "models/shared_work.h"
 #include "tests/fitting/regression_test_data.h"
-#include "tests/models/history/history_data.h"
 #include "tests/models/model_test_data.h"
-#include "tests/random_matrix.h"
 
 namespace errmap::models {
 namespace {
@@ -504,194 +500,6 @@ TEST(SelectionRecipe, NamesAliasedTerms) {
         named || (alias.name == "t2_degC" && alias.why == "repeats t1_degC");
   }
   EXPECT_TRUE(named);
-}
-
-TEST(FitPenalty, SearchesOnWhereTheBasisIsPromising) {
-  const data::Dataset dataset = ManyRows(false, 240);
-  const FitContext context;
-  const auto viewed = std::make_shared<const ViewedRows>(
-      MakeViews(dataset, std::nullopt, 0.0).front());
-  const InnerFolds folds = MakeInnerFolds(dataset, context);
-  const auto basis = SumBasis(viewed, PenalizedBasis(), &folds, context);
-  const auto search = [&](double promising, PenaltyRule rule = {}) {
-    return FitPenalty(basis, fitting::Penalty::kRidge, rule, 0.0, promising)
-        ->candidate;
-  };
-  const PenalizedCandidate coarse = search(0.0);
-  const PenalizedCandidate close = search(coarse.held_out_rmse);
-  EXPECT_THAT(coarse.strengths, SizeIs(3));
-  EXPECT_THAT(close.strengths, SizeIs(10));
-  EXPECT_LE(close.held_out_rmse, coarse.held_out_rmse);
-  // One standard error is counted over every decade.
-  EXPECT_GE(search(0.0, {.one_standard_error = true}).strengths.size(), 11U);
-}
-
-// Five sessions of unlike length, each with an offset of its own.
-data::Dataset SessionsWithOffsets(bool weighted, Index inputs) {
-  const std::vector<Index> lengths = {7, 20, 3, 12, 28};
-  std::vector<Index> codes;
-  for (std::size_t session = 0; session < lengths.size(); ++session) {
-    codes.insert(codes.end(),
-                 static_cast<std::size_t>(lengths[session]),
-                 static_cast<Index>(session));
-  }
-  const auto rows = static_cast<Index>(codes.size());
-  std::vector<data::ColumnInfo> columns;
-  for (Index j = 0; j < inputs; ++j) {
-    columns.push_back(
-        errmap::testing::ColumnNamed(fmt::format("t{}_degC", j + 1)));
-  }
-  const Eigen::MatrixXd levels = errmap::testing::RandomMatrix(5, inputs, 71);
-  const Eigen::VectorXd offsets = errmap::testing::RandomVector(5, 72);
-  const Eigen::VectorXd noise = errmap::testing::RandomVector(rows, 73);
-  Eigen::MatrixXd values = errmap::testing::RandomMatrix(rows, inputs, 74);
-  for (Index row = 0; row < rows; ++row) {
-    values.row(row) += levels.row(codes[static_cast<std::size_t>(row)]);
-  }
-  const data::Dataset all = errmap::testing::WithLog(
-      columns, values, Eigen::VectorXd::LinSpaced(rows, 0.0, 60.0), codes);
-  data::Dataset::Parts parts;
-  parts.source = all.source();
-  parts.inputs = columns;
-  parts.input_values = values;
-  parts.target = all.target();
-  parts.log = all.log();
-  parts.log_rows = all.log_rows();
-  parts.target_values = values.rowwise().sum() + 0.1 * noise;
-  for (Index row = 0; row < rows; ++row) {
-    parts.target_values[row] += offsets[codes[static_cast<std::size_t>(row)]];
-  }
-  if (weighted) {
-    parts.weights = 1.5 + errmap::testing::RandomVector(rows, 75).array();
-  }
-  return data::Dataset(std::move(parts));
-}
-
-// Minimises the penalised squares within sessions and `between` times those of
-// their means: (1 + p) intercept and slopes.
-Eigen::VectorXd WithinAndBetween(const data::Dataset& dataset,
-                                 double between,
-                                 double strength) {
-  const std::vector<Index> codes = dataset.session_codes();
-  const Index rows = dataset.num_rows();
-  const Index p = dataset.num_inputs();
-  Eigen::VectorXd weights = dataset.weights();
-  if (weights.size() == 0) weights.setOnes(rows);
-  Eigen::MatrixXd values(rows, p + 2);  // 1, inputs, target
-  values << Eigen::VectorXd::Ones(rows), dataset.input_values(),
-      dataset.target_values();
-  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(p + 2, p + 2);
-  for (Index session = 0; session < 5; ++session) {
-    double of_session = 0.0;
-    Eigen::RowVectorXd mean = Eigen::RowVectorXd::Zero(p + 2);
-    for (Index row = 0; row < rows; ++row) {
-      if (codes[static_cast<std::size_t>(row)] != session) continue;
-      of_session += weights[row];
-      mean += weights[row] * values.row(row);
-    }
-    if (of_session == 0.0) continue;
-    mean /= of_session;
-    products += between * of_session * mean.transpose() * mean;
-    for (Index row = 0; row < rows; ++row) {
-      if (codes[static_cast<std::size_t>(row)] != session) continue;
-      const Eigen::RowVectorXd less = values.row(row) - mean;
-      products += weights[row] * less.transpose() * less;
-    }
-  }
-  Eigen::MatrixXd normal = products.topLeftCorner(p + 1, p + 1);
-  for (Index j = 1; j <= p; ++j) {
-    const double variance =
-        products(j, j) - products(0, j) * products(0, j) / products(0, 0);
-    normal(j, j) += strength * variance;
-  }
-  return normal.ldlt().solve(products.col(p + 1).head(p + 1));
-}
-
-TEST(FitPenalty, WeighsWhatDiffersBetweenSessions) {
-  for (const bool weighted : {false, true}) {
-    // The latter are more than rows.
-    for (const Index inputs : {3, 80}) {
-      const data::Dataset dataset = SessionsWithOffsets(weighted, inputs);
-      const FitContext context{.inner_holdout = InnerHoldout::kWholeSessions};
-      const InnerFolds folds = MakeInnerFolds(dataset, context);
-      const auto viewed = std::make_shared<const ViewedRows>(
-          MakeViews(dataset, std::nullopt, 0.0).front());
-      for (const double between : {0.0001, 0.25, 1.0}) {
-        PenalizedBasis basis;
-        basis.between = between;
-        for (const double strength : {1e-3, 0.1}) {
-          const auto fit = FitPenalty(SumBasis(viewed, basis, &folds, context),
-                                      fitting::Penalty::kRidge,
-                                      {.strength = strength},
-                                      0.0,
-                                      0.0);
-          const FittedModel map = MapOfCandidate("map",
-                                                 dataset,
-                                                 *viewed,
-                                                 fit->DesignOf(*viewed),
-                                                 fit->candidate,
-                                                 false);
-          const Eigen::VectorXd expected =
-              WithinAndBetween(dataset, between, strength);
-          const Eigen::VectorXd predicted =
-              (dataset.input_values() * expected.tail(inputs)).array() +
-              expected[0];
-          EXPECT_LT((map.Predict(dataset) - predicted).cwiseAbs().maxCoeff(),
-                    1e-9)
-              << inputs << " inputs, between " << between << ", strength "
-              << strength;
-        }
-      }
-    }
-  }
-}
-
-TEST(FitPenalty, HoldsOutWhatTheOtherSessionsPredict) {
-  const data::Dataset dataset = SessionsWithOffsets(true, 3);
-  const FitContext context{.inner_holdout = InnerHoldout::kWholeSessions};
-  const InnerFolds folds = MakeInnerFolds(dataset, context);
-  const auto viewed = std::make_shared<const ViewedRows>(
-      MakeViews(dataset, std::nullopt, 0.0).front());
-  PenalizedBasis basis;
-  basis.between = 0.25;
-  const PenalizedCandidate chosen =
-      FitPenalty(SumBasis(viewed, basis, &folds, context),
-                 fitting::Penalty::kRidge,
-                 {},
-                 0.0,
-                 1.0)
-          ->candidate;
-  std::vector<Index> others;
-  for (Index row = 0; row < dataset.num_rows(); ++row) {
-    if (folds.folds.codes[static_cast<std::size_t>(row)] != 1) {
-      others.push_back(row);
-    }
-  }
-  const Eigen::VectorXd expected =
-      WithinAndBetween(dataset.SelectRows(others), 0.25, chosen.strength);
-  for (Index row = 0; row < dataset.num_rows(); ++row) {
-    if (folds.folds.codes[static_cast<std::size_t>(row)] != 1) continue;
-    EXPECT_NEAR(
-        chosen.held_out[row],
-        dataset.input_values().row(row) * expected.tail(3) + expected[0],
-        1e-9);
-  }
-}
-
-// In a view a quarter; rows as they are measured count as anywhere else.
-TEST(PenalizedRecipe, WeighsSessionsInViewsAlone) {
-  const data::Dataset dataset = SessionsWithOffsets(false, 3);
-  const FitContext context{.inner_holdout = InnerHoldout::kWholeSessions};
-  const auto slopes = [&](const std::string& spec) {
-    const FittedModel map = MakeRecipe(spec)->Fit(dataset, context);
-    return map.Predict(dataset).eval();
-  };
-  const std::string raw = "poly:ridge:terms=linear:penalty=0.01";
-  EXPECT_EQ(slopes(raw), slopes(raw + ":between=1"));
-  EXPECT_EQ(slopes(raw + ":view=raw"), slopes(raw + ":view=raw:between=0.25"));
-  EXPECT_GT((slopes(raw + ":view=raw") - slopes(raw)).cwiseAbs().maxCoeff(),
-            0.01);
-  EXPECT_THAT(RefusalOfSpec("blend:between=0"), HasSubstr("between"));
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ FittedModel MapOf(const data::Dataset& training) {
   return fitted;
 }
 
-Index Known(const FittedModel& fitted, const data::Dataset& rows) {
+Index CountKnown(const FittedModel& fitted, const data::Dataset& rows) {
   return CountLearntRows(fitted, rows.input_values(), &rows.target_values());
 }
 
@@ -61,12 +61,12 @@ TEST(LearntRows, AreKnownAgainAndOthersAreNot) {
   const data::Dataset training = DrawnRows(1000, 1);
   const FittedModel fitted = MapOf(training);
   ASSERT_NE(fitted.learnt, nullptr);
-  EXPECT_EQ(Known(fitted, training), 1000);
-  EXPECT_EQ(Known(fitted, training.SelectRows({7})), 1);
+  EXPECT_EQ(CountKnown(fitted, training), 1000);
+  EXPECT_EQ(CountKnown(fitted, training.SelectRows({7})), 1);
   EXPECT_EQ(CountLearntRows(fitted, training.input_values(), nullptr), 1000);
   int said = 0;
   for (std::uint64_t seed = 2; seed < 202; ++seed) {
-    said += Known(fitted, DrawnRows(100, seed)) > 0 ? 1 : 0;
+    said += CountKnown(fitted, DrawnRows(100, seed)) > 0 ? 1 : 0;
   }
   // Of 20,000 rows one in 2000 seems known: in ten sets at most one row, which
   // some sets of 100 say.
@@ -98,7 +98,7 @@ TEST(LearntRows, OfALongTrainingAreEstimated) {
   ASSERT_NE(fitted.learnt, nullptr);
   EXPECT_EQ(fitted.learnt->every, 4);
   EXPECT_LT(fitted.learnt->measured->bits.size(), 70000U);
-  EXPECT_EQ(Known(fitted, training), 60000);
+  EXPECT_EQ(CountKnown(fitted, training), 60000);
 }
 
 TEST(LearntRows, TellNothingWhereRowsAreAlike) {
@@ -110,7 +110,7 @@ TEST(LearntRows, StandInTheFileOfTheMap) {
   const FittedModel read =
       ModelFromJson(ModelToJson(MapOf(training), {}), "map.json");
   ASSERT_NE(read.learnt, nullptr);
-  EXPECT_EQ(Known(read, training), 200);
+  EXPECT_EQ(CountKnown(read, training), 200);
 }
 
 }  // namespace

@@ -1,0 +1,206 @@
+#include "models/polynomial/penalized_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "models/history/with_history.h"
+#include "models/out_of_reach.h"
+#include "models/polynomial/polynomial_fit.h"
+#include "models/polynomial/polynomial_model.h"
+
+namespace errmap::models {
+namespace {
+
+using data::Dataset;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using fitting::Penalty;
+
+// Predictions of held-out rows are kept for stacking up to this many.
+constexpr Index kMostKept = 100'000;
+
+// What the inner hold-outs say of each strength tried.
+class StrengthSearch {
+ public:
+  StrengthSearch(const SummedBasis& rows, Penalty penalty, double indifference)
+      : rows_(rows),
+        folds_(*rows.inner()),
+        indifference_(indifference),
+        keeps_(rows.design().rows() <= kMostKept) {
+    for (Index fold = folds_.folds.first_judged(); fold < folds_.folds.count();
+         ++fold) {
+      paths_.push_back(rows.PathOf(penalty, fold));
+    }
+  }
+
+  // Judges `strengths`, falling.
+  void Judge(const std::vector<double>& strengths) {
+    const auto count = static_cast<Index>(strengths.size());
+    const auto judged = static_cast<Index>(paths_.size());
+    MatrixXd errors = MatrixXd::Zero(judged, count);  // sums of squares
+    VectorXd weights = VectorXd::Zero(judged);
+    MatrixXd held_out;
+    if (keeps_) {
+      held_out = MatrixXd::Constant(rows_.design().rows(),
+                                    count,
+                                    std::numeric_limits<double>::quiet_NaN());
+    }
+    for (Index i = 0; i < judged; ++i) {
+      rows_.PredictFold(
+          i + folds_.folds.first_judged(),
+          rows_.Solve(paths_[static_cast<std::size_t>(i)], strengths),
+          [&](const std::vector<Index>& block, const MatrixXd& predicted) {
+            VectorXd w = rows_.Weights(block);
+            if (w.size() == 0) w = VectorXd::Ones(predicted.rows());
+            const MatrixXd residuals =
+                (-predicted).colwise() + rows_.Targets(block);
+            errors.row(i) += w.transpose() * residuals.cwiseAbs2();
+            weights[i] += w.sum();
+            if (keeps_) held_out(block, Eigen::all) = predicted;
+          });
+    }
+    for (Index s = 0; s < count; ++s) {
+      Judged result;
+      result.error = TypicalError(
+          folds_, errors.col(s).cwiseQuotient(weights), weights, indifference_);
+      if (keeps_) result.held_out = held_out.col(s);
+      judged_[-strengths[static_cast<std::size_t>(s)]] = std::move(result);
+    }
+  }
+
+  double Best() const { return -Lowest()->first; }
+  double LeastRmse() const {
+    return std::sqrt(Lowest()->second.error.mean_square);
+  }
+
+  // The chosen strength and all that was found, into `candidate`.
+  void Report(bool one_standard_error, PenalizedCandidate* candidate) const {
+    auto chosen = Lowest();
+    const InnerError least = chosen->second.error;
+    if (one_standard_error && !std::isnan(least.standard_error)) {
+      const double enough = least.mean_square + least.standard_error;
+      chosen =
+          std::find_if(judged_.begin(), judged_.end(), [&](const auto& judged) {
+            return judged.second.error.mean_square <= enough;
+          });
+    }
+    for (const auto& [strength, judged] : judged_) {
+      candidate->strengths.push_back(-strength);
+      candidate->mean_squared_errors.push_back(judged.error.mean_square);
+      candidate->standard_errors.push_back(judged.error.standard_error);
+    }
+    candidate->strength = -chosen->first;
+    candidate->held_out_rmse = std::sqrt(chosen->second.error.mean_square);
+    candidate->held_out = chosen->second.held_out;
+  }
+
+ private:
+  struct Judged {
+    InnerError error;
+    VectorXd held_out;
+  };
+  // By falling strength: the key is its negative.
+  using Results = std::map<double, Judged>;
+
+  // Of equal errors the stronger penalty.
+  Results::const_iterator Lowest() const {
+    return std::ranges::min_element(judged_, {}, [](const auto& judged) {
+      return judged.second.error.mean_square;
+    });
+  }
+
+  const SummedBasis& rows_;
+  const InnerFolds& folds_;
+  double indifference_;
+  bool keeps_;
+  std::vector<fitting::PenalizedPath> paths_;  // of the judged folds
+  Results judged_;
+};
+
+std::vector<double> EverySecond(const std::vector<double>& values) {
+  std::vector<double> taken;
+  for (std::size_t i = 0; i < values.size(); i += 2) taken.push_back(values[i]);
+  return taken;
+}
+
+// Each strength of a ridge costs a factorisation: the falling `grid` first,
+// then the strengths around the best; no further where the first few leave the
+// basis behind.
+void SearchRidge(const std::vector<double>& grid,
+                 double promising,
+                 StrengthSearch* search) {
+  const auto few = grid.begin() + kTrialsBeforeGivenUp;
+  search->Judge({grid.begin(), few});
+  if (!(search->LeastRmse() <= promising)) return;
+  search->Judge({few, grid.end()});
+  for (const double step : {10.0, std::sqrt(10.0)}) {
+    const double best = search->Best();
+    search->Judge({best * step, best / step});
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const PenalizedFit> FitPenalty(const SummedBasis& basis,
+                                               Penalty penalty,
+                                               const PenaltyRule& rule,
+                                               double indifference,
+                                               double promising) {
+  PenalizedCandidate candidate;
+  candidate.penalty = penalty;
+  candidate.held_out_rmse = std::numeric_limits<double>::quiet_NaN();
+  const fitting::PenalizedPath path = basis.PathOf(penalty, std::nullopt);
+  if (rule.strength) {
+    candidate.strength = *rule.strength;
+  } else if (!basis.inner()) {
+    throw std::invalid_argument("FitPenalty: there are no folds to choose by");
+  } else {
+    StrengthSearch search(basis, penalty, indifference);
+    const std::vector<double> grid = path.Grid();
+    if (penalty == Penalty::kLasso) {
+      search.Judge(grid);
+    } else if (rule.one_standard_error) {
+      SearchRidge(grid, std::numeric_limits<double>::infinity(), &search);
+    } else {
+      SearchRidge(EverySecond(grid), promising, &search);
+    }
+    search.Report(rule.one_standard_error, &candidate);
+  }
+  const bool refines = penalty == Penalty::kRidge && candidate.strength > 0.0;
+  const auto solutions = refines ? basis.SolveRefined(path, candidate.strength)
+                                 : basis.Solve(path, {candidate.strength});
+  candidate.coefficients = solutions.coefficients.col(0);
+  candidate.intercept = solutions.intercepts[0];
+  candidate.degrees_of_freedom =
+      path.DegreesOfFreedom(candidate.strength, candidate.coefficients);
+  const PolynomialDesign& design = basis.design();
+  return std::make_shared<const PenalizedFit>(PenalizedFit{
+      design.inputs(), design.scaling(), design.terms(), std::move(candidate)});
+}
+
+FittedModel MapOfCandidate(const std::string& name,
+                           const Dataset& raw,
+                           const ViewedRows& viewed,
+                           const PolynomialDesign& design,
+                           const PenalizedCandidate& candidate,
+                           bool guarded) {
+  FittedModel fitted = MapOfTerms(
+      name, design, candidate.intercept, candidate.coefficients, guarded);
+  fitted.inner_rmse = candidate.held_out_rmse;
+  if (guarded) {
+    fitted.guards = MakeGuards(fitted.inputs, raw.target_values());
+    LeaveRoom(
+        NamesOfGrowing(viewed), viewed.room, fitted.inputs, &*fitted.guards);
+  }
+  if (viewed.history != nullptr) {
+    fitted = WithHistory(std::move(fitted), raw, *viewed.history);
+  }
+  return fitted;
+}
+
+}  // namespace errmap::models

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace errmap::models {
+
+/// Rows of a design.
+struct TermRows {
+  Eigen::MatrixXd terms;    // (rows x k)
+  Eigen::VectorXd targets;  // (rows)
+};
+
+/// Least squares where the rows of a session share an offset: squares of what
+/// differs between sessions weigh `between` of what changes within one. Rows
+/// are fitted less 1 - sqrt(between) of their session's mean (Fuller and
+/// Battese 1973).
+class SessionOffsets {
+ public:
+  /// Rows stay as they are.
+  SessionOffsets() = default;
+  /// `sessions`: a code for each row of all. Every row is to be included once
+  /// before any is fitted.
+  SessionOffsets(std::vector<Eigen::Index> sessions,
+                 Eigen::Index num_terms,
+                 double between);
+
+  /// `rows` are indices into all rows; `weights` (rows), or (0): all 1.
+  void Include(const std::vector<Eigen::Index>& rows,
+               const TermRows& design,
+               const Eigen::VectorXd& weights);
+  void TakeFrom(const std::vector<Eigen::Index>& rows, TermRows* design) const;
+  /// The share of a constant that is left in the rows.
+  double kept() const { return kept_; }
+
+ private:
+  double kept_ = 1.0;
+  std::vector<Eigen::Index> sessions_;
+  TermRows sums_;            // (sessions) weighted
+  Eigen::VectorXd weights_;  // (sessions)
+};
+
+}  // namespace errmap::models
