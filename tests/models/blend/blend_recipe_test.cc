@@ -63,17 +63,7 @@ data::Dataset LaggingDays(double noise, Index days = 6) {
   }
   data::Dataset made = WithLog(
       {ColumnNamed("t1_degC"), ColumnNamed("t2_degC")}, values, time, codes);
-  data::Dataset::Parts parts{.source = "days",
-                             .inputs = made.inputs(),
-                             .input_values = made.input_values(),
-                             .target = made.target(),
-                             .target_values = error,
-                             .groups = {},
-                             .weights = {},
-                             .rows = {},
-                             .log = made.log(),
-                             .log_rows = made.log_rows()};
-  return data::Dataset(std::move(parts));
+  return testing::WithTargets(made, error);
 }
 
 struct Days {
@@ -131,23 +121,13 @@ TEST(BlendRecipe, OneEquationForTheMembersOfOneBasisAndWeightsOfSumOne) {
 // the error follows to this power.
 double ShareOfLines(double power) {
   const data::Dataset days = LaggingDays(0.0, 4);
-  data::Dataset::Parts parts{.source = "days",
-                             .inputs = days.inputs(),
-                             .input_values = days.input_values(),
-                             .target = days.target(),
-                             .target_values = {},
-                             .groups = {},
-                             .weights = {},
-                             .rows = {},
-                             .log = days.log(),
-                             .log_rows = days.log_rows()};
   stats::Random random(11);
-  parts.target_values =
+  const VectorXd targets =
       (0.1 * (days.input_values().col(0).array() - 20.0))
           .pow(power)
           .unaryExpr([&](double error) { return error + random.Uniform(); });
   const FittedModel fitted =
-      Fitted("blend:view=raw", data::Dataset(std::move(parts)));
+      Fitted("blend:view=raw", testing::WithTargets(days, targets));
   double share = 0.0;
   const auto form = std::get<BlendForm>(fitted.model->Describe());
   for (const BlendForm::Member& member : form.members) {

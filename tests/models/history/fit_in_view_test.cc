@@ -25,16 +25,7 @@ data::Dataset LaggingDaysInFitInView() {
   history.derived.push_back(lag);
   history.form_inputs.push_back(lag.column.name);
   const Eigen::VectorXd slow = DeriveInputs(wandering, history).col(0);
-  return data::Dataset({.source = "memory",
-                        .inputs = wandering.inputs(),
-                        .input_values = wandering.input_values(),
-                        .target = wandering.target(),
-                        .target_values = 3.0 * slow.array() - 50.0,
-                        .groups = {},
-                        .weights = {},
-                        .rows = {},
-                        .log = wandering.log(),
-                        .log_rows = wandering.log_rows()});
+  return testing::WithTargets(wandering, 3.0 * slow.array() - 50.0);
 }
 
 FittedModel FitSpec(const std::string& spec, const data::Dataset& dataset) {

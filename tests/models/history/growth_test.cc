@@ -79,15 +79,7 @@ data::Dataset DaysOfError(Index days, const std::function<double(double)>& of) {
         of(made.input_values()(row, 0) / static_cast<double>(days)) +
         0.2 * std::sin(static_cast<double>(row));  // the temperature's
   }
-  data::Dataset::Parts parts;
-  parts.source = "memory";
-  parts.inputs = made.inputs();
-  parts.input_values = made.input_values();
-  parts.target = made.target();
-  parts.target_values = errors;
-  parts.log = made.log();
-  parts.log_rows = made.log_rows();
-  return data::Dataset(std::move(parts));
+  return testing::WithTargets(made, errors);
 }
 
 TEST(RoomBeyond, IsAllOfItWhereALineWentOn) {

@@ -18,18 +18,9 @@ using Eigen::Index;
 // error = 3 t1 - 4 t2 of wandering days, raw.
 data::Dataset KnownSlopes() {
   const data::Dataset days = errmap::testing::WanderingDays();
-  data::Dataset::Parts parts{.source = "slopes",
-                             .inputs = days.inputs(),
-                             .input_values = days.input_values(),
-                             .target = days.target(),
-                             .target_values = 3.0 * days.input_values().col(0) -
-                                              4.0 * days.input_values().col(1),
-                             .groups = {},
-                             .weights = {},
-                             .rows = {},
-                             .log = days.log(),
-                             .log_rows = days.log_rows()};
-  return data::Dataset(std::move(parts));
+  return errmap::testing::WithTargets(
+      days,
+      3.0 * days.input_values().col(0) - 4.0 * days.input_values().col(1));
 }
 
 TEST(MeasureSensitivity, AddsTheSlopesOfIndependentSensorsInSquares) {

@@ -67,15 +67,7 @@ data::Dataset Measured(const Design& design,
       values,
       86400.0 * ages,
       codes);
-  data::Dataset::Parts parts;
-  parts.source = "design";
-  parts.inputs = log.inputs();
-  parts.input_values = values;
-  parts.target = log.target();
-  parts.target_values = targets;
-  parts.log = log.log();
-  parts.log_rows = log.log_rows();
-  return data::Dataset(std::move(parts));
+  return testing::WithTargets(log, targets);
 }
 
 double LaterRmse(const ModelRecipe& recipe,
