@@ -51,6 +51,10 @@ class Plane {
     slopes_ = products.ldlt().solve(along);
   }
 
+  VectorXd Predict(const MatrixXd& inputs) const {
+    return ((inputs.rowwise() - offset_) * slopes_).array() + intercept_;
+  }
+
   // What grows stops `room` trained ranges beyond.
   VectorXd Predict(MatrixXd inputs,
                    const std::vector<bool>& only_grows,
@@ -62,7 +66,7 @@ class Plane {
                           .cwiseMax(lowest_[j] - more)
                           .cwiseMin(highest_[j] + more);
     }
-    return ((inputs.rowwise() - offset_) * slopes_).array() + intercept_;
+    return Predict(inputs);
   }
 
  private:
@@ -252,17 +256,116 @@ double MakeRoomBeyond(const Dataset& training) {
   return kMostRoom;
 }
 
-}  // namespace
+// Inputs (centred), and the bends in what only grows that go with `growth`.
+MatrixXd WithBends(const MatrixXd& inputs,
+                   const std::vector<bool>& only_grows,
+                   Growth growth) {
+  std::vector<VectorXd> columns;
+  for (Index j = 0; j < inputs.cols(); ++j) columns.emplace_back(inputs.col(j));
+  for (Index j = 0; growth != Growth::kStraight && j < inputs.cols(); ++j) {
+    if (!only_grows[static_cast<std::size_t>(j)]) continue;
+    for (Index i = 0; i < inputs.cols(); ++i) {
+      const bool both_grow = only_grows[static_cast<std::size_t>(i)];
+      if (both_grow && (i < j || growth == Growth::kWithOthers)) continue;
+      columns.emplace_back(inputs.col(i).cwiseProduct(inputs.col(j)));
+    }
+  }
+  MatrixXd terms(inputs.rows(), static_cast<Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    terms.col(static_cast<Index>(k)) = columns[k];
+  }
+  return terms;
+}
 
-double RoomBeyond(const Dataset& training, SharedWork* shared) {
-  if (shared == nullptr) return MakeRoomBeyond(training);
-  std::string key = "room beyond";
+// How well all later sessions were foretold, each time that more were known.
+class LaterSessions {
+ public:
+  LaterSessions(const Dataset& training, const std::vector<bool>& only_grows)
+      : only_grows_(only_grows) {
+    constexpr double kLeastKnown = 0.4;
+    constexpr std::size_t kMostTimes = 12;
+    std::vector<Index> rows;
+    std::vector<Index> ends;
+    for (const auto& [session, places] : RowsOfSessions(training)) {
+      rows.insert(rows.end(), places.begin(), places.end());
+      ends.push_back(static_cast<Index>(rows.size()));
+    }
+    const auto first = static_cast<std::size_t>(
+        std::ceil(kLeastKnown * static_cast<double>(ends.size())));
+    const std::size_t step = 1 + (ends.size() - first) / kMostTimes;
+    for (std::size_t known = first; known < ends.size(); known += step) {
+      known_.push_back(ends[known - 1]);
+    }
+    inputs_ = training.input_values()(rows, Eigen::all);
+    targets_ = training.target_values()(rows);
+  }
+
+  bool ProveBetter(Growth growth, Growth than) const {
+    constexpr std::size_t kFewestTimes = 4;
+    constexpr double kBetter = 0.9;
+    return known_.size() >= kFewestTimes &&
+           std::ranges::all_of(known_, [&](Index known) {
+             return ErrorOf(growth, known) < kBetter * ErrorOf(than, known);
+           });
+  }
+
+ private:
+  // Of all later rows, by the first `known`.
+  double ErrorOf(Growth growth, Index known) const {
+    const Index later = inputs_.rows() - known;
+    const RowVectorXd centre = inputs_.topRows(known).colwise().mean();
+    const MatrixXd terms =
+        WithBends(inputs_.rowwise() - centre, only_grows_, growth);
+    const Plane plane(terms.topRows(known), targets_.head(known));
+    return (targets_.tail(later) - plane.Predict(terms.bottomRows(later)))
+        .norm();
+  }
+
+  const std::vector<bool>& only_grows_;
+  MatrixXd inputs_;  // by session, as the targets
+  VectorXd targets_;
+  std::vector<Index> known_;  // rows, each time
+};
+
+Growth FindGrowth(const Dataset& training) {
+  // Bends of more than these are too many to be proven.
+  constexpr std::ptrdiff_t kMostBends = 200;
+  const std::vector<bool> only_grows = ColumnsThatOnlyGrow(training);
+  const auto growing = std::ranges::count(only_grows, true);
+  if (growing == 0 || growing * training.num_inputs() > kMostBends) {
+    return Growth::kStraight;
+  }
+  const LaterSessions later(training, only_grows);
+  Growth proven = Growth::kStraight;
+  for (const Growth growth : {Growth::kWithOthers, Growth::kBending}) {
+    if (later.ProveBetter(growth, proven)) proven = growth;
+  }
+  return proven;
+}
+
+// Of these rows once.
+template <typename Result>
+Result Shared(const std::string& what,
+              const Dataset& training,
+              SharedWork* shared,
+              Result (*find)(const Dataset&)) {
+  if (shared == nullptr) return find(training);
+  std::string key = what;
   for (const data::ColumnInfo& input : training.inputs()) {
     key += ' ' + input.name;
   }
-  return *shared->Get<double>(key, [&] {
-    return std::make_shared<const double>(MakeRoomBeyond(training));
-  });
+  return *shared->Get<Result>(
+      key, [&] { return std::make_shared<const Result>(find(training)); });
+}
+
+}  // namespace
+
+Growth GrowthBeyond(const Dataset& training, SharedWork* shared) {
+  return Shared("growth beyond", training, shared, FindGrowth);
+}
+
+double RoomBeyond(const Dataset& training, SharedWork* shared) {
+  return Shared("room beyond", training, shared, MakeRoomBeyond);
 }
 
 void LeaveRoom(const std::vector<std::string>& growing,

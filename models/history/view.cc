@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "data/text.h"
 #include "models/history/view_options.h"
 #include "models/shared_work.h"
 
@@ -150,6 +151,17 @@ std::vector<std::string> NamesOfGrowing(const ViewedRows& viewed) {
   return names;
 }
 
+std::string RemarkOnGrowth(const ViewedRows& viewed) {
+  if (viewed.growth == Growth::kStraight) return "";
+  return fmt::format(
+      "beyond what was trained {} goes on {}: so each time all later sessions "
+      "were foretold better than in a line",
+      data::JoinWords(NamesOfGrowing(viewed), ", "),
+      viewed.growth == Growth::kBending
+          ? "in a parabola"
+          : "in a line whose slope follows the other inputs");
+}
+
 std::vector<double> MakeTimeConstants(const Dataset& training) {
   if (training.log() == nullptr) return {};
   const data::SessionLog& log = *training.log();
@@ -242,6 +254,7 @@ std::vector<ViewedRows> MakeViews(const Dataset& training,
   }
   const double first_error = LargestFirstError(training);
   const double room = RoomBeyond(training, shared);
+  const Growth growth = GrowthBeyond(training, shared);
   std::vector<ViewedRows> views;
   for (const auto& [view, sine_and_cosine] : forms) {
     ViewedRows viewed;
@@ -261,6 +274,7 @@ std::vector<ViewedRows> MakeViews(const Dataset& training,
     }
     viewed.only_grows = ColumnsThatOnlyGrow(*viewed.rows);
     viewed.room = room;
+    viewed.growth = growth;
     // Inputs that are zero where a session begins give an error that is zero
     // there, if that is what was measured.
     viewed.intercept =

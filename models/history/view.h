@@ -49,9 +49,10 @@ struct ViewedRows {
   bool sine_and_cosine = false;            // of angles, in their place
   std::shared_ptr<const History> history;  // null: the rows as they are
   std::shared_ptr<const data::Dataset> rows;
-  std::vector<bool> is_position;  // (inputs of rows)
-  std::vector<bool> only_grows;   // likewise: ColumnsThatOnlyGrow
-  double room = 0.0;              // ranges that these go on for: RoomBeyond
+  std::vector<bool> is_position;      // (inputs of rows)
+  std::vector<bool> only_grows;       // likewise: ColumnsThatOnlyGrow
+  Growth growth = Growth::kStraight;  // of these: GrowthBeyond
+  double room = 0.0;                  // ranges that these go on for: RoomBeyond
   bool intercept = true;
 
   std::string label() const;  // "history+zero", "raw with sine and cosine"
@@ -84,6 +85,9 @@ double LargestFirstError(const data::Dataset& training);
 
 /// Of the inputs of these rows.
 std::vector<std::string> NamesOfGrowing(const ViewedRows& viewed);
+
+/// A sentence where a map of these rows bends beyond them; else empty.
+std::string RemarkOnGrowth(const ViewedRows& viewed);
 
 /// "position*" columns, which are neither filtered nor zeroed.
 bool IsPosition(const data::ColumnInfo& column);

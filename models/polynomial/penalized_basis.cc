@@ -37,16 +37,25 @@ void ClipColumns(const VectorXd& min,
   }
 }
 
-// Whether a term is more than a straight line of an input that only grows: what
-// bends is foretold by nothing where such an input has never been.
+// Whether a term bends an input that only grows more than `viewed` says that
+// it goes on: what bends is foretold by nothing else where such an input has
+// never been.
 bool BendsWhatGrows(const TermPowers& powers, const ViewedRows& viewed) {
   int degree = 0;
-  bool grows = false;
+  int growing = 0;
   for (std::size_t i = 0; i < powers.size(); ++i) {
     degree += powers[i];
-    grows = grows || (powers[i] > 0 && viewed.only_grows[i]);
+    if (viewed.only_grows[i]) growing += powers[i];
   }
-  return grows && degree > 1;
+  switch (viewed.growth) {
+    case Growth::kStraight:
+      return growing > 0 && degree > 1;
+    case Growth::kWithOthers:
+      return growing > 1;
+    case Growth::kBending:
+      return growing > 2;
+  }
+  return true;
 }
 
 std::vector<bool> ExcludedTerms(const PenalizedBasis& basis,
@@ -307,8 +316,10 @@ MatrixXd SummedBasis::GuardedTerms(const MatrixXd& inputs,
   for (Index j = 0; j < held.cols(); ++j) {
     const double low = trained.input_min[j];  // scaled: centred at 0
     const double high = trained.input_max[j];
-    if (viewed_->is_position[static_cast<std::size_t>(j)] || low > 0.0 ||
-        high < 0.0) {
+    const auto i = static_cast<std::size_t>(j);
+    if (viewed_->is_position[i] ||
+        (viewed_->growth != Growth::kStraight && viewed_->only_grows[i]) ||
+        low > 0.0 || high < 0.0) {
       continue;
     }
     const double room = kBendMargin * (high - low);

@@ -189,13 +189,22 @@ FittedModel MapOfCandidate(const std::string& name,
                            const PolynomialDesign& design,
                            const PenalizedCandidate& candidate,
                            bool guarded) {
-  FittedModel fitted = MapOfTerms(
-      name, design, candidate.intercept, candidate.coefficients, guarded);
+  FittedModel fitted =
+      MapOfTerms(name,
+                 design,
+                 candidate.intercept,
+                 candidate.coefficients,
+                 guarded,
+                 viewed.growth == Growth::kStraight ? std::vector<std::string>()
+                                                    : NamesOfGrowing(viewed));
   fitted.inner_rmse = candidate.held_out_rmse;
   if (guarded) {
     fitted.guards = MakeGuards(fitted.inputs, raw.target_values());
     LeaveRoom(
         NamesOfGrowing(viewed), viewed.room, fitted.inputs, &*fitted.guards);
+    if (std::string remark = RemarkOnGrowth(viewed); !remark.empty()) {
+      fitted.remarks.push_back(std::move(remark));
+    }
   }
   if (viewed.history != nullptr) {
     fitted = WithHistory(std::move(fitted), raw, *viewed.history);

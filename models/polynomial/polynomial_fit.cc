@@ -407,9 +407,13 @@ void FillCoefficientTable(const PolynomialDesign& design,
 }
 
 std::vector<BendRange> BendsWithin(const std::vector<TrainedInput>& inputs,
-                                   const VectorXd& offset) {
+                                   const VectorXd& offset,
+                                   const std::vector<std::string>& go_on) {
   std::vector<BendRange> ranges;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (std::ranges::find(go_on, inputs[i].column.name) != go_on.end()) {
+      continue;
+    }
     const double centre = offset[static_cast<Index>(i)];
     if (IsPosition(inputs[i].column) || centre < inputs[i].min ||
         centre > inputs[i].max) {
@@ -426,7 +430,8 @@ FittedModel MapOfTerms(const std::string& name,
                        const PolynomialDesign& design,
                        double intercept,
                        const VectorXd& coefficients,
-                       bool guarded) {
+                       bool guarded,
+                       const std::vector<std::string>& go_on) {
   std::vector<Index> chosen;
   for (Index j = 0; j < coefficients.size(); ++j) {
     if (coefficients[j] != 0.0) chosen.push_back(j);
@@ -448,8 +453,9 @@ FittedModel MapOfTerms(const std::string& name,
     form.terms.push_back({used.terms[i], coefficients[chosen[i]]});
   }
   fitted.inputs = DescribeInputs(design.dataset(), columns);
-  if (guarded)
-    form.bends_within = BendsWithin(fitted.inputs, form.input_offset);
+  if (guarded) {
+    form.bends_within = BendsWithin(fitted.inputs, form.input_offset, go_on);
+  }
   const Index parameters = static_cast<Index>(chosen.size()) + 1;
   fitted.model = std::make_shared<PolynomialModel>(form, parameters);
   const VectorXd residual =

@@ -62,11 +62,13 @@ class PolynomialRecipe : public ModelRecipe {
 inline constexpr double kBendMargin = 0.1;
 
 /// That of every input but positions, in which machines bend and which stay
-/// within their travel. What is left of a term that stops to bend is its slope
-/// at `offset` (p), which must lie where the input was trained: an input with
-/// another, as of terms that are not centred, bends everywhere.
+/// within their travel, and but those named by `go_on` (GrowthBeyond). What is
+/// left of a term that stops to bend is its slope at `offset` (p), which must
+/// lie where the input was trained: an input with another, as of terms that are
+/// not centred, bends everywhere.
 std::vector<BendRange> BendsWithin(const std::vector<TrainedInput>& inputs,
-                                   const Eigen::VectorXd& offset);
+                                   const Eigen::VectorXd& offset,
+                                   const std::vector<std::string>& go_on);
 
 /// A map of given coefficients of the scaled terms, zeros left out, that reads
 /// only the inputs which it needs. `guarded`: it bends within BendsWithin only.
@@ -74,7 +76,8 @@ FittedModel MapOfTerms(const std::string& name,
                        const PolynomialDesign& design,
                        double intercept,
                        const Eigen::VectorXd& coefficients,
-                       bool guarded);
+                       bool guarded,
+                       const std::vector<std::string>& go_on);
 
 /// The terms `chosen` of a design over all inputs, over only those inputs that
 /// one of them has.

@@ -16,7 +16,9 @@ namespace errmap::models {
 namespace {
 
 using Eigen::Index;
+using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 // An age, a temperature that comes and goes, and one that rises by the session
 // but falls again within each.
@@ -105,6 +107,46 @@ TEST(RoomBeyond, IsLittleWhereWhatGrewDidNotGoOn) {
     return 4.0 * (1.0 - std::exp(-3.0 * age));
   };
   EXPECT_LE(RoomBeyond(DaysOfError(6, saturates)), 0.5);
+}
+
+double Parabola(double age) { return 4.0 * age * age; }
+
+TEST(GrowthBeyond, BendsWhereThatForetoldAllLaterDays) {
+  EXPECT_EQ(GrowthBeyond(DaysOfError(10, Parabola)), Growth::kBending);
+  EXPECT_EQ(GrowthBeyond(DaysOfError(10, [](double age) { return 4.0 * age; })),
+            Growth::kStraight);
+  // A parabola foretells that these come back.
+  EXPECT_EQ(
+      GrowthBeyond(DaysOfError(
+          10, [](double age) { return 4.0 - 4.0 * std::exp(-9.0 * age); })),
+      Growth::kStraight);
+  // Of five days the fourth and the fifth alone are foretold from enough.
+  EXPECT_EQ(GrowthBeyond(DaysOfError(5, Parabola)), Growth::kStraight);
+}
+
+TEST(GrowthBeyond, LetsASlopeFollowTheTemperature) {
+  const data::Dataset days = AgeingDays(10);
+  const auto& values = days.input_values();
+  const Eigen::VectorXd errors =
+      values.col(0).array() * (3.0 + 0.5 * (values.col(1).array() - 20.0));
+  EXPECT_EQ(GrowthBeyond(testing::WithTargets(days, errors)),
+            Growth::kWithOthers);
+}
+
+TEST(GrowthBeyond, IsHowMapsGoOn) {
+  const data::Dataset days = DaysOfError(10, Parabola);
+  for (const char* spec : {"poly:ridge:view=raw:terms=squares",
+                           "poly:lasso:view=raw",
+                           "blend:view=raw"}) {
+    const FittedModel fitted = MakeRecipe(spec)->Fit(days, {});
+    Eigen::MatrixXd inputs = fitted.FormInputs(days).bottomRows(1);
+    ASSERT_EQ(fitted.inputs[0].column.name, "age_days") << spec;
+    inputs(0, 0) *= 2.0;
+    EXPECT_NEAR(fitted.PredictForm(inputs).errors[0], Parabola(2.0), 0.8)
+        << spec;
+    EXPECT_THAT(fitted.remarks, Contains(HasSubstr("age_days goes on in a")))
+        << spec;
+  }
 }
 
 TEST(RoomBeyond, EndsAMapThereAndNotAtOnce) {
