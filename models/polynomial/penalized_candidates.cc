@@ -21,24 +21,40 @@ using fitting::Penalty;
 
 using FitsByPenalty = std::map<Penalty, std::shared_ptr<const PenalizedFit>>;
 
+struct SetToTry {
+  TermSet set = TermSet::kLinear;
+  int degree = 1;
+};
+
 // The sets worth a try over these inputs, in order of size.
-std::vector<TermSet> ServingTerms(const std::vector<bool>& is_position,
-                                  std::optional<int> degree) {
+std::vector<SetToTry> ServingTerms(const std::vector<bool>& is_position,
+                                   std::optional<int> degree) {
   // More terms than this are left to those who ask for them.
   constexpr Index kMostCandidateTerms = 1500;
-  constexpr std::size_t kFewInputs = 4;
+  // Of these all products are few; beside a position kAxis has those that
+  // matter.
+  constexpr Index kFewForCubes = 4;
+  constexpr Index kFewForSquares = 12;
   const bool has_position = std::ranges::count(is_position, true) > 0;
   const bool has_others = std::ranges::count(is_position, false) > 0;
-  std::vector<TermSet> sets = {TermSet::kLinear, TermSet::kSquares};
-  if (has_position && has_others) sets.push_back(TermSet::kAxis);
-  if (is_position.size() <= kFewInputs) sets.push_back(TermSet::kFull);
-  std::erase_if(sets, [&](TermSet set) {
-    const int taken = degree.value_or(
-        DefaultDegreeOf(set, static_cast<Index>(is_position.size())));
+  const auto inputs = static_cast<Index>(is_position.size());
+  std::vector<SetToTry> serving;
+  const auto add = [&](TermSet set, int most) {
+    const int taken = degree.value_or(most);
     const auto count = CountTerms(set, is_position, taken);
-    return set != TermSet::kLinear && (!count || *count > kMostCandidateTerms);
-  });
-  return sets;
+    if (set == TermSet::kLinear || (count && *count <= kMostCandidateTerms)) {
+      serving.push_back({set, taken});
+    }
+  };
+  add(TermSet::kLinear, 1);
+  add(TermSet::kSquares, 2);
+  if (has_position && has_others) add(TermSet::kAxis, 3);
+  if (inputs <= kFewForCubes) {
+    add(TermSet::kFull, 3);
+  } else if (!has_position && inputs <= kFewForSquares) {
+    add(TermSet::kFull, 2);
+  }
+  return serving;
 }
 
 // Fits penalized maps to views of some rows, shared with other recipes where
@@ -51,38 +67,39 @@ class BasisJudge {
              const FitContext& context)
       : options_(options), rule_(rule), folds_(folds), context_(context) {}
 
-  std::vector<TermSet> SetsFor(const ViewedRows& viewed) const {
-    if (options_.terms) return {*options_.terms};
-    if (options_.view) return ServingTerms(viewed.is_position, options_.degree);
-    return {TermSet::kFull};
+  std::vector<SetToTry> SetsFor(const ViewedRows& viewed) const {
+    if (options_.view && !options_.terms) {
+      return ServingTerms(viewed.is_position, options_.degree);
+    }
+    const TermSet set = options_.terms.value_or(TermSet::kFull);
+    const auto inputs = static_cast<Index>(viewed.is_position.size());
+    return {{set, options_.degree.value_or(DefaultDegreeOf(set, inputs))}};
   }
 
   // Every one of `penalties` over a basis.
   void Judge(const std::shared_ptr<const ViewedRows>& viewed,
-             TermSet set,
+             const SetToTry& tried,
              const std::vector<Penalty>& penalties,
              std::vector<BasisCandidate>* judged) {
-    const PenalizedBasis basis{
-        .terms = set,
-        .degree = options_.degree.value_or(DefaultDegreeOf(
-            set, static_cast<Index>(viewed->is_position.size()))),
-        .centring = options_.centring,
-        .exclude = options_.exclude,
-        .guarded = options_.clip,
-        .between = BetweenIn(*viewed)};
+    const PenalizedBasis basis{.terms = tried.set,
+                               .degree = tried.degree,
+                               .centring = options_.centring,
+                               .exclude = options_.exclude,
+                               .guarded = options_.clip,
+                               .between = BetweenIn(*viewed)};
     const auto fits = FitsOf(viewed, basis, penalties);
     for (const Penalty penalty : penalties) {
       judged->push_back(
           {.viewed = viewed,
            .fit = fits->at(penalty),
-           .terms = set,
+           .terms = basis.terms,
            .degree = basis.degree,
            .num_excluded = static_cast<Index>(options_.exclude.size()),
            .guarded = basis.guarded,
            .label = fmt::format("{}, {}, {}",
                                 fitting::ToString(penalty),
                                 viewed->label(),
-                                ToString(set))});
+                                ToString(basis.terms))});
     }
     const auto ridge = fits->find(Penalty::kRidge);
     if (ridge == fits->end()) return;
@@ -205,8 +222,8 @@ std::vector<BasisCandidate> JudgeBases(const Dataset& training,
   for (const ViewedRows& made : *views) {
     // Holds all of them.
     const std::shared_ptr<const ViewedRows> viewed(views, &made);
-    for (const TermSet set : judge.SetsFor(*viewed)) {
-      judge.Judge(viewed, set, penalties, &judged);
+    for (const SetToTry& tried : judge.SetsFor(*viewed)) {
+      judge.Judge(viewed, tried, penalties, &judged);
     }
   }
   return judged;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -203,6 +204,32 @@ TEST(PenalizedRecipe, WeighsSessionsInViewsAlone) {
   EXPECT_GT((slopes(raw + ":view=raw") - slopes(raw)).cwiseAbs().maxCoeff(),
             0.01);
   EXPECT_THROW(MakeRecipe("blend:between=0"), std::invalid_argument);
+}
+
+// Five inputs whose product of the last two is the error.
+std::string TermsChosen(const std::string& first_input) {
+  constexpr Index kRows = 100;
+  const Eigen::MatrixXd values = testing::RandomMatrix(kRows, 5, 7);
+  std::vector<data::ColumnInfo> inputs = {testing::ColumnNamed(first_input)};
+  for (const char* name : {"a_degC", "b_degC", "c_degC", "d_degC"}) {
+    inputs.push_back(testing::ColumnNamed(name));
+  }
+  std::vector<Index> codes;
+  for (Index row = 0; row < kRows; ++row) codes.push_back(row / 20);
+  const data::Dataset made = testing::WithLog(
+      inputs, values, Eigen::VectorXd::LinSpaced(kRows, 0.0, 99.0), codes);
+  const Eigen::VectorXd errors = values.col(3).cwiseProduct(values.col(4));
+  const FittedModel map = MakeRecipe("poly:ridge:view=raw")
+                              ->Fit(testing::WithTargets(made, errors), {});
+  for (const auto& choice : map.choices) {
+    if (choice.key == "terms") return std::get<std::string>(choice.value);
+  }
+  return "";
+}
+
+TEST(PenalizedRecipe, TriesProductsOfTemperaturesWhereThereIsNoPosition) {
+  EXPECT_EQ(TermsChosen("e_degC"), "full");
+  EXPECT_NE(TermsChosen("position_mm"), "full");
 }
 
 }  // namespace
