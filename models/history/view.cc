@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "data/text.h"
+#include "models/history/growth.h"
 #include "models/history/view_options.h"
 #include "models/shared_work.h"
 

@@ -8,7 +8,7 @@
 
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
-#include "models/history/growth.h"
+#include "models/history/growth_beyond.h"
 #include "models/history/history.h"
 
 namespace errmap::models {

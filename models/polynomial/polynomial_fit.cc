@@ -11,6 +11,7 @@
 #include "data/text.h"
 #include "fitting/interruption.h"
 #include "models/history/growth.h"
+#include "models/history/growth_beyond.h"
 #include "models/history/view.h"
 #include "models/polynomial/polynomial_model.h"
 

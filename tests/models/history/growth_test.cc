@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "models/history/growth_beyond.h"
 #include "models/recipe_catalog.h"
 #include "tests/models/history/history_data.h"
 
