@@ -155,8 +155,8 @@ std::vector<std::string> NamesOfGrowing(const ViewedRows& viewed) {
 std::string RemarkOnGrowth(const ViewedRows& viewed) {
   if (viewed.growth == Growth::kStraight) return "";
   return fmt::format(
-      "beyond what was trained {} goes on {}: so each time all later sessions "
-      "were foretold better than in a line",
+      "beyond what was trained {} goes on {}, which foretold all later "
+      "sessions better than a line each time that more were known",
       data::JoinWords(NamesOfGrowing(viewed), ", "),
       viewed.growth == Growth::kBending
           ? "in a parabola"

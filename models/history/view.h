@@ -52,7 +52,7 @@ struct ViewedRows {
   std::vector<bool> is_position;      // (inputs of rows)
   std::vector<bool> only_grows;       // likewise: ColumnsThatOnlyGrow
   Growth growth = Growth::kStraight;  // of these: GrowthBeyond
-  double room = 0.0;                  // ranges that these go on for: RoomBeyond
+  double room = 0.0;                  // trained ranges that they go on for
   bool intercept = true;
 
   std::string label() const;  // "history+zero", "raw with sine and cosine"
