@@ -21,6 +21,36 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
+// Of very many rows some tell it as well.
+Dataset SomeRows(const Dataset& all) {
+  constexpr Index kMostRows = 4000;
+  std::vector<Index> some;
+  for (Index row = 0; row < all.num_rows();
+       row += 1 + all.num_rows() / kMostRows) {
+    some.push_back(row);
+  }
+  return all.SelectRows(some);
+}
+
+// Rows session after session.
+struct Sessions {
+  explicit Sessions(const Dataset& rows) {
+    std::vector<Index> order;
+    for (const auto& [session, places] : RowsOfSessions(rows)) {
+      order.insert(order.end(), places.begin(), places.end());
+      ends.push_back(static_cast<Index>(order.size()));
+    }
+    inputs = rows.input_values()(order, Eigen::all);
+    targets = rows.target_values()(order);
+  }
+
+  std::size_t count() const { return ends.size(); }
+
+  MatrixXd inputs;
+  VectorXd targets;
+  std::vector<Index> ends;  // rows of the first session, of the first two, ...
+};
+
 // A plane of all inputs, shrunk a little: sensors of few sessions are alike.
 class Plane {
  public:
@@ -103,18 +133,10 @@ enum class Course { kLevel, kStraight, kNeither };
 // with it at all, and whether a straight line is all that can be seen, neither
 // bent nor of sessions that lie about it.
 Course CourseOf(const Dataset& all, const std::vector<bool>& only_grows) {
-  // Of very many rows some tell it as well.
-  constexpr Index kMostRows = 4000;
-  std::vector<Index> some;
-  for (Index row = 0; row < all.num_rows();
-       row += 1 + all.num_rows() / kMostRows) {
-    some.push_back(row);
-  }
-  const Dataset training = all.SelectRows(some);
+  const Dataset training = SomeRows(all);
   constexpr double kTells = 0.01;
   constexpr double kIsStraight = 0.2;
   const auto count = std::ranges::count(only_grows, true);
-  const auto sessions = static_cast<Index>(RowsOfSessions(training).size());
   const Index others = training.num_inputs() - count;
   MatrixXd growing(training.num_rows(), count);
   MatrixXd rest(training.num_rows(), others + 1);
@@ -130,7 +152,8 @@ Course CourseOf(const Dataset& all, const std::vector<bool>& only_grows) {
       rest.col(place_rest++) = centred;
     }
   }
-  MatrixXd offsets = MatrixXd::Zero(training.num_rows(), sessions);
+  MatrixXd offsets =
+      MatrixXd::Zero(training.num_rows(), training.num_sessions());
   const std::vector<Index> codes = training.session_codes();
   std::map<Index, Index> place_of;
   for (std::size_t row = 0; row < codes.size(); ++row) {
@@ -171,35 +194,30 @@ double MakeRoomBeyond(const Dataset& training) {
   // plane counts by the sessions that it knows.
   std::array<double, kRooms.size()> errors{};
   double judged = 0.0;
-  std::vector<Index> earlier;
-  const auto sessions = RowsOfSessions(training);
+  const Sessions sessions(training);
   // Where there are many sessions, some of the planes do.
   constexpr std::size_t kMostPlanes = 6;
-  const std::size_t step = 1 + (sessions.size() - 3) / kMostPlanes;
-  std::size_t known = 0;
-  for (auto next = sessions.begin(); next != sessions.end(); ++next, ++known) {
-    if (known >= 2 && (known - 2) % step == 0) {
-      const Plane plane(training.input_values()(earlier, Eigen::all),
-                        training.target_values()(earlier));
-      const auto counts = static_cast<double>(known);
-      for (auto later = next; later != sessions.end(); ++later) {
-        judged += counts;
-        const auto& [session, rows] = *later;
-        for (std::size_t r = 0; r < kRooms.size(); ++r) {
-          const VectorXd residuals =
-              training.target_values()(rows) -
-              plane.Predict(training.input_values()(rows, Eigen::all),
-                            only_grows,
-                            kRooms[r]);
-          errors[r] +=
-              counts *
-              std::log(std::max(residuals.norm() /
-                                    std::sqrt(static_cast<double>(rows.size())),
-                                std::numeric_limits<double>::min()));
-        }
+  const std::size_t step = 1 + (sessions.count() - 3) / kMostPlanes;
+  for (std::size_t known = 2; known < sessions.count(); known += step) {
+    const Index rows_known = sessions.ends[known - 1];
+    const Plane plane(sessions.inputs.topRows(rows_known),
+                      sessions.targets.head(rows_known));
+    const auto counts = static_cast<double>(known);
+    for (std::size_t later = known; later < sessions.count(); ++later) {
+      judged += counts;
+      const Index first = sessions.ends[later - 1];
+      const Index rows = sessions.ends[later] - first;
+      for (std::size_t r = 0; r < kRooms.size(); ++r) {
+        const VectorXd residuals =
+            sessions.targets.segment(first, rows) -
+            plane.Predict(
+                sessions.inputs.middleRows(first, rows), only_grows, kRooms[r]);
+        errors[r] +=
+            counts * std::log(std::max(residuals.norm() /
+                                           std::sqrt(static_cast<double>(rows)),
+                                       std::numeric_limits<double>::min()));
       }
     }
-    earlier.insert(earlier.end(), next->second.begin(), next->second.end());
   }
   // Less than this is no reason to doubt a line.
   constexpr double kMargin = 0.1;
@@ -231,55 +249,43 @@ MatrixXd WithBends(const MatrixXd& inputs,
   return terms;
 }
 
-// How well all later sessions were foretold, each time that more were known.
-class LaterSessions {
- public:
-  LaterSessions(const Dataset& training, const std::vector<bool>& only_grows)
-      : only_grows_(only_grows) {
-    constexpr double kLeastKnown = 0.4;
-    constexpr std::size_t kMostTimes = 12;
-    std::vector<Index> rows;
-    std::vector<Index> ends;
-    for (const auto& [session, places] : RowsOfSessions(training)) {
-      rows.insert(rows.end(), places.begin(), places.end());
-      ends.push_back(static_cast<Index>(rows.size()));
+// Of all later rows, by the first `known`.
+double ErrorBeyond(const Sessions& sessions,
+                   const std::vector<bool>& only_grows,
+                   Growth growth,
+                   Index known) {
+  const Index later = sessions.inputs.rows() - known;
+  const RowVectorXd centre = sessions.inputs.topRows(known).colwise().mean();
+  const MatrixXd terms =
+      WithBends(sessions.inputs.rowwise() - centre, only_grows, growth);
+  const Plane plane(terms.topRows(known), sessions.targets.head(known));
+  return (sessions.targets.tail(later) - plane.Predict(terms.bottomRows(later)))
+      .norm();
+}
+
+// Each time that more sessions are known.
+bool ForetellsBetter(const Sessions& sessions,
+                     const std::vector<bool>& only_grows,
+                     Growth growth,
+                     Growth than) {
+  constexpr double kLeastKnown = 0.4;
+  constexpr std::size_t kFewestTimes = 4;
+  constexpr std::size_t kMostTimes = 12;
+  constexpr double kBetter = 0.9;
+  const auto first = static_cast<std::size_t>(
+      std::ceil(kLeastKnown * static_cast<double>(sessions.count())));
+  const std::size_t times = sessions.count() - first;
+  if (times < kFewestTimes) return false;
+  const std::size_t step = 1 + times / kMostTimes;
+  for (std::size_t i = first; i < sessions.count(); i += step) {
+    const Index known = sessions.ends[i - 1];
+    if (!(ErrorBeyond(sessions, only_grows, growth, known) <
+          kBetter * ErrorBeyond(sessions, only_grows, than, known))) {
+      return false;
     }
-    const auto first = static_cast<std::size_t>(
-        std::ceil(kLeastKnown * static_cast<double>(ends.size())));
-    const std::size_t step = 1 + (ends.size() - first) / kMostTimes;
-    for (std::size_t known = first; known < ends.size(); known += step) {
-      known_.push_back(ends[known - 1]);
-    }
-    inputs_ = training.input_values()(rows, Eigen::all);
-    targets_ = training.target_values()(rows);
   }
-
-  bool ProveBetter(Growth growth, Growth than) const {
-    constexpr std::size_t kFewestTimes = 4;
-    constexpr double kBetter = 0.9;
-    return known_.size() >= kFewestTimes &&
-           std::ranges::all_of(known_, [&](Index known) {
-             return ErrorOf(growth, known) < kBetter * ErrorOf(than, known);
-           });
-  }
-
- private:
-  // Of all later rows, by the first `known`.
-  double ErrorOf(Growth growth, Index known) const {
-    const Index later = inputs_.rows() - known;
-    const RowVectorXd centre = inputs_.topRows(known).colwise().mean();
-    const MatrixXd terms =
-        WithBends(inputs_.rowwise() - centre, only_grows_, growth);
-    const Plane plane(terms.topRows(known), targets_.head(known));
-    return (targets_.tail(later) - plane.Predict(terms.bottomRows(later)))
-        .norm();
-  }
-
-  const std::vector<bool>& only_grows_;
-  MatrixXd inputs_;  // by session, as the targets
-  VectorXd targets_;
-  std::vector<Index> known_;  // rows, each time
-};
+  return true;
+}
 
 Growth FindGrowth(const Dataset& training) {
   // Bends of more than these are too many to be proven.
@@ -289,10 +295,10 @@ Growth FindGrowth(const Dataset& training) {
   if (growing == 0 || growing * training.num_inputs() > kMostBends) {
     return Growth::kStraight;
   }
-  const LaterSessions later(training, only_grows);
+  const Sessions sessions(SomeRows(training));
   Growth proven = Growth::kStraight;
   for (const Growth growth : {Growth::kWithOthers, Growth::kBending}) {
-    if (later.ProveBetter(growth, proven)) proven = growth;
+    if (ForetellsBetter(sessions, only_grows, growth, proven)) proven = growth;
   }
   return proven;
 }
