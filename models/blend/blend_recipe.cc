@@ -230,10 +230,7 @@ class BlendRecipe final : public ModelRecipe {
                     scores.size(),
                     TextOf(options_.rule, folds),
                     folds.text);
-    if (std::string remark = RemarkOnGrowth(*bases.front().viewed);
-        options_.bases.clip && !remark.empty()) {
-      fitted.remarks.push_back(std::move(remark));
-    }
+    if (fitted.guards) RemarkOnGrowth(*bases.front().viewed, &fitted);
     return fitted;
   }
 

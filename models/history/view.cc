@@ -152,15 +152,21 @@ std::vector<std::string> NamesOfGrowing(const ViewedRows& viewed) {
   return names;
 }
 
-std::string RemarkOnGrowth(const ViewedRows& viewed) {
-  if (viewed.growth == Growth::kStraight) return "";
-  return fmt::format(
-      "beyond what was trained {} goes on {}, which foretold all later "
-      "sessions better than a line each time that more were known",
-      data::JoinWords(NamesOfGrowing(viewed), ", "),
+bool ViewedRows::bends_beyond(Index input) const {
+  const auto i = static_cast<std::size_t>(input);
+  return is_position[i] || (only_grows[i] && growth != Growth::kStraight);
+}
+
+void RemarkOnGrowth(const ViewedRows& viewed, FittedModel* fitted) {
+  if (viewed.growth == Growth::kStraight) return;
+  fitted->remarks.push_back(fmt::format(
+      "beyond what was trained it goes on in {} of what only grows ({}), which "
+      "foretold all later sessions better than a line each time that more were "
+      "known",
       viewed.growth == Growth::kBending
-          ? "in a parabola"
-          : "in a line whose slope follows the other inputs");
+          ? "a parabola"
+          : "a line, its slope by the other inputs,",
+      data::JoinWords(NamesOfGrowing(viewed), ", ")));
 }
 
 std::vector<double> MakeTimeConstants(const Dataset& training) {

@@ -56,6 +56,9 @@ struct ViewedRows {
   bool intercept = true;
 
   std::string label() const;  // "history+zero", "raw with sine and cosine"
+  /// Whether an input bends a map wherever it goes: a position, which stays
+  /// within its travel, and what only grows and is proven to bend.
+  bool bends_beyond(Eigen::Index input) const;
 };
 
 /// The views of `options` (without them the rows as they are) that these rows
@@ -86,8 +89,8 @@ double LargestFirstError(const data::Dataset& training);
 /// Of the inputs of these rows.
 std::vector<std::string> NamesOfGrowing(const ViewedRows& viewed);
 
-/// A sentence where a map of these rows bends beyond them; else empty.
-std::string RemarkOnGrowth(const ViewedRows& viewed);
+/// Where a guarded map of these rows bends beyond them, that it does.
+void RemarkOnGrowth(const ViewedRows& viewed, FittedModel* fitted);
 
 /// "position*" columns, which are neither filtered nor zeroed.
 bool IsPosition(const data::ColumnInfo& column);

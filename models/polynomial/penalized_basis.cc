@@ -316,10 +316,7 @@ MatrixXd SummedBasis::GuardedTerms(const MatrixXd& inputs,
   for (Index j = 0; j < held.cols(); ++j) {
     const double low = trained.input_min[j];  // scaled: centred at 0
     const double high = trained.input_max[j];
-    const auto i = static_cast<std::size_t>(j);
-    if (viewed_->is_position[i] ||
-        (viewed_->growth != Growth::kStraight && viewed_->only_grows[i]) ||
-        low > 0.0 || high < 0.0) {
+    if (viewed_->bends_beyond(j) || low > 0.0 || high < 0.0) {
       continue;
     }
     const double room = kBendMargin * (high - low);

@@ -20,6 +20,13 @@
 
 namespace errmap::models {
 
+/// How much of its trained range an input may leave it by before a shrunk map
+/// stops bending in it. Beyond, a parabola foretells nothing, while a straight
+/// line of the same data still holds: measured in promise/measured.md. Exact
+/// least squares (Eq. 7 to 9 and their kin) stay what they are as far as their
+/// guards let them.
+inline constexpr double kBendMargin = 0.1;
+
 /// Terms over rows in one view, for ridge and lasso. Products are of inputs
 /// standardised over the training rows (mean 0, sd 1) unless `centring` says
 /// otherwise, and the columns are standardised again in each fit.
@@ -96,7 +103,7 @@ class SummedBasis {
   Eigen::MatrixXd Inputs(const Rows& rows) const;  // scaled
   Eigen::MatrixXd Terms(const Eigen::MatrixXd& inputs) const;
   // Terms that bend see inputs held near where the fold was trained, as in
-  // MapOfTerms.
+  // MapOfCandidate.
   Eigen::MatrixXd GuardedTerms(const Eigen::MatrixXd& inputs,
                                const RowRanges& trained) const;
   TermRows RowsAsMeasured(const Rows& rows) const;

@@ -144,6 +144,27 @@ void SearchRidge(const std::vector<double>& grid,
   }
 }
 
+// What is left of a term that stops to bend is its slope at the offset, which
+// must lie where the input was trained: an input with another, as of terms that
+// are not centred, bends everywhere. `columns`: of the inputs, in the view.
+std::vector<BendRange> BendsWithin(const ViewedRows& viewed,
+                                   const std::vector<Index>& columns,
+                                   const std::vector<TrainedInput>& inputs,
+                                   const VectorXd& offset) {
+  std::vector<BendRange> ranges;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const TrainedInput& input = inputs[i];
+    const auto at = static_cast<Index>(i);
+    if (viewed.bends_beyond(columns[i]) || offset[at] < input.min ||
+        offset[at] > input.max) {
+      continue;
+    }
+    const double room = kBendMargin * (input.max - input.min);
+    ranges.push_back({at, input.min - room, input.max + room});
+  }
+  return ranges;
+}
+
 }  // namespace
 
 std::shared_ptr<const PenalizedFit> FitPenalty(const SummedBasis& basis,
@@ -189,22 +210,48 @@ FittedModel MapOfCandidate(const std::string& name,
                            const PolynomialDesign& design,
                            const PenalizedCandidate& candidate,
                            bool guarded) {
-  FittedModel fitted =
-      MapOfTerms(name,
-                 design,
-                 candidate.intercept,
-                 candidate.coefficients,
-                 guarded,
-                 viewed.growth == Growth::kStraight ? std::vector<std::string>()
-                                                    : NamesOfGrowing(viewed));
+  std::vector<Index> chosen;
+  for (Index j = 0; j < candidate.coefficients.size(); ++j) {
+    if (candidate.coefficients[j] != 0.0) chosen.push_back(j);
+  }
+  const UsedTerms used = KeepUsedInputs(design.terms(), chosen);
+  std::vector<Index> columns;
+  for (const Index input : used.inputs) {
+    columns.push_back(design.inputs()[static_cast<std::size_t>(input)]);
+  }
+  PolynomialForm form{design.scaling().offset(used.inputs),
+                      design.scaling().scale(used.inputs),
+                      candidate.intercept,
+                      {}};
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    form.terms.push_back({used.terms[i], candidate.coefficients[chosen[i]]});
+  }
+  const Dataset& rows = design.dataset();
+  FittedModel fitted;
+  fitted.name = name;
+  fitted.kind = ModelKind::kPolynomial;
+  fitted.target = rows.target();
+  fitted.align = rows.align();
+  fitted.summary.termination = fitting::Termination::kDirect;
   fitted.inner_rmse = candidate.held_out_rmse;
+  fitted.inputs = DescribeInputs(rows, columns);
+  if (guarded) {
+    form.bends_within =
+        BendsWithin(viewed, columns, fitted.inputs, form.input_offset);
+  }
+  const Index parameters = static_cast<Index>(chosen.size()) + 1;
+  fitted.model = std::make_shared<PolynomialModel>(form, parameters);
+  const VectorXd residual = rows.target_values() - fitted.Predict(rows);
+  fitted.equation = EquationText(
+      form,
+      fitted.target,
+      fitted.inputs,
+      std::sqrt(residual.squaredNorm() / static_cast<double>(design.rows())));
   if (guarded) {
     fitted.guards = MakeGuards(fitted.inputs, raw.target_values());
     LeaveRoom(
         NamesOfGrowing(viewed), viewed.room, fitted.inputs, &*fitted.guards);
-    if (std::string remark = RemarkOnGrowth(viewed); !remark.empty()) {
-      fitted.remarks.push_back(std::move(remark));
-    }
+    RemarkOnGrowth(viewed, &fitted);
   }
   if (viewed.history != nullptr) {
     fitted = WithHistory(std::move(fitted), raw, *viewed.history);

@@ -12,7 +12,6 @@
 #include "fitting/interruption.h"
 #include "models/history/growth.h"
 #include "models/history/growth_beyond.h"
-#include "models/history/view.h"
 #include "models/polynomial/polynomial_model.h"
 
 namespace errmap::models {
@@ -146,17 +145,6 @@ Solved Solve(const PolynomialDesign& design,
   return SolveRows(design, form_options, context);
 }
 
-FittedModel NewMap(const std::string& name, const Dataset& training) {
-  FittedModel fitted;
-  fitted.name = name;
-  fitted.kind = ModelKind::kPolynomial;
-  fitted.target = training.target();
-  fitted.align = training.align();
-  fitted.summary.termination = fitting::Termination::kDirect;
-  fitted.summary.message = "solved by QR";
-  return fitted;
-}
-
 // What a fit makes of its terms.
 struct FittedTerms {
   PolynomialForm form;               // of those that are not aliased
@@ -276,8 +264,13 @@ UsedTerms KeepUsedInputs(const std::vector<TermPowers>& terms,
 }
 
 FittedModel PolynomialRecipe::NewModel(const Dataset& training) const {
-  FittedModel fitted = NewMap(name_, training);
+  FittedModel fitted;
+  fitted.name = name_;
   fitted.kind = kind();
+  fitted.target = training.target();
+  fitted.align = training.align();
+  fitted.summary.termination = fitting::Termination::kDirect;
+  fitted.summary.message = "solved by QR";
   return fitted;
 }
 
@@ -405,68 +398,6 @@ void FillCoefficientTable(const PolynomialDesign& design,
                                    offset);
     }
   }
-}
-
-std::vector<BendRange> BendsWithin(const std::vector<TrainedInput>& inputs,
-                                   const VectorXd& offset,
-                                   const std::vector<std::string>& go_on) {
-  std::vector<BendRange> ranges;
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (std::ranges::find(go_on, inputs[i].column.name) != go_on.end()) {
-      continue;
-    }
-    const double centre = offset[static_cast<Index>(i)];
-    if (IsPosition(inputs[i].column) || centre < inputs[i].min ||
-        centre > inputs[i].max) {
-      continue;
-    }
-    const double room = kBendMargin * (inputs[i].max - inputs[i].min);
-    ranges.push_back(
-        {static_cast<Index>(i), inputs[i].min - room, inputs[i].max + room});
-  }
-  return ranges;
-}
-
-FittedModel MapOfTerms(const std::string& name,
-                       const PolynomialDesign& design,
-                       double intercept,
-                       const VectorXd& coefficients,
-                       bool guarded,
-                       const std::vector<std::string>& go_on) {
-  std::vector<Index> chosen;
-  for (Index j = 0; j < coefficients.size(); ++j) {
-    if (coefficients[j] != 0.0) chosen.push_back(j);
-  }
-  const UsedTerms used = KeepUsedInputs(design.terms(), chosen);
-  FittedModel fitted = NewMap(name, design.dataset());
-  std::vector<Index> columns;
-  PolynomialForm form{VectorXd(static_cast<Index>(used.inputs.size())),
-                      VectorXd(static_cast<Index>(used.inputs.size())),
-                      intercept,
-                      {}};
-  for (std::size_t i = 0; i < used.inputs.size(); ++i) {
-    const Index input = used.inputs[i];
-    columns.push_back(design.inputs()[static_cast<std::size_t>(input)]);
-    form.input_offset[static_cast<Index>(i)] = design.scaling().offset[input];
-    form.input_scale[static_cast<Index>(i)] = design.scaling().scale[input];
-  }
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    form.terms.push_back({used.terms[i], coefficients[chosen[i]]});
-  }
-  fitted.inputs = DescribeInputs(design.dataset(), columns);
-  if (guarded) {
-    form.bends_within = BendsWithin(fitted.inputs, form.input_offset, go_on);
-  }
-  const Index parameters = static_cast<Index>(chosen.size()) + 1;
-  fitted.model = std::make_shared<PolynomialModel>(form, parameters);
-  const VectorXd residual =
-      design.dataset().target_values() - fitted.Predict(design.dataset());
-  fitted.equation = EquationText(
-      form,
-      fitted.target,
-      fitted.inputs,
-      std::sqrt(residual.squaredNorm() / static_cast<double>(design.rows())));
-  return fitted;
 }
 
 }  // namespace errmap::models

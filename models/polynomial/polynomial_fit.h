@@ -54,31 +54,6 @@ class PolynomialRecipe : public ModelRecipe {
   bool guarded_;
 };
 
-/// How much of its trained range an input may leave it by before a map stops
-/// bending in it. Beyond, a parabola foretells nothing, while a straight line
-/// of the same data still holds: measured in promise/measured.md. Only shrunk
-/// maps do so: exact least squares (Eq. 7 to 9 and their kin) stay what they
-/// are as far as their guards let them.
-inline constexpr double kBendMargin = 0.1;
-
-/// That of every input but positions, in which machines bend and which stay
-/// within their travel, and but those named by `go_on` (GrowthBeyond). What is
-/// left of a term that stops to bend is its slope at `offset` (p), which must
-/// lie where the input was trained: an input with another, as of terms that are
-/// not centred, bends everywhere.
-std::vector<BendRange> BendsWithin(const std::vector<TrainedInput>& inputs,
-                                   const Eigen::VectorXd& offset,
-                                   const std::vector<std::string>& go_on);
-
-/// A map of given coefficients of the scaled terms, zeros left out, that reads
-/// only the inputs which it needs. `guarded`: it bends within BendsWithin only.
-FittedModel MapOfTerms(const std::string& name,
-                       const PolynomialDesign& design,
-                       double intercept,
-                       const Eigen::VectorXd& coefficients,
-                       bool guarded,
-                       const std::vector<std::string>& go_on);
-
 /// The terms `chosen` of a design over all inputs, over only those inputs that
 /// one of them has.
 struct UsedTerms {

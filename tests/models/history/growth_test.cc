@@ -145,7 +145,9 @@ TEST(GrowthBeyond, IsHowMapsGoOn) {
     inputs(0, 0) *= 2.0;
     EXPECT_NEAR(fitted.PredictForm(inputs).errors[0], Parabola(2.0), 0.8)
         << spec;
-    EXPECT_THAT(fitted.remarks, Contains(HasSubstr("age_days goes on in a")))
+    EXPECT_THAT(
+        fitted.remarks,
+        Contains(HasSubstr("in a parabola of what only grows (age_days)")))
         << spec;
   }
 }
