@@ -32,6 +32,16 @@ Dataset SomeRows(const Dataset& all) {
   return all.SelectRows(some);
 }
 
+// Columns less their means, over their ranges: what is told of them depends on
+// no unit, and no square of them overflows.
+MatrixXd InTheirRanges(const MatrixXd& inputs) {
+  const RowVectorXd mean = inputs.colwise().mean();
+  const RowVectorXd range =
+      inputs.colwise().maxCoeff() - inputs.colwise().minCoeff();
+  const RowVectorXd scale = (range.array() > 0.0).select(range, 1.0);
+  return (inputs.rowwise() - mean).array().rowwise() / scale.array();
+}
+
 // Rows session after session.
 struct Sessions {
   explicit Sessions(const Dataset& rows) {
@@ -40,13 +50,13 @@ struct Sessions {
       order.insert(order.end(), places.begin(), places.end());
       ends.push_back(static_cast<Index>(order.size()));
     }
-    inputs = rows.input_values()(order, Eigen::all);
+    inputs = InTheirRanges(rows.input_values())(order, Eigen::all);
     targets = rows.target_values()(order);
   }
 
   std::size_t count() const { return ends.size(); }
 
-  MatrixXd inputs;
+  MatrixXd inputs;  // in their ranges
   VectorXd targets;
   std::vector<Index> ends;  // rows of the first session, of the first two, ...
 };
@@ -141,15 +151,14 @@ Course CourseOf(const Dataset& all, const std::vector<bool>& only_grows) {
   MatrixXd growing(training.num_rows(), count);
   MatrixXd rest(training.num_rows(), others + 1);
   rest.col(others).setOnes();
+  const MatrixXd inputs = InTheirRanges(training.input_values());
   Index place_growing = 0;
   Index place_rest = 0;
-  for (Index j = 0; j < training.num_inputs(); ++j) {
-    const VectorXd column = training.input_values().col(j);
-    const VectorXd centred = column.array() - column.mean();
+  for (Index j = 0; j < inputs.cols(); ++j) {
     if (only_grows[static_cast<std::size_t>(j)]) {
-      growing.col(place_growing++) = centred / centred.norm();
+      growing.col(place_growing++) = inputs.col(j);
     } else {
-      rest.col(place_rest++) = centred;
+      rest.col(place_rest++) = inputs.col(j);
     }
   }
   MatrixXd offsets =

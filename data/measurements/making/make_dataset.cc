@@ -45,6 +45,7 @@ class DatasetBuilder {
     LookForFaults();
     LeaveOutStuck();
     LookForParts();
+    RequireSquaresOfInputs();
     if (roles_.group != kNoColumn) {
       parts_.groups = GroupByColumn(table_, Name(roles_.group), parts_.rows);
     }
@@ -209,7 +210,7 @@ class DatasetBuilder {
   void TakeTarget() {
     parts_.target = Info(roles_.target);
     parts_.target_values = ValuesOfRows(table_.At(roles_.target), parts_.rows);
-    RequireSquares();
+    RequireSquares("target", parts_.target.name, parts_.target_values);
     if (selection_.only_to_judge) return;
     SayIfUnlikely();
     const double first = parts_.target_values(0);
@@ -245,20 +246,31 @@ class DatasetBuilder {
         "its name: error_um, 'error [mm]'");
   }
 
-  // Every figure of a target is a sum of squares.
-  void RequireSquares() const {
+  // Every figure of a target or an input is a sum of squares.
+  void RequireSquares(const std::string& what,
+                      const std::string& column,
+                      const Eigen::VectorXd& values) const {
     constexpr double kMost = 1e100;
     constexpr double kLeast = 1e-100;
     Eigen::Index row = 0;
-    const double largest = parts_.target_values.cwiseAbs().maxCoeff(&row);
+    const double largest = values.cwiseAbs().maxCoeff(&row);
     if (largest == 0.0 || (largest >= kLeast && largest <= kMost)) return;
     throw InputError(
         table_.Where(static_cast<std::size_t>(
                          parts_.rows[static_cast<std::size_t>(row)]),
-                     Name(roles_.target)) +
-        ": the largest target, " + CsvNumber(parts_.target_values[row]) +
+                     column) +
+        ": the largest " + what + ", " + CsvNumber(values[row]) +
         ", is no size between 1e-100 and 1e100, whose squares can be summed; "
         "correct it or choose another unit");
+  }
+
+  void RequireSquaresOfInputs() const {
+    if (selection_.only_to_judge) return;
+    for (std::size_t i = 0; i < parts_.inputs.size(); ++i) {
+      RequireSquares("input",
+                     parts_.inputs[i].name,
+                     parts_.input_values.col(static_cast<Eigen::Index>(i)));
+    }
   }
 
   // Only the ratios of weights mean something. Their mean becomes 1, so that

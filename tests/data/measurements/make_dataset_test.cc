@@ -44,6 +44,16 @@ TEST(MakeDataset, RefusesTargetsWhoseSquaresCannotBeSummed) {
   EXPECT_EQ(Make("a,error\n1,1e99\n2,0\n").dataset.num_rows(), 2);
 }
 
+TEST(MakeDataset, RefusesInputsWhoseSquaresCannotBeSummed) {
+  const std::string text = "a,b,error\n1,2,1\n-2e200,3,2\n3,5,4\n4,7,9\n";
+  EXPECT_THAT(ErrorOf(text),
+              AllOf(HasSubstr("line 3 (data row 1), column 'a'"),
+                    HasSubstr("the largest input, -2e+200"),
+                    HasSubstr("choose another unit")));
+  EXPECT_EQ(
+      Make(text, {.inputs = {}, .only_to_judge = true}).dataset.num_rows(), 4);
+}
+
 TEST(MakeDataset, ConstantTarget) {
   EXPECT_EQ(ErrorOf("a,error\n1,0.5\n2,0.5\n"),
             "f.csv: target 'error' is constant (0.5 in all 2 rows), so there "

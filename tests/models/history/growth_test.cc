@@ -134,6 +134,26 @@ TEST(GrowthBeyond, LetsASlopeFollowTheTemperature) {
             Growth::kWithOthers);
 }
 
+data::Dataset InUnits(const data::Dataset& days, double per_unit) {
+  return testing::WithTargets(
+      testing::WithLog(days.inputs(),
+                       per_unit * days.input_values(),
+                       Eigen::VectorXd::LinSpaced(days.num_rows(), 0.0, 6e3),
+                       days.session_codes()),
+      days.target_values());
+}
+
+TEST(GrowthBeyond, DependsOnNoUnit) {
+  const data::Dataset bends = DaysOfError(10, Parabola);
+  const data::Dataset goes_on =
+      DaysOfError(6, [](double age) { return 4.0 * age; });
+  for (const double per_unit : {1e-9, 1e9, 1e100}) {
+    EXPECT_EQ(GrowthBeyond(InUnits(bends, per_unit)), Growth::kBending)
+        << per_unit;
+    EXPECT_EQ(RoomBeyond(InUnits(goes_on, per_unit)), 3.0) << per_unit;
+  }
+}
+
 TEST(GrowthBeyond, IsHowMapsGoOn) {
   const data::Dataset days = DaysOfError(10, Parabola);
   for (const char* spec : {"poly:ridge:view=raw:terms=squares",
