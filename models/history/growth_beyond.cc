@@ -9,6 +9,7 @@
 
 #include "fitting/least_squares/decompositions.h"
 #include "models/history/growth.h"
+#include "models/scaling.h"
 #include "models/shared_work.h"
 #include "stats/f_test.h"
 
@@ -32,14 +33,9 @@ Dataset SomeRows(const Dataset& all) {
   return all.SelectRows(some);
 }
 
-// Columns less their means, over their ranges: what is told of them depends on
-// no unit, and no square of them overflows.
+// What is told of them depends on no unit, and no square of them overflows.
 MatrixXd InTheirRanges(const MatrixXd& inputs) {
-  const RowVectorXd mean = inputs.colwise().mean();
-  const RowVectorXd range =
-      inputs.colwise().maxCoeff() - inputs.colwise().minCoeff();
-  const RowVectorXd scale = (range.array() > 0.0).select(range, 1.0);
-  return (inputs.rowwise() - mean).array().rowwise() / scale.array();
+  return UnitRangeScaling(inputs).Apply(inputs);
 }
 
 // Rows session after session.

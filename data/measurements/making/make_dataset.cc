@@ -249,7 +249,7 @@ class DatasetBuilder {
   // Every figure of a target or an input is a sum of squares.
   void RequireSquares(const std::string& what,
                       const std::string& column,
-                      const Eigen::VectorXd& values) const {
+                      const Eigen::Ref<const Eigen::VectorXd>& values) const {
     constexpr double kMost = 1e100;
     constexpr double kLeast = 1e-100;
     Eigen::Index row = 0;
