@@ -71,7 +71,7 @@ VectorXd SensitiveLengths(const Machine& machine, const MatrixX3d& errors) {
 
 // ---- The table.
 
-struct Column {
+struct OutputColumn {
   std::string name;
   std::function<std::string(Index)> cell;
 };
@@ -94,13 +94,13 @@ class OutputTable {
 
   std::string Text() const {
     std::string text;
-    for (const Column& column : columns_) {
+    for (const OutputColumn& column : columns_) {
       text += (text.empty() ? "" : ",") + data::CsvField(column.name);
     }
     text += "\n";
     for (Index row = 0; row < s_.errors.exact.rows(); ++row) {
       std::string line;
-      for (const Column& column : columns_) {
+      for (const OutputColumn& column : columns_) {
         if (&column != columns_.data()) line += ",";
         line += column.cell(row);
       }
@@ -166,7 +166,7 @@ class OutputTable {
   }
 
   const Synthesis& s_;
-  std::vector<Column> columns_;
+  std::vector<OutputColumn> columns_;
 };
 
 // ---- What is said of it.

@@ -25,21 +25,21 @@ namespace fs = std::filesystem;
 constexpr int kDeepest = 6;
 
 // What stands at the end of a name and tells in which direction was measured.
-constexpr auto kDirections = std::to_array<std::string_view>({"down",
-                                                              "up",
-                                                              "forward",
-                                                              "reverse",
-                                                              "fwd",
-                                                              "rev",
-                                                              "backward",
-                                                              "plus",
-                                                              "minus",
-                                                              "pos",
-                                                              "neg",
-                                                              "left",
-                                                              "right",
-                                                              "in",
-                                                              "out"});
+constexpr auto kMotionWords = std::to_array<std::string_view>({"down",
+                                                               "up",
+                                                               "forward",
+                                                               "reverse",
+                                                               "fwd",
+                                                               "rev",
+                                                               "backward",
+                                                               "plus",
+                                                               "minus",
+                                                               "pos",
+                                                               "neg",
+                                                               "left",
+                                                               "right",
+                                                               "in",
+                                                               "out"});
 
 // "x_down" taken apart; no direction where there is none.
 struct Stem {
@@ -49,8 +49,8 @@ struct Stem {
 Stem Apart(const std::string& stem) {
   const std::size_t at = stem.rfind('_');
   if (at != stem.npos && at > 0 &&
-      std::ranges::find(kDirections, stem.substr(at + 1)) !=
-          kDirections.end()) {
+      std::ranges::find(kMotionWords, stem.substr(at + 1)) !=
+          kMotionWords.end()) {
     return {stem.substr(0, at), stem.substr(at + 1)};
   }
   return {stem, ""};

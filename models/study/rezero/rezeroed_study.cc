@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 // What is kept of a result to promise by.
-HoldoutResult PredictionsOf(const HoldoutResult& result) {
+HoldoutResult PredictionsAlone(const HoldoutResult& result) {
   HoldoutResult kept;
   kept.holdout = result.holdout;
   kept.why_failed = result.why_failed;
@@ -154,7 +154,7 @@ BeforeRezero RezeroStudy(const data::Dataset& dataset,
   for (const ModelResult& model : study->models) {
     std::vector<HoldoutResult>& kept = before.results.emplace_back();
     std::ranges::transform(
-        model.holdouts, std::back_inserter(kept), PredictionsOf);
+        model.holdouts, std::back_inserter(kept), PredictionsAlone);
   }
   for (std::size_t h = 0; h < holdouts->size(); ++h) {
     const HeldOutRows held = GatherHeldOut(dataset, before.holdouts[h]);
