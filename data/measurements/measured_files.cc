@@ -9,6 +9,7 @@
 #include <set>
 #include <string_view>
 
+#include "data/argument_name.h"
 #include "data/files/sheet_path.h"
 #include "data/files_in_memory.h"
 #include "data/input_error.h"
@@ -167,6 +168,13 @@ std::vector<std::string> TablesOf(const std::string& folder,
   if (error) {
     throw InputError(shown + ": cannot be read: " + error.message());
   }
+  if (std::ranges::find(others, "results.json") != others.end()) {
+    throw InputError(
+        shown +
+        ": holds a comparison's results (results.json), whose tables are no "
+        "measurements; errmap report " +
+        shown + " draws its report; to compare anew, name the files measured");
+  }
   const std::string init = "errmap init " + shown;
   if (tables.empty()) {
     throw InputError(
@@ -206,6 +214,11 @@ MeasuredFiles FindFiles(const std::vector<std::string>& given,
         throw InputError(PrintablePath(path) +
                          ": cannot be read: there is no such file; names in a "
                          "list stand between commas, without blanks");
+      }
+      if (path.ends_with(".toml")) {
+        throw InputError(PrintablePath(path) +
+                         ": is no table; a study file is named with " +
+                         ArgumentName("config"));
       }
       found.paths.push_back(path);
       continue;

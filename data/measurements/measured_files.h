@@ -16,9 +16,9 @@ struct MeasuredFiles {
 /// The files that `given` (at least one) names; a folder stands for the tables
 /// in it. They are put in the order of the dates in their names where all have
 /// one, else those in alphabetical order by the numbers in them (day2 before
-/// day10). Throws InputError where a folder has no tables, or tables of several
-/// components by their names; `command` is then what the message goes on with
-/// ("compare").
+/// day10). Throws InputError of a study file, and where a folder has no tables,
+/// a comparison's results, or tables of several components by their names;
+/// `command` is then what the message goes on with ("compare").
 MeasuredFiles FindFiles(const std::vector<std::string>& given,
                         const std::string& command = "compare");
 

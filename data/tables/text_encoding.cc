@@ -30,7 +30,8 @@ constexpr auto kFormats = std::to_array<KnownFormat>(
      {"%PDF-", "a PDF; export the table as CSV"},
      {"<!DOCTYPE", "a web page; save the table as CSV"},
      {"<html", "a web page; save the table as CSV"},
-     {"<?xml", "XML; export the table as CSV"}});
+     {"<?xml", "XML; export the table as CSV"},
+     {"{", "JSON, as maps and results are; measurements are CSV or xlsx"}});
 
 enum class Order { kNone, kLittleEndian, kBigEndian };
 

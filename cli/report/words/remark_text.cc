@@ -405,9 +405,11 @@ std::string RemarkText(const ComponentNumbers& component,
       return SimplestSentence(component, remark);
     case RemarkKind::kOnlyGrows:
       return fmt::format(
-          "{} hardly ever returns to values it had: {} to come lie beyond all "
-          "that were held out{}. Compare without: --exclude {}.",
-          data::JoinWords(*remark.columns, ", "),
+          "{} hardly ever {} had: {} to come lie beyond all that were held "
+          "out{}. Compare without: --exclude {}.",
+          data::JoinWords(*remark.columns, " and "),
+          remark.columns->size() == 1 ? "returns to values it"
+                                      : "return to values they",
           PluralOfUnit(holdout),
           remark.holdouts
               ? fmt::format("; foretold from those before ({}) it has {}",

@@ -82,6 +82,20 @@ TEST_F(InFolder, SeveralComponentsArePointedToInit) {
       ThrowsMessage<InputError>(HasSubstr("map each: errmap init " + folder_)));
 }
 
+// Its residuals.csv would pass for measurements.
+TEST_F(InFolder, AComparisonsResultsAreRefused) {
+  Touch("residuals.csv");
+  Touch("results.json");
+  EXPECT_THAT(
+      [&] { FindFiles({folder_}); },
+      ThrowsMessage<InputError>(HasSubstr("errmap report " + folder_ + " ")));
+}
+
+TEST(FindFiles, RefusesAStudyFile) {
+  EXPECT_THAT([&] { FindFiles({"study.toml"}); },
+              ThrowsMessage<InputError>(HasSubstr("is named with config")));
+}
+
 TEST_F(InFolder, AFolderWithoutTablesIsRefused) {
   EXPECT_THAT(
       [&] { FindFiles({folder_}); },

@@ -143,6 +143,7 @@ TEST(MessyFiles, AllElseIsOneLineThatSaysWhatToDo) {
       {"\x1F\x8B\x08\0"s, "is no gzip, or is cut off"},
       {"%PDF-1.4\n", "PDF"},
       {"<!doctype html><table></table>\n", "web page"},
+      {"{\n \"schema\": \"errmap-model-1\"}\n", "this is JSON"},
       {"Machine 7\n" + text, "start the lines above them with #"},
       {text + "End of file\n", "line 122 (data row 120): 1 field"},
       {text + "End of file,,,,,,\n", "'End of file' where the other rows"},
