@@ -193,11 +193,11 @@ check_tools() {
   say "this is not Debian: nothing is installed, using what is there"
 }
 
-# One compiler per core, but not more than memory allows (1.5 GiB each).
+# One compiler per core, but not more than memory allows (1.75 GiB each).
 compile_jobs() {
   jobs=$cores
   if [ -r /proc/meminfo ]; then
-    room=$(awk '$1 == "MemTotal:" { print int($2 / 1572864) }' /proc/meminfo)
+    room=$(awk '$1 == "MemTotal:" { print int($2 / 1835008) }' /proc/meminfo)
     if [ "${room:-$jobs}" -lt "$jobs" ]; then jobs=$room; fi
   fi
   if [ "$jobs" -lt 1 ]; then jobs=1; fi
@@ -281,9 +281,9 @@ quietly cmake --preset "$preset" -DERRMAP_BUILD_TESTS="$tests"
 
 jobs=$(compile_jobs)
 if [ "$mode" = test ]; then
-  build "errmap and its tests" 16 all
+  build "errmap and its tests" 15 all
 else
-  build errmap 7 errmap
+  build errmap 6 errmap
 fi
 
 say "running: build/errmap compare $example"
