@@ -21,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kResults = "results.json";
+
 bool IsDigit(char c) {
   return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
@@ -158,7 +160,7 @@ std::vector<std::string> TablesOf(const std::string& folder,
         !entry->is_regular_file(ignored)) {
       continue;
     }
-    if (!IsTable(path)) {
+    if (!IsTable(path) || IsOfComparison(path.string())) {
       others.push_back(path.filename().string());
       continue;
     }
@@ -168,15 +170,14 @@ std::vector<std::string> TablesOf(const std::string& folder,
   if (error) {
     throw InputError(shown + ": cannot be read: " + error.message());
   }
-  if (std::ranges::find(others, "results.json") != others.end()) {
-    throw InputError(
-        shown +
-        ": holds a comparison's results (results.json), whose tables are no "
-        "measurements; errmap report " +
-        shown + " draws its report; to compare anew, name the files measured");
-  }
   const std::string init = "errmap init " + shown;
   if (tables.empty()) {
+    if (fs::exists(fs::path(folder) / kResults, error)) {
+      throw InputError(shown +
+                       ": holds a comparison's results, no measurements; "
+                       "errmap report " +
+                       shown + " draws its report");
+    }
     throw InputError(
         shown +
         ": is a folder without CSV files or spreadsheets; for the files "
@@ -193,13 +194,24 @@ std::vector<std::string> TablesOf(const std::string& folder,
   }
   if (!others.empty()) {
     std::ranges::sort(others);
-    remarks->push_back(shown + ": left out, since they are no CSV files: " +
+    remarks->push_back(shown + ": left out, since they are no measurements: " +
                        ListOfNames(others));
   }
   return tables;
 }
 
 }  // namespace
+
+bool IsOfComparison(const std::string& table) {
+  fs::path folder = fs::path(table).parent_path();
+  if (folder.filename() == "residuals") {
+    folder = folder.parent_path();
+  } else if (fs::path(table).filename() != "residuals.csv") {
+    return false;
+  }
+  std::error_code ignored;
+  return fs::exists(folder / kResults, ignored);
+}
 
 MeasuredFiles FindFiles(const std::vector<std::string>& given,
                         const std::string& command) {
@@ -217,8 +229,14 @@ MeasuredFiles FindFiles(const std::vector<std::string>& given,
       }
       if (path.ends_with(".toml")) {
         throw InputError(PrintablePath(path) +
-                         ": is no table; a study file is named with " +
+                         ": is no table; errmap compare takes a study file "
+                         "with " +
                          ArgumentName("config"));
+      }
+      if (IsOfComparison(path)) {
+        throw InputError(PrintablePath(path) +
+                         ": holds the residuals of a comparison's maps, no "
+                         "measurements");
       }
       found.paths.push_back(path);
       continue;

@@ -16,11 +16,15 @@ struct MeasuredFiles {
 /// The files that `given` (at least one) names; a folder stands for the tables
 /// in it. They are put in the order of the dates in their names where all have
 /// one, else those in alphabetical order by the numbers in them (day2 before
-/// day10). Throws InputError of a study file, and where a folder has no tables,
-/// a comparison's results, or tables of several components by their names;
-/// `command` is then what the message goes on with ("compare").
+/// day10). Throws InputError of a study file, of a comparison's residuals, and
+/// where a folder has no tables, or tables of several components by their
+/// names; `command` is then what the message goes on with ("compare").
 MeasuredFiles FindFiles(const std::vector<std::string>& given,
                         const std::string& command = "compare");
+
+/// Whether a table is one that `compare --out` wrote beside its results.json:
+/// residuals.csv, or one in residuals/.
+bool IsOfComparison(const std::string& table);
 
 /// The date in a file's name ("2024-03-01", also 20240301 and 2024_03_01), else
 /// its name without its ending.

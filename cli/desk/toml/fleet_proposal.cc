@@ -15,6 +15,7 @@
 #include "cli/desk/toml/toml_text.h"
 #include "data/argument_name.h"
 #include "data/input_error.h"
+#include "data/measurements/measured_files.h"
 #include "data/text.h"
 
 namespace errmap::desk {
@@ -81,6 +82,7 @@ std::map<std::size_t, Level> LevelsOf(const std::string& folder) {
     }
     // Braces would be fields.
     if (!entry->is_regular_file(error) || path.extension() != ".csv" ||
+        data::IsOfComparison(entry->path().string()) ||
         path.string().find_first_of("{}|") != std::string::npos) {
       continue;
     }

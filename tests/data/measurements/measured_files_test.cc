@@ -82,18 +82,28 @@ TEST_F(InFolder, SeveralComponentsArePointedToInit) {
       ThrowsMessage<InputError>(HasSubstr("map each: errmap init " + folder_)));
 }
 
-// Its residuals.csv would pass for measurements.
-TEST_F(InFolder, AComparisonsResultsAreRefused) {
+// They would pass for measurements.
+TEST_F(InFolder, AComparisonsResidualsAreNoMeasurements) {
   Touch("residuals.csv");
+  EXPECT_THAT(FindFiles({folder_}).paths,
+              ElementsAre(folder_ + "/residuals.csv"));
   Touch("results.json");
   EXPECT_THAT(
       [&] { FindFiles({folder_}); },
       ThrowsMessage<InputError>(HasSubstr("errmap report " + folder_ + " ")));
+  EXPECT_THAT([&] { FindFiles({folder_ + "/residuals.csv"}); },
+              ThrowsMessage<InputError>(HasSubstr("no measurements")));
+  std::filesystem::create_directory(folder_ + "/residuals");
+  Touch("residuals/x_down.csv");
+  EXPECT_TRUE(IsOfComparison(folder_ + "/residuals/x_down.csv"));
+  // What was measured may lie beside them (--out .).
+  Touch("x_down.csv");
+  EXPECT_THAT(FindFiles({folder_}).paths, ElementsAre(folder_ + "/x_down.csv"));
 }
 
 TEST(FindFiles, RefusesAStudyFile) {
   EXPECT_THAT([&] { FindFiles({"study.toml"}); },
-              ThrowsMessage<InputError>(HasSubstr("is named with config")));
+              ThrowsMessage<InputError>(HasSubstr("a study file with config")));
 }
 
 TEST_F(InFolder, AFolderWithoutTablesIsRefused) {
