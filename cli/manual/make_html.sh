@@ -36,16 +36,16 @@ names=$(sed -n '/^set(manual_pages/,/)/p' cli/manual/pages.cmake |
 
 title_of() { sed -n '1s/^#* *//p' "$1" | sed 's/`//g; s/&/\&amp;/g; s/</\&lt;/g'; }
 
-# Entries of the contents, as seen from a page $1 ("../../") below OUT_DIR.
-contents() {
-  printf '<li><a href="%scli/manual/README.html">The manual</a></li>\n' "$1"
+# Entries of the contents, from the folder @UP@ on, for every page.
+contents=$(
+  printf '<li><a href="@UP@cli/manual/README.html">The manual</a></li>\n'
   for name in $names; do
-    printf '<li><a href="%scli/manual/%s.html">%s</a></li>\n' "$1" "$name" \
-      "$(title_of "cli/manual/$name.md")"
+    printf '<li><a href="@UP@cli/manual/%s.html">%s</a></li>\n' \
+      "$name" "$(title_of "cli/manual/$name.md")"
   done
-  printf '<li><a href="%sdata/sets/examples.html">Gallery</a></li>\n' "$1"
-  printf '<li><a href="%scli/manual/reference.html">Reference</a></li>\n' "$1"
-}
+  printf '<li><a href="@UP@data/sets/examples.html">Gallery</a></li>\n'
+  printf '<li><a href="@UP@cli/manual/reference.html">Reference</a></li>\n'
+)
 
 # The text of $1, read from $2, as a page of the folder.
 page() {
@@ -61,7 +61,7 @@ page() {
     printf '<form role="search" onsubmit="return false"><label for="find">Search</label>'
     printf '<input id="find" type="search" autocomplete="off" data-up="%s">' "$up"
     printf '<ul id="found" aria-live="polite"></ul></form>\n<ul>\n'
-    contents "$up"
+    printf '%s\n' "$contents" | sed "s|@UP@|$up|"
     printf '</ul>\n</nav>\n<main id="text">\n'
     # Headings get names; links to pages lead to pages.
     "$cmark" -e table -t html "$2" | sed -e \
