@@ -4,9 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
+#include "fitting/least_squares/decompositions.h"
 #include "fitting/minimisers/optimizer.h"
 
 namespace errmap::testing {
@@ -29,8 +30,8 @@ inline double NewtonDecrease(const fitting::Objective& f,
     hessian.col(i) = (above - below) / (2.0 * h);
   }
   f.Evaluate(x, &gradient);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-      0.5 * (hessian + hessian.transpose()));
+  const Eigen::MatrixXd symmetric = 0.5 * (hessian + hessian.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric);
   if (!(solver.eigenvalues()[0] > 0.0)) {
     return std::numeric_limits<double>::infinity();
   }

@@ -4,10 +4,11 @@
 #include <tuple>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include "fitting/least_squares/linear_least_squares.h"
+#include "tests/decompositions.h"
 #include "tests/fitting/regression_test_data.h"
 
 namespace errmap::fitting {
@@ -253,10 +254,8 @@ TEST(PenalizedPath, RidgeHasTheDegreesOfFreedomOfItsEigenvalues) {
     VectorXd w;
     VectorXd spread;
     Standardise(sample, VectorXd::Zero(cols), &x, &residual, &w, &spread);
-    const VectorXd squares = MatrixXd(w.cwiseSqrt().asDiagonal() * x)
-                                 .jacobiSvd()
-                                 .singularValues()
-                                 .cwiseAbs2();
+    const VectorXd squares =
+        testing::SingularValues(w.cwiseSqrt().asDiagonal() * x).cwiseAbs2();
     for (const double strength : {10.0, 0.1, 1e-4, 1e-9}) {
       const double expected =
           1.0 + (squares.array() / (squares.array() + strength)).sum();

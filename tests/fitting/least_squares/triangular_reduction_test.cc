@@ -2,9 +2,10 @@
 
 #include <stdexcept>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
+#include "tests/decompositions.h"
 #include "tests/fitting/regression_test_data.h"
 
 namespace errmap::fitting {
@@ -44,7 +45,7 @@ TEST(TriangularReduction, KeepsSingularValuesThatTheProductsWouldLose) {
   MatrixXd matrix = UniformMatrix(500, 3, 2);
   matrix.col(2) = matrix.col(0) + 1e-10 * matrix.col(2);
   const auto smallest = [](const MatrixXd& of) {
-    return Eigen::JacobiSVD<MatrixXd>(of).singularValues()[2];
+    return testing::SingularValues(of)[2];
   };
   EXPECT_NEAR(smallest(Reduce(matrix, {.block_rows = 50})) / smallest(matrix),
               1.0,

@@ -4,10 +4,11 @@
 #include <limits>
 #include <stdexcept>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/decompositions.h"
 #include "tests/random_matrix.h"
 
 namespace errmap::fitting {
@@ -29,7 +30,7 @@ class LinearProblem {
     const MatrixXd normal =
         a_.transpose() * a_ + alpha * MatrixXd::Identity(a_.cols(), a_.cols());
     Minimum minimum;
-    minimum.x = normal.ldlt().solve(a_.transpose() * z_);
+    minimum.x = testing::SolveSymmetric(normal, a_.transpose() * z_);
     minimum.summary.termination = Termination::kDirect;
     return minimum;
   }

@@ -12,10 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/decompositions.h"
 #include "tests/fitting/optimizer_cases.h"
 #include "tests/fitting/residual_problems.h"
 #include "tests/fitting/test_problems.h"
@@ -163,7 +164,7 @@ TEST(LevenbergMarquardt, SolvesLinearLeastSquaresInOneStep) {
   constexpr double kTolerance = 1e-10;
   const MatrixXd a = RandomMatrix(30, 4, 1);
   const VectorXd b = RandomMatrix(30, 1, 2);
-  const VectorXd expected = a.colPivHouseholderQr().solve(b);
+  const VectorXd expected = testing::LeastSquares(a, b);
   for (const Way& way : AllWays()) {
     SCOPED_TRACE(way.name);
     // Of J J' + mu I, singular but for mu, little is left.
@@ -181,10 +182,8 @@ TEST(LevenbergMarquardt, SolvesRidgeRegressionInOneStep) {
   constexpr double kRidge = 1e8;
   const MatrixXd a = RandomMatrix(30, 4, 1);
   const VectorXd b = RandomMatrix(30, 1, 2);
-  const VectorXd expected =
-      (a.transpose() * a + kRidge * MatrixXd::Identity(4, 4))
-          .ldlt()
-          .solve(a.transpose() * b);
+  const VectorXd expected = testing::SolveSymmetric(
+      a.transpose() * a + kRidge * MatrixXd::Identity(4, 4), a.transpose() * b);
   ResidualObjective f = Linear(a, b);
   f.SetRidge(kRidge);
   for (const Way& way : AllWays()) {

@@ -3,11 +3,12 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <Eigen/SVD>
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include "models/net/feedforward_net.h"
 #include "models/net/net_objective.h"
+#include "tests/decompositions.h"
 #include "tests/random_matrix.h"
 
 namespace errmap::models {
@@ -46,9 +47,7 @@ MatrixXd JacobianOf(const NetTraining& training, const VectorXd& w) {
 double BySingularValues(const NetTraining& training, const VectorXd& w) {
   const double c = training.wfactor / static_cast<double>(w.size());
   double sum = 0.0;
-  const VectorXd values =
-      Eigen::BDCSVD<MatrixXd>(JacobianOf(training, w)).singularValues();
-  for (const double s : values) {
+  for (const double s : testing::SingularValues(JacobianOf(training, w))) {
     sum += s * s / (s * s + c);
   }
   return sum;
@@ -98,7 +97,7 @@ TEST(EffectiveParameters, CountFreeBiasesWhole) {
     decay[w.size() - 1] = 0.0;
     const MatrixXd gram = jacobian.transpose() * jacobian;
     const MatrixXd damped = gram + MatrixXd(decay.asDiagonal());
-    const double expected = damped.ldlt().solve(gram).trace();
+    const double expected = testing::SolveSymmetric(damped, gram).trace();
     training.shape.free_biases = true;
     EXPECT_NEAR(EffectiveParameters(training, w), expected, kRounding);
     training.wfactor = 1e12;  // the hidden nodes are at their constants

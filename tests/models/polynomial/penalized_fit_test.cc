@@ -14,6 +14,7 @@
 
 #include "models/inner_folds.h"
 #include "models/recipe_catalog.h"
+#include "tests/decompositions.h"
 #include "tests/models/history/history_data.h"
 #include "tests/models/model_test_data.h"
 #include "tests/random_matrix.h"
@@ -117,7 +118,7 @@ Eigen::VectorXd WithinAndBetween(const data::Dataset& dataset,
         products(j, j) - products(0, j) * products(0, j) / products(0, 0);
     normal(j, j) += strength * variance;
   }
-  return normal.ldlt().solve(products.col(p + 1).head(p + 1));
+  return testing::SolveSymmetric(normal, products.col(p + 1).head(p + 1));
 }
 
 TEST(FitPenalty, WeighsWhatDiffersBetweenSessions) {

@@ -7,13 +7,14 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "models/recipe_catalog.h"
 #include "models/study/study.h"
 #include "stats/random.h"
+#include "tests/decompositions.h"
 #include "tests/models/history/history_data.h"
 #include "tests/models/model_test_data.h"
 
@@ -358,8 +359,8 @@ double LeakingRmse(const data::Dataset& all, const Holdout& holdout) {
   double sum = 0.0;
   for (const stats::Fold& fold : holdout.folds) {
     const MatrixXd train = design(fold.train, Eigen::all);
-    const VectorXd coefficients = train.colPivHouseholderQr().solve(
-        VectorXd(all.target_values()(fold.train)));
+    const VectorXd coefficients =
+        testing::LeastSquares(train, all.target_values()(fold.train));
     sum += (all.target_values()(fold.test) -
             design(fold.test, Eigen::all) * coefficients)
                .squaredNorm();
