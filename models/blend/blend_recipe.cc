@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -223,8 +224,8 @@ class BlendRecipe final : public ModelRecipe {
     if (net && weights[weights.size() - 1] > kLeastWeight) {
       parts.push_back({net->name, weights[weights.size() - 1], *net});
     }
-    FittedModel fitted = Average(
-        training, growing, bases.front().viewed->room, std::move(parts));
+    FittedModel fitted =
+        Average(training, growing, bases.front().viewed->room, parts);
     fitted.summary.message =
         fmt::format("{} candidates weighted by {} on inner hold-outs ({})",
                     scores.size(),
@@ -312,64 +313,81 @@ class BlendRecipe final : public ModelRecipe {
     }
   }
 
+  // The columns that the members read, and how they come about.
+  struct ReadByMembers {
+    History history;
+
+    std::vector<Index> PlacesOf(const FittedModel& map) {
+      if (map.history == nullptr) return PlacesOf(map.inputs);
+      const History& own = *map.history;
+      history.time_unit = own.time_unit;
+      history.session = own.session;
+      history.time = own.time;
+      for (const DerivedInput& input : own.derived) {
+        if (std::ranges::none_of(
+                history.derived, [&](const DerivedInput& known) {
+                  return known.column.name == input.column.name;
+                })) {
+          history.derived.push_back(input);
+        }
+      }
+      std::vector<Index> places;
+      for (const std::string& column : own.form_inputs) {
+        places.push_back(PlaceOf(column));
+      }
+      return places;
+    }
+
+   private:
+    std::vector<Index> PlacesOf(const std::vector<TrainedInput>& inputs) {
+      std::vector<Index> places;
+      for (const TrainedInput& input : inputs) {
+        places.push_back(PlaceOf(input.column.name));
+      }
+      return places;
+    }
+
+    Index PlaceOf(const std::string& column) {
+      std::vector<std::string>& columns = history.form_inputs;
+      const auto found = std::ranges::find(columns, column);
+      const Index place = found - columns.begin();
+      if (found == columns.end()) columns.push_back(column);
+      return place;
+    }
+  };
+
+  // A member keeps to the errors that its own guards allow.
+  static void KeepWithin(const Guards& guards, AveragedMember* member) {
+    const double widened =
+        guards.error_margin * (guards.error_max - guards.error_min);
+    member->lowest = guards.error_min - widened;
+    member->highest = guards.error_max + widened;
+  }
+
   // One map that reads what any of the parts reads.
   FittedModel Average(const Dataset& training,
                       const std::vector<std::string>& growing,
                       double room,
-                      std::vector<Part> parts) const {
-    History history;
-    std::vector<std::string> columns;
-    const auto place_of = [&](const std::string& column) {
-      const auto found = std::ranges::find(columns, column);
-      if (found == columns.end()) columns.push_back(column);
-      return static_cast<Index>(std::ranges::find(columns, column) -
-                                columns.begin());
-    };
+                      const std::vector<Part>& parts) const {
+    ReadByMembers read_by;
     FittedModel fitted;
     std::vector<AveragedMember> members;
-    for (Part& part : parts) {
+    for (const Part& part : parts) {
       AveragedMember member{.name = part.name,
                             .weight = part.weight,
-                            .inputs = {},
+                            .inputs = read_by.PlacesOf(part.map),
                             .lowest = -std::numeric_limits<double>::infinity(),
                             .highest = std::numeric_limits<double>::infinity(),
                             .model = part.map.model};
-      if (part.map.history != nullptr) {
-        const History& own = *part.map.history;
-        history.time_unit = own.time_unit;
-        history.session = own.session;
-        history.time = own.time;
-        for (const DerivedInput& input : own.derived) {
-          if (std::ranges::none_of(
-                  history.derived, [&](const DerivedInput& known) {
-                    return known.column.name == input.column.name;
-                  })) {
-            history.derived.push_back(input);
-          }
-        }
-        for (const std::string& column : own.form_inputs) {
-          member.inputs.push_back(place_of(column));
-        }
-      } else {
-        for (const TrainedInput& input : part.map.inputs) {
-          member.inputs.push_back(place_of(input.column.name));
-        }
-      }
-      if (part.map.guards) {
-        const Guards& guards = *part.map.guards;
-        const double widened =
-            guards.error_margin * (guards.error_max - guards.error_min);
-        member.lowest = guards.error_min - widened;
-        member.highest = guards.error_max + widened;
-      }
+      if (part.map.guards) KeepWithin(*part.map.guards, &member);
       fitted.remarks.push_back(
           fmt::format("{:.3f} x {}", member.weight, member.name));
       AddMember(std::move(member), &members);
     }
-    history.form_inputs = columns;
+    const History& history = read_by.history;
     const Dataset read = DeriveDataset(training, history);
-    std::vector<Index> all(columns.size());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Index>(i);
+    std::vector<Index> all(history.form_inputs.size());
+    std::iota(all.begin(), all.end(), Index{0});
     fitted.name = name_;
     fitted.kind = ModelKind::kBlend;
     fitted.align = training.align();
@@ -381,7 +399,7 @@ class BlendRecipe final : public ModelRecipe {
       LeaveRoom(growing, room, fitted.inputs, &*fitted.guards);
     }
     fitted.model = std::make_shared<AveragedModel>(
-        static_cast<Index>(columns.size()),
+        static_cast<Index>(all.size()),
         RuleWords()[static_cast<std::size_t>(options_.rule)],
         std::move(members));
     if (!history.derived.empty()) {

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "data/text.h"
 #include "fitting/selection/best_subset.h"
 #include "models/history/view_options.h"
 #include "models/option_list.h"
@@ -101,15 +100,7 @@ class BestSubsetRecipe final : public PolynomialRecipe {
     if (!best.complete) {
       fitted.summary.termination = fitting::Termination::kInterrupted;
     }
-    const std::vector<std::string> names = dictionary.design.TermNames();
-    std::vector<std::string> chosen;
-    for (const Index term : best.chosen) {
-      chosen.push_back(names[static_cast<std::size_t>(term)]);
-    }
-    fitted.remarks.push_back(
-        chosen.empty()
-            ? "no term was chosen"
-            : fmt::format("chosen: {}", data::JoinWords(chosen, ", ")));
+    fitted.remarks.push_back(ChosenTerms(dictionary, best.chosen));
     return fitted;
   }
 

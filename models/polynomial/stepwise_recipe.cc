@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "data/text.h"
 #include "fitting/selection/stepwise_selection.h"
 #include "models/history/fit_in_view.h"
 #include "models/history/view_options.h"
@@ -113,6 +112,58 @@ class StepwiseRecipe final : public PolynomialRecipe {
   }
 
  private:
+  // How the rows are kept for the engine, and how often it runs again.
+  struct Plan {
+    bool by_triangle = false;
+    bool is_large = false;  // too large to bootstrap unasked
+    std::int64_t repetitions = 0;
+    bool group_parts = false;  // a triangle a group
+  };
+
+  // At many rows a bootstrap is made only where it is asked for; by triangles
+  // it is one over whole groups, each of which is a triangle.
+  Plan PlanFor(const Dataset& training,
+               Index num_terms,
+               const FitContext& context) const {
+    Plan plan;
+    plan.by_triangle = NeedsTriangle(
+        training.num_rows(), num_terms, context.most_design_values);
+    if (plan.by_triangle && rules_.Uses(Criterion::kPress)) {
+      throw std::invalid_argument(fmt::format(
+          "PRESS of every step needs the rows, and {} rows of {} terms are "
+          "too many to hold; choose by aic, aicc, bic or cv (the fitted "
+          "map's PRESS is reported)",
+          training.num_rows(),
+          num_terms));
+    }
+    plan.is_large = plan.by_triangle ||
+                    training.num_rows() * num_terms > kMostBootstrappedValues;
+    const bool unasked = !plan.is_large && context.default_bootstraps;
+    if (context.explain) {
+      plan.repetitions =
+          options_.bootstrap.value_or(unasked ? kDefaultBootstrap : 0);
+    }
+    plan.group_parts =
+        plan.by_triangle && plan.repetitions > 0 && training.has_groups();
+    return plan;
+  }
+
+  DictionaryRows RowsOf(const TermDictionary& dictionary,
+                        const Plan& plan,
+                        const InnerFolds& folds,
+                        const FitContext& context) const {
+    const bool rows_are_read =
+        rules_.Uses(Criterion::kPress) || plan.repetitions > 0;
+    return CollectDictionary(
+        dictionary,
+        plan.group_parts ? dictionary.design.dataset().groups().codes
+                         : folds.folds.codes,
+        rows_are_read
+            ? context
+            : PreferTriangle(
+                  dictionary.design, kMostBootstrappedValues, context));
+  }
+
   FittedModel FitRows(const Dataset& training,
                       const FitContext& context) const {
     if (training.num_rows() < 3) {
@@ -120,104 +171,39 @@ class StepwiseRecipe final : public PolynomialRecipe {
           fmt::format("needs at least 3 rows, found {}", training.num_rows()));
     }
     const TermDictionary dictionary(training, options_.terms);
-    const bool by_triangle = NeedsTriangle(training.num_rows(),
-                                           dictionary.design.num_terms(),
-                                           context.most_design_values);
-    if (by_triangle && rules_.Uses(Criterion::kPress)) {
-      throw std::invalid_argument(fmt::format(
-          "PRESS of every step needs the rows, and {} rows of {} terms are "
-          "too many to hold; choose by aic, aicc, bic or cv (the fitted "
-          "map's PRESS is reported)",
-          training.num_rows(),
-          dictionary.design.num_terms()));
-    }
+    const Plan plan = PlanFor(training, dictionary.design.num_terms(), context);
     InnerFolds folds;
     if (rules_.Uses(Criterion::kCv)) {
       folds = MakeInnerFolds(training, context);
     }
-    // At many rows a bootstrap is made only where it is asked for; by triangles
-    // it is one over whole groups, each of which is a triangle.
-    const bool is_large =
-        by_triangle || training.num_rows() * dictionary.design.num_terms() >
-                           kMostBootstrappedValues;
-    const std::int64_t repetitions = !context.explain     ? 0
-                                     : options_.bootstrap ? *options_.bootstrap
-                                     : is_large || !context.default_bootstraps
-                                         ? 0
-                                         : kDefaultBootstrap;
-    const bool group_parts =
-        by_triangle && repetitions > 0 && training.has_groups();
-    const DictionaryRows rows = CollectDictionary(
-        dictionary,
-        group_parts ? training.groups().codes : folds.folds.codes,
-        rules_.Uses(Criterion::kPress) || repetitions > 0
-            ? context
-            : PreferTriangle(
-                  dictionary.design, kMostBootstrappedValues, context));
+    const DictionaryRows rows = RowsOf(dictionary, plan, folds, context);
     fitting::TermRules rules{dictionary.include,
                              dictionary.excluded,
                              {},
-                             FoldOf(folds, rows, training, group_parts)};
+                             FoldOf(folds, rows, training, plan.group_parts)};
     if (rules_.heredity != fitting::Heredity::kNone) {
       rules.parents = dictionary.Parents();
     }
-    const fitting::SelectionProblem problem = rows.Problem();
     const fitting::StepwiseOptions how = RulesFor(training, rules);
-    const fitting::SelectionResult selection =
-        fitting::SelectStepwise(problem, rules, how, context.stop);
-
-    const UsedTerms used =
-        KeepUsedInputs(dictionary.design.terms(), selection.chosen);
+    const auto select = [&](const fitting::SelectionProblem& problem) {
+      return fitting::SelectStepwise(problem, rules, how, context.stop);
+    };
+    const fitting::SelectionResult selection = select(rows.Problem());
     RegressionReport report;
     if (context.explain) {
       Explain(dictionary, rows, selection, folds, context, &report);
-      const bool by_group = training.has_groups();
-      if (repetitions > 0 && (by_group || !by_triangle)) {
-        report.bootstrap = static_cast<int>(repetitions);
-        report.bootstrap_unit = by_group ? training.groups().column : "row";
-        const VectorXd shares = BootstrapInclusion(
-            rows,
-            by_triangle ? rows.parts : training.groups().codes,
-            report.bootstrap,
-            [&](const fitting::SelectionProblem& drawn) {
-              return fitting::SelectStepwise(drawn, rules, how, context.stop)
-                  .chosen;
-            },
-            context);
-        ReportInclusion(dictionary, selection.chosen, shares, &report);
-      } else if (by_triangle || (is_large && !options_.bootstrap)) {
-        report.notes.push_back(
-            "no bootstrap at this size; bootstrap=N draws whole groups, where "
-            "there are groups");
-      }
+      Bootstrap(
+          dictionary, rows, selection.chosen, plan, select, context, &report);
     }
+    const UsedTerms used =
+        KeepUsedInputs(dictionary.design.terms(), selection.chosen);
     FittedModel fitted = FitTerms(training,
                                   used.inputs,
                                   used.terms,
                                   context,
                                   {options_.terms.centring},
                                   &report);
-    fitted.summary.message =
-        fmt::format("{} of {} candidate terms up to degree {} chosen by {} {}",
-                    used.terms.size(),
-                    dictionary.design.num_terms(),
-                    dictionary.degree,
-                    DirectionWord(),
-                    Upper(ToString(rules_.choose)));
-    if (selection.ended == "interrupted") {
-      fitted.summary.termination = fitting::Termination::kInterrupted;
-    }
-    AddTermRemark(dictionary, selection, &fitted);
-    if (selection.at_most_terms) {
-      fitted.remarks.push_back(fmt::format(
-          "max_terms ends the selection at {} terms{}; {}",
-          how.max_terms,
-          !options_.max_terms
-              ? fmt::format(", a fifth of {} rows", training.num_rows())
-              : "",
-          !options_.max_terms ? "max_terms=none goes on as R's step() does"
-                              : "a larger one would let it go on"));
-    }
+    Remark(dictionary, selection, how, &fitted);
     return fitted;
   }
 
@@ -297,24 +283,67 @@ class StepwiseRecipe final : public PolynomialRecipe {
                    report);
   }
 
-  // What a fold chose is part of its result.
-  static void AddTermRemark(const TermDictionary& dictionary,
-                            const fitting::SelectionResult& selection,
-                            FittedModel* fitted) {
-    std::vector<std::string> chosen;
-    for (const Index term : selection.chosen) {
-      chosen.push_back(dictionary.design.NameOf(term));
+  template <typename Select>
+  void Bootstrap(const TermDictionary& dictionary,
+                 const DictionaryRows& rows,
+                 const std::vector<Index>& chosen,
+                 const Plan& plan,
+                 const Select& select,
+                 const FitContext& context,
+                 RegressionReport* report) const {
+    const Dataset& training = dictionary.design.dataset();
+    const bool by_group = training.has_groups();
+    if (plan.repetitions > 0 && (by_group || !plan.by_triangle)) {
+      report->bootstrap = static_cast<int>(plan.repetitions);
+      report->bootstrap_unit = by_group ? training.groups().column : "row";
+      const VectorXd shares = BootstrapInclusion(
+          rows,
+          plan.by_triangle ? rows.parts : training.groups().codes,
+          report->bootstrap,
+          [&](const fitting::SelectionProblem& drawn) {
+            return select(drawn).chosen;
+          },
+          context);
+      ReportInclusion(dictionary, chosen, shares, report);
+    } else if (plan.by_triangle || (plan.is_large && !options_.bootstrap)) {
+      report->notes.push_back(
+          "no bootstrap at this size; bootstrap=N draws whole groups, where "
+          "there are groups");
     }
-    fitted->remarks.push_back(
-        chosen.empty()
-            ? "no term was chosen"
-            : fmt::format("chosen: {}", data::JoinWords(chosen, ", ")));
+  }
+
+  // What a fold chose is part of its result, and what ended the choice.
+  void Remark(const TermDictionary& dictionary,
+              const fitting::SelectionResult& selection,
+              const fitting::StepwiseOptions& how,
+              FittedModel* fitted) const {
+    fitted->summary.message =
+        fmt::format("{} of {} candidate terms up to degree {} chosen by {} {}",
+                    selection.chosen.size(),
+                    dictionary.design.num_terms(),
+                    dictionary.degree,
+                    DirectionWord(),
+                    Upper(ToString(rules_.choose)));
+    if (selection.ended == "interrupted") {
+      fitted->summary.termination = fitting::Termination::kInterrupted;
+    }
+    fitted->remarks.push_back(ChosenTerms(dictionary, selection.chosen));
     for (const Index term : selection.aliased_includes) {
       fitted->remarks.push_back(
           fmt::format("{} was to be included but follows from the terms "
                       "before it",
                       dictionary.design.NameOf(term)));
     }
+    if (!selection.at_most_terms) return;
+    fitted->remarks.push_back(fmt::format(
+        "max_terms ends the selection at {} terms{}; {}",
+        how.max_terms,
+        !options_.max_terms
+            ? fmt::format(", a fifth of {} rows",
+                          dictionary.design.dataset().num_rows())
+            : "",
+        !options_.max_terms ? "max_terms=none goes on as R's step() does"
+                            : "a larger one would let it go on"));
   }
 
   StepwiseOptions options_;  // those in effect

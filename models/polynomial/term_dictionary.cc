@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "data/text.h"
 #include "models/history/view.h"
 #include "models/polynomial/polynomial_fit.h"
 #include "models/regression_report.h"
@@ -217,6 +218,16 @@ DictionaryRows CollectDictionary(const TermDictionary& dictionary,
   rows.observations = collected.observations;
   rows.parts = std::move(collected.parts);
   return rows;
+}
+
+std::string ChosenTerms(const TermDictionary& dictionary,
+                        const std::vector<Index>& chosen) {
+  if (chosen.empty()) return "no term was chosen";
+  std::vector<std::string> names;
+  for (const Index term : chosen) {
+    names.push_back(dictionary.design.NameOf(term));
+  }
+  return "chosen: " + data::JoinWords(names, ", ");
 }
 
 void ReportExcluded(const TermDictionary& dictionary,

@@ -63,6 +63,10 @@ DictionaryRows CollectDictionary(const TermDictionary& dictionary,
 /// Degree where none is given: 3 up to 8 inputs, else 2.
 int DefaultDegree(Eigen::Index num_inputs);
 
+/// What a fold chose is part of its result: "chosen: x, x*t".
+std::string ChosenTerms(const TermDictionary& dictionary,
+                        const std::vector<Eigen::Index>& chosen);
+
 /// Why candidates that are not in a model add nothing to it, and what F the
 /// others would have: into `report`; as far as it came where context.stop does.
 void ReportExcluded(const TermDictionary& dictionary,

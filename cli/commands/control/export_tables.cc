@@ -128,65 +128,49 @@ void CheckTableArguments(const TableArguments& arguments) {
   }
 }
 
-}  // namespace
+// The maps of both directions of motion; one for both acts both ways.
+struct BothWays {
+  TableMap forward;
+  TableMap reverse;
+  bool are_two;
+};
 
-void ExportLinuxcnc(const std::string& model,
-                    const TableArguments& arguments,
-                    const LimitsFor& limits,
-                    const std::string& out,
-                    bool quiet) {
-  CheckTableArguments(arguments);
-  const bool two =
-      !arguments.increasing.empty() && !arguments.decreasing.empty();
-  if (!model.empty() &&
-      !(arguments.increasing.empty() && arguments.decreasing.empty())) {
+BothWays LoadBothWays(const std::string& model,
+                      const TableArguments& arguments,
+                      const LimitsFor& limits) {
+  using models::Motion;
+  const std::string& increasing = arguments.increasing;
+  const std::string& decreasing = arguments.decreasing;
+  if (!model.empty() && !(increasing.empty() && decreasing.empty())) {
     throw UsageError(
         "export --linuxcnc: name one MODEL for both directions, or "
         "--increasing and --decreasing");
   }
-  const std::string only = !model.empty() ? model
-                           : !arguments.increasing.empty()
-                               ? arguments.increasing
-                               : arguments.decreasing;
+  if (!increasing.empty() && !decreasing.empty()) {
+    return {LoadTableMap(increasing, Motion::kIncreasing, limits),
+            LoadTableMap(decreasing, Motion::kDecreasing, limits),
+            true};
+  }
+  const std::string& only = !model.empty()        ? model
+                            : !increasing.empty() ? increasing
+                                                  : decreasing;
   if (only.empty()) {
     throw UsageError(
         "export --linuxcnc: name --increasing FILE.json and --decreasing "
         "FILE.json, the directions of motion");
   }
-  CheckOutputName(
-      "-o",
-      out,
-      {model, arguments.increasing, arguments.decreasing, arguments.log});
-  // One map that fills both columns acts both ways.
-  using models::Motion;
-  const TableMap forward =
-      LoadTableMap(two ? arguments.increasing : only,
-                   two ? Motion::kIncreasing : Motion::kAny,
-                   limits);
-  const TableMap reverse =
-      LoadTableMap(two ? arguments.decreasing : only,
-                   two ? Motion::kDecreasing : Motion::kAny,
-                   limits);
-  const std::vector<HeldReading> held =
-      HeldIn(arguments, {&forward.program, &reverse.program});
-  const ErrorCurve increasing =
-      CurveOf(forward.file, forward.fitted, forward.program, held, arguments);
-  const ErrorCurve decreasing =
-      CurveOf(reverse.file, reverse.fitted, reverse.program, held, arguments);
+  return {LoadTableMap(only, Motion::kAny, limits),
+          LoadTableMap(only, Motion::kAny, limits),
+          false};
+}
+
+void SayOfLinuxcnc(const models::CompFile& file,
+                   const BothWays& maps,
+                   const ErrorCurve& increasing,
+                   const ErrorCurve& decreasing,
+                   const TableArguments& arguments,
+                   const std::string& out) {
   const data::Unit unit = data::UnitOfSymbol(arguments.units);
-  models::CompFile file;
-  try {
-    file = models::LinuxcncCompFile(increasing,
-                                    decreasing,
-                                    {.unit = unit,
-                                     .most_points = arguments.points,
-                                     .resolution = arguments.resolution});
-  } catch (const std::logic_error& error) {
-    throw data::InputError(
-        fmt::format("{}: {}", data::PrintablePath(only), error.what()));
-  }
-  data::WriteFileAtomically(out, file.text);
-  if (quiet) return;
   const auto text = [&](double error) {
     return report::ErrorText(unit, error).WithUnit(error);
   };
@@ -198,16 +182,14 @@ void ExportLinuxcnc(const std::string& model,
                   report::Count(file.num_points, "point"),
                   file.low,
                   file.high));
-  if (two) {
-    Say(fmt::format("forward column (position increases): {}; reverse: {}",
-                    data::PrintablePath(forward.file),
-                    data::PrintablePath(reverse.file)));
-  } else {
-    Say(
-        fmt::format("{} fills both columns: the directions of motion are taken "
-                    "as alike",
-                    data::PrintablePath(only)));
-  }
+  const std::string forward = data::PrintablePath(maps.forward.file);
+  Say(maps.are_two
+          ? fmt::format("forward column (position increases): {}; reverse: {}",
+                        forward,
+                        data::PrintablePath(maps.reverse.file))
+          : fmt::format("{} fills both columns: the directions of motion are "
+                        "taken as alike",
+                        forward));
   Say(fmt::format(
       "errors forward: {}; reverse: {}",
       LimitText(
@@ -225,6 +207,44 @@ void ExportLinuxcnc(const std::string& model,
   }
   Say("column = nominal + error; LinuxCNC adds nominal - column, which is "
       "compensation = -error");
+}
+
+}  // namespace
+
+void ExportLinuxcnc(const std::string& model,
+                    const TableArguments& arguments,
+                    const LimitsFor& limits,
+                    const std::string& out,
+                    bool quiet) {
+  CheckTableArguments(arguments);
+  CheckOutputName(
+      "-o",
+      out,
+      {model, arguments.increasing, arguments.decreasing, arguments.log});
+  const BothWays maps = LoadBothWays(model, arguments, limits);
+  const std::vector<HeldReading> held =
+      HeldIn(arguments, {&maps.forward.program, &maps.reverse.program});
+  const auto curve_of = [&](const TableMap& map) {
+    return CurveOf(map.file, map.fitted, map.program, held, arguments);
+  };
+  const ErrorCurve increasing = curve_of(maps.forward);
+  const ErrorCurve decreasing = curve_of(maps.reverse);
+  models::CompFile file;
+  try {
+    file =
+        models::LinuxcncCompFile(increasing,
+                                 decreasing,
+                                 {.unit = data::UnitOfSymbol(arguments.units),
+                                  .most_points = arguments.points,
+                                  .resolution = arguments.resolution});
+  } catch (const std::logic_error& error) {
+    throw data::InputError(fmt::format(
+        "{}: {}", data::PrintablePath(maps.forward.file), error.what()));
+  }
+  data::WriteFileAtomically(out, file.text);
+  if (!quiet) {
+    SayOfLinuxcnc(file, maps, increasing, decreasing, arguments, out);
+  }
 }
 
 models::ExportedFile ExportTable(const models::FittedModel& fitted,
