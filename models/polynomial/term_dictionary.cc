@@ -121,10 +121,10 @@ Option<std::optional<int>> DegreeOption() {
       Whole{1, kMostDegree});
 }
 
-Option<std::vector<NamedTerm>> TermsOption(std::string name,
-                                           std::string about) {
+Option<std::vector<NamedTerm>> TermsOption(const std::string& name,
+                                           const std::string& about) {
   return OptionFor<std::vector<NamedTerm>>(
-      name, std::move(about), [](auto& terms) { return &terms; }, Terms{name});
+      name, about, [](auto& terms) { return &terms; }, Terms{name});
 }
 
 OptionList<TermOptions> TermOptionList() {

@@ -21,7 +21,8 @@ namespace errmap::models {
 OptionList<TermOptions> TermOptionList();
 /// The degree and the terms left out, which penalised families have as well.
 Option<std::optional<int>> DegreeOption();
-Option<std::vector<NamedTerm>> TermsOption(std::string name, std::string about);
+Option<std::vector<NamedTerm>> TermsOption(const std::string& name,
+                                           const std::string& about);
 
 /// The terms that may be chosen over the inputs of a data set, and which of
 /// them are forced in or out.
