@@ -165,10 +165,21 @@ struct Applicability;
 struct HeldOutErrors;
 struct LearntRows;
 
+struct Bounds {
+  double low, high;
+};
+
+/// [min - m * range, max + m * range]: the one way that guards widen a range,
+/// so that fits, predictions and exported programs clip at the same bits.
+inline Bounds Widened(double min, double max, double margin) {
+  const double widened = margin * (max - min);
+  return {min - widened, max + widened};
+}
+
 /// Bounds within which a map was trained: what goes beyond is clipped to them.
 /// A column that hardly moved in training may move far on another day.
 struct Guards {
-  /// Inputs of the form are clipped at [min - m * range, max + m * range].
+  /// Inputs of the form are clipped at their range, Widened by this.
   double input_margin = 2.0;
   /// Predictions likewise.
   double error_margin = 0.3;
@@ -176,6 +187,13 @@ struct Guards {
   Eigen::VectorXd input_max;
   double error_min = 0.0;  // of the target in training, in its unit
   double error_max = 0.0;
+
+  Bounds InputBounds(Eigen::Index input) const {
+    return Widened(input_min[input], input_max[input], input_margin);
+  }
+  Bounds ErrorBounds() const {
+    return Widened(error_min, error_max, error_margin);
+  }
 };
 
 /// Guards with the default margins at the trained range of the form's inputs

@@ -16,20 +16,21 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Rows = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
-// Clips `values` to [min - m * range, max + m * range] and marks where it did;
-// a value that is NaN stays so.
-void Clip(double min,
-          double max,
-          double margin,
+// A value that is NaN stays so.
+double Clipped(double value, const Bounds& bounds) {
+  return value < bounds.low    ? bounds.low
+         : value > bounds.high ? bounds.high
+                               : value;
+}
+
+// Clips `values` and marks where it did.
+void Clip(const Bounds& bounds,
           Eigen::Ref<Eigen::VectorXd> values,
           Rows* clipped) {
-  const double widened = margin * (max - min);
-  const double low = min - widened;
-  const double high = max + widened;
-  *clipped = *clipped || values.array() < low || values.array() > high;
-  values = values.unaryExpr([low, high](double value) {
-    return value < low ? low : value > high ? high : value;
-  });
+  *clipped =
+      *clipped || values.array() < bounds.low || values.array() > bounds.high;
+  values = values.unaryExpr(
+      [bounds](double value) { return Clipped(value, bounds); });
 }
 
 MatrixXd ColumnsByName(const data::Dataset& dataset,
@@ -92,30 +93,19 @@ Prediction FittedModel::PredictForm(const MatrixXd& form_inputs) const {
   }
   MatrixXd inside = form_inputs;
   for (Index i = 0; i < inside.cols(); ++i) {
-    Clip(guards->input_min[i],
-         guards->input_max[i],
-         guards->input_margin,
-         inside.col(i),
-         &prediction.clipped);
+    Clip(guards->InputBounds(i), inside.col(i), &prediction.clipped);
   }
   prediction.errors = model->Predict(inside);
-  Clip(guards->error_min,
-       guards->error_max,
-       guards->error_margin,
-       prediction.errors,
-       &prediction.clipped);
+  Clip(guards->ErrorBounds(), prediction.errors, &prediction.clipped);
   return prediction;
 }
 
 double FittedModel::PredictFormRow(std::span<const double> form_inputs,
                                    bool* clipped) const {
   bool is_clipped = false;
-  const auto clip = [&](double value, double min, double max, double margin) {
-    const double widened = margin * (max - min);
-    const double low = min - widened;
-    const double high = max + widened;
-    is_clipped = is_clipped || value < low || value > high;
-    return value < low ? low : value > high ? high : value;
+  const auto clip = [&](double value, const Bounds& bounds) {
+    is_clipped = is_clipped || value < bounds.low || value > bounds.high;
+    return Clipped(value, bounds);
   };
   double error = 0.0;
   if (!guards) {
@@ -129,16 +119,11 @@ double FittedModel::PredictFormRow(std::span<const double> form_inputs,
     }
     RowScratch inside(form_inputs.size());
     for (std::size_t i = 0; i < form_inputs.size(); ++i) {
-      const auto at = static_cast<Index>(i);
-      inside[i] = clip(form_inputs[i],
-                       guards->input_min[at],
-                       guards->input_max[at],
-                       guards->input_margin);
+      inside[i] =
+          clip(form_inputs[i], guards->InputBounds(static_cast<Index>(i)));
     }
     error = clip(model->PredictRow({inside.data(), form_inputs.size()}),
-                 guards->error_min,
-                 guards->error_max,
-                 guards->error_margin);
+                 guards->ErrorBounds());
   }
   if (clipped != nullptr) *clipped = is_clipped;
   return error;

@@ -356,14 +356,6 @@ class BlendRecipe final : public ModelRecipe {
     }
   };
 
-  // A member keeps to the errors that its own guards allow.
-  static void KeepWithin(const Guards& guards, AveragedMember* member) {
-    const double widened =
-        guards.error_margin * (guards.error_max - guards.error_min);
-    member->lowest = guards.error_min - widened;
-    member->highest = guards.error_max + widened;
-  }
-
   // One map that reads what any of the parts reads.
   FittedModel Average(const Dataset& training,
                       const std::vector<std::string>& growing,
@@ -373,13 +365,15 @@ class BlendRecipe final : public ModelRecipe {
     FittedModel fitted;
     std::vector<AveragedMember> members;
     for (const Part& part : parts) {
+      constexpr double kNoBound = std::numeric_limits<double>::infinity();
+      const Bounds allowed = part.map.guards ? part.map.guards->ErrorBounds()
+                                             : Bounds{-kNoBound, kNoBound};
       AveragedMember member{.name = part.name,
                             .weight = part.weight,
                             .inputs = read_by.PlacesOf(part.map),
-                            .lowest = -std::numeric_limits<double>::infinity(),
-                            .highest = std::numeric_limits<double>::infinity(),
+                            .lowest = allowed.low,
+                            .highest = allowed.high,
                             .model = part.map.model};
-      if (part.map.guards) KeepWithin(*part.map.guards, &member);
       fitted.remarks.push_back(
           fmt::format("{:.3f} x {}", member.weight, member.name));
       AddMember(std::move(member), &members);

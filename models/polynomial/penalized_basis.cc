@@ -31,9 +31,8 @@ void ClipColumns(const VectorXd& min,
                  double margin,
                  MatrixXd* values) {
   for (Index j = 0; j < values->cols(); ++j) {
-    const double widened = margin * (max[j] - min[j]);
-    values->col(j) =
-        values->col(j).cwiseMax(min[j] - widened).cwiseMin(max[j] + widened);
+    const Bounds bounds = Widened(min[j], max[j], margin);
+    values->col(j) = values->col(j).cwiseMax(bounds.low).cwiseMin(bounds.high);
   }
 }
 
@@ -247,8 +246,8 @@ void SummedBasis::PredictFold(
       trained.Include(ranges_[static_cast<std::size_t>(f)]);
     }
   }
-  const double widened =
-      margins.error_margin * (trained.error_max - trained.error_min);
+  const Bounds bounds =
+      Widened(trained.error_min, trained.error_max, margins.error_margin);
   ForBlocks(members_[static_cast<std::size_t>(fold)], [&](const Rows& block) {
     MatrixXd inputs = Inputs(block);
     if (guarded_) {
@@ -261,8 +260,7 @@ void SummedBasis::PredictFold(
     fitting::Multiply(terms, solutions.coefficients, predicted);
     predicted.rowwise() += solutions.intercepts.transpose();
     if (guarded_) {
-      predicted = predicted.cwiseMax(trained.error_min - widened)
-                      .cwiseMin(trained.error_max + widened);
+      predicted = predicted.cwiseMax(bounds.low).cwiseMin(bounds.high);
     }
     take(block, predicted);
   });

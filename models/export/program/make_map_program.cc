@@ -28,10 +28,6 @@ using Eigen::Index;
 
 int AsInt(std::size_t value) { return static_cast<int>(value); }
 
-struct Bounds {
-  double low, high;
-};
-
 // The same terms in as many inputs more as are held within a range, which the
 // terms that bend read in place of those.
 PolynomialForm WithHeldInputs(const PolynomialForm& form) {
@@ -46,12 +42,6 @@ PolynomialForm WithHeldInputs(const PolynomialForm& form) {
     }
   }
   return spread;
-}
-
-// As the guards of a prediction widen a range, to the last bit.
-Bounds Widened(double min, double max, double margin) {
-  const double widened = margin * (max - min);
-  return {min - widened, max + widened};
 }
 
 // ---- From readings to what the form reads ----
@@ -299,18 +289,13 @@ class FormWriter {
       const Operand to{Space::kForm, AsInt(i)};
       const auto at = static_cast<Index>(i);
       Add({.op = Op::kCopy, .to = to, .a = (*inputs)[i]});
-      Clip(to,
-           Widened(
-               guards.input_min[at], guards.input_max[at], guards.input_margin),
-           true);
+      Clip(to, guards.InputBounds(at), true);
       (*inputs)[i] = to;
     }
   }
 
   void ClipError(const Guards& guards) {
-    Clip(kError,
-         Widened(guards.error_min, guards.error_max, guards.error_margin),
-         true);
+    Clip(kError, guards.ErrorBounds(), true);
   }
 
   void Form(const ModelDescription& form, const std::vector<Operand>& inputs) {

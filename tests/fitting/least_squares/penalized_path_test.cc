@@ -4,7 +4,7 @@
 #include <tuple>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include "fitting/least_squares/linear_least_squares.h"
