@@ -20,7 +20,7 @@
 #include "models/model_spec.h"
 #include "models/recipe_catalog.h"
 #include "models/study/journal/fit_cache.h"
-#include "models/study/study_defaults.h"
+#include "models/study/record/record_values.h"
 
 namespace errmap::cli {
 
@@ -194,10 +194,10 @@ desk::GivenError ErrorOfFlag(const char* flag,
   }
 }
 
-double GoalOrDefault(const std::optional<std::string>& goal,
-                     const data::Unit& target) {
+double GoalOrNone(const std::optional<std::string>& goal,
+                  const data::Unit& target) {
   const desk::GivenError given = ErrorOfFlag("--goal", goal, false);
-  if (!given.is_given()) return models::DefaultGoal(target);
+  if (!given.is_given()) return models::kNotKnown;
   try {
     return desk::InUnitOf(target, given);
   } catch (const std::invalid_argument& error) {

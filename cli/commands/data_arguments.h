@@ -80,9 +80,9 @@ desk::GivenError ErrorOfFlag(const char* flag,
                              const std::optional<std::string>& text,
                              bool may_be_zero);
 
-/// --goal in the target's unit, else models::DefaultGoal. Throws UsageError.
-double GoalOrDefault(const std::optional<std::string>& goal,
-                     const data::Unit& target);
+/// --goal in the target's unit, NaN where none is given. Throws UsageError.
+double GoalOrNone(const std::optional<std::string>& goal,
+                  const data::Unit& target);
 
 /// --jobs, or where it is 0 the processors of the machine.
 int JobsOf(int jobs);

@@ -45,7 +45,7 @@ struct ComponentConfig {
 /// everything that decides a figure, nothing that does not (jobs, folders).
 struct StudyConfig {
   std::uint64_t seed = 1;
-  /// For components without their own; default: 0.5 um for lengths, else none.
+  /// For components without their own; default: none.
   GivenError goal;
   /// For components without their own; default: 0.02 um for lengths, else 0.
   GivenError indifference;

@@ -127,7 +127,7 @@ template <typename Config, typename Visit>
 void ForErrorOptions(Config& config, const Visit& visit) {
   visit(StudyOption{.key = "goal",
                     .value = "X",
-                    .help = "RMSE wanted: 2um (default for lengths: 0.5 um)\n"
+                    .help = "RMSE wanted: 2um (default: no goal)\n"
                             "of held-out rows; without a unit in that of the "
                             "target"},
         config.goal);

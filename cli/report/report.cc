@@ -3,7 +3,9 @@
 #include "cli/report/documents/report_html.h"
 #include "cli/report/documents/study_table.h"
 #include "cli/report/tables/result_table.h"
+#include "cli/report/words/first_answer.h"
 #include "cli/report/words/verdict_text.h"
+#include "data/text.h"
 #include "models/study/record/make_study_record.h"
 #include "models/study/record/making/make_provenance.h"
 #include "models/version.h"
@@ -30,9 +32,11 @@ models::StudyRecord MakeRecord(
   return record;
 }
 
-std::string VerdictText(const models::ComponentRecord& component) {
-  const std::vector<std::string> words = FirstWords(component);
-  return words.empty() ? "" : words.front();
+std::string VerdictText(const models::ComponentRecord& component,
+                        std::size_t columns) {
+  const std::vector<std::string> lines =
+      AnswerLines(FirstAnswerOf(component), columns);
+  return data::JoinWords(lines, "\n");
 }
 
 std::string ScreenText(const models::StudyRecord& record, std::size_t columns) {

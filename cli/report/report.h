@@ -30,8 +30,10 @@ models::StudyRecord MakeRecord(
     std::uint64_t seed,
     int jobs = 1);
 
-/// The recommendation in one sentence; why there is none, where there is none.
-std::string VerdictText(const models::ComponentRecord& component);
+/// The first answer in lines of at most so many columns: which map, how wrong,
+/// how sure, what next; why there is none, where there is none.
+std::string VerdictText(const models::ComponentRecord& component,
+                        std::size_t columns = 80);
 
 /// What `errmap compare` shows on a terminal of so many columns: verdict, table
 /// and what to do next; of several components a row each.

@@ -6,6 +6,7 @@
 
 #include "data/csv.h"
 #include "models/comparison/component_plan.h"
+#include "models/study/record/record_values.h"
 #include "models/study/study_defaults.h"
 
 namespace errmap::models {
@@ -32,7 +33,7 @@ ComponentStudy Compare(ComponentStudy component,
                        OwnRecipes own) {
   const data::Dataset& dataset = component.data.dataset;
   const data::Unit& unit = dataset.target().unit;
-  component.goal = options.goal.value_or(DefaultGoal(unit));
+  component.goal = options.goal.value_or(kNotKnown);
   component.indifference =
       options.indifference.value_or(DefaultIndifference(unit));
   for (const std::string& words :

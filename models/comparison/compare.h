@@ -19,7 +19,7 @@ namespace errmap::models {
 struct ComparisonOptions {
   std::vector<std::string> holdouts = {};  // SPECs; empty: DefaultHoldouts
   std::vector<std::string> models = {};    // SPECs; empty: all that suit
-  std::optional<double> goal = {};         // target's unit; else DefaultGoal
+  std::optional<double> goal = {};         // RMSE wanted, in the target's unit
   /// Difference in RMSE that never matters; else DefaultIndifference.
   std::optional<double> indifference = {};
   std::uint64_t seed = 1;

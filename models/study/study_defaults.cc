@@ -1,7 +1,6 @@
 #include "models/study/study_defaults.h"
 
 #include <algorithm>
-#include <limits>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -10,15 +9,6 @@
 #include "models/study/study.h"
 
 namespace errmap::models {
-namespace {
-
-// So many um in the unit; what `otherwise` says for what is no length.
-double OfLengths(double um, double otherwise, const data::Unit& unit) {
-  return unit.quantity == data::Quantity::kLength ? um / unit.display_scale
-                                                  : otherwise;
-}
-
-}  // namespace
 
 std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset) {
   constexpr Eigen::Index kFolds = 5;
@@ -58,15 +48,11 @@ std::string StrictestDefaultHoldout(const data::Dataset& dataset) {
   return specs.back();
 }
 
-double DefaultGoal(const data::Unit& unit) {
-  constexpr double kReportGoalUm = 0.5;
-  return OfLengths(
-      kReportGoalUm, std::numeric_limits<double>::quiet_NaN(), unit);
-}
-
 double DefaultIndifference(const data::Unit& unit) {
   constexpr double kIndifferenceUm = 0.02;
-  return OfLengths(kIndifferenceUm, 0.0, unit);
+  return unit.quantity == data::Quantity::kLength
+             ? kIndifferenceUm / unit.display_scale
+             : 0.0;
 }
 
 }  // namespace errmap::models

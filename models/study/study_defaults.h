@@ -19,10 +19,6 @@ std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset);
 /// or more, else whole groups, else blocks.
 std::string StrictestDefaultHoldout(const data::Dataset& dataset);
 
-/// RMSE wanted on held-out rows, in `unit`: of lengths that of NISTIR 5367,
-/// 0.5 um; NaN, none, of all else.
-double DefaultGoal(const data::Unit& unit);
-
 /// Difference in RMSE that never matters, in `unit`: of lengths 0.02 um, of all
 /// else 0.
 double DefaultIndifference(const data::Unit& unit);

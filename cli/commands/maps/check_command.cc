@@ -92,7 +92,7 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
   double goal = std::numeric_limits<double>::quiet_NaN();
   std::optional<models::ZeroSchedule> schedule;
   if (arguments.goal) {
-    goal = GoalOrDefault(arguments.goal, fitted.target.unit);
+    goal = GoalOrNone(arguments.goal, fitted.target.unit);
     RequireAges(fitted, arguments.model);
     schedule = models::ScheduleZeros(errors, goal);
   }

@@ -283,7 +283,7 @@ int RunLearn(const LearnArguments& arguments, const std::string& command_line) {
   }
   const data::PreparedDataset prepared = ReadData(arguments.data);
   const data::Dataset& dataset = prepared.dataset;
-  const double goal = GoalOrDefault(arguments.goal, dataset.target().unit);
+  const double goal = GoalOrNone(arguments.goal, dataset.target().unit);
   Learned learned;
   if (arguments.by == "sensors") {
     LearnBySensors(arguments, dataset, &learned);
@@ -365,7 +365,7 @@ void AddLearnCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "--goal X",
             arguments->goal,
-            "RMSE wanted: 2um (default for lengths: 0.5 um)");
+            "RMSE wanted: 2um (default: no goal)");
   AddSeedOption(command, &arguments->seed);
   AddOption(command,
             "--jobs N",

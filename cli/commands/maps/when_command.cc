@@ -128,7 +128,7 @@ int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
   RequireAges(fitted, arguments.model);
   const models::HeldOutErrors& errors = *fitted.held_out;
   const data::Unit& unit = fitted.target.unit;
-  const double goal = GoalOrDefault(arguments.goal, unit);
+  const double goal = GoalOrNone(arguments.goal, unit);
   const models::ZeroSchedule schedule = models::ScheduleZeros(errors, goal);
   const models::ZeroTrigger advised = schedule.advised();
   std::optional<SinceProbe> since;
@@ -173,7 +173,7 @@ void AddWhenCommand(CLI::App* app, Run* run) {
             "--goal X",
             arguments->goal,
             "What 90 % of the errors are to stay within: 2um\n"
-            "(default for lengths: 0.5 um)");
+            "(default: no goal, the table alone)");
   AddMapLogArguments(command, &arguments->log);
   FindOption(command, "--after").About("Readings from the last probe to now");
   AddFormatOption(command, &arguments->format);

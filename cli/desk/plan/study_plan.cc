@@ -20,6 +20,7 @@
 #include "data/text.h"
 #include "models/comparison/compare.h"
 #include "models/file_recipe.h"
+#include "models/study/record/record_values.h"
 #include "models/study/split_file.h"
 #include "models/study/study_defaults.h"
 #include "stats/error_metrics.h"
@@ -106,7 +107,7 @@ class ComponentPlanner {
     plan.comparison.choose = study_.choose;
     plan.comparison.prefer = study_.prefer;
     plan.comparison.goal = SizeOf("goal", component_.goal, study_.goal, dataset)
-                               .value_or(models::DefaultGoal(unit));
+                               .value_or(models::kNotKnown);
     plan.comparison.indifference =
         SizeOf("indifference",
                component_.indifference,

@@ -326,22 +326,22 @@ std::string Page::Next(std::size_t index) const {
 
 std::string Page::Card(const ReportView& view) const {
   const Headline line = HeadlineOf(view);
-  std::string html = "<div class=\"card\">\n";
-  html += "<p class=\"sentence\">" + HtmlSentence(line.sentence) + "</p>\n";
+  std::string html = "<div class=\"card\">\n<p class=\"sentence\">" +
+                     HtmlSentence(line.answer.use) + "</p>\n";
   if (!line.error.empty()) {
     html += "<p class=\"number\">" + HtmlText(line.error) + "</p>\n";
-    html += Paragraph(line.where +
-                      (line.interval.empty() ? "" : "; " + line.interval));
   }
-  if (!line.goal.empty()) {
-    html +=
-        fmt::format("<p class=\"goal{}\">{}</p>\n",
-                    line.goal_standing == models::GoalStanding::kNone  ? " none"
-                    : line.goal_standing == models::GoalStanding::kMet ? " met"
-                                                                       : "",
-                    HtmlSentence(line.goal));
+  std::string rows;
+  for (const AnswerLine& row : line.answer.lines) {
+    const char* tone = row.tone == AnswerLine::Tone::kGood  ? " class=\"good\""
+                       : row.tone == AnswerLine::Tone::kBad ? " class=\"bad\""
+                                                            : "";
+    rows += fmt::format("<dt>{}</dt><dd{}>{}</dd>",
+                        HtmlText(row.label),
+                        tone,
+                        HtmlSentence(row.text));
   }
-  for (const std::string& told : line.told) html += Paragraph(told);
+  if (!rows.empty()) html += "<dl class=\"next\">" + rows + "</dl>\n";
   return html + "</div>\n";
 }
 

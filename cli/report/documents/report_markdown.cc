@@ -26,13 +26,11 @@ std::string Bullets(const std::vector<std::string>& lines) {
 
 std::string Answer(const ReportView& view) {
   const Headline line = HeadlineOf(view);
-  std::string text = "**" + MarkdownText(line.sentence) + "**\n\n";
+  std::string text = "**" + MarkdownText(line.answer.use) + "**\n\n";
   std::vector<std::string> facts;
-  if (!line.error.empty()) {
-    facts.push_back(line.error + " " + line.where +
-                    (line.interval.empty() ? "" : "; " + line.interval));
+  for (const AnswerLine& row : line.answer.lines) {
+    facts.push_back(row.label + ": " + row.text);
   }
-  if (!line.goal.empty()) facts.push_back(line.goal);
   text += Bullets(facts) + MarkdownParagraph(kSignConvention) +
           "### Every model\n\n" + MarkdownTable(PageLeaderboard(view)) + "\n";
   if (!line.reasons.empty()) text += "### Reasons\n\n" + Bullets(line.reasons);

@@ -23,9 +23,8 @@ a{color:var(--blue)}
 .sentence{font-size:1.12rem;line-height:1.4;font-weight:600;margin:0 0 .5rem}
 .number{font-size:2.3rem;line-height:1.1;font-weight:700;margin:.2rem 0 0;white-space:nowrap}
 .number+p{margin-top:.1rem}
-.goal{display:inline-block;border-radius:4px;padding:2px 10px;font-weight:600;color:#fff;background:var(--bad);margin:.4rem 0}
-.goal.met{background:var(--good)}
-.goal.none{background:#5a6472}
+.good{color:var(--good);font-weight:600}
+.bad{color:var(--bad)}
 ul{margin:.4rem 0;padding-left:1.3rem}
 .scroll{overflow-x:auto;margin:.4rem 0 1rem;border:1px solid var(--line);border-radius:4px;max-width:100%;width:fit-content}
 .scroll:focus-visible,.equation:focus-visible,summary:focus-visible,input:focus-visible,a:focus-visible{outline:3px solid var(--blue);outline-offset:2px}
@@ -99,7 +98,7 @@ details:not(.component):not([open]){display:none}
 .printed{display:block}
 details.component{border:0;padding:0;margin:0;break-before:page}
 a{color:inherit;text-decoration:none}
-.card,th,tr.mark td,.goal{-webkit-print-color-adjust:exact;print-color-adjust:exact}
+.card,th,tr.mark td{-webkit-print-color-adjust:exact;print-color-adjust:exact}
 }
 )css";
 

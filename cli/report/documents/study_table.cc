@@ -12,6 +12,7 @@
 #include "cli/report/tables/result_table.h"
 #include "cli/report/words/component_numbers.h"
 #include "cli/report/words/data_words.h"
+#include "cli/report/words/first_answer.h"
 #include "cli/report/words/mark_words.h"
 #include "cli/report/words/next_steps.h"
 #include "cli/report/words/rezero_text.h"
@@ -106,18 +107,17 @@ class ComponentScreen {
 };
 
 void ComponentScreen::Answer() {
-  Verdict();
-  screen_->Add("\n");
   Data();
+  screen_->Add("\n");
+  Verdict();
   screen_->Add("\n");
   Leaderboard();
   screen_->Add("\n");
 }
 
 void ComponentScreen::Verdict() {
-  const std::string said = data::JoinWords(SaidFirst(record_, Width()), " ");
   bool first = true;
-  for (const std::string& line : WrapLines(said, Width())) {
+  for (const std::string& line : AnswerLines(FirstAnswerOf(record_), Width())) {
     screen_->Add(line + "\n", first);
     first = false;
   }

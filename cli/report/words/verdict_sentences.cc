@@ -57,27 +57,6 @@ std::string ObstacleText(const models::Obstacle& obstacle,
   return "";
 }
 
-// "on another day", "on cycles it never saw", "on another file (test.csv)"...
-std::string WhereJudged(const ComponentNumbers& component,
-                        const HoldoutRecord& holdout) {
-  if (holdout.whole_sessions) {
-    return fmt::format("on another {}", holdout.unit_of_analysis);
-  }
-  if (holdout.whole_groups) {
-    return fmt::format(
-        "on {} it never saw{}",
-        PluralOfUnit(holdout),
-        component.IsOfOneRun(holdout) ? ", of one run only" : "");
-  }
-  if (holdout.another_file) {
-    return fmt::format("on another file ({})", holdout.name);
-  }
-  if (holdout.among_neighbours) {
-    return fmt::format("next to rows that it knew ({})", holdout.name);
-  }
-  return fmt::format("on rows it never saw ({})", holdout.name);
-}
-
 // "0.707 um less RMSE than net:scg (95 % 0.4 to 1.1), p 0.0002 ..."
 std::string TestSentence(const ComponentNumbers& component,
                          const VerdictRecord& verdict) {
@@ -182,91 +161,22 @@ std::string VerdictSentence(const ComponentNumbers& component,
 std::string AgainstBaselineSentence(const ComponentNumbers& component) {
   const RecommendationRecord& advice = component.Advice();
   const std::string& baseline = There(advice.best_baseline);
-  const HoldoutRecord& holdout = component.Holdout(advice.holdout);
   const double mine = component.Rmse(advice.model, advice.holdout);
   const double its = component.Rmse(baseline, advice.holdout);
-  const double more = its - mine;
-  std::string text =
-      more < 0.0 ? "There " + baseline + ", a baseline, does better with "
-                 : "The best baseline, " + baseline + ", has ";
-  text += component.error.WithUnit(its);
+  std::string text = "The best baseline, " + baseline + ", has " +
+                     component.error.WithUnit(its);
   constexpr double kTwice = 2.0;
-  if (more > 0.0 && its >= kTwice * mine) {
+  if (its >= kTwice * mine) {
     text += fmt::format(", {} times as much", RatioText(its / mine));
   }
   const PairRecord* const pair = models::FindPair(
       component.record, advice.holdout, advice.model, baseline);
-  const bool known = pair != nullptr && std::isfinite(pair->ci95[0]);
-  bool surely_more = false;
-  if (known) {
-    const std::string& larger = more < 0.0 ? advice.model : baseline;
-    const models::IntervalRecord excess = IntervalOfExcess(*pair, larger);
-    surely_more = more > 0.0 && excess[0] > 0.0;
-    text += fmt::format(": {} {}{}",
-                        component.error.WithUnit(std::abs(more)),
-                        more < 0.0 ? "less" : "more",
-                        component.In95(excess));
+  if (pair != nullptr && std::isfinite(pair->ci95[0])) {
+    text += fmt::format(": {} more{}",
+                        component.error.WithUnit(its - mine),
+                        component.In95(IntervalOfExcess(*pair, baseline)));
   }
-  if (!surely_more) {
-    return text + (known ? "; that may be chance."
-                         : fmt::format("; how sure that is, {} cannot tell.",
-                                       CountOfUnits(holdout.units, holdout)));
-  }
-  switch (There(advice.against_baseline)) {
-    case Confidence::kEstablished:
-      return text + ".";
-    case Confidence::kOutOfReach:
-      return text + fmt::format("; only {}, so call it likely.",
-                                CountOfUnits(holdout.units, holdout));
-    case Confidence::kNotShown:
-      return text + "; with so many maps compared, call it likely.";
-    case Confidence::kUnitsCorrelated:
-    case Confidence::kMemoryNotExcluded:
-    case Confidence::kBlocksDisagree:
-      break;
-  }
-  return text + fmt::format(
-                    "; neighbouring {} may resemble each other, so "
-                    "call it likely.",
-                    PluralOfUnit(holdout));
-}
-
-// Why a baseline is recommended.
-std::string BaselineSentence(const ComponentNumbers& component) {
-  if (std::ranges::all_of(component.record.models,
-                          &models::ModelRecord::baseline)) {
-    return "Only baselines were compared.";
-  }
-  const RecommendationRecord& advice = component.Advice();
-  std::string text = "No richer map earns its effort";
-  if (advice.sensors.empty()) text = "No temperature map earns its sensors";
-  if (advice.model == "zero") text = "No map is worth its effort";
-  const bool proven = advice.against_baseline == Confidence::kEstablished;
-  return text + " here" +
-         (proven ? ", and that is proven." : ", as far as these data tell.");
-}
-
-std::string AdviceSentence(const ComponentNumbers& component) {
-  const RecommendationRecord& advice = component.Advice();
-  const bool sure = !advice.against_baseline ||
-                    There(advice.against_baseline) == Confidence::kEstablished;
-  const std::string use =
-      fmt::format("{}: {} {}.",
-                  advice.model == "zero" ? "Compensate with nothing"
-                                         : "Use " + advice.model,
-                  component.RmseWithInterval(advice.model, advice.holdout),
-                  WhereJudged(component, component.Holdout(advice.holdout)));
-  if (advice.choice == Choice::kBaseline) {
-    return BaselineSentence(component) + " " + use;
-  }
-  std::string text;
-  if (advice.choice == Choice::kNoPracticalDifference) {
-    text = "Polynomial or net makes no practical difference. ";
-  }
-  text += use;
-  // What the headline owes where the map is not surely worth its sensors.
-  if (sure) return text;
-  return text + " " + AgainstBaselineSentence(component);
+  return text + ".";
 }
 
 std::string GapSentence(const ComponentNumbers& component) {

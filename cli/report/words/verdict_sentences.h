@@ -10,11 +10,8 @@ namespace errmap::report {
 std::string VerdictSentence(const ComponentNumbers& component,
                             const models::VerdictRecord& verdict);
 
-/// What to use, of a component with a recommendation.
-std::string AdviceSentence(const ComponentNumbers& component);
-
-/// The best baseline's error beside the recommended map's: the difference, its
-/// interval, and what it lacks where it is not established.
+/// The error of the best baseline, which the recommended map is established to
+/// beat, the difference and its interval.
 std::string AgainstBaselineSentence(const ComponentNumbers& component);
 
 /// How much neighbours flatter, of a component with a gap; "" where they do

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/report/words/component_numbers.h"
+#include "cli/report/words/first_answer.h"
 #include "cli/report/words/remark_text.h"
 #include "cli/report/words/rezero_text.h"
 #include "cli/report/words/verdict_sentences.h"
@@ -49,7 +50,7 @@ void AddSentences(models::ComponentRecord* record) {
   if (record->rezero) record->rezero->sentence = RezeroSentence(*record);
   if (!record->recommendation) return;
   RecommendationRecord& advice = *record->recommendation;
-  advice.sentence = AdviceSentence(numbers);
+  advice.sentence = FirstAnswerOf(*record).Sentence();
   advice.why = advice.sentence;
   const auto put = [&](std::vector<RemarkRecord>* remarks,
                        std::vector<std::string>* words) {
@@ -76,47 +77,6 @@ models::StudyRecord WithPageUnits(models::StudyRecord record) {
     component = std::move(page);
   }
   return record;
-}
-
-std::vector<const RemarkRecord*> ToldFirst(const RecommendationRecord& advice) {
-  std::vector<const RemarkRecord*> told;
-  for (const auto* remarks : {&advice.grounds, &advice.doubts}) {
-    for (const RemarkRecord& remark : *remarks) {
-      if (remark.rank && !remark.text.empty()) told.push_back(&remark);
-    }
-  }
-  std::ranges::stable_sort(
-      told, {}, [](const RemarkRecord* remark) { return *remark->rank; });
-  return told;
-}
-
-std::vector<std::string> FirstWords(const models::ComponentRecord& record) {
-  if (!record.recommendation) {
-    return {record.interrupted
-                ? "The run was interrupted before a map could be recommended."
-                : "No map can be recommended: none could be judged."};
-  }
-  const RecommendationRecord& advice = *record.recommendation;
-  std::vector<std::string> words{advice.sentence};
-  std::ranges::copy(record.data.doubts, std::back_inserter(words));
-  if (record.rezero) words.push_back(record.rezero->sentence);
-  for (const RemarkRecord* remark : ToldFirst(advice)) {
-    words.push_back(remark->text);
-  }
-  return words;
-}
-
-std::vector<std::string> SaidFirst(const models::ComponentRecord& record,
-                                   std::size_t width) {
-  std::vector<std::string> said;
-  for (const std::string& sentence : FirstWords(record)) {
-    said.push_back(sentence);
-    if (said.size() > 1 && WrapLines(data::JoinWords(said, " "), width).size() >
-                               kMostVerdictLines) {
-      said.pop_back();  // a later one may be shorter
-    }
-  }
-  return said;
 }
 
 std::string MeasureNext(const models::ComponentRecord& record) {
@@ -174,7 +134,6 @@ std::string VerdictParagraphs(const models::ComponentRecord& record,
   const std::string warning = record.gap ? record.gap->warning : "";
   paragraphs.push_back(warning);
   if (record.recommendation) {
-    const std::vector<std::string> said = SaidFirst(record, width);
     for (const auto* remarks :
          {&record.recommendation->grounds, &record.recommendation->doubts}) {
       std::string more;
@@ -182,8 +141,7 @@ std::string VerdictParagraphs(const models::ComponentRecord& record,
         if (remark.text.empty() ||
             (next_steps && StandsInNextSteps(remark.kind)) ||
             (!warning.empty() &&
-             remark.kind == RemarkKind::kIgnoreNeighbours) ||
-            std::ranges::find(said, remark.text) != said.end()) {
+             remark.kind == RemarkKind::kIgnoreNeighbours)) {
           continue;
         }
         more += (more.empty() ? "" : " ") + remark.text;

@@ -23,24 +23,12 @@ void AddSentences(models::ComponentRecord* record);
 /// terminal has "0.5 um".
 models::StudyRecord WithPageUnits(models::StudyRecord record);
 
-/// What is told with a recommendation first, most important first.
-std::vector<const models::RemarkRecord*> ToldFirst(
-    const models::RecommendationRecord& advice);
-
-/// The recommendation and what is told with it first, most important first.
-std::vector<std::string> FirstWords(const models::ComponentRecord& record);
-
-/// As many of these sentences as eight lines hold.
-inline constexpr std::size_t kMostVerdictLines = 8;
-std::vector<std::string> SaidFirst(const models::ComponentRecord& record,
-                                   std::size_t width);
-
 /// What measurements would make the answer surer: "cycles with t1 below 20 or
 /// above 27"; "" where nothing is known to.
 std::string MeasureNext(const models::ComponentRecord& record);
 
-/// Every sentence that these have not, nor the next steps where they are shown,
-/// in paragraphs.
+/// Verdicts, reasons and doubts in paragraphs, for --details; without those
+/// that the next steps say, where they are shown.
 std::string VerdictParagraphs(const models::ComponentRecord& record,
                               std::size_t width,
                               bool next_steps);
