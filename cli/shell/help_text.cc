@@ -12,6 +12,11 @@
 namespace errmap::cli {
 namespace {
 
+// Of the commands that have no other meaning of theirs.
+constexpr std::string_view kExitStatus =
+    "Exit status: 0 done, 2 wrong command line, 3 unusable input, 4 no result, "
+    "130 interrupted.";
+
 // `name` with `text` beside it from `column` on; below it where they would
 // overlap, or where too few columns were left.
 std::string Entry(const std::string& name,
@@ -59,10 +64,21 @@ std::string Wrapped(const std::string& text, std::size_t width) {
   return wrapped;
 }
 
+// The first line of a text, and of those after it what closes its brackets.
+std::string FirstStatement(const std::string& text) {
+  std::size_t end = text.find('\n');
+  const auto is_open = [&] {
+    const auto line = std::string_view(text).substr(0, end);
+    return std::ranges::count(line, '(') > std::ranges::count(line, ')');
+  };
+  while (end != text.npos && is_open()) end = text.find('\n', end + 1);
+  return text.substr(0, end);
+}
+
 // Its text in one paragraph, the rest of it with --all alone.
 std::string Explained(const OptionReference& option, HelpOptions options) {
   std::string text = option.description;
-  if (options == HelpOptions::kUsual) text = text.substr(0, text.find('\n'));
+  if (options == HelpOptions::kUsual) text = FirstStatement(text);
   std::ranges::replace(text, '\n', ' ');
   if (!option.fallback.empty()) {
     text += fmt::format(" (default: {})", option.fallback);
@@ -116,7 +132,11 @@ std::string CommandHelp(const CommandReference& command,
     }
     text += OptionEntry(option, options, width);
   }
-  if (!command.footer.empty()) text += "\n" + Wrapped(command.footer, width);
+  std::string footer = command.footer;
+  if (footer.find("Exit status") == footer.npos) {
+    footer += (footer.empty() ? "" : "\n") + std::string(kExitStatus);
+  }
+  text += "\n" + Wrapped(footer, width);
   if (!left_out.empty()) {
     text += Wrapped(fmt::format("{} options more: errmap help {} --all",
                                 left_out.size(),
