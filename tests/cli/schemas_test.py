@@ -189,10 +189,6 @@ def documents(program):
     for path in files:
         yield path.name, program.read(path)
     simple = "mean,poly:position"
-    yield "probes", program.json(
-        "compare", "grouped.csv", "--models", "mean,poly:eq8", "--session",
-        "cycle", "--probes-per-session", "0,2"
-    )
     yield "rezeroed", program.json(
         "compare", "grouped.csv", "--models", "zero,poly:eq8", "--rezero",
         "session:noise=0.1um"

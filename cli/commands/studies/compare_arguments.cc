@@ -27,20 +27,6 @@ std::string KnownModels() {
 
 void AddJudgingOptions(CLI::App* command, CompareArguments* arguments) {
   AddOption(command,
-            "--probes-per-session N,N,...",
-            arguments->probes.numbers,
-            "What so many probes of each unseen session, from its first "
-            "row on, would make of every model: 0,1,2,4,8")
-      .SeparatedBy(',')
-      .Range(0, 1000);
-  AddOption(command,
-            "--probe-spacing S",
-            arguments->probes.spacing,
-            "Seconds between the probes; rows where there are no times "
-            "follow one another")
-      .Positive()
-      .ShowDefault();
-  AddOption(command,
             "--split FILE.csv",
             arguments->split,
             "Hold-outs from a file with row,holdout,fold,role in place "
@@ -171,8 +157,6 @@ void AddCompareOptions(CLI::App* command, CompareArguments* arguments) {
              {"--set",
               "--seed",
               "--shard",
-              "--probes-per-session",
-              "--probe-spacing",
               "--split",
               "--save-split",
               "--predictions",

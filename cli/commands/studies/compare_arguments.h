@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "cli/commands/data_arguments.h"
-#include "cli/commands/studies/probes.h"
 #include "cli/desk/study_config.h"
 
 namespace CLI {
@@ -32,7 +31,6 @@ struct CompareArguments {
   std::string config;
   std::vector<std::string> changes;  // KEY=VALUE of --set
   bool dry_run = false;
-  ProbeArguments probes;
   bool all = false;
   bool details = false;
   std::string page;

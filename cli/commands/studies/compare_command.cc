@@ -10,7 +10,6 @@
 #include "cli/commands/studies/compare_arguments.h"
 #include "cli/commands/studies/compare_fleet.h"
 #include "cli/commands/studies/compare_plan.h"
-#include "cli/commands/studies/probes.h"
 #include "cli/commands/studies/study_plan_text.h"
 #include "cli/desk/machine/machine_judge.h"
 #include "cli/desk/plan/run_files.h"
@@ -157,9 +156,6 @@ report::Screen Formatted(const desk::StudyRun& run,
                                               .page = arguments.page,
                                               .data = DataForFit(run),
                                               .terminal = OutputTerminal()});
-  for (const models::ComponentRecord& component : record.components) {
-    screen.Add(report::ProbesText(component, OutputTerminal().text_columns()));
-  }
   return screen;
 }
 
@@ -223,11 +219,6 @@ int RunCompare(const CompareArguments& arguments) {
   if (arguments.resume && arguments.out.empty()) {
     throw UsageError("--resume needs the folder of the earlier run: --out DIR");
   }
-  if (!arguments.study.rezero.empty() && !arguments.probes.numbers.empty()) {
-    throw UsageError(
-        "--rezero and --probes-per-session exclude each other: both move the "
-        "same rows");
-  }
   const std::optional<desk::MachineStudy> machine = MachineOf(arguments);
   if (const std::optional<int> status = RunIfFleet(arguments)) return *status;
   desk::StudyPlan plan = PlanOf(arguments, machine);
@@ -255,7 +246,6 @@ int RunCompare(const CompareArguments& arguments) {
   if (machine && !run.interrupted) {
     record.machine = desk::JudgeMachine(*machine, run);
   }
-  AddProbes(run, arguments.probes, &record);
   if (folder) desk::NameMaps(run, &record);
   // Before the files: a full disk must not cost the answer.
   PrintScreen(Formatted(run, record, arguments));

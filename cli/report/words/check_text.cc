@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "cli/report/number_text.h"
-#include "cli/report/wrap_text.h"
 #include "data/text.h"
 
 namespace errmap::report {
@@ -132,48 +130,6 @@ std::string CheckText(const models::SessionCheck& check,
                      StatusText(check, error),
                      RemedyText(check, error),
                      SitesText(errors, sites));
-}
-
-std::string ProbesText(const models::ComponentRecord& component,
-                       std::size_t width) {
-  if (!component.probes) return "";
-  const models::ProbesRecord& probes = *component.probes;
-  double smallest = std::numeric_limits<double>::infinity();
-  std::size_t widest = 0;
-  for (const models::ProbedModelRecord& model : probes.models) {
-    widest = std::max(widest, model.model.size());
-    for (const double rmse : model.rmse) smallest = std::min(smallest, rmse);
-  }
-  const data::Unit unit = data::UnitOfSymbol(component.data.unit);
-  const ErrorText error(unit, smallest);
-  std::string text =
-      "\n" +
-      WrapText(
-          fmt::format(
-              "RMSE ({}) on unseen sessions after probes of each, {} "
-              "apart from its first row on ({}; the same {} for every "
-              "number; zero: probes without a map)",
-              error.symbol(),
-              probes.time_unit == "s"
-                  ? fmt::format("{:g} min", probes.spacing / kSecondsPerMinute)
-                  : Count(static_cast<long long>(probes.spacing), "row"),
-              probes.holdout,
-              Count(probes.scored_rows, "row")),
-          width) +
-      fmt::format("\n{:{}}", "probes", widest + 2);
-  for (const std::int64_t number : probes.numbers) {
-    text += fmt::format("{:>10}", number);
-  }
-  text += "\n";
-  for (const models::ProbedModelRecord& model : probes.models) {
-    text += fmt::format(
-        "{:{}}", data::Printable(model.model, model.model.size()), widest + 2);
-    for (const double rmse : model.rmse) {
-      text += fmt::format("{:>10}", error(rmse));
-    }
-    text += "\n";
-  }
-  return text;
 }
 
 }  // namespace errmap::report

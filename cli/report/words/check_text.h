@@ -22,9 +22,4 @@ std::string CheckText(const models::SessionCheck& check,
                       const Eigen::VectorXd& elapsed,
                       const data::Unit& unit);
 
-/// What probes of each session would make of every model, as a table; "" where
-/// it was not asked for. `width`: columns of the words above it.
-std::string ProbesText(const models::ComponentRecord& component,
-                       std::size_t width);
-
 }  // namespace errmap::report

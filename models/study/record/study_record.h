@@ -11,7 +11,6 @@
 #include "models/study/record/judgement_record.h"
 #include "models/study/record/machine_record.h"
 #include "models/study/record/model_record.h"
-#include "models/study/record/probe_record.h"
 #include "models/study/record/provenance_record.h"
 #include "models/study/record/recommendation_record.h"
 #include "models/study/record/record.h"
@@ -32,7 +31,6 @@
 //   judgement_record.h       pairs of models, verdicts
 //   recommendation_record.h  the recommended map
 //   remark_record.h          what speaks for it and bounds its worth
-//   probe_record.h           probes of a session
 //   rezero_record.h          maps that are re-zeroed
 //   figure_record.h          the rows behind the figures
 //   machine_record.h         the error at the tool
@@ -56,7 +54,6 @@ struct ComponentRecord {
   std::vector<VerdictRecord> verdict;
   std::optional<RecommendationRecord> recommendation;
   /// Where it was asked for.
-  LeftOut<ProbesRecord> probes;
   LeftOut<RezeroRecord> rezero;
   FiguresRecord figures;
 };

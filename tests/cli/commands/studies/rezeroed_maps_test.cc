@@ -67,32 +67,5 @@ TEST_F(RezeroedMaps, RefusesToRezeroWithoutTimesOrRows) {
               HasSubstr("name their column with --time"));
 }
 
-TEST_F(RezeroedMaps, ComparesWhatProbesOfASessionBuy) {
-  const std::vector<std::string> words = {"compare",
-                                          "train.csv",
-                                          "--models",
-                                          "zero,poly:full:degree=2",
-                                          "--probes-per-session",
-                                          "0,1,4",
-                                          "--probe-spacing",
-                                          "300",
-                                          "--quiet"};
-  std::vector<std::string> as_json = words;
-  as_json.insert(as_json.end(), {"--format", "json"});
-  const Json probes = RunJson(as_json)["components"][0]["probes"];
-  EXPECT_EQ(probes["numbers"], Json({0, 1, 4}));
-  EXPECT_EQ(probes["spacing"], 300.0);
-  // Ten days of 40 rows, less four of each.
-  EXPECT_EQ(probes["scored_rows"], 360);
-  // Of what this map leaves, each day has an offset of its own.
-  const Json& map = probes["models"][1];
-  EXPECT_EQ(map["model"], "poly:full:degree=2");
-  EXPECT_LT(map["rmse"][1], 0.8 * map["rmse"][0].get<double>()) << map;
-  EXPECT_LT(map["rmse"][2], map["rmse"][1]) << map;
-  EXPECT_THAT(OneLine(Run(words).out),
-              AllOf(HasSubstr("after probes of each, 5 min apart"),
-                    HasSubstr("zero: probes without a map")));
-}
-
 }  // namespace
 }  // namespace errmap
