@@ -253,7 +253,6 @@ const std::vector<Purpose>& Purposes() {
       {"A fleet of machines",
        {AddSubmitCommand,
         AddMergeCommand,
-        AddQueryCommand,
         AddDeployCommand,
         AddWatchCommand}},
       {"Laboratory",

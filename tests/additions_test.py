@@ -180,7 +180,7 @@ def check_format(program, table):
     expect(written[0] == as_csv[0], f"columns {written[0]}")
     expect([len(row) for row in written] == [len(row) for row in as_csv],
            f"rows {written}")
-    for command in ("compare", "merge", "query", "watch"):
+    for command in ("compare", "merge", "watch"):
         expect("table|json|csv|tsv|md" in run(program, command, "--help"),
                command + " does not offer the format")
 

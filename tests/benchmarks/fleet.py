@@ -35,6 +35,7 @@ import re
 import resource
 import shutil
 import signal
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -113,7 +114,10 @@ class Fleet:
         return sum(self.study(store, "--jobs", 1, "--shard", f"{i}/{SHARES}") for i in order)
 
     def query(self, store, sql):
-        return json.loads(self.run("query", store, sql, "--format", "json")[2])
+        with sqlite3.connect(self.folder / store / "errmap.sqlite") as database:
+            asked = database.execute(sql)
+            return {"columns": [c[0] for c in asked.description],
+                    "rows": [list(row) for row in asked.fetchall()]}
 
     def contents(self, store):
         """All tables and full results, times apart."""

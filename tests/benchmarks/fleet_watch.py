@@ -41,6 +41,7 @@ import json
 import pathlib
 import random
 import shutil
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -120,10 +121,10 @@ class Study:
             f'models = {json.dumps(MODELS)}\nholdouts = ["sessions:{TRAINED}"]\n[[component]]\n'
             f'name = "{{machine}}"\ndata = "data/{{machine}}/{FILE}"\n')
         self.run("compare", "--config", "fleet.toml", "--out", "made", "--quiet", "--jobs", 1)
-        rows = json.loads(self.run("query", "made", "SELECT component FROM deployments",
-                                   "--format", "json"))["rows"]
+        with sqlite3.connect(self.folder / "made" / "errmap.sqlite") as store:
+            deployed = {row[0] for row in store.execute("SELECT component FROM deployments")}
         for machine in self.machines:
-            if [machine] not in rows:
+            if machine not in deployed:
                 self.run("deploy", "made", machine)
 
     def make_days(self, machine, kind, *more):

@@ -86,11 +86,10 @@ std::vector<Recommended> Asked(fleet::Database* store,
   for (const std::string& name : arguments.components) {
     const auto found = known.find(name);
     if (found == known.end()) {
-      throw UsageError(fmt::format(
-          "no component {} in {}; errmap query STORE \"SELECT name FROM "
-          "components\" lists them",
-          data::QuotedName(name),
-          data::PrintablePath(arguments.store)));
+      throw UsageError(
+          fmt::format("no component {} in {}; errmap merge STORE lists them",
+                      data::QuotedName(name),
+                      data::PrintablePath(arguments.store)));
     }
     if (!found->second.why_failed.empty()) {
       throw data::InputError(fleet::WhyNoMap(name, found->second.why_failed));

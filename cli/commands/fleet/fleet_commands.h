@@ -6,7 +6,6 @@ namespace errmap::cli {
 
 /// As those of command.h: what is done with stores of many components.
 void AddMergeCommand(CLI::App* app, Run* run);
-void AddQueryCommand(CLI::App* app, Run* run);
 void AddSubmitCommand(CLI::App* app, Run* run);
 void AddDeployCommand(CLI::App* app, Run* run);
 void AddWatchCommand(CLI::App* app, Run* run);

@@ -46,9 +46,7 @@ void AddMergeCommand(CLI::App* app, Run* run) {
       "Reads the components' summaries and writes errmap.sqlite and "
       "report.html there, whole or\nnot at all; others may read the database "
       "meanwhile.\nExit status: 0 done, 3 no store, or one of a newer errmap, "
-      "4 components are missing.\nExample: errmap merge fleet && errmap query "
-      "fleet \"SELECT name, after, unit FROM fleet WHERE goal_standing = 'not "
-      "met'\"");
+      "4 components are missing.\nExample: errmap merge fleet");
   OnRun(command, [arguments, run] { run->status = RunMerge(*arguments); });
 }
 

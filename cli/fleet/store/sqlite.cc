@@ -37,22 +37,6 @@ std::string Escaped(const std::string& path) {
   return text;
 }
 
-// What a SELECT needs and nothing else: no ATTACH, no PRAGMA, no writes.
-int AllowReading(void* /*unused*/,
-                 int action,
-                 const char* /*unused*/,
-                 const char* /*unused*/,
-                 const char* /*unused*/,
-                 const char* /*unused*/) {
-  const bool reads = action == SQLITE_SELECT || action == SQLITE_READ ||
-                     action == SQLITE_FUNCTION || action == SQLITE_RECURSIVE;
-  return reads ? SQLITE_OK : SQLITE_DENY;
-}
-
-int IsSet(void* flag) {
-  return static_cast<const std::atomic<bool>*>(flag)->load() ? 1 : 0;
-}
-
 }  // namespace
 
 void Statement::Finalize::operator()(sqlite3_stmt* statement) const {
@@ -111,28 +95,6 @@ void Statement::Run() {
   }
 }
 
-int Statement::num_columns() const {
-  return sqlite3_column_count(statement_.get());
-}
-
-std::string Statement::ColumnName(int column) const {
-  const char* const name = sqlite3_column_name(statement_.get(), column);
-  return name == nullptr ? "" : name;
-}
-
-SqlValue Statement::Value(int column) const {
-  switch (sqlite3_column_type(statement_.get(), column)) {
-    case SQLITE_NULL:
-      return std::monostate();
-    case SQLITE_INTEGER:
-      return Whole(column);
-    case SQLITE_FLOAT:
-      return Number(column);
-    default:
-      return Text(column);
-  }
-}
-
 std::string Statement::Text(int column) const {
   const void* const text = sqlite3_column_text(statement_.get(), column);
   const int size = sqlite3_column_bytes(statement_.get(), column);
@@ -188,17 +150,6 @@ void Database::Execute(const std::string& sql) {
 std::int64_t Database::WholeOf(std::string_view sql) {
   Statement statement = Prepare(sql);
   return statement.Next() ? statement.Whole(0) : 0;
-}
-
-Statement Database::PrepareQuery(const std::string& sql) {
-  sqlite3_set_authorizer(handle_.get(), AllowReading, nullptr);
-  return {handle_.get(), sql};
-}
-
-void Database::StopWhere(const std::atomic<bool>& flag) {
-  constexpr int kSteps = 10000;
-  sqlite3_progress_handler(
-      handle_.get(), kSteps, IsSet, const_cast<std::atomic<bool>*>(&flag));
 }
 
 void Database::CopyFrom(Database* from) {

@@ -1,13 +1,11 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <variant>
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -19,10 +17,6 @@ class SqliteError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
-
-/// A value of a column: nothing, a whole number, a number or a text.
-using SqlValue =
-    std::variant<std::monostate, std::int64_t, double, std::string>;
 
 /// A prepared statement, run once or again and again.
 class Statement {
@@ -43,9 +37,6 @@ class Statement {
   /// Runs to the end.
   void Run();
 
-  int num_columns() const;
-  std::string ColumnName(int column) const;
-  SqlValue Value(int column) const;
   std::string Text(int column) const;
   double Number(int column) const;  // NaN where it is NULL
   std::int64_t Whole(int column) const;
@@ -94,12 +85,6 @@ class Database {
   Statement Prepare(std::string_view sql) { return {handle_.get(), sql}; }
   /// The first value of the first row.
   std::int64_t WholeOf(std::string_view sql);
-
-  /// Prepares one statement that somebody typed: only what reads is allowed.
-  /// Throws SqliteError, also where more than one stands there.
-  Statement PrepareQuery(const std::string& sql);
-  /// Statements end with an error once the flag is set.
-  void StopWhere(const std::atomic<bool>& flag);
 
   /// Copies all of `from` here (backup API).
   void CopyFrom(Database* from);

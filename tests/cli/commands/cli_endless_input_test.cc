@@ -61,7 +61,7 @@ TEST_F(CliEndlessInput, AStoreThatIsAPipeIsRefused) {
   std::filesystem::create_directory(scratch_ / "store");
   ASSERT_EQ(mkfifo((scratch_ / "store/errmap.sqlite").c_str(), 0600), 0);
   EXPECT_THAT(
-      RefusalOf(Shell("query store 'SELECT 1' > out"), kUnusable),
+      RefusalOf(Shell("merge store > out"), kUnusable),
       AllOf(HasSubstr("store/errmap.sqlite"), HasSubstr("no plain file")));
 }
 

@@ -132,7 +132,6 @@ TEST_F(EveryScreen, FitsEightyColumns) {
   Show({"compare", "--config", "fleet.toml", "--out", "fleet"});
   Show({"merge", "fleet"});
   Show({"init", "data", "-o", "all.toml"});
-  Show({"query", "fleet", "SELECT name, after FROM fleet"});
   Show({"deploy", "fleet", "--all"});
   WriteComponent("new/m01/x_down.csv", 9);
   Show({"watch", "fleet", "data", "new"});

@@ -3,6 +3,7 @@
 // A small fleet: two machines, components that are good, and a broken one.
 
 #include <map>
+#include <sqlite3.h>
 #include <string>
 #include <vector>
 
@@ -100,7 +101,47 @@ class FleetTest : public CliTest {
   }
 
   Json Rows(const std::string& store, const std::string& sql) const {
-    return RunJson({"query", store, sql, "--format", "json"})["rows"];
+    return Ask(store, sql)["rows"];
+  }
+
+  // What the store answers: names of columns, and rows.
+  Json Ask(const std::string& store, const std::string& sql) const {
+    Json answer = {{"columns", Json::array()}, {"rows", Json::array()}};
+    sqlite3* database = nullptr;
+    sqlite3_stmt* query = nullptr;
+    const std::string path = (scratch_ / store / "errmap.sqlite").string();
+    EXPECT_EQ(
+        sqlite3_open_v2(path.c_str(), &database, SQLITE_OPEN_READONLY, nullptr),
+        SQLITE_OK);
+    EXPECT_EQ(sqlite3_prepare_v2(database, sql.c_str(), -1, &query, nullptr),
+              SQLITE_OK)
+        << sql << ": " << sqlite3_errmsg(database);
+    const int columns = sqlite3_column_count(query);
+    for (int i = 0; i < columns; ++i) {
+      answer["columns"].push_back(sqlite3_column_name(query, i));
+    }
+    while (query != nullptr && sqlite3_step(query) == SQLITE_ROW) {
+      Json row = Json::array();
+      for (int i = 0; i < columns; ++i) row.push_back(ValueOf(query, i));
+      answer["rows"].push_back(std::move(row));
+    }
+    sqlite3_finalize(query);
+    sqlite3_close(database);
+    return answer;
+  }
+
+  static Json ValueOf(sqlite3_stmt* query, int column) {
+    switch (sqlite3_column_type(query, column)) {
+      case SQLITE_NULL:
+        return nullptr;
+      case SQLITE_INTEGER:
+        return sqlite3_column_int64(query, column);
+      case SQLITE_FLOAT:
+        return sqlite3_column_double(query, column);
+      default:
+        return reinterpret_cast<const char*>(
+            sqlite3_column_text(query, column));
+    }
   }
 
   // All that is in the tables, times apart.
@@ -109,8 +150,7 @@ class FleetTest : public CliTest {
       const std::vector<std::string>& tables = kFleetTables) const {
     std::map<std::string, Json> content;
     for (const std::string& table : tables) {
-      const Json found = RunJson(
-          {"query", store, "SELECT * FROM " + table, "--format", "json"});
+      const Json found = Ask(store, "SELECT * FROM " + table);
       Json rows = Json::array();
       for (const Json& row : found["rows"]) {
         Json kept = Json::array();

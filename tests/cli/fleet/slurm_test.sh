@@ -11,9 +11,9 @@ set -eu
 errmap=$1
 PATH=$PATH:/usr/sbin
 
-for tool in munged slurmctld slurmd sbatch squeue mpirun gzip; do
+for tool in munged slurmctld slurmd sbatch squeue mpirun gzip sqlite3; do
   if ! command -v "$tool" >/dev/null 2>&1; then
-    echo "slurm: skipped, no $tool: apt-get install slurm-wlm munge openmpi-bin"
+    echo "slurm: skipped, no $tool: apt-get install slurm-wlm munge openmpi-bin sqlite3"
     exit 77
   fi
 done
@@ -75,7 +75,7 @@ contents() {
     "SELECT component, model, kind, choice, status, why, parameters FROM models" \
     "SELECT * FROM metrics" "SELECT * FROM verdicts" \
     "SELECT * FROM recommendations" "SELECT * FROM sensors" "SELECT * FROM maps"; do
-    "$errmap" query "$1" "$sql" --format csv
+    sqlite3 -csv -header "$1/errmap.sqlite" "$sql"
   done
   find "$1/components" -name results.json.gz | sort | while read -r file; do
     gzip -dc "$file" | tr ',{' '\n\n' | grep -v -e seconds -e _ns
