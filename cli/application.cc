@@ -26,7 +26,6 @@
 #include "cli/shell/command_reference.h"
 #include "cli/shell/completion.h"
 #include "cli/shell/help_text.h"
-#include "cli/shell/man_page.h"
 #include "cli/shell/reference_page.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
@@ -112,18 +111,13 @@ std::string ProvenanceCommandLine(int argc, char** argv) {
 }
 
 // For shells and the build, not for people: no help names them.
-constexpr std::string_view kComplete = "__complete";  // WORDS...
-constexpr std::string_view kManPage = "__man";
+constexpr std::string_view kComplete = "__complete";    // WORDS...
 constexpr std::string_view kReference = "__reference";  // in Markdown
 
 bool RunHiddenCommand(const CLI::App& app, int argc, char** argv) {
   if (argv[1] == kComplete) {
     const std::vector<std::string> words(argv + 2, argv + argc);
     PrintResult(CompletionText(Complete(DescribeProgram(app), words)));
-    return true;
-  }
-  if (argv[1] == kManPage) {
-    PrintResult(ManPage(DescribeProgram(app)));
     return true;
   }
   if (argv[1] == kReference) {
@@ -251,10 +245,7 @@ const std::vector<Purpose>& Purposes() {
         AddVolumetricCommand}},
       {"Another day", {AddCheckCommand, AddWhenCommand, AddUpdateCommand}},
       {"A fleet of machines",
-       {AddSubmitCommand,
-        AddMergeCommand,
-        AddDeployCommand,
-        AddWatchCommand}},
+       {AddSubmitCommand, AddMergeCommand, AddDeployCommand, AddWatchCommand}},
       {"Laboratory",
        {AddSimulateCommand,
         AddResidualsCommand,

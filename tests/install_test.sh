@@ -6,7 +6,7 @@
 #
 # - tests/outside_project finds the package, builds against it and runs;
 # - the installed program runs from another folder;
-# - schemas, man page and completions are there, and the latter work (bash, and
+# - schemas and completions are there, and the latter work (bash, and
 #   fish where it is installed; zsh's is checked for its syntax).
 set -eu
 
@@ -216,27 +216,6 @@ if [ -e "$build/manual/index.html" ]; then
     fail "the manual has no tutorial"
 fi
 
-# The man page: whole, and without a warning of roff.
-page=$prefix/share/man/man1/errmap.1
-[ -s "$page" ] || die "no man page $page"
-errmap __complete "" | cut -f 1 >commands
-[ -s commands ] || fail "errmap __complete offers no command"
-while read -r command; do
-  grep -Fq -e ".SS \\fB$command\\fR" "$page" ||
-    fail "the man page lacks $command"
-done <commands
-if have groff; then
-  groff -man -Tutf8 -ww "$page" >shown 2>"$log" || fail "groff fails"
-  if [ -s "$log" ]; then fail "groff says: $(cat "$log")"; fi
-  grep -q 'EXIT STATUS' shown || grep -q 'E.EX.X' shown ||
-    fail "the man page has no exit status"
-fi
-if have mandoc; then
-  # The page has no date: the same program makes the same page.
-  mandoc -T lint -W warning "$page" | grep -v 'missing date' >"$log" || true
-  if [ -s "$log" ]; then fail "mandoc says: $(cat "$log")"; fi
-fi
-
 # Completions.
 : >data.csv
 : >notes.txt
@@ -299,4 +278,4 @@ zsh_script=$prefix/share/zsh/site-functions/_errmap
 if have zsh; then zsh -n "$zsh_script" || fail "zsh cannot read $zsh_script"; fi
 
 if [ "$failures" -ne 0 ]; then exit 1; fi
-echo "install: package, program, $count schemas, man page, completions"
+echo "install: package, program, $count schemas, completions"

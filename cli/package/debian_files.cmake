@@ -1,5 +1,5 @@
 # Run by CPack on the files of a Debian package before they are packed: adds
-# copyright and changelog, compresses the man page, and takes out of static
+# copyright and changelog, compresses a man page, and takes out of static
 # libraries what no linker needs.
 cmake_policy(VERSION 3.25)
 find_program(gzip gzip REQUIRED)

@@ -33,8 +33,8 @@ struct CommandReference {
   std::vector<OptionReference> options;  // --help is not among them
 };
 
-/// The whole command line: what man page and completions are made from, so
-/// that they cannot differ from what the program takes.
+/// The whole command line: what the reference page and completions are made
+/// from, so that they cannot differ from what the program takes.
 struct ProgramReference {
   std::string description;
   std::string footer;

@@ -1,17 +1,32 @@
 #include "cli/shell/reference_page.h"
 
 #include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "cli/command.h"
 #include "cli/shell/help_text.h"
-#include "cli/shell/man_page.h"
 #include "data/text.h"
 #include "models/recipe_catalog.h"
 #include "stats/holdout.h"
 
 namespace errmap::cli {
 namespace {
+
+// What each exit status says.
+const std::vector<std::pair<int, std::string>>& ExitStatusWords() {
+  static const std::vector<std::pair<int, std::string>> words = {
+      {kDone, "done"},
+      {kWrongCommandLine, "the command line is wrong"},
+      {kUnusableInput, "the input is unusable; file, row and column are named"},
+      {kEveryFitFailed, "every fit failed, or a check or floor was missed"},
+      {kInterrupted, "interrupted; what was finished is kept"},
+      {kOtherFailure, "anything else"}};
+  return words;
+}
 
 // What a cell of a table in Markdown can hold.
 std::string Cell(std::string text) {

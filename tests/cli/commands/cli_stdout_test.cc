@@ -29,7 +29,7 @@ TEST_F(CliStdout, AnswersThatCannotBePrintedAreSaidByEveryCommand) {
       "--help",
       "--version",
       "compare --help",
-      "__man",
+      "__reference",
       "__complete c",
       compare,
       compare + " --format csv",
