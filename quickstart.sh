@@ -14,7 +14,7 @@ packages="g++ cmake ninja-build libeigen3-dev libopenblas-dev libceres-dev
   libnlopt-dev libnlopt-cxx-dev libboost-dev libtbb-dev libcli11-dev
   nlohmann-json3-dev libfmt-dev libtomlplusplus-dev libssl-dev libsqlite3-dev
   zlib1g-dev libminizip-dev libpugixml-dev"
-test_packages="libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 python3-jsonschema chromium gnuplot-nox patch"
+test_packages="libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 python3-jsonschema chromium patch"
 python_packages="pybind11-dev python3-dev python3-pip python3-setuptools python3-wheel python3-numpy"
 # Without these a few tests are skipped.
 optional_packages="pybind11-dev python3-dev python3-pandas python3-sklearn
@@ -67,7 +67,6 @@ have_boost() {
 have_equivalent() {
   case $1 in
     libboost-dev) have_boost ;;
-    gnuplot-nox) have gnuplot ;;
     clang) have clang ;;
     clang-format-14) have clang-format-14 ;;
     chromium) have chromium || have chromium-browser || have google-chrome ;;

@@ -43,9 +43,8 @@ std::string LearningStem(std::string_view by) {
 }
 
 report::FigureSet FiguresInFolder(const models::StudyRecord& record,
-                                  const std::string& folder,
-                                  bool everything) {
-  report::FigureSet figures = report::MakeFigures(record, everything);
+                                  const std::string& folder) {
+  report::FigureSet figures = report::MakeFigures(record);
   report::AddLearning(record, ReadLearning(folder), &figures);
   return figures;
 }

@@ -20,8 +20,7 @@ std::string LearningStem(std::string_view by);
 /// there among them; a file of it that cannot be read is named on stderr and
 /// passed over.
 report::FigureSet FiguresInFolder(const models::StudyRecord& record,
-                                  const std::string& folder,
-                                  bool everything = false);
+                                  const std::string& folder);
 
 /// Draws report.html and report.md; `errmap report` draws the same bytes from
 /// results.json later. Each file appears whole or not at all. Throws

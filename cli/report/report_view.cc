@@ -56,22 +56,6 @@ void OrderModels(ReportView* view) {
                    });
 }
 
-std::string RivalOf(const ReportView& view) {
-  const ModelRecord* recommended = ModelOf(view, view.recommended);
-  std::string second;
-  for (const ModelRecord* model : view.models) {
-    if (model == recommended || model->kind == models::ModelKind::kBaseline ||
-        !std::isfinite(TestRmse(*model, view.decisive))) {
-      continue;
-    }
-    if (recommended == nullptr || model->kind != recommended->kind) {
-      return model->name;
-    }
-    if (second.empty()) second = model->name;
-  }
-  return second;
-}
-
 }  // namespace
 
 const models::HoldoutRecord* HoldoutOf(const ReportView& view,
@@ -116,7 +100,6 @@ ReportView ViewOf(const ComponentRecord& component) {
   if (component.recommendation) {
     view.recommended = component.recommendation->model;
   }
-  view.rival = RivalOf(view);
   return view;
 }
 

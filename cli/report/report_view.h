@@ -26,7 +26,6 @@ struct ReportView {
   std::string neighbours;           // the one beside it, "" = none
   std::string later;  // later sessions foretold from earlier ones, "" = none
   std::string recommended;  // model, "" = none
-  std::string rival;        // best other kind under `decisive`, else next best
   /// By the test RMSE under `decisive`, failed ones last.
   std::vector<const ModelRecord*> models;
 };

@@ -27,16 +27,10 @@ namespace {
 struct ReportArguments {
   std::string folder;
   std::string figures;
-  std::string image = "pdf";
   std::string format;
   std::string component;  // of a store
   bool force = false;
 };
-
-report::ImageFormat FormatNamed(const std::string& name) {
-  if (name == "svg") return report::ImageFormat::kSvg;
-  return name == "png" ? report::ImageFormat::kPng : report::ImageFormat::kPdf;
-}
 
 std::string ResultsPath(const std::string& folder) {
   return (std::filesystem::path(folder) / "results.json").string();
@@ -75,11 +69,10 @@ int RunStoreReport(const ReportArguments& arguments) {
                         arguments.component,
                         &fleet::FleetComponentRecord::name) ==
       fleet.components.end()) {
-    throw UsageError(fmt::format(
-        "no component {} in {}; errmap query STORE \"SELECT name FROM "
-        "components\" lists them",
-        data::QuotedName(arguments.component),
-        data::PrintablePath(arguments.folder)));
+    throw UsageError(
+        fmt::format("no component {} in {}; errmap merge STORE lists them",
+                    data::QuotedName(arguments.component),
+                    data::PrintablePath(arguments.folder)));
   }
   const models::StudyRecord results =
       fleet::ReadResultsOf(store, arguments.component);
@@ -157,8 +150,7 @@ int RunReport(const ReportArguments& arguments) {
   }
   if (arguments.figures.empty()) return kDone;
   const std::vector<report::ReportFile> figures =
-      report::FigureFiles(FiguresInFolder(results, arguments.folder, true),
-                          FormatNamed(arguments.image));
+      report::FigureFiles(FiguresInFolder(results, arguments.folder));
   std::vector<std::string> names;
   for (const report::ReportFile& file : figures) names.push_back(file.name);
   ClaimedFolder folder(arguments.figures,
@@ -169,11 +161,9 @@ int RunReport(const ReportArguments& arguments) {
     folder.Write(file.name, file.text);
   }
   folder.Finish();
-  Say(fmt::format(
-      "{} figures as svg in {}; gnuplot *.gp there draws them as {}",
-      figures.size() / 2,
-      data::PrintablePath(arguments.figures),
-      arguments.image));
+  Say(fmt::format("{} figures as svg in {}",
+                  figures.size(),
+                  data::PrintablePath(arguments.figures)));
   return kDone;
 }
 
@@ -193,14 +183,7 @@ void AddReportCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "--figures DIR2",
             arguments->figures,
-            "Also write every figure here: NAME.svg, and NAME.gp, a "
-            "gnuplot script with its data");
-  AddOption(command,
-            "--image",
-            arguments->image,
-            "What the scripts draw: pdf, png or svg")
-      .OneOf({"pdf", "png", "svg"})
-      .ShowDefault();
+            "Also write every figure here as NAME.svg");
   AddOption(command,
             "--format",
             arguments->format,
@@ -215,8 +198,7 @@ void AddReportCommand(CLI::App* app, Run* run) {
   SetFooter(
       command,
       "Exit status: 0 done, 2 wrong command line, 3 unusable results.json.\n"
-      "Example: errmap report study --figures paper, then in paper gnuplot "
-      "*.gp");
+      "Example: errmap report study --figures paper");
   OnRun(command, [arguments, run] { run->status = RunReport(*arguments); });
 }
 

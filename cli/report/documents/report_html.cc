@@ -69,9 +69,7 @@ std::string FigureHtml(const Figure& figure) {
   }
   return fmt::format(
       "<figure{}><figcaption><b>{}</b></figcaption>{}{}</figure>\n",
-      wide           ? " class=\"wide\""
-      : figure.model ? fmt::format(" class=\"m{}\"", *figure.model)
-                     : "",
+      wide ? " class=\"wide\"" : "",
       HtmlName(figure.title),
       drawn,
       Paragraph(figure.note, "soft small"));
@@ -210,8 +208,7 @@ class Page {
   std::string Fits(const ReportView& view,
                    const ComponentFigures& figures) const;
   std::string Polynomials(const ReportView& view, bool brief) const;
-  std::string Data(const ReportView& view,
-                   const ComponentFigures& figures) const;
+  std::string Data(const ReportView& view) const;
   std::string Machine() const;
 };
 
@@ -381,11 +378,6 @@ std::string Page::Evidence(const ReportView& view) const {
 std::string Page::Residuals(const ReportView& view,
                             const ComponentFigures& figures) const {
   std::string html = FiguresHtml(figures, FigurePlace::kResiduals);
-  const std::string every = FiguresHtml(figures, FigurePlace::kEveryModel);
-  if (!every.empty()) {
-    html += "<h4>Residuals of every model, " + HtmlName(view.decisive) +
-            ", on one scale</h4>\n" + every;
-  }
   if (const Table since = SinceStartTable(view); !since.rows.empty()) {
     html += HtmlTable(since);
   }
@@ -437,8 +429,7 @@ std::string Page::Polynomials(const ReportView& view, bool brief) const {
   return html;
 }
 
-std::string Page::Data(const ReportView& view,
-                       const ComponentFigures& figures) const {
+std::string Page::Data(const ReportView& view) const {
   const models::DataRecord& measured = view.component->data;
   std::string html =
       "<p>" +
@@ -464,7 +455,7 @@ std::string Page::Data(const ReportView& view,
   html += "<p>" + Count(static_cast<long long>(inputs.size()), "input") +
           (names.empty() ? "" : ": " + names) + ".</p>\n";
   html += HtmlTable(DroppedTable(view)) + HtmlTable(HoldoutTable(view));
-  return html + FiguresHtml(figures, FigurePlace::kData);
+  return html;
 }
 
 std::string Page::Component(const ReportView& view, std::size_t index) const {
@@ -504,7 +495,7 @@ std::string Page::Component(const ReportView& view, std::size_t index) const {
        true});
   parts.push_back(
       {"Equations and coefficients", Polynomials(view, brief), true});
-  parts.push_back({"Data and hold-outs", Data(view, figures), true});
+  parts.push_back({"Data and hold-outs", Data(view), true});
   std::string html = Answer(view, index, figures);
   std::string contents;
   std::string body;

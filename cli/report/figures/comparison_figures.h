@@ -16,11 +16,4 @@ Figure GapFigure(const ReportView& view, const std::string& prefix);
 std::vector<Figure> TrainingFigures(const ReportView& view,
                                     const std::string& prefix);
 
-/// Final cost of every start of nets with several; empty where there is none.
-std::vector<Figure> StartFigures(const ReportView& view,
-                                 const std::string& prefix);
-
-/// Correlation of inputs and target.
-Figure CorrelationFigure(const ReportView& view, const std::string& prefix);
-
 }  // namespace errmap::report

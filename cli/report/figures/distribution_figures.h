@@ -12,10 +12,4 @@ Figure HistogramFigure(const ResidualContext& context);
 /// The normal probability plot (Figure 7).
 Figure NormalPlotFigure(const ResidualContext& context);
 
-/// The probability plot correlation of Tukey's lambda (Figure 8).
-Figure PpccFigure(const ResidualContext& context);
-
-/// The empirical distribution against the normal one, with their largest gap.
-Figure EcdfFigure(const ResidualContext& context);
-
 }  // namespace errmap::report

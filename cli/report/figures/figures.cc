@@ -21,23 +21,6 @@ void Append(std::vector<Figure> more, std::vector<Figure>* figures) {
   for (Figure& figure : more) figures->push_back(std::move(figure));
 }
 
-// One scale for pictures that are to be compared.
-void ShareScales(std::vector<Figure>* figures) {
-  double most = 0.0;
-  for (const Figure& figure : *figures) {
-    for (const Series& series : figure.plot.series) {
-      for (const double y : series.columns[1]) {
-        if (std::isfinite(y)) most = std::max(most, std::abs(y));
-      }
-    }
-  }
-  for (Figure& figure : *figures) {
-    if (!(most > 0.0)) break;
-    figure.plot.y.low = -most;
-    figure.plot.y.high = most;
-  }
-}
-
 void MarkEmpty(std::vector<Figure>* figures) {
   for (Figure& figure : *figures) {
     if (figure.missing.empty() && !HasPoints(figure.plot)) {
@@ -50,10 +33,7 @@ std::vector<Figure> FiguresOf(const ReportView& view,
                               const std::string& prefix,
                               FigureDetail detail) {
   const bool brief = detail == FigureDetail::kBrief;
-  const bool everything = detail == FigureDetail::kEverything;
-  const bool whole = everything || detail == FigureDetail::kFull;
-  constexpr std::size_t kMostInputs = 12;
-  constexpr std::size_t kEveryInput = 1000;
+  const bool whole = detail == FigureDetail::kFull;
   std::vector<Figure> figures{GapFigure(view, prefix)};
   if (!brief) Append(OverTimeFigures(view, prefix), &figures);
   Append(BeforeAndAfterFigures(view, prefix), &figures);
@@ -65,40 +45,11 @@ std::vector<Figure> FiguresOf(const ReportView& view,
     Append(TrainingResidualFigures(view, prefix), &figures);
   }
   if (!brief && !view.recommended.empty() && !view.decisive.empty()) {
-    Append(ResidualFigures(view,
-                           view.recommended,
-                           view.decisive,
-                           prefix + "best-",
-                           !whole,
-                           everything ? kEveryInput : kMostInputs),
+    Append(ResidualFigures(
+               view, view.recommended, view.decisive, prefix + "best-", !whole),
            &figures);
   }
-  if (whole && !view.rival.empty()) {
-    Append(ResidualFigures(view,
-                           view.rival,
-                           view.decisive,
-                           prefix + "rival-",
-                           false,
-                           everything ? kEveryInput : 0),
-           &figures);
-  }
-  if (whole) {
-    constexpr std::size_t kMostModels = 24;
-    std::vector<Figure> small;
-    for (std::size_t i = 0;
-         i < std::min(view.models.size(), everything ? 1000 : kMostModels);
-         ++i) {
-      const std::string& name = view.models[i]->name;
-      if (!std::isfinite(TestRmse(*view.models[i], view.decisive))) continue;
-      small.push_back(SmallResidualFigure(
-          view, name, view.decisive, fmt::format("{}model-{}", prefix, i + 1)));
-    }
-    ShareScales(&small);
-    Append(std::move(small), &figures);
-    Append(TrainingFigures(view, prefix), &figures);
-    Append(StartFigures(view, prefix), &figures);
-    figures.push_back(CorrelationFigure(view, prefix));
-  }
+  if (whole) Append(TrainingFigures(view, prefix), &figures);
   MarkEmpty(&figures);
   return figures;
 }
@@ -120,14 +71,13 @@ std::vector<const Figure*> Drawn(const FigureSet& figures) {
 
 }  // namespace
 
-FigureSet MakeFigures(const models::StudyRecord& record, bool everything) {
+FigureSet MakeFigures(const models::StudyRecord& record) {
   FigureSet set;
   const auto& components = record.components;
-  FigureDetail detail = components.size() > kFewComponents
-                            ? FigureDetail::kBrief
-                        : components.size() > 1 ? FigureDetail::kSome
-                                                : FigureDetail::kFull;
-  if (everything) detail = FigureDetail::kEverything;
+  const FigureDetail detail = components.size() > kFewComponents
+                                  ? FigureDetail::kBrief
+                              : components.size() > 1 ? FigureDetail::kSome
+                                                      : FigureDetail::kFull;
   for (std::size_t i = 0; i < components.size(); ++i) {
     const ReportView view = ViewOf(components[i]);
     ComponentFigures figures{.detail = detail, .figures = {}};
@@ -148,16 +98,10 @@ std::string FigureSvg(const Figure& figure) {
              figure.description);
 }
 
-std::vector<ReportFile> FigureFiles(const FigureSet& figures,
-                                    ImageFormat format) {
+std::vector<ReportFile> FigureFiles(const FigureSet& figures) {
   std::vector<ReportFile> files;
   for (const Figure* figure : Drawn(figures)) {
-    const std::string& name = figure->plot.name;
-    files.push_back({name + ".svg", SvgFile(FigureSvg(*figure))});
-    files.push_back({name + ".gp",
-                     PlotScript(figure->plot,
-                                format,
-                                fmt::format("{}.{}", name, ToString(format)))});
+    files.push_back({figure->plot.name + ".svg", SvgFile(FigureSvg(*figure))});
   }
   return files;
 }

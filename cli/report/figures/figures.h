@@ -1,10 +1,9 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "cli/report/figures/gnuplot.h"
+#include "cli/report/plot.h"
 #include "models/study/record/study_record.h"
 
 namespace errmap::report {
@@ -16,9 +15,7 @@ enum class FigurePlace {
   kSurface,  // in one row
   kSensors,
   kResiduals,
-  kEveryModel,
-  kFits,
-  kData
+  kFits
 };
 
 /// A figure of the report.
@@ -30,13 +27,12 @@ struct Figure {
   std::string description;  // what it shows, for those who do not see it
   /// Why there is nothing to draw; "" = there is.
   std::string missing;
-  bool small = false;                // one of many of a kind
-  std::optional<std::size_t> model;  // in view.models, where of it alone
-  Plot plot;  // plot.name: "c1-gap", unique in the report
+  bool small = false;  // one of many of a kind
+  Plot plot;           // plot.name: "c1-gap", unique in the report
 };
 
 /// How much is drawn of one component.
-enum class FigureDetail { kEverything, kFull, kSome, kBrief };
+enum class FigureDetail { kFull, kSome, kBrief };
 
 /// The figures of one component.
 struct ComponentFigures {
@@ -56,10 +52,9 @@ struct FigureSet {
   }
 };
 
-/// Figures of a study: everything of each component, or
-/// (`everything` false) what keeps a report of many components usable.
-FigureSet MakeFigures(const models::StudyRecord& record,
-                      bool everything = false);
+/// Figures of a study: at most twenty of a component, fewer where components
+/// are many.
+FigureSet MakeFigures(const models::StudyRecord& record);
 
 /// The figure as SVG.
 std::string FigureSvg(const Figure& figure);
@@ -70,9 +65,7 @@ struct ReportFile {
   std::string text;
 };
 
-/// Every figure as NAME.svg with NAME.gp, the gnuplot script that draws it as
-/// NAME.FORMAT, data included: two files each.
-std::vector<ReportFile> FigureFiles(const FigureSet& figures,
-                                    ImageFormat format);
+/// Every figure as NAME.svg.
+std::vector<ReportFile> FigureFiles(const FigureSet& figures);
 
 }  // namespace errmap::report

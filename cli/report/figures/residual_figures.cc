@@ -219,8 +219,8 @@ std::vector<std::size_t> UsedInputs(const ResidualContext& context,
 }
 
 std::vector<Figure> InputFigures(const ResidualContext& context,
-                                 std::size_t position,
-                                 std::size_t most) {
+                                 std::size_t position) {
+  constexpr std::size_t kMost = 3;
   if (!context.rows.missing.empty()) return {};
   std::vector<std::size_t> used = UsedInputs(context, position);
   const std::size_t all = used.size();
@@ -228,7 +228,7 @@ std::vector<Figure> InputFigures(const ResidualContext& context,
     return AbsoluteCorrelation(context.rows.inputs[a], context.rows.residual) >
            AbsoluteCorrelation(context.rows.inputs[b], context.rows.residual);
   });
-  used.resize(std::min(all, most));
+  used.resize(std::min(all, kMost));
   std::vector<Figure> figures;
   for (const std::size_t input : used) {
     Figure figure =
@@ -245,8 +245,7 @@ std::vector<Figure> InputFigures(const ResidualContext& context,
     figure.plot.series = {Points(x, context.rows.residual), ZeroLine(x)};
     if (used.size() < all && figures.empty()) {
       figure.note = fmt::format(
-          "The {} of {} inputs whose values go most with the residual; errmap "
-          "report DIR --figures DIR2 draws all.",
+          "The {} of {} inputs whose values go most with the residual.",
           used.size(),
           all);
     }
@@ -265,8 +264,7 @@ std::vector<Figure> ResidualFigures(const ReportView& view,
                                     const std::string& model,
                                     const std::string& holdout,
                                     const std::string& prefix,
-                                    bool brief,
-                                    std::size_t most_inputs) {
+                                    bool brief) {
   const HeldOutRows rows = HeldOutRowsOf(view, model, holdout);
   const ResidualContext context{view, rows, model, prefix};
   const std::size_t position = PositionIndex(view);
@@ -278,9 +276,7 @@ std::vector<Figure> ResidualFigures(const ReportView& view,
     figures.push_back(GroupFigure(context));
     figures.push_back(MapFigure(context, position));
     figures.push_back(NormalPlotFigure(context));
-    figures.push_back(PpccFigure(context));
-    figures.push_back(EcdfFigure(context));
-    for (Figure& figure : InputFigures(context, position, most_inputs)) {
+    for (Figure& figure : InputFigures(context, position)) {
       figures.push_back(std::move(figure));
     }
   }
@@ -292,40 +288,6 @@ std::vector<Figure> ResidualFigures(const ReportView& view,
     }
   }
   return figures;
-}
-
-Figure SmallResidualFigure(const ReportView& view,
-                           const std::string& model,
-                           const std::string& holdout,
-                           const std::string& name) {
-  const HeldOutRows rows = HeldOutRowsOf(view, model, holdout);
-  Figure figure;
-  figure.place = FigurePlace::kEveryModel;
-  figure.small = true;
-  if (const ModelRecord* of = ModelOf(view, model)) {
-    figure.model = PlaceOf(view, *of);
-  }
-  figure.title = model;
-  figure.plot.name = name;
-  figure.missing = rows.missing;
-  if (!figure.missing.empty()) return figure;
-  const std::size_t position = PositionIndex(view);
-  const bool has_position = position < rows.inputs.size();
-  const std::vector<double>& x =
-      has_position ? rows.inputs[position] : rows.row;
-  figure.plot.width = 300;
-  figure.plot.height = 210;
-  figure.plot.x = has_position
-                      ? InputAxis(view, position, kShortLabel)
-                      : Axis{.quantity = "row", .unit = "number in the file"};
-  figure.plot.y = ResidualAxis(view);
-  figure.plot.series = {Points(x, rows.residual), ZeroLine(x)};
-  figure.description = fmt::format(
-      "Residuals of {} held-out rows over the {}: root mean square {}.",
-      rows.residual.size(),
-      has_position ? "position" : "row number",
-      WithUnit(Plain(RmsOf(rows.residual)), view.shown_unit));
-  return figure;
 }
 
 }  // namespace errmap::report

@@ -16,7 +16,8 @@ struct FigureInputRecord {
   std::string unit;
 };
 
-/// Rows of one file, thinned evenly where they are many.
+/// Rows of a data set, which may be of several files, thinned evenly where they
+/// are more than 5000; `file` is what messages call it.
 struct FigureTableRecord {
   std::string file;
   std::int64_t rows_total = 0;
@@ -53,7 +54,6 @@ struct FiguresRecord {
   std::vector<FigureHoldoutRecord> holdouts;
   /// Of the recommended map, fitted to all rows, of the first table.
   LeftOut<std::vector<double>> fitted;
-  CorrelationRecord correlation;
 };
 
 }  // namespace errmap::models

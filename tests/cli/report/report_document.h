@@ -236,11 +236,7 @@ class ReportDocument {
                       {{"name", kFar},
                        {"table", 0},
                        {"predictions", far},
-                       {"outside", std::move(outside)}}})},
-        {"correlation",
-         {{"columns",
-           Json::array({spec_.position, spec_.temperature, spec_.target})},
-          {"matrix", {{1.0, 0.1, -0.9}, {0.1, 1.0, 0.4}, {-0.9, 0.4, 1.0}}}}}};
+                       {"outside", std::move(outside)}}})}};
   }
 
   Json Component(std::size_t index) const {
@@ -331,7 +327,7 @@ inline models::StudyRecord Recorded(const models::RecordJson& document) {
   return record;
 }
 
-/// Names that try to leave their place in HTML, SVG, Markdown and gnuplot.
+/// Names that try to leave their place in HTML, SVG and Markdown.
 inline const std::vector<std::string>& HostileNames() {
   static const std::vector<std::string> names = {
       "<script>alert(1)</script>",

@@ -237,10 +237,6 @@ FiguresRecord MakeFiguresRecord(const ComponentStudy& study) {
       record.fitted->push_back(Rounded(fitted[row]));
     }
   }
-  record.correlation = Correlate(dataset);
-  for (std::vector<double>& row : record.correlation.matrix) {
-    for (double& value : row) value = Rounded(value);
-  }
   return record;
 }
 

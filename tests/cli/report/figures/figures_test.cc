@@ -42,22 +42,25 @@ TEST(MakeFigures, MakesEveryFigureOfTheReport) {
                            "c1-best-map",
                            "c1-best-histogram",
                            "c1-best-normal",
-                           "c1-best-ppcc",
-                           "c1-best-ecdf",
                            "c1-best-input-2",
-                           "c1-rival-histogram",
-                           "c1-model-1",
-                           "c1-training-1",
-                           "c1-starts",
-                           "c1-correlation"}) {
+                           "c1-training-1"}) {
     const Figure* figure = FigureNamed(set, name);
     ASSERT_NE(figure, nullptr) << name;
     EXPECT_EQ(figure->missing, "") << name;
   }
 }
 
+TEST(MakeFigures, AreAtMostTwentyOfAComponent) {
+  DocumentSpec spec;
+  spec.models.emplace_back("poly:eq9");
+  EXPECT_LE(MakeFigures(Recorded(MakeReportDocument(spec)))
+                .components[0]
+                .figures.size(),
+            20U);
+}
+
 TEST(MakeFigures, GivesEveryAxisAUnitAndEveryFigureAlternativeText) {
-  const FigureSet set = MakeFigures(Recorded(MakeReportDocument()), true);
+  const FigureSet set = MakeFigures(Recorded(MakeReportDocument()));
   std::set<std::string> names;
   for (const Figure& figure : set.components.at(0).figures) {
     EXPECT_TRUE(names.insert(figure.plot.name).second) << figure.plot.name;
@@ -113,7 +116,7 @@ TEST(MakeFigures, DrawsWhatAResidualIs) {
   }
 }
 
-TEST(MakeFigures, ShowsSurfacesAndSmallOnesOnOneScale) {
+TEST(MakeFigures, ShowsSurfacesOnOneScale) {
   const FigureSet set = MakeFigures(Recorded(MakeReportDocument()));
   const double high = FigureNamed(set, "c1-surface-measured")->plot.colour.high;
   EXPECT_EQ(FigureNamed(set, "c1-surface-mapped")->plot.colour.high, high);
@@ -124,8 +127,6 @@ TEST(MakeFigures, ShowsSurfacesAndSmallOnesOnOneScale) {
     largest = std::max(largest, std::abs(value));
   }
   EXPECT_DOUBLE_EQ(left.colour.high, largest);
-  EXPECT_EQ(FigureNamed(set, "c1-model-1")->plot.y.high,
-            FigureNamed(set, "c1-model-3")->plot.y.high);
 }
 
 TEST(MakeFigures, DrawsNoBarsTooThinToBeSeen) {
@@ -194,7 +195,6 @@ TEST(MakeFigures, NeedsNoGroupsAndNoPosition) {
   EXPECT_THAT(FigureNamed(set, "c1-best-group")->missing,
               HasSubstr("no groups"));
   EXPECT_EQ(FigureNamed(set, "c1-best-histogram")->missing, "");
-  EXPECT_EQ(FigureNamed(set, "c1-model-1")->missing, "");
 }
 
 TEST(MakeFigures, DrawsNothingOfEqualOrOfTooFewResiduals) {
@@ -234,8 +234,6 @@ TEST(MakeFigures, DrawsLessOfManyComponents) {
   const FigureSet seven = MakeFigures(Recorded(MakeReportDocument(spec)));
   EXPECT_EQ(seven.components[0].detail, FigureDetail::kBrief);
   EXPECT_EQ(seven.components[6].figures.size(), 3U);
-  const FigureSet all = MakeFigures(Recorded(MakeReportDocument(spec)), true);
-  EXPECT_GT(all.components[6].figures.size(), 20U);
 }
 
 TEST(FigureSvg, DrawsEachWithIdsOfItsOwnTitleAndDescription) {
@@ -268,7 +266,6 @@ TEST(MakeFigures, CountsAModelThatFailedAsAbsent) {
   const ReportView view = ViewOf(record.components[0]);
   EXPECT_EQ(view.models.back()->name, "net:scg");
   EXPECT_TRUE(std::isnan(TestRmse(*view.models.back(), "groups:5")));
-  EXPECT_NE(view.rival, "net:scg");
   EXPECT_EQ(FigureNamed(MakeFigures(Recorded(document)), "c1-gap")->missing,
             "");
 }

@@ -7,7 +7,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/report/figures/gnuplot.h"
 #include "cli/report/figures/svg.h"
 #include "tests/numbers.h"
 
@@ -129,9 +128,6 @@ TEST(MachineFigures, ColoursBeginAtZero) {
   // Of the palette's half with blue nothing is drawn.
   EXPECT_THAT(svg, Not(HasSubstr("#004b7a")));
   EXPECT_THAT(svg, HasSubstr("#8c2d04"));
-  const std::string script = PlotScript(grid.plot, ImageFormat::kSvg, "g.svg");
-  EXPECT_THAT(script,
-              AllOf(HasSubstr("set cbrange [0:30]"), Not(HasSubstr("004B7A"))));
 }
 
 TEST(MachineFigures, AreNoneWithoutAPlaneOrMaps) {
