@@ -28,9 +28,9 @@ class UsageError : public std::runtime_error {
 
 /// One run of the program.
 struct Run {
-  /// The command line less what changes no figure (--jobs, --out, --format,
-  /// --quiet, --resume, --no-cache, --force), quoted for a shell: for
-  /// provenance.
+  /// The command line less what changes no figure (--jobs, --out, -o, --format,
+  /// --shard, --quiet, --all, --details, --resume, --no-cache, --force,
+  /// --keep-paths), quoted for a shell: for provenance.
   std::string command_line;
   int status = kDone;
 };

@@ -42,8 +42,9 @@ struct DefaultRecipes {
   std::vector<std::string> left_out;  // a line for all that lack one thing
 };
 
-/// The models compared when none are named: every kind that the data allow,
-/// but for best subset, ridge and lasso.
+/// The models compared when none are named: every type that is compared
+/// (ListedModel::is_compared) and that the data allow, ridge and lasso in the
+/// views that they choose, and with the blend a net in views beside net:scg.
 /// A full polynomial takes part while it has at most a fifth as many
 /// coefficients as `fewest_training_rows`, the smallest training side of the
 /// study's folds, and its fits take some seconds at most.

@@ -41,8 +41,8 @@ struct ComponentConfig {
   models::ByName<std::string> options = {};
 };
 
-/// A study as the user asks for it, on the command line or in a study file:
-/// everything that decides a figure, nothing that does not (jobs, folders).
+/// A study as the user asks for it, on the command line or in a study file,
+/// but for jobs, the folder of results and what is judged besides.
 struct StudyConfig {
   std::uint64_t seed = 1;
   /// For components without their own; default: none.
