@@ -34,17 +34,6 @@ std::vector<std::vector<Index>> PlacesOfUnits(const std::vector<Index>& codes,
   return places;
 }
 
-// Codes may pass numbers over: from 0 without gaps, in their order.
-std::vector<Index> Renumbered(std::vector<Index> codes) {
-  std::vector<Index> present = codes;
-  std::ranges::sort(present);
-  present.erase(std::unique(present.begin(), present.end()), present.end());
-  for (Index& code : codes) {
-    code = std::ranges::lower_bound(present, code) - present.begin();
-  }
-  return codes;
-}
-
 // Kept rows of each unit.
 using KeptRows = std::vector<std::vector<Index>>;
 
@@ -93,8 +82,7 @@ std::optional<HeldOutErrors> HeldOutErrorsOf(const data::Dataset& dataset,
   if (!result.ok() || holdout.among_neighbours) return std::nullopt;
   const HeldOutRows held = GatherHeldOut(dataset, holdout);
   UnitsOfAnalysis units;
-  const std::vector<Index> codes =
-      Renumbered(AssignUnits(holdout, held, &units));
+  const std::vector<Index> codes = AssignUnits(holdout, held, &units);
   const VectorXd residuals = ResidualsOf(held, result);
   if (units.labels.size() < 2 || !residuals.allFinite()) return std::nullopt;
   const data::Dataset& source = *held.source;

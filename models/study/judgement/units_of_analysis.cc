@@ -27,13 +27,16 @@ bool TakeUnits(const HeldOutRows& held,
   for (const Index row : held.rows) {
     found.push_back(codes[static_cast<std::size_t>(row)]);
   }
-  const std::set<Index> present(found.begin(), found.end());
-  if (present.size() < 2) return false;
+  std::map<Index, Index> unit_of;  // by code: units never held out have none
+  for (const Index code : found) unit_of[code] = 0;
+  if (unit_of.size() < 2) return false;
   units->name = data::WordFor(grouping);
   units->are_groups = true;
-  for (const Index code : present) {
+  for (auto& [code, unit] : unit_of) {
+    unit = std::ssize(units->labels);
     units->labels.push_back(grouping.labels[static_cast<std::size_t>(code)]);
   }
+  for (Index& code : found) code = unit_of[code];
   *of_held = std::move(found);
   return true;
 }

@@ -34,7 +34,8 @@ HeldOutRows GatherHeldOut(const data::Dataset& dataset, const Holdout& holdout);
 Eigen::VectorXd ResidualsOf(const HeldOutRows& held,
                             const HoldoutResult& result);
 
-/// (n) the unit of each of those rows, from 0; `units` is filled.
+/// (n) the unit of each of those rows, an index into `units->labels`; `units`
+/// is filled. Groups and sessions that are never held out are no units.
 std::vector<Eigen::Index> AssignUnits(const Holdout& holdout,
                                       const HeldOutRows& held,
                                       UnitsOfAnalysis* units);
