@@ -111,10 +111,8 @@ void ClaimedFolder::ReadList(bool force) {
     const std::string text = data::ReadFile(path, data::kMostTextOfPeople);
     models::record_json::Tree json;
     WrittenFiles list;
-    if (data::IsShallowJson(text) && json.Parse(text)) {
-      models::FromJson(*json.root(), &list);
-    }
-    if (list.schema == kSchema) {
+    if (data::IsShallowJson(text) && json.Parse(text) &&
+        models::FromJson(*json.root(), &list) && list.schema == kSchema) {
       for (const WrittenFile& file : list.files) {
         if (!file.name.empty()) hashes_[file.name] = file.sha256;
       }

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "data/formats/nesting.h"
-#include "data/input_error.h"
 #include "models/study/record/record_json.h"
 
 namespace errmap::models {
@@ -183,15 +181,10 @@ std::string ToJsonText(ComponentSummary summary) {
 }
 
 ComponentSummary SummaryFromJsonText(std::string_view text) {
-  data::RequireShallowJson(text);
-  record_json::Tree json;
-  ComponentSummary summary;
-  summary.schema.clear();
-  if (json.Parse(text)) FromJson(*json.root(), &summary);
-  if (summary.schema != ComponentSummary().schema) {
-    throw data::InputError("is no summary of a component (errmap-summary-1)");
-  }
-  return summary;
+  return RecordFromText<ComponentSummary>(
+      text,
+      ComponentSummary().schema,
+      "errmap compare with the same study and store writes it anew");
 }
 
 }  // namespace errmap::models

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "data/formats/nesting.h"
 #include "data/input_error.h"
 #include "data/measurements/column_roles.h"
 #include "fitting/least_squares/decompositions.h"
@@ -104,13 +103,8 @@ std::string SensorRelations::ToJsonText() const {
 }
 
 SensorRelations SensorRelations::FromJsonText(std::string_view text) {
-  data::RequireShallowJson(text);
-  record_json::Tree json;
-  RelationsRecord record;
-  if (json.Parse(text)) FromJson(*json.root(), &record);
-  if (record.schema != kSchema) {
-    throw data::InputError("is not what compare wrote (errmap-relations-1)");
-  }
+  const auto record = RecordFromText<RelationsRecord>(
+      text, kSchema, "errmap compare and errmap deploy write it anew");
   SensorRelations found;
   for (const RelationsColumn& column : record.columns) {
     found.columns.push_back(

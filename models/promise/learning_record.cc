@@ -5,9 +5,6 @@
 #include <fmt/format.h>
 
 #include "data/argument_name.h"
-#include "data/formats/nesting.h"
-#include "data/input_error.h"
-#include "data/text.h"
 #include "models/study/record/record_json.h"
 
 namespace errmap::models {
@@ -85,22 +82,11 @@ std::vector<NextStateRecord> MakeRecord(const std::vector<NextState>& chosen) {
 }
 
 LearningRecord LearningFromJsonText(std::string_view text) {
-  data::RequireShallowJson(text);
-  record_json::Tree json;
-  if (!json.Parse(text)) {
-    throw data::InputError("is no JSON; errmap learn " +
-                           data::ArgumentName("out") + " writes it");
-  }
-  LearningRecord record;
-  record.schema.clear();
-  FromJson(*json.root(), &record);
-  if (record.schema != kLearningSchema) {
-    throw data::InputError(fmt::format(
-        "schema is {}, this version reads {}; run errmap learn again",
-        record.schema.empty() ? "not there" : data::QuotedText(record.schema),
-        kLearningSchema));
-  }
-  return record;
+  return RecordFromText<LearningRecord>(
+      text,
+      kLearningSchema,
+      fmt::format("errmap learn with {} writes it anew",
+                  data::ArgumentName("out")));
 }
 
 }  // namespace errmap::models

@@ -12,6 +12,7 @@
 #include "cli/desk/machine/machine_file.h"
 #include "cli/desk/toml/study_file.h"
 #include "cli/output/claimed_folder.h"
+#include "cli/report/report.h"
 #include "data/csv.h"
 #include "data/formats/pattern_file.h"
 #include "data/input_error.h"
@@ -165,7 +166,12 @@ void ReadModel(std::string_view bytes) {
 }
 
 void ReadResults(std::string_view bytes) {
-  models::ToJsonText(models::FromJsonText(bytes));
+  const models::StudyRecord record = models::FromJsonText(bytes);
+  models::ToJsonText(record);
+  report::ReportHtml(record);
+  report::ReportMarkdown(record);
+  report::ScreenText(record);
+  report::TableText(record, "csv");
 }
 
 void ReadJournal(std::string_view bytes) {

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "data/files/atomic_file.h"
-#include "data/formats/nesting.h"
 #include "data/input_error.h"
 #include "data/sha256.h"
 #include "data/tables/gzip.h"
@@ -128,18 +127,15 @@ FleetRecord ReadFleet(const StorePaths& paths) {
   }
   const std::string text =
       data::ReadFile(paths.Fleet(), data::kMostTextOfPrograms);
-  FleetRecord fleet;
-  fleet.schema.clear();
-  if (data::IsShallowJson(text)) {
-    models::record_json::Tree json;
-    if (json.Parse(text)) models::FromJson(*json.root(), &fleet);
+  try {
+    return models::RecordFromText<FleetRecord>(
+        text,
+        FleetRecord().schema,
+        "errmap compare with the same study and store writes it anew");
+  } catch (const data::InputError& error) {
+    throw data::InputError(data::PrintablePath(paths.Fleet()) + ": " +
+                           error.what());
   }
-  if (fleet.schema != FleetRecord().schema) {
-    throw data::InputError(
-        fmt::format("{} is not what this version writes (errmap-fleet-1)",
-                    data::PrintablePath(paths.Fleet())));
-  }
-  return fleet;
 }
 
 void WriteFleet(const StorePaths& paths, const FleetRecord& fleet) {

@@ -235,7 +235,8 @@ std::vector<Figure> TrainingFigures(const ReportView& view,
   std::vector<Figure> figures;
   std::vector<const ModelRecord*> iterated;
   for (const ModelRecord* model : view.models) {
-    if (model->final && model->final->summary.value.trace) {
+    if (model->final && model->final->summary.value.trace &&
+        !model->final->summary.value.trace->empty()) {
       iterated.push_back(model);
     }
   }

@@ -18,6 +18,17 @@ const auto& There(const Held& held) {
   return *held;
 }
 
+/// Of a list; throws alike where it is shorter.
+template <typename Held>
+const Held& Part(const std::vector<Held>& list, std::size_t i) {
+  if (i >= list.size()) RefuseIncompleteRecord();
+  return list[i];
+}
+template <typename Held>
+const Held& First(const std::vector<Held>& list) {
+  return Part(list, 0);
+}
+
 /// What the sentences about one component take from its record, which has to
 /// outlive it.
 struct ComponentNumbers {

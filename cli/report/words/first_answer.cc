@@ -97,8 +97,8 @@ class AnswerWriter {
   std::string WhereMeasured() const {
     if (holdout_.whole_sessions) return "another " + holdout_.unit_of_analysis;
     if (holdout_.whole_groups) return "unseen " + PluralOfUnit(holdout_);
-    if (holdout_.another_file) return "another file";
-    return holdout_.among_neighbours ? "between rows" : "unseen rows";
+    if (holdout_.among_neighbours) return "between rows";
+    return holdout_.another_file ? "another file" : "unseen rows";
   }
 
   void AddError() {
@@ -206,7 +206,7 @@ class AnswerWriter {
         numbers_.Result(advice_.model, advice_.holdout).randomness.by_group;
     const auto& columns = There(left->columns);
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      const double percent = kPercent * There(left->shares).at(i);
+      const double percent = kPercent * Part(There(left->shares), i);
       if (by_group && by_group->column == columns[i]) {
         std::string text = fmt::format(
             "{:.0f} % shifts whole {}", percent, PluralOf(columns[i]));

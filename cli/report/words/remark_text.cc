@@ -316,6 +316,29 @@ std::string OtherCutsSentence(const ComponentNumbers& component) {
   return fmt::format("{}.", data::JoinWords(parts, "; "));
 }
 
+// Readings that never return: what is ahead lies outside the data.
+std::string OnlyGrowsSentence(const ComponentNumbers& component,
+                              const RemarkRecord& remark) {
+  const RecommendationRecord& advice = component.Advice();
+  const std::vector<std::string>& columns = There(remark.columns);
+  std::string forward;
+  if (remark.holdouts) {
+    const std::string& holdout = First(*remark.holdouts);
+    forward = fmt::format(
+        "; foretold from those before ({}) it has {}",
+        holdout,
+        component.error.WithUnit(component.Rmse(advice.model, holdout)));
+  }
+  return fmt::format(
+      "{} hardly ever {} had: {} to come lie beyond all that were held "
+      "out{}. Compare without: --exclude {}.",
+      data::JoinWords(columns, " and "),
+      columns.size() == 1 ? "returns to values it" : "return to values they",
+      PluralOfUnit(component.Holdout(advice.holdout)),
+      forward,
+      data::JoinWords(columns, ","));
+}
+
 // What a person does to bring a column below, or above, all its values so far.
 struct StatesBeyond {
   const char* below;
@@ -349,7 +372,7 @@ std::string WhatIsLeftSentence(const ComponentNumbers& component,
   std::string text;
   for (std::size_t i = 0; i < There(remark.columns).size(); ++i) {
     const std::string& column = remark.columns->at(i);
-    const double percent = kPercent * There(remark.shares).at(i);
+    const double percent = kPercent * Part(There(remark.shares), i);
     text += text.empty() ? "" : " ";
     text += by_group && by_group->column == column
                 ? fmt::format(
@@ -404,33 +427,20 @@ std::string RemarkText(const ComponentNumbers& component,
     case RemarkKind::kSimplestOfTier:
       return SimplestSentence(component, remark);
     case RemarkKind::kOnlyGrows:
-      return fmt::format(
-          "{} hardly ever {} had: {} to come lie beyond all that were held "
-          "out{}. Compare without: --exclude {}.",
-          data::JoinWords(*remark.columns, " and "),
-          remark.columns->size() == 1 ? "returns to values it"
-                                      : "return to values they",
-          PluralOfUnit(holdout),
-          remark.holdouts
-              ? fmt::format("; foretold from those before ({}) it has {}",
-                            remark.holdouts->front(),
-                            component.error.WithUnit(component.Rmse(
-                                advice.model, remark.holdouts->front())))
-              : "",
-          data::JoinWords(*remark.columns, ","));
+      return OnlyGrowsSentence(component, remark);
     case RemarkKind::kSimpleHolds:
       return fmt::format(
           "It is simple: under {} the average of maps typically errs more than "
           "twice as much.",
-          remark.holdouts->front());
+          First(There(remark.holdouts)));
     case RemarkKind::kProvenBetter:
       return fmt::format(
           "{} prove it better than the average of maps that is used else, {} "
           "({}).",
           CountOfUnits(holdout.units, holdout),
-          *remark.model,
+          There(remark.model),
           component.error.WithUnit(
-              component.Rmse(*remark.model, advice.holdout)));
+              component.Rmse(There(remark.model), advice.holdout)));
     case RemarkKind::kRemoves:
       return fmt::format(
           "It removes {:.0f} % of the error ({} without a map).",
@@ -477,7 +487,7 @@ std::string RemarkText(const ComponentNumbers& component,
       return unknown_day(
           "no whole cycles were held out (name their column with --group)");
     case RemarkKind::kFewSessions:
-      return FewSessionsSentence(component, There(remark.holdouts).at(0));
+      return FewSessionsSentence(component, First(There(remark.holdouts)));
     case RemarkKind::kBlocksForUnits:
       return fmt::format(
           "There are no groups: the tests count {} of held-out rows in order, "

@@ -149,7 +149,7 @@ std::string VerdictSentence(const ComponentNumbers& component,
                   verdict.model,
                   component.RmseWithInterval(verdict.model, verdict.holdout));
   const std::vector<std::string>& first =
-      There(FindNamed(component.record.tiers, verdict.holdout)).at(0);
+      First(There(FindNamed(component.record.tiers, verdict.holdout)));
   if (first.size() > 1) {
     text += fmt::format("; without practical difference to it: {}",
                         ListBesides(first, verdict.model));

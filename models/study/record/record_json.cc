@@ -1,7 +1,10 @@
 #include "models/study/record/record_json.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "data/formats/nesting.h"
+#include "data/input_error.h"
 #include "data/text.h"
 
 namespace errmap::models::record_json {
@@ -35,6 +38,7 @@ bool IsObject(const RecordJson& json) { return json.is_object(); }
 bool IsArray(const RecordJson& json) { return json.is_array(); }
 bool IsText(const RecordJson& json) { return json.is_string(); }
 bool IsInteger(const RecordJson& json) { return json.is_number_integer(); }
+bool IsNull(const RecordJson& json) { return json.is_null(); }
 std::size_t Size(const RecordJson& json) { return json.size(); }
 const RecordJson& At(const RecordJson& array, std::size_t i) {
   return array[i];
@@ -96,6 +100,43 @@ bool Get(const RecordJson& json, std::string* value) {
 }
 bool IsWord(const RecordJson& json, std::string_view word) {
   return json.is_string() && json.get_ref<const std::string&>() == word;
+}
+
+std::string PlaceOf(std::string_view key) {
+  return fmt::format(".{}", data::AsUtf8(key));
+}
+std::string PlaceOf(std::size_t i) { return fmt::format("[{}]", i); }
+
+void ParseAs(std::string_view text,
+             std::string_view schema,
+             std::string_view remedy,
+             Tree* json) {
+  data::RequireShallowJson(text);
+  if (!json->Parse(text)) {
+    throw data::InputError(fmt::format("is no JSON; {}", remedy));
+  }
+  const RecordJson* found = Find(*json->root(), "schema");
+  if (found != nullptr && IsWord(*found, schema)) return;
+  std::string other;
+  throw data::InputError(fmt::format("schema is {}, this version reads {}; {}",
+                                     found != nullptr && Get(*found, &other)
+                                         ? data::QuotedText(other)
+                                         : "not there",
+                                     schema,
+                                     remedy));
+}
+
+void RefuseMisfit(std::string_view misfit,
+                  std::string_view schema,
+                  std::string_view remedy) {
+  // A place that begins with a member's name needs no point before it.
+  const bool is_member = misfit.starts_with('.');
+  throw data::InputError(fmt::format(
+      "{} is not what {} has there; {}",
+      misfit.empty() ? "the whole"
+                     : data::PrintablePath(misfit.substr(is_member ? 1 : 0)),
+      schema,
+      remedy));
 }
 
 Tree::Tree() : root_(std::make_unique<RecordJson>()) {}

@@ -40,6 +40,7 @@ bool IsObject(const RecordJson& json);
 bool IsArray(const RecordJson& json);
 bool IsText(const RecordJson& json);
 bool IsInteger(const RecordJson& json);
+bool IsNull(const RecordJson& json);
 std::size_t Size(const RecordJson& json);
 const RecordJson& At(const RecordJson& array, std::size_t i);
 /// Null where it is no object or has no such member.
@@ -58,6 +59,9 @@ bool Get(const RecordJson& json, std::int64_t* value);
 bool Get(const RecordJson& json, std::uint64_t* value);
 bool Get(const RecordJson& json, std::string* value);
 bool IsWord(const RecordJson& json, std::string_view word);
+/// ".key", "[3]": what leads there from what is around it.
+std::string PlaceOf(std::string_view key);
+std::string PlaceOf(std::size_t i);
 
 template <typename T>
 concept Named = std::is_enum_v<T> && requires(T value) {
@@ -173,42 +177,122 @@ std::string JsonText(const T& value, int indent) {
   return tree.Text(indent);
 }
 
-/// Reads what stands there and says whether it was of the right type; what is
-/// missing, null or of another type stays as a new record has it: NaN, "",
-/// nothing.
+/// Reads what stands there and says whether all of it was of the right type;
+/// where it was not, `misfit` gets the place of the first that was not
+/// (".folds[2].stop"). What is missing stays as a new record has it, as older
+/// files lack later keys; so does null where there may be nothing, or a number.
 template <typename T>
-bool FromJson(const RecordJson& json, T* value) {
+bool FromJson(const RecordJson& json, T* value, std::string* misfit = nullptr);
+
+namespace record_json {
+
+/// The part of that place; `misfit` gets its place before that within it.
+template <typename T>
+bool FromPart(const RecordJson& json,
+              const auto& place,
+              T* value,
+              std::string* misfit) {
+  std::string inner;
+  if (FromJson(json, value, &inner)) return true;
+  if (misfit != nullptr && misfit->empty()) *misfit = PlaceOf(place) + inner;
+  return false;
+}
+
+template <typename T>
+bool MembersFrom(const RecordJson& json, T* value, std::string* misfit) {
+  bool fits = IsObject(json);
+  VisitMembers(*value, [&](std::string_view key, auto& member) {
+    using Held = std::decay_t<decltype(member)>;
+    if constexpr (!IsInline<Held>::value) {
+      const RecordJson* found = Find(json, key);
+      if (found != nullptr && !FromPart(*found, key, &member, misfit)) {
+        fits = false;
+      }
+    } else if constexpr (requires { member.value.has_value(); }) {
+      using Inlined = typename decltype(member.value)::value_type;
+      if (HasAnyKey<Inlined>(json) &&
+          !MembersFrom(json, &member.value.emplace(), misfit)) {
+        fits = false;
+      }
+    } else if (!MembersFrom(json, &member.value, misfit)) {
+      fits = false;
+    }
+  });
+  return fits;
+}
+
+template <typename T>
+bool WordFrom(const RecordJson& json, T* value) {
+  // No enumeration has more; where ToString knows none it says "".
+  constexpr int kMostEnumerators = 256;
+  for (int i = 0; i < kMostEnumerators; ++i) {
+    const std::string_view word = ToString(static_cast<T>(i));
+    if (word.empty() || !IsWord(json, word)) continue;
+    *value = static_cast<T>(i);
+    return true;
+  }
+  return false;
+}
+
+template <typename T>
+bool TupleFrom(const RecordJson& json, T* value, std::string* misfit) {
+  bool fits = IsArray(json) && Size(json) == std::tuple_size_v<T>;
+  std::size_t i = 0;
+  const auto read = [&](auto& held) {
+    if (fits) fits = FromPart(At(json, i), i, &held, misfit);
+    ++i;
+  };
+  std::apply([&](auto&... held) { (read(held), ...); }, *value);
+  return fits;
+}
+
+template <typename T>
+bool MapFrom(const RecordJson& json, T* value, std::string* misfit) {
+  if (!IsObject(json)) return false;
+  bool fits = true;
+  ForMembers(json, [&](std::string name, const RecordJson& held) {
+    value->emplace_back(std::move(name), typename T::value_type::second_type{});
+    auto& [key, of_key] = value->back();
+    if (!FromPart(held, key, &of_key, misfit)) fits = false;
+  });
+  return fits;
+}
+
+template <typename T>
+bool ListFrom(const RecordJson& json, T* value, std::string* misfit) {
+  if (!IsArray(json)) return false;
+  value->resize(Size(json));
+  for (std::size_t i = 0; i < value->size(); ++i) {
+    if (!FromPart(At(json, i), i, &(*value)[i], misfit)) return false;
+  }
+  return true;
+}
+
+/// The text as JSON of that schema. Throws data::InputError, which says what
+/// the text is instead and then `remedy`.
+void ParseAs(std::string_view text,
+             std::string_view schema,
+             std::string_view remedy,
+             Tree* json);
+[[noreturn]] void RefuseMisfit(std::string_view misfit,
+                               std::string_view schema,
+                               std::string_view remedy);
+
+}  // namespace record_json
+
+template <typename T>
+bool FromJson(const RecordJson& json, T* value, std::string* misfit) {
   using namespace record_json;
   if constexpr (Record<T>) {
-    VisitMembers(*value, [&](std::string_view key, auto& member) {
-      using Held = std::decay_t<decltype(member)>;
-      if constexpr (!IsInline<Held>::value) {
-        const RecordJson* found = Find(json, key);
-        if (found != nullptr) FromJson(*found, &member);
-      } else if constexpr (requires { member.value.has_value(); }) {
-        using Inlined = typename decltype(member.value)::value_type;
-        if (HasAnyKey<Inlined>(json)) FromJson(json, &member.value.emplace());
-      } else {
-        FromJson(json, &member.value);
-      }
-    });
-    return IsObject(json);
+    return MembersFrom(json, value, misfit);
   } else if constexpr (Named<T>) {
-    // No enumeration has more; where ToString knows none it says "".
-    constexpr int kMostEnumerators = 256;
-    for (int i = 0; i < kMostEnumerators; ++i) {
-      const std::string_view word = ToString(static_cast<T>(i));
-      if (word.empty() || !IsWord(json, word)) continue;
-      *value = static_cast<T>(i);
-      return true;
-    }
-    return false;
+    return WordFrom(json, value);
   } else if constexpr (std::floating_point<T>) {
     double read = std::numeric_limits<double>::quiet_NaN();
-    const bool is_number = Get(json, &read);
+    const bool fits = Get(json, &read) || IsNull(json);
     *value = std::isfinite(read) ? static_cast<T>(read)
                                  : std::numeric_limits<T>::quiet_NaN();
-    return is_number;
+    return fits;
   } else if constexpr (std::same_as<T, bool> || std::same_as<T, std::string>) {
     return Get(json, value);
   } else if constexpr (std::integral<T>) {
@@ -217,41 +301,46 @@ bool FromJson(const RecordJson& json, T* value) {
     *value = static_cast<T>(read);
     return is_integer;
   } else if constexpr (requires { value->has_value(); }) {
-    typename T::value_type held{};
-    if (FromJson(json, &held)) value->emplace(std::move(held));
-    return true;
+    return IsNull(json) || FromJson(json, &value->emplace(), misfit);
   } else if constexpr (requires { std::tuple_size<T>::value; }) {
-    if (!IsArray(json)) return false;
-    std::size_t i = 0;
-    const auto read = [&](auto& held) {
-      if (i < Size(json)) FromJson(At(json, i), &held);
-      ++i;
-    };
-    std::apply([&](auto&... held) { (read(held), ...); }, *value);
-    return true;
+    return TupleFrom(json, value, misfit);
   } else if constexpr (requires { std::get<std::int64_t>(*value); }) {
     if (IsText(json)) {
-      return FromJson(json, &value->template emplace<std::string>());
+      return FromJson(json, &value->template emplace<std::string>(), misfit);
     }
     return IsInteger(json)
-               ? FromJson(json, &value->template emplace<std::int64_t>())
-               : FromJson(json, &value->template emplace<double>());
+               ? FromJson(
+                     json, &value->template emplace<std::int64_t>(), misfit)
+               : FromJson(json, &value->template emplace<double>(), misfit);
   } else if constexpr (requires { value->front().second; }) {
-    if (!IsObject(json)) return false;
-    ForMembers(json, [&](std::string name, const RecordJson& held) {
-      value->emplace_back(std::move(name),
-                          typename T::value_type::second_type{});
-      FromJson(held, &value->back().second);
-    });
-    return true;
+    return MapFrom(json, value, misfit);
   } else {
-    if (!IsArray(json)) return false;
-    value->resize(Size(json));
-    for (std::size_t i = 0; i < value->size(); ++i) {
-      FromJson(At(json, i), &(*value)[i]);
-    }
-    return true;
+    return ListFrom(json, value, misfit);
   }
+}
+
+/// The record that parsed JSON holds. Throws data::InputError where a key has a
+/// value that is not of the schema's type; the message ends with `remedy`.
+template <typename T>
+T RecordOf(const RecordJson& json,
+           std::string_view schema,
+           std::string_view remedy) {
+  T record;
+  std::string misfit;
+  if (!FromJson(json, &record, &misfit)) {
+    record_json::RefuseMisfit(misfit, schema, remedy);
+  }
+  return record;
+}
+
+/// The record that the text of a file holds; throws as ParseAs and RecordOf.
+template <typename T>
+T RecordFromText(std::string_view text,
+                 std::string_view schema,
+                 std::string_view remedy) {
+  record_json::Tree json;
+  record_json::ParseAs(text, schema, remedy, &json);
+  return RecordOf<T>(*json.root(), schema, remedy);
 }
 
 }  // namespace errmap::models

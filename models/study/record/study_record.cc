@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 
 #include "data/argument_name.h"
-#include "data/formats/nesting.h"
-#include "data/input_error.h"
 #include "data/sha256.h"
 #include "data/text.h"
 #include "models/study/record/record_json.h"
@@ -78,22 +76,12 @@ std::string ToJsonLine(const StudyRecord& record) {
 }
 
 StudyRecord FromJsonText(std::string_view text) {
-  data::RequireShallowJson(text);
+  const std::string remedy = fmt::format(
+      "errmap compare with {} writes it anew", data::ArgumentName("out"));
   record_json::Tree json;
-  if (!json.Parse(text)) {
-    throw data::InputError("is no JSON; errmap compare " +
-                           data::ArgumentName("out") + " writes it");
-  }
-  StudyRecord record;
-  FromJson(*json.root(), &record);
+  record_json::ParseAs(text, kResultsSchema, remedy, &json);
+  auto record = RecordOf<StudyRecord>(*json.root(), kResultsSchema, remedy);
   if (!record.doubt) record.doubt = DoubtOf(*json.root());
-  constexpr std::string_view kSchema = kResultsSchema;
-  if (record.schema != kSchema) {
-    throw data::InputError(fmt::format(
-        "schema is {}, this version reads {}; run errmap compare again",
-        record.schema.empty() ? "not there" : data::QuotedText(record.schema),
-        kSchema));
-  }
   return record;
 }
 
