@@ -49,6 +49,10 @@ ComponentStudy Compare(ComponentStudy component,
     component.holdouts.push_back(
         MakeHoldout(spec, dataset, options.seed, std::move(test_data)));
   }
+  for (const std::string& words : HoldoutsBeside(component.holdouts, dataset)) {
+    component.holdouts.push_back(
+        MakeHoldout(stats::ParseHoldout(words), dataset, options.seed));
+  }
   ComponentPlan plan =
       PlanModels(std::move(component), options.models, nullptr, std::move(own));
   RunComponent(&plan,

@@ -1,15 +1,14 @@
 #include "models/promise/learnt_rows.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "data/measurements/column_roles.h"
+#include "models/study/repeated_rows.h"
 
 namespace errmap::models {
 namespace {
@@ -26,31 +25,6 @@ constexpr Index kMostRowsHashed = 16384;
 constexpr double kMostAlike = 0.2;
 constexpr unsigned kBitsPerDigit = 4;
 constexpr std::string_view kDigits = "0123456789abcdef";
-
-// In single precision: conversions of units change last digits.
-std::uint64_t HashOf(const Eigen::MatrixXd& inputs,
-                     const Eigen::VectorXd* targets,
-                     Index row) {
-  std::uint64_t hash = 0;
-  const auto mix = [&](double value) {
-    const float rounded = static_cast<float>(value) + 0.0F;  // no -0
-    hash = (hash ^ std::bit_cast<std::uint32_t>(rounded)) * 0x9E3779B97F4A7C15U;
-    hash ^= hash >> 29U;
-  };
-  for (Index i = 0; i < inputs.cols(); ++i) mix(inputs(row, i));
-  if (targets != nullptr) mix((*targets)[row]);
-  hash *= 0xBF58476D1CE4E5B9U;
-  return hash ^ (hash >> 32U);
-}
-
-std::vector<std::uint64_t> HashesOf(const Eigen::MatrixXd& inputs,
-                                    const Eigen::VectorXd* targets) {
-  std::vector<std::uint64_t> hashes;
-  for (Index row = 0; row < inputs.rows(); ++row) {
-    hashes.push_back(HashOf(inputs, targets, row));
-  }
-  return hashes;
-}
 
 bool IsKept(std::uint64_t hash, Index every) {
   // Other bits than those of the places in the filter.
@@ -74,29 +48,6 @@ void ForPlaces(std::uint64_t hash, std::size_t digits, const Visit& visit) {
 
 unsigned ValueOf(char digit) {
   return static_cast<unsigned>(kDigits.find(digit));
-}
-
-// The share of rows that stand in another session too, or in another group
-// where there is one session: what new rows share by chance.
-double ShareAlike(const data::Dataset& training,
-                  const std::vector<std::uint64_t>& hashes) {
-  std::vector<Index> codes;
-  if (training.num_sessions() > 1) {
-    codes = training.session_codes();
-  } else if (training.has_groups()) {
-    codes = training.groups().codes;
-  } else {
-    for (Index row = 0; row < training.num_rows(); ++row) codes.push_back(row);
-  }
-  constexpr Index kSeveral = -1;
-  std::unordered_map<std::uint64_t, Index> where;
-  for (std::size_t i = 0; i < hashes.size(); ++i) {
-    const auto [at, is_new] = where.try_emplace(hashes[i], codes[i]);
-    if (!is_new && at->second != codes[i]) at->second = kSeveral;
-  }
-  const auto alike = std::ranges::count_if(
-      hashes, [&](std::uint64_t hash) { return where.at(hash) == kSeveral; });
-  return static_cast<double>(alike) / static_cast<double>(hashes.size());
 }
 
 std::optional<LearntRows::Filter> MakeFilter(
@@ -134,11 +85,11 @@ std::optional<LearntRows> MakeLearntRows(const FittedModel& fitted,
     has_sensor = has_sensor || data::IsSensor(column);
   }
   learnt.measured = MakeFilter(
-      training, HashesOf(inputs, &training.target_values()), learnt.every);
+      training, RowHashes(inputs, &training.target_values()), learnt.every);
   // Positions and counts come again in every session.
   if (has_sensor) {
     learnt.readings =
-        MakeFilter(training, HashesOf(inputs, nullptr), learnt.every);
+        MakeFilter(training, RowHashes(inputs, nullptr), learnt.every);
   }
   if (!learnt.measured && !learnt.readings) return std::nullopt;
   return learnt;
@@ -153,7 +104,7 @@ Index CountLearntRows(const FittedModel& fitted,
   if (!filter) return 0;
   double looked = 0.0;
   double found = 0.0;
-  for (const std::uint64_t hash : HashesOf(inputs, targets)) {
+  for (const std::uint64_t hash : RowHashes(inputs, targets)) {
     if (!IsKept(hash, learnt.every)) continue;
     bool all = true;
     ForPlaces(hash, filter->bits.size(), [&](std::size_t digit, unsigned bit) {
@@ -162,9 +113,7 @@ Index CountLearntRows(const FittedModel& fitted,
     looked += 1.0;
     found += all ? 1.0 : 0.0;
   }
-  constexpr double kSure = 3.0;  // standard deviations
-  const double by_chance = looked * (filter->alike + kFalseHits);
-  if (!(found > by_chance + kSure * std::sqrt(by_chance))) return 0;
+  if (!AreMoreThanChance(found, looked, filter->alike + kFalseHits)) return 0;
   return static_cast<Index>(
       std::llround(found / looked * static_cast<double>(inputs.rows())));
 }

@@ -17,6 +17,7 @@
 #include "models/recipe_catalog.h"
 #include "models/shared_work.h"
 #include "models/study/fold_pool.h"
+#include "models/study/repeated_rows.h"
 #include "models/study/session_cut.h"
 
 namespace errmap::models {
@@ -389,6 +390,10 @@ Holdout MakeHoldout(const stats::HoldoutSpec& spec,
        (forward && stats::KeepsWhole(holdout.folds, dataset.groups().codes)));
   holdout.whole_sessions = test_data == nullptr && dataset.has_sessions() &&
                            stats::KeepsWhole(holdout.folds, sessions);
+  if (test_data != nullptr) {
+    holdout.rows_of_training = CountRowsOf(dataset, *test_data);
+    holdout.among_neighbours = holdout.rows_of_training > 0;
+  }
   holdout.test_data = std::move(test_data);
   // What was measured before is chosen from as all of it will be; a cut of
   // groups that is one of sessions chooses, and finds, what that would.

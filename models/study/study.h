@@ -29,6 +29,9 @@ struct Holdout {
   std::vector<stats::Fold> folds;  // indices into the data set
   /// Rows judged instead of the folds' own (file:TEST.csv), or null.
   std::shared_ptr<const data::Dataset> test_data;
+  /// Of those, the ones that stand in the data set too: they were learnt, so
+  /// the figures tell nothing of another day. Then among_neighbours is set.
+  Eigen::Index rows_of_training = 0;
   /// Of the choices made inside the training rows of a fold.
   InnerHoldout inner = InnerHoldout::kDecisive;
 };

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "models/study/session_cut.h"
-#include "models/study/study.h"
 
 namespace errmap::models {
 
@@ -35,6 +34,14 @@ std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset) {
     specs.push_back(fmt::format("forward:{}", kForwardFolds));
   }
   return specs;
+}
+
+std::vector<std::string> HoldoutsBeside(const std::vector<Holdout>& holdouts,
+                                        const data::Dataset& dataset) {
+  const bool all_learnt = std::ranges::all_of(
+      holdouts,
+      [](const Holdout& holdout) { return holdout.rows_of_training > 0; });
+  return all_learnt ? DefaultHoldouts(dataset) : std::vector<std::string>();
 }
 
 std::string StrictestDefaultHoldout(const data::Dataset& dataset) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "data/measurements/dataset.h"
+#include "models/study/study.h"
 
 namespace errmap::models {
 
@@ -14,6 +15,11 @@ namespace errmap::models {
 /// three of these are too few to decide, so without groups blocks stand beside
 /// them; more are also foreseen from those before them.
 std::vector<std::string> DefaultHoldouts(const data::Dataset& dataset);
+
+/// The same where each of `holdouts`, which somebody chose, judges by a file
+/// that holds rows of training, and so tells nothing; else none.
+std::vector<std::string> HoldoutsBeside(const std::vector<Holdout>& holdouts,
+                                        const data::Dataset& dataset);
 
 /// That of them which a map may promise by: whole sessions where there are two
 /// or more, else whole groups, else blocks.

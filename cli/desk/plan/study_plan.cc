@@ -219,15 +219,37 @@ class ComponentPlanner {
         TellWhatWasFound(test, report::FaultUse::kJudge);
         test_data = std::make_shared<const data::Dataset>(test.dataset);
       }
-      try {
-        holdouts.push_back(models::MakeHoldout(
-            spec, dataset, study_.seed, std::move(test_data)));
-      } catch (const std::invalid_argument& error) {
-        throw data::InputError(
-            fmt::format("{}: {}", component_.data, error.what()));
-      }
+      holdouts.push_back(MakeOne(spec, dataset, std::move(test_data)));
+      TellOfRowsLearnt(holdouts.back());
+    }
+    for (const std::string& text : models::HoldoutsBeside(holdouts, dataset)) {
+      holdouts.push_back(MakeOne(stats::ParseHoldout(text), dataset, nullptr));
     }
     return holdouts;
+  }
+
+  models::Holdout MakeOne(
+      const stats::HoldoutSpec& spec,
+      const data::Dataset& dataset,
+      std::shared_ptr<const data::Dataset> test_data) const {
+    try {
+      return models::MakeHoldout(
+          spec, dataset, study_.seed, std::move(test_data));
+    } catch (const std::invalid_argument& error) {
+      throw data::InputError(
+          fmt::format("{}: {}", component_.data, error.what()));
+    }
+  }
+
+  void TellOfRowsLearnt(const models::Holdout& holdout) const {
+    if (holdout.rows_of_training == 0) return;
+    Tell(
+        fmt::format("{}: {} of its {} rows stand in {} too; its figures tell "
+                    "nothing of another day",
+                    data::PrintablePath(holdout.test_data->source()),
+                    holdout.rows_of_training,
+                    holdout.test_data->num_rows(),
+                    data::PrintablePath(component_.data)));
   }
 
   std::vector<models::GivenPredictions> ReadGiven() const {

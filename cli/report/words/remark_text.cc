@@ -339,6 +339,20 @@ std::string OnlyGrowsSentence(const ComponentNumbers& component,
       data::JoinWords(columns, ","));
 }
 
+std::string RowsLearntSentence(const ComponentNumbers& component,
+                               const RemarkRecord& remark) {
+  std::vector<std::string> parts;
+  for (const std::string& name : There(remark.holdouts)) {
+    parts.push_back(fmt::format("{} of the rows of {}",
+                                There(component.Holdout(name).rows_of_training),
+                                name));
+  }
+  return fmt::format(
+      "{} were learnt: ignore {}, or give a file of another day.",
+      data::JoinWords(parts, " and "),
+      parts.size() == 1 ? "its column" : "their columns");
+}
+
 // What a person does to bring a column below, or above, all its values so far.
 struct StatesBeyond {
   const char* below;
@@ -433,6 +447,8 @@ std::string RemarkText(const ComponentNumbers& component,
           "It is simple: under {} the average of maps typically errs more than "
           "twice as much.",
           First(There(remark.holdouts)));
+    case RemarkKind::kRowsLearnt:
+      return RowsLearntSentence(component, remark);
     case RemarkKind::kProvenBetter:
       return fmt::format(
           "{} prove it better than the average of maps that is used else, {} "

@@ -9,13 +9,14 @@ namespace {
 using Eigen::Index;
 
 // How much a hold-out tells of another day, from 0: whole sessions, whole
-// groups, another file, whole blocks, few sessions, rows. Of the same kind one
-// that judges all sessions comes before one that judges the later ones alone.
+// groups, another file, whole blocks, few sessions, rows, a file that holds rows
+// of training. Of the same kind one that judges all sessions comes before one that judges the later ones alone.
 // Sessions count as such from `fewest` on.
 std::pair<int, bool> RankOf(const Holdout& holdout,
                             const HoldoutComparison& comparison,
                             Index fewest) {
   const auto kind = [&] {
+    if (holdout.rows_of_training > 0) return 6;
     if (comparison.units.are_sessions &&
         static_cast<Index>(comparison.units.labels.size()) >= fewest) {
       return 0;

@@ -61,6 +61,7 @@ struct HoldoutRecord {
   bool whole_sessions = false;
   bool among_neighbours = false;
   bool another_file = false;
+  LeftOut<std::int64_t> rows_of_training = {};  // that the other file holds
   std::int64_t repeats = 1;
   /// Of each fold: how its training rows are held out for choices in a fit.
   std::vector<std::string> inner;

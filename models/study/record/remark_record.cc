@@ -48,6 +48,8 @@ std::string_view ToString(RemarkKind kind) {
       return "simple holds";
     case RemarkKind::kOnlyGrows:
       return "only grows";
+    case RemarkKind::kRowsLearnt:
+      return "rows learnt";
     case RemarkKind::kProvenBetter:
       return "proven better";
     case RemarkKind::kBlocksForUnits:

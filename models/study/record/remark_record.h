@@ -50,6 +50,7 @@ enum class RemarkKind {
   kProvenBetter,      // model: the blend, by separate sessions
   kSimpleHolds,       // holdouts: where the blend errs twice as much
   kOnlyGrows,         // columns; holdouts: that which looks forward, if any
+  kRowsLearnt,        // holdouts: whose file holds rows of training
 };
 /// "averages maps", ...: the enumerator's words.
 std::string_view ToString(RemarkKind kind);

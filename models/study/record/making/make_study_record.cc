@@ -91,6 +91,7 @@ HoldoutRecord MakeHoldout(const ComponentStudy& study, std::size_t h) {
                        .whole_sessions = holdout.whole_sessions,
                        .among_neighbours = holdout.among_neighbours,
                        .another_file = holdout.test_data != nullptr,
+                       .rows_of_training = {},
                        .repeats = holdout.repeats,
                        .inner = {},
                        .train_rows = {},
@@ -98,6 +99,9 @@ HoldoutRecord MakeHoldout(const ComponentStudy& study, std::size_t h) {
                        .unit_of_analysis = tests.units.name,
                        .units = tests.tests.num_units,
                        .unit_labels = tests.units.labels};
+  if (holdout.rows_of_training > 0) {
+    record.rows_of_training = holdout.rows_of_training;
+  }
   const data::Dataset& dataset = study.data.dataset;
   for (const stats::Fold& fold : holdout.folds) {
     record.inner.push_back(MakeInnerFolds(dataset.SelectRows(fold.train),

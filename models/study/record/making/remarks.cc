@@ -28,6 +28,7 @@ constexpr std::array kToldFirst = {RemarkKind::kInterrupted,
                                    RemarkKind::kSimpleHolds,
                                    RemarkKind::kGoal,
                                    RemarkKind::kBetterWithoutMap,
+                                   RemarkKind::kRowsLearnt,
                                    RemarkKind::kOneRunOnly,
                                    RemarkKind::kGroupFitsFailed,
                                    RemarkKind::kNoGroupsHeldOut,
@@ -124,6 +125,7 @@ class Remarks {
   void AddUnseen();
   void AddGrowing();
   void AddUnits();
+  void AddRowsLearnt();
   void AddFlattered();
   void AddDisagreement();
   void AddCorrelation();
@@ -315,6 +317,14 @@ void Remarks::AddUnits() {
   }
 }
 
+void Remarks::AddRowsLearnt() {
+  std::vector<std::string> names;
+  for (const Holdout& holdout : study_.holdouts) {
+    if (holdout.rows_of_training > 0) names.push_back(holdout.name);
+  }
+  if (!names.empty()) Add(RemarkKind::kRowsLearnt).holdouts = std::move(names);
+}
+
 // Who reads the wrong column is tempted by the lowest error there.
 void Remarks::AddFlattered() {
   const auto& gap = study_.judgement.gap;
@@ -394,6 +404,7 @@ std::vector<RemarkRecord> Remarks::Doubts() {
   AddUnseen();
   AddGrowing();
   AddUnits();
+  AddRowsLearnt();
   AddFlattered();
   AddDisagreement();
   AddCorrelation();
