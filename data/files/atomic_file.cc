@@ -20,6 +20,7 @@
 #include <sys/stat.h>
 
 #include "data/files/file_descriptor.h"
+#include "data/files/link.h"
 #include "data/files/sheet_path.h"
 #include "data/files_in_memory.h"
 #include "data/input_error.h"
@@ -217,13 +218,7 @@ void ReplaceFile(const std::string& path,
                  std::string_view content,
                  std::optional<mode_t> old_permissions,
                  Flush flush) {
-  std::filesystem::path target = path;
-  if (old_permissions.has_value()) {
-    // A link keeps pointing where it does; the file behind it is replaced.
-    std::error_code error;
-    target = std::filesystem::canonical(path, error);
-    if (error) ThrowUnwritable(path, error.value());
-  }
+  const std::filesystem::path target = path;
   const Writing writing;
   // Never open to more people than the old file was, not even for a moment.
   auto [temporary_name, file] =
@@ -248,15 +243,32 @@ void ReplaceFile(const std::string& path,
   FlushFolder(target.has_parent_path() ? target.parent_path() : ".");
 }
 
+// A link gives way to the file: what it leads to belongs to somebody else.
+void ReplaceLink(const std::string& path,
+                 std::string_view content,
+                 Flush flush) {
+  struct stat behind {};
+  const bool leads_somewhere = stat(path.c_str(), &behind) == 0;
+  if (leads_somewhere && S_ISDIR(behind.st_mode)) ThrowUnwritable(path, EISDIR);
+  if (leads_somewhere && !S_ISREG(behind.st_mode)) {
+    WriteDirectly(path, content);
+    return;
+  }
+  RequireOwnLink(path);
+  ReplaceFile(path, content, std::nullopt, flush);
+}
+
 void WriteFile(const std::string& path, std::string_view content, Flush flush) {
   if (NamesOpenDescriptor(path)) {
     WriteDirectly(path, content);
     return;
   }
   struct stat status {};
-  if (stat(path.c_str(), &status) != 0) {
+  if (lstat(path.c_str(), &status) != 0) {
     if (errno != ENOENT) ThrowUnwritable(path, errno);
     ReplaceFile(path, content, std::nullopt, flush);
+  } else if (S_ISLNK(status.st_mode)) {
+    ReplaceLink(path, content, flush);
   } else if (S_ISDIR(status.st_mode)) {
     ThrowUnwritable(path, EISDIR);
   } else if (S_ISREG(status.st_mode)) {

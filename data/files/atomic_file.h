@@ -8,7 +8,9 @@ namespace errmap::data {
 
 /// Writes a file whole or not at all: beside the target under a temporary
 /// name, flushed to disk, then renamed over it. What a killed process left of
-/// the same target goes with it. The parent folder must exist.
+/// the same target goes with it. The parent folder must exist. A link at the
+/// path is replaced, and what it leads to stays as it is; in the folder of
+/// another user it is refused.
 /// Throws std::system_error naming the path; the old file is left as it was.
 void WriteFileAtomically(const std::string& path, std::string_view content);
 

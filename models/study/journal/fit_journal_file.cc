@@ -18,6 +18,7 @@
 #include <sys/stat.h>
 
 #include "data/argument_name.h"
+#include "data/files/link.h"
 #include "data/input_error.h"
 #include "data/sha256.h"
 #include "data/text.h"
@@ -52,8 +53,12 @@ bool SameFile(int descriptor, const std::string& path) {
 int OpenLocked(const std::string& path) {
   constexpr mode_t kMode = 0666;  // less the umask
   for (;;) {
+    // RequireNoOther has refused a link that may not be replaced.
+    data::RemoveLink(path, true);
     FileDescriptor file(
-        open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, kMode));
+        open(path.c_str(),
+             O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW,
+             kMode));
     if (!file.is_open()) ThrowUnwritable(path, errno);
     if (flock(file.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       throw std::runtime_error(
@@ -144,8 +149,15 @@ JournalFile::JournalFile(const std::string& folder,
 
 void JournalFile::RequireNoOther(const std::string& folder, bool force) {
   const std::string path = std::filesystem::path(folder) / kName;
+  if (data::IsLink(path)) {
+    if (force || data::IsInOwnFolder(path)) return;
+    throw data::InputError(data::PrintablePath(path) +
+                           ": is a link in the folder of another user; choose "
+                           "another folder, move it away, or go on with " +
+                           data::ArgumentName("force"));
+  }
   struct stat status {};
-  if (stat(path.c_str(), &status) != 0) return;
+  if (lstat(path.c_str(), &status) != 0) return;
   if (!S_ISREG(status.st_mode)) {
     throw data::InputError(data::PrintablePath(path) +
                            ": is no plain file; move it away or choose another "

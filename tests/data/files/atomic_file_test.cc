@@ -93,12 +93,46 @@ TEST_F(AtomicFile, ReplacesAFileAndKeepsItsPermissions) {
   EXPECT_EQ(NumEntries(), 1);
 }
 
-TEST_F(AtomicFile, ReplacesTheFileBehindALinkAndKeepsTheLink) {
+TEST_F(AtomicFile, ReplacesALinkAndLeavesWhatItLeadsTo) {
   WriteFileAtomically(Path("file"), "old");
   fs::create_symlink("file", Path("link"));
+  fs::create_symlink("nowhere", Path("dangling"));
+  for (const char* name : {"link", "dangling"}) {
+    WriteFileAtomically(Path(name), "new");
+    EXPECT_FALSE(fs::is_symlink(Path(name)));
+    EXPECT_EQ(ReadFile(Path(name)), "new");
+  }
+  EXPECT_EQ(ReadFile(Path("file")), "old");
+  EXPECT_FALSE(fs::exists(Path("nowhere")));
+}
+
+TEST_F(AtomicFile, WritesThroughALinkToADeviceAndNotIntoAFolder) {
+  fs::create_symlink("/dev/null", Path("link"));
   WriteFileAtomically(Path("link"), "new");
   EXPECT_TRUE(fs::is_symlink(Path("link")));
-  EXPECT_EQ(ReadFile(Path("file")), "new");
+  fs::create_symlink(".", Path("folder"));
+  EXPECT_THROW(WriteFileAtomically(Path("folder"), "new"), std::system_error);
+  EXPECT_TRUE(fs::is_symlink(Path("folder")));
+}
+
+// Only root can lay a folder into another's hands.
+TEST_F(AtomicFile, RefusesALinkInTheFolderOfAnotherUser) {
+  constexpr uid_t kNobody = 65534;
+  fs::create_directory(Path("theirs"));
+  const std::string link = Path("theirs/link");
+  fs::create_symlink("../file", link);
+  if (chown(Path("theirs").c_str(), kNobody, kNobody) != 0) {
+    GTEST_SKIP() << "not root";
+  }
+  WriteFileAtomically(Path("file"), "old");
+  EXPECT_THAT([&] { WriteFileAtomically(link, "new"); },
+              ::testing::ThrowsMessage<std::system_error>(
+                  ::testing::HasSubstr("a link in the folder of another user")));
+  EXPECT_EQ(ReadFile(Path("file")), "old");
+  WriteFileAtomically(Path("theirs/other"), "new");
+  EXPECT_THROW(RemoveLink(link), std::system_error);
+  RemoveLink(link, true);
+  EXPECT_FALSE(IsLink(link));
 }
 
 TEST_F(AtomicFile, LeavesReadersOfTheOldFileUndisturbed) {
