@@ -1,6 +1,8 @@
 #include <memory>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/fleet/fleet_commands.h"
 #include "cli/commands/format_option.h"
@@ -9,6 +11,7 @@
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
+#include "data/text.h"
 
 namespace errmap::cli {
 namespace {
@@ -21,6 +24,13 @@ struct MergeArguments {
 int RunMerge(const MergeArguments& arguments) {
   const fleet::FleetSummaries found =
       fleet::MergeStore(fleet::StorePaths{arguments.store});
+  if (!found.damaged.empty()) {
+    Say(fmt::format(
+        "errmap.sqlite was damaged: it is written anew, without deployments "
+        "and what was watched, and the old one is {}; errmap deploy STORE "
+        "deploys maps again",
+        data::PrintablePath(found.damaged)));
+  }
   if (!found.missing.empty()) Say(fleet::MissingWords(found));
   PrintResult(fleet::FormattedFleet(
       found.summaries, arguments.format, OutputTerminal().columns));

@@ -30,7 +30,7 @@ std::string MissingWords(const FleetSummaries& found) {
 
 FleetSummaries ReadSummaries(const StorePaths& paths) {
   FleetSummaries found{
-      .fleet = ReadFleet(paths), .summaries = {}, .missing = {}};
+      .fleet = ReadFleet(paths), .summaries = {}, .missing = {}, .damaged = {}};
   for (const FleetComponentRecord& component : found.fleet.components) {
     const std::string path = paths.InFolder(component.name, kSummaryFile);
     std::error_code ignored;
@@ -61,9 +61,18 @@ FleetSummaries MergeStore(const StorePaths& paths) {
   ReadFleet(paths);  // no lock is left where there is no store
   const StoreLock lock(paths);
   found = ReadSummaries(paths);
-  ChangeStore(paths, lock, [&](Database* store) {
-    WriteSummaries(store, paths, found.fleet, found.summaries);
-  });
+  const auto write = [&] {
+    ChangeStore(paths, lock, [&](Database* store) {
+      WriteSummaries(store, paths, found.fleet, found.summaries);
+    });
+  };
+  try {
+    write();
+  } catch (const DamagedDatabase&) {
+    found.damaged = paths.Database() + ".damaged";
+    std::filesystem::rename(paths.Database(), found.damaged);
+    write();
+  }
   DrawFleetReport(paths, found);
   return found;
 }

@@ -5,6 +5,10 @@
 #include <new>
 #include <sqlite3.h>
 
+#include <fmt/format.h>
+
+#include "data/text.h"
+
 namespace errmap::fleet {
 namespace {
 
@@ -17,6 +21,13 @@ bool LacksMemory(sqlite3* database) {
 // Want of memory is no fault of the file.
 [[noreturn]] void Throw(sqlite3* database) {
   if (LacksMemory(database)) throw std::bad_alloc();
+  constexpr int kWithoutExtension = 0xff;
+  const int code = sqlite3_errcode(database) & kWithoutExtension;
+  if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {
+    const char* const file = sqlite3_db_filename(database, "main");
+    throw DamagedDatabase(file == nullptr ? "" : file,
+                          sqlite3_errmsg(database));
+  }
   throw SqliteError(sqlite3_errmsg(database));
 }
 
@@ -38,6 +49,14 @@ std::string Escaped(const std::string& path) {
 }
 
 }  // namespace
+
+DamagedDatabase::DamagedDatabase(const std::string& file,
+                                 const std::string& why)
+    : InputError(fmt::format(
+          "{} is damaged ({}); errmap merge STORE writes it anew, and deployed "
+          "maps stand in its folder maps",
+          data::PrintablePath(file),
+          why)) {}
 
 void Statement::Finalize::operator()(sqlite3_stmt* statement) const {
   sqlite3_finalize(statement);
@@ -150,6 +169,12 @@ void Database::Execute(const std::string& sql) {
 std::int64_t Database::WholeOf(std::string_view sql) {
   Statement statement = Prepare(sql);
   return statement.Next() ? statement.Whole(0) : 0;
+}
+
+void Database::RequireSound(const std::string& file) {
+  Statement check = Prepare("PRAGMA quick_check(1)");
+  if (!check.Next() || check.Text(0) == "ok") return;
+  throw DamagedDatabase(file, check.Text(0));
 }
 
 void Database::CopyFrom(Database* from) {

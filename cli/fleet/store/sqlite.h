@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "data/input_error.h"
+
 struct sqlite3;
 struct sqlite3_stmt;
 
@@ -16,6 +18,12 @@ namespace errmap::fleet {
 class SqliteError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// The file is damaged, or no database at all: what to do stands in what().
+class DamagedDatabase : public data::InputError {
+ public:
+  DamagedDatabase(const std::string& file, const std::string& why);
 };
 
 /// A prepared statement, run once or again and again.
@@ -85,6 +93,9 @@ class Database {
   Statement Prepare(std::string_view sql) { return {handle_.get(), sql}; }
   /// The first value of the first row.
   std::int64_t WholeOf(std::string_view sql);
+
+  /// Throws DamagedDatabase, of `file`, where a page does not fit the others.
+  void RequireSound(const std::string& file);
 
   /// Copies all of `from` here (backup API).
   void CopyFrom(Database* from);

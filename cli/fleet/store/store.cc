@@ -17,6 +17,7 @@
 #include <sys/file.h>
 
 #include "cli/fleet/store/store_schema.h"
+#include "data/files/link.h"
 #include "data/input_error.h"
 #include "data/text.h"
 
@@ -259,8 +260,10 @@ class SummaryWriter {
 
 }  // namespace
 
-StoreLock::StoreLock(const StorePaths& paths)
-    : file_(open(paths.Lock().c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+StoreLock::StoreLock(const StorePaths& paths) : file_(-1) {
+  data::RemoveLink(paths.Lock());
+  file_ = data::FileDescriptor(open(
+      paths.Lock().c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666));
   if (!file_.is_open()) {
     throw std::system_error(
         errno,
@@ -319,6 +322,7 @@ void ChangeStore(const StorePaths& paths,
       std::int64_t version = 0;
       if (old) {
         store.CopyFrom(&*old);
+        store.RequireSound(path);
         version = VersionOf(&store, path);
       }
       store.Execute("BEGIN");

@@ -232,6 +232,29 @@ TEST_F(FleetQuery, NewerSchemasAndOtherFilesAreRefusedByName) {
               HasSubstr("errmap merge STORE makes it"));
 }
 
+// Bytes that a disk lost, in any page: named, and merged anew.
+TEST_F(FleetQuery, ADamagedStoreSaysWhatToDoAndIsWrittenAnew) {
+  const std::string whole = Read("store/errmap.sqlite");
+  constexpr std::size_t kPage = 4096;
+  ASSERT_GT(whole.size(), 3 * kPage);
+  for (std::size_t page = 0; page < whole.size() / kPage; page += 3) {
+    SCOPED_TRACE(page);
+    std::string damaged = whole;
+    damaged.replace(page * kPage, kPage, kPage, '\x5a');
+    Write("store/errmap.sqlite", damaged);
+    if (page == 0) {
+      EXPECT_THAT(RefusalOf(Run({"query", "store", "SELECT 1"}), kUnusable),
+                  AllOf(HasSubstr("store/errmap.sqlite is damaged"),
+                        HasSubstr("errmap merge STORE writes it anew")));
+    }
+    const Outcome merge = Run({"merge", "store"});
+    EXPECT_THAT(merge.err, HasSubstr("store/errmap.sqlite.damaged"));
+    EXPECT_EQ(Read("store/errmap.sqlite.damaged"), damaged);
+    EXPECT_EQ(Rows("store", "SELECT count(*) FROM components")[0][0],
+              kComponents);
+  }
+}
+
 TEST_F(FleetQuery, AFullDiskIsOneLineAndTheStoreStaysAsItWas) {
   const std::string before = Read("store/errmap.sqlite");
   EXPECT_THAT(RefusalOf(RunWithFilesUpTo(40000, {"merge", "store"}), kFailure),
