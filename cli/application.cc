@@ -7,9 +7,11 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -315,6 +317,20 @@ std::string MadeWith() {
   return text;
 }
 
+// What the command that runs can be advised to do.
+void AdviseOwnOptions(const CLI::App& app, const std::string& command) {
+  for (const CLI::App* const one : app.get_subcommands(nullptr)) {
+    if (one->get_name() != command) continue;
+    std::set<std::string, std::less<>> names;
+    for (const CLI::Option* option : one->get_options()) {
+      for (const std::string& name : option->get_lnames()) {
+        names.insert("--" + name);
+      }
+    }
+    AdviseOnly(std::move(names));
+  }
+}
+
 int RunParsed(int argc, char** argv) {
   if (std::find(argv, argv + argc, std::string_view("--keep-paths")) !=
       argv + argc) {
@@ -333,6 +349,7 @@ int RunParsed(int argc, char** argv) {
   }
   if (RunHiddenCommand(app, argc, argv)) return kDone;
   RequireKnownCommand(app, argv[1]);
+  AdviseOwnOptions(app, argv[1]);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

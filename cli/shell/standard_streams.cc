@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <fcntl.h>
+#include <memory>
 #include <mutex>
 #include <unistd.h>
 #include <utility>
@@ -10,12 +11,23 @@
 #include <fmt/format.h>
 
 #include "cli/shell/host.h"
+#include "cli/shell/remedies.h"
 #include "cli/shell/terminal.h"
 
 namespace errmap::cli {
 namespace {
 
 int print_error = 0;
+
+using Options = std::set<std::string, std::less<>>;
+
+std::mutex options_mutex;
+std::shared_ptr<const Options> own_options;  // null: any may be advised
+
+std::shared_ptr<const Options> OwnOptions() {
+  const std::lock_guard lock(options_mutex);
+  return own_options;
+}
 
 // 0, or the errno of what failed.
 int WriteAll(int descriptor, std::string_view text) {
@@ -99,8 +111,18 @@ void PrintStrong(std::string_view text) {
 
 int PrintError() { return print_error; }
 
+void AdviseOnly(std::set<std::string, std::less<>> options) {
+  const std::lock_guard lock(options_mutex);
+  own_options = std::make_shared<const Options>(std::move(options));
+}
+
 void WriteMessage(std::string_view text) {
   std::string line = WithoutControls(text);
+  if (const auto options = OwnOptions()) {
+    line = WithOwnRemedies(line, [&](std::string_view option) {
+      return options->contains(option);
+    });
+  }
   for (std::size_t at = 0; (at = line.find('\n', at)) != std::string::npos;) {
     line.replace(at, 1, "\\n");
   }

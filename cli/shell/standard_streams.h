@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -29,6 +31,9 @@ int PrintError();
 /// stands in it. One that cannot be written is lost: there is nowhere to say
 /// so.
 void WriteMessage(std::string_view text);
+
+/// From now on messages advise none but these options (WithOwnRemedies).
+void AdviseOnly(std::set<std::string, std::less<>> options);
 
 /// What draws on a terminal, as it is; only of our own words.
 void DrawOnTerminal(std::string_view text);
