@@ -7,11 +7,13 @@
 #include <optional>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 
 namespace errmap::data {
 namespace {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // A drifting thermometer: what it reads beyond all that the others explain (by
@@ -60,78 +62,185 @@ bool IsTrusted(Index input, const std::vector<ColumnFault>& known) {
   });
 }
 
-// Of column `j` by the covariance of the columns `used` and of time (last).
-std::optional<Drift> DriftOf(const Eigen::MatrixXd& covariance,
-                             const std::vector<Index>& used,
-                             Index j) {
-  std::vector<Index> others;
-  std::ranges::copy_if(
-      used, std::back_inserter(others), [&](Index k) { return k != j; });
-  const VectorXd scale = covariance.diagonal()(others).array().sqrt().inverse();
-  const Eigen::MatrixXd correlation =
-      scale.asDiagonal() * covariance(others, others) * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(correlation);
-  const Index time = covariance.rows() - 1;
-  const VectorXd with_j = scale.asDiagonal() * covariance(others, j);
-  const VectorXd with_time = scale.asDiagonal() * covariance(others, time);
-  double var_j = covariance(j, j);
-  double var_time = covariance(time, time);
-  double joint = covariance(j, time);
-  const auto num_others = static_cast<Index>(others.size());
-  for (Index k = 0; k < std::min(kMostComponents, num_others); ++k) {
-    const Index at = num_others - 1 - k;  // largest last
-    const double variance = axes.eigenvalues()[at];
-    const double a = axes.eigenvectors().col(at).dot(with_j);
-    const double b = axes.eigenvectors().col(at).dot(with_time);
-    if (!(variance > 1e-9)) break;
-    var_j -= a * a / variance;
-    var_time -= b * b / variance;
-    joint -= a * b / variance;
+// Thermometers over the rows in which all of them are sound, with the row
+// number: each of mean 0 and length 1, those that never change of length 0.
+struct Standardised {
+  MatrixXd values;  // (rows x thermometers)
+  VectorXd sd;      // of each, as it was
+  VectorXd time;    // (rows)
+  double time_sd = 0.0;
+};
+
+// What more rows would add is the time that they take.
+constexpr Index kMostRows = 10000;
+constexpr Index kMostValues = 10000000;
+constexpr Index kFewestRows = 100;
+
+// At most so many of these, as far apart as can be.
+std::vector<Index> SpreadRows(std::vector<Index> rows, Index most) {
+  const auto size = static_cast<Index>(rows.size());
+  if (size <= most) return rows;
+  std::vector<Index> spread;
+  for (Index i = 0; i < most; ++i) {
+    spread.push_back(
+        rows[static_cast<std::size_t>(i * (size - 1) / (most - 1))]);
   }
-  if (!(var_time > kLeastTimeLeft * kLeastTimeLeft * covariance(time, time))) {
-    return std::nullopt;
-  }
-  const double slope = joint / var_time;
-  return Drift{.change = 2.0 * slope,  // time runs from -1 to 1
-               .scatter = std::sqrt(
-                   std::max(var_j - slope * joint, 1e-12 * covariance(j, j)))};
+  return spread;
 }
 
-// Of the thermometers and of the row number from -1 to 1, over the rows in
-// which all of them have a sound value.
-Eigen::MatrixXd CovarianceWithTime(
-    const MeasuredColumns& measured,
-    const std::vector<Thermometer>& thermometers) {
-  const Index m = measured.target_values.size();
-  std::vector<bool> is_sound(static_cast<std::size_t>(m), true);
+std::vector<Index> SoundRows(const MeasuredColumns& measured,
+                             const std::vector<Thermometer>& thermometers) {
+  std::vector<bool> is_sound(
+      static_cast<std::size_t>(measured.target_values.size()), true);
   for (const Thermometer& t : thermometers) {
     for (const Index row : t.wrong) {
       is_sound[static_cast<std::size_t>(row)] = false;
     }
   }
-  const auto size = static_cast<Index>(thermometers.size());
-  VectorXd sum = VectorXd::Zero(size + 1);
-  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(size + 1, size + 1);
-  VectorXd row_values(size + 1);
-  double count = 0.0;
-  for (Index row = 0; row < m; ++row) {
-    if (!is_sound[static_cast<std::size_t>(row)]) continue;
-    for (Index k = 0; k < size; ++k) {
-      const Index input = thermometers[static_cast<std::size_t>(k)].input;
-      row_values[k] =
-          measured.input_values(row, input) - measured.input_values(0, input);
-    }
-    row_values[size] = 2.0 * static_cast<double>(row) /
-                           static_cast<double>(std::max<Index>(m - 1, 1)) -
-                       1.0;
-    sum += row_values;
-    products.selfadjointView<Eigen::Lower>().rankUpdate(row_values);
-    count += 1.0;
+  std::vector<Index> rows;
+  for (std::size_t row = 0; row < is_sound.size(); ++row) {
+    if (is_sound[row]) rows.push_back(static_cast<Index>(row));
   }
-  if (count < 1.0) return Eigen::MatrixXd::Zero(size + 1, size + 1);
-  const VectorXd mean = sum / count;
-  const Eigen::MatrixXd full = products.selfadjointView<Eigen::Lower>();
-  return full / count - mean * mean.transpose();
+  return rows;
+}
+
+double Standardise(Eigen::Ref<VectorXd> values) {
+  values.array() -= values.mean();
+  const double length = values.norm();
+  if (length > 0.0) values /= length;
+  return length / std::sqrt(static_cast<double>(values.size()));
+}
+
+Standardised StandardiseRows(const MeasuredColumns& measured,
+                             const std::vector<Thermometer>& thermometers,
+                             const std::vector<Index>& used,
+                             const std::vector<Index>& rows) {
+  const auto m = static_cast<double>(measured.target_values.size());
+  const auto size = static_cast<Index>(used.size());
+  Standardised found{.values = MatrixXd(std::ssize(rows), size),
+                     .sd = VectorXd(size),
+                     .time = VectorXd(std::ssize(rows))};
+  for (Index k = 0; k < size; ++k) {
+    const Index input = thermometers[static_cast<std::size_t>(
+                                         used[static_cast<std::size_t>(k)])]
+                            .input;
+    found.values.col(k) = measured.input_values.col(input)(rows);
+    // Of what varies little about a large value the mean is exact enough then.
+    found.values.col(k).array() -= found.values(0, k);
+    found.sd[k] = Standardise(found.values.col(k));
+  }
+  for (Index i = 0; i < found.time.size(); ++i) {
+    found.time[i] = 2.0 *
+                        static_cast<double>(rows[static_cast<std::size_t>(i)]) /
+                        std::max(m - 1.0, 1.0) -
+                    1.0;
+  }
+  found.time_sd = Standardise(found.time);
+  return found;
+}
+
+// The leading principal axes V of the thermometers, whose correlation is R.
+struct Axes {
+  MatrixXd v;          // (thermometers x q), orthonormal
+  MatrixXd rv;         // R V
+  VectorXd variances;  // of V'R V, which is diagonal
+  VectorXd vr_time;    // V' times the correlations with time
+};
+
+// More than the components that are taken away, as those of the others are
+// looked for in the space of these.
+constexpr Index kAxes = 16;
+// Of so many and fewer all axes are found at once.
+constexpr Index kFewThermometers = 64;
+
+// An orthonormal start that is the same everywhere.
+MatrixXd FirstAxes(Index size, Index count) {
+  MatrixXd start(size, count);
+  for (Index i = 0; i < size; ++i) {
+    for (Index k = 0; k < count; ++k) {
+      start(i, k) = std::cos(static_cast<double>(i * count + k) * 1.7 +
+                             static_cast<double>(k * k));
+    }
+  }
+  return start;
+}
+
+MatrixXd Orthonormal(const MatrixXd& columns) {
+  return Eigen::HouseholderQR<MatrixXd>(columns).householderQ() *
+         MatrixXd::Identity(columns.rows(), columns.cols());
+}
+
+// Orthogonal iteration (Golub & Van Loan, section 8.2.4): each step takes rows
+// times thermometers times axes, where all of R would take their square.
+Axes LeadingAxes(const Standardised& of) {
+  const MatrixXd& s = of.values;
+  const Index count = std::min(kAxes, s.cols());
+  MatrixXd v;
+  if (s.cols() <= kFewThermometers) {
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> all(s.transpose() * s);
+    v = all.eigenvectors().rightCols(count);
+  } else {
+    constexpr int kSteps = 6;
+    v = Orthonormal(FirstAxes(s.cols(), count));
+    for (int step = 0; step < kSteps; ++step) {
+      const MatrixXd scores = s * v;
+      v = Orthonormal(s.transpose() * scores);
+    }
+  }
+  const MatrixXd scores = s * v;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> within(scores.transpose() *
+                                                       scores);
+  Axes axes;
+  axes.v = v * within.eigenvectors();
+  axes.rv = s.transpose() * (scores * within.eigenvectors());
+  axes.variances = within.eigenvalues();
+  axes.vr_time = axes.v.transpose() * (s.transpose() * of.time);
+  return axes;
+}
+
+// Of thermometer `j` by the principal components of the others, which are
+// looked for in the space of the axes without `j` (Rayleigh-Ritz).
+std::optional<Drift> DriftOf(const Standardised& of,
+                             const Axes& axes,
+                             Index j) {
+  const Index count = axes.v.cols();
+  const VectorXd v = axes.v.row(j);
+  const VectorXd z = axes.rv.row(j);
+  const double with_time = of.values.col(j).dot(of.time);
+  // Without row j the axes have the products I - v v', which T makes I.
+  const double length = v.norm();
+  MatrixXd t = MatrixXd::Identity(count, count);
+  if (length > 0.0) {
+    const VectorXd u = v / length;
+    const double left = 1.0 - length * length;
+    constexpr double kNothing = 1e-10;
+    t += ((left > kNothing ? 1.0 / std::sqrt(left) : 0.0) - 1.0) * u *
+         u.transpose();
+  }
+  const MatrixXd rest = MatrixXd(axes.variances.asDiagonal()) -
+                        v * z.transpose() - z * v.transpose() +
+                        v * v.transpose();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> components(t * rest * t);
+  const MatrixXd onto = components.eigenvectors().transpose() * t;
+  const VectorXd a = onto * (z - v);
+  const VectorXd b = onto * (axes.vr_time - with_time * v);
+  double var_j = 1.0;
+  double var_time = 1.0;
+  double joint = with_time;
+  const Index others = of.values.cols() - 1;
+  for (Index k = 0; k < std::min({kMostComponents, others, count}); ++k) {
+    const Index at = count - 1 - k;  // largest last
+    const double variance = components.eigenvalues()[at];
+    if (!(variance > 1e-9)) break;
+    var_j -= a[at] * a[at] / variance;
+    var_time -= b[at] * b[at] / variance;
+    joint -= a[at] * b[at] / variance;
+  }
+  if (!(var_time > kLeastTimeLeft * kLeastTimeLeft)) return std::nullopt;
+  const double slope = joint / var_time;
+  return Drift{
+      .change = 2.0 * slope * of.sd[j] / of.time_sd,  // time: from -1 to 1
+      .scatter = of.sd[j] * std::sqrt(std::max(var_j - slope * joint, 1e-12))};
 }
 
 }  // namespace
@@ -147,18 +256,33 @@ std::vector<ColumnFault> FindDrift(const MeasuredColumns& measured,
       used.push_back(static_cast<Index>(k));
     }
   }
-  const Eigen::MatrixXd covariance = CovarianceWithTime(measured, thermometers);
+  const std::vector<Index> sound = SoundRows(measured, thermometers);
+  if (sound.size() < 3) return faults;
   // Few thermometers agree less: rooms of three days are in line by chance.
   const std::size_t fewest =
       measured.num_sessions > kFewestSessions ? 1 : kFewestOthers;
   const double times =
       measured.num_sessions > kFewSessions ? kDriftTimes : kDriftTimesOfFew;
-  // The worst first: it no longer counts among the others then.
-  while (used.size() > fewest) {
+  // The worst first: it no longer counts among the others then. Of very many
+  // the first few make the case.
+  constexpr std::size_t kMostOfMany = 8;
+  const bool many = std::ssize(used) > kFewThermometers;
+  while (used.size() > fewest && !(many && faults.size() == kMostOfMany)) {
+    const Standardised of =
+        StandardiseRows(measured,
+                        thermometers,
+                        used,
+                        SpreadRows(sound,
+                                   std::clamp(kMostValues / std::ssize(used),
+                                              kFewestRows,
+                                              kMostRows)));
+    const Axes axes = LeadingAxes(of);
     Drift worst{.change = 0.0, .scatter = 1.0};
     Index worst_at = -1;
-    for (const Index k : used) {
-      const std::optional<Drift> drift = DriftOf(covariance, used, k);
+    for (std::size_t at = 0; at < used.size(); ++at) {
+      const Index k = used[at];
+      const std::optional<Drift> drift =
+          DriftOf(of, axes, static_cast<Index>(at));
       const Thermometer& t = thermometers[static_cast<std::size_t>(k)];
       if (!drift || std::abs(drift->change) < kLeastDrift * t.degree ||
           drift->scatter > kMostScatterNoise * t.noise ||
@@ -196,7 +320,7 @@ std::optional<ColumnFault> FindColdDrift(
   const auto num_starts = static_cast<Index>(session_starts.size());
   const auto num_others = static_cast<Index>(used.size()) - 1;
   if (num_starts < kFewestStarts || num_others < 1) return std::nullopt;
-  Eigen::MatrixXd cold(num_starts, num_others + 1);  // degC
+  MatrixXd cold(num_starts, num_others + 1);  // degC
   for (Index k = 0; k <= num_others; ++k) {
     const Index input = used[static_cast<std::size_t>(k)];
     const Unit& unit = measured.inputs[static_cast<std::size_t>(input)].unit;
