@@ -421,7 +421,8 @@ CsvTable ParseCsv(std::string_view text, const std::string& name) {
   std::optional<std::string> sheet;
   try {
     if (IsGzip(text)) {
-      unpacked = Gunzip(text, kMostTextOfPrograms);
+      unpacked = Gunzip(
+          text, std::min(kMostTextOfPrograms, MostUnpacked(text.size())));
       if (IsGzip(unpacked)) unpacked.clear();
       text = unpacked;
     }

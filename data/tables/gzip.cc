@@ -52,6 +52,12 @@ std::string Gzip(std::string_view text) {
   return compressed;
 }
 
+std::size_t MostUnpacked(std::size_t packed) {
+  constexpr std::size_t kAlways = std::size_t{64} << 20U;
+  constexpr std::size_t kTimes = 100;
+  return kAlways + kTimes * packed;
+}
+
 std::string Gunzip(std::string_view compressed, std::size_t most) {
   z_stream stream{};
   if (inflateInit2(&stream, kGzipWindow) != Z_OK) throw std::bad_alloc();

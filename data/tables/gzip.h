@@ -17,4 +17,9 @@ std::string Gzip(std::string_view text);
 /// holds more than `most` bytes.
 std::string Gunzip(std::string_view compressed, std::size_t most);
 
+/// What so many packed bytes of a table hold at most: a hundred times as many
+/// beside 64 MiB. Measurements pack to a tenth or so; what holds more was made
+/// to fill the memory.
+std::size_t MostUnpacked(std::size_t packed);
+
 }  // namespace errmap::data

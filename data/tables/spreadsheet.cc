@@ -1,16 +1,19 @@
 #include "data/tables/spreadsheet.h"
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include <pugixml.hpp>
 
 #include "data/files/atomic_file.h"
 #include "data/input_error.h"
+#include "data/tables/gzip.h"
 #include "data/tables/zip_archive.h"
 #include "data/text.h"
 
@@ -22,6 +25,8 @@ constexpr std::size_t kMostColumns = 1U << 14U;
 // Bytes of a part: some six million cells. Its elements take up to 16 times as
 // much memory.
 constexpr std::size_t kMostXml = std::size_t{1} << 28U;
+// Cells of a table, the empty ones between others counted.
+constexpr std::size_t kMostCells = std::size_t{1} << 26U;
 
 // What of a moment a format shows.
 struct ShownTime {
@@ -175,7 +180,9 @@ std::string RichText(pugi::xml_node node) {
 
 class Workbook {
  public:
-  explicit Workbook(std::string_view bytes) : archive_(bytes) {}
+  explicit Workbook(std::string_view bytes)
+      : archive_(bytes),
+        most_xml_(std::min(kMostXml, MostUnpacked(bytes.size()))) {}
 
   bool IsOne() const { return archive_.Has(kPath); }
 
@@ -229,7 +236,7 @@ class Workbook {
   // Reads a part and returns its outermost element.
   pugi::xml_node Load(const std::string& part,
                       pugi::xml_document* document) const {
-    const std::string text = archive_.Read(part, kMostXml);
+    const std::string text = archive_.Read(part, most_xml_);
     // Neither are entities of its own known, nor is what they stand for.
     if (!document->load_buffer(
             text.data(),
@@ -295,6 +302,7 @@ class Workbook {
   std::string CellText(pugi::xml_node cell, const std::string& place) const;
 
   ZipArchive archive_;
+  std::size_t most_xml_;
   std::vector<Sheet> sheets_;
   std::vector<ShownTime> styles_;  // of the cells' styles
   std::vector<std::string> texts_;
@@ -344,9 +352,48 @@ std::size_t ColumnOf(std::string_view place) {
   return number;
 }
 
+// Cells of a row by column, from 1; what lies between them takes no memory.
+using SparseRow = std::vector<std::pair<std::size_t, std::string>>;
+
+void SetCell(std::size_t column, std::string text, SparseRow* row) {
+  const auto at = std::ranges::lower_bound(
+      *row, column, {}, &std::pair<std::size_t, std::string>::first);
+  if (at != row->end() && at->first == column) {
+    at->second = std::move(text);
+  } else {
+    row->emplace(at, column, std::move(text));
+  }
+}
+
+std::string TextOfRows(const std::vector<SparseRow>& rows, std::size_t width) {
+  const auto with_cells = static_cast<std::size_t>(std::ranges::count_if(
+      rows, [](const auto& row) { return !row.empty(); }));
+  if (width > 0 && with_cells > kMostCells / width) {
+    throw InputError("has " + std::to_string(with_cells) + " rows and " +
+                     std::to_string(width) +
+                     " columns, more than can be read; delete what stands far "
+                     "from the table, or save it as CSV");
+  }
+  std::string text;
+  for (const SparseRow& row : rows) {
+    std::size_t column = 1;
+    for (const auto& [place, cell] : row) {
+      text.append(place - column, '\t');
+      text += cell;
+      column = place;
+    }
+    if (!row.empty()) text.append(width - column, '\t');
+    text += '\n';
+    if (text.size() > kMostTextOfPrograms) {
+      throw InputError("is too long when unpacked");
+    }
+  }
+  return width == 0 ? "" : text;
+}
+
 std::string Workbook::TextOf(const Sheet& sheet) const {
   pugi::xml_document document;
-  std::vector<std::vector<std::string>> rows;
+  std::vector<SparseRow> rows;
   std::size_t width = 0;
   std::size_t row = 0;  // 1-based, as they are in the file
   for (const pugi::xml_node line :
@@ -354,7 +401,6 @@ std::string Workbook::TextOf(const Sheet& sheet) const {
     row = WholeNumber(Attribute(line, "r"), row + 1);
     if (row == 0 || row > kMostRows) throw InputError("has a row beyond any");
     rows.resize(std::max(rows.size(), row));
-    auto& cells = rows[row - 1];
     std::size_t column = 0;
     for (const pugi::xml_node cell : Children(line, "c")) {
       const std::string place = Attribute(cell, "r");
@@ -364,22 +410,10 @@ std::string Workbook::TextOf(const Sheet& sheet) const {
       std::string text = CellText(cell, place);
       if (text.empty()) continue;
       width = std::max(width, column);
-      if (cells.size() < column) cells.resize(column);
-      cells[column - 1] = std::move(text);
+      SetCell(column, std::move(text), &rows[row - 1]);
     }
   }
-  std::string text;
-  for (const std::vector<std::string>& cells : rows) {
-    for (std::size_t i = 0; !cells.empty() && i < width; ++i) {
-      if (i > 0) text += '\t';
-      if (i < cells.size()) text += cells[i];
-    }
-    text += '\n';
-    if (text.size() > kMostTextOfPrograms) {
-      throw InputError("is too long when unpacked");
-    }
-  }
-  return width == 0 ? "" : text;
+  return TextOfRows(rows, width);
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "data/csv.h"
+#include "data/input_error.h"
+#include "data/tables/gzip.h"
 #include "data/tables/zip_archive.h"
 #include "tests/data/packed_parts.h"
 #include "tests/places.h"
@@ -105,6 +107,35 @@ TEST(SheetText, RefusesWhatIsBeyondAnySheet) {
                            "<!DOCTYPE a [<!ENTITY b \"c\">]><row/>"}) {
     EXPECT_THROW(TextOf(rows), InputError) << rows;
   }
+}
+
+// Six thousand rows with a cell in the last column: a file of some kB whose
+// table would be of a hundred million cells.
+TEST(SheetText, RefusesATableOfEmptyCellsBeforeItTakesMemory) {
+  std::string rows;
+  for (int row = 1; row <= 6000; ++row) {
+    rows += "<row r=\"" + std::to_string(row) + "\"><c r=\"XFD" +
+            std::to_string(row) + "\"><v>1</v></c></row>";
+  }
+  EXPECT_THAT([&] { TextOf(rows); },
+              ThrowsMessage<InputError>(
+                  HasSubstr("has 6000 rows and 16384 columns, more than")));
+  // A stray cell alone does no harm.
+  const std::string text = TextOf(
+      R"(<row r="1"><c r="A1"><v>1</v></c><c r="D1"><v>2</v></c></row>)"
+      R"(<row r="2"><c r="B2"><v>4</v></c><c r="A2"><v>3</v></c></row>)");
+  EXPECT_EQ(text, "1\t\t\t2\n3\t4\t\t\n");
+}
+
+TEST(SheetText, RefusesWhatUnpacksToHundredsOfTimesItsSize) {
+  const std::string padding(std::size_t{80} << 20U, ' ');
+  EXPECT_THAT([&] { TextOf("<row><c><v>1</v></c></row>" + padding); },
+              ThrowsMessage<InputError>(HasSubstr("too long when unpacked")));
+  EXPECT_THAT(
+      [] {
+        ParseCsv(Gzip("a,b\n" + std::string(80 << 20U, '\n')), "x.csv.gz");
+      },
+      ThrowsMessage<InputError>(HasSubstr("too long when unpacked")));
 }
 
 TEST(SheetText, KnowsNoCharactersByNamesOfTheFilesOwn) {
