@@ -1,58 +1,75 @@
 #include "models/export/program/nested_polynomial.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
 namespace errmap::models {
 namespace {
 
-using Terms = std::vector<PolynomialTerm>;
+// A term by the inputs that it has: of hundreds of inputs it has few.
+struct SparseTerm {
+  std::vector<std::pair<std::size_t, int>> powers;  // above 0, by input
+  double coefficient = 0.0;
 
-bool IsConstant(const Terms& terms) {
-  return std::ranges::all_of(terms, [](const PolynomialTerm& term) {
-    return std::ranges::all_of(term.powers, [](int p) { return p == 0; });
-  });
-}
-
-double ConstantOf(const Terms& terms) {
-  double sum = 0.0;
-  for (const PolynomialTerm& term : terms) sum += term.coefficient;
-  return sum;
-}
-
-// The input that most terms have; the first of several.
-std::size_t CommonestInput(const Terms& terms) {
-  std::vector<int> counts(terms.front().powers.size(), 0);
-  for (const PolynomialTerm& term : terms) {
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-      counts[i] += term.powers[i] > 0 ? 1 : 0;
-    }
+  int PowerOf(std::size_t input) const {
+    const auto at =
+        std::ranges::find(powers, input, &std::pair<std::size_t, int>::first);
+    return at == powers.end() ? 0 : at->second;
   }
-  return static_cast<std::size_t>(std::ranges::max_element(counts) -
-                                  counts.begin());
+  void Divide(std::size_t input, int power) {
+    const auto at =
+        std::ranges::find(powers, input, &std::pair<std::size_t, int>::first);
+    at->second -= power;
+    if (at->second == 0) powers.erase(at);
+  }
+};
+
+using Terms = std::span<SparseTerm>;
+
+SparseTerm SparseOf(const PolynomialTerm& term) {
+  SparseTerm sparse{.powers = {}, .coefficient = term.coefficient};
+  for (std::size_t i = 0; i < term.powers.size(); ++i) {
+    if (term.powers[i] > 0) sparse.powers.emplace_back(i, term.powers[i]);
+  }
+  return sparse;
+}
+
+bool IsConstant(Terms terms) {
+  return std::ranges::all_of(
+      terms, [](const SparseTerm& term) { return term.powers.empty(); });
+}
+
+double ConstantOf(Terms terms) {
+  double sum = 0.0;
+  for (const SparseTerm& term : terms) sum += term.coefficient;
+  return sum;
 }
 
 class Nesting {
  public:
-  // The sum of `terms` in kTerm `depth`; what lies deeper is scratch.
-  void Sum(const Terms& terms, int depth) {
+  explicit Nesting(std::size_t num_inputs) : counts_(num_inputs, 0) {}
+
+  // The sum of `terms`, which are used up, in kTerm `depth`; what lies deeper
+  // is scratch.
+  void Sum(Terms terms, int depth) {
     const Operand to{Space::kTerm, depth};
     if (IsConstant(terms)) {
       Add({.op = Op::kSet, .to = to, .c = ConstantOf(terms)});
       return;
     }
     const std::size_t input = CommonestInput(terms);
-    Terms with;
-    Terms without;
-    for (const PolynomialTerm& term : terms) {
-      (term.powers[input] > 0 ? with : without).push_back(term);
+    const auto rest = std::ranges::stable_partition(
+        terms, [&](const SparseTerm& term) { return term.PowerOf(input) > 0; });
+    const Terms with(terms.begin(), rest.begin());
+    const Terms without(rest.begin(), rest.end());
+    int power = with.front().PowerOf(input);
+    for (const SparseTerm& term : with) {
+      power = std::min(power, term.PowerOf(input));
     }
-    int power = with.front().powers[input];
-    for (const PolynomialTerm& term : with) {
-      power = std::min(power, term.powers[input]);
-    }
-    for (PolynomialTerm& term : with) term.powers[input] -= power;
+    for (SparseTerm& term : with) term.Divide(input, power);
     Sum(with, depth);
     const Operand factor{Space::kScaled, static_cast<int>(input)};
     for (; power > 1; --power) {
@@ -73,24 +90,44 @@ class Nesting {
   Instructions Take() { return std::move(instructions_); }
 
  private:
+  // The input that most terms have; the first of several.
+  std::size_t CommonestInput(Terms terms) {
+    std::size_t commonest = counts_.size();
+    for (const SparseTerm& term : terms) {
+      for (const auto& [input, power] : term.powers) ++counts_[input];
+    }
+    for (const SparseTerm& term : terms) {
+      for (const auto& [input, power] : term.powers) {
+        if (commonest == counts_.size() ||
+            counts_[input] > counts_[commonest] ||
+            (counts_[input] == counts_[commonest] && input < commonest)) {
+          commonest = input;
+        }
+      }
+    }
+    for (const SparseTerm& term : terms) {
+      for (const auto& [input, power] : term.powers) counts_[input] = 0;
+    }
+    return commonest;
+  }
+
   void Add(const Instruction& instruction) {
     instructions_.push_back(instruction);
   }
 
+  std::vector<int> counts_;  // (inputs) all 0 between uses
   Instructions instructions_;
 };
 
 }  // namespace
 
 Instructions NestedPolynomial(const PolynomialForm& form) {
-  Terms terms;
+  std::vector<SparseTerm> terms;
   if (form.intercept != 0.0 || form.terms.empty()) {
-    const std::size_t num_inputs =
-        form.terms.empty() ? 0 : form.terms.front().powers.size();
-    terms.push_back({std::vector<int>(num_inputs, 0), form.intercept});
+    terms.push_back({.powers = {}, .coefficient = form.intercept});
   }
-  for (const PolynomialTerm& term : form.terms) terms.push_back(term);
-  Nesting nesting;
+  for (const PolynomialTerm& term : form.terms) terms.push_back(SparseOf(term));
+  Nesting nesting(form.terms.empty() ? 0 : form.terms.front().powers.size());
   nesting.Sum(terms, 0);
   return nesting.Take();
 }
