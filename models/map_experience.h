@@ -42,6 +42,10 @@ struct Applicability {
   double distance_limit = 0.0;     // to the nearest of `states`
   double leverage_limit = 0.0;     // 1 / rows + |z|^2 / (rows - 1)
   Eigen::VectorXd relation_limit;  // (s) StateMeasures::relation
+
+  /// (s) Of readings within sessions, those that repeat the one before to the
+  /// last digit; (0): not known.
+  Eigen::VectorXd repeats = {};
 };
 
 /// Of its trained range an input may leave it by so much and is still inside:
@@ -60,6 +64,7 @@ struct HeldOutErrors {
     Eigen::VectorXd position;   // (n) of the first position input, or (0)
     Eigen::VectorXd residuals;  // (n) target less prediction, target's unit
     Eigen::VectorXd temperature = {};  // (n) of that input, or (0)
+    Eigen::VectorXd predicted = {};    // (n) target's unit, or (0)
   };
   /// "s", "rows", or "" where nothing is known of times: elapsed is then 0.
   std::string time_unit;

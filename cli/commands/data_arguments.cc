@@ -170,6 +170,14 @@ void AddMapLogArguments(CLI::App* command, models::MapLogArguments* arguments) {
             "uninterrupted runs");
 }
 
+void AddFromRest(CLI::App* command, models::MapLogArguments* arguments) {
+  AddFlag(command,
+          "--from-rest",
+          arguments->from_rest,
+          "The machine was at rest before the first row of each session, "
+          "whatever its thermometers and clock seem to say");
+}
+
 data::PreparedDataset ReadData(const DataArguments& arguments) {
   const data::JoinedTable read =
       data::ReadTables(arguments.files, arguments.selection);

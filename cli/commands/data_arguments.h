@@ -74,6 +74,8 @@ void AddRowOptions(CLI::App* command,
 
 /// Adds --after, --time and --session to a command.
 void AddMapLogArguments(CLI::App* command, models::MapLogArguments* arguments);
+/// --from-rest, where rows are predicted.
+void AddFromRest(CLI::App* command, models::MapLogArguments* arguments);
 
 /// "2um" or "0.002" of a flag that was given; throws UsageError naming `flag`.
 desk::GivenError ErrorOfFlag(const char* flag,

@@ -76,6 +76,25 @@ std::vector<RowChange> ReadRowChanges(
   return changes;
 }
 
+// How sessions began, which older files do not tell.
+void ReadStarts(const Node& node, History* history) {
+  const auto read = [&](const char* key, double* value) {
+    if (const auto number = node.Find(key)) *value = number->Number();
+  };
+  read("start_limit", &history->start_limit);
+  read("start_clock", &history->start_clock);
+  read("start_clock_late", &history->start_clock_late);
+  const auto readings = node.Find("start_readings");
+  if (!readings) return;
+  const std::vector<std::string> names = history->columns();
+  for (const Node& element : readings->Elements()) {
+    ReadMembers(element, &history->start_readings.emplace_back());
+    if (std::ranges::count(names, history->start_readings.back().column) == 0) {
+      element.At("column").Refuse("must be a column of the history");
+    }
+  }
+}
+
 History ReadHistory(const Node& node, const std::vector<TrainedInput>& inputs) {
   History history;
   history.time_unit = node.At("time_unit").Text();
@@ -111,6 +130,7 @@ History ReadHistory(const Node& node, const std::vector<TrainedInput>& inputs) {
   } catch (const std::invalid_argument& error) {
     node.Refuse(error.what());
   }
+  ReadStarts(node, &history);
   if (const auto changes = node.Find("row_changes")) {
     history.row_changes = ReadRowChanges(*changes, history, columns);
   }
@@ -157,7 +177,7 @@ std::vector<Index> ReadColumnsOf(const Node& node,
 
 Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
   Applicability trained;
-  ReadMembers(node, &trained, {"columns"});
+  ReadMembers(node, &trained, {"columns", "repeats"});
   for (std::size_t i = 0; i < trained.derived.size(); ++i) {
     if (fitted.history == nullptr ||
         std::ranges::find(fitted.history->form_inputs,
@@ -171,6 +191,13 @@ Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
   if (trained.rows < 2) node.At("rows").Refuse("must be at least 2");
   RequireSize(node.At("mean"), trained.mean, size);
   RequirePositive(node.At("scale"), trained.scale, size);
+  // Older files do not tell.
+  if (const auto repeats = node.Find("repeats")) {
+    trained.repeats = repeats->Vector();
+    if (trained.repeats.size() > 0) {
+      RequireSize(*repeats, trained.repeats, size);
+    }
+  }
   RequirePositive(node.At("rest"), trained.rest, size);
   RequirePositive(node.At("relation_limit"), trained.relation_limit, size);
   ReadPositive(node.At("distance_limit"));
@@ -195,13 +222,19 @@ HeldOutErrors ReadHeldOut(const Node& node) {
   }
   for (const Node& element : node.At("units").Elements()) {
     HeldOutErrors::Unit& unit = errors.units.emplace_back();
-    ReadMembers(element, &unit, {"temperature"});
+    ReadMembers(element, &unit, {"temperature", "predicted"});
+    if (const auto predicted = element.Find("predicted")) {
+      unit.predicted = predicted->Vector();
+    }
     const Index rows = unit.residuals.size();
     if (rows == 0) element.Refuse("has no residuals");
     RequireSize(element.At("elapsed"), unit.elapsed, rows);
     RequireSize(element.At("position"),
                 unit.position,
                 errors.position.empty() ? 0 : rows);
+    if (unit.predicted.size() > 0) {
+      RequireSize(element.At("predicted"), unit.predicted, rows);
+    }
     if (!errors.temperature.empty()) {
       ReadMembers(element.At("temperature"), &unit.temperature);
       RequireSize(element.At("temperature"), unit.temperature, rows);

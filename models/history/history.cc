@@ -15,6 +15,7 @@
 #include "data/measurements/sessions.h"
 #include "models/history/history_state.h"
 #include "models/history/lag.h"
+#include "models/history/session_start.h"
 
 namespace errmap::models {
 namespace {
@@ -434,12 +435,14 @@ double LongestStep(const data::Dataset& training) {
 }
 
 std::vector<Missing> FindMissing(const data::SessionLog& log,
-                                 const History& history) {
+                                 const History& history,
+                                 bool from_rest) {
   const StepsApart steps(log, history);
   std::vector<Missing> missing(log.sessions.codes.size(), Missing::kNothing);
   for (const std::vector<Index>& rows : RowsOfSessions(log)) {
     if (rows.empty()) continue;
-    const bool begins_inside = log.time[rows.front()] > history.latest_start;
+    const bool begins_inside =
+        !from_rest && BeginsInside(log, rows.front(), history);
     double known_again = log.time[rows.front()];
     double settled = known_again;
     if (begins_inside) settled += history.settles_after();

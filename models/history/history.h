@@ -54,6 +54,15 @@ struct RowChange {
   double mean = 0.0;     // likewise
 };
 
+/// How a column that the map remembers, less the mean of all those, stood in
+/// the first rows of the sessions of training.
+struct StartReading {
+  std::string column;
+  double mean = 0.0;    // its unit
+  double sd = 0.0;      // likewise, over the sessions
+  double weight = 0.0;  // per unit; models/history/session_start.h
+};
+
 /// The derived inputs of a map, and what its form reads.
 struct History {
   std::string time_unit;  // "s" or "rows"
@@ -63,6 +72,15 @@ struct History {
   /// steps more, where all began within kLeapSteps of another; NaN where clocks
   /// tell nothing.
   double latest_start = std::numeric_limits<double>::quiet_NaN();
+  /// How the sessions of training began (models/history/session_start.h): a
+  /// first row whose weighted readings are above the limit is like none of
+  /// theirs; NaN: too many of theirs are as any row.
+  std::vector<StartReading> start_readings = {};
+  double start_limit = std::numeric_limits<double>::quiet_NaN();
+  /// Time of the day by which sessions begin: its mean (s) and by how much
+  /// later one may still begin; NaN where it tells nothing.
+  double start_clock = std::numeric_limits<double>::quiet_NaN();
+  double start_clock_late = std::numeric_limits<double>::quiet_NaN();
   /// Where time is rows, which cannot tell that some are missing.
   std::vector<RowChange> row_changes = {};
   /// Longest step from reading to reading within the sessions of training; NaN
@@ -122,16 +140,18 @@ std::vector<RowChange> RowChanges(const data::Dataset& training,
 /// it would in use.
 enum class Missing {
   kNothing,
-  kStart,     // the first rows of its session, which begins later than
-              // latest_start
+  kStart,     // the first rows of its session: it begins like none of
+              // training (BeginsInside)
   kReadings,  // those of a step above longest_bridged, or where time is rows
               // of a leap above twice the largest of row_changes, which counts
               // as so many mean ones; until as much time has passed again
 };
 
 /// For each row of a log whose inputs are columns() of the history.
+/// `from_rest`: its sessions are known to begin where it begins.
 std::vector<Missing> FindMissing(const data::SessionLog& log,
-                                 const History& history);
+                                 const History& history,
+                                 bool from_rest = false);
 
 /// What the form reads, per row of `dataset` (m x form_inputs). Filters run
 /// through all rows of its log, so a selection of rows gets what all rows get.

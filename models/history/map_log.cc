@@ -1,5 +1,6 @@
 #include "models/history/map_log.h"
 
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -60,12 +61,21 @@ data::FoundSessions FindAll(const History& history,
   return found;
 }
 
+// Until when a session that begins inside is not known.
+std::string UntilSettled(const History& history) {
+  const double after = history.settles_after();
+  if (!std::isfinite(after)) return "throughout";
+  return history.time_unit == "rows"
+             ? fmt::format("for its first {:.0f} rows", after)
+             : fmt::format("for its first {:.0f} min", after / 60.0);
+}
+
 void WarnOfSessions(const History& history,
                     const data::CsvTable& table,
                     const MapLogArguments& arguments,
                     MapLog* map) {
   const data::SessionLog& log = *map->log;
-  map->missing = FindMissing(log, history);
+  map->missing = FindMissing(log, history, arguments.from_rest);
   std::vector<bool> goes_on(log.sessions.labels.size());
   std::vector<bool> is_here(goes_on.size());
   std::vector<bool> begins_inside(goes_on.size());
@@ -85,14 +95,14 @@ void WarnOfSessions(const History& history,
     if (!is_here[s]) continue;
     any_goes_on = any_goes_on || goes_on[s];
     if (!begins_inside[s]) continue;
-    map->warnings.push_back(fmt::format(
-        "warning: session {} begins inside: its first row is at {:.6g} s, "
-        "those of training had begun by {:.6g} s; give its earlier rows with "
-        "{} (inside = 0)",
-        data::QuotedText(log.sessions.labels[s]),
-        log.time[log.first_rows[s]],
-        history.latest_start,
-        data::ArgumentName("after")));
+    map->warnings.push_back(
+        fmt::format("warning: session {} begins inside, as no session of "
+                    "training began: inside = 0 {}; give its earlier rows with "
+                    "{}, or say {} where the machine was at rest before",
+                    data::QuotedText(log.sessions.labels[s]),
+                    UntilSettled(history),
+                    data::ArgumentName("after"),
+                    data::ArgumentName("from_rest")));
   }
   if (after_gaps > 0) {
     map->warnings.push_back(fmt::format(

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "models/history/session_start.h"
+
 namespace errmap::models {
 
 FittedModel WithHistory(FittedModel fitted,
@@ -30,6 +32,7 @@ FittedModel WithHistory(FittedModel fitted,
     read->derived.insert(read->derived.begin(), *input);
   }
   read->row_changes = RowChanges(training, *read);
+  LearnStarts(training, read.get());
   std::vector<Eigen::Index> columns;
   for (const std::string& name : read->columns()) {
     columns.push_back(training.FindInput(name));

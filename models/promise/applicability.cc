@@ -160,6 +160,24 @@ void SetLimits(const MatrixXd& states,
   }
 }
 
+// Applicability::repeats of the columns of these rows.
+VectorXd RepeatsOf(const data::Dataset& training, const MatrixXd& states) {
+  const std::vector<Index> sessions = training.session_codes();
+  VectorXd repeats = VectorXd::Zero(states.cols());
+  Index steps = 0;
+  for (Index row = 1; row < states.rows(); ++row) {
+    const auto at = static_cast<std::size_t>(row);
+    if (!sessions.empty() && sessions[at] != sessions[at - 1]) continue;
+    ++steps;
+    repeats.array() +=
+        (states.row(row).array() == states.row(row - 1).array())
+            .transpose()
+            .cast<double>();
+  }
+  return steps > 0 ? VectorXd(repeats / static_cast<double>(steps))
+                   : VectorXd();
+}
+
 std::vector<Applicability::Derived> DerivedRanges(
     const FittedModel& fitted, const data::Dataset& training) {
   std::vector<Applicability::Derived> ranges;
@@ -303,6 +321,7 @@ std::optional<Applicability> MakeApplicability(const FittedModel& fitted,
   const MatrixXd states = StatesOf(inputs(chosen, Eigen::all), columns);
   Applicability trained = FitStates(states, fitted.inputs, columns);
   trained.derived = DerivedRanges(fitted, training);
+  trained.repeats = RepeatsOf(training, StatesOf(inputs, columns));
   SetLimits(states, MakeInnerFolds(rows, {}).folds, fitted.inputs, &trained);
   return trained;
 }

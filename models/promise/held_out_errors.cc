@@ -86,6 +86,8 @@ std::optional<HeldOutErrors> HeldOutErrorsOf(const data::Dataset& dataset,
   const VectorXd residuals = ResidualsOf(held, result);
   if (units.labels.size() < 2 || !residuals.allFinite()) return std::nullopt;
   const data::Dataset& source = *held.source;
+  const VectorXd predicted =
+      source.target_values()(held.rows) - residuals;
   const VectorXd elapsed = ElapsedOf(source)(held.rows);
   const Index position = FindPosition(source, "");
   HeldOutErrors errors;
@@ -106,6 +108,7 @@ std::optional<HeldOutErrors> HeldOutErrorsOf(const data::Dataset& dataset,
                              .elapsed = elapsed(kept),
                              .position = {},
                              .residuals = residuals(kept)};
+    unit.predicted = predicted(kept);
     if (position >= 0) {
       std::vector<Index> rows;
       for (const Index i : kept) {

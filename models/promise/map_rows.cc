@@ -182,9 +182,13 @@ MapRows MakeMapRows(const FittedModel& fitted,
       options.with_memory ? MakeMapLog(fitted, table, options.log) : MapLog{};
   data::Dataset dataset = WithMapLog(prepared.dataset, map);
   Missing missing = Missing::kNothing;
+  std::vector<Missing> missing_before(
+      static_cast<std::size_t>(dataset.num_rows()), Missing::kNothing);
   if (map.log != nullptr) {
+    std::size_t at = 0;
     for (const Index row : dataset.log_rows()) {
       const Missing here = map.missing[static_cast<std::size_t>(row)];
+      missing_before[at++] = here;
       if (here == Missing::kStart || missing == Missing::kNothing) {
         missing = here;
       }
@@ -194,6 +198,7 @@ MapRows MakeMapRows(const FittedModel& fitted,
           .prepared = std::move(prepared),
           .dataset = std::move(dataset),
           .missing = missing,
+          .missing_before = std::move(missing_before),
           .warnings = std::move(map.warnings)};
 }
 

@@ -390,6 +390,7 @@ void AddVolumetricCommand(CLI::App* app, Run* run) {
             arguments->out,
             "File to write (default: stdout)");
   AddMapLogArguments(command, &arguments->log);
+  AddFromRest(command, &arguments->log);
   AddOption(command,
             "--draws",
             arguments->options.draws,

@@ -23,6 +23,7 @@ from errmap._commands import (
     simulate,
 )
 from errmap._core import version as _version
+from errmap._frames import SessionStartWarning
 from errmap._maps import MapFile, load, loads
 from errmap._study import Foreign, Study, compare, foreign
 
@@ -33,6 +34,7 @@ __all__ = [
     "Map",
     "MapFile",
     "SessionSplit",
+    "SessionStartWarning",
     "Study",
     "certify",
     "compare",

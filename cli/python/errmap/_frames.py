@@ -219,13 +219,28 @@ def _array(column: Any) -> Any:
     return numpy.asarray(column)
 
 
+class SessionStartWarning(UserWarning):
+    """Rows begin in the midst of a session that a map's memory needs whole.
+
+    Give the rows before them with ``after``, or say ``from_rest=True`` where
+    the machine was at rest before the first of them.
+    """
+
+
 def warn(messages: Iterable[str]) -> None:
-    """Tells what errmap warns of."""
+    """Tells what errmap warns of; of sessions that begin inside, of one."""
     import warnings
 
+    told = set()
     for line in messages:
         if line.startswith("warning: "):
+            begins_inside = " begins inside, " in line
+            if begins_inside and SessionStartWarning in told:
+                continue
+            category = SessionStartWarning if begins_inside else UserWarning
+            told.add(category)
             depth = 2
             while sys._getframe(depth).f_globals["__name__"].startswith("errmap"):
                 depth += 1
-            warnings.warn(line[len("warning: "):], stacklevel=depth + 1)
+            warnings.warn(line[len("warning: "):], category,
+                          stacklevel=depth + 1)

@@ -86,17 +86,25 @@ class MapFile:
         probes : measurements, optional
             Measurements of the same session, by which the map is moved.
         **options
-            ``time`` and ``session``: names of columns.
+            ``time`` and ``session``: names of columns; ``from_rest=True``: the
+            machine was at rest before the first row.
 
         Returns
         -------
         pandas.DataFrame
-            The columns of ``errmap predict``: ``predicted``, ``lower_90``,
+            The columns of ``errmap predict``: cycle, time and position where
+            the rows have them, ``predicted``, ``lower_90``,
             ``upper_90``, ``lower_95``, ``upper_95`` (target's unit), ``inside``
-            (1 or 0), ``why`` and ``offender``.
+            (1 or 0), ``why``, ``offender`` and ``unit``.
+
+        Warns
+        -----
+        SessionStartWarning
+            Rows begin in the midst of a session: ``inside`` is 0 until the
+            map's memory is full.
         """
         columns = self._predict(frame, after, probes, options)
-        for name in ("why", "offender"):
+        for name in ("why", "offender", "unit"):
             if not isinstance(columns[name], list):
                 columns[name] = [""] * len(memoryview(columns[name]))
         return frame_of(columns)

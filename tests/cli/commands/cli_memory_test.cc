@@ -129,10 +129,15 @@ TEST_F(CliMemory, WarnsOncePerSessionThatBeginsInside) {
   const Outcome outcome = Run({"predict", "map.json", "later.csv"});
   EXPECT_THAT(
       outcome.err,
-      AllOf(HasSubstr("warning: session '1' begins inside: its first row is at "
-                      "1500 s, those of training had begun by 300 s"),
+      AllOf(HasSubstr("warning: session '1' begins inside, as no session of "
+                      "training began"),
+            HasSubstr("--after, or say --from-rest"),
             HasSubstr("warning: session '2' begins inside")));
   EXPECT_THAT(ColumnOf(outcome, "inside"), ::testing::Each(0.0));
+  const Outcome rested =
+      Run({"predict", "map.json", "later.csv", "--from-rest"});
+  EXPECT_THAT(rested.err, Not(HasSubstr("begins inside")));
+  EXPECT_THAT(ColumnOf(rested, "inside"), ::testing::Each(1.0));
   EXPECT_THAT(
       Run({"predict", "map.json", "later.csv", "--after", "later.csv"}).err,
       HasSubstr("time goes back"));
