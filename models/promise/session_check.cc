@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
 
 #include "stats/error_metrics.h"
-#include "stats/random.h"
 
 namespace errmap::models {
 namespace {
@@ -19,111 +17,149 @@ constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
 using Eigen::Index;
 using Eigen::VectorXd;
 
-// A simulated study (tests/benchmarks/session_check.py, seeds 11-40) set these:
-// three probes over a session call 90 % of the sessions that are off so, and
-// 2.7 % of the others. Half would give 92 and 5.4 %, but call a session off by
-// one probe of the promised size: any size is as likely as any other here.
-constexpr double kSureOff = 0.65;
-constexpr double kSureHolds = 0.25;
-constexpr int kDrawsPerUnit = 100;
-// Rows of a unit that stand for one time: positions differ among them.
-constexpr Index kNearest = 6;
-constexpr Index kMostMoreProbes = 12;
-constexpr std::uint64_t kSeed = 17;
+// How sure is sure enough (tests/benchmarks/mornings.py).
+constexpr double kSureOff = 0.9;
+constexpr double kSureHolds = 0.06;
+constexpr double kWorse = 0.03;  // the most that an order may make worse
+constexpr double kMuchWorse = 1.1;
 
-// Rows of the unit with the elapsed time nearest to `time`, all of them where
-// times tell nothing.
-std::vector<Index> RowsNear(const HeldOutErrors& errors,
-                            const HeldOutErrors::Unit& unit,
-                            double time) {
-  std::vector<Index> rows(static_cast<std::size_t>(unit.residuals.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = static_cast<Index>(i);
-  if (errors.time_unit != "s") return rows;
-  const auto kept = std::min(kNearest, unit.residuals.size());
-  std::ranges::nth_element(rows, rows.begin() + (kept - 1), {}, [&](Index row) {
-    return std::abs(unit.elapsed[row] - time);
-  });
-  rows.resize(static_cast<std::size_t>(kept));
-  return rows;
+double Quantile(std::vector<double> values, double share) {
+  const auto at = values.begin() +
+                  std::lround(share * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, at);
+  return *at;
 }
 
-// RMS of probes of held-out units at these times over the RMSE of the unit,
-// ascending.
-std::vector<double> RatiosOfProbes(const HeldOutErrors& errors,
-                                   const VectorXd& elapsed) {
-  stats::Random random(kSeed);
-  std::vector<double> ratios;
-  for (const HeldOutErrors::Unit& unit : errors.units) {
-    if (!(unit.rmse > 0.0)) continue;
-    std::vector<std::vector<Index>> near;
-    for (const double time : elapsed) {
-      near.push_back(RowsNear(errors, unit, time));
-    }
-    for (int draw = 0; draw < kDrawsPerUnit; ++draw) {
-      double squares = 0.0;
-      for (const std::vector<Index>& rows : near) {
-        const double residual = unit.residuals[rows[static_cast<std::size_t>(
-            random.Below(rows.size()))]];
-        squares += residual * residual;
-      }
-      ratios.push_back(
-          std::sqrt(squares / static_cast<double>(elapsed.size())) / unit.rmse);
-    }
+double ShareAbove(const std::vector<double>& values, double limit) {
+  const auto above = std::ranges::count_if(
+      values, [limit](double value) { return value > limit; });
+  return static_cast<double>(above) / static_cast<double>(values.size());
+}
+
+// The RMSE of each draw at these sites.
+std::vector<double> RmseOfDraws(const Eigen::MatrixXd& errors,
+                                const std::vector<Index>& sites) {
+  std::vector<double> rmse;
+  for (Index draw = 0; draw < errors.rows(); ++draw) {
+    rmse.push_back(stats::RootMeanSquare(errors(draw, sites).transpose()));
   }
-  std::ranges::sort(ratios);
-  return ratios;
+  return rmse;
 }
 
-double Quantile(const std::vector<double>& ascending, double share) {
-  const auto last = static_cast<double>(ascending.size() - 1);
-  return ascending[static_cast<std::size_t>(std::lround(share * last))];
+RmseForecast ForecastOf(const std::vector<double>& rmse, double promised) {
+  constexpr double kTail = 0.1;  // on each side of 80 %
+  return {.low = Quantile(rmse, kTail),
+          .high = Quantile(rmse, 1.0 - kTail),
+          .off_probability = ShareAbove(rmse, kOffRatio * promised)};
 }
 
-// Limits of the RMS of probes at these times.
-struct Limits {
-  double off_above = 0.0;
-  double holds_to = 0.0;
+double SpreadOf(const VectorXd& values) {
+  return stats::RootMeanSquare(values.array() - values.mean());
+}
+
+// Errors over predictions, by least squares; NaN where the predictions at the
+// probes hardly differ, which tells no gain from an offset.
+double GainOf(const SessionProbes& probes, const SessionForecast& forecast) {
+  constexpr double kLeastSpread = 0.5;  // of that in whole sessions
+  const double spread = SpreadOf(probes.predicted);
+  if (!(spread > 0.0) ||
+      spread < kLeastSpread * SpreadOf(forecast.predicted)) {
+    return kNoFigure;
+  }
+  return 1.0 + probes.residuals.dot(probes.predicted) /
+                   probes.predicted.squaredNorm();
+}
+
+// What an order leaves of the draws, by the sites that come after it.
+struct Order {
+  Remedy remedy = Remedy::kNone;
+  std::vector<double> left;  // RMSE of each draw
 };
 
-Limits LimitsOf(const std::vector<double>& ratios, double promised) {
-  return {.off_above = kOffRatio * promised * Quantile(ratios, kSureOff),
-          .holds_to = kOffRatio * promised * Quantile(ratios, kSureHolds)};
+std::vector<Order> OrdersFor(const SessionForecast& forecast,
+                             const std::vector<Index>& after,
+                             const SessionCheck& check) {
+  std::vector<Order> orders;
+  orders.push_back({Remedy::kRezero,
+                    RmseOfDraws(forecast.errors.array() - check.probe_mean,
+                                after)});
+  if (!std::isfinite(check.gain)) return orders;
+  const auto multiplied = [&](double gain) {
+    return RmseOfDraws(
+        forecast.errors.rowwise() -
+            (gain - 1.0) * forecast.predicted.transpose(),
+        after);
+  };
+  orders.push_back({Remedy::kGain, multiplied(check.gain)});
+  orders.push_back({Remedy::kSign, multiplied(-1.0)});
+  return orders;
 }
 
-SessionStatus StatusOf(double rms, const Limits& limits) {
-  if (rms > limits.off_above) return SessionStatus::kOff;
-  return rms <= limits.holds_to ? SessionStatus::kHolds
-                                : SessionStatus::kUnknown;
+// The order that leaves least, if it helps and leaves no more than the limit.
+void ChooseRemedy(const SessionForecast& forecast, SessionCheck* check) {
+  const std::vector<Index>& after =
+      forecast.later.empty() ? forecast.so_far : forecast.later;
+  const std::vector<double> as_it_is = RmseOfDraws(forecast.errors, after);
+  const double limit = kOffRatio * check->promised;
+  const Order* best = nullptr;
+  const std::vector<Order> orders = OrdersFor(forecast, after, *check);
+  const auto typical = [](const Order& order) {
+    return Quantile(order.left, 0.5);
+  };
+  for (const Order& order : orders) {
+    if (best == nullptr || typical(order) < typical(*best)) best = &order;
+  }
+  check->left = typical(*best);
+  std::vector<double> ratios;
+  for (std::size_t draw = 0; draw < as_it_is.size(); ++draw) {
+    ratios.push_back(best->left[draw] / as_it_is[draw]);
+  }
+  const bool helps = ShareAbove(ratios, kMuchWorse) <= kWorse;
+  if (helps && check->left <= limit && check->probes > 1) {
+    check->remedy = best->remedy;
+  } else if (ShareAbove(best->left, limit) > kSureOff && check->probes > 2) {
+    check->remedy = Remedy::kRefit;
+  } else {
+    check->remedy = Remedy::kUnknown;
+  }
+  // Another sign is a gain of about -1.
+  constexpr double kAboutOne = 0.35;
+  if (check->remedy == Remedy::kGain &&
+      std::abs(check->gain + 1.0) < kAboutOne) {
+    check->remedy = Remedy::kSign;
+  }
+  if (check->remedy != Remedy::kGain && check->remedy != Remedy::kSign) {
+    check->gain = 1.0;
+  }
 }
 
-std::optional<Index> ProbesToSettle(const HeldOutErrors& errors,
-                                    const VectorXd& elapsed,
-                                    double rms) {
-  for (Index more = 1; more <= kMostMoreProbes; ++more) {
-    VectorXd times(elapsed.size() + more);
-    for (Index i = 0; i < times.size(); ++i) {
-      times[i] = elapsed[i % elapsed.size()];
+// The first part of the rest of the session of which it is not known.
+std::optional<double> NextProbe(const SessionForecast& forecast,
+                                double promised) {
+  constexpr std::size_t kParts = 6;
+  const std::vector<Index>& later = forecast.later;
+  const std::size_t parts = std::min(kParts, later.size());
+  for (std::size_t k = 0; k < parts; ++k) {
+    const std::vector<Index> part(
+        later.begin() + static_cast<std::ptrdiff_t>(later.size() * k / parts),
+        later.begin() +
+            static_cast<std::ptrdiff_t>(later.size() * (k + 1) / parts));
+    const std::vector<double> rmse = RmseOfDraws(forecast.errors, part);
+    if (ShareAbove(rmse, kOffRatio * promised) > 2.0 * kSureHolds) {
+      return forecast.elapsed[part.front()];
     }
-    const Limits limits = LimitsOf(RatiosOfProbes(errors, times), errors.rmse);
-    if (StatusOf(rms, limits) != SessionStatus::kUnknown) return more;
   }
   return std::nullopt;
 }
 
-Remedy RemedyOf(const SessionCheck& check) {
-  if (check.status != SessionStatus::kOff) return Remedy::kNone;
-  if (check.probes < 2) return Remedy::kUnknown;
-  return OffsetExplains(check.probe_mean, check.probe_rms, check.promised)
-             ? Remedy::kRezero
-             : Remedy::kRefit;
-}
-
-void RequireProbes(const VectorXd& elapsed, const VectorXd& residuals) {
-  if (residuals.size() == 0 || residuals.size() != elapsed.size() ||
-      !residuals.allFinite() || !elapsed.allFinite()) {
+void RequireProbes(const SessionProbes& probes) {
+  const Index count = probes.residuals.size();
+  if (count == 0 || count != probes.elapsed.size() ||
+      count != probes.predicted.size() || !probes.residuals.allFinite() ||
+      !probes.elapsed.allFinite() || !probes.predicted.allFinite()) {
     throw std::invalid_argument(
-        "CheckSession: needs one finite time for each of the finite residuals "
-        "of at least one probe");
+        "CheckSession: needs a finite time, prediction and residual of each of "
+        "at least one probe");
   }
 }
 
@@ -144,6 +180,10 @@ std::string_view ToString(SessionStatus status) {
       return "off";
     case SessionStatus::kUnknown:
       return "unknown";
+    case SessionStatus::kHoldsSoFar:
+      return "holds so far";
+    case SessionStatus::kSensor:
+      return "sensor";
   }
   return "";
 }
@@ -158,6 +198,10 @@ std::string_view ToString(Remedy remedy) {
       return "refit";
     case Remedy::kUnknown:
       return "unknown";
+    case Remedy::kGain:
+      return "gain";
+    case Remedy::kSign:
+      return "sign";
   }
   return "";
 }
@@ -168,14 +212,14 @@ bool OffsetExplains(double mean, double rms, double promised) {
 }
 
 SessionCheck CheckSession(const HeldOutErrors& errors,
-                          const VectorXd& elapsed,
-                          const VectorXd& residuals,
-                          Missing missing) {
-  RequireProbes(elapsed, residuals);
-  constexpr double kTail = 0.1;  // on each side of 80 %
+                          const SessionProbes& probes,
+                          Missing missing,
+                          std::optional<SensorFaultFound> sensor) {
+  RequireProbes(probes);
+  const VectorXd& residuals = probes.residuals;
   SessionCheck check;
   check.missing = missing;
-  const bool remembers = missing == Missing::kNothing;
+  check.sensor = std::move(sensor);
   check.probes = residuals.size();
   check.promised = errors.rmse;
   check.probe_rms = stats::RootMeanSquare(residuals);
@@ -185,27 +229,38 @@ SessionCheck CheckSession(const HeldOutErrors& errors,
           ? kNoFigure
           : std::sqrt((residuals.array() - check.probe_mean).square().sum() /
                       static_cast<double>(residuals.size() - 1));
-  const std::vector<double> ratios = RatiosOfProbes(errors, elapsed);
-  if (ratios.empty()) {  // held-out errors that are all 0 tell nothing
-    check.session_low = check.session_high = kNoFigure;
-    check.off_above = check.holds_to = kNoFigure;
-    check.off_probability = kNoFigure;
+  constexpr RmseForecast kNothing{kNoFigure, kNoFigure, kNoFigure};
+  check.so_far = check.session = kNothing;
+  check.left = kNoFigure;
+  if (check.sensor) {
+    check.status = SessionStatus::kSensor;
     return check;
   }
-  const Limits limits = LimitsOf(ratios, errors.rmse);
-  check.off_above = limits.off_above;
-  check.holds_to = limits.holds_to;
-  if (remembers) check.status = StatusOf(check.probe_rms, limits);
-  const double at_limit = check.probe_rms / (kOffRatio * errors.rmse);
-  check.off_probability =
-      static_cast<double>(std::ranges::lower_bound(ratios, at_limit) -
-                          ratios.begin()) /
-      static_cast<double>(ratios.size());
-  check.session_low = check.probe_rms / Quantile(ratios, 1.0 - kTail);
-  check.session_high = check.probe_rms / Quantile(ratios, kTail);
-  check.remedy = RemedyOf(check);
-  if (check.status == SessionStatus::kUnknown && remembers) {
-    check.more_probes = ProbesToSettle(errors, elapsed, check.probe_rms);
+  // Held-out errors that are all 0 tell nothing.
+  if (missing != Missing::kNothing || !(errors.rmse > 0.0)) return check;
+  const SessionForecast forecast = ForecastSession(errors, probes);
+  const auto forecast_of = [&](const std::vector<Index>& sites) {
+    return ForecastOf(RmseOfDraws(forecast.errors, sites), errors.rmse);
+  };
+  std::vector<Index> all = forecast.so_far;
+  all.insert(all.end(), forecast.later.begin(), forecast.later.end());
+  check.session = forecast_of(all);
+  check.so_far =
+      forecast.so_far.empty() ? check.session : forecast_of(forecast.so_far);
+  if (!forecast.later.empty()) check.later = forecast_of(forecast.later);
+  const bool holds_so_far = check.so_far.off_probability <= kSureHolds;
+  if (check.session.off_probability >= kSureOff) {
+    check.status = SessionStatus::kOff;
+    check.gain = GainOf(probes, forecast);
+    ChooseRemedy(forecast, &check);
+  } else if (holds_so_far && check.session.off_probability <= kSureHolds &&
+             (!check.later || check.later->off_probability <= kSureHolds)) {
+    check.status = SessionStatus::kHolds;
+  } else if (holds_so_far && check.later) {
+    check.status = SessionStatus::kHoldsSoFar;
+  }
+  if (check.status != SessionStatus::kOff) {
+    check.next_probe = NextProbe(forecast, errors.rmse);
   }
   return check;
 }

@@ -2,6 +2,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -21,7 +22,9 @@
 #include "data/measurements/measured_files.h"
 #include "data/text.h"
 #include "models/model_file.h"
+#include "models/history/map_log.h"
 #include "models/promise/map_rows.h"
+#include "models/promise/sensor_check.h"
 #include "models/promise/session_check.h"
 #include "models/promise/zero_schedule.h"
 
@@ -61,23 +64,84 @@ Json NextProbeJson(const models::ZeroSchedule& schedule, double goal) {
       {"kept", clock.has_value()}};
 }
 
+Json NumberOrNull(const std::optional<double>& value) {
+  return value ? Json(*value) : Json();
+}
+
+Json ForecastJson(const models::RmseForecast& forecast) {
+  return {{"rmse_80", {forecast.low, forecast.high}},
+          {"off_probability", forecast.off_probability}};
+}
+
+Json SensorsJson(const models::SessionCheck& check) {
+  Json names = Json::array();
+  if (!check.sensor) return names;
+  for (const data::ColumnInfo& column : check.sensor->columns) {
+    names.push_back(column.name);
+  }
+  return names;
+}
+
 Json CheckJson(const models::SessionCheck& check) {
   return {
       {"begins_inside", check.missing == models::Missing::kStart},
       {"readings_missing", check.missing == models::Missing::kReadings},
       {"status", ToString(check.status)},
-      {"off_probability", check.off_probability},
+      {"sensors", SensorsJson(check)},
+      {"sensor_fault",
+       check.sensor ? Json(ToString(check.sensor->fault)) : Json()},
+      {"off_probability", check.session.off_probability},
+      {"so_far", ForecastJson(check.so_far)},
+      {"later", check.later ? ForecastJson(*check.later) : Json()},
       {"remedy", ToString(check.remedy)},
-      {"more_probes", check.more_probes ? Json(*check.more_probes) : Json()},
+      {"gain", check.gain},
+      {"left", check.left},
+      {"next_probe_s", NumberOrNull(check.next_probe)},
       {"promised", check.promised},
       {"probes",
        {{"n", check.probes},
         {"rms", check.probe_rms},
         {"mean", check.probe_mean},
-        {"scatter", check.probe_scatter},
-        {"off_above", check.off_above},
-        {"holds_to", check.holds_to}}},
-      {"session_rmse_80", {check.session_low, check.session_high}}};
+        {"scatter", check.probe_scatter}}},
+      {"session_rmse_80", {check.session.low, check.session.high}}};
+}
+
+// Probes before which the map's memory lacks nothing; all where there are none.
+std::vector<Eigen::Index> ProbesWithMemory(const models::MapRows& rows) {
+  std::vector<Eigen::Index> kept;
+  std::vector<Eigen::Index> all;
+  for (const models::Missing missing : rows.missing_before) {
+    const auto row = std::ssize(all);
+    all.push_back(row);
+    if (missing == models::Missing::kNothing) kept.push_back(row);
+  }
+  return kept.empty() ? all : kept;
+}
+
+models::SessionProbes ProbesOf(const models::FittedModel& fitted,
+                               const models::MapRows& rows,
+                               const CheckArguments& arguments,
+                               const Eigen::VectorXd& predicted) {
+  const std::vector<Eigen::Index> kept = ProbesWithMemory(rows);
+  models::SessionProbes probes{
+      .elapsed = models::ElapsedSinceStart(fitted, rows, arguments.rows.log)(
+          kept),
+      .position = {},
+      .predicted = predicted(kept),
+      .residuals = (rows.dataset.target_values() - predicted)(kept)};
+  const Eigen::Index position =
+      rows.dataset.FindInput(fitted.held_out->position);
+  if (position >= 0) {
+    probes.position = rows.dataset.input_values().col(position)(kept);
+  }
+  if (std::ssize(kept) < rows.dataset.num_rows()) {
+    SayUnless(arguments.quiet,
+              {fmt::format("{} of {} probes are judged: before the others the "
+                           "map's memory is not full",
+                           kept.size(),
+                           rows.dataset.num_rows())});
+  }
+  return probes;
 }
 
 int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
@@ -106,10 +170,22 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
                    data::NamesOfFiles(arguments.files))) {
     return kEveryFitFailed;
   }
-  const Eigen::VectorXd elapsed =
-      models::ElapsedSinceStart(fitted, rows, arguments.rows.log);
+  const models::SessionProbes probes =
+      ProbesOf(fitted, rows, arguments, predicted);
+  const Eigen::MatrixXd readings = models::ReadingsOf(fitted, rows.table);
+  auto sensor = models::FindSensorFault(
+      fitted, readings, arguments.rows.log.after.empty());
+  if (!sensor && rows.missing == models::Missing::kNothing) {
+    sensor = models::SwapThatExplains(fitted, rows.dataset, readings);
+  }
   const models::SessionCheck check = models::CheckSession(
-      errors, elapsed, rows.dataset.target_values() - predicted, rows.missing);
+      errors,
+      probes,
+      // Of some of the probes nothing is missing.
+      probes.residuals.size() < rows.dataset.num_rows()
+          ? models::Missing::kNothing
+          : rows.missing,
+      std::move(sensor));
   const RowsLearnt learnt =
       FindRowsLearnt(fitted, arguments.model, arguments.files, rows);
   const std::vector<models::ProbeSite> sites = models::RankProbeSites(errors);
@@ -137,7 +213,8 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
         fitted.name,
         report::Count(check.probes, "probe"),
         data::NamesOfFiles(arguments.files),
-        report::CheckText(check, errors, sites, elapsed, fitted.target.unit),
+        report::CheckText(
+            check, errors, sites, probes.elapsed, fitted.target.unit),
         schedule
             ? report::ZeroAdvice(*schedule, errors, fitted.target.unit, goal)
             : ""));
@@ -147,6 +224,9 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
       return kDone;
     case models::SessionStatus::kOff:
       return kEveryFitFailed;
+    case models::SessionStatus::kSensor:
+      return kEveryFitFailed;
+    case models::SessionStatus::kHoldsSoFar:
     case models::SessionStatus::kUnknown:
       return kNothingJudged;
   }
@@ -177,16 +257,20 @@ void AddCheckCommand(CLI::App* app, Run* run) {
   AddRowOptions(command, &arguments->rows.missing, &arguments->rows.faults);
   AddFormatOption(command, &arguments->format);
   AddMapLogArguments(command, &arguments->rows.log);
+  AddFromRest(command, &arguments->rows.log);
   AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
   SetFooter(
       command,
-      "A session is off where its RMSE is above 1.5 times the promised one. "
-      "What so many\nprobes at these times tell of a session is taken from "
-      "the map's held-out days.\nExit status: 0 the map holds, 4 it does not "
-      "hold, 5 it is not known.\nRows without a target are readings "
-      "between the probes, through which a map's memory\nruns; readings before "
-      "the first row come by --after, "
-      "which needs\nno positions.");
+      "First the readings: a sensor that is dead, frozen, swapped, off "
+      "or in another unit is\nnamed. Then the start of the session, which a "
+      "map with a memory must know. Then the\nprobes: the map holds where "
+      "its RMSE is at most 1.5 times the promised one, so far and\nfor the "
+      "rest of the session, as far as the map's held-out days tell "
+      "that.\nExit status: 0 the map holds, 4 it does not hold or a sensor "
+      "is at fault, 5 it is not\nknown, or not of the rest of the "
+      "session.\nRows without a target are readings between the probes, "
+      "through which a map's memory\nruns; readings before the first row "
+      "come by --after, which needs\nno positions.");
   OnRun(command, [arguments, run] {
     run->status = RunCheck(*arguments, run->command_line);
   });

@@ -12,6 +12,7 @@
 #include "cli/json_blocks.h"
 #include "cli/report/documents/summary_text.h"
 #include "cli/report/number_text.h"
+#include "cli/report/words/check_text.h"
 #include "cli/report/words/data_words.h"
 #include "cli/report/words/kept_promise_text.h"
 #include "cli/shell/command_options.h"
@@ -22,6 +23,7 @@
 #include "models/model_file.h"
 #include "models/promise/kept_promise.h"
 #include "models/promise/map_rows.h"
+#include "models/promise/sensor_check.h"
 #include "models/study/fold_pool.h"
 #include "models/study/record/make_study_record.h"
 #include "models/study/record/making/fit_blocks.h"
@@ -115,6 +117,15 @@ Json ChangeJson(const std::optional<models::RelationChange>& change) {
           {"rows", change->num_rows}};
 }
 
+Json SensorJson(const std::optional<models::SensorFaultFound>& sensor) {
+  if (!sensor) return nullptr;
+  Json columns = Json::array();
+  for (const data::ColumnInfo& column : sensor->columns) {
+    columns.push_back(column.name);
+  }
+  return {{"fault", ToString(sensor->fault)}, {"columns", std::move(columns)}};
+}
+
 // What was found of a map on the rows of a file.
 struct Evaluation {
   const models::FittedModel& fitted;
@@ -122,6 +133,7 @@ struct Evaluation {
   const RowsJudged& judged;
   Eigen::Index clipped;  // rows
   std::optional<models::RelationChange> change;
+  std::optional<models::SensorFaultFound> sensor;
   models::KeptPromise kept;
   RowsLearnt learnt;
   Eigen::VectorXd residuals;
@@ -147,6 +159,7 @@ Json EvaluationJson(const Evaluation& found,
       {"outside", OutsideJson(fitted.inputs, dataset.input_values())},
       {"unlike", UnlikeJson(found.judged.flags, dataset.rows())},
       {"changed_relation", ChangeJson(found.change)},
+      {"sensor_fault", SensorJson(found.sensor)},
       {"faults", models::ToJson(models::MakeFaultRecords(found.rows.prepared))},
       {"normality",
        models::ToJson(models::MakeRecord(
@@ -164,7 +177,7 @@ std::string EvaluationText(const Evaluation& found,
   const double ks_d = stats::KsDistanceFromNormal(found.residuals,
                                                   found.metrics.residuals.mean,
                                                   found.metrics.residuals.sd);
-  return fmt::format("{} ({}) on {}: target - predicted of {}\n{}{}{}{}",
+  return fmt::format("{} ({}) on {}: target - predicted of {}\n{}{}{}{}{}",
                      arguments.model,
                      found.fitted.name,
                      data::NamesOfFiles(arguments.files),
@@ -176,7 +189,8 @@ std::string EvaluationText(const Evaluation& found,
                                          stats::KsProbabilityMeanSdGiven(
                                              ks_d, found.residuals.size())),
                      report::KeptPromiseText(found.kept, unit),
-                     found.change ? report::RelationText(*found.change) : "");
+                     found.change ? report::RelationText(*found.change) : "",
+                     found.sensor ? report::SensorText(*found.sensor) : "");
 }
 
 int RunEvaluate(const EvaluateArguments& arguments,
@@ -198,6 +212,8 @@ int RunEvaluate(const EvaluateArguments& arguments,
       .judged = judged,
       .clipped = prediction.clipped.count(),
       .change = models::ChangedRelation(fitted, dataset.input_values()),
+      .sensor = models::FindSensorFault(
+          fitted, dataset.input_values(), arguments.rows.log.after.empty()),
       .kept = models::HoldToPromise(
           fitted, dataset.target_values(), predicted, judged.flags),
       .learnt = FindRowsLearnt(fitted, arguments.model, arguments.files, rows),
@@ -240,6 +256,7 @@ void AddEvaluateCommand(CLI::App* app, Run* run) {
   AddRowOptions(command, &arguments->rows.missing, &arguments->rows.faults);
   AddFormatOption(command, &arguments->format);
   AddMapLogArguments(command, &arguments->rows.log);
+  AddFromRest(command, &arguments->rows.log);
   AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
   OnRun(command, [arguments, run] {
     run->status = RunEvaluate(*arguments, run->command_line);

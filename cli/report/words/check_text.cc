@@ -21,47 +21,70 @@ std::string TimesText(const models::HeldOutErrors& errors,
                      elapsed.maxCoeff() / kSecondsPerMinute);
 }
 
-// Some probes leave nothing certain.
-std::string ProbabilityText(double probability) {
-  constexpr double kLittle = 0.01;
-  if (probability < kLittle) return "less than 1 %";
-  if (probability > 1.0 - kLittle) return "more than 99 %";
-  return fmt::format("{:.0f} %", kPercent * probability);
+std::string NameText(const data::ColumnInfo& column) {
+  return data::Printable(column.name, column.name.size());
+}
+
+std::string MissingText(models::Missing missing) {
+  return missing == models::Missing::kStart
+             ? "Not known whether the map holds: its memory needs the session "
+               "from its start, and this log begins later. Give the earlier "
+               "rows with --after EARLIER.csv, or say --from-rest if the "
+               "machine was at rest before the first row.\n"
+             : "Not known whether the map holds: it has a memory, and the "
+               "readings between the probes of the session are missing. Give "
+               "those without a probe with an empty error, or the earlier ones "
+               "with --after EARLIER.csv.\n";
+}
+
+const char* LeadOf(models::SessionStatus status) {
+  switch (status) {
+    case models::SessionStatus::kHolds:
+      return "The map holds in this session";
+    case models::SessionStatus::kOff:
+      return "The map does not hold in this session";
+    case models::SessionStatus::kHoldsSoFar:
+      return "The map holds so far, the rest of the session is not known";
+    case models::SessionStatus::kSensor:
+    case models::SessionStatus::kUnknown:
+      break;
+  }
+  return "Not yet known whether the map holds";
+}
+
+std::string ProbeWhenText(const models::SessionCheck& check) {
+  if (check.next_probe) {
+    return fmt::format("Probe again {:.0f} min after the start.\n",
+                       *check.next_probe / kSecondsPerMinute);
+  }
+  return check.status == models::SessionStatus::kUnknown
+             ? "Take more probes, at other positions and later.\n"
+             : "";
 }
 
 std::string StatusText(const models::SessionCheck& check,
                        const ErrorText& error) {
+  if (check.sensor) {
+    return SensorText(*check.sensor) +
+           "Until then no order is given for the map.\n";
+  }
   if (check.missing != models::Missing::kNothing) {
-    return fmt::format(
-        "Not known whether the map holds: it has a memory, and {} are missing. "
-        "Give all rows since its start, those without a probe with an empty "
-        "error, or the earlier ones with --after.\n",
-        check.missing == models::Missing::kStart
-            ? "the first rows of the session"
-            : "the readings between the probes of the session");
+    return MissingText(check.missing);
   }
-  const char* const lead = check.status == models::SessionStatus::kHolds
-                               ? "The map holds in this session"
-                           : check.status == models::SessionStatus::kOff
-                               ? "The map does not hold in this session"
-                               : "Not yet known whether the map holds";
-  std::string text = fmt::format(
-      "{}: its error is {} to {} RMSE with 80 % confidence, above {} ({} times "
-      "the promise) with a probability of {}.",
-      lead,
-      error(check.session_low),
-      error.WithUnit(check.session_high),
+  if (!std::isfinite(check.session.low)) {
+    return "Not known whether the map holds: it promises no error at all.\n";
+  }
+  const bool so_far = check.status == models::SessionStatus::kHoldsSoFar;
+  const models::RmseForecast& told = so_far ? check.so_far : check.session;
+  return fmt::format(
+      "{}: its error{} is {} to {} RMSE with 80 % confidence, and at most {} "
+      "({} times the promise) is the limit.\n",
+      LeadOf(check.status),
+      so_far ? " until now" : "",
+      error(told.low),
+      error.WithUnit(told.high),
       error.WithUnit(models::kOffRatio * check.promised),
-      models::kOffRatio,
-      ProbabilityText(check.off_probability));
-  if (check.status == models::SessionStatus::kUnknown) {
-    text += check.more_probes
-                ? fmt::format(" {} like these would settle it.",
-                              Count(*check.more_probes, "more probe"))
-                : " More probes like these would not settle it; take them "
-                  "later or elsewhere.";
-  }
-  return text + "\n";
+      models::kOffRatio);
 }
 
 std::string RemedyText(const models::SessionCheck& check,
@@ -72,15 +95,24 @@ std::string RemedyText(const models::SessionCheck& check,
     case models::Remedy::kRezero:
       return fmt::format(
           "An offset explains it: re-zero by {} (errmap predict --probes); {} "
-          "of scatter is left.\n",
+          "should be left.\n",
           error.WithUnit(check.probe_mean),
-          error.WithUnit(check.probe_scatter));
+          error.WithUnit(check.left));
+    case models::Remedy::kGain:
+      return fmt::format(
+          "The errors are {:.2f} times those predicted: check the unit and the "
+          "scale of this measurement. If they are right, measure this state in "
+          "two sessions or more and fit again (errmap update).\n",
+          check.gain);
+    case models::Remedy::kSign:
+      return "The errors are those predicted with the other sign: check the "
+             "sign of this measurement (error = actual - nominal).\n";
     case models::Remedy::kRefit:
       return "An offset does not explain it: the shape is wrong; measure this "
              "state in two sessions or more and fit again (errmap update).\n";
     case models::Remedy::kUnknown:
-      return "One probe cannot tell an offset from a wrong shape: take a "
-             "second one elsewhere.\n";
+      return "These probes do not tell an offset from another shape: take more "
+             "of them, at other positions and later.\n";
   }
   return "";
 }
@@ -114,7 +146,53 @@ std::string SitesText(const models::HeldOutErrors& errors,
       sites.front().factor);
 }
 
+// When and where to probe next, where that is what is wanted.
+std::string ProbeText(const models::SessionCheck& check,
+                      const models::HeldOutErrors& errors,
+                      const std::vector<models::ProbeSite>& sites) {
+  if (check.sensor || check.missing != models::Missing::kNothing) return "";
+  return ProbeWhenText(check) + SitesText(errors, sites);
+}
+
 }  // namespace
+
+std::string SensorText(const models::SensorFaultFound& found) {
+  const data::ColumnInfo& column = found.columns.front();
+  const std::string name = NameText(column);
+  const std::string& unit = column.unit.display_symbol;
+  const std::string lead = "Check " + name + " first: ";
+  switch (found.fault) {
+    case models::SensorFault::kUnit:
+      return fmt::format("{}its readings look like {}, not {}.\n",
+                         lead,
+                         found.looks_like,
+                         unit);
+    case models::SensorFault::kDead:
+      return fmt::format("{}it reads {:.4g} {} throughout, as a sensor does "
+                         "that is dead or not connected.\n",
+                         lead,
+                         found.value,
+                         unit);
+    case models::SensorFault::kFrozen:
+      return fmt::format("{}it repeats {:.4g} {} while the others change.\n",
+                         lead,
+                         found.value,
+                         unit);
+    case models::SensorFault::kSwapped:
+      return fmt::format(
+          "Check {} and {} first: each reads what the other should, as if they "
+          "were swapped.\n",
+          name,
+          NameText(found.columns.back()));
+    case models::SensorFault::kOff:
+      break;
+  }
+  return fmt::format("{}it reads {:.3g} {} too {} beside the others.\n",
+                     lead,
+                     std::abs(found.value),
+                     unit,
+                     found.value > 0.0 ? "high" : "low");
+}
 
 std::string CheckText(const models::SessionCheck& check,
                       const models::HeldOutErrors& errors,
@@ -129,7 +207,7 @@ std::string CheckText(const models::SessionCheck& check,
                      error.WithUnit(check.promised),
                      StatusText(check, error),
                      RemedyText(check, error),
-                     SitesText(errors, sites));
+                     ProbeText(check, errors, sites));
 }
 
 }  // namespace errmap::report

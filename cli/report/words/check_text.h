@@ -13,6 +13,9 @@
 
 namespace errmap::report {
 
+/// The sensor to check before anything else, in a line.
+std::string SensorText(const models::SensorFaultFound& found);
+
 /// What probes tell of a session, to go on behind "2 probes of FILE": when they
 /// were taken (`elapsed`, (n) seconds since it began), what they found, whether
 /// the map holds, the remedy where it does not, and where probes tell most.
