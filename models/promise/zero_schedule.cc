@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace errmap::models {
 namespace {
@@ -62,18 +63,11 @@ double SumOfSquares(const std::vector<double>& errors) {
   return std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0);
 }
 
-ZeroedErrors ZeroAll(const ProbedSessions& units, const ZeroTrigger& trigger) {
+// What errors (at least one) come to.
+ZeroedErrors Summed(std::vector<double> errors) {
   constexpr double kShare = 0.9;
-  std::vector<double> errors;
-  Index probes = 0;
-  for (const ProbedSession* unit : units) {
-    const Zeroed zeroed = ZeroSession(*unit, trigger);
-    probes += zeroed.probes;
-    errors.insert(errors.end(), zeroed.errors.begin(), zeroed.errors.end());
-  }
-  ZeroedErrors all{.trigger = trigger};
+  ZeroedErrors all;
   const auto count = static_cast<double>(errors.size());
-  all.probes = static_cast<double>(probes) / static_cast<double>(units.size());
   all.rmse = std::sqrt(SumOfSquares(errors) / count);
   for (double& error : errors) error = std::abs(error);
   const auto place = errors.begin() +
@@ -81,6 +75,30 @@ ZeroedErrors ZeroAll(const ProbedSessions& units, const ZeroTrigger& trigger) {
   std::ranges::nth_element(errors, place);
   all.within_90 = *place;
   return all;
+}
+
+ZeroedErrors ZeroAll(const ProbedSessions& units, const ZeroTrigger& trigger) {
+  std::vector<double> errors;
+  Index probes = 0;
+  for (const ProbedSession* unit : units) {
+    const Zeroed zeroed = ZeroSession(*unit, trigger);
+    probes += zeroed.probes;
+    errors.insert(errors.end(), zeroed.errors.begin(), zeroed.errors.end());
+  }
+  ZeroedErrors all = Summed(std::move(errors));
+  all.trigger = trigger;
+  all.probes = static_cast<double>(probes) / static_cast<double>(units.size());
+  return all;
+}
+
+// Of the same rows, as the map is.
+ZeroedErrors WithoutProbes(const ProbedSessions& units) {
+  std::vector<double> errors;
+  for (const ProbedSession* unit : units) {
+    errors.insert(
+        errors.end(), unit->residuals.begin() + 1, unit->residuals.end());
+  }
+  return Summed(std::move(errors));
 }
 
 double LongestOf(const ProbedSessions& units) {
@@ -225,7 +243,9 @@ ZeroSchedule ScheduleZeros(const HeldOutErrors& errors, double goal) {
         "ScheduleZeros: needs two sessions of two rows");
   }
   ZeroSchedule schedule{
-      .sessions = units.size(), .clocks = {}, .clock = {}, .rule = {}};
+      .sessions = units.size(), .none = WithoutProbes(units), .clocks = {},
+      .clock = {}, .rule = {}};
+  schedule.no_probe_serves = schedule.none.within_90 <= goal;
   for (const ZeroTrigger& trigger : ClocksFor(units)) {
     const ZeroedErrors clock = ZeroAll(units, trigger);
     // Of intervals that come to the same rows the longest.
@@ -235,7 +255,9 @@ ZeroSchedule ScheduleZeros(const HeldOutErrors& errors, double goal) {
       schedule.clocks.pop_back();
     }
     schedule.clocks.push_back(clock);
-    if (clock.within_90 <= goal) schedule.clock = clock;
+    if (clock.within_90 <= goal && !schedule.no_probe_serves) {
+      schedule.clock = clock;
+    }
   }
   if (schedule.clock && !errors.temperature.empty() &&
       std::isfinite(schedule.clock->trigger.time)) {

@@ -35,8 +35,11 @@ struct ZeroedErrors {
 /// When to probe again so that 90 % of a map's errors stay within a goal.
 struct ZeroSchedule {
   std::size_t sessions = 0;
+  ZeroedErrors none;  // the map as it is, no probe taken
   std::vector<ZeroedErrors> clocks;   // by rising interval, the last infinite
-  std::optional<ZeroedErrors> clock;  // the longest of them that serves
+  /// The longest of them that serves; nothing where no probe serves as well.
+  std::optional<ZeroedErrors> clock;
+  bool no_probe_serves = false;  // 90 % of the errors are within the goal as is
 
   /// Time and temperature beside that clock. Each session by what the others
   /// chose, with no more probes on those than the clock takes.
@@ -49,7 +52,10 @@ struct ZeroSchedule {
   };
   std::optional<Rule> rule;  // nothing without a temperature or a clock
 
-  /// What to keep to: the rule where it is established.
+  /// Whether anything keeps 90 % of the errors within the goal.
+  bool serves() const { return no_probe_serves || clock.has_value(); }
+  /// What to keep to: the rule where it is established. Never due where nothing
+  /// is to be kept to.
   ZeroTrigger advised() const;
 };
 

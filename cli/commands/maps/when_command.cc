@@ -49,6 +49,11 @@ SinceProbe ReadSinceProbe(const models::FittedModel& fitted,
           .table;
   std::vector<Eigen::Index> rows(table.num_rows);
   std::iota(rows.begin(), rows.end(), Eigen::Index{0});
+  if (rows.empty()) {
+    throw data::InputError(fmt::format(
+        "{}: holds no rows; give the readings from the last probe to now",
+        data::ShownPath(arguments.log.after)));
+  }
   const std::vector<models::Moment> moments =
       models::MomentsOf(fitted, table, rows, arguments.log).at;
   SinceProbe since{.age = moments.back().time - moments.front().time};
@@ -109,6 +114,8 @@ Json WhenJson(const models::FittedModel& fitted,
                {"goal", std::isnan(goal) ? Json() : Json(goal)},
                {"sessions", schedule.sessions},
                {"temperature", fitted.held_out->temperature},
+               {"none", ErrorsJson(schedule.none)},
+               {"no_probe_serves", schedule.no_probe_serves},
                {"clocks", std::move(clocks)},
                {"clock", schedule.clock ? ErrorsJson(*schedule.clock) : Json()},
                {"rule", Json()},
@@ -132,10 +139,10 @@ int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
   const models::ZeroSchedule schedule = models::ScheduleZeros(errors, goal);
   const models::ZeroTrigger advised = schedule.advised();
   std::optional<SinceProbe> since;
-  if (!arguments.log.after.empty() && schedule.clock) {
+  if (!arguments.log.after.empty()) {
     since = ReadSinceProbe(fitted, arguments, advised);
   }
-  const bool due = since && advised.Spent(since->age, since->change) >= 1.0;
+  const bool due = since && schedule.serves() && advised.Spent(since->age, since->change) >= 1.0;
   if (arguments.format == "json") {
     Json document = WhenJson(fitted, schedule, goal);
     if (since) {
@@ -155,10 +162,12 @@ int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
         report::Count(static_cast<long long>(schedule.sessions),
                       "unseen session"),
         report::WhenText(schedule, errors, unit, goal),
-        since ? report::ZeroDueText(advised, errors, since->age, since->change)
-              : ""));
+        since && schedule.clock
+            ? report::ZeroDueText(advised, errors, since->age, since->change)
+            : ""));
   }
-  return due ? kEveryFitFailed : kDone;
+  const bool out_of_reach = !std::isnan(goal) && !schedule.serves();
+  return due || out_of_reach ? kEveryFitFailed : kDone;
 }
 
 }  // namespace
@@ -185,7 +194,8 @@ void AddWhenCommand(CLI::App* app, Run* run) {
       "where "
       "it errs at least 5 % less than the best\nclock with no more probes, in "
       "two thirds of the sessions, none of which chose it.\nExit status: 0; 4 "
-      "where --after says that a probe is due now.");
+      "where --after says that a probe is due now, or\nwhere no interval "
+      "keeps to the goal.");
   OnRun(command, [arguments, run] {
     run->status = RunWhen(*arguments, run->command_line);
   });

@@ -1,5 +1,6 @@
 #include "cli/report/words/when_text.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -69,10 +70,11 @@ std::string RuleSentence(const ZeroSchedule& schedule,
       "Better: {}. It has {}.", RuleText(rule.trigger, errors), figures);
 }
 
-std::string TableRow(const models::ZeroedErrors& clock,
+std::string TableRow(const std::string& when,
+                     const models::ZeroedErrors& clock,
                      const ErrorText& error) {
   return fmt::format("{:<24} {:>17.1f} {:>9} {:>11}\n",
-                     EveryText(clock.trigger),
+                     when,
                      clock.probes,
                      error(clock.rmse),
                      error(clock.within_90));
@@ -90,14 +92,21 @@ std::string ZeroAdvice(const ZeroSchedule& schedule,
                        double goal) {
   if (std::isnan(goal)) return "";
   const ErrorText error = ErrorTextFor(schedule, unit);
+  if (schedule.no_probe_serves) {
+    return fmt::format(
+        "No probe is needed: 90 % of the errors are within {} as the map is.\n",
+        error.WithUnit(schedule.none.within_90));
+  }
   if (!schedule.clock) {
-    const models::ZeroedErrors& shortest = schedule.clocks.front();
+    const models::ZeroedErrors& best = *std::ranges::min_element(
+        schedule.clocks, {}, &models::ZeroedErrors::within_90);
     return fmt::format(
         "No interval keeps 90 % of the errors within {}: a probe {} leaves "
-        "{}.\n",
+        "{}, no probe {}.\n",
         error.WithUnit(goal),
-        EveryText(shortest.trigger),
-        error.WithUnit(shortest.within_90));
+        EveryText(best.trigger),
+        error.WithUnit(best.within_90),
+        error.WithUnit(schedule.none.within_90));
   }
   std::string text =
       fmt::format("A probe {} keeps 90 % of the errors within {}.",
@@ -117,8 +126,9 @@ std::string WhenText(const ZeroSchedule& schedule,
                                  "probes a session",
                                  "RMSE, " + error.symbol(),
                                  "90 % within");
+  text += TableRow("no probe", schedule.none, error);
   for (const models::ZeroedErrors& clock : schedule.clocks) {
-    text += TableRow(clock, error);
+    text += TableRow(EveryText(clock.trigger), clock, error);
   }
   return text + "\n" + ZeroAdvice(schedule, errors, unit, goal);
 }
