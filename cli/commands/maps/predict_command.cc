@@ -23,7 +23,9 @@
 #include "data/measurements/dataset.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/measured_files.h"
+#include "data/measurements/sessions.h"
 #include "models/history/map_log.h"
+#include "models/history/view.h"
 #include "models/model_file.h"
 #include "models/promise/learnt_rows.h"
 #include "models/promise/probe_correction.h"
@@ -154,17 +156,49 @@ std::string IntervalCells(const Predicted& found,
   return cells;
 }
 
-std::string PredictionsCsv(const Predicted& found) {
-  // The columns that tell a row apart, where the file has them.
-  std::vector<const data::CsvColumn*> ids;
-  std::string text;
-  for (const char* name : {"record", "cycle"}) {
-    const std::ptrdiff_t index = found.table.Find(name);
-    if (index < 0) continue;
-    ids.push_back(&found.table.At(index));
-    text += data::CsvField(name) + ",";
+// The column of times: as it is named, as the map was fitted by, or the only one
+// that is called so.
+std::ptrdiff_t TimeColumn(const Predicted& found, const std::string& named) {
+  if (!named.empty()) return found.table.Find(named);
+  if (found.fitted.history != nullptr && !found.fitted.history->time.empty()) {
+    return found.table.Find(found.fitted.history->time);
   }
-  text += "predicted,lower_90,upper_90,lower_95,upper_95,inside,why,offender\n";
+  std::ptrdiff_t only = -1;
+  for (std::size_t i = 0; i < found.table.columns.size(); ++i) {
+    if (!data::NamesTime(found.table.columns[i].name)) continue;
+    if (only >= 0) return -1;
+    only = static_cast<std::ptrdiff_t>(i);
+  }
+  return only;
+}
+
+// The columns that tell a row apart, where the file has them: its number and
+// cycle, when and where it is.
+std::vector<const data::CsvColumn*> IdColumns(const Predicted& found,
+                                              const std::string& time) {
+  std::vector<std::ptrdiff_t> places = {found.table.Find("record"),
+                                        found.table.Find("cycle"),
+                                        TimeColumn(found, time)};
+  for (const models::TrainedInput& input : found.fitted.inputs) {
+    if (!models::IsPosition(input.column)) continue;
+    places.push_back(found.table.Find(input.column.name));
+    break;
+  }
+  std::vector<const data::CsvColumn*> ids;
+  for (const std::ptrdiff_t place : places) {
+    if (place >= 0) ids.push_back(&found.table.At(place));
+  }
+  return ids;
+}
+
+std::string PredictionsCsv(const Predicted& found, const std::string& time) {
+  const std::vector<const data::CsvColumn*> ids = IdColumns(found, time);
+  std::string text;
+  for (const data::CsvColumn* id : ids) text += data::CsvField(id->name) + ",";
+  text +=
+      "predicted,lower_90,upper_90,lower_95,upper_95,inside,why,offender,"
+      "unit\n";
+  const std::string unit = data::CsvField(found.fitted.target.unit.symbol);
   for (Eigen::Index row = 0; row < found.prediction.errors.size(); ++row) {
     const auto at = static_cast<std::size_t>(row);
     for (const data::CsvColumn* id : ids) {
@@ -174,10 +208,11 @@ std::string PredictionsCsv(const Predicted& found) {
     const std::string_view why = WhyOutside(found, at);
     text += std::isfinite(predicted) ? data::CsvNumber(predicted) : "";
     text += IntervalCells(found, why.empty(), row);
-    text += fmt::format(",{},{},{}\n",
+    text += fmt::format(",{},{},{},{}\n",
                         why.empty() ? 1 : 0,
                         why,
-                        data::CsvField(found.flags[at].column.name));
+                        data::CsvField(found.flags[at].column.name),
+                        unit);
   }
   return data::MarkedCsv(std::move(text));
 }
@@ -239,7 +274,7 @@ int RunPredict(const PredictArguments& arguments) {
     found.prediction.errors += found.probes->track.offset;
   }
   found.flags = models::FlagRows(fitted, inputs, form_inputs);
-  const std::string text = PredictionsCsv(found);
+  const std::string text = PredictionsCsv(found, arguments.log.time);
   if (arguments.out.empty()) {
     PrintResult(text);
   } else {
@@ -297,20 +332,20 @@ void AddPredictCommand(CLI::App* app, Run* run) {
             "offset that they show up to each row; the interval "
             "narrows, or widens where they contradict an offset");
   AddMapLogArguments(command, &arguments->log);
+  AddFromRest(command, &arguments->log);
   AddFlag(command, "--quiet", arguments->quiet, "No remarks on stderr");
   SetFooter(
       command,
-      "Columns: record and cycle where the data have them, predicted (in the "
-      "target's unit),\nlower_90 ... upper_95 (empty without an interval), "
-      "inside (1 as in training, 0 not),\nwhy not (range: a column leaves its "
-      "trained range; relation: it does not go with\nthe others as it did "
-      "there; distance, leverage: an unlike thermal state; start:\na session's "
-      "first rows are missing; gap: readings are missing before, which the\n"
-      "map's memory needs; where: the map is not made for such rows) and "
-      "offender (that column). Columns in another unit "
-      "are\nconverted. Exit status 4 where a prediction is not finite: its "
-      "cell "
-      "stays empty.");
+      "Columns: record, cycle, time and position where the data have them, "
+      "predicted,\nlower_90 ... upper_95 (empty without an interval), inside "
+      "(1 as in training, 0 not),\nwhy not (range: a column leaves its trained "
+      "range; relation: it does not go with the\nothers as it did there; "
+      "distance, leverage: an unlike thermal state; start: a session's\nfirst "
+      "rows are missing; gap: readings are missing before, which the map's "
+      "memory\nneeds; where: the map is not made for such rows), offender "
+      "(that column) and unit (of\nthe prediction). Columns in another unit "
+      "are converted. Exit status 4 where a\nprediction is not finite: its "
+      "cell stays empty.");
   OnRun(command, [arguments, run] { run->status = RunPredict(*arguments); });
 }
 

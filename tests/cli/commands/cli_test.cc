@@ -305,11 +305,13 @@ TEST_F(Cli, PredictKeepsIdColumnsAndMarksExtrapolation) {
   const Outcome outcome = Run({"predict", "m.json", "p.csv"});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(SplitLines(outcome.out)[0],
-            "record,predicted,lower_90,upper_90,lower_95,upper_95,inside,why,"
-            "offender");
+            "record,position_mm,predicted,lower_90,upper_90,lower_95,upper_95,"
+            "inside,why,offender,unit");
   const auto records = Records(outcome.out);
   ASSERT_EQ(records.size(), 2U);
   EXPECT_EQ(records[0].at("record"), "7");
+  EXPECT_EQ(records[0].at("position_mm"), "-12.7");
+  EXPECT_EQ(records[0].at("unit"), "mm");
   const double promised = std::stod(records[0].at("predicted"));
   const double lower = std::stod(records[0].at("lower_90"));
   EXPECT_LT(lower, promised);
