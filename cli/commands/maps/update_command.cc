@@ -12,6 +12,7 @@
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/output/claimed_folder.h"
+#include "cli/report/number_text.h"
 #include "cli/report/words/kept_promise_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/interrupt.h"
@@ -22,6 +23,7 @@
 #include "data/measurements/column_checks.h"
 #include "data/text.h"
 #include "models/model_file.h"
+#include "models/promise/learnt_rows.h"
 #include "models/promise/map_update.h"
 #include "models/promise/promise.h"
 #include "models/study/study_defaults.h"
@@ -120,6 +122,7 @@ Json UpdateJson(const UpdateArguments& arguments,
                 const models::FittedModel& old_map,
                 const models::UpdateTrial& trial,
                 bool better,
+                Eigen::Index learnt,
                 const Json& provenance) {
   return {{"schema", "errmap-update-1"},
           {"model", old_map.name},
@@ -127,6 +130,7 @@ Json UpdateJson(const UpdateArguments& arguments,
           {"target", old_map.target.name},
           {"unit", old_map.target.unit.symbol},
           {"updated", better},
+          {"known_rows", learnt},
           {"old_rmse", trial.old_rmse},
           {"new_rmse", trial.new_rmse},
           {"sessions", TrialJson(trial)},
@@ -151,6 +155,18 @@ models::FittedModel FitSuccessor(const models::FittedModel& old_map,
   return fitted;
 }
 
+// What of the new rows the old map was fitted to: it looks better there than it
+// is.
+std::string KnownRowsText(Eigen::Index learnt, Eigen::Index rows) {
+  return learnt == 0
+             ? ""
+             : fmt::format("{} of {} are ones that the old map was fitted to, "
+                           "so it looks better here than it is: give new "
+                           "sessions alone\n",
+                           learnt,
+                           report::Count(rows, "row"));
+}
+
 int RunUpdate(const UpdateArguments& arguments,
               const std::string& command_line) {
   std::vector<std::string> read = arguments.known;
@@ -166,6 +182,8 @@ int RunUpdate(const UpdateArguments& arguments,
                                    .stop = &stop,
                                    .threads = JobsOf(0),
                                    .indifference = indifference};
+  const Eigen::Index learnt = models::CountLearntRows(
+      old_map, fresh.input_values(), &fresh.target_values());
   models::UpdateTrial trial;
   std::optional<data::Dataset> all;
   try {
@@ -208,11 +226,12 @@ int RunUpdate(const UpdateArguments& arguments,
                         {"seed", arguments.seed}},
                        learnt_from);
     PrintResult(
-        DumpJson(UpdateJson(arguments, old_map, trial, better, provenance)));
+        DumpJson(UpdateJson(arguments, old_map, trial, better, learnt, provenance)));
   } else {
     PrintFitted(fmt::format(
-        "{}{}\n",
-        report::TrialText(trial, old_map.target.unit),
+        "{}{}{}\n",
+        KnownRowsText(learnt, fresh.num_rows()),
+        report::TrialText(trial, old_map.target.unit, learnt == 0),
         better ? "the new map is better and stands in " + arguments.out
                : "the new map is no better: " + arguments.out +
                      " is the old one"));

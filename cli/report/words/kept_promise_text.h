@@ -22,8 +22,11 @@ std::string KeptPromiseText(const models::KeptPromise& kept,
 /// The sensor that reads something else than the others tell.
 std::string RelationText(const models::RelationChange& change);
 
-/// RMSE of the old and the new map by session, as a table.
-std::string TrialText(const models::UpdateTrial& trial, const data::Unit& unit);
+/// RMSE of the old and the new map by session, as a table. `all_unseen`: the old
+/// map has seen none of them.
+std::string TrialText(const models::UpdateTrial& trial,
+                      const data::Unit& unit,
+                      bool all_unseen);
 
 /// How far probes move the predictions, and how surely; one line without end.
 std::string OffsetLine(const models::ProbeCorrection& correction,
