@@ -113,6 +113,11 @@ std::vector<MeasuredSession> MeasureSessions(const FittedModel& fitted,
     });
     const auto n = static_cast<double>(of_it.size());
     session.rows = of_it.size();
+    session.begins_inside = std::ranges::any_of(
+        measured.rows, [&](Index row) {
+          return rows.missing_before[static_cast<std::size_t>(row)] ==
+                 Missing::kStart;
+        });
     session.offset = of_it.mean();
     session.mean_square = of_it.squaredNorm() / n;
     session.outside_share = static_cast<double>(outside) / n;
@@ -123,7 +128,7 @@ std::vector<MeasuredSession> MeasureSessions(const FittedModel& fitted,
           position < 0 ? VectorXd()
                        : dataset.input_values().col(position)(measured.rows);
       session.too_few = AreTooFew(errors, session.rows, positions);
-      if (!session.too_few) {
+      if (!session.too_few && !session.begins_inside) {
         session.expected = ExpectedOf(
             errors, ElapsedIn(errors, elapsed(measured.rows)), positions);
       }

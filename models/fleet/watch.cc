@@ -206,12 +206,26 @@ std::optional<MapJudgement> JudgeSessions(
   return best;
 }
 
-bool IsWorse(const MapJudgement& judgement, double indifference) {
-  return judgement.p < kSurelyChanged &&
-         judgement.found > judgement.promised + indifference &&
+namespace {
+
+bool IsAbove(const MapJudgement& judgement, double indifference) {
+  return judgement.found > judgement.promised + indifference &&
          std::max(judgement.found,
                   std::hypot(judgement.promised, judgement.offset)) >
              (1.0 + kLeastWorse) * judgement.promised;
+}
+
+}  // namespace
+
+bool IsWorse(const MapJudgement& judgement, double indifference) {
+  return judgement.p < kSurelyChanged && IsAbove(judgement, indifference);
+}
+
+bool IsDoubtful(const MapJudgement& judgement, double indifference) {
+  return !IsWorse(judgement, indifference) &&
+         IsAbove(judgement, indifference) &&
+         (judgement.p < kDoubtful ||
+          judgement.found > kFarAbove * judgement.promised);
 }
 
 std::string_view ToString(WatchStatus status) {
@@ -228,6 +242,8 @@ std::string_view ToString(WatchStatus status) {
       return "too few rows";
     case WatchStatus::kNotJudged:
       return "not judged";
+    case WatchStatus::kDoubtful:
+      return "doubtful";
   }
   return "";
 }

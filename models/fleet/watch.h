@@ -58,6 +58,7 @@ struct WatchedSession {
   /// map was not judged on whole sessions.
   ExpectedErrors expected = {};
   bool too_few = false;
+  bool begins_inside = false;  // its first rows are missing to the map's memory
   double outside_share = 0.0;  // of the rows, unlike the trained states
   /// The sensor that goes with the others least, its shift (its unit) and p,
   /// corrected for their number; NaN where nothing is known of sensors.
@@ -97,6 +98,12 @@ inline constexpr double kSurelyChanged = 0.0025;
 inline constexpr double kLeastWorse = 0.2;
 /// `indifference` in the unit of the judgement.
 bool IsWorse(const MapJudgement& judgement, double indifference);
+/// Of errors above the promise by as much one more session is to tell, where p
+/// is below, or where they are so many times the promise: few sessions do not
+/// show how seldom that is.
+inline constexpr double kDoubtful = 0.02;
+inline constexpr double kFarAbove = 3.0;
+bool IsDoubtful(const MapJudgement& judgement, double indifference);
 
 /// A session of which a larger share is outside of the trained states is so.
 inline constexpr double kMostlyOutside = 0.5;
@@ -108,9 +115,10 @@ enum class WatchStatus {
   kOutside,        // of the trained states: nothing is promised there
   kTooFewRows,
   kNotJudged,  // no sessions were held out, or there is no promise
+  kDoubtful,   // one more session is to tell
 };
 /// "as promised", "worse", "sensor changed", "outside", "too few rows", "not
-/// judged".
+/// judged", "doubtful".
 std::string_view ToString(WatchStatus status);
 
 }  // namespace errmap::models

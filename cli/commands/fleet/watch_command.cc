@@ -130,6 +130,7 @@ int StatusOf(const std::vector<fleet::WatchedComponent>& components) {
   if (!std::ranges::all_of(components, &fleet::WatchedComponent::examined)) {
     return kUnusableInput;
   }
+  if (any(has(WatchStatus::kDoubtful))) return kNothingJudged;
   return any([](const fleet::WatchedComponent& component) {
     return component.status != WatchStatus::kNotJudged &&
            component.status != WatchStatus::kTooFewRows;
@@ -176,7 +177,10 @@ int RunWatch(const WatchArguments& arguments) {
     }
   }
   const int status = StatusOf(components);
-  if (status == kNothingJudged) {
+  if (status == kNothingJudged &&
+      std::ranges::none_of(components, [](const auto& component) {
+        return component.status == WatchStatus::kDoubtful;
+      })) {
     Say("none of the maps could be judged: what is said of each tells why");
   }
   return status;
@@ -206,13 +210,14 @@ void AddWatchCommand(CLI::App* app, Run* run) {
       "Each session's offset and RMS are held against the sessions held out "
       "when the map was made\n(t statistics; part of a session against the "
       "same part of those), each sensor against what\nthe others tell of it. "
-      "A map is worse where p is below 0.005 and it errs 20 % more than\n"
-      "promised, whoever else is watched. Sessions are kept in the store, "
+      "A map is worse where p is below 0.0025 and it errs 20 % more than\n"
+      "promised, whoever else is watched, doubtful where p is below 0.02 or it "
+      "errs 3 times\nas much: measure one more session. Sessions are kept in the store, "
       "watch.html draws them.\nA file is of the component whose data have its "
       "name and the most of its folders.\nExit status: 0 none is worse, 3 no "
       "store, one of a newer errmap, nothing deployed, no data of\nwhat is or "
       "data that cannot be read, 4 some map is worse than promised, 5 nothing "
-      "could be judged.\n"
+      "could be\njudged, or some map is doubtful.\n"
       "Example: errmap watch fleet september/");
   OnRun(command, [arguments, run] { run->status = RunWatch(*arguments); });
 }

@@ -12,7 +12,8 @@ models::WatchStatus StatusNamed(const std::string& name) {
                                    WatchStatus::kWorse,
                                    WatchStatus::kSensorChanged,
                                    WatchStatus::kOutside,
-                                   WatchStatus::kTooFewRows}) {
+                                   WatchStatus::kTooFewRows,
+                                   WatchStatus::kDoubtful}) {
     if (ToString(status) == name) return status;
   }
   return WatchStatus::kNotJudged;

@@ -94,6 +94,8 @@ std::string WatchedComponent::Proposal(const std::string& store) const {
     case WatchStatus::kWorse:
       return measure(outside() ? "more of this state, unlike those trained on"
                                : "more of this state");
+    case WatchStatus::kDoubtful:
+      return "measure one more session, then errmap watch again";
     case WatchStatus::kSensorChanged:
       return fmt::format("look at the sensor {}: moved, loose or drifting?",
                          checks.back().session.sensor);
@@ -181,10 +183,12 @@ int Rank(const WatchedComponent& component) {
       return 0;
     case WatchStatus::kSensorChanged:
       return 1;
-    case WatchStatus::kOutside:
+    case WatchStatus::kDoubtful:
       return 2;
-    default:
+    case WatchStatus::kOutside:
       return 3;
+    default:
+      return 4;
   }
 }
 

@@ -145,6 +145,12 @@ class Watcher {
         !component->why_not.empty()) {
       return;
     }
+    if (newest.begins_inside) {
+      component->why_not =
+          "its log begins in the midst of the session, which the map's memory "
+          "needs from the start: give all readings since then";
+      return;
+    }
     std::vector<models::WatchedSession> sessions;
     for (const Check& check : component->checks) {
       sessions.push_back(check.session);
@@ -169,10 +175,15 @@ class Watcher {
   static WatchStatus StatusOf(const WatchedComponent& component) {
     if (!component.examined) return WatchStatus::kNotJudged;
     const models::WatchedSession& newest = component.checks.back().session;
+    if (newest.begins_inside) return WatchStatus::kNotJudged;
     if (newest.too_few) return WatchStatus::kTooFewRows;
     if (component.judgement &&
         IsWorse(*component.judgement, component.indifference)) {
       return WatchStatus::kWorse;
+    }
+    if (component.judgement &&
+        IsDoubtful(*component.judgement, component.indifference)) {
+      return WatchStatus::kDoubtful;
     }
     if (newest.p_sensor < models::kSurelyChanged) {
       return WatchStatus::kSensorChanged;
