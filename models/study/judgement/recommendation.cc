@@ -7,6 +7,7 @@
 #include "models/study/judgement/blend_or_simpler.h"
 #include "models/study/judgement/extrapolated_rows.h"
 #include "models/study/judgement/telling_holdout.h"
+#include "models/study/judgement/worth_of_sensors.h"
 
 namespace errmap::models {
 
@@ -209,6 +210,13 @@ std::optional<Recommendation> Recommend(
   if (options.prefer == Prefer::kSmall) {
     advice.model = CheapestNear(
         advice.model, decides, study, is_map, options.indifference);
+  }
+  if (options.choose == Choose::kAuto) {
+    if (const auto instead =
+            BetterWithoutSensors(advice.model, comparison, study, is_map)) {
+      advice.model = *instead;
+      advice.fails_in.clear();
+    }
   }
   if (is_blend(advice.model)) {
     // Alone in its tier: the best of the others.

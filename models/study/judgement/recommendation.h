@@ -82,7 +82,9 @@ struct JudgeOptions {
 /// these hold-outs or in later sessions. Else the
 /// simplest map of the first tier: fewest sensors (data::IsSensor),
 /// then fewest parameters, then the lower RMSE; the simplest baseline where one
-/// is there: nothing better is known.
+/// is there: nothing better is known. Whatever is chosen so must be worth its
+/// sensors by what is promised (BetterWithoutSensors), else the best baseline
+/// without any is recommended.
 std::optional<Recommendation> Recommend(
     const data::Dataset& dataset,
     const std::vector<Holdout>& holdouts,

@@ -83,6 +83,29 @@ int ConfidentOf(NoiseInVerdictOnNoise kind, Index groups, int studies) {
   return confident;
 }
 
+// To do nothing is a map, too: one that reads sensors must be worth them.
+TEST(VerdictOnNoise, HardlyEverRecommendsAMapWithSensors) {
+  constexpr int kStudies = 40;
+  int with_sensors = 0;
+  for (int seed = 1; seed <= kStudies; ++seed) {
+    const auto number = static_cast<std::uint64_t>(seed);
+    const data::Dataset dataset =
+        NoiseOf(NoiseInVerdictOnNoise::kOfGroups, 8, number);
+    const auto holdouts =
+        errmap::testing::MakeHoldouts(dataset, {"leave-one-group-out"});
+    const auto recipes = errmap::testing::MakeRecipes(
+        {"zero", "mean", "poly:position", "poly:temperature", "poly:eq8"});
+    const StudyResult study =
+        RunStudy(dataset, holdouts, recipes, {.seed = number});
+    const Judgement judged = JudgeStudy(
+        dataset, holdouts, study, {.indifference = 2e-5, .seed = number});
+    ASSERT_TRUE(judged.recommendation.has_value());
+    const ModelResult& model = study.models[judged.recommendation->model];
+    with_sensors += SensorsOf(*model.final_fit).empty() ? 0 : 1;
+  }
+  EXPECT_LE(with_sensors, 2);
+}
+
 TEST(VerdictOnNoise, IsNeverConfidentWhereOneSessionMayExplainAll) {
   for (const NoiseInVerdictOnNoise kind : {NoiseInVerdictOnNoise::kEven,
                                            NoiseInVerdictOnNoise::kHeavyTailed,
