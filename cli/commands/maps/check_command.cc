@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -106,16 +107,29 @@ Json CheckJson(const models::SessionCheck& check) {
       {"session_rmse_80", {check.session.low, check.session.high}}};
 }
 
-// Probes before which the map's memory lacks nothing; all where there are none.
+// Probes since the map's memory is full, where the log began inside a session;
+// all where there are none.
 std::vector<Eigen::Index> ProbesWithMemory(const models::MapRows& rows) {
   std::vector<Eigen::Index> kept;
   std::vector<Eigen::Index> all;
   for (const models::Missing missing : rows.missing_before) {
     const auto row = std::ssize(all);
     all.push_back(row);
-    if (missing == models::Missing::kNothing) kept.push_back(row);
+    if (missing != models::Missing::kStart) kept.push_back(row);
   }
   return kept.empty() ? all : kept;
+}
+
+// What is missing before the probes that are judged.
+models::Missing MissingBefore(const models::MapRows& rows) {
+  if (std::ranges::all_of(rows.missing_before, [](models::Missing missing) {
+        return missing == models::Missing::kStart;
+      })) {
+    return models::Missing::kStart;
+  }
+  return std::ranges::count(rows.missing_before, models::Missing::kReadings) > 0
+             ? models::Missing::kReadings
+             : models::Missing::kNothing;
 }
 
 models::SessionProbes ProbesOf(const models::FittedModel& fitted,
@@ -172,19 +186,17 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
   }
   const models::SessionProbes probes =
       ProbesOf(fitted, rows, arguments, predicted);
+  const models::Missing missing = MissingBefore(rows);
   const Eigen::MatrixXd readings = models::ReadingsOf(fitted, rows.table);
   auto sensor = models::FindSensorFault(
       fitted, readings, arguments.rows.log.after.empty());
-  if (!sensor && rows.missing == models::Missing::kNothing) {
+  if (!sensor && missing == models::Missing::kNothing) {
     sensor = models::SwapThatExplains(fitted, rows.dataset, readings);
   }
   const models::SessionCheck check = models::CheckSession(
       errors,
       probes,
-      // Of some of the probes nothing is missing.
-      probes.residuals.size() < rows.dataset.num_rows()
-          ? models::Missing::kNothing
-          : rows.missing,
+      missing,
       std::move(sensor));
   const RowsLearnt learnt =
       FindRowsLearnt(fitted, arguments.model, arguments.files, rows);

@@ -88,8 +88,26 @@ TEST(ZeroSchedule, TakesTheLongestIntervalThatKeepsTheGoal) {
     EXPECT_GE(schedule.clocks[i].within_90, schedule.clocks[i - 1].within_90);
   }
   EXPECT_FALSE(ScheduleZeros(errors, 1e-3).clock);
+  EXPECT_FALSE(ScheduleZeros(errors, 1e-3).serves());
   EXPECT_FALSE(std::isfinite(ScheduleZeros(errors, 20.0).clock->trigger.time));
   EXPECT_FALSE(ScheduleZeros(errors, std::nan("")).clock);
+}
+
+// Errors of +1 and -1 in turn: each new zero makes the next ones worse.
+TEST(ZeroSchedule, AdvisesNoProbeWhereTheMapServesAsItIs) {
+  HeldOutErrors errors = DaysToZero(3, 1, false);
+  for (HeldOutErrors::Unit& unit : errors.units) {
+    for (Eigen::Index i = 0; i < unit.residuals.size(); ++i) {
+      unit.residuals[i] = i % 2 == 0 ? 1.0 : -1.0;
+    }
+  }
+  const ZeroSchedule schedule = ScheduleZeros(errors, 1.5);
+  EXPECT_EQ(schedule.none.probes, 0.0);
+  EXPECT_DOUBLE_EQ(schedule.none.rmse, 1.0);
+  EXPECT_GT(schedule.clocks.front().rmse, 1.0);
+  EXPECT_TRUE(schedule.no_probe_serves);
+  EXPECT_FALSE(schedule.clock);
+  EXPECT_FALSE(std::isfinite(schedule.advised().time));
 }
 
 TEST(ZeroSchedule, AdvisesTheTemperatureWhereTheErrorsFollowIt) {

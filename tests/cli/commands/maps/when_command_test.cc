@@ -67,6 +67,26 @@ TEST_F(When, SaysWhenTheNextProbeIsDue) {
   EXPECT_THAT(now.out, HasSubstr("since the last probe: probe now.\n"));
 }
 
+// A script that asks again and again is not to wait for ever.
+TEST_F(When, EndsWithAnErrorWhereNothingCanBeSaid) {
+  Write("empty.csv", "day,time_s,position_mm,t1_degC,error_um\n");
+  for (const char* goal : {"2um", "1nm"}) {
+    EXPECT_EQ(
+        Run({"when", "map.json", "--goal", goal, "--after", "none.csv"}).status,
+        kUnusable);
+    EXPECT_EQ(
+        Run({"when", "map.json", "--goal", goal, "--after", "empty.csv"}).status,
+        kUnusable);
+  }
+  const Outcome never = Run({"when", "map.json", "--goal", "1nm"});
+  EXPECT_EQ(never.status, kEveryFitFailed);
+  EXPECT_THAT(never.out, HasSubstr("No interval keeps 90 %"));
+  EXPECT_THAT(never.out, HasSubstr("no probe"));
+  const Outcome always = Run({"when", "map.json", "--goal", "1mm"});
+  EXPECT_EQ(always.status, 0);
+  EXPECT_THAT(always.out, HasSubstr("No probe is needed"));
+}
+
 // What probes say today and when to take the next ones, in one answer.
 TEST_F(When, IsSaidByCheckForAGoal) {
   Write("probes.csv",
