@@ -74,7 +74,7 @@ struct Standardised {
 // What more rows would add is the time that they take.
 constexpr Index kMostRows = 10000;
 constexpr Index kMostValues = 10000000;
-constexpr Index kFewestRows = 100;
+constexpr Index kFewestOfMany = 100;
 
 // At most so many of these, as far apart as can be.
 std::vector<Index> SpreadRows(std::vector<Index> rows, Index most) {
@@ -274,7 +274,7 @@ std::vector<ColumnFault> FindDrift(const MeasuredColumns& measured,
                         used,
                         SpreadRows(sound,
                                    std::clamp(kMostValues / std::ssize(used),
-                                              kFewestRows,
+                                              kFewestOfMany,
                                               kMostRows)));
     const Axes axes = LeadingAxes(of);
     Drift worst{.change = 0.0, .scatter = 1.0};
