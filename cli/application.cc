@@ -36,6 +36,7 @@
 #include "data/files/atomic_file.h"
 #include "data/files/shown_path.h"
 #include "data/input_error.h"
+#include "data/measurements/reading/reading.h"
 #include "data/text.h"
 #include "models/study/record/making/make_provenance.h"
 #include "models/version.h"
@@ -238,6 +239,7 @@ const std::vector<Purpose>& Purposes() {
         AddLearnCommand,
         AddModelsCommand,
         AddInitCommand,
+        AddReadCommand,
         AddReportCommand}},
       {"Use a map", {AddFitCommand, AddPredictCommand, AddEvaluateCommand}},
       {"Hand over to the control",
@@ -370,6 +372,8 @@ int RunCommand(int argc, char** argv) {
     return RunParsed(argc, argv);
   } catch (const UsageError& error) {
     return Fail(kWrongCommandLine, error.what());
+  } catch (const data::OpenQuestion& question) {
+    return Fail(kWrongCommandLine, question.what());
   } catch (const data::InputError& error) {
     return Fail(kUnusableInput, error.what());
   } catch (const std::bad_alloc&) {

@@ -39,6 +39,7 @@ struct Run {
 /// status in `run`, which must outlive the parse.
 void AddCompareCommand(CLI::App* app, Run* run);
 void AddInitCommand(CLI::App* app, Run* run);
+void AddReadCommand(CLI::App* app, Run* run);
 void AddLearnCommand(CLI::App* app, Run* run);
 void AddFitCommand(CLI::App* app, Run* run);
 void AddPredictCommand(CLI::App* app, Run* run);

@@ -100,8 +100,9 @@ Eigen::Index FindPosition(const data::Dataset& dataset,
     return index;
   }
   for (Eigen::Index i = 0; i < dataset.num_inputs(); ++i) {
-    const auto& name = dataset.inputs()[static_cast<std::size_t>(i)].name;
-    if (data::NamesPosition(name)) return i;
+    if (data::IsPosition(dataset.inputs()[static_cast<std::size_t>(i)])) {
+      return i;
+    }
   }
   return -1;
 }

@@ -242,6 +242,8 @@ struct FittedModel {
   std::shared_ptr<const HeldOutErrors> held_out;
   /// The rows of training, or null.
   std::shared_ptr<const LearntRows> learnt;
+  /// How the file was understood that it was trained on, or null.
+  std::shared_ptr<const data::Reading> reading;
 
   /// How many of the rows that it was given: a net draws some of very many.
   Eigen::Index RowsLearntFrom(const data::Dataset& training) const;
@@ -336,8 +338,8 @@ FittedModel MapOfModel(const ModelRecipe& recipe,
                        const data::Dataset& training,
                        std::shared_ptr<const ErrorModel> model);
 
-/// Position of a data set: the input `wanted`, or by default the first whose
-/// name starts with "position" in any case; -1 where there is none. Throws
+/// Position of a data set: the input `wanted`, or by default the first that
+/// the Reading has made one; -1 where there is none. Throws
 /// std::invalid_argument where `wanted` is named and not an input.
 Eigen::Index FindPosition(const data::Dataset& dataset,
                           const std::string& wanted);

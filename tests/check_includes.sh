@@ -48,10 +48,15 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     rooms["data"] = ""
     rooms["data/files"] = " data "
     rooms["data/tables"] = " data data/files "
-    rooms["data/measurements"] = " data data/files "
-    rooms["data/measurements/faults"] = " data data/measurements "
+    rooms["data/measurements"] = " data data/files " \
+                                 "data/measurements/reading "
+    rooms["data/measurements/reading"] = " data data/measurements " \
+                                         "data/measurements/faults "
+    rooms["data/measurements/faults"] = " data data/measurements " \
+                                        "data/measurements/reading "
     rooms["data/measurements/making"] = " data data/measurements " \
-                                        "data/measurements/faults "
+                                        "data/measurements/faults " \
+                                        "data/measurements/reading "
     rooms["data/formats"] = " data data/files data/measurements "
     rooms["data/turning_centre"] = rooms["data/formats"]
     rooms["models"] = ""

@@ -79,6 +79,38 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
                     .reach = Reach::kMachine,
                     .example = "session = \"day\""},
         selection.session);
+  visit(StudyOption{.key = "position",
+                    .value = "COL",
+                    .help = "Column of the axis position (default: the one "
+                            "whose values\ncome again as commanded ones do)",
+                    .reach = Reach::kMachine,
+                    .seldom = true,
+                    .example = "position = \"x_pos_mm\""},
+        selection.position);
+  visit(StudyOption{.key = "direction",
+                    .value = "up|down|COL",
+                    .help = "Rows of one way along the axis, or the column "
+                            "that tells the ways",
+                    .reach = Reach::kMachine,
+                    .seldom = true,
+                    .example = "direction = \"up\""},
+        selection.direction);
+  visit(StudyOption{.key = "gap",
+                    .value = "2h",
+                    .help = "A longer pause parts sessions (default: pauses "
+                            "of another order than those between cycles)",
+                    .reach = Reach::kMachine,
+                    .seldom = true,
+                    .example = "gap = \"2h\""},
+        selection.gap);
+  visit(StudyOption{.key = "time_unit",
+                    .value = "s|ms|min|h|days",
+                    .help = "Unit of a time column of numbers (default: that "
+                            "of its name, else by its steps)",
+                    .reach = Reach::kMachine,
+                    .seldom = true,
+                    .example = "time_unit = \"s\""},
+        selection.time_unit);
   visit(StudyOption{.key = "align",
                     .help = "first: take each session's first value off the "
                             "target",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +11,8 @@
 
 #include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/reading/column_words.h"
+#include "data/measurements/reading/reading.h"
 #include "data/measurements/sessions.h"
 #include "data/text.h"
 
@@ -64,12 +67,6 @@ bool NamesPart(std::string_view name) {
                                                            "palette",
                                                            "station",
                                                            "operator"});
-  return IsOneOf(kNames, CounterStem(name));
-}
-
-bool NamesCycle(std::string_view name) {
-  constexpr auto kNames =
-      std::to_array<std::string_view>({"cycle", "zyklus", "takt"});
   return IsOneOf(kNames, CounterStem(name));
 }
 
@@ -184,36 +181,94 @@ class RoleChooser {
     }
   }
 
-  std::size_t DefaultTarget() const {
-    std::vector<std::size_t> candidates;
-    std::vector<std::string> names;
-    std::vector<std::string> numeric_names;
+  // Columns of numbers that `wanted` wants.
+  template <typename Wanted>
+  std::vector<std::size_t> Candidates(const Wanted& wanted) const {
+    std::vector<std::size_t> found;
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
-      if (!table_.At(i).is_text()) numeric_names.push_back(Name(i));
-      if (Is(roles_.weight, i) || Name(i) == selection_.group ||
-          !StartsWithIgnoringCase(Name(i), "error")) {
-        continue;
+      if (!Is(roles_.weight, i) && Name(i) != selection_.group &&
+          wanted(Name(i))) {
+        found.push_back(i);
       }
-      candidates.push_back(i);
-      names.push_back(Name(i));
+    }
+    return found;
+  }
+
+  std::vector<std::string> NamesOf(
+      const std::vector<std::size_t>& columns) const {
+    std::vector<std::string> names;
+    for (const std::size_t column : columns) names.push_back(Name(column));
+    return names;
+  }
+
+  // What is called an error; in other words than that only in a unit of errors,
+  // or alone.
+  std::size_t DefaultTarget() const {
+    std::vector<std::size_t> candidates = Candidates([](std::string_view name) {
+      return StartsWithIgnoringCase(name, "error");
+    });
+    if (candidates.empty()) {
+      candidates = Candidates([](std::string_view name) {
+        const Header header = ReadHeader(name);
+        return Says(name, Word::kError) && !Says(name, Word::kCorrection) &&
+               (header.unit.quantity == Quantity::kLength ||
+                header.unit.quantity == Quantity::kAngle ||
+                header.unit.symbol.empty());
+      });
+      std::erase_if(candidates,
+                    [&](std::size_t i) { return table_.columns[i].is_text(); });
+      std::vector<std::size_t> with_unit = candidates;
+      std::erase_if(with_unit, [&](std::size_t i) {
+        return UnitOfColumn(Name(i)).symbol.empty();
+      });
+      if (!with_unit.empty()) candidates = std::move(with_unit);
     }
     if (candidates.empty()) {
+      AskForSign();
+      const std::vector<std::string> numeric =
+          NamesOf(Candidates([&](std::string_view name) {
+            return !table_.At(table_.Find(name)).is_text();
+          }));
       ThrowUnusable(
           table_,
-          "no column's name starts with 'error'; name the measured error "
-          "with " +
+          "no column's name says that it is an error (error, deviation, "
+          "Abweichung); name the measured error with " +
               ArgumentName("target") + " (" +
-              (numeric_names.empty()
+              (numeric.empty()
                    ? "but no column holds numbers"
-                   : "columns of numbers: " + ListOfNames(numeric_names)) +
+                   : "columns of numbers: " + ListOfNames(numeric)) +
               ")");
     }
     if (candidates.size() > 1) {
       ThrowUnusable(table_,
                     "several columns could be the target; name one with " +
-                        ArgumentName("target") + ": " + ListOfNames(names));
+                        ArgumentName("target") + ": " +
+                        ListOfNames(NamesOf(candidates)));
     }
     return candidates.front();
+  }
+
+  // What corrects an error has its size, and its other sign or not.
+  void AskForSign() const {
+    const std::vector<std::size_t> found =
+        Candidates([&](std::string_view name) {
+          const Unit unit = UnitOfColumn(name);
+          return Says(name, Word::kCorrection) &&
+                 (unit.quantity == Quantity::kLength ||
+                  unit.quantity == Quantity::kAngle) &&
+                 !table_.At(table_.Find(name)).is_text();
+        });
+    if (found.empty()) return;
+    const std::string& name = Name(found.front());
+    throw OpenQuestion(
+        PrintablePath(table_.file),
+        {.topic = "target",
+         .question = "is " + QuotedName(name) +
+                     " the error, or the correction that is added against it?",
+         .answers = {{.option = ArgumentName("target", "-" + name),
+                      .means = "a correction: the error is its negative"},
+                     {.option = ArgumentName("target", name),
+                      .means = "the error itself, actual - nominal"}}});
   }
 
   void ChooseGroup() {
@@ -240,7 +295,7 @@ class RoleChooser {
     look([](std::string_view name) {
       return EqualsIgnoringCase(name, "cycle");
     });
-    look(NamesCycle);
+    look([](std::string_view name) { return IsCalled(name, Word::kCycle); });
     if (cycle != kNoColumn && !Is(cycle, roles_.target)) roles_.group = cycle;
   }
 
@@ -328,8 +383,9 @@ class InputChooser {
     std::vector<std::string> beside;
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       if (i == roles_.target || Is(roles_.group, i) || Is(roles_.weight, i) ||
-          Is(found_.time_column, i) || Name(i) == found_.sessions.column ||
-          KeepsRecord(Name(i)) || IsFiltered(i)) {
+          Is(found_.time_column, i) || Is(found_.date_column, i) ||
+          Name(i) == found_.sessions.column || KeepsRecord(Name(i)) ||
+          IsFiltered(i)) {
         continue;
       }
       const std::string name = NameInRemark(Name(i));
@@ -352,6 +408,9 @@ class InputChooser {
         RefuseNumbersAsText(table_, table_.At(i));
         if (!PartsComponents(table_, table_.At(i))) texts.push_back(Name(i));
         chosen_.words.push_back(i);
+      } else if (CountsRows(table_.At(i))) {
+        had_candidates_ = true;
+        Drop(i, "counts the rows");
       } else if (NamesPart(Name(i))) {
         had_candidates_ = true;
         Drop(i, "tells which one, and measures nothing");
@@ -415,9 +474,27 @@ std::string CounterWordIn(std::string_view name) {
 
 }  // namespace
 
+bool CountsRows(const CsvColumn& column) {
+  constexpr std::size_t kFewestToTell = 12;
+  const std::size_t n = column.values.size();
+  if (n < kFewestToTell || !column.exceptions.empty() ||
+      !UnitOfColumn(column.name).symbol.empty()) {
+    return false;
+  }
+  const double sign = column.values[1] > column.values[0] ? 1.0 : -1.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (column.values[i] != std::floor(column.values[i]) ||
+        (i > 0 && sign * (column.values[i] - column.values[i - 1]) <= 0.0)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 bool KeepsRecord(std::string_view name) {
   return IsOneOf(kCounters, CounterStem(name)) || NamesTime(name) ||
-         StartsWithIgnoringCase(name, "truth");
+         IsCalled(name, Word::kCycle) || IsCalled(name, Word::kSession) ||
+         IsCalled(name, Word::kRun) || StartsWithIgnoringCase(name, "truth");
 }
 
 bool IsSensor(const ColumnInfo& column) {

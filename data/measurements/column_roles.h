@@ -47,6 +47,10 @@ ChosenInputs ChooseInputs(const CsvTable& table,
 /// "Takt", "time_s"), or holds what no controller has.
 bool KeepsRecord(std::string_view name);
 
+/// Whether a column goes with the number of the row, whatever it is called:
+/// whole numbers without a unit, each above the one before, or each below.
+bool CountsRows(const CsvColumn& column);
+
 /// Whether an input is read by a sensor: it is no position and, having no unit,
 /// counts no cycles, runs or alike ("elapsed_cycles", "n_runs").
 bool IsSensor(const ColumnInfo& column);

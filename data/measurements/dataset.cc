@@ -11,6 +11,7 @@
 
 #include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
+#include "data/measurements/column_roles.h"
 #include "data/measurements/date_time.h"
 
 namespace errmap::data {
@@ -123,10 +124,44 @@ Grouping GroupByText(const CsvTable& table,
   return groups;
 }
 
+Role RoleOf(const ColumnInfo& column) {
+  return column.role == Role::kUnknown ? RoleByName(column) : column.role;
+}
+
 }  // namespace
 
 std::string_view ToString(Alignment align) {
   return align == Alignment::kFirst ? "first" : "none";
+}
+
+std::string_view ToString(Role role) {
+  switch (role) {
+    case Role::kUnknown:
+      return "";
+    case Role::kPosition:
+      return "position";
+    case Role::kSensor:
+      return "sensor";
+    case Role::kSwitch:
+      return "switch";
+    case Role::kCounter:
+      return "counter";
+  }
+  return "";
+}
+
+bool IsPosition(const ColumnInfo& column) {
+  return RoleOf(column) == Role::kPosition;
+}
+
+bool IsReadBySensor(const ColumnInfo& column) {
+  const Role role = RoleOf(column);
+  return role == Role::kSensor || role == Role::kSwitch;
+}
+
+Role RoleByName(const ColumnInfo& column) {
+  if (NamesPosition(column.name)) return Role::kPosition;
+  return IsSensor(column) ? Role::kSensor : Role::kCounter;
 }
 
 std::string_view ToString(MissingPolicy policy) {
@@ -145,6 +180,9 @@ std::string ValueText(const ColumnFilter& filter) {
 
 Dataset::Dataset(Parts parts) : parts_(std::move(parts)) {
   const Eigen::Index m = parts_.target_values.size();
+  for (ColumnInfo& input : parts_.inputs) {
+    if (input.role == Role::kUnknown) input.role = RoleByName(input);
+  }
   CheckSize("columns of input_values", input_values().cols(), num_inputs());
   if (num_inputs() > 0) {
     CheckSize("rows of input_values", input_values().rows(), m);

@@ -10,17 +10,42 @@
 
 #include "data/csv.h"
 #include "data/measurements/column_faults.h"
+#include "data/measurements/reading/reading.h"
 #include "data/units.h"
 
 namespace errmap::data {
 
-/// Name and unit of a column.
+/// What a column means to a map, decided once by the Reading of its data.
+enum class Role {
+  kUnknown,
+  kPosition,  // commanded: neither filtered nor zeroed
+  kSensor,
+  kSwitch,   // has two values
+  kCounter,  // counts cycles, runs or alike
+};
+/// "", "position", "sensor", "switch", "counter".
+std::string_view ToString(Role role);
+
+/// Name, unit and role of a column.
 struct ColumnInfo {
   std::string name;
   Unit unit;
+  Role role = Role::kUnknown;
 
-  bool operator==(const ColumnInfo&) const = default;
+  bool operator==(const ColumnInfo& other) const {
+    return name == other.name && unit == other.unit;
+  }
 };
+
+/// Whether a column is one of commanded positions.
+bool IsPosition(const ColumnInfo& column);
+
+/// Whether a column is read by a sensor, or switched.
+bool IsReadBySensor(const ColumnInfo& column);
+
+/// The role of a column of which nothing but its name is known: of maps
+/// written before roles were kept, and of data made in memory.
+Role RoleByName(const ColumnInfo& column);
 
 /// The group of each row (warm-up cycle, day, segment).
 struct Grouping {
@@ -46,6 +71,8 @@ struct SessionLog {
   std::string time_unit;    // "s", or "rows": the number of the row
   std::string time_column;  // "" where time is the number of the row
   bool dated = false;       // the time counts from 1970, by dates
+  bool ordered = true;      // false: the order of the rows tells no history
+  double gap = 0.0;         // s: longer pauses parted sessions; 0: a column did
   Eigen::MatrixXd input_values;  // (rows x p) NaN: no number; (0 x 0): made
 };
 
@@ -170,9 +197,13 @@ struct DatasetSelection {
   std::vector<std::string> inputs = {};   // default: every other numeric column
   std::vector<std::string> exclude = {};  // never inputs
   std::string group = {};                 // default: "cycle" if there is one
-  std::string time = {};     // default: the only "time*", "zeit*"; sessions.h
-  std::string session = {};  // default: the first of kSessionColumns
-  std::string weight = {};   // default: none
+  std::string time = {};       // default: the only "time*", "zeit*"; sessions.h
+  std::string session = {};    // default: the first of kSessionColumns
+  std::string weight = {};     // default: none
+  std::string position = {};   // default: by values and name; reading/axis.h
+  std::string direction = {};  // "up", "down": rows of one way; or a column
+  std::string gap = {};        // "2h": a longer pause parts sessions
+  std::string time_unit = {};  // of a column of numbers; default: reading.h
   Alignment align = Alignment::kNone;
   MissingPolicy missing = MissingPolicy::kError;
   FaultPolicy faults = FaultPolicy::kKeep;
@@ -202,6 +233,7 @@ struct PreparedDataset {
   std::vector<ColumnFilter> where = {};  // that its rows pass
   /// What was found in the columns in use, rows left out for it included.
   std::vector<ColumnFault> faults;
+  Reading reading = {};
 };
 
 /// Picks target, inputs, group and weight from a table and checks the columns

@@ -11,6 +11,7 @@
 #include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/measured_files.h"
+#include "data/measurements/reading/column_words.h"
 #include "data/measurements/sessions.h"
 #include "data/text.h"
 
@@ -63,6 +64,28 @@ CsvTable Begun(const CsvTable& first) {
   table.file = first.file;
   AppendRows(first, &table);
   return table;
+}
+
+bool HoldTheSame(const CsvTable& a, const CsvTable& b) {
+  if (a.num_rows != b.num_rows || a.columns.size() != b.columns.size()) {
+    return false;
+  }
+  for (std::size_t i = 0; i < a.columns.size(); ++i) {
+    const CsvColumn& of_a = a.columns[i];
+    const CsvColumn& of_b = b.columns[i];
+    if (of_a.name != of_b.name || of_a.exceptions != of_b.exceptions ||
+        of_a.texts != of_b.texts) {
+      return false;
+    }
+    for (std::size_t row = 0; row < a.num_rows; ++row) {
+      // NaN stands where the exceptions are, which are the same.
+      if (of_a.values[row] != of_b.values[row] &&
+          !std::isnan(of_a.values[row])) {
+        return false;
+      }
+    }
+  }
+  return true;
 }
 
 class Joiner {
@@ -206,20 +229,51 @@ class Joiner {
   // A column that FindSessions would take by its name.
   bool IsTaken(const std::string& column) const {
     if (column.empty()) return false;
-    return column == selection_.session ||
-           std::ranges::any_of(kSessionColumns, [&](const char* name) {
-             return EqualsIgnoringCase(column, name);
-           });
+    return column == selection_.session || IsCalled(column, Word::kSession) ||
+           IsCalled(column, Word::kRun);
+  }
+
+  // Whether the session that ends file `i` goes on in the next one: a clock
+  // shows no night between, or the cycles count on.
+  bool GoesOn(std::size_t i) const {
+    constexpr double kShortestNight = 3.5 * 3600.0;
+    const CsvTable& before = tables_[i];
+    const CsvTable& after = tables_[i + 1];
+    const auto clock_of = [&](const CsvTable& table) {
+      std::vector<Index> rows(table.num_rows);
+      std::iota(rows.begin(), rows.end(), Index{0});
+      return FindClock(table, selection_, rows);
+    };
+    const Clock ends = clock_of(before);
+    const Clock begins = clock_of(after);
+    if (ends.is_found() && begins.is_found()) {
+      const double pause = begins.time.minCoeff() - ends.time.maxCoeff();
+      return pause > 0.0 && pause < kShortestNight;
+    }
+    for (const std::string& name : names_) {
+      if (!IsCalled(name, Word::kCycle)) continue;
+      const CsvColumn& last = before.At(before.Find(name));
+      const CsvColumn& first = after.At(after.Find(name));
+      return last.exceptions.empty() && first.exceptions.empty() &&
+             std::ranges::min(std::vector<double>(first.values)) >
+                 std::ranges::max(std::vector<double>(last.values));
+    }
+    return false;
   }
 
   // Whether one column names all sessions, none of them twice.
   bool AreTold() const {
     const std::string& column = sessions_[0].column;
     std::set<std::string> seen;
-    for (const Grouping& sessions : sessions_) {
+    for (std::size_t i = 0; i < sessions_.size(); ++i) {
+      const Grouping& sessions = sessions_[i];
       if (sessions.column.empty() || sessions.column != column) return false;
       for (const std::string& label : sessions.labels) {
-        if (!seen.insert(label).second) return false;
+        if (seen.insert(label).second) continue;
+        const bool goes_on = i > 0 && label == sessions.labels.front() &&
+                             label == sessions_[i - 1].labels.back() &&
+                             GoesOn(i - 1);
+        if (!goes_on) return false;
       }
     }
     return true;
@@ -288,12 +342,38 @@ class Joiner {
   JoinedTable joined_;
 };
 
+// A file that was saved twice is measured once.
+std::vector<std::string> LeaveOutCopies(std::vector<CsvTable>* tables) {
+  std::vector<std::string> remarks;
+  for (std::size_t i = 1; i < tables->size();) {
+    const CsvTable& table = (*tables)[i];
+    const auto original = std::ranges::find_if(
+        tables->begin(),
+        tables->begin() + static_cast<std::ptrdiff_t>(i),
+        [&](const CsvTable& before) { return HoldTheSame(before, table); });
+    if (original - tables->begin() == static_cast<std::ptrdiff_t>(i)) {
+      ++i;
+      continue;
+    }
+    remarks.push_back(PrintablePath(table.file) + ": holds the rows of " +
+                      PrintablePath(original->file) +
+                      " once more and is left out");
+    tables->erase(tables->begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  return remarks;
+}
+
 }  // namespace
 
 JoinedTable JoinTables(std::vector<CsvTable> tables,
                        const DatasetSelection& selection) {
-  if (tables.size() == 1) return {.table = std::move(tables[0]), .remarks = {}};
-  return Joiner(std::move(tables), selection).Join();
+  std::vector<std::string> remarks = LeaveOutCopies(&tables);
+  if (tables.size() == 1) {
+    return {.table = std::move(tables[0]), .remarks = std::move(remarks)};
+  }
+  JoinedTable joined = Joiner(std::move(tables), selection).Join();
+  joined.remarks.insert(joined.remarks.begin(), remarks.begin(), remarks.end());
+  return joined;
 }
 
 JoinedTable ReadTables(const std::vector<std::string>& given,

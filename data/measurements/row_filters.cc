@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "data/measurements/column_checks.h"
+#include "data/measurements/reading/column_words.h"
 #include "data/text.h"
 
 namespace errmap::data {
@@ -14,16 +15,6 @@ bool IsOneOf(std::string_view word, Words words) {
   return std::ranges::any_of(words, [word](std::string_view of) {
     return EqualsIgnoringCase(word, of);
   });
-}
-
-bool NamesDirection(std::string_view column) {
-  constexpr std::string_view kParts[] = {"direction", "approach", "motion"};
-  for (std::size_t at = 0; at < column.size(); ++at) {
-    for (const std::string_view part : kParts) {
-      if (StartsWithIgnoringCase(column.substr(at), part)) return true;
-    }
-  }
-  return EqualsIgnoringCase(column, "dir");
 }
 
 }  // namespace
@@ -47,7 +38,7 @@ const ColumnFilter* DirectionFilter(std::span<const ColumnFilter> filters) {
         const std::string word = ValueText(filter);
         // A tool may be number 1.
         const bool is_number = IsOneOf(word, {"1", "+1", "-1"});
-        return NamesDirection(filter.column) ||
+        return Says(filter.column, Word::kDirection) ||
                (IsUpwards(word) && !is_number) ||
                IsOneOf(word, {"forward", "reverse", "backward"});
       });

@@ -1,6 +1,7 @@
 #include "data/measurements/session_log.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -55,6 +56,8 @@ void TakeLog(const CsvTable& table,
     log->time_column = table.At(found.time_column).name;
   }
   log->dated = found.dated;
+  log->ordered = found.ordered;
+  log->gap = std::isfinite(found.gap) ? found.gap : 0.0;
   // Both lists ascend, and the rows kept are among those of the log.
   auto at = log_rows.begin();
   for (const Eigen::Index row : parts->rows) {

@@ -4,11 +4,14 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string_view>
+#include <utility>
 
 #include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/joined_tables.h"
+#include "data/measurements/reading/column_words.h"
 #include "data/measurements/text_times.h"
 #include "data/text.h"
 
@@ -17,15 +20,7 @@ namespace {
 
 using Eigen::Index;
 
-// Seconds per unit of a column of times; nothing where it names no such unit.
-std::optional<double> SecondsPerUnit(std::string_view column) {
-  const std::string unit = UnitOfColumn(column).symbol;
-  if (unit == "s") return 1.0;
-  if (unit == "ms") return 1e-3;
-  if (unit == "min") return 60.0;
-  if (unit == "h") return 3600.0;
-  return std::nullopt;
-}
+constexpr double kDaySeconds = 86400.0;
 
 std::string Counted(Index count, const std::string& what) {
   return count == 1 ? "one " + what : std::to_string(count) + " " + what + "s";
@@ -35,13 +30,20 @@ class SessionFinder {
  public:
   SessionFinder(const CsvTable& table,
                 const DatasetSelection& selection,
-                const std::vector<Index>& rows)
-      : table_(table), selection_(selection), rows_(rows) {
-    found_.known.assign(rows.size(), true);
+                const std::vector<Index>& rows,
+                SessionClues clues)
+      : table_(table),
+        selection_(selection),
+        rows_(rows),
+        clock_(std::move(clues.clock)),
+        nights_(clues.nights),
+        passes_(std::move(clues.passes)),
+        cycle_(clues.cycle) {
+    found_.ordered = clues.ordered;
   }
 
   FoundSessions Find() {
-    ChooseTime();
+    TakeClock();
     ChooseSessions();
     if (found_.sessions.column.empty()) {
       CutSessions();
@@ -59,6 +61,25 @@ class SessionFinder {
   const CsvColumn& TimeColumn() const { return table_.At(found_.time_column); }
   std::size_t DataRow(std::size_t i) const {
     return static_cast<std::size_t>(rows_[i]);
+  }
+
+  void TakeClock() {
+    found_.remarks = clock_.remarks;
+    found_.known = clock_.known;
+    found_.time = clock_.time;
+    found_.time_column = clock_.column;
+    found_.date_column = clock_.date_column;
+    found_.dated = clock_.dated;
+    found_.time_unit = clock_.is_found() ? "s" : "rows";
+  }
+
+  void UseRowNumbers() {
+    found_.time_column = -1;
+    found_.dated = false;
+    found_.time_unit = "rows";
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      found_.time[static_cast<Index>(i)] = static_cast<double>(rows_[i]);
+    }
   }
 
   // What is measured tells no time: filters would see the error itself.
@@ -99,89 +120,6 @@ class SessionFinder {
     found_.remarks.push_back(why + "; the column is passed over");
   }
 
-  // ---- Time.
-
-  void ChooseTime() {
-    UseRowNumbers();
-    if (IsNone(selection_.time)) return;
-    const bool named = !selection_.time.empty();
-    std::vector<std::size_t> candidates;
-    if (named) {
-      candidates.push_back(NamedColumn(selection_.time, ArgumentName("time")));
-    } else {
-      for (const char* word : kTimeWords) {
-        candidates = ColumnsOf([&](const CsvColumn& column) {
-          return StartsWithIgnoringCase(column.name, word);
-        });
-        if (!candidates.empty()) break;
-      }
-      if (candidates.empty()) {
-        candidates = ColumnsOf([](const CsvColumn& column) {
-          const TextTimes times = ReadTimes(column);
-          return column.is_text() && times.all && times.any_hours;
-        });
-      }
-    }
-    if (candidates.size() == 1) {
-      TakeTime(candidates.front(), named);
-    } else if (candidates.size() > 1) {
-      found_.remarks.push_back(
-          "several columns could be the time; name one with " +
-          ArgumentName("time"));
-    }
-  }
-
-  void UseRowNumbers() {
-    found_.time_column = -1;
-    found_.dated = false;
-    found_.time_unit = "rows";
-    found_.time.resize(static_cast<Index>(rows_.size()));
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      found_.time[static_cast<Index>(i)] = static_cast<double>(rows_[i]);
-    }
-  }
-
-  void TakeTime(std::size_t index, bool named) {
-    const CsvColumn& column = table_.columns[index];
-    const double factor = SecondsPerUnit(column.name).value_or(1.0);
-    // Of each text once: a column of dates has few or many.
-    const TextTimes times = ReadTimes(column);
-    const bool as_numbers = !column.is_text();
-    Eigen::VectorXd time(static_cast<Index>(rows_.size()));
-    std::vector<bool> known = found_.known;
-    auto exception = column.exceptions.begin();
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const std::size_t row = DataRow(i);
-      double& at = time[static_cast<Index>(i)];
-      at = factor * column.values[row];
-      if (!std::isnan(at)) continue;
-      while (exception->first < row) ++exception;
-      const std::string& text = column.texts[exception->second];
-      if (IsMissingNumber(text)) {
-        if (!MayBeMissing(index, row, named)) return;
-        known[i] = false;
-      } else if (as_numbers || !times.seconds[exception->second]) {
-        PassOver(named,
-                 table_.Where(row, column.name) + ": " + QuotedText(text) +
-                     " is no time",
-                 "write seconds, or dates and times such as "
-                 "2024-03-01T12:00:05, or name another column with " +
-                     ArgumentName("time"));
-        return;
-      } else {
-        at = *times.seconds[exception->second];
-      }
-    }
-    if (!HoldLast(known, &time)) return;
-    order_of_dates_ = times.doubt;
-    found_.dated = column.is_text() && times.all_dates;
-    hours_alone_ = column.is_text() && !times.all_dates;
-    found_.time_column = static_cast<std::ptrdiff_t>(index);
-    found_.time_unit = "s";
-    found_.time = std::move(time);
-    found_.known = std::move(known);
-  }
-
   // Whether a cell of a column may be missing in this row. One of a column that
   // somebody named drops its row, or stops.
   bool MayBeMissing(std::size_t column, std::size_t row, bool named) {
@@ -215,34 +153,118 @@ class SessionFinder {
 
   // ---- Sessions.
 
+  // The columns that are called so, the likeliest first.
+  std::vector<std::size_t> CalledSessions() const {
+    std::vector<std::size_t> found;
+    const auto add = [&](const auto& called) {
+      for (const std::size_t i : ColumnsOf(called)) {
+        if (std::ranges::find(found, i) == found.end()) found.push_back(i);
+      }
+    };
+    for (const char* name : kSessionColumns) {
+      add([&](const CsvColumn& column) {
+        return EqualsIgnoringCase(column.name, name);
+      });
+    }
+    for (const Word word : {Word::kSession, Word::kRun}) {
+      add([&](const CsvColumn& column) { return IsCalled(column.name, word); });
+    }
+    return found;
+  }
+
   void ChooseSessions() {
     if (IsNone(selection_.session)) return;
     if (!selection_.session.empty()) {
       TakeSessions(NamedColumn(selection_.session, ArgumentName("session")),
                    true);
+      found_.evidence = Evidence::kUser;
       return;
     }
     if (const std::ptrdiff_t file = table_.Find(kFileColumn);
         file >= 0 && table_.parts.size() > 1) {
+      if (ClockGoesOnOverFiles()) return;
       TakeSessions(static_cast<std::size_t>(file), false);
+      found_.by = "file";
       return;
     }
-    for (const char* name : kSessionColumns) {
-      for (std::size_t i = 0; i < table_.columns.size(); ++i) {
-        if (!EqualsIgnoringCase(table_.columns[i].name, name) ||
-            IsMeasured(i)) {
-          continue;
-        }
-        if (TakeSessions(i, false)) return;
-      }
+    for (const std::size_t i : CalledSessions()) {
+      if (!TakeSessions(i, false)) continue;
+      const std::string why = WhyNoSessions(i);
+      if (why.empty()) return;
+      found_.remarks.push_back("column " + QuotedName(table_.columns[i].name) +
+                               " " + why);
+      found_.sessions = {};
     }
     // A column of dates tells the days where the time does not.
-    if (found_.time_column >= 0 && !hours_alone_) return;
+    if (found_.time_column >= 0 && !clock_.hours_alone) return;
     const auto dates = ColumnsOf([&](const CsvColumn& column) {
       const TextTimes times = ReadTimes(column);
       return column.is_text() && times.all && times.any && !times.any_hours;
     });
-    if (dates.size() == 1) TakeSessions(dates.front(), false);
+    if (dates.size() == 1 && TakeSessions(dates.front(), false)) {
+      found_.by = "dates";
+    }
+  }
+
+  // Whether one clock runs through all of several files, so that its pauses
+  // tell the sessions and not how the rows were saved.
+  bool ClockGoesOnOverFiles() const {
+    if (!clock_.is_found()) return false;
+    std::set<Index> firsts;
+    for (const auto& part : table_.parts) {
+      firsts.insert(static_cast<Index>(part.first));
+    }
+    double within = 0.0;
+    double between = 0.0;
+    for (Index i = 1; i < found_.time.size(); ++i) {
+      const double step = found_.time[i] - found_.time[i - 1];
+      if (step < 0.0) return false;
+      const bool is_first = firsts.contains(rows_[static_cast<std::size_t>(i)]);
+      double& longest = is_first ? between : within;
+      longest = std::max(longest, step);
+    }
+    constexpr double kOtherOrder = 3.0;
+    return std::isfinite(nights_.gap) || between < kOtherOrder * within;
+  }
+
+  // Why the sessions of a column that is called so are none; "" where they are.
+  std::string WhyNoSessions(std::size_t index) const {
+    const std::vector<Index>& codes = found_.sessions.codes;
+    const CsvColumn& column = table_.columns[index];
+    if (found_.sessions.labels.size() < 2) return "";
+    if (Says(column.name, Word::kRun) && !passes_.empty() &&
+        IsPassOfEach(codes)) {
+      return "numbers passes along the axis, which are no sessions";
+    }
+    if (!found_.dated || column.name == kFileColumn) return "";
+    // A shift goes on over midnight.
+    bool any = false;
+    for (std::size_t i = 1; i < codes.size(); ++i) {
+      if (codes[i] == codes[i - 1]) continue;
+      const double now = found_.time[static_cast<Index>(i)];
+      const double before = found_.time[static_cast<Index>(i) - 1];
+      if (std::floor(now / kDaySeconds) == std::floor(before / kDaySeconds)) {
+        return "";  // not the days of the calendar
+      }
+      constexpr double kShortestNight = 3.5 * 3600.0;
+      any = any || (now >= before &&
+                    now - before <= std::min(nights_.gap, kShortestNight));
+    }
+    return any ? "changes at midnight in the midst of a run; sessions are "
+                 "parted by " +
+                     QuotedName(TimeColumn().name)
+               : "";
+  }
+
+  bool IsPassOfEach(const std::vector<Index>& codes) const {
+    std::set<std::pair<Index, Index>> pairs;
+    std::set<Index> passes;
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+      pairs.emplace(codes[i], passes_[i]);
+      passes.insert(passes_[i]);
+    }
+    return passes.size() >= 3 && pairs.size() <= passes.size() * 11 / 10 &&
+           found_.sessions.labels.size() * 10 >= passes.size() * 9;
   }
 
   bool TakeSessions(std::size_t index, bool named) {
@@ -287,6 +309,8 @@ class SessionFinder {
     }
     sessions.codes = std::move(codes);
     found_.sessions = std::move(sessions);
+    found_.by = "column";
+    found_.evidence = Evidence::kName;
     return true;
   }
 
@@ -312,15 +336,12 @@ class SessionFinder {
     }
   }
 
-  // Sessions begin anew where time does, or after a break.
+  // Sessions begin anew where time does, or after a night.
   void CutSessions() {
     const auto n = static_cast<Index>(rows_.size());
-    std::vector<double> steps;
     Index num_back = 0;
     for (Index i = 1; i < n; ++i) {
-      const double step = found_.time[i] - found_.time[i - 1];
-      steps.push_back(step);
-      num_back += step < 0.0 ? 1 : 0;
+      num_back += found_.time[i] < found_.time[i - 1] ? 1 : 0;
     }
     // Runs of fewer than four rows are no sessions but disorder.
     constexpr Index kFewestRows = 4;
@@ -334,23 +355,60 @@ class SessionFinder {
                    ArgumentName("session"));
       UseRowNumbers();
     }
-    const double leap = found_.time_column >= 0
-                            ? kLeapSteps * MedianStep(std::move(steps))
-                            : INFINITY;
+    CutWhere([&](std::size_t i) {
+      const double step = found_.time[static_cast<Index>(i)] -
+                          found_.time[static_cast<Index>(i) - 1];
+      return found_.time_column >= 0 && (step < 0.0 || step > nights_.gap);
+    });
+    found_.by = found_.sessions.labels.size() < 2 ? "one"
+                : num_back > 0                    ? "clock"
+                                                  : "nights";
+    found_.gap = nights_.gap;
+    found_.evidence =
+        selection_.gap.empty() ? Evidence::kValues : Evidence::kUser;
+    if (found_.by != "one" || !CountsAnew()) return;
+    CutWhere(
+        [&](std::size_t i) { return CellOfCycle(i) < CellOfCycle(i - 1); });
+    found_.by = "counter";
+  }
+
+  template <typename Begins>
+  void CutWhere(const Begins& begins) {
+    found_.sessions = {};
     Index session = 0;
-    for (Index i = 0; i < n; ++i) {
-      if (i > 0) {
-        const double step = found_.time[i] - found_.time[i - 1];
-        if (step < 0.0 || step > leap) {
-          ++session;
-          if (first_cut_ < 0) first_cut_ = rows_[static_cast<std::size_t>(i)];
-        }
+    first_cut_ = -1;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (i > 0 && begins(i)) {
+        ++session;
+        if (first_cut_ < 0) first_cut_ = rows_[i];
       }
       found_.sessions.codes.push_back(session);
     }
     for (Index i = 0; i <= session; ++i) {
       found_.sessions.labels.push_back(std::to_string(i + 1));
     }
+  }
+
+  double CellOfCycle(std::size_t i) const {
+    return table_.At(cycle_).values[DataRow(i)];
+  }
+
+  // Whether cycles count from the first one again, some rows each.
+  bool CountsAnew() const {
+    if (cycle_ < 0 || !found_.ordered || table_.At(cycle_).is_text() ||
+        !table_.At(cycle_).exceptions.empty()) {
+      return false;
+    }
+    std::size_t runs = 1;
+    bool anew = false;
+    for (std::size_t i = 1; i < rows_.size(); ++i) {
+      const double step = CellOfCycle(i) - CellOfCycle(i - 1);
+      runs += step != 0.0 ? 1 : 0;
+      if (!(step < 0.0)) continue;
+      if (CellOfCycle(i) > CellOfCycle(0)) return false;
+      anew = true;
+    }
+    return anew && rows_.size() >= 2 * runs;
   }
 
   // ---- Words.
@@ -360,32 +418,41 @@ class SessionFinder {
     std::string text = Counted(count, "session");
     if (!found_.sessions.column.empty()) {
       text += " by " + QuotedName(found_.sessions.column);
+    } else if (found_.by == "counter") {
+      text += ", as " + QuotedName(table_.At(cycle_).name) +
+              " begins anew (first at data row " + std::to_string(first_cut_) +
+              ")";
     } else if (count > 1) {
       text += ", cut where " + QuotedName(TimeColumn().name) +
-              " goes back or leaps (first at data row " +
-              std::to_string(first_cut_) + ")";
+              (found_.by == "nights" ? " pauses for a night"
+                                     : " goes back or pauses for a night") +
+              " (first at data row " + std::to_string(first_cut_) + ")";
     } else {
       text += std::string(" (no column ") + kSessionColumnsText +
-              ", no break in time)";
+              ", no night in time)";
     }
     return text;
   }
 
   std::string TimeText() const {
+    if (!found_.ordered) return "the rows are in no order of time";
     if (found_.time_column < 0) return "time is the number of the row";
-    const std::string& name = TimeColumn().name;
-    const bool assumed = !TimeColumn().is_text() && !SecondsPerUnit(name);
-    return "time by " + QuotedName(name) +
-           (assumed ? ", taken for seconds" : order_of_dates_);
+    std::string text = "time by " + QuotedName(TimeColumn().name);
+    if (clock_.date_column >= 0) {
+      text += " and " + QuotedName(table_.At(clock_.date_column).name);
+    }
+    return text + clock_.words;
   }
 
   const CsvTable& table_;
   const DatasetSelection& selection_;
   const std::vector<Index>& rows_;
+  Clock clock_;
+  Nights nights_;
+  std::vector<Index> passes_;
+  std::ptrdiff_t cycle_;
   FoundSessions found_;
-  Index first_cut_ = -1;        // data row
-  bool hours_alone_ = false;    // the time has no date
-  std::string order_of_dates_;  // words on it where it is in doubt
+  Index first_cut_ = -1;  // data row
 };
 
 }  // namespace
@@ -426,8 +493,9 @@ bool NamesTime(std::string_view name) {
 
 FoundSessions FindSessions(const CsvTable& table,
                            const DatasetSelection& selection,
-                           const std::vector<Index>& rows) {
-  return SessionFinder(table, selection, rows).Find();
+                           const std::vector<Index>& rows,
+                           SessionClues clues) {
+  return SessionFinder(table, selection, rows, std::move(clues)).Find();
 }
 
 }  // namespace errmap::data

@@ -8,6 +8,9 @@
 
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
+#include "data/measurements/reading/clock.h"
+#include "data/measurements/reading/nights.h"
+#include "data/measurements/reading/reading.h"
 
 namespace errmap::data {
 
@@ -38,8 +41,13 @@ struct FoundSessions {
   Eigen::VectorXd time;
   std::string time_unit;            // "s" or "rows"
   std::ptrdiff_t time_column = -1;  // index into the table; -1: row numbers
+  std::ptrdiff_t date_column = -1;  // of its days, where they stand apart
   bool dated = false;               // the time counts from 1970, by dates
   std::vector<bool> known;          // (n) false: the time or session is missing
+  bool ordered = true;     // false: sorted by something else, no time is known
+  std::string by = "one";  // Reading::Sessions
+  double gap = 0.0;        // s, of a night; 0: not looked for
+  Evidence evidence = Evidence::kNone;
   /// What was found, one line each; nothing of one run without a time.
   std::vector<std::string> remarks;
 };
@@ -65,5 +73,18 @@ struct FoundSessions {
 FoundSessions FindSessions(const CsvTable& table,
                            const DatasetSelection& selection,
                            const std::vector<Eigen::Index>& rows);
+
+/// What tells sessions apart besides columns that are called so.
+struct SessionClues {
+  Clock clock;
+  Nights nights;
+  std::vector<Eigen::Index> passes = {};  // (n) along the axis; may be empty
+  std::ptrdiff_t cycle = -1;              // index of the column of cycles
+  bool ordered = true;
+};
+FoundSessions FindSessions(const CsvTable& table,
+                           const DatasetSelection& selection,
+                           const std::vector<Eigen::Index>& rows,
+                           SessionClues clues);
 
 }  // namespace errmap::data

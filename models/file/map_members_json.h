@@ -53,6 +53,9 @@ ModelJson MembersToJson(const T& value, double (*shown)(double) = nullptr) {
                                    data::ColumnInfo>) {
         json["name"] = member.name;
         json["unit"] = member.unit.symbol;
+        if (member.role != data::Role::kUnknown) {
+          json["role"] = data::ToString(member.role);
+        }
       } else {
         json[key] = MembersToJson(member, shown);
       }
@@ -68,6 +71,8 @@ ModelJson MembersToJson(const T& value, double (*shown)(double) = nullptr) {
         shown == nullptr
             ? value
             : T(value.unaryExpr([&](double number) { return shown(number); })));
+  } else if constexpr (requires { value.has_value(); }) {
+    return value ? ModelJson(MembersToJson(*value, shown)) : ModelJson();
   } else if constexpr (requires { value.front(); } &&
                        !std::is_same_v<T, std::string>) {
     ModelJson json = ModelJson::array();
@@ -107,6 +112,9 @@ void ReadMembers(const ModelJsonNode& node,
       if constexpr (std::is_same_v<std::decay_t<decltype(member)>,
                                    data::ColumnInfo>) {
         member = ReadColumn(node);
+      } else if constexpr (requires { member.has_value(); }) {
+        const auto found = node.Find(key);
+        if (found) ReadMembers(*found, &member.emplace());
       } else {
         ReadMembers(node.At(key), &member);
       }
@@ -115,6 +123,10 @@ void ReadMembers(const ModelJsonNode& node,
     *value = node.Number();
   } else if constexpr (std::is_enum_v<T>) {
     *value = ReadWord<T>(node);
+  } else if constexpr (std::is_same_v<T, bool>) {
+    *value = node.Truth();
+  } else if constexpr (std::is_same_v<T, int>) {
+    *value = static_cast<int>(node.Number());
   } else if constexpr (std::is_integral_v<T>) {
     const Eigen::Index count = node.Count();
     if (std::cmp_greater(count, std::numeric_limits<T>::max())) {

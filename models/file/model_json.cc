@@ -97,6 +97,11 @@ double Node::Number() const {
   return number;
 }
 
+bool Node::Truth() const {
+  if (!value_.is_boolean()) Refuse("must be true or false");
+  return value_.get<bool>();
+}
+
 Index Node::Count() const {
   if (!value_.is_number_integer() || value_.get<std::int64_t>() < 0) {
     Refuse("must be a whole number of at least 0");

@@ -56,6 +56,7 @@ class ModelJsonNode {
   std::string Text() const;
   /// Finite.
   double Number() const;
+  bool Truth() const;
   /// At least 0.
   Eigen::Index Count() const;
   Eigen::VectorXd Vector() const;

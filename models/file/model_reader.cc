@@ -19,7 +19,12 @@
 namespace errmap::models {
 
 data::ColumnInfo ReadColumn(const ModelJsonNode& node) {
-  return {node.At("name").Text(), data::UnitOfSymbol(node.At("unit").Text())};
+  data::ColumnInfo column{.name = node.At("name").Text(),
+                          .unit = data::UnitOfSymbol(node.At("unit").Text())};
+  // Maps of before have no roles.
+  const auto role = node.Find("role");
+  column.role = role ? ReadWord<data::Role>(*role) : data::RoleByName(column);
+  return column;
 }
 
 namespace {
@@ -103,6 +108,7 @@ History ReadHistory(const Node& node, const std::vector<TrainedInput>& inputs) {
   }
   history.session = node.At("session").Text();
   if (const auto time = node.Find("time")) history.time = time->Text();
+  if (const auto gap = node.Find("gap")) history.gap = gap->Number();
   if (const auto start = node.Find("latest_start")) {
     history.latest_start = start->Number();
   }
@@ -402,6 +408,11 @@ FittedModel ReadModel(const Node& root) {
   }
   if (const auto learnt = root.Find("learnt")) {
     fitted.learnt = std::make_shared<LearntRows>(ReadLearntRows(*learnt));
+  }
+  if (const auto reading = root.Find("reading")) {
+    auto read = std::make_shared<data::Reading>();
+    ReadMembers(*reading, read.get());
+    fitted.reading = std::move(read);
   }
   if (fitted.model->num_parameters() != parameters.Count()) {
     parameters.Refuse(fmt::format("is {}, the model has {}",

@@ -127,6 +127,8 @@ std::string ModelToJson(const FittedModel& fitted,
                              : Json();
   document["learnt"] =
       fitted.learnt != nullptr ? ToJson(*fitted.learnt) : Json();
+  document["reading"] =
+      fitted.reading != nullptr ? MembersToJson(*fitted.reading) : Json();
   document["provenance"] = Json::object();
   for (const auto& [key, value] : provenance) {
     document["provenance"][key] = value;

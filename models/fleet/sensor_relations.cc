@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "data/input_error.h"
-#include "data/measurements/column_roles.h"
 #include "fitting/least_squares/decompositions.h"
 #include "models/study/record/record_json.h"
 
@@ -64,7 +63,7 @@ std::vector<Index> SensorsOf(const data::Dataset& dataset) {
   std::vector<Index> sensors;
   for (Index i = 0; i < dataset.num_inputs(); ++i) {
     const data::ColumnInfo& column = dataset.inputs()[std::size_t(i)];
-    if (data::IsSensor(column)) sensors.push_back(i);
+    if (data::IsReadBySensor(column)) sensors.push_back(i);
   }
   return sensors;
 }

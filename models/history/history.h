@@ -68,6 +68,7 @@ struct History {
   std::string time_unit;  // "s" or "rows"
   std::string session;    // column; "" where sessions are cut by time
   std::string time = {};  // column; "" where time is rows, or not known
+  double gap = 0.0;       // s: a longer pause parts sessions; 0: not known
   /// Time by which the sessions of training had begun, and kLateSteps median
   /// steps more, where all began within kLeapSteps of another; NaN where clocks
   /// tell nothing.

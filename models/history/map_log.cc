@@ -29,6 +29,7 @@ data::DatasetSelection SelectionFor(const History& history,
       table.Find(history.time) >= 0) {
     selection.time = history.time;
   }
+  if (history.gap > 0.0) selection.gap = data::CsvNumber(history.gap);
   selection.session = arguments.session;
   if (selection.session.empty()) {
     selection.session = history.session.empty() ? "none" : history.session;

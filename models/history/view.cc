@@ -59,6 +59,7 @@ History DefineView(const Dataset& training,
     history.time_unit = training.log()->time_unit;
     history.session = training.log()->sessions.column;
     history.time = training.log()->time_column;
+    history.gap = training.log()->gap;
   }
   // Columns that filters and zeros are taken of, and columns that stay.
   std::vector<data::ColumnInfo> varying;
@@ -68,7 +69,7 @@ History DefineView(const Dataset& training,
         history.derived.push_back(part);
         history.form_inputs.push_back(part.column.name);
       }
-    } else if (IsPosition(input)) {
+    } else if (data::IsPosition(input)) {
       history.form_inputs.push_back(input.name);
     } else {
       varying.push_back(input);
@@ -100,10 +101,11 @@ std::string WhyNot(const Dataset& training,
                    const std::vector<double>& time_constants) {
   const bool only_positions = std::ranges::all_of(
       training.inputs(),
-      [](const data::ColumnInfo& input) { return IsPosition(input); });
+      [](const data::ColumnInfo& input) { return data::IsPosition(input); });
   if (view == View::kRaw) return "";
   if (only_positions) return "there is no input besides positions";
   if (training.log() == nullptr) return "no sessions and times are known";
+  if (!training.log()->ordered) return "the rows are in no order of time";
   if (Filters(view) && time_constants.empty()) {
     return "no session has a length";
   }
@@ -134,14 +136,6 @@ std::string ViewedRows::label() const {
 View ViewOf(std::string_view word) {
   return static_cast<View>(std::ranges::find(ViewWords(), word) -
                            ViewWords().begin());
-}
-
-bool IsPosition(const data::ColumnInfo& column) {
-  constexpr std::string_view kWord = "position";
-  return std::ranges::equal(
-      column.name.substr(0, kWord.size()), kWord, [](char a, char b) {
-        return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b;
-      });
 }
 
 std::vector<std::string> NamesOfGrowing(const ViewedRows& viewed) {
@@ -277,7 +271,7 @@ std::vector<ViewedRows> MakeViews(const Dataset& training,
       viewed.rows = std::make_shared<const Dataset>(training);
     }
     for (const data::ColumnInfo& input : viewed.rows->inputs()) {
-      viewed.is_position.push_back(IsPosition(input));
+      viewed.is_position.push_back(data::IsPosition(input));
     }
     viewed.only_grows = ColumnsThatOnlyGrow(*viewed.rows);
     viewed.room = room;

@@ -92,7 +92,4 @@ std::vector<std::string> NamesOfGrowing(const ViewedRows& viewed);
 /// Where a guarded map of these rows bends beyond them, that it does.
 void RemarkOnGrowth(const ViewedRows& viewed, FittedModel* fitted);
 
-/// "position*" columns, which are neither filtered nor zeroed.
-bool IsPosition(const data::ColumnInfo& column);
-
 }  // namespace errmap::models

@@ -51,7 +51,7 @@ std::vector<TermPowers> CheckedTerms(const Dataset& training,
   constexpr Index kMostDictionaryTerms = 2'000'000;
   std::vector<bool> is_position;
   for (const data::ColumnInfo& input : training.inputs()) {
-    is_position.push_back(IsPosition(input));
+    is_position.push_back(data::IsPosition(input));
   }
   const auto count = CountTerms(set, is_position, degree);
   const Index rows = training.num_rows();

@@ -312,7 +312,7 @@ std::optional<Applicability> MakeApplicability(const FittedModel& fitted,
     const data::ColumnInfo& column = fitted.inputs[i].column;
     inputs.col(static_cast<Index>(i)) =
         training.input_values().col(training.FindInput(column.name));
-    if (!IsPosition(column)) columns.push_back(static_cast<Index>(i));
+    if (!data::IsPosition(column)) columns.push_back(static_cast<Index>(i));
   }
   if (columns.empty() || training.num_rows() < kFewestRows) return std::nullopt;
   const std::vector<Index> chosen =

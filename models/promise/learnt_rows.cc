@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "data/measurements/column_roles.h"
 #include "models/study/repeated_rows.h"
 
 namespace errmap::models {
@@ -82,7 +81,7 @@ std::optional<LearntRows> MakeLearntRows(const FittedModel& fitted,
         fitted.inputs[static_cast<std::size_t>(i)].column;
     inputs.col(i) =
         training.input_values().col(training.FindInput(column.name));
-    has_sensor = has_sensor || data::IsSensor(column);
+    has_sensor = has_sensor || data::IsReadBySensor(column);
   }
   learnt.measured = MakeFilter(
       training, RowHashes(inputs, &training.target_values()), learnt.every);

@@ -10,6 +10,7 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/measured_files.h"
+#include "data/measurements/reading/read_table.h"
 #include "data/measurements/row_filters.h"
 #include "data/measurements/sessions.h"
 
@@ -42,6 +43,17 @@ data::DatasetSelection SelectionFor(const FittedModel& fitted,
   return selection;
 }
 
+// Its column of positions; "" where nothing tells it.
+std::string PositionOf(const FittedModel& fitted) {
+  if (fitted.reading != nullptr && fitted.reading->position.column) {
+    return *fitted.reading->position.column;
+  }
+  for (const TrainedInput& input : fitted.inputs) {
+    if (data::IsPosition(input.column)) return input.column.name;
+  }
+  return "";
+}
+
 data::Dataset WithMapLog(const data::Dataset& dataset, const MapLog& map) {
   if (map.log == nullptr) return dataset;
   std::vector<Index> log_rows;
@@ -61,6 +73,9 @@ data::FoundSessions FindSessionsOf(const FittedModel& fitted,
   if (selection.session.empty() && fitted.history != nullptr &&
       table.Find(fitted.history->session) >= 0) {
     selection.session = fitted.history->session;
+  }
+  if (fitted.history != nullptr && fitted.history->gap > 0.0) {
+    selection.gap = data::CsvNumber(fitted.history->gap);
   }
   return data::FindSessions(table, selection, rows);
 }
@@ -113,6 +128,11 @@ data::TableForMap ReadForMap(const FittedModel& fitted,
   if (by_file && read.table.Find(data::kFileColumn) < 0) {
     data::AddFileColumn(data::FileLabel(read.table.file), &read.table);
   }
+  data::AddDerivedColumns(
+      fitted.where,
+      PositionOf(fitted),
+      columns == MapColumns::kInputsAndTarget ? fitted.target.name : "",
+      &read.table);
   data::TableForMap result = data::InMapUnits(std::move(read.table), of_map);
   result.remarks.insert(
       result.remarks.begin(), read.remarks.begin(), read.remarks.end());

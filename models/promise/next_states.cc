@@ -69,7 +69,7 @@ std::vector<NextState> ChooseNext(const data::Dataset& measured,
   std::vector<Index> others;
   const Index position = FindPosition(measured, "");
   for (Index i = 0; i < measured.num_inputs(); ++i) {
-    if (!IsPosition(measured.inputs()[static_cast<std::size_t>(i)])) {
+    if (!data::IsPosition(measured.inputs()[static_cast<std::size_t>(i)])) {
       others.push_back(i);
     }
   }

@@ -215,7 +215,7 @@ std::string ComparisonOfChosen(const models::SensorCurveRecord& curve,
   if (!curve.enough || *curve.enough >= curve.all.sensors) return "";
   std::vector<std::string> inputs;
   for (const data::ColumnInfo& input : dataset.inputs()) {
-    if (data::NamesPosition(input.name) ||
+    if (data::IsPosition(input) ||
         std::ranges::find(
             curve.chosen, input.name, &models::ChosenSensorRecord::sensor) !=
             curve.chosen.end()) {

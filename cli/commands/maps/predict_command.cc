@@ -180,7 +180,7 @@ std::vector<const data::CsvColumn*> IdColumns(const Predicted& found,
                                         found.table.Find("cycle"),
                                         TimeColumn(found, time)};
   for (const models::TrainedInput& input : found.fitted.inputs) {
-    if (!models::IsPosition(input.column)) continue;
+    if (!data::IsPosition(input.column)) continue;
     places.push_back(found.table.Find(input.column.name));
     break;
   }

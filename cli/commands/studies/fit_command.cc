@@ -24,6 +24,7 @@
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/files/shown_path.h"
+#include "data/measurements/reading/read_table.h"
 #include "data/text.h"
 #include "fitting/interruption.h"
 #include "models/file_recipe.h"
@@ -218,6 +219,17 @@ void AddInterval(const data::Dataset& dataset,
   }
 }
 
+// One map for both ways along an axis is one for neither.
+void RefuseBothWays(const data::Reading& reading,
+                    const data::DatasetSelection& selection) {
+  if (data::DirectionsOf(reading, selection).empty()) return;
+  throw UsageError(fmt::format(
+      "rows go both ways along {}, which err differently; fit each way by "
+      "itself with --direction up and --direction down",
+      data::QuotedName(
+          reading.position.column.value_or(*reading.direction.column))));
+}
+
 int RunFit(const FitArguments& arguments, const std::string& command_line) {
   CheckOutputName(
       "-o",
@@ -226,6 +238,7 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
   RequirePlaceFor(arguments.out);
   auto recipe = RecipeFromArgument(arguments.model);
   const data::PreparedDataset prepared = ReadData(arguments.data);
+  RefuseBothWays(prepared.reading, arguments.data.selection);
   const data::Dataset& dataset = prepared.dataset;
   const std::atomic<bool>& stop = InstallInterruptFlag();
   const models::FitContext context{
@@ -253,6 +266,8 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
     return kEveryFitFailed;
   }
   const Json configuration = ConfigurationJson(*recipe, dataset, arguments);
+  fitted.where = prepared.where;
+  fitted.reading = std::make_shared<const data::Reading>(prepared.reading);
   models::AddExperience(dataset, &fitted);
   if (!arguments.no_interval && !stop.load()) {
     AddInterval(dataset, std::move(recipe), context, &fitted);

@@ -277,7 +277,7 @@ class MachineEvaluator {
                     static_cast<Index>(map.inputs.size()));
     Index column = 0;
     for (const models::TrainedInput& input : map.inputs) {
-      inputs.col(column++) = models::IsPosition(input.column)
+      inputs.col(column++) = data::IsPosition(input.column)
                                  ? Position(input.column, coordinate)
                                  : ByName(points_, input.column);
     }
@@ -320,7 +320,7 @@ class MachineEvaluator {
                     static_cast<Index>(map.inputs.size()));
     Index column = 0;
     for (const models::TrainedInput& input : map.inputs) {
-      if (models::IsPosition(input.column)) {
+      if (data::IsPosition(input.column)) {
         inputs.col(column++).setConstant(
             std::numeric_limits<double>::quiet_NaN());
       } else {

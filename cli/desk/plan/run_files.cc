@@ -92,6 +92,7 @@ std::string MapFileText(const StudyRun& run,
                         const models::ModelResult& model) {
   models::FittedModel map = *model.final_fit;
   map.where = component.data.where;
+  map.reading = std::make_shared<const data::Reading>(component.data.reading);
   std::vector<InputFile> files;
   for (const models::InputFileRecord& file : component.files) {
     files.push_back({file.file, file.sha256});

@@ -17,6 +17,7 @@
 #include "data/input_error.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/measured_files.h"
+#include "data/measurements/reading/read_table.h"
 #include "data/text.h"
 #include "models/comparison/compare.h"
 #include "models/file_recipe.h"
@@ -315,6 +316,36 @@ class ComponentPlanner {
   data::MeasuredFiles files_;
 };
 
+// Rows that go both ways along the axis are two components. What a file of
+// folds or predictions was made for stays whole.
+void PartByDirection(StudyConfig* config, TableReader* reader) {
+  std::vector<ComponentConfig> parted;
+  for (const ComponentConfig& component : config->components) {
+    std::vector<data::ColumnFilter> ways;
+    if (component.split.empty() && component.save_split.empty() &&
+        component.predictions.empty()) {
+      try {
+        const data::CsvTable& table =
+            reader->ReadAll(data::FindFiles(component.AllData()).paths,
+                            component.selection,
+                            {});
+        ways = data::DirectionsOf(
+            data::ReadRoles(table, component.selection).reading,
+            component.selection);
+      } catch (const data::InputError&) {
+        // Said where the component is planned.
+      }
+    }
+    if (ways.empty()) parted.push_back(component);
+    for (const data::ColumnFilter& way : ways) {
+      ComponentConfig& one = parted.emplace_back(component);
+      one.selection.where.push_back(way);
+      if (!one.name.empty()) one.name += ", " + ValueText(way);
+    }
+  }
+  config->components = std::move(parted);
+}
+
 // What defaults became, so that a study with these words would do the same.
 // Hold-outs and models that differ between components stay unsaid.
 void FillInDefaults(StudyPlan* plan) {
@@ -378,8 +409,9 @@ StudyPlan PlanStudy(const StudyConfig& config,
                     const Remark& remark,
                     const MakeOwnRecipes& own) {
   StudyPlan plan{.config = config, .inputs = {}, .components = {}};
-  NameComponents(&plan.config);
   TableReader reader(&plan.inputs);
+  PartByDirection(&plan.config, &reader);
+  NameComponents(&plan.config);
   for (const ComponentConfig& component : plan.config.components) {
     plan.components.push_back(
         ComponentPlanner(plan.config, component, remark, own, &reader).Plan());

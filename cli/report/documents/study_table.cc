@@ -107,6 +107,11 @@ class ComponentScreen {
 };
 
 void ComponentScreen::Answer() {
+  if (record_.data.reading.rows > 0) {
+    for (const std::string& line : data::ReadingLines(record_.data.reading)) {
+      Paragraph(line);
+    }
+  }
   Data();
   screen_->Add("\n");
   Verdict();

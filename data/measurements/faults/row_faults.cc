@@ -15,7 +15,9 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/dataset.h"
 #include "data/measurements/faults/thermometers.h"
+#include "data/measurements/joined_tables.h"
 #include "data/measurements/least_squares.h"
+#include "data/measurements/reading/column_words.h"
 #include "data/measurements/text_times.h"
 #include "data/text.h"
 
@@ -45,15 +47,18 @@ bool HasDigit(std::string_view text) {
 // Of the rows, what numbers or times must be for a word to be out of place.
 constexpr std::size_t kUsualPercent = 80;
 
-// A row as one number; rows that differ have others, but by rare chance.
-std::uint64_t RowHash(const CsvTable& table, std::size_t row) {
+// A row as one number; rows that differ have others, but by rare chance. In
+// which file or session it stands does not count.
+std::uint64_t RowHash(const CsvTable& table,
+                      const std::vector<const CsvColumn*>& columns,
+                      std::size_t row) {
   std::uint64_t hash = 0;
   const auto mix = [&](std::uint64_t bits) {
     hash = (hash ^ bits) * 0x9E3779B97F4A7C15U;
     hash ^= hash >> 32U;
   };
-  for (const CsvColumn& column : table.columns) {
-    if (!column.has_name) continue;
+  for (const CsvColumn* const measured : columns) {
+    const CsvColumn& column = *measured;
     const double value = column.values[row];
     mix(std::isnan(value)
             ? std::hash<std::string>{}(table.CellText(column, row))
@@ -354,9 +359,16 @@ std::vector<Index> RepeatedRows(const CsvTable& table,
   std::vector<Index> repeated;
   std::set<double> levels;
   std::size_t others = 0;
+  std::vector<const CsvColumn*> columns;
+  for (const CsvColumn& column : table.columns) {
+    if (column.has_name && column.name != kFileColumn &&
+        !IsCalled(column.name, Word::kSession)) {
+      columns.push_back(&column);
+    }
+  }
   for (std::size_t row = 0; row < table.num_rows; ++row) {
     if (!passes[row]) continue;
-    if (!first.emplace(RowHash(table, row), row).second) {
+    if (!first.emplace(RowHash(table, columns, row), row).second) {
       repeated.push_back(static_cast<Index>(row));
       continue;
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "data/measurements/making/idle_inputs.h"
 #include "data/measurements/making/leaking_inputs.h"
 #include "data/measurements/making/word_columns.h"
+#include "data/measurements/reading/read_table.h"
 #include "data/measurements/rounded.h"
 #include "data/measurements/session_log.h"
 #include "data/measurements/sessions.h"
@@ -28,11 +30,15 @@ namespace {
 
 class DatasetBuilder {
  public:
-  DatasetBuilder(const CsvTable& table, const DatasetSelection& selection)
-      : table_(table), selection_(selection) {}
+  DatasetBuilder(const CsvTable& table,
+                 const DatasetSelection& selection,
+                 ReadTable read)
+      : table_(table),
+        selection_(selection),
+        read_(std::move(read)),
+        roles_(read_.roles) {}
 
   PreparedDataset Build() {
-    roles_ = ChooseRoles(table_, selection_);
     ChooseRows();
     TakeChosenInputs();
     ReadUnits();
@@ -58,13 +64,16 @@ class DatasetBuilder {
       remarks_.push_back(AlignTarget(&parts_));
     }
     parts_.source = table_.file;
+    TakeRoles();
+    inputs_of_dataset_ = parts_.inputs;
     return {.dataset = Dataset(std::move(parts_)),
             .dropped = std::move(dropped_),
             .remarks = std::move(remarks_),
             .doubts = std::move(doubts_),
             .time_column = time_column,
-            .where = selection_.where,
-            .faults = std::move(faults_)};
+            .where = std::move(read_.where),
+            .faults = std::move(faults_),
+            .reading = DescribedReading()};
   }
 
  private:
@@ -73,7 +82,12 @@ class DatasetBuilder {
     return table_.At(index).name;
   }
   ColumnInfo Info(std::size_t index) const {
-    return {.name = Name(index), .unit = UnitOfColumn(Name(index))};
+    ColumnInfo info{.name = Name(index), .unit = UnitOfColumn(Name(index))};
+    if (std::ranges::find(read_.axis.positions, index) !=
+        read_.axis.positions.end()) {
+      info.role = Role::kPosition;
+    }
+    return info;
   }
 
   void Drop(std::size_t index, const std::string& why) {
@@ -84,14 +98,11 @@ class DatasetBuilder {
 
   // Those that may be used, and their sessions.
   void ChooseRows() {
-    passes_ = RowsThatPass(table_, selection_.where);
-    RefuseRowsOfWords(table_, NumberingColumns(), passes_);
-    LookForRepeatedRows();
+    passes_ = std::move(read_.passes);
+    repeated_rows_ = std::move(read_.repeated_rows);
     if (!selection_.with_log) return;
-    for (std::size_t row = 0; row < passes_.size(); ++row) {
-      if (passes_[row]) log_rows_.push_back(static_cast<Eigen::Index>(row));
-    }
-    FindSessionsOfRows();
+    log_rows_ = std::move(read_.log_rows);
+    found_ = std::move(read_.found);
     remarks_.insert(
         remarks_.end(), found_.remarks.begin(), found_.remarks.end());
     std::size_t num_unknown = 0;
@@ -104,46 +115,6 @@ class DatasetBuilder {
       remarks_.push_back(std::to_string(num_unknown) + " of " +
                          std::to_string(log_rows_.size()) +
                          " rows have no time or session and are dropped");
-    }
-  }
-
-  std::vector<bool> NumberingColumns() const {
-    std::vector<bool> numbering;
-    for (const CsvColumn& column : table_.columns) {
-      numbering.push_back(KeepsRecord(column.name));
-    }
-    if (roles_.group != kNoColumn) {
-      numbering[static_cast<std::size_t>(roles_.group)] = true;
-    }
-    return numbering;
-  }
-
-  void LookForRepeatedRows() {
-    if (selection_.only_to_judge) return;
-    repeated_rows_ = RepeatedRows(table_, roles_.target, passes_);
-    if (selection_.faults != FaultPolicy::kDropRows) return;
-    for (const Eigen::Index row : repeated_rows_) {
-      passes_[static_cast<std::size_t>(row)] = false;
-    }
-  }
-
-  // Rows that stand twice go back in time, which is not what is wrong.
-  void FindSessionsOfRows() {
-    try {
-      found_ = FindSessions(table_, selection_, log_rows_);
-    } catch (const InputError& error) {
-      if (repeated_rows_.empty() ||
-          selection_.faults == FaultPolicy::kDropRows) {
-        throw;
-      }
-      throw InputError(std::string(error.what()) + " (" +
-                       std::to_string(repeated_rows_.size()) +
-                       " rows repeat others value for value, the first at "
-                       "line " +
-                       std::to_string(table_.LineOfRow(
-                           static_cast<std::size_t>(repeated_rows_.front()))) +
-                       "; " + ArgumentName("faults", "drop-rows") +
-                       " leaves them out)");
     }
   }
 
@@ -532,6 +503,53 @@ class DatasetBuilder {
     KeepInputs(left_out);
   }
 
+  // By name and values, where the axis has not said it.
+  void TakeRoles() {
+    const Eigen::MatrixXd& values =
+        parts_.input_values.cols() > 0 ? parts_.input_values : LogValues();
+    for (std::size_t i = 0; i < parts_.inputs.size(); ++i) {
+      ColumnInfo& input = parts_.inputs[i];
+      if (input.role != Role::kUnknown) continue;
+      input.role = RoleByName(input);
+      if (input.role == Role::kSensor && input.unit.symbol.empty() &&
+          HasTwoValues(values.col(static_cast<Eigen::Index>(i)))) {
+        input.role = Role::kSwitch;
+      }
+    }
+  }
+
+  const Eigen::MatrixXd& LogValues() const {
+    static const Eigen::MatrixXd kNone;
+    return parts_.log ? parts_.log->input_values : kNone;
+  }
+
+  static bool HasTwoValues(const Eigen::Ref<const Eigen::VectorXd>& values) {
+    double other = std::numeric_limits<double>::quiet_NaN();
+    for (const double value : values) {
+      if (value == values[0] || std::isnan(value)) continue;
+      if (std::isnan(other)) other = value;
+      if (value != other) return false;
+    }
+    return !std::isnan(other);
+  }
+
+  // The reading, with what the values of the columns in use added.
+  Reading DescribedReading() {
+    Reading reading = std::move(read_.reading);
+    reading.remarks = remarks_;
+    for (const DroppedColumn& column : dropped_) {
+      reading.left_out.push_back({.column = column.column, .why = column.why});
+    }
+    for (const ColumnInfo& input : inputs_of_dataset_) {
+      if (input.role == Role::kPosition) continue;
+      (input.role == Role::kSwitch    ? reading.switches
+       : input.role == Role::kCounter ? reading.counters
+                                      : reading.sensors)
+          .push_back(input.name);
+    }
+    return reading;
+  }
+
   // Rows of several machines, tools or directions, which err differently.
   void LookForParts() {
     constexpr double kDiffers = 0.7;
@@ -554,6 +572,7 @@ class DatasetBuilder {
 
   const CsvTable& table_;
   const DatasetSelection& selection_;
+  ReadTable read_;
   ColumnRoles roles_;
   std::vector<std::size_t> inputs_;  // columns of the table
   Dataset::Parts parts_;
@@ -567,13 +586,18 @@ class DatasetBuilder {
   std::vector<std::size_t> words_;  // columns that name things
   std::vector<Eigen::Index> repeated_rows_;
   std::vector<std::string> doubts_;
+  std::vector<ColumnInfo> inputs_of_dataset_;
 };
 
 }  // namespace
 
 PreparedDataset MakeDataset(const CsvTable& table,
                             const DatasetSelection& selection) {
-  return DatasetBuilder(table, selection).Build();
+  ReadTable read = ReadRoles(table, selection);
+  // Moved out first: the builder reads from one table only.
+  const std::optional<CsvTable> as_read = std::move(read.table);
+  return DatasetBuilder(as_read ? *as_read : table, selection, std::move(read))
+      .Build();
 }
 
 }  // namespace errmap::data

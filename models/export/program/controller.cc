@@ -112,7 +112,7 @@ void SetBounds(const FittedModel& fitted, MapProgram* program) {
     const double range = Range(reading);
     const data::Unit& unit = reading.column.unit;
     reading.is_position =
-        IsPosition(reading.column) || unit.quantity == data::Quantity::kAngle;
+        data::IsPosition(reading.column) || unit.quantity == data::Quantity::kAngle;
     reading.far_low = -kHuge;
     reading.far_high = kHuge;
     if (reading.is_position) continue;

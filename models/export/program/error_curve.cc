@@ -170,7 +170,7 @@ double Tidied(double value) {
 
 int PositionOf(const MapProgram& program) {
   for (std::size_t i = 0; i < program.readings.size(); ++i) {
-    if (data::NamesPosition(program.readings[i].column.name)) {
+    if (data::IsPosition(program.readings[i].column)) {
       return static_cast<int>(i);
     }
   }

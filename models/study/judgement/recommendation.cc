@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "data/measurements/column_roles.h"
 #include "models/study/judgement/blend_or_simpler.h"
 #include "models/study/judgement/extrapolated_rows.h"
 #include "models/study/judgement/telling_holdout.h"
@@ -239,7 +238,7 @@ std::optional<Recommendation> Recommend(
 std::vector<std::string> SensorsOf(const FittedModel& fitted) {
   std::vector<std::string> sensors;
   for (const TrainedInput& input : fitted.inputs) {
-    if (data::IsSensor(input.column)) {
+    if (data::IsReadBySensor(input.column)) {
       sensors.push_back(input.column.name);
     }
   }

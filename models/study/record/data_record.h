@@ -44,6 +44,7 @@ struct DataRecord {
   std::vector<FaultRecord> faults;
   std::vector<std::string> remarks;  // on columns and rows, one line each
   std::vector<std::string> doubts;   // of these, what no answer goes without
+  data::Reading reading;
 };
 
 /// What people see is value * scale, in this unit.

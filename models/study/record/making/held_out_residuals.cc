@@ -33,10 +33,10 @@ ResidualInputs HeldOutResiduals(const ComponentStudy& comparison,
   }
   Eigen::Index position = -1;
   for (Eigen::Index i = 0; i < source.num_inputs() && position < 0; ++i) {
-    const std::string& name = source.inputs()[static_cast<std::size_t>(i)].name;
-    if (!data::NamesPosition(name)) continue;
+    const auto& input = source.inputs()[static_cast<std::size_t>(i)];
+    if (!data::IsPosition(input)) continue;
     position = i;
-    inputs.position_column = name;
+    inputs.position_column = input.name;
     inputs.positions.resize(size);
   }
   Eigen::Index at = 0;

@@ -55,7 +55,8 @@ DataRecord MakeData(const ComponentStudy& study) {
                     .dropped = study.data.dropped,
                     .faults = MakeFaultRecords(study.data),
                     .remarks = study.data.remarks,
-                    .doubts = study.data.doubts};
+                    .doubts = study.data.doubts,
+                    .reading = study.data.reading};
   for (const data::ColumnInfo& input : dataset.inputs()) {
     record.inputs.push_back(input.name);
   }

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "data/measurements/column_roles.h"
 #include "models/history/growth.h"
 #include "models/study/judgement/extrapolated_rows.h"
 
@@ -226,7 +225,7 @@ void Remarks::AddNotNoise() {
   if (has_offset &&
       record_.recommendation->goal_standing != GoalStanding::kMet) {
     remark.add_sensor = std::ranges::count_if(study_.data.dataset.inputs(),
-                                              data::IsSensor) <= kManySensors;
+                                              data::IsReadBySensor) <= kManySensors;
   }
   remark.columns = std::move(columns);
   remark.shares = std::move(shares);

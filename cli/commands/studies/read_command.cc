@@ -1,0 +1,199 @@
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/commands/data_arguments.h"
+#include "cli/commands/format_option.h"
+#include "cli/output/claimed_folder.h"
+#include "cli/report/table.h"
+#include "cli/shell/command_options.h"
+#include "cli/shell/standard_streams.h"
+#include "cli/shell/terminal.h"
+#include "data/files/atomic_file.h"
+#include "data/measurements/joined_tables.h"
+#include "data/measurements/reading/read_table.h"
+#include "data/text.h"
+#include "models/study/record/record_json.h"
+
+namespace errmap::cli {
+namespace {
+
+struct ReadArguments {
+  DataArguments data;
+  std::string out;
+  std::string format = "table";
+};
+
+// The rows that are used, in the order in which they were read, with the
+// columns that were found in the others: session and time_s.
+std::string CleanCsv(const data::CsvTable& table, const data::ReadTable& read) {
+  const data::FoundSessions& found = read.found;
+  const bool add_session = found.sessions.column.empty() &&
+                           found.sessions.labels.size() > 1 &&
+                           table.Find("session") < 0;
+  const bool add_time = found.time_column >= 0 && table.Find("time_s") < 0;
+  std::string text;
+  for (const data::CsvColumn& column : table.columns) {
+    text += (text.empty() ? "" : ",") + data::CsvField(column.name);
+  }
+  text += add_session ? ",session" : "";
+  text += add_time ? ",time_s\n" : "\n";
+  for (std::size_t i = 0; i < read.log_rows.size(); ++i) {
+    const auto row = static_cast<std::size_t>(read.log_rows[i]);
+    std::string line;
+    for (const data::CsvColumn& column : table.columns) {
+      line += data::CsvField(table.CellText(column, row)) + ",";
+    }
+    line.pop_back();
+    if (add_session) {
+      line +=
+          "," + found.sessions
+                    .labels[static_cast<std::size_t>(found.sessions.codes[i])];
+    }
+    if (add_time) {
+      line += "," + data::CsvNumber(found.time[static_cast<Eigen::Index>(i)]);
+    }
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string Why(data::Evidence evidence, bool sure) {
+  return std::string(ToString(evidence)) + (sure ? "" : ", unsure");
+}
+
+std::string Described(const data::Reading& reading) {
+  std::string text;
+  for (const std::string& line : data::ReadingLines(reading)) {
+    text += line + "\n";
+  }
+  const auto row = [&](const std::string& role,
+                       const std::string& what,
+                       const std::string& why,
+                       const std::string& option) {
+    text += fmt::format("  {:<10} {:<34} {:<20} {}\n", role, what, why, option);
+  };
+  text += "\n";
+  row("role", "what", "by", "changed by");
+  row("target",
+      reading.target.column.value_or("none") +
+          (reading.target.unit.empty() ? "" : " in " + reading.target.unit),
+      Why(reading.target.evidence, reading.target.sure),
+      "--target");
+  row("axis",
+      reading.position.column.value_or("none"),
+      Why(reading.position.evidence, reading.position.sure),
+      "--position");
+  std::string ways;
+  for (const std::string& value : reading.direction.values) {
+    ways += (ways.empty() ? "" : ", ") + value;
+  }
+  row("direction",
+      ways.empty() ? "none" : ways,
+      Why(reading.direction.evidence, reading.direction.sure),
+      "--direction");
+  row("time",
+      reading.time.column.value_or("number of the row") +
+          (reading.time.column ? " in " + reading.time.unit : ""),
+      Why(reading.time.evidence, reading.time.sure),
+      "--time, --time-unit");
+  row("cycles",
+      fmt::format("{}{}",
+                  reading.cycles.count,
+                  reading.cycles.column ? " by " + *reading.cycles.column : ""),
+      Why(reading.cycles.evidence, reading.cycles.sure),
+      "--group");
+  row("sessions",
+      fmt::format("{} by {}",
+                  reading.sessions.count,
+                  reading.sessions.column.value_or(reading.sessions.by)),
+      Why(reading.sessions.evidence, reading.sessions.sure),
+      "--session, --gap");
+  const auto list = [&](const std::string& role,
+                        const std::vector<std::string>& names) {
+    if (names.empty()) return;
+    row(role, data::JoinWords(names, ", "), "", "--inputs, --exclude");
+  };
+  list("sensors", reading.sensors);
+  list("switches", reading.switches);
+  list("counters", reading.counters);
+  for (const data::Reading::LeftOut& column : reading.left_out) {
+    row("left out", column.column, column.why, "--inputs");
+  }
+  if (!reading.rows_left_out.empty()) {
+    row("rows",
+        fmt::format("{} named", reading.rows_left_out.size()),
+        reading.rows_left_out.front().why,
+        "--faults drop-rows");
+  }
+  return text;
+}
+
+void Print(const data::Reading& reading, const std::string& format) {
+  constexpr int kIndent = 1;
+  if (format == "json") {
+    PrintResult(models::JsonText(reading, kIndent) + "\n");
+  } else {
+    PrintResult(Described(reading));
+  }
+}
+
+int RunRead(const ReadArguments& arguments) {
+  if (!arguments.out.empty()) {
+    CheckOutputName("-o", arguments.out, arguments.data.files);
+  }
+  data::Reading reading;
+  try {
+    const data::JoinedTable joined =
+        data::ReadTables(arguments.data.files, arguments.data.selection);
+    const data::ReadTable read =
+        data::ReadRoles(joined.table, arguments.data.selection);
+    reading = read.reading;
+    if (!arguments.out.empty()) {
+      data::WriteFileAtomically(
+          arguments.out,
+          CleanCsv(read.table ? *read.table : joined.table, read));
+    }
+    reading = data::MakeDataset(joined.table, arguments.data.selection).reading;
+  } catch (const data::OpenQuestion& open) {
+    if (arguments.format != "json") throw;
+    reading.files = arguments.data.files;
+    reading.questions.push_back(open.question());
+    Print(reading, arguments.format);
+    return kWrongCommandLine;
+  } catch (const data::InputError& error) {
+    if (reading.rows == 0) throw;
+    Say(error.what());
+    reading.remarks.emplace_back(error.what());
+    Print(reading, arguments.format);
+    return kUnusableInput;
+  }
+  Print(reading, arguments.format);
+  return kDone;
+}
+
+}  // namespace
+
+void AddReadCommand(CLI::App* app, Run* run) {
+  auto arguments = std::make_shared<ReadArguments>();
+  CLI::App* command = AddCommand(
+      app,
+      "read",
+      "Show how measurements are understood: target, axis, time, sessions");
+  AddDataArguments(command, &arguments->data);
+  AddOption(command,
+            "-o,--output clean.csv",
+            arguments->out,
+            "Write the table as it was understood");
+  AddFormatOption(command, &arguments->format);
+  SetFooter(command,
+            "Each line names the option that changes it.\n"
+            "Example: errmap read day1.csv day2.csv -o clean.csv");
+  OnRun(command, [arguments, run] { run->status = RunRead(*arguments); });
+}
+
+}  // namespace errmap::cli

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/csv.h"
+#include "data/measurements/dataset.h"
+#include "data/measurements/reading/motion.h"
+#include "data/measurements/reading/reading.h"
+
+namespace errmap::data {
+
+/// The axis of a table: the positions that were commanded.
+struct Axis {
+  std::ptrdiff_t column = -1;  // index into the table; -1: none found
+  Levels levels;               // of the rows asked for
+  Motion motion;
+  Evidence evidence = Evidence::kNone;
+  bool sure = true;
+  std::optional<std::string> alternative;
+  std::vector<std::size_t> positions;  // all columns of positions, it included
+  std::vector<std::size_t> measured;   // positions as read beside it
+};
+
+/// The column that `selection` names, else the one whose values come again as
+/// commanded ones do, which its name or unit confirms; else one that is called
+/// so. `target` is an index into the table.
+Axis FindAxis(const CsvTable& table,
+              const DatasetSelection& selection,
+              std::size_t target,
+              const std::vector<Eigen::Index>& rows);
+
+/// Whether a column is a position by its name: "position_mm", "x_pos_mm",
+/// "Sollposition [mm]", "X [mm]".
+bool IsCalledPosition(std::string_view name);
+
+}  // namespace errmap::data

@@ -1,0 +1,68 @@
+#include "data/measurements/reading/nights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace errmap::data {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kShortestNight = 3.5 * 3600.0;
+constexpr double kOtherOrder = 3.0;  // a night per pause between passes
+
+}  // namespace
+
+Nights FindNights(const Eigen::VectorXd& time,
+                  const Motion& motion,
+                  bool dated) {
+  const bool by_passes = motion.is_commanded && motion.num_passes >= 2;
+  std::vector<double> between;  // passes
+  std::vector<double> within;
+  Index other_dates = 0;
+  for (Index i = 1; i < time.size(); ++i) {
+    const double step = time[i] - time[i - 1];
+    if (!(step > 0.0)) continue;
+    const auto at = static_cast<std::size_t>(i);
+    const bool is_between =
+        !by_passes || motion.passes[at] != motion.passes[at - 1];
+    (is_between ? between : within).push_back(step);
+    constexpr double kDay = 86400.0;
+    if (is_between &&
+        std::floor(time[i] / kDay) != std::floor(time[i - 1] / kDay)) {
+      ++other_dates;
+    }
+  }
+  Nights nights{.gap = INFINITY};
+  if (between.empty()) return nights;
+  std::ranges::sort(between);
+  for (std::size_t i = 1; i < between.size(); ++i) {
+    const double low = between[i - 1];
+    const double high = between[i];
+    if (high < kOtherOrder * low) continue;
+    if (high >= kShortestNight) {
+      nights.gap = std::sqrt(low * high);
+      return nights;
+    }
+    // A break, yet no night: lunch, or sessions by the hour.
+    constexpr double kBreak = 10.0;
+    if (high >= kBreak * low) nights.other = std::sqrt(low * high);
+  }
+  nights.sure = nights.other == 0.0;
+  if (!by_passes || between.front() < kShortestNight) return nights;
+  // Every pass hours after the one before: days of one pass, or a slow run.
+  const double longest_within =
+      within.empty() ? 0.0 : *std::ranges::max_element(within);
+  if (longest_within * kOtherOrder > between.front()) return nights;
+  const double gap = longest_within > 0.0
+                         ? std::sqrt(longest_within * between.front())
+                         : between.front() / 2.0;
+  const bool are_days = dated ? 2 * other_dates > std::ssize(between)
+                              : between.front() >= 43200.0;
+  (are_days ? nights.gap : nights.other) = gap;
+  nights.sure = are_days;
+  return nights;
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/csv.h"
+#include "data/measurements/column_roles.h"
+#include "data/measurements/dataset.h"
+#include "data/measurements/reading/axis.h"
+#include "data/measurements/reading/reading.h"
+#include "data/measurements/sessions.h"
+
+namespace errmap::data {
+
+/// The column that says which way rows went, where the table has none and the
+/// positions tell; and that of cycles.
+inline constexpr const char* kDirectionColumn = "direction";
+inline constexpr const char* kCycleColumn = "cycle";
+
+/// A table with what was found in it: rows in order of time, and columns of
+/// what its values say (direction, cycle, an error for a correction).
+struct ReadTable {
+  /// Nothing: the table as it was given. Its numbers may be those of the table
+  /// given, which must outlive it.
+  std::optional<CsvTable> table;
+  ColumnRoles roles;
+  std::vector<ColumnFilter> where;          // of the selection, direction too
+  std::vector<bool> passes;                 // (rows of the table)
+  std::vector<Eigen::Index> repeated_rows;  // that pass
+  std::vector<Eigen::Index> log_rows;       // that pass; none without a log
+  FoundSessions found;                      // of those
+  Axis axis;
+  std::string position;  // column of the axis, or ""
+  Reading reading;
+};
+
+/// Reads what each column, row and pause of a table means: see reading.h.
+/// Throws InputError as MakeDataset does, OpenQuestion where no reading is the
+/// cautious one.
+ReadTable ReadRoles(const CsvTable& table, const DatasetSelection& selection);
+
+/// The rows of each of the two ways through the positions, as filters; none
+/// where there is one way, or `selection` has taken one.
+std::vector<ColumnFilter> DirectionsOf(const Reading& reading,
+                                       const DatasetSelection& selection);
+
+/// The columns that `filters` and `target` name and a table lacks, where its
+/// positions can tell them: for files that a map is used on.
+void AddDerivedColumns(const std::vector<ColumnFilter>& filters,
+                       const std::string& position,
+                       const std::string& target,
+                       CsvTable* table);
+
+}  // namespace errmap::data

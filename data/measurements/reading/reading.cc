@@ -1,0 +1,136 @@
+#include "data/measurements/reading/reading.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "data/argument_name.h"
+#include "data/measurements/column_checks.h"
+#include "data/measurements/rounded.h"
+#include "data/text.h"
+
+namespace errmap::data {
+namespace {
+
+std::string Many(std::int64_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+std::string SessionsText(const Reading& reading) {
+  const Reading::Sessions& sessions = reading.sessions;
+  std::string text = Many(sessions.count, "session");
+  if (sessions.by == "nights" || sessions.by == "clock") {
+    text += " (by nights in " + NameInRemark(reading.time.column.value_or("")) +
+            ")";
+  } else if (sessions.by == "counter") {
+    text += " (" + NameInRemark(reading.cycles.column.value_or("")) +
+            " begins anew)";
+  } else if (sessions.by == "file") {
+    text += " (one a file)";
+  } else if (sessions.column) {
+    text += " (by " + NameInRemark(*sessions.column) + ")";
+  }
+  return text;
+}
+
+std::string CyclesText(const Reading& reading) {
+  if (reading.cycles.count == 0) return "";
+  const std::int64_t sessions =
+      std::max<std::int64_t>(reading.sessions.count, 1);
+  const bool even = reading.cycles.count % sessions == 0;
+  return " of " +
+         Many(even ? reading.cycles.count / sessions : reading.cycles.count,
+              "cycle") +
+         (even || sessions == 1 ? "" : " in all");
+}
+
+std::string AxisText(const Reading& reading) {
+  if (!reading.position.column) return "no axis";
+  std::string text = "axis " + NameInRemark(*reading.position.column);
+  const Reading::Direction& direction = reading.direction;
+  if (direction.values.size() == 2) return text + ", both ways";
+  if (direction.values.size() == 1) text += ", " + direction.values[0] + "ward";
+  return text;
+}
+
+std::string StepText(const Reading& reading) {
+  if (reading.order == "none") return "rows sorted, no order of time";
+  if (!reading.time.column) return "no clock";
+  if (!reading.time.step_s) return "";
+  const double step = *reading.time.step_s;
+  if (step >= 3600.0) return "every " + Rounded(step / 3600.0) + " h";
+  if (step >= 60.0) return "every " + Rounded(step / 60.0) + " min";
+  return "every " + Rounded(step) + " s";
+}
+
+}  // namespace
+
+std::string_view ToString(Evidence evidence) {
+  switch (evidence) {
+    case Evidence::kNone:
+      return "none";
+    case Evidence::kUser:
+      return "user";
+    case Evidence::kName:
+      return "name";
+    case Evidence::kValues:
+      return "values";
+    case Evidence::kNameAndValues:
+      return "name+values";
+  }
+  return "";
+}
+
+OpenQuestion::OpenQuestion(const std::string& file, Reading::Question question)
+    : InputError([&] {
+        std::string text = file + ": " + question.question;
+        for (const Reading::Answer& answer : question.answers) {
+          text += " " + answer.option + ": " + answer.means + ".";
+        }
+        return text;
+      }()),
+      question_(std::move(question)) {}
+
+std::vector<std::string> ReadingLines(const Reading& reading) {
+  std::string first = "Read: " + Many(reading.rows, "row") + " in " +
+                      SessionsText(reading) + CyclesText(reading) + "; " +
+                      AxisText(reading) + "; " +
+                      Many(std::ssize(reading.sensors), "sensor");
+  if (const std::string step = StepText(reading); !step.empty()) {
+    first += "; " + step;
+  }
+  std::vector<std::string> lines = {first + "."};
+  if (reading.order == "time") {
+    lines.push_back(
+        "The rows were not in order of time and were put in it, by " +
+        NameInRemark(reading.time.column.value_or("")) + ".");
+  } else if (reading.order == "none") {
+    lines.push_back("The rows are sorted by " +
+                    NameInRemark(reading.position.column.value_or("")) +
+                    " and no clock tells their order, so no map gets a memory. "
+                    "Give the rows as measured, or a column of times.");
+  }
+  if (reading.position.column && !reading.position.sure) {
+    lines.push_back("Unsure: " + NameInRemark(*reading.position.column) +
+                    " is the axis" +
+                    (reading.position.alternative
+                         ? ", or " + NameInRemark(*reading.position.alternative)
+                         : "") +
+                    "; " + ArgumentName("position") + " names it.");
+  }
+  if (!reading.sessions.sure) {
+    lines.push_back("Unsure: " + SessionsText(reading) + "; or " +
+                    reading.sessions.alternative.value_or("") + ": " +
+                    ArgumentName("gap") + " parts them.");
+  }
+  if (reading.time.column && !reading.time.sure) {
+    lines.push_back("Unsure: " + NameInRemark(*reading.time.column) +
+                    " is in " + reading.time.unit +
+                    (reading.time.alternative
+                         ? ", or in " + *reading.time.alternative
+                         : "") +
+                    "; " + ArgumentName("time_unit") + " says it.");
+  }
+  return lines;
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "data/input_error.h"
+
+namespace errmap::data {
+
+/// Why a column or rule has a role.
+enum class Evidence { kNone, kUser, kName, kValues, kNameAndValues };
+/// "none", "user", "name", "values", "name+values".
+std::string_view ToString(Evidence evidence);
+
+/// How a table was understood: every role with the column or rule that has it,
+/// the evidence, whether it is sure, and the next best alternative. Plain data,
+/// which results.json and map files keep as it stands. Columns are those of the
+/// table; what no column has was found in others ("by").
+struct Reading {
+  struct Target {
+    std::optional<std::string> column;
+    int sign = 1;  // -1: a correction, whose error is its negative
+    std::string unit;
+    Evidence evidence = Evidence::kNone;
+    bool sure = false;
+    std::optional<std::string> alternative;
+  };
+  struct Position {
+    std::optional<std::string> column;
+    Evidence evidence = Evidence::kNone;
+    bool sure = false;
+    std::optional<std::string> alternative;
+  };
+  struct Direction {
+    std::optional<std::string> column;
+    std::string by;                   // "column", "position", ""
+    std::vector<std::string> values;  // "up", "down" of the position
+    std::vector<std::string> labels;  // what the column has for them
+    Evidence evidence = Evidence::kNone;
+    bool sure = false;
+  };
+  struct Time {
+    std::optional<std::string> column;  // "Datum + Uhrzeit" of two
+    std::string unit;                   // s, ms, min, h, days, date, rows, ...
+    std::string origin;                 // "1970", "midnight", "begin", ""
+    std::optional<double> step_s;
+    Evidence evidence = Evidence::kNone;
+    bool sure = false;
+    std::optional<std::string> alternative;
+  };
+  struct Cycles {
+    std::optional<std::string> column;
+    std::string by;          // "column", "position", ""
+    std::int64_t count = 0;  // in all sessions
+    Evidence evidence = Evidence::kNone;
+    bool sure = false;
+  };
+  struct Sessions {
+    std::optional<std::string> column;
+    std::string by;  // column, nights, dates, clock, rest, counter, file, one
+    std::int64_t count = 0;
+    std::vector<std::int64_t> first_rows;  // in the order of the rows
+    std::optional<double> gap_s;
+    Evidence evidence = Evidence::kNone;
+    bool sure = false;
+    std::optional<std::string> alternative;
+  };
+  struct LeftOut {
+    std::string column;
+    std::string why;
+  };
+  struct RowLeftOut {
+    std::int64_t row = 0;
+    std::string why;
+  };
+  struct Answer {
+    std::string option;
+    std::string means;
+  };
+  struct Question {
+    std::string topic;
+    std::string question;
+    std::vector<Answer> answers;
+  };
+
+  std::string schema = "errmap-reading-1";
+  std::int64_t rows = 0;
+  std::vector<std::string> files;
+  Target target;
+  Position position;
+  Direction direction;
+  Time time;
+  std::string order = "file";  // or "time", "none": sorted by something else
+  Cycles cycles;
+  Sessions sessions;
+  std::vector<std::string> sensors;
+  std::vector<std::string> switches;
+  std::vector<std::string> counters;
+  std::vector<LeftOut> left_out;
+  std::vector<RowLeftOut> rows_left_out;
+  std::vector<std::string> remarks;
+  std::vector<Question> questions;
+};
+
+/// No reading is the cautious one (a sign, a unit): the run ends with the
+/// question.
+class OpenQuestion : public InputError {
+ public:
+  OpenQuestion(const std::string& file, Reading::Question question);
+  const Reading::Question& question() const { return question_; }
+
+ private:
+  Reading::Question question_;
+};
+
+/// "Read: 1020 rows in 6 days (by nights in DateTime) of 10 cycles; axis
+/// x_pos_mm, upward; 5 thermometers; every 5 s.", and a line for each thing
+/// that is not sure, with the option that settles it.
+std::vector<std::string> ReadingLines(const Reading& reading);
+
+}  // namespace errmap::data
