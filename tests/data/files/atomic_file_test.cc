@@ -1,4 +1,5 @@
 #include "data/files/atomic_file.h"
+#include "data/files/link.h"
 
 #include <csignal>
 #include <cstdio>
