@@ -52,6 +52,7 @@ class AnswerWriter {
     AddWhatIsLeft();
     AddRezeroed();
     AddGrowing();
+    AddRowsLearnt();
     AddBetterWithoutMap();
     AddGoal();
     for (const std::string& doubt : numbers_.record.data.doubts) {
@@ -250,6 +251,17 @@ class AnswerWriter {
                     columns.size() == 1 ? "increases" : "increase",
                     PluralOfUnit(holdout_)),
         Tone::kBad);
+  }
+
+  void AddRowsLearnt() {
+    const RemarkRecord* const learnt = Remark(RemarkKind::kRowsLearnt);
+    if (learnt == nullptr) return;
+    for (const std::string& name : There(learnt->holdouts)) {
+      Add("ignore " + name,
+          fmt::format("{} of its rows were learnt; give a file of another day",
+                      There(numbers_.Holdout(name).rows_of_training)),
+          Tone::kBad);
+    }
   }
 
   void AddBetterWithoutMap() {
