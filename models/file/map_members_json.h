@@ -93,6 +93,8 @@ T ReadWord(const ModelJsonNode& node) {
   for (int i = 0;; ++i) {
     const auto known = static_cast<T>(i);
     const std::string name(ToString(known));
+    // What is not known is the first, and has no word.
+    if (name.empty() && i == 0) continue;
     if (name == word) return known;
     // Of what is no enumerator more ToString says "", or the last word again.
     if (name.empty() || std::ranges::count(words, name) > 0) break;
