@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 
 #include "fitting/least_squares/decompositions.h"
 #include "fitting/matrix_product.h"
@@ -65,6 +66,9 @@ void RotateColumns(
 
 // The lasso's path: between knots its coefficients are linear in the strength
 // and the active columns keep one correlation with the residual, which falls.
+// Rounding, ties and columns that nearly repeat others can lead it astray;
+// hence every answer is held against the conditions of a minimum, and where it
+// does not meet them an active-set method goes on from there.
 class LassoPathFollower {
  public:
   LassoPathFollower(const MatrixXd& correlation, const VectorXd& covariance)
@@ -72,97 +76,35 @@ class LassoPathFollower {
         covariance_(covariance),
         coefficients_(VectorXd::Zero(covariance.size())),
         residual_(covariance),
-        may_join_(static_cast<std::size_t>(covariance.size()), true) {
-    // Columns that do not vary.
+        is_out_(static_cast<std::size_t>(covariance.size())),
+        largest_(0.0) {
     for (Index j = 0; j < correlation.rows(); ++j) {
-      if (!(correlation(j, j) > 0.0)) {
-        may_join_[static_cast<std::size_t>(j)] = false;
+      // Columns that do not vary never join.
+      is_out_[At(j)] = correlation(j, j) > 0.0;
+      if (is_out_[At(j)]) {
+        largest_ = std::max(largest_, std::abs(covariance[j]));
       }
     }
-    fixed_out_ = may_join_;
+    is_refused_.assign(is_out_.size(), false);
+    strength_ = largest_;
   }
 
-  // Coefficients at each of the falling `strengths`.
+  // Coefficients at each of the `strengths`.
   MatrixXd Follow(const std::vector<double>& strengths) {
-    MatrixXd solutions = MatrixXd::Zero(coefficients_.size(),
-                                        static_cast<Index>(strengths.size()));
-    std::size_t at = 0;
-    const auto record_down_to = [&](double from,
-                                    double to,
-                                    const VectorXd& start,
-                                    const VectorXd& end) {
-      for (; at < strengths.size() && strengths[at] >= to; ++at) {
-        const double share =
-            from > to ? std::min(1.0, (from - strengths[at]) / (from - to))
-                      : 1.0;
-        solutions.col(static_cast<Index>(at)) =
-            start + std::max(0.0, share) * (end - start);
+    MatrixXd solutions(coefficients_.size(),
+                       static_cast<Index>(strengths.size()));
+    std::vector<std::size_t> falling(strengths.size());
+    std::iota(falling.begin(), falling.end(), std::size_t{0});
+    std::stable_sort(
+        falling.begin(), falling.end(), [&](std::size_t a, std::size_t b) {
+          return strengths[a] > strengths[b];
+        });
+    for (const std::size_t at : falling) {
+      const double strength = std::max(0.0, strengths[at]);
+      if (strength < largest_) {
+        MoveTo(strength);
+        Settle(strength);
       }
-    };
-    Index joining = -1;
-    double strength = 0.0;
-    for (Index j = 0; j < residual_.size(); ++j) {
-      if (may_join_[static_cast<std::size_t>(j)] &&
-          std::abs(residual_[j]) > strength) {
-        strength = std::abs(residual_[j]);
-        joining = j;
-      }
-    }
-    record_down_to(std::numeric_limits<double>::infinity(),
-                   strength,
-                   coefficients_,
-                   coefficients_);
-    Index dropped = -1;
-    const Index most_knots = 20 * coefficients_.size() + 20;
-    for (Index knot = 0; knot < most_knots && at < strengths.size(); ++knot) {
-      if (joining >= 0) Join(joining);
-      if (active_.empty()) break;
-      const VectorXd step = Direction();
-      VectorXd slope = VectorXd::Zero(residual_.size());
-      AddActive(step, &slope);
-      double length = strength;
-      joining = -1;
-      Index leaving = -1;
-      for (Index j = 0; j < residual_.size(); ++j) {
-        if (!may_join_[static_cast<std::size_t>(j)] || j == dropped) continue;
-        for (const double sign : {1.0, -1.0}) {
-          const double closing = 1.0 - sign * slope[j];
-          if (!(closing > kTiny)) continue;
-          const double reached =
-              std::max(0.0, (strength - sign * residual_[j]) / closing);
-          if (reached < length) {
-            length = reached;
-            joining = j;
-          }
-        }
-      }
-      for (std::size_t i = 0; i < active_.size(); ++i) {
-        const double reached =
-            -coefficients_[active_[i]] / step[static_cast<Index>(i)];
-        if (reached > 0.0 && reached < length) {
-          length = reached;
-          leaving = static_cast<Index>(i);
-          joining = -1;
-        }
-      }
-      const VectorXd before = coefficients_;
-      for (std::size_t i = 0; i < active_.size(); ++i) {
-        coefficients_[active_[i]] += length * step[static_cast<Index>(i)];
-      }
-      dropped = -1;
-      if (leaving >= 0) {
-        dropped = active_[static_cast<std::size_t>(leaving)];
-        coefficients_[dropped] = 0.0;
-      }
-      record_down_to(strength, strength - length, before, coefficients_);
-      strength -= length;
-      if (leaving >= 0) Leave(leaving);
-      // Exact once in a while, so that rounding does not add up.
-      residual_ -= length * slope;
-      if (knot % kKnotsBetweenSums == 0) SumResidual();
-      if (joining < 0 && leaving < 0) break;  // reached no penalty at all
-    }
-    for (; at < strengths.size(); ++at) {
       solutions.col(static_cast<Index>(at)) = coefficients_;
     }
     return solutions;
@@ -171,11 +113,191 @@ class LassoPathFollower {
  private:
   static constexpr double kTiny = 1e-12;
   // A column of which less is new than this share of its variance repeats the
-  // active ones: it stays at 0.
+  // active ones: the path leaves it out, and Settle looks at it again.
   static constexpr double kCollinear = 1e-10;
+  // Rounding makes as much of what is not new at all.
+  static constexpr double kDependent = 1e-13;
   static constexpr Index kKnotsBetweenSums = 16;
 
+  struct Event {
+    double length = 0.0;  // by which the strength falls until then
+    Index joining = -1;   // a column
+    double sign = 1.0;    // of its correlation
+    Index leaving = -1;   // a place in active_
+  };
+
+  static std::size_t At(Index index) { return static_cast<std::size_t>(index); }
   Index num_active() const { return static_cast<Index>(active_.size()); }
+
+  // Knot by knot down to `target`, or until the path is lost.
+  void MoveTo(double target) {
+    // Ties lead to steps of length 0, about one for each column.
+    const Index most_stalls = coefficients_.size() + 10;
+    Index stalls = 0;
+    while (strength_ > target && stalls < most_stalls &&
+           knots_ < 20 * coefficients_.size() + 20) {
+      const Event event = NextEvent(strength_ - target);
+      for (Index i = 0; i < num_active(); ++i) {
+        coefficients_[active_[At(i)]] += event.length * step_[i];
+      }
+      residual_ -= event.length * slope_;
+      strength_ -= event.length;
+      dropped_ = -1;
+      const bool is_knot = event.leaving >= 0 || event.joining >= 0;
+      if (!is_knot) break;  // at the target
+      stalls = event.length > 0.0 ? 0 : stalls + 1;
+      if (event.leaving >= 0) {
+        dropped_ = active_[At(event.leaving)];
+        dropped_sign_ = signs_[At(event.leaving)];
+        Leave(event.leaving);
+      } else if (!Join(event.joining, event.sign, kCollinear)) {
+        is_refused_[At(event.joining)] = true;
+      }
+      // Exact once in a while, so that rounding does not add up.
+      if (++knots_ % kKnotsBetweenSums == 0) SumResidual();
+    }
+    strength_ = target;
+  }
+
+  // What ends the present piece of the path, within `length`.
+  Event NextEvent(double length) {
+    if (!is_direction_current_) TakeDirection();
+    Event event{.length = length};
+    for (Index j = 0; j < residual_.size(); ++j) {
+      if (!is_out_[At(j)] || is_refused_[At(j)]) continue;
+      for (const double sign : {1.0, -1.0}) {
+        const double closing = 1.0 - sign * slope_[j];
+        if (!(closing > kTiny)) continue;
+        // What has just left moves away from where it was.
+        if (j == dropped_ && sign == dropped_sign_) continue;
+        const double reached =
+            std::max(0.0, (strength_ - sign * residual_[j]) / closing);
+        if (reached < event.length) {
+          event = {.length = reached, .joining = j, .sign = sign};
+        }
+      }
+    }
+    for (Index i = 0; i < num_active(); ++i) {
+      const double coefficient = coefficients_[active_[At(i)]];
+      // One that came in with others may have to turn back at once.
+      const bool against = coefficient == 0.0 && step_[i] * signs_[At(i)] < 0.0;
+      const double reached = -coefficient / step_[i];
+      if ((reached > 0.0 && reached < event.length) || against) {
+        event = {.length = against ? 0.0 : reached, .leaving = i};
+        if (against) break;
+      }
+    }
+    return event;
+  }
+
+  // To the minimum for `strength` from a point near it: the primal active-set
+  // method for quadratic programs (Nocedal and Wright 2006, 16.5). Each step
+  // goes to the minimum over the active columns with their signs, or to the
+  // first coefficient that is 0 on the way, which leaves.
+  void Settle(double strength) {
+    SumResidual();
+    const Index most_changes = 10 * coefficients_.size() + 50;
+    constexpr int kMostRefinements = 5;
+    std::vector<bool> hopeless(is_out_.size(), false);
+    int refinements = 0;
+    for (Index changes = 0; changes < most_changes;) {
+      const double allowed = Rounding();
+      if (ActiveError(strength) > allowed && refinements < kMostRefinements) {
+        ++refinements;
+        if (StepOnActive(strength)) {
+          ++changes;
+          refinements = 0;
+        }
+        continue;
+      }
+      const Index worst = WorstOutside(strength + allowed, hopeless);
+      if (worst < 0) return;
+      ++changes;
+      refinements = 0;
+      const double sign = residual_[worst] >= 0.0 ? 1.0 : -1.0;
+      if (!Join(worst, sign, kDependent) && !Exchange(worst, sign)) {
+        hopeless[At(worst)] = true;
+      }
+    }
+  }
+
+  // Of the residual's correlations: what cannot be told from 0.
+  double Rounding() const {
+    constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+    constexpr double kOfLargest = 1e-13;
+    return kOfLargest * largest_ + 8.0 * kEpsilon * coefficients_.lpNorm<1>();
+  }
+
+  double ActiveError(double strength) const {
+    double worst = 0.0;
+    for (Index i = 0; i < num_active(); ++i) {
+      worst = std::max(
+          worst,
+          std::abs(residual_[active_[At(i)]] - signs_[At(i)] * strength));
+    }
+    return worst;
+  }
+
+  Index WorstOutside(double allowed, const std::vector<bool>& hopeless) const {
+    Index worst = -1;
+    for (Index j = 0; j < residual_.size(); ++j) {
+      if (is_out_[At(j)] && !hopeless[At(j)] &&
+          std::abs(residual_[j]) > allowed) {
+        allowed = std::abs(residual_[j]);
+        worst = j;
+      }
+    }
+    return worst;
+  }
+
+  // True where a column has left on the way.
+  bool StepOnActive(double strength) {
+    VectorXd step(num_active());
+    for (Index i = 0; i < step.size(); ++i) {
+      step[i] = residual_[active_[At(i)]] - signs_[At(i)] * strength;
+    }
+    SolveActive(&step);
+    return MoveActive(step, 1.0);
+  }
+
+  // Coefficients += share step, or less where one comes to 0: it leaves, and
+  // the result is true.
+  bool MoveActive(const VectorXd& step, double share) {
+    Index leaving = -1;
+    for (Index i = 0; i < step.size(); ++i) {
+      if (!(step[i] * signs_[At(i)] < 0.0)) continue;
+      const double reached = std::abs(coefficients_[active_[At(i)]] / step[i]);
+      if (reached < share) {
+        share = reached;
+        leaving = i;
+      }
+    }
+    if (!std::isfinite(share)) return false;
+    for (Index i = 0; i < step.size(); ++i) {
+      coefficients_[active_[At(i)]] += share * step[i];
+    }
+    moved_ = share;
+    if (leaving >= 0) Leave(leaving);
+    SumResidual();
+    return leaving >= 0;
+  }
+
+  // A column x that the active ones give, x = sum of d_i x_i, at a lower sum of
+  // sizes: it takes over from them until one of them has come to 0, which it
+  // replaces.
+  bool Exchange(Index column, double sign) {
+    VectorXd step(num_active());
+    for (Index i = 0; i < step.size(); ++i) {
+      step[i] = -sign * correlation_(active_[At(i)], column);
+    }
+    SolveActive(&step);
+    const double everything = std::numeric_limits<double>::infinity();
+    if (!MoveActive(step, everything)) return false;
+    const bool joins = Join(column, sign, kDependent);
+    if (joins) coefficients_[column] = sign * moved_;
+    SumResidual();
+    return joins;
+  }
 
   // sum += R_A times factors (of the active columns).
   void AddActive(const VectorXd& factors, VectorXd* sum) const {
@@ -192,34 +314,39 @@ class LassoPathFollower {
     AddActive(-coefficients_(active_), &residual_);
   }
 
-  void Join(Index column) {
-    may_join_[static_cast<std::size_t>(column)] = false;
+  // False where less than the share `least` of the column's variance is new.
+  bool Join(Index column, double sign, double least) {
     const Index n = num_active();
     VectorXd along(n);
     for (Index i = 0; i < n; ++i) {
-      along[i] = correlation_(active_[static_cast<std::size_t>(i)], column);
+      along[i] = correlation_(active_[At(i)], column);
     }
     factor_.topLeftCorner(n, n).triangularView<Eigen::Lower>().solveInPlace(
         along);
     const double rest = correlation_(column, column) - along.squaredNorm();
-    if (!(rest > kCollinear)) return;
+    if (!(rest > least)) return false;
     if (factor_.rows() < n + 1) {
       factor_.conservativeResize(2 * n + 8, 2 * n + 8);
     }
     factor_.row(n).head(n) = along.transpose();
     factor_(n, n) = std::sqrt(rest);
     active_.push_back(column);
-    signs_.push_back(residual_[column] >= 0.0 ? 1.0 : -1.0);
+    signs_.push_back(sign);
+    is_out_[At(column)] = false;
+    is_direction_current_ = false;
+    return true;
   }
 
   void Leave(Index place) {
+    const Index column = active_[At(place)];
+    coefficients_[column] = 0.0;
+    is_out_[At(column)] = true;
     active_.erase(active_.begin() + place);
     signs_.erase(signs_.begin() + place);
     RemoveFromFactor(place);
+    is_direction_current_ = false;
     // Copies of what has left may come in again.
-    may_join_ = fixed_out_;
-    for (const Index j : active_)
-      may_join_[static_cast<std::size_t>(j)] = false;
+    is_refused_.assign(is_refused_.size(), false);
   }
 
   // Without the row of what has left the factor has one entry above each later
@@ -242,28 +369,40 @@ class LassoPathFollower {
     }
   }
 
-  // w = R_AA^-1 s: along it all active columns lose correlation alike.
-  VectorXd Direction() const {
+  void SolveActive(VectorXd* values) const {
     const Index n = num_active();
-    VectorXd step = Eigen::Map<const VectorXd>(signs_.data(), n);
-    factor_.topLeftCorner(n, n).triangularView<Eigen::Lower>().solveInPlace(
-        step);
-    factor_.topLeftCorner(n, n)
-        .transpose()
-        .triangularView<Eigen::Upper>()
-        .solveInPlace(step);
-    return step;
+    const auto factor = factor_.topLeftCorner(n, n);
+    factor.triangularView<Eigen::Lower>().solveInPlace(*values);
+    factor.transpose().triangularView<Eigen::Upper>().solveInPlace(*values);
+  }
+
+  // w = R_AA^-1 s: along it all active columns lose correlation alike.
+  void TakeDirection() {
+    step_ = Eigen::Map<const VectorXd>(signs_.data(), num_active());
+    SolveActive(&step_);
+    slope_.setZero(residual_.size());
+    AddActive(step_, &slope_);
+    is_direction_current_ = true;
   }
 
   const MatrixXd& correlation_;
   const VectorXd& covariance_;
   VectorXd coefficients_;
-  VectorXd residual_;  // (k) covariance of each column with the residual
-  std::vector<bool> may_join_;
-  std::vector<bool> fixed_out_;  // false for columns that never join
+  VectorXd residual_;         // (k) covariance of each column with the residual
+  std::vector<bool> is_out_;  // varies and is not active
+  std::vector<bool> is_refused_;  // repeats the active ones
+  double largest_;                // strength from which on all are 0
+  double strength_ = 0.0;
   std::vector<Index> active_;
   std::vector<double> signs_;
   MatrixXd factor_;  // Cholesky factor of the active columns' correlation
+  VectorXd step_;    // of the active coefficients as the strength falls
+  VectorXd slope_;   // (k) of the residual_, likewise
+  bool is_direction_current_ = false;
+  Index dropped_ = -1;  // the column that left at the last knot
+  double dropped_sign_ = 1.0;
+  double moved_ = 0.0;  // the share of the last MoveActive
+  Index knots_ = 0;
 };
 
 }  // namespace
@@ -357,13 +496,20 @@ MatrixXd PenalizedPath::RidgeSolutions(
   const Index k = covariance_.size();
   MatrixXd solutions = MatrixXd::Zero(k, static_cast<Index>(strengths.size()));
   // Columns that depend on each other, without a penalty, have the limit of
-  // weak ones.
+  // weak ones; how weak, the rounding of their correlations says.
   constexpr double kWeak = 1e-11;
+  constexpr double kStrong = 1.0;
   for (std::size_t s = 0; s < strengths.size() && k > 0; ++s) {
     MatrixXd factor = Shifted(strengths[s]);
-    if (!FactorizeCholesky(factor)) {
-      factor = Shifted(strengths[s] + kWeak);
-      FactorizeCholesky(factor);
+    double added = kWeak;
+    bool is_definite = FactorizeCholesky(factor);
+    for (; !is_definite && added < kStrong; added *= 100.0) {
+      factor = Shifted(strengths[s] + added);
+      is_definite = FactorizeCholesky(factor);
+    }
+    if (!is_definite) {  // correlations that are not finite
+      solutions.col(static_cast<Index>(s)).setConstant(std::nan(""));
+      continue;
     }
     VectorXd solution = in_rows() ? response_ : covariance_;
     SolveCholesky(factor, &solution);

@@ -42,11 +42,14 @@ class PenalizedPath {
     Eigen::MatrixXd coefficients;  // (k x strengths) of the columns as given
     Eigen::VectorXd intercepts;    // (strengths)
   };
-  /// Solutions for `strengths`, falling and at least 0; a ridge needs more
-  /// than 0 where columns depend on each other. Ridge by Cholesky factors; the
-  /// lasso follows its piecewise linear path knot by knot (Osborne, Presnell
-  /// and Turlach 2000): exact, with no iteration. A lasso's path that comes to
-  /// more knots than there are chances to leave it stops there.
+  /// Solutions for `strengths`, at least 0, in any order; a ridge needs more
+  /// than 0 where columns depend on each other, and has the limit of a weak one
+  /// there. Ridge by Cholesky factors. The lasso follows its piecewise linear
+  /// path knot by knot (Osborne, Presnell and Turlach 2000); each answer is
+  /// then held against the conditions of a minimum,
+  ///   x_j'r = strength sign(b_j) where b_j is not 0, else |x_j'r| <= strength,
+  /// to 1e-13 of the largest correlation and the rounding of the sums, and an
+  /// active-set method mends it where it misses them.
   Solutions Solve(const std::vector<double>& strengths) const;
 
   /// One step of iterative refinement of a ridge's solution for `strength`,

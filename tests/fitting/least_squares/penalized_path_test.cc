@@ -1,5 +1,6 @@
 #include "fitting/least_squares/penalized_path.h"
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 #include <vector>
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "fitting/least_squares/linear_least_squares.h"
+#include "stats/random.h"
 #include "tests/decompositions.h"
 #include "tests/fitting/regression_test_data.h"
 
@@ -118,6 +120,168 @@ TEST(PenalizedPath, LassoMeetsItsOptimalityConditionsAlongThePath) {
       }
     }
   }
+}
+
+// How far solutions miss the conditions of a lasso's minimum, by the rows.
+double WorstCondition(const Sample& sample,
+                      const VectorXd& coefficients,
+                      double strength) {
+  MatrixXd x;
+  VectorXd residual;
+  VectorXd w;
+  VectorXd spread;
+  Standardise(sample, coefficients, &x, &residual, &w, &spread);
+  const VectorXd gradient = x.transpose() * w.cwiseProduct(residual);
+  double worst = 0.0;
+  for (Index j = 0; j < gradient.size(); ++j) {
+    const double miss =
+        coefficients[j] == 0.0
+            ? std::abs(gradient[j]) - strength
+            : std::abs(gradient[j] - std::copysign(strength, coefficients[j]));
+    worst = std::max(worst, miss);
+  }
+  return worst;
+}
+
+// Columns about the size of 1, of which some repeat others, nearly repeat them,
+// are sums or differences of them, or do not vary.
+Sample MakeDependentSample(std::uint64_t seed) {
+  stats::Random random(seed);
+  const auto rows = static_cast<Index>(5 + random.Below(40));
+  const auto cols = static_cast<Index>(2 + random.Below(30));
+  Sample sample;
+  sample.terms = UniformMatrix(rows, cols, seed + 1);
+  const auto column = [&] {
+    return static_cast<Index>(random.Below(static_cast<std::uint64_t>(cols)));
+  };
+  for (Index j = 0; j < cols; ++j) {
+    const VectorXd noise = UniformMatrix(rows, 1, seed + 2);
+    const double apart = std::pow(10.0, -14.0 * random.Uniform());
+    const VectorXd one = sample.terms.col(column());
+    const VectorXd other = sample.terms.col(column());
+    switch (random.Below(8)) {
+      case 0:
+        sample.terms.col(j) = one;
+        break;
+      case 1:
+        sample.terms.col(j) = -one;
+        break;
+      case 2:
+        sample.terms.col(j) = one + apart * noise;
+        break;
+      case 3:
+        sample.terms.col(j) = one - other;
+        break;
+      case 4:
+        sample.terms.col(j) = one + other + apart * noise;
+        break;
+      default:
+        break;  // independent
+    }
+  }
+  if (random.Below(4) == 0) sample.terms.col(column()).setConstant(0.3);
+  if (random.Below(3) == 0)
+    sample.terms = sample.terms.array().round();  // ties
+  sample.response = UniformMatrix(rows, 1, seed + 3) +
+                    sample.terms.col(column()) -
+                    0.5 * sample.terms.col(column());
+  if (random.Below(2) == 0) {
+    sample.weights = 1.5 + UniformMatrix(rows, 1, seed + 4).array();
+  }
+  return sample;
+}
+
+TEST(PenalizedPath, LassoIsOptimalWhateverRepeatsWhat) {
+  constexpr int kDesigns = 10'000;
+  constexpr double kSlack = 1e-10;
+  int missed = 0;
+  for (std::uint64_t seed = 1; seed <= kDesigns; ++seed) {
+    const Sample sample = MakeDependentSample(1000 * seed);
+    const PenalizedPath path(Penalty::kLasso, SumsOf(sample), true);
+    const double largest = path.Grid().front();
+    std::vector<double> strengths = {largest,
+                                     0.7 * largest,
+                                     0.2 * largest,
+                                     0.03 * largest,
+                                     1e-3 * largest,
+                                     1e-5 * largest};
+    if (seed % 2 == 0) std::ranges::reverse(strengths);
+    const auto solutions = path.Solve(strengths);
+    for (std::size_t s = 0; s < strengths.size(); ++s) {
+      const VectorXd b = solutions.coefficients.col(static_cast<Index>(s));
+      const double miss = WorstCondition(sample, b, strengths[s]);
+      if (!(miss <= kSlack)) {
+        ++missed;
+        if (missed < 10) {
+          ADD_FAILURE() << "design " << seed << ", strength " << strengths[s]
+                        << " of " << largest << ": " << miss;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(missed, 0);
+}
+
+// Cyclic coordinate descent (Friedman, Hastie and Tibshirani 2010) on centred
+// columns of variance 1: slow, but with nothing that could go wrong.
+VectorXd CoordinateDescent(const MatrixXd& x,
+                           const VectorXd& w,
+                           VectorXd residual,
+                           double strength) {
+  constexpr int kMostSweeps = 20'000;
+  constexpr double kStill = 1e-14;
+  VectorXd b = VectorXd::Zero(x.cols());
+  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+    double largest = 0.0;
+    for (Index j = 0; j < x.cols(); ++j) {
+      if (x.col(j).isZero()) continue;
+      const double along = x.col(j).dot(w.cwiseProduct(residual)) + b[j];
+      const double shrunk = std::max(0.0, std::abs(along) - strength);
+      const double next = std::copysign(shrunk, along);
+      residual -= (next - b[j]) * x.col(j);
+      largest = std::max(largest, std::abs(next - b[j]));
+      b[j] = next;
+    }
+    if (largest < kStill) break;
+  }
+  return b;
+}
+
+// Of columns that nearly repeat each other the descent does not come to its
+// end: it then is to be no lower.
+TEST(PenalizedPath, LassoIsThatOfCoordinateDescent) {
+  constexpr int kDesigns = 300;
+  constexpr double kSlack = 1e-10;
+  int ended = 0;
+  for (std::uint64_t seed = 1; seed <= kDesigns; ++seed) {
+    const Sample sample = MakeDependentSample(77 * seed);
+    const PenalizedPath path(Penalty::kLasso, SumsOf(sample), true);
+    const double strength = 0.1 * path.Grid().front();
+    const VectorXd found = path.Solve({strength}).coefficients.col(0);
+    MatrixXd x;
+    VectorXd residual;
+    VectorXd w;
+    VectorXd spread;
+    Standardise(
+        sample, VectorXd::Zero(found.size()), &x, &residual, &w, &spread);
+    const auto objective = [&](const VectorXd& b) {
+      return 0.5 * w.dot((residual - x * b).cwiseAbs2()) +
+             strength * b.lpNorm<1>();
+    };
+    const VectorXd b = CoordinateDescent(x, w, residual, strength);
+    const VectorXd ours = found.cwiseProduct(spread);
+    EXPECT_LT(objective(ours), objective(b) + kSlack) << "design " << seed;
+    const VectorXd as_given =
+        (spread.array() > 0.0).select(b.array() / spread.array(), 0.0);
+    if (WorstCondition(sample, as_given, strength) > kSlack) continue;
+    ++ended;
+    EXPECT_NEAR(objective(ours), objective(b), kSlack) << "design " << seed;
+    // Which of repeated columns has the coefficient is not determined; what
+    // they predict is.
+    EXPECT_LT(std::sqrt(w.dot((x * (ours - b)).cwiseAbs2())), 1e-8)
+        << "design " << seed;
+  }
+  EXPECT_GT(ended, 4 * kDesigns / 5);
 }
 
 TEST(PenalizedPath, RidgeSolvesItsNormalEquations) {
