@@ -463,6 +463,11 @@ void LeastSquaresOptions::Validate() const {
   }
 }
 
+double CountObservations(Index rows, const VectorXd& weights) {
+  return static_cast<double>(
+      weights.size() == 0 ? rows : (weights.array() > 0.0).count());
+}
+
 LeastSquaresFit SolveLeastSquares(const MatrixXd& design,
                                   const VectorXd& response,
                                   const VectorXd& weights,

@@ -63,6 +63,10 @@ struct LeastSquaresOptions {
   void Validate() const;
 };
 
+/// Rows that count as observations: all of `rows`, or those whose weight is
+/// above 0, as R's lm has it. `weights` (rows) or (0).
+double CountObservations(Eigen::Index rows, const Eigen::VectorXd& weights);
+
 /// Least squares by Householder QR on columns scaled to unit length, in the
 /// order given; never the normal equations; where digits ask for it refined by
 /// Bjorck's iteration (BIT 7, 1967), whose residuals are in 106 bits. Of

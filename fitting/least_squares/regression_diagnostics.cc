@@ -191,9 +191,10 @@ RegressionDiagnostics Diagnose(const RegressionProblem& problem,
                                 " terms and an intercept");
   }
   RegressionDiagnostics fit;
-  fit.observations = problem.observations > 0.0
-                         ? problem.observations
-                         : static_cast<double>(problem.response.size());
+  fit.observations =
+      problem.observations > 0.0
+          ? problem.observations
+          : CountObservations(problem.response.size(), problem.weights);
   const CentredProblem centred = Centre(problem, &fit);
   for (Index j = 0; j < terms; ++j) {
     const bool is_aliased = std::binary_search(

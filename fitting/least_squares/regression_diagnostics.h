@@ -17,7 +17,7 @@ struct RegressionProblem {
   /// (n) the intercept's column where rows are those of a triangle; (0): ones;
   /// zeros: there is no intercept.
   Eigen::VectorXd intercept = {};
-  double observations = 0.0;  // where it is not the number of rows
+  double observations = 0.0;  // 0: the rows of a weight above 0
 };
 
 /// A line of the coefficient table; NaN where there is nothing to say.

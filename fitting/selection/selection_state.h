@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "fitting/least_squares/linear_least_squares.h"
 #include "fitting/least_squares/orthogonal_basis.h"
 #include "fitting/selection/candidate_columns.h"
 
@@ -25,12 +26,12 @@ struct SelectionProblem {
   /// (n) the column of the intercept, where rows are no observations but rows
   /// of a triangle; (0): ones.
   Eigen::VectorXd intercept = {};
-  /// Number of observations where it is not the number of rows; 0: rows.
+  /// Number of observations; 0: the rows of a weight above 0.
   double observations = 0.0;
 
   double num_observations() const {
     return observations > 0.0 ? observations
-                              : static_cast<double>(response.size());
+                              : CountObservations(response.size(), weights);
   }
   /// Throws std::invalid_argument on shapes that do not agree, fewer than 2
   /// rows, negative weights or values that are not finite.

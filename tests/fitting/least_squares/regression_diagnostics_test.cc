@@ -50,6 +50,31 @@ TEST(RegressionDiagnostics, CountsARowThatACoefficientHasToItself) {
   EXPECT_TRUE(std::isfinite(fit.s));
 }
 
+// As in R's summary(lm).
+TEST(RegressionDiagnostics, CountsNoRowOfWeightZero) {
+  constexpr double kRelative = 1e-12;
+  const MatrixXd terms = UniformMatrix(20, 3, 7);
+  const VectorXd response = terms.col(0) + 0.2 * UniformMatrix(20, 1, 8);
+  VectorXd weights = 1.5 + UniformMatrix(20, 1, 9).array();
+  weights.tail(6).setZero();
+  const MatrixXd few_terms = terms.topRows(14);
+  const VectorXd few_response = response.head(14);
+  const VectorXd few_weights = weights.head(14);
+  const RegressionDiagnostics fit = Diagnose({terms, response, weights});
+  const RegressionDiagnostics few =
+      Diagnose({few_terms, few_response, few_weights});
+  EXPECT_EQ(fit.observations, 14.0);
+  EXPECT_EQ(fit.residual_degrees_of_freedom, few.residual_degrees_of_freedom);
+  EXPECT_NEAR(fit.s, few.s, kRelative * few.s);
+  EXPECT_NEAR(fit.f_p, few.f_p, kRelative);
+  for (std::size_t j = 0; j < 3; ++j) {
+    EXPECT_NEAR(fit.coefficients[j].standard_error,
+                few.coefficients[j].standard_error,
+                kRelative * few.coefficients[j].standard_error);
+    EXPECT_NEAR(fit.coefficients[j].p, few.coefficients[j].p, kRelative);
+  }
+}
+
 TEST(RegressionDiagnostics, NamesCopiesAndGoesOnWithoutThem) {
   MatrixXd terms = UniformMatrix(30, 4, 5);
   terms.col(2) = 3.0 - 2.0 * terms.col(0).array();

@@ -50,6 +50,77 @@ double PressByRefitting(const MatrixXd& design, const VectorXd& response) {
   return press;
 }
 
+// As R's lm drops them. Their values are beyond all others.
+TEST(StepwiseRules, RowsOfWeightZeroAreAsIfTheyWereNotThere) {
+  constexpr double kRelative = 1e-9;
+  constexpr Index kRows = 24;
+  constexpr Index kNothing = 9;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    MatrixXd candidates = UniformMatrix(kRows + kNothing, 6, seed);
+    VectorXd response = candidates.col(0) + 0.5 * candidates.col(3) +
+                        0.3 * UniformMatrix(kRows + kNothing, 1, 50 + seed);
+    VectorXd weights =
+        1.5 + UniformMatrix(kRows + kNothing, 1, 90 + seed).array();
+    std::vector<Index> kept;
+    for (Index i = 0; i < kRows + kNothing; ++i) {
+      if (i % 4 == 3 || i == 1) {
+        weights[i] = 0.0;
+        candidates.row(i) *= 100.0;
+        response[i] = -50.0;
+      } else {
+        kept.push_back(i);
+      }
+    }
+    ASSERT_EQ(kept.size(), kRows);
+    const MatrixXd few_candidates = candidates(kept, Eigen::all);
+    const VectorXd few_response = response(kept);
+    const VectorXd few_weights = weights(kept);
+    const MatrixColumns all(candidates);
+    const MatrixColumns few(few_candidates);
+    const SelectionProblem with_all{all, response, weights};
+    const SelectionProblem with_few{few, few_response, few_weights};
+    for (const Criterion criterion : {Criterion::kPValue,
+                                      Criterion::kAic,
+                                      Criterion::kAicc,
+                                      Criterion::kBic,
+                                      Criterion::kAdjustedR2,
+                                      Criterion::kPress,
+                                      Criterion::kCp}) {
+      StepwiseOptions options;
+      options.select = options.stop = options.choose = criterion;
+      options.direction = Direction::kBoth;
+      const SelectionResult found = SelectStepwise(with_all, {}, options);
+      const SelectionResult expected = SelectStepwise(with_few, {}, options);
+      EXPECT_EQ(found.chosen, expected.chosen);
+      ASSERT_EQ(found.steps.size(), expected.steps.size());
+      for (std::size_t i = 0; i < found.steps.size(); ++i) {
+        const SelectionStep& one = found.steps[i];
+        const SelectionStep& other = expected.steps[i];
+        const auto expect_near = [&](double a, double b) {
+          if (std::isnan(b)) {
+            EXPECT_TRUE(std::isnan(a));
+          } else {
+            EXPECT_NEAR(a, b, kRelative * (1.0 + std::abs(b)));
+          }
+        };
+        expect_near(one.bic, other.bic);
+        expect_near(one.aic, other.aic);
+        expect_near(one.aicc, other.aicc);
+        expect_near(one.adjusted_r2, other.adjusted_r2);
+        expect_near(one.press, other.press);
+        expect_near(one.cp, other.cp);
+        expect_near(one.f, other.f);
+        expect_near(one.p, other.p);
+      }
+    }
+    const auto judged = JudgeExcluded(with_all, {0}, 1e-7);
+    const auto judged_few = JudgeExcluded(with_few, {0}, 1e-7);
+    for (std::size_t i = 0; i < judged.size(); ++i) {
+      EXPECT_NEAR(judged[i].f, judged_few[i].f, kRelative * judged_few[i].f);
+    }
+  }
+}
+
 TEST(StepwiseRules, SelectsByPressAsRefittingWould) {
   constexpr double kRelative = 1e-9;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
