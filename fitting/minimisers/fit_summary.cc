@@ -1,5 +1,7 @@
 #include "fitting/minimisers/fit_summary.h"
 
+#include <cmath>
+
 namespace errmap::fitting {
 
 std::string_view ToString(Termination termination) {
@@ -34,6 +36,10 @@ bool IsConverged(Termination termination) {
   return termination == Termination::kGradient ||
          termination == Termination::kResolution ||
          termination == Termination::kDirect;
+}
+
+double RmsError(double cost) {
+  return std::copysign(std::sqrt(2.0 * std::abs(cost)), cost);
 }
 
 }  // namespace errmap::fitting

@@ -31,10 +31,14 @@ std::string_view ToString(Termination termination);
 /// minimum.
 bool IsConverged(Termination termination);
 
+/// sqrt(2 f), the report's rmserr; where f is below 0, which no sum of squares
+/// is, -sqrt(-2 f): a lower cost is a lower number.
+double RmsError(double cost);
+
 /// One line of an error-reduction curve.
 struct TracePoint {
   std::int64_t iteration = 0;
-  double rms_error = 0.0;  // sqrt(2 f), the report's rmserr
+  double rms_error = 0.0;  // RmsError(f)
   double gradient_norm = 0.0;
 };
 

@@ -20,14 +20,15 @@ struct StoppingRules {
   std::int64_t evaluations = std::numeric_limits<std::int64_t>::max();
   /// Stop once this many seconds have passed; above 0.
   double seconds = std::numeric_limits<double>::infinity();
-  /// Stop when sqrt(2 f) < this (egoal); at least 0, and 0 never stops.
+  /// Stop when RmsError(f) < this (egoal); at least 0, and 0 never stops.
   double cost_goal = 0.0;
   /// Stop when |g| < this * max(1, |x|) (gwgoal); at least 0. The default is
   /// the report's: it stops at a true minimum only.
   double gradient_goal = 1e-12;
   /// Every `progress_interval` accepted steps (nfreq, at least 1), stop when
-  /// sqrt(2 f) > this * its value at the last check (errdel); above 0, and
-  /// infinity never stops. At 1, the report's, only growth stops.
+  /// RmsError(f) > this * its value at the last check (errdel); above 0, and
+  /// infinity never stops. At 1, the report's, only growth stops. A value v
+  /// below 0 has to fall likewise by (1 - this) |v|.
   double slow_ratio = std::numeric_limits<double>::infinity();
   std::int64_t progress_interval = 1;
 

@@ -37,7 +37,7 @@ class RunMonitor {
       return false;
     }
     summary_.message = "still running";
-    last_checked_rms_ = std::sqrt(2.0 * cost);
+    last_checked_rms_ = RmsError(cost);
     Trace(cost, gradient_norm);
     last_ = Clock::now();
     return true;
@@ -76,7 +76,7 @@ class RunMonitor {
   }
 
   bool ReachesCostGoal(double cost) const {
-    return std::sqrt(2.0 * cost) < rules_.cost_goal;
+    return rules_.cost_goal > 0.0 && RmsError(cost) < rules_.cost_goal;
   }
 
   /// |g| < gradient_goal max(1, |x|), or no gradient at all.
@@ -101,8 +101,11 @@ class RunMonitor {
   bool StopAtSlowProgress(double cost, std::int64_t* steps) {
     if (*steps < rules_.progress_interval) return false;
     *steps = 0;
-    const double rms = std::sqrt(2.0 * cost);
-    if (rms > rules_.slow_ratio * last_checked_rms_) {
+    const double rms = RmsError(cost);
+    // Below 0 the same share of its size has to be gained.
+    const double ratio =
+        last_checked_rms_ < 0.0 ? 2.0 - rules_.slow_ratio : rules_.slow_ratio;
+    if (rms > ratio * last_checked_rms_) {
       Stop(Termination::kSlowProgress,
            "the error fell too little since the last check");
     }
@@ -158,7 +161,7 @@ class RunMonitor {
   void Trace(double cost, double gradient_norm) {
     if (run_.keep_trace) {
       summary_.trace.push_back(
-          {summary_.iterations, std::sqrt(2.0 * cost), gradient_norm});
+          {summary_.iterations, RmsError(cost), gradient_norm});
     }
   }
 

@@ -208,6 +208,48 @@ TEST(Minimize, SlowProgressIsNoClaimOfAMinimum) {
   EXPECT_GT(trace.back().rms_error, kHalf * trace[trace.size() - 2].rms_error);
 }
 
+// 1/2 |x|^2 less a constant.
+class BelowZero final : public Objective {
+ public:
+  explicit BelowZero(double lowest) : lowest_(lowest) {}
+  Eigen::Index num_parameters() const override { return 2; }
+  double Evaluate(const VectorXd& x, VectorXd* gradient) const override {
+    if (gradient != nullptr) *gradient = kScales.cwiseProduct(x);
+    return 0.5 * x.dot(kScales.cwiseProduct(x)) + lowest_;
+  }
+
+ private:
+  inline static const Eigen::Vector2d kScales{1.0, 50.0};
+  double lowest_;
+};
+
+TEST(Minimize, StopsAtSlowProgressBelowZeroAsAbove) {
+  for (const double lowest : {-1e4, 1e4}) {
+    const auto end = [&](double ratio) {
+      return Scg({.slow_ratio = ratio})
+          .Minimize(BelowZero(lowest), VectorXd{{3.0, 2.0}})
+          .summary.termination;
+    };
+    // The first step gains a hundredth of the cost, half of that of its root.
+    EXPECT_EQ(end(1.0 - 0.01), Termination::kSlowProgress) << lowest;
+    EXPECT_EQ(end(1.0), Termination::kGradient) << lowest;  // only growth stops
+  }
+}
+
+TEST(Minimize, TracesCostsBelowZero) {
+  const FitSummary summary =
+      Scg({})
+          .Minimize(
+              BelowZero(-50.0), VectorXd{{3.0, 2.0}}, {.keep_trace = true})
+          .summary;
+  ASSERT_GE(summary.trace.size(), 2U);
+  EXPECT_GT(summary.trace.front().rms_error, 0.0);
+  EXPECT_DOUBLE_EQ(summary.trace.back().rms_error, -10.0);
+  for (std::size_t i = 1; i < summary.trace.size(); ++i) {
+    EXPECT_LE(summary.trace[i].rms_error, summary.trace[i - 1].rms_error);
+  }
+}
+
 TEST(Minimize, MeasuresTheSecondsOfAnIteration) {
   const TestProblem problem = Rosenbrock();
   StoppingRules rules;
