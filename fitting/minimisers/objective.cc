@@ -40,6 +40,8 @@ class EvaluatedPath final : public Path<Scalar> {
     return (ahead - trial_gradient_.dot(p_)) / (Scalar(2) * step);
   }
 
+  int gradients_per_curvature() const override { return 2; }
+
   Scalar Value(Scalar a) override {
     trial_ = x_ + a * p_;
     return objective_.Evaluate(trial_, nullptr);

@@ -20,6 +20,9 @@ class Path {
   virtual void SetDirection(const VectorOf<Scalar>& p) = 0;
   /// p'Hp at x, H the Hessian; non-finite where f is.
   virtual Scalar Curvature() = 0;
+  /// Gradients of f that one Curvature evaluates, which are what it counts as;
+  /// 0 where it needs none and counts as one evaluation of its own.
+  virtual int gradients_per_curvature() const { return 0; }
   /// f(x + a p); non-finite where x + a p is infeasible.
   virtual Scalar Value(Scalar a) = 0;
   /// x += a p.

@@ -105,8 +105,16 @@ class CountedObjective final : public BasicObjective<Scalar> {
 
     void SetDirection(const Vector& p) override { path_->SetDirection(p); }
     Scalar Curvature() override {
-      ++owner_.curvatures_;
+      const int gradients = path_->gradients_per_curvature();
+      if (gradients > 0) {
+        owner_.gradients_ += gradients;
+      } else {
+        ++owner_.curvatures_;
+      }
       return path_->Curvature();
+    }
+    int gradients_per_curvature() const override {
+      return path_->gradients_per_curvature();
     }
     Scalar Value(Scalar a) override {
       ++owner_.values_;

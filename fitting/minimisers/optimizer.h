@@ -67,9 +67,10 @@ class BasicOptimizer {
   virtual std::string name() const = 0;
 
   /// Minimum found from x0 (n). Counts and times evaluations: each call of
-  /// Evaluate, Curvature and Value is one, and each Gradient that is new at
-  /// its point. Of a residual form, residuals alone count as a value, with a
-  /// Jacobian as a gradient. An infeasible start (f or its gradient not finite)
+  /// Evaluate and Value is one, and each Gradient that is new at its point. A
+  /// Curvature is one, or as many gradients as its Path takes for it. Of a
+  /// residual form, residuals alone count as a value, with a Jacobian as a
+  /// gradient. An infeasible start (f or its gradient not finite)
   /// is reported as kFailed. Throws std::invalid_argument unless x0.size() ==
   /// f.num_parameters() and all of x0 is finite.
   Minimum Minimize(const BasicObjective<Scalar>& f,

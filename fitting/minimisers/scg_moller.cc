@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -25,8 +26,9 @@ class MollerRun {
 
   Minimum Minimize() {
     if (Start()) {
-      // Curvature, value, gradient, the cost after a failure, the end.
-      constexpr std::int64_t kEvaluationsPerPass = 5;
+      // Curvature (two gradients without a path of the objective's own), value,
+      // gradient, the cost after a failure, the end.
+      constexpr std::int64_t kEvaluationsPerPass = 6;
       while (!monitor_.stopped() &&
              !monitor_.StopAtLimit(evaluations_, kEvaluationsPerPass)) {
         Pass();
@@ -102,7 +104,7 @@ class MollerRun {
       p_squared_ = mu_ = static_cast<double>(r_.squaredNorm());
     }
     path_->SetDirection(p_);
-    ++evaluations_;
+    evaluations_ += std::max(1, path_->gradients_per_curvature());
     curvature_ = static_cast<double>(path_->Curvature());
     // Infeasible that near: lambda alone sets the first step.
     if (!std::isfinite(curvature_)) curvature_ = 0.0;

@@ -33,7 +33,7 @@ struct OptimizerCase {
   std::function<std::unique_ptr<fitting::Optimizer>(
       const fitting::StoppingRules&)>
       make;
-  /// A pass takes at most so many evaluations, as the summary counts them.
+  /// A pass takes at most so many evaluations.
   std::int64_t evaluations_per_pass = 0;
   /// No accepted step raises the cost.
   bool never_rises = false;
@@ -118,7 +118,7 @@ inline std::vector<OptimizerCase> AllOptimizers() {
   using fitting::NloptMethod;
   using fitting::StoppingRules;
   return {
-      ScgCase("ScgMoller", fitting::ScgVariant::kMoller, 5),
+      ScgCase("ScgMoller", fitting::ScgVariant::kMoller, 6),
       ScgCase("ScgNetcg", fitting::ScgVariant::kNetcg, 2),
       {.name = "Cg",
        .make =

@@ -11,7 +11,7 @@
 namespace errmap::testing {
 
 /// Counts and keeps what it is asked, itself. It has no Path of its own, so a
-/// curvature shows here as two gradients.
+/// curvature is two gradients.
 class WatchedObjective final : public fitting::Objective {
  public:
   explicit WatchedObjective(const fitting::Objective& objective)
