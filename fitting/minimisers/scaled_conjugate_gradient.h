@@ -48,11 +48,13 @@ struct ScaledConjugateGradientOptions {
 /// curvature p'Hp + lambda |p|^2, tries its minimum, and moves lambda by how
 /// well the parabola predicted what happened.
 ///
-/// kMoller works on a Path of the objective: one curvature and one value per
-/// pass and one gradient per accepted step. Too many failures in a row restart
-/// it from steepest descent, and end it there. Before it ends, cost and
-/// gradient are evaluated anew at the point returned, and a goal that this does
-/// not confirm does not end it.
+/// kMoller works on a Path of the objective: a curvature for each direction, a
+/// value for each pass, another where a pass fails after one that did not, and
+/// a gradient for each accepted step. Six failures in a row restart it from
+/// steepest descent, 61 along steepest descent end it. A step to where cost or
+/// gradient is not finite is a failure, and a quarter of it is tried next.
+/// Before it ends, cost and gradient are evaluated anew at the point returned,
+/// and a goal that this does not confirm does not end it.
 ///
 /// kNetcg: curvature by a difference of gradients over sigma |w| / |p|, lambda
 /// times 4 after a failure and times 16 after a poor success, a third failure

@@ -81,11 +81,14 @@ class MollerRun {
 
     if (feasible && comparison >= 0.0 && Accept(alpha, trial_cost, &report)) {
       if (comparison >= kGood) lambda_ *= 0.5;  // Eq. (110)
+      if (comparison < kPoor) Shorten(delta, comparison);
     } else {
       Reject(&report);
-    }
-    if (!report.gave_up_direction && !(comparison >= kPoor)) {
-      Shorten(delta, feasible ? comparison : kInfeasible);
+      // A good cost does not help where the gradient is not finite.
+      const bool tells = feasible && comparison < kPoor;
+      if (!report.gave_up_direction) {
+        Shorten(delta, tells ? comparison : kInfeasible);
+      }
     }
     Observe(report, alpha, comparison);
     if (report.accepted && !monitor_.stopped()) CheckStops();
@@ -226,7 +229,9 @@ class MollerRun {
 
   static constexpr double kGood = 0.75;
   static constexpr double kPoor = 0.25;
-  static constexpr double kInfeasible = -2.0;  // a third of the step next
+  // Says nothing about the curvature: delta becomes four times what it was,
+  // the step a quarter.
+  static constexpr double kInfeasible = -2.0;
 
   const ScaledConjugateGradientOptions& options_;
   const BasicObjective<Scalar>& f_;
