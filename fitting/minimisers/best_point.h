@@ -34,13 +34,21 @@ class BestPoint {
   /// run has ended.
   bool Move(const Eigen::VectorXd& step, const char* not_finite) {
     trial_ = x + step;
-    cost = Evaluate(trial_, &gradient);
-    gradient_norm = gradient.norm();
-    if (!std::isfinite(cost) || !std::isfinite(gradient_norm)) {
+    const double trial_cost = Evaluate(trial_, &trial_gradient_);
+    if (!std::isfinite(trial_cost) || !trial_gradient_.allFinite()) {
       monitor.Stop(Termination::kNoDescent, not_finite);
       return false;
     }
-    x.swap(trial_);
+    return MoveTo(&trial_, trial_cost, &trial_gradient_);
+  }
+
+  /// The same to a point that is evaluated and feasible: x and gradient there
+  /// are swapped with those here.
+  bool MoveTo(Eigen::VectorXd* at, double its_cost, Eigen::VectorXd* slope) {
+    x.swap(*at);
+    gradient.swap(*slope);
+    cost = its_cost;
+    gradient_norm = gradient.norm();
     monitor.EndIteration(cost, gradient_norm, x);
     if (cost <= best_cost_) Keep();
     if (monitor.stopped()) return false;
@@ -76,6 +84,7 @@ class BestPoint {
   const Objective& f_;
   Eigen::VectorXd best_;
   Eigen::VectorXd trial_;
+  Eigen::VectorXd trial_gradient_;
   double best_cost_ = 0.0;
   double best_gradient_norm_ = 0.0;
   std::int64_t steps_since_check_ = 0;

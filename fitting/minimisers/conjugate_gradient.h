@@ -16,16 +16,15 @@ struct ConjugateGradientOptions {
   void Validate() const;
 };
 
-/// The conjugate gradient strategy of NISTIR 5367, section 6.5, before Moller's
-/// two devices: curvature by the difference quotient of Eq. 95, step mu / delta
-/// unchecked (Eq. 90-91), direction of Eq. 94, steepest descent every n steps.
-/// Here to show why the report left it: it trusts a parabola that may be wrong,
-/// so that the cost may rise, and it has no step at all where the curvature is
-/// not positive along steepest descent. The best point seen is returned.
+/// The conjugate gradients of NISTIR 5367, section 6.5, before Moller's two
+/// devices: curvature by the difference quotient of Eq. 95, direction of Eq.
+/// 94, steepest descent every n steps. The report takes the step mu / delta
+/// (Eq. 90-91) unchecked, and has none where the curvature is not positive;
+/// here it is the first trial of a line search for Wolfe's strong conditions,
+/// so that the cost never rises. A direction along which nothing is lower is
+/// given up for steepest descent. Each trial is a cost with its gradient.
 ///
-/// Ends as ScaledConjugateGradient does, with kNoDescent where there is no
-/// step, the objective is not finite at it, or the gradient is small at a point
-/// that is not the best seen.
+/// Ends as kMoller of ScaledConjugateGradient does.
 class ConjugateGradient final : public Optimizer {
  public:
   /// Throws std::invalid_argument where the options are out of range.

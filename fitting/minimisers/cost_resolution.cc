@@ -183,4 +183,18 @@ CostResolution FindCostResolution(const Objective& f,
   return result;
 }
 
+void StopWithoutDescent(const Objective& f,
+                        const VectorXd& x,
+                        const std::function<bool()>& spend,
+                        const std::string& why,
+                        RunMonitor* monitor) {
+  const CostResolution resolution = FindCostResolution(f, x, spend);
+  if (monitor->stopped()) return;
+  if (resolution.is_reached()) {
+    monitor->Stop(Termination::kResolution, resolution.Text());
+  } else {
+    monitor->Stop(Termination::kNoDescent, why);
+  }
+}
+
 }  // namespace errmap::fitting

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fitting/minimisers/objective.h"
+#include "fitting/minimisers/run_monitor.h"
 
 namespace errmap::fitting {
 
@@ -42,5 +43,14 @@ struct CostResolution {
 CostResolution FindCostResolution(const Objective& f,
                                   const Eigen::VectorXd& x,
                                   const std::function<bool()>& may_evaluate);
+
+/// Ends a run that finds no way down from x: as kResolution where the cost says
+/// that this is a minimum, else as kNoDescent, `why`. `spend` is asked before
+/// each evaluation of f; where it refuses, it has ended the run itself.
+void StopWithoutDescent(const Objective& f,
+                        const Eigen::VectorXd& x,
+                        const std::function<bool()>& spend,
+                        const std::string& why,
+                        RunMonitor* monitor);
 
 }  // namespace errmap::fitting

@@ -172,28 +172,23 @@ class MollerRun {
       steps_since_restart_ = 0;
       failures_ = 0;
     } else if (failures_ > kMostFromSteepestDescent) {
-      StopWithoutDescent();
+      StopHere();
     }
   }
 
   // Either there is nothing left to gain that the cost could show, or the
   // gradient promises what is not to be had.
-  void StopWithoutDescent() {
+  void StopHere() {
+    const char* why = "no step along steepest descent lowers the cost";
     if constexpr (std::is_same_v<Scalar, double>) {
       // One is kept for the end.
-      const auto may_evaluate = [&] {
+      const auto spend = [&] {
         return !monitor_.StopAtLimit(++evaluations_, 1);
       };
-      const CostResolution resolution =
-          FindCostResolution(f_, w_, may_evaluate);
-      if (monitor_.stopped()) return;
-      if (resolution.is_reached()) {
-        monitor_.Stop(Termination::kResolution, resolution.Text());
-        return;
-      }
+      StopWithoutDescent(f_, w_, spend, why, &monitor_);
+    } else {
+      monitor_.Stop(Termination::kNoDescent, why);
     }
-    monitor_.Stop(Termination::kNoDescent,
-                  "no step along steepest descent lowers the cost");
   }
 
   // Eq. (112) with the growth of Moller's paper, which does not depend on the
