@@ -37,12 +37,25 @@ class ParameterSpace final : public DampedLeastSquares {
     return step->allFinite();
   }
 
+  void Settle() override {
+    if (largest_ == nullptr) return;
+    *largest_ = largest_->cwiseMax(norms_);
+    const VectorXd grown = Scale();
+    triangle_.leftCols(grown.size()) *=
+        scale_.cwiseQuotient(grown).asDiagonal();
+    scale_ = grown;
+  }
+
   double ScaledSquaredNorm(const VectorXd& v) const override {
     return scale_.size() == 0 ? v.squaredNorm()
                               : scale_.cwiseProduct(v).squaredNorm();
   }
 
  private:
+  VectorXd Scale() const {
+    return (largest_->array() > 0.0).select(*largest_, 1.0);
+  }
+
   void Linearize() override {
     const Index n = x_.size();
     MatrixXd jacobian;
@@ -52,16 +65,14 @@ class ParameterSpace final : public DampedLeastSquares {
     gradient_.noalias() = jacobian.transpose() * residuals_;
     gradient_ += ridge_ * x_;
     if (largest_ != nullptr) {
-      const VectorXd norms =
-          (jacobian.colwise().squaredNorm().transpose().array() + ridge_)
-              .sqrt();
-      if (!norms.allFinite()) {
-        gradient_.setConstant(n, norms.sum());
+      norms_ = (jacobian.colwise().squaredNorm().transpose().array() + ridge_)
+                   .sqrt();
+      if (!norms_.allFinite()) {
+        gradient_.setConstant(n, norms_.sum());
         return;
       }
-      if (largest_->size() == 0) largest_->setZero(n);
-      *largest_ = largest_->cwiseMax(norms);
-      scale_ = (largest_->array() > 0.0).select(*largest_, 1.0);
+      if (largest_->size() == 0) *largest_ = norms_;
+      scale_ = Scale();
       jacobian *= scale_.cwiseInverse().asDiagonal();
     }
     mean_curvature_ = jacobian.squaredNorm() / static_cast<double>(n);
@@ -83,7 +94,8 @@ class ParameterSpace final : public DampedLeastSquares {
   }
 
   const ResidualFunction& function_;
-  std::shared_ptr<VectorXd> largest_;  // of all points of the run, or null
+  std::shared_ptr<VectorXd> largest_;  // |J_j| where the run has been, or null
+  VectorXd norms_;                     // |J_j| here
   VectorXd scale_;                     // D (n), or (0)
   MatrixXd triangle_;  // R of [J D^-1, r; sqrt(c) D^-1, sqrt(c) x]
   MatrixXd damped_;

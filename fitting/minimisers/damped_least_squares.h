@@ -23,6 +23,10 @@ class DampedLeastSquares {
   /// Cost and gradient are finite: steps may be asked for.
   bool is_finite() const;
 
+  /// The run has taken x: D grows by the columns there. Until then D is that of
+  /// the point the step began at, so that both are measured alike.
+  virtual void Settle() {}
+
   /// The step (n) for a damping; false where rounding leaves none.
   virtual bool Solve(double lambda, Eigen::VectorXd* step) = 0;
   /// |D v|^2
@@ -45,8 +49,9 @@ class DampedLeastSquares {
   double cost_ = 0.0;
 };
 
-/// By Householder QR. `scale` (n), the D of kMarquardt, is grown by every
-/// MoveTo; shared by those of one run. Null for D = I.
+/// By Householder QR. `scale` (n), the D of kMarquardt, is set by the first
+/// MoveTo and grown by every Settle; shared by the spaces of one run. Null for
+/// D = I.
 std::unique_ptr<DampedLeastSquares> MakeParameterSpace(
     const ResidualFunction& residuals, std::shared_ptr<Eigen::VectorXd> scale);
 

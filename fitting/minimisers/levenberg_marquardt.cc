@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fitting/interruption.h"
+#include "fitting/minimisers/cost_resolution.h"
 #include "fitting/minimisers/damped_least_squares.h"
 #include "fitting/minimisers/run_monitor.h"
 
@@ -98,14 +99,15 @@ class LmRun {
   }
 
   // The objective's cost at x and that of the residuals are the same, but for
-  // their roundings.
+  // their roundings; where not, the run ends.
   bool FormsAgree() {
     constexpr double kRelative = 1e-6;
     // A sum of squares that has become this small may be all rounding.
     constexpr double kOfInitial = 1e-12;
     const double allowed = kRelative * own_.cost + kOfInitial * start_.cost;
     if (std::abs(own_.cost - here_->cost()) <= allowed) return true;
-    monitor_.Stop(Termination::kFailed,
+    monitor_.Stop(monitor_.iterations() == 0 ? Termination::kFailed
+                                             : Termination::kNoDescent,
                   "the residual form does not give the objective's cost");
     return false;
   }
@@ -140,7 +142,7 @@ class LmRun {
     if (trial_ == x_ ||
         std::sqrt(step_squared) <=
             tolerance * std::sqrt(here_->ScaledSquaredNorm(x_))) {
-      StopWithoutDescent("the steps have become too short to lower the cost");
+      StopHere("the steps have become too short to lower the cost");
       return;
     }
     const double predicted =
@@ -178,7 +180,7 @@ class LmRun {
     }
     Reject();
     if (!monitor_.stopped() && fruitless_ >= kMostFruitless) {
-      StopWithoutDescent(
+      StopHere(
           "neither cost nor gradient can be lowered beyond their rounding");
     }
   }
@@ -210,6 +212,7 @@ class LmRun {
     fruitless_ = 0;
     x_.swap(trial_);
     std::swap(here_, there_);
+    here_->Settle();
     own_is_current_ = false;
     const double cost = here_->cost();
     const double gradient_norm = here_->gradient().norm();
@@ -230,27 +233,33 @@ class LmRun {
     lambda_ *= growth_;
     growth_ *= 2.0;
     if (!std::isfinite(lambda_)) {
-      StopWithoutDescent("no step lowers the cost, however short");
+      StopHere("no step lowers the cost, however short");
     }
   }
 
-  void StopWithoutDescent(const char* why) {
+  void StopHere(const char* why) {
     const bool residuals_say_minimum =
         monitor_.ReachesGradientGoal(here_->gradient().norm(), x_.norm());
-    monitor_.Stop(Termination::kNoDescent,
-                  residuals_say_minimum
-                      ? "the gradient of the residual form is small, but the "
-                        "objective's own is not"
-                      : why);
+    // One is kept for the end.
+    const auto spend = [&] { return !monitor_.StopAtLimit(++evaluations_, 1); };
+    StopWithoutDescent(f_,
+                       x_,
+                       spend,
+                       residuals_say_minimum
+                           ? "the gradient of the residual form is small, but "
+                             "the objective's own is not"
+                           : why,
+                       &monitor_);
   }
 
-  // The last word is the objective's own.
+  // The last word is the objective's own. Where it says that the residual form
+  // has led upwards, the start is the best point seen.
   Minimum Finish() {
     if (!own_is_current_) {
       EvaluateObjective();
       FormsAgree();
     }
-    if (monitor_.has_failed()) {
+    if (monitor_.has_failed() || !(own_.cost <= start_.cost)) {
       x_ = x0_;
       own_ = start_;
     }

@@ -8,8 +8,10 @@ namespace errmap::fitting {
 
 /// The metric D of the damping term lambda |D p|^2.
 enum class LmScaling {
-  kNone,       // D = I
-  kMarquardt,  // D_j = the largest |J_j| so far (More 1978), 1 where it is 0
+  kNone,  // D = I
+  // D_j = the largest |J_j| of the points taken so far (More 1978), 1 where it
+  // is 0; a trial is judged by the D of the point that it started from.
+  kMarquardt,
 };
 
 /// Where the damped problem is solved; m residuals, n parameters.
@@ -66,13 +68,18 @@ struct LevenbergMarquardtOptions {
 /// transformations and never from J'J, and completed by sqrt(lambda) D for
 /// every lambda: 2 m n^2 operations a point, 2 n^3 a trial.
 ///
-/// Ends with kGradient, its only claim of a minimum, where both J'r + c x and
-/// the objective's own gradient satisfy |g| < gradient_goal max(1, |x|); with
-/// kNoDescent where steps vanish (step_tolerance), lambda overflows, or below
-/// cost_resolution neither f nor e falls in ten trials; at the limits and
-/// goals of StoppingRules; with kFailed, at x0, where residual form and
-/// objective give different costs. Final cost and gradient are the
-/// objective's own, evaluated again at the end.
+/// A trial costs an evaluation of residuals alone, one that may be accepted
+/// another with the Jacobian.
+///
+/// Ends with kGradient where both J'r + c x and the objective's own gradient
+/// satisfy |g| < gradient_goal max(1, |x|). Where steps vanish
+/// (step_tolerance), lambda overflows, or below cost_resolution neither f nor e
+/// falls in ten trials: with kResolution if the cost itself says that this is a
+/// minimum (cost_resolution.h), else with kNoDescent. At the limits and goals
+/// of StoppingRules. Where residual form and objective give different costs:
+/// with kFailed at x0, later with kNoDescent at the end or at x0, whichever the
+/// objective says is lower. Final cost and gradient are the objective's own,
+/// evaluated again at the end.
 class LevenbergMarquardt final : public Optimizer {
  public:
   /// Throws std::invalid_argument where the options are out of range.

@@ -16,7 +16,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fitting/minimisers/damped_least_squares.h"
 #include "tests/decompositions.h"
+#include "tests/fitting/claimed_minimum.h"
 #include "tests/fitting/optimizer_cases.h"
 #include "tests/fitting/residual_problems.h"
 #include "tests/fitting/test_problems.h"
@@ -29,6 +31,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using errmap::testing::AllResidualProblems;
+using errmap::testing::ExpectTrueClaim;
 using errmap::testing::FunctionObjective;
 using errmap::testing::RandomMatrix;
 using errmap::testing::ResidualCode;
@@ -94,10 +97,8 @@ TEST_P(LmOnProblem, SaysWhatIsTrueHoweverItEnds) {
     VectorXd gradient;
     EXPECT_EQ(summary.final_cost, f.Evaluate(minimum.x, &gradient));
     EXPECT_EQ(summary.final_gradient_norm, gradient.norm());
-    if (summary.converged()) {
-      EXPECT_TRUE(gradient.norm() == 0.0 ||
-                  gradient.norm() < goal * std::max(1.0, minimum.x.norm()));
-    } else {
+    ExpectTrueClaim(f, minimum, goal);
+    if (!summary.converged()) {
       EXPECT_THAT(summary.termination,
                   AnyOf(Termination::kNoDescent, Termination::kIterationLimit));
     }
@@ -365,9 +366,8 @@ TEST_P(LmInTrouble, EndsWithAPointAndAReasonThatAreTrue) {
       EXPECT_EQ(summary.final_cost, cost);
       EXPECT_LE(summary.final_cost, summary.initial_cost);
       EXPECT_NE(summary.message, "still running");
-      if (summary.converged()) {
-        EXPECT_LE(gradient.norm(), goal * std::max(1.0, minimum.x.norm()));
-      } else {
+      ExpectTrueClaim(f, minimum, goal);
+      if (!summary.converged()) {
         EXPECT_THAT(
             summary.termination,
             AnyOf(Termination::kNoDescent, Termination::kIterationLimit));
@@ -416,6 +416,81 @@ TEST(LevenbergMarquardt, SaysThatTheResidualFormIsNotTheObjective) {
   EXPECT_EQ(minimum.summary.termination, Termination::kFailed);
   EXPECT_THAT(minimum.summary.message, HasSubstr("does not give"));
   EXPECT_EQ(minimum.x[0], 3.0);
+}
+
+// The same objective but for the lowest costs, of which it has `share`.
+class LateDisagreement final : public Objective {
+ public:
+  explicit LateDisagreement(double share)
+      : share_(share),
+        form_(Linear(MatrixXd{{1.0}, {2.0}}, VectorXd{{1.0, 1.0}})) {}
+  Eigen::Index num_parameters() const override { return 1; }
+  const ResidualFunction* residuals() const override { return &form_; }
+  double Evaluate(const VectorXd& x, VectorXd* gradient) const override {
+    const double cost = form_.Evaluate(x, gradient);
+    return x[0] < 2.0 ? share_ * cost : cost;
+  }
+
+ private:
+  double share_;
+  ResidualObjective form_;
+};
+
+TEST(LevenbergMarquardt, KeepsTheLowerPointWhereTheFormsPartLate) {
+  const auto run = [](double share) {
+    const LateDisagreement f(share);
+    const Minimum minimum = LevenbergMarquardt({}).Minimize(f, VectorXd{{3.0}});
+    EXPECT_EQ(minimum.summary.termination, Termination::kNoDescent);
+    EXPECT_THAT(minimum.summary.message, HasSubstr("does not give"));
+    EXPECT_EQ(minimum.summary.final_cost, f.Evaluate(minimum.x, nullptr));
+    return minimum.x[0];
+  };
+  EXPECT_NEAR(run(1.01), 0.6, 1e-2);  // the form's minimum
+  EXPECT_EQ(run(1e6), 3.0);           // the start is lower than that
+}
+
+TEST(LevenbergMarquardt, ClaimsAMinimumAtTheResolutionOfTheCost) {
+  for (const ResidualProblem& problem : AllResidualProblems()) {
+    if (problem.name != "Bard" && problem.name != "FreudensteinRoth") continue;
+    const ResidualObjective f = problem.Objective();
+    const Minimum minimum =
+        LevenbergMarquardt(
+            {.stopping = {.iterations = 500, .gradient_goal = 0.0}})
+            .Minimize(f, problem.start);
+    EXPECT_EQ(minimum.summary.termination, Termination::kResolution)
+        << problem.name << ": " << minimum.summary.message;
+    ExpectTrueClaim(f, minimum, 0.0);
+  }
+}
+
+TEST(LevenbergMarquardt, ScalesByTheColumnsOfThePointsThatItTakes) {
+  const ResidualObjective f(
+      2, 2, [](const VectorXd& x, VectorXd* r, MatrixXd* jacobian) {
+        *r = x.cwiseAbs2();
+        if (jacobian != nullptr) *jacobian = (2.0 * x).asDiagonal();
+      });
+  const VectorXd start{{1.0, 2.0}};
+  const VectorXd trial{{3.0, 0.5}};
+  const VectorXd v{{1.0, 1.0}};
+  const auto scale = std::make_shared<VectorXd>();
+  const auto here = MakeParameterSpace(*f.residuals(), scale);
+  const auto there = MakeParameterSpace(*f.residuals(), scale);
+  here->MoveTo(start);
+  EXPECT_DOUBLE_EQ(here->ScaledSquaredNorm(v), 4.0 + 16.0);
+  there->MoveTo(trial);
+  EXPECT_DOUBLE_EQ(there->ScaledSquaredNorm(v), 4.0 + 16.0);
+  here->MoveTo(start);
+  EXPECT_DOUBLE_EQ(here->ScaledSquaredNorm(v), 4.0 + 16.0);
+  there->Settle();
+  EXPECT_DOUBLE_EQ(there->ScaledSquaredNorm(v), 36.0 + 16.0);
+  // The same step as from columns that were scaled so from the beginning.
+  const auto anew = MakeParameterSpace(*f.residuals(), scale);
+  anew->MoveTo(trial);
+  VectorXd step;
+  VectorXd expected;
+  ASSERT_TRUE(there->Solve(0.7, &step));
+  ASSERT_TRUE(anew->Solve(0.7, &expected));
+  EXPECT_LT((step - expected).norm(), 1e-14 * expected.norm());
 }
 
 TEST(LevenbergMarquardt, ClaimsNoMinimumWhereTheObjectiveDoesNot) {
