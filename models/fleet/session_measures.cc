@@ -113,11 +113,10 @@ std::vector<MeasuredSession> MeasureSessions(const FittedModel& fitted,
     });
     const auto n = static_cast<double>(of_it.size());
     session.rows = of_it.size();
-    session.begins_inside = std::ranges::any_of(
-        measured.rows, [&](Index row) {
-          return rows.missing_before[static_cast<std::size_t>(row)] ==
-                 Missing::kStart;
-        });
+    session.begins_inside = std::ranges::any_of(measured.rows, [&](Index row) {
+      return rows.missing_before[static_cast<std::size_t>(row)] ==
+             Missing::kStart;
+    });
     session.offset = of_it.mean();
     session.mean_square = of_it.squaredNorm() / n;
     session.outside_share = static_cast<double>(outside) / n;

@@ -16,7 +16,7 @@ namespace errmap::models {
 
 /// What is told of the sessions of rows that a map is to predict.
 struct MapLogArguments {
-  std::string after;  // file of earlier rows
+  std::string after;       // file of earlier rows
   bool from_rest = false;  // sessions begin where the rows do
   std::string time;
   std::string session;

@@ -146,7 +146,7 @@ PointLog MakePointLog(const History& history,
   }
   merged->first_rows = data::FirstRows(
       merged->sessions, merged->input_values(Eigen::all, history.remembered()));
-  const std::vector<Missing> missing = 
+  const std::vector<Missing> missing =
       FindMissing(*merged, history, arguments.from_rest);
   for (const Index row : result.rows) {
     result.missing.push_back(missing[static_cast<std::size_t>(row)]);

@@ -169,10 +169,9 @@ VectorXd RepeatsOf(const data::Dataset& training, const MatrixXd& states) {
     const auto at = static_cast<std::size_t>(row);
     if (!sessions.empty() && sessions[at] != sessions[at - 1]) continue;
     ++steps;
-    repeats.array() +=
-        (states.row(row).array() == states.row(row - 1).array())
-            .transpose()
-            .cast<double>();
+    repeats.array() += (states.row(row).array() == states.row(row - 1).array())
+                           .transpose()
+                           .cast<double>();
   }
   return steps > 0 ? VectorXd(repeats / static_cast<double>(steps))
                    : VectorXd();

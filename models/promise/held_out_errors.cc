@@ -86,8 +86,7 @@ std::optional<HeldOutErrors> HeldOutErrorsOf(const data::Dataset& dataset,
   const VectorXd residuals = ResidualsOf(held, result);
   if (units.labels.size() < 2 || !residuals.allFinite()) return std::nullopt;
   const data::Dataset& source = *held.source;
-  const VectorXd predicted =
-      source.target_values()(held.rows) - residuals;
+  const VectorXd predicted = source.target_values()(held.rows) - residuals;
   const VectorXd elapsed = ElapsedOf(source)(held.rows);
   const Index position = FindPosition(source, "");
   HeldOutErrors errors;

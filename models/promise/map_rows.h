@@ -57,7 +57,7 @@ struct MapRows {
   /// Before any measured row; the start of a session sooner than readings.
   Missing missing = Missing::kNothing;
   std::vector<Missing> missing_before;  // (rows of the data set) likewise
-  std::vector<std::string> warnings;  // of the map's memory, one line each
+  std::vector<std::string> warnings;    // of the map's memory, one line each
 };
 
 /// Of a table that ReadForMap gave. Throws data::InputError as MakeDataset and

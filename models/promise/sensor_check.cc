@@ -38,8 +38,8 @@ std::optional<SensorFaultFound> OfAnotherUnit(const FittedModel& fitted,
     if (input.looks_like.empty()) continue;
     return SensorFaultFound{
         .fault = SensorFault::kUnit,
-        .columns = {fitted.inputs[static_cast<std::size_t>(input.input)]
-                        .column},
+        .columns =
+            {fitted.inputs[static_cast<std::size_t>(input.input)].column},
         .value = input.max,
         .looks_like = input.looks_like};
   }
@@ -49,9 +49,8 @@ std::optional<SensorFaultFound> OfAnotherUnit(const FittedModel& fitted,
 // Rows at the end of a column that repeat the last reading.
 Index LengthOfLastRun(const MatrixXd& states, Index column) {
   Index length = 1;
-  while (length < states.rows() &&
-         states(states.rows() - 1 - length, column) ==
-             states(states.rows() - 1, column)) {
+  while (length < states.rows() && states(states.rows() - 1 - length, column) ==
+                                       states(states.rows() - 1, column)) {
     ++length;
   }
   return length;
@@ -64,9 +63,9 @@ std::optional<SensorFaultFound> Frozen(const FittedModel& fitted,
   const VectorXd& repeats = fitted.applicability->repeats;
   for (Index column = 0; column < repeats.size(); ++column) {
     const Index length = LengthOfLastRun(states, column);
-    const double chance = static_cast<double>(repeats.size()) *
-                          std::pow(repeats[column],
-                                   static_cast<double>(length - 1));
+    const double chance =
+        static_cast<double>(repeats.size()) *
+        std::pow(repeats[column], static_cast<double>(length - 1));
     // A control that reads its sensors once a minute repeats them all.
     const Index also = std::ranges::count_if(
         Eigen::VectorXi::LinSpaced(static_cast<int>(repeats.size()),
@@ -113,9 +112,9 @@ WithoutColumn Without(const Applicability& trained,
   const StateMeasures found = MeasureStates(trained, states);
   MatrixXd mended = states;
   mended.col(column) = found.expected.col(column);
-  return {.left = WorstOf(trained, mended),
-          .shift = MedianOfColumn(states.col(column) -
-                                  found.expected.col(column))};
+  return {
+      .left = WorstOf(trained, mended),
+      .shift = MedianOfColumn(states.col(column) - found.expected.col(column))};
 }
 
 std::optional<SensorFaultFound> AgainstTheOthers(const FittedModel& fitted,
@@ -124,7 +123,8 @@ std::optional<SensorFaultFound> AgainstTheOthers(const FittedModel& fitted,
   if (states.cols() < 3) return std::nullopt;
   const VectorXd ratios = RelationsOf(trained, states);
   if (!(ratios.maxCoeff() > 1.0)) return std::nullopt;
-  SensorFaultFound off{.fault = SensorFault::kOff, .columns = {}, .looks_like = ""};
+  SensorFaultFound off{
+      .fault = SensorFault::kOff, .columns = {}, .looks_like = ""};
   double least = 1.0;
   for (Index column = 0; column < states.cols(); ++column) {
     if (!(ratios[column] > 1.0)) continue;
@@ -175,14 +175,35 @@ MatrixXd WholeRows(const MatrixXd& states) {
   return states(rows, Eigen::all);
 }
 
+// Whether first readings less those of the starts (`found`) look like a log
+// that begins inside: the other columns stand as they do later in sessions,
+// where `change` is the mean, or the `worst` may have warmed so far itself.
+bool LooksBegunInside(const VectorXd& found,
+                      const VectorXd& weight,
+                      const VectorXd& change,
+                      Index worst) {
+  constexpr double kOthersWarm = 0.3;  // 1: as the mean row of sessions
+  constexpr double kItselfWarm = 3.0;
+  std::vector<Index> others;
+  for (Index i = 0; i < found.size(); ++i) {
+    if (i != worst) others.push_back(i);
+  }
+  const VectorXd apart = found(others).array() - found(others).mean();
+  const VectorXd changes = change(others).array() - change(others).mean();
+  const double all = weight(others).dot(changes);
+  if (all > 0.0 && weight(others).dot(apart) > kOthersWarm * all) return true;
+  const double share = (found[worst] - MedianOfColumn(found)) / change[worst];
+  return share > 0.0 && share < kItselfWarm;
+}
+
 data::Dataset Swapped(const data::Dataset& rows,
                       const data::ColumnInfo& one,
                       const data::ColumnInfo& other) {
   std::vector<data::ColumnInfo> inputs = rows.inputs();
   std::swap(inputs[static_cast<std::size_t>(rows.FindInput(one.name))],
             inputs[static_cast<std::size_t>(rows.FindInput(other.name))]);
-  data::Dataset swapped = rows.WithInputs(
-      std::move(inputs), rows.input_values());
+  data::Dataset swapped =
+      rows.WithInputs(std::move(inputs), rows.input_values());
   return rows.log() == nullptr ? swapped
                                : swapped.WithLog(rows.log(), rows.log_rows());
 }
@@ -204,7 +225,7 @@ void CallDead(const FittedModel& fitted,
     const double beyond =
         std::max(input.min - values[0], values[0] - input.max);
     if ((values.array() == values[0]).all() &&
-        (values[0] == 0.0 ? beyond > 0.0 : beyond > 2.0 * width) ) {
+        (values[0] == 0.0 ? beyond > 0.0 : beyond > 2.0 * width)) {
       found->fault = SensorFault::kDead;
       found->value = values[0];
     }
@@ -235,12 +256,14 @@ std::optional<SensorFaultFound> SwapThatExplains(const FittedModel& fitted,
   constexpr Index kFewestProbes = 3;
   constexpr double kWrong = 1.5;  // times the promise
   constexpr double kRight = 1.2;
+  constexpr double kLeastGain = 0.5;  // of both RelationsOf together
   if (fitted.applicability == nullptr || fitted.held_out == nullptr ||
       probes.num_rows() < kFewestProbes) {
     return std::nullopt;
   }
   const Applicability& trained = *fitted.applicability;
-  const MatrixXd states = LateRows(WholeRows(readings(Eigen::all, trained.columns)));
+  const MatrixXd states =
+      LateRows(WholeRows(readings(Eigen::all, trained.columns)));
   if (states.rows() == 0 || states.cols() < 3) return std::nullopt;
   const double promised = fitted.held_out->rmse;
   const double before = RmseWith(fitted, probes);
@@ -256,7 +279,7 @@ std::optional<SensorFaultFound> SwapThatExplains(const FittedModel& fitted,
       MatrixXd mended = states;
       mended.col(i).swap(mended.col(j));
       const VectorXd after = RelationsOf(trained, mended);
-      if (!(after[i] + after[j] < ratios[i] + ratios[j])) continue;
+      if (!(after[i] + after[j] + kLeastGain < ratios[i] + ratios[j])) continue;
       const double left = RmseWith(fitted, Swapped(probes, one, other));
       if (!(left < least)) continue;
       least = left;
@@ -293,7 +316,8 @@ std::optional<SensorFaultFound> OffAtStart(const FittedModel& fitted,
   }
   if (!found.allFinite()) return std::nullopt;
   // Few starts tell the scatter of each badly.
-  const double pooled = std::sqrt(sd.squaredNorm() / static_cast<double>(count));
+  const double pooled =
+      std::sqrt(sd.squaredNorm() / static_cast<double>(count));
   const VectorXd scale = (0.5 * (sd.array().square() + pooled * pooled)).sqrt();
   // As the others stand to each other, whatever the room's temperature: the
   // median is not drawn along by the one that is off.
@@ -304,20 +328,16 @@ std::optional<SensorFaultFound> OffAtStart(const FittedModel& fitted,
   const VectorXd sizes = apart.array().abs() / scale.array();
   Index worst = 0;
   if (!(sizes.maxCoeff(&worst) > limit)) return std::nullopt;
-  // A column that is warmer than at rest, as it is within sessions: a log that
-  // begins inside looks so, too.
-  constexpr double kWithinSessions = 2.0;
-  const Eigen::ArrayXd variance = sd.array().square() + pooled * pooled;
   // What w is made of in session_start.cc, without its scale.
-  const double change = weight[worst] * variance[worst] /
-                        (weight.array().square() * variance).sum();
-  const double share = apart[worst] / change;
-  if (share > 0.0 && share < kWithinSessions) return std::nullopt;
-  return SensorFaultFound{.fault = SensorFault::kOff,
-                          .columns = {inputs[static_cast<std::size_t>(worst)]
-                                          ->column},
-                          .value = apart[worst],
-                          .looks_like = ""};
+  const Eigen::ArrayXd variance = sd.array().square() + pooled * pooled;
+  const VectorXd change =
+      weight.array() * variance / (weight.array().square() * variance).sum();
+  if (LooksBegunInside(found, weight, change, worst)) return std::nullopt;
+  return SensorFaultFound{
+      .fault = SensorFault::kOff,
+      .columns = {inputs[static_cast<std::size_t>(worst)]->column},
+      .value = apart[worst],
+      .looks_like = ""};
 }
 
 std::optional<SensorFaultFound> FindSensorFault(const FittedModel& fitted,

@@ -42,14 +42,13 @@ struct SensorFaultFound {
 /// different places differ most, and in the first row where that is the start
 /// of a session (`from_start`): a machine at rest has its sensors closest
 /// together, and training says how close.
-std::optional<SensorFaultFound> FindSensorFault(
-    const FittedModel& fitted,
-    const Eigen::MatrixXd& readings,
-    bool from_start);
+std::optional<SensorFaultFound> FindSensorFault(const FittedModel& fitted,
+                                                const Eigen::MatrixXd& readings,
+                                                bool from_start);
 
-/// The two sensors that are swapped by what the probes say of it, too: with them
-/// swapped back the map errs as promised, and they go with the others better.
-/// `probes` are measured rows, `readings` as in FindSensorFault.
+/// The two sensors that are swapped by what the probes say of it, too: with
+/// them swapped back the map errs as promised, and they go with the others
+/// better. `probes` are measured rows, `readings` as in FindSensorFault.
 std::optional<SensorFaultFound> SwapThatExplains(
     const FittedModel& fitted,
     const data::Dataset& probes,

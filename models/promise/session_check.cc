@@ -22,6 +22,8 @@ constexpr double kSureOff = 0.9;
 constexpr double kSureHolds = 0.06;
 constexpr double kWorse = 0.03;  // the most that an order may make worse
 constexpr double kMuchWorse = 1.1;
+// Of a session's held-out errors those up to the last probe, for a word on all.
+constexpr double kLeastSeen = 0.5;
 
 double Quantile(std::vector<double> values, double share) {
   const auto at = values.begin() +
@@ -60,10 +62,9 @@ double SpreadOf(const VectorXd& values) {
 // Errors over predictions, by least squares; NaN where the predictions at the
 // probes hardly differ, which tells no gain from an offset.
 double GainOf(const SessionProbes& probes, const SessionForecast& forecast) {
-  constexpr double kLeastSpread = 0.5;  // of that in whole sessions
+  constexpr double kLeastSpread = 0.8;  // of that in whole sessions
   const double spread = SpreadOf(probes.predicted);
-  if (!(spread > 0.0) ||
-      spread < kLeastSpread * SpreadOf(forecast.predicted)) {
+  if (!(spread > 0.0) || spread < kLeastSpread * SpreadOf(forecast.predicted)) {
     return kNoFigure;
   }
   return 1.0 + probes.residuals.dot(probes.predicted) /
@@ -80,15 +81,14 @@ std::vector<Order> OrdersFor(const SessionForecast& forecast,
                              const std::vector<Index>& after,
                              const SessionCheck& check) {
   std::vector<Order> orders;
-  orders.push_back({Remedy::kRezero,
-                    RmseOfDraws(forecast.errors.array() - check.probe_mean,
-                                after)});
+  orders.push_back(
+      {Remedy::kRezero,
+       RmseOfDraws(forecast.errors.array() - check.probe_mean, after)});
   if (!std::isfinite(check.gain)) return orders;
   const auto multiplied = [&](double gain) {
-    return RmseOfDraws(
-        forecast.errors.rowwise() -
-            (gain - 1.0) * forecast.predicted.transpose(),
-        after);
+    return RmseOfDraws(forecast.errors.rowwise() -
+                           (gain - 1.0) * forecast.predicted.transpose(),
+                       after);
   };
   orders.push_back({Remedy::kGain, multiplied(check.gain)});
   orders.push_back({Remedy::kSign, multiplied(-1.0)});
@@ -248,12 +248,15 @@ SessionCheck CheckSession(const HeldOutErrors& errors,
   check.so_far =
       forecast.so_far.empty() ? check.session : forecast_of(forecast.so_far);
   if (!forecast.later.empty()) check.later = forecast_of(forecast.later);
+  const bool seen = static_cast<double>(forecast.so_far.size()) >=
+                    kLeastSeen * static_cast<double>(all.size());
   const bool holds_so_far = check.so_far.off_probability <= kSureHolds;
   if (check.session.off_probability >= kSureOff) {
     check.status = SessionStatus::kOff;
     check.gain = GainOf(probes, forecast);
     ChooseRemedy(forecast, &check);
-  } else if (holds_so_far && check.session.off_probability <= kSureHolds &&
+  } else if (seen && holds_so_far &&
+             check.session.off_probability <= kSureHolds &&
              (!check.later || check.later->off_probability <= kSureHolds)) {
     check.status = SessionStatus::kHolds;
   } else if (holds_so_far && check.later) {

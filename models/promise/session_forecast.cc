@@ -51,7 +51,8 @@ struct Sites {
 };
 
 // The covariance of errors at two sites.
-using Kernel = std::function<double(const Sites& a, Index i, const Sites& b, Index j)>;
+using Kernel =
+    std::function<double(const Sites& a, Index i, const Sites& b, Index j)>;
 
 MatrixXd CovarianceOf(const Kernel& kernel, const Sites& a, const Sites& b) {
   MatrixXd covariance(a.size(), b.size());
@@ -76,15 +77,15 @@ Sites SitesOf(const HeldOutErrors& errors) {
   }
   std::vector<Index> order(elapsed.size());
   std::iota(order.begin(), order.end(), Index{0});
-  std::ranges::stable_sort(order, {}, [&](Index i) {
-    return elapsed[static_cast<std::size_t>(i)];
-  });
+  std::ranges::stable_sort(
+      order, {}, [&](Index i) { return elapsed[static_cast<std::size_t>(i)]; });
   const std::vector<Index> kept = stats::SpreadSample(order, kSites);
   Sites sites{.elapsed = VectorXd(std::ssize(kept)),
               .position = VectorXd(std::ssize(kept)),
               .predicted = VectorXd(std::ssize(kept))};
   for (Index i = 0; i < sites.size(); ++i) {
-    const auto from = static_cast<std::size_t>(kept[static_cast<std::size_t>(i)]);
+    const auto from =
+        static_cast<std::size_t>(kept[static_cast<std::size_t>(i)]);
     sites.elapsed[i] = errors.time_unit == "s" ? elapsed[from] : 0.0;
     sites.position[i] = position[from];
     sites.predicted[i] = predicted[from];
@@ -92,8 +93,8 @@ Sites SitesOf(const HeldOutErrors& errors) {
   return sites;
 }
 
-// The size of held-out errors over time: their RMS in stretches of as many, over
-// that of all, straight from middle to middle.
+// The size of held-out errors over time: their RMS in stretches of as many,
+// over that of all, straight from middle to middle.
 class SizeOverTime {
  public:
   explicit SizeOverTime(const HeldOutErrors& errors) {
@@ -145,7 +146,7 @@ class SizeOverTime {
 struct Hypothesis {
   double prior = 0.0;
   double scale = 1.0;
-  double size = 0.0;  // target's unit, of gains without one
+  double size = 0.0;       // target's unit, of gains without one
   std::size_t kernel = 0;  // of the disturbances
 };
 
@@ -155,12 +156,13 @@ struct Disturbances {
 };
 
 Disturbances DisturbancesOf(const HeldOutErrors& errors, const Sites& sites) {
-  const double longest = std::max(sites.elapsed.maxCoeff(),
-                                  std::numeric_limits<double>::min());
-  const double range = std::max(
-      sites.position.maxCoeff() - sites.position.minCoeff(),
-      std::numeric_limits<double>::min());
-  const auto grown = [longest](const Sites& a, Index i, const Sites& b, Index j) {
+  const double longest =
+      std::max(sites.elapsed.maxCoeff(), std::numeric_limits<double>::min());
+  const double range =
+      std::max(sites.position.maxCoeff() - sites.position.minCoeff(),
+               std::numeric_limits<double>::min());
+  const auto grown = [longest](
+                         const Sites& a, Index i, const Sites& b, Index j) {
     return std::min(a.elapsed[i], b.elapsed[j]) / longest;
   };
   const auto alike = [range](const Sites& a, Index i, const Sites& b, Index j) {
@@ -218,9 +220,9 @@ std::array<double, std::size(kScales)> PriorOfScales(
   const double mean = count > 0.0 ? sum / count : 0.0;
   const double scatter = std::max(
       kLeastScatter,
-      count > 1.0
-          ? std::sqrt(std::max(0.0, squares - count * mean * mean) / (count - 1.0))
-          : 0.0);
+      count > 1.0 ? std::sqrt(std::max(0.0, squares - count * mean * mean) /
+                              (count - 1.0))
+                  : 0.0);
   std::array<double, std::size(kScales)> prior{};
   double total = 0.0;
   for (std::size_t k = 0; k < prior.size(); ++k) {
@@ -238,9 +240,8 @@ Sites Kept(const SessionProbes& probes, bool timed, VectorXd* residuals) {
   const auto count = std::ssize(rows);
   sites.elapsed =
       timed ? VectorXd(probes.elapsed(rows)) : VectorXd(VectorXd::Zero(count));
-  sites.position = probes.position.size() > 0
-                       ? VectorXd(probes.position(rows))
-                       : VectorXd(VectorXd::Zero(count));
+  sites.position = probes.position.size() > 0 ? VectorXd(probes.position(rows))
+                                              : VectorXd(VectorXd::Zero(count));
   sites.predicted = probes.predicted(rows);
   *residuals = probes.residuals(rows);
   return sites;
@@ -377,7 +378,8 @@ class Forecaster {
     }
     const double last = probes_.elapsed.maxCoeff();
     for (Index i = 0; i < sites_.size(); ++i) {
-      (sites_.elapsed[i] > last ? forecast.later : forecast.so_far).push_back(i);
+      (sites_.elapsed[i] > last ? forecast.later : forecast.so_far)
+          .push_back(i);
     }
     return forecast;
   }

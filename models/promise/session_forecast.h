@@ -28,12 +28,12 @@ struct SessionProbes {
 /// (Rasmussen & Williams 2006, Eqs. 2.22 to 2.30).
 struct SessionForecast {
   // Sites: times and places of held-out errors, spread evenly, by rising time.
-  Eigen::VectorXd elapsed;    // (m)
-  Eigen::VectorXd position;   // (m), or (0)
-  Eigen::VectorXd predicted;  // (m), or (0)
+  Eigen::VectorXd elapsed;           // (m)
+  Eigen::VectorXd position;          // (m), or (0)
+  Eigen::VectorXd predicted;         // (m), or (0)
   std::vector<Eigen::Index> so_far;  // sites up to the last probe
   std::vector<Eigen::Index> later;   // those after it
-  Eigen::MatrixXd errors;  // (draws x m) target's unit
+  Eigen::MatrixXd errors;            // (draws x m) target's unit
 };
 
 /// `errors` has a positive RMSE; `probes` at least one row, all finite. Where

@@ -242,9 +242,11 @@ ZeroSchedule ScheduleZeros(const HeldOutErrors& errors, double goal) {
     throw std::invalid_argument(
         "ScheduleZeros: needs two sessions of two rows");
   }
-  ZeroSchedule schedule{
-      .sessions = units.size(), .none = WithoutProbes(units), .clocks = {},
-      .clock = {}, .rule = {}};
+  ZeroSchedule schedule{.sessions = units.size(),
+                        .none = WithoutProbes(units),
+                        .clocks = {},
+                        .clock = {},
+                        .rule = {}};
   schedule.no_probe_serves = schedule.none.within_90 <= goal;
   for (const ZeroTrigger& trigger : ClocksFor(units)) {
     const ZeroedErrors clock = ZeroAll(units, trigger);

@@ -35,8 +35,8 @@ struct ZeroedErrors {
 /// When to probe again so that 90 % of a map's errors stay within a goal.
 struct ZeroSchedule {
   std::size_t sessions = 0;
-  ZeroedErrors none;  // the map as it is, no probe taken
-  std::vector<ZeroedErrors> clocks;   // by rising interval, the last infinite
+  ZeroedErrors none;                 // the map as it is, no probe taken
+  std::vector<ZeroedErrors> clocks;  // by rising interval, the last infinite
   /// The longest of them that serves; nothing where no probe serves as well.
   std::optional<ZeroedErrors> clock;
   bool no_probe_serves = false;  // 90 % of the errors are within the goal as is

@@ -22,8 +22,8 @@
 #include "data/input_error.h"
 #include "data/measurements/measured_files.h"
 #include "data/text.h"
-#include "models/model_file.h"
 #include "models/history/map_log.h"
+#include "models/model_file.h"
 #include "models/promise/map_rows.h"
 #include "models/promise/sensor_check.h"
 #include "models/promise/session_check.h"
@@ -84,27 +84,26 @@ Json SensorsJson(const models::SessionCheck& check) {
 }
 
 Json CheckJson(const models::SessionCheck& check) {
-  return {
-      {"begins_inside", check.missing == models::Missing::kStart},
-      {"readings_missing", check.missing == models::Missing::kReadings},
-      {"status", ToString(check.status)},
-      {"sensors", SensorsJson(check)},
-      {"sensor_fault",
-       check.sensor ? Json(ToString(check.sensor->fault)) : Json()},
-      {"off_probability", check.session.off_probability},
-      {"so_far", ForecastJson(check.so_far)},
-      {"later", check.later ? ForecastJson(*check.later) : Json()},
-      {"remedy", ToString(check.remedy)},
-      {"gain", check.gain},
-      {"left", check.left},
-      {"next_probe_s", NumberOrNull(check.next_probe)},
-      {"promised", check.promised},
-      {"probes",
-       {{"n", check.probes},
-        {"rms", check.probe_rms},
-        {"mean", check.probe_mean},
-        {"scatter", check.probe_scatter}}},
-      {"session_rmse_80", {check.session.low, check.session.high}}};
+  return {{"begins_inside", check.missing == models::Missing::kStart},
+          {"readings_missing", check.missing == models::Missing::kReadings},
+          {"status", ToString(check.status)},
+          {"sensors", SensorsJson(check)},
+          {"sensor_fault",
+           check.sensor ? Json(ToString(check.sensor->fault)) : Json()},
+          {"off_probability", check.session.off_probability},
+          {"so_far", ForecastJson(check.so_far)},
+          {"later", check.later ? ForecastJson(*check.later) : Json()},
+          {"remedy", ToString(check.remedy)},
+          {"gain", check.gain},
+          {"left", check.left},
+          {"next_probe_s", NumberOrNull(check.next_probe)},
+          {"promised", check.promised},
+          {"probes",
+           {{"n", check.probes},
+            {"rms", check.probe_rms},
+            {"mean", check.probe_mean},
+            {"scatter", check.probe_scatter}}},
+          {"session_rmse_80", {check.session.low, check.session.high}}};
 }
 
 // Probes since the map's memory is full, where the log began inside a session;
@@ -138,8 +137,8 @@ models::SessionProbes ProbesOf(const models::FittedModel& fitted,
                                const Eigen::VectorXd& predicted) {
   const std::vector<Eigen::Index> kept = ProbesWithMemory(rows);
   models::SessionProbes probes{
-      .elapsed = models::ElapsedSinceStart(fitted, rows, arguments.rows.log)(
-          kept),
+      .elapsed =
+          models::ElapsedSinceStart(fitted, rows, arguments.rows.log)(kept),
       .position = {},
       .predicted = predicted(kept),
       .residuals = (rows.dataset.target_values() - predicted)(kept)};
@@ -193,11 +192,13 @@ int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
   if (!sensor && missing == models::Missing::kNothing) {
     sensor = models::SwapThatExplains(fitted, rows.dataset, readings);
   }
-  const models::SessionCheck check = models::CheckSession(
-      errors,
-      probes,
-      missing,
-      std::move(sensor));
+  models::SessionCheck check =
+      models::CheckSession(errors, probes, missing, std::move(sensor));
+  // Of a session whose first rows are not known nothing is said as a whole.
+  if (check.status == models::SessionStatus::kHolds &&
+      probes.residuals.size() < rows.dataset.num_rows()) {
+    check.status = models::SessionStatus::kHoldsSoFar;
+  }
   const RowsLearnt learnt =
       FindRowsLearnt(fitted, arguments.model, arguments.files, rows);
   const std::vector<models::ProbeSite> sites = models::RankProbeSites(errors);

@@ -156,8 +156,8 @@ std::string IntervalCells(const Predicted& found,
   return cells;
 }
 
-// The column of times: as it is named, as the map was fitted by, or the only one
-// that is called so.
+// The column of times: as it is named, as the map was fitted by, or the only
+// one that is called so.
 std::ptrdiff_t TimeColumn(const Predicted& found, const std::string& named) {
   if (!named.empty()) return found.table.Find(named);
   if (found.fitted.history != nullptr && !found.fitted.history->time.empty()) {

@@ -158,9 +158,9 @@ models::FittedModel FitSuccessor(const models::FittedModel& old_map,
 // What of the new rows the old map was fitted to: it looks better there than it
 // is.
 std::string KnownRowsText(Eigen::Index learnt, Eigen::Index rows) {
-  return learnt == 0
-             ? ""
-             : fmt::format("{} of {} are ones that the old map was fitted to, "
+  return learnt == 0 ? ""
+                     : fmt::format(
+                           "{} of {} are ones that the old map was fitted to, "
                            "so it looks better here than it is: give new "
                            "sessions alone\n",
                            learnt,
@@ -225,8 +225,8 @@ int RunUpdate(const UpdateArguments& arguments,
                         {"faults", ToString(arguments.faults)},
                         {"seed", arguments.seed}},
                        learnt_from);
-    PrintResult(
-        DumpJson(UpdateJson(arguments, old_map, trial, better, learnt, provenance)));
+    PrintResult(DumpJson(
+        UpdateJson(arguments, old_map, trial, better, learnt, provenance)));
   } else {
     PrintFitted(fmt::format(
         "{}{}{}\n",

@@ -142,7 +142,8 @@ int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
   if (!arguments.log.after.empty()) {
     since = ReadSinceProbe(fitted, arguments, advised);
   }
-  const bool due = since && schedule.serves() && advised.Spent(since->age, since->change) >= 1.0;
+  const bool due = since && schedule.serves() &&
+                   advised.Spent(since->age, since->change) >= 1.0;
   if (arguments.format == "json") {
     Json document = WhenJson(fitted, schedule, goal);
     if (since) {

@@ -168,11 +168,12 @@ std::string SensorText(const models::SensorFaultFound& found) {
                          found.looks_like,
                          unit);
     case models::SensorFault::kDead:
-      return fmt::format("{}it reads {:.4g} {} throughout, as a sensor does "
-                         "that is dead or not connected.\n",
-                         lead,
-                         found.value,
-                         unit);
+      return fmt::format(
+          "{}it reads {:.4g} {} throughout, as a sensor does "
+          "that is dead or not connected.\n",
+          lead,
+          found.value,
+          unit);
     case models::SensorFault::kFrozen:
       return fmt::format("{}it repeats {:.4g} {} while the others change.\n",
                          lead,

@@ -76,11 +76,10 @@ std::string TrialText(const models::UpdateTrial& trial,
                       const data::Unit& unit,
                       bool all_unseen) {
   const ErrorText error(unit, std::min(trial.old_rmse, trial.new_rmse));
-  std::string text =
-      fmt::format("RMSE ({}) on new sessions{}\n",
-                  error.symbol(),
-                  all_unseen ? ", each unseen"
-                             : ", which the old map has seen in part");
+  std::string text = fmt::format(
+      "RMSE ({}) on new sessions{}\n",
+      error.symbol(),
+      all_unseen ? ", each unseen" : ", which the old map has seen in part");
   text += fmt::format("  {:<12}  {:>9}  {:>9}\n", "session", "old", "new");
   for (const auto& session : trial.sessions) {
     text += fmt::format("  {:<12}  {:>9}  {:>9}\n",

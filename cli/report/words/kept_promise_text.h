@@ -22,8 +22,8 @@ std::string KeptPromiseText(const models::KeptPromise& kept,
 /// The sensor that reads something else than the others tell.
 std::string RelationText(const models::RelationChange& change);
 
-/// RMSE of the old and the new map by session, as a table. `all_unseen`: the old
-/// map has seen none of them.
+/// RMSE of the old and the new map by session, as a table. `all_unseen`: the
+/// old map has seen none of them.
 std::string TrialText(const models::UpdateTrial& trial,
                       const data::Unit& unit,
                       bool all_unseen);

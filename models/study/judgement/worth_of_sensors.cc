@@ -32,8 +32,7 @@ bool IsWorthMore(std::size_t model,
   const Eigen::ArrayXd ratio = logs_of(model) - logs_of(baseline);
   const auto count = static_cast<double>(ratio.size());
   if (count < 2.0) return true;
-  const double variance =
-      (ratio - ratio.mean()).square().sum() / (count - 1.0);
+  const double variance = (ratio - ratio.mean()).square().sum() / (count - 1.0);
   return ratio.mean() < -std::sqrt(variance / count);
 }
 

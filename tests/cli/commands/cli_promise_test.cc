@@ -131,9 +131,9 @@ TEST_F(CliPromise, CheckNamesASensorBeforeItOrdersAnything) {
   Write("raised.csv", DaysInCliPromise(11, 11, 0.0, 10.0, 3));
   const Outcome text = Run({"check", "map.json", "raised.csv"});
   EXPECT_EQ(text.status, kEveryFitFailed);
-  EXPECT_THAT(OneLine(text.out),
-              AllOf(HasSubstr("Check t2_degC first"),
-                    Not(HasSubstr("re-zero"))));
+  EXPECT_THAT(
+      OneLine(text.out),
+      AllOf(HasSubstr("Check t2_degC first"), Not(HasSubstr("re-zero"))));
   const Json found = Json::parse(
       Run({"check", "map.json", "raised.csv", "--format", "json"}).out);
   EXPECT_EQ(found["status"], "sensor");

@@ -52,12 +52,11 @@ data::Dataset WarmingDays(Index days,
       for (Index k = 0; k < 3; ++k) values(row, k) += 0.02 * normal();
     }
   }
-  return WithLog({ColumnNamed("t1_degC"),
-                  ColumnNamed("t2_degC"),
-                  ColumnNamed("t3_degC")},
-                 values,
-                 time,
-                 codes);
+  return WithLog(
+      {ColumnNamed("t1_degC"), ColumnNamed("t2_degC"), ColumnNamed("t3_degC")},
+      values,
+      time,
+      codes);
 }
 
 History Remembering(const data::Dataset& training) {
@@ -105,9 +104,9 @@ TEST(SessionStart, SaysSoOfEachRowUntilTheMemoryIsFull) {
   const std::vector<Missing> missing = FindMissing(cut, history);
   for (std::size_t row = 0; row < missing.size(); ++row) {
     const double since = cut.time[static_cast<Index>(row)] - cut.time[0];
-    EXPECT_EQ(missing[row],
-              since < history.settles_after() ? Missing::kStart
-                                              : Missing::kNothing);
+    EXPECT_EQ(
+        missing[row],
+        since < history.settles_after() ? Missing::kStart : Missing::kNothing);
   }
   const std::vector<Missing> nothing(missing.size(), Missing::kNothing);
   EXPECT_EQ(FindMissing(cut, history, true), nothing);
@@ -131,10 +130,8 @@ TEST(SessionStart, LearnsNothingFromFewSessionsOrFromAClockThatBeginsAnew) {
   for (Index row = 0; row < anew.size(); ++row) {
     anew[row] = kStepOfDay * static_cast<double>(row % kRowsOfDay);
   }
-  const History history = Remembering(WithLog(days.inputs(),
-                                              days.input_values(),
-                                              anew,
-                                              days.log()->sessions.codes));
+  const History history = Remembering(WithLog(
+      days.inputs(), days.input_values(), anew, days.log()->sessions.codes));
   EXPECT_TRUE(std::isnan(history.start_clock));
   EXPECT_FALSE(history.start_readings.empty());
 }

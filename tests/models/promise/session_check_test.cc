@@ -123,8 +123,7 @@ TEST(CheckSession, SaysOfTheFirstMinutesOnlyThatTheMapHoldsSoFar) {
   stats::Random random(2);
   int so_far = 0;
   for (int i = 0; i < 50; ++i) {
-    const SessionCheck check =
-        CheckAt(errors, Day(&random), RowsUpTo(4, 1));
+    const SessionCheck check = CheckAt(errors, Day(&random), RowsUpTo(4, 1));
     EXPECT_NE(check.status, SessionStatus::kHolds);
     so_far += check.status == SessionStatus::kHoldsSoFar ? 1 : 0;
     if (check.status == SessionStatus::kHoldsSoFar) {
@@ -153,11 +152,12 @@ TEST(CheckSession, TellsAGainAndAnotherSignFromAnOffset) {
       HeldOutErrors::Unit day = Day(&random);
       const VectorXd map = VectorXd::NullaryExpr(kRows, predicted);
       day.residuals += (gain - 1.0) * map;
-      const SessionCheck check = CheckSession(errors,
-                                              {.elapsed = day.elapsed(rows),
-                                               .position = day.position(rows),
-                                               .predicted = map(rows),
-                                               .residuals = day.residuals(rows)});
+      const SessionCheck check =
+          CheckSession(errors,
+                       {.elapsed = day.elapsed(rows),
+                        .position = day.position(rows),
+                        .predicted = map(rows),
+                        .residuals = day.residuals(rows)});
       EXPECT_NE(check.remedy, Remedy::kRezero);
       told += check.remedy == Remedy::kGain || check.remedy == Remedy::kSign;
       if (check.remedy == Remedy::kGain) {
@@ -191,17 +191,18 @@ TEST(CheckSession, IsLessSureOfOneProbeThanOfMany) {
   EXPECT_NE(few.status, SessionStatus::kHolds);
   EXPECT_NE(few.status, SessionStatus::kOff);
   EXPECT_TRUE(std::isnan(few.probe_scatter));
-  const SessionCheck many = CheckSession(
-      errors,
-      ProbesAt(VectorXd::LinSpaced(8, 0.0, 11000.0), VectorXd::Constant(8, 1.0)));
+  const SessionCheck many =
+      CheckSession(errors,
+                   ProbesAt(VectorXd::LinSpaced(8, 0.0, 11000.0),
+                            VectorXd::Constant(8, 1.0)));
   EXPECT_LT(many.session.high - many.session.low,
             few.session.high - few.session.low);
 }
 
 TEST(CheckSession, KnowsNothingWhereTheSessionBeginsInsideOrASensorIsAtFault) {
   const HeldOutErrors errors = DaysInSessionCheck(10, 3);
-  const SessionProbes probes =
-      ProbesAt(VectorXd::LinSpaced(5, 0.0, 11000.0), VectorXd::Constant(5, 9.0));
+  const SessionProbes probes = ProbesAt(VectorXd::LinSpaced(5, 0.0, 11000.0),
+                                        VectorXd::Constant(5, 9.0));
   EXPECT_EQ(CheckSession(errors, probes).status, SessionStatus::kOff);
   const SessionCheck inside = CheckSession(errors, probes, Missing::kStart);
   EXPECT_EQ(inside.status, SessionStatus::kUnknown);

@@ -74,9 +74,9 @@ TEST_F(When, EndsWithAnErrorWhereNothingCanBeSaid) {
     EXPECT_EQ(
         Run({"when", "map.json", "--goal", goal, "--after", "none.csv"}).status,
         kUnusable);
-    EXPECT_EQ(
-        Run({"when", "map.json", "--goal", goal, "--after", "empty.csv"}).status,
-        kUnusable);
+    EXPECT_EQ(Run({"when", "map.json", "--goal", goal, "--after", "empty.csv"})
+                  .status,
+              kUnusable);
   }
   const Outcome never = Run({"when", "map.json", "--goal", "1nm"});
   EXPECT_EQ(never.status, kEveryFitFailed);
