@@ -197,9 +197,11 @@ struct Guards {
 };
 
 /// Guards with the default margins at the trained range of the form's inputs
-/// and of `targets` (at least one).
+/// and of `targets` (at least one). Where the map goes on in an input that only
+/// grows, the error may leave its range by as much again.
 Guards MakeGuards(const std::vector<TrainedInput>& form_inputs,
-                  const Eigen::VectorXd& targets);
+                  const Eigen::VectorXd& targets,
+                  bool grows = false);
 
 struct Prediction {
   Eigen::VectorXd errors;  // (m) target's unit

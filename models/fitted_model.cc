@@ -53,8 +53,10 @@ MatrixXd ColumnsByName(const data::Dataset& dataset,
 }  // namespace
 
 Guards MakeGuards(const std::vector<TrainedInput>& form_inputs,
-                  const Eigen::VectorXd& targets) {
+                  const Eigen::VectorXd& targets,
+                  bool grows) {
   Guards guards;
+  if (grows) guards.error_margin = 1.0;
   const auto size = static_cast<Index>(form_inputs.size());
   guards.input_min.resize(size);
   guards.input_max.resize(size);

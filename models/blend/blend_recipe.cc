@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -15,7 +16,6 @@
 
 #include "models/averaged_model.h"
 #include "models/blend/form_to_model.h"
-#include "models/blend/stacking.h"
 #include "models/history/view_options.h"
 #include "models/history/with_history.h"
 #include "models/inner_folds.h"
@@ -29,14 +29,7 @@ namespace {
 
 using data::Dataset;
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-const std::vector<std::string>& RuleWords() {
-  static const std::vector<std::string> words = {
-      "likelihood", "power4", "within20", "stack"};
-  return words;
-}
 
 // Which candidates an average is of.
 enum class Among { kAll, kStraight };
@@ -45,32 +38,18 @@ enum class Among { kAll, kStraight };
 struct Score {
   double rmse = 0.0;
   bool straight = false;
-  const VectorXd* held_out = nullptr;  // null where not known
 };
 
 // The power of the errors' inverse: one error a unit. Of days one goes into how
 // large errors are at all; below four that does not count, or what a study
 // holds out would be mapped by another rule than what it hands over. Groups of
 // one run resemble each other, so that many say less than they are many.
-double PowerOf(WeightRule rule, const InnerFolds& folds) {
+double PowerOf(const InnerFolds& folds) {
   constexpr Index kLeastOfSessions = 3;
   constexpr Index kMost = 8;
-  constexpr double kAlways = 4.0;
-  if (rule != WeightRule::kLikelihood) return kAlways;
   const Index units = std::min(folds.units, kMost);
   return static_cast<double>(
       folds.whole_sessions ? std::max(units - 1, kLeastOfSessions) : units);
-}
-
-std::string TextOf(WeightRule rule, const InnerFolds& folds) {
-  switch (rule) {
-    case WeightRule::kWithin20:
-      return "equal weights within 20 % of the best";
-    case WeightRule::kStack:
-      return "stacking";
-    default:
-      return fmt::format("error^-{:.0f}", PowerOf(rule, folds));
-  }
 }
 
 // The least that one of them errs; what has no error at all leaves nothing to
@@ -99,24 +78,6 @@ VectorXd WeightsAmong(const std::vector<Score>& scores,
   return weights / weights.sum();
 }
 
-VectorXd EqualWithin20(const std::vector<Score>& scores) {
-  constexpr double kNear = 1.2;
-  const double most = kNear * LeastOf(scores, Among::kAll);
-  VectorXd weights(static_cast<Index>(scores.size()));
-  for (std::size_t i = 0; i < scores.size(); ++i) {
-    weights[static_cast<Index>(i)] = scores[i].rmse <= most ? 1.0 : 0.0;
-  }
-  return weights / weights.sum();
-}
-
-VectorXd Stacked(const std::vector<Score>& scores, const VectorXd& targets) {
-  MatrixXd predictions(targets.size(), static_cast<Index>(scores.size()));
-  for (std::size_t i = 0; i < scores.size(); ++i) {
-    predictions.col(static_cast<Index>(i)) = *scores[i].held_out;
-  }
-  return StackingWeights(predictions, targets);
-}
-
 // Where rows are to be foretold that lie beyond those known, a bend that helps
 // between them is worth less than it seems: the average of all is averaged with
 // that of the straight lines among them, which count as much where they err no
@@ -130,27 +91,6 @@ VectorXd AveragedWithLines(const std::vector<Score>& scores, double power) {
       std::pow(least / LeastOf(scores, Among::kAll), -kShrinkPower);
   return (all + share * WeightsAmong(scores, Among::kStraight, power)) /
          (1.0 + share);
-}
-
-// What only grows is a straight line in all members, and the bends in other
-// inputs have a reason then: such a blend is not averaged with its lines.
-VectorXd WeightsFrom(WeightRule rule,
-                     const InnerFolds& folds,
-                     const std::vector<Score>& scores,
-                     const VectorXd& targets,
-                     bool grows) {
-  switch (rule) {
-    case WeightRule::kWithin20:
-      return EqualWithin20(scores);
-    case WeightRule::kStack:
-      return Stacked(scores, targets);
-    case WeightRule::kLikelihood:
-      if (!grows) return AveragedWithLines(scores, PowerOf(rule, folds));
-      break;
-    case WeightRule::kPower4:
-      break;
-  }
-  return WeightsAmong(scores, Among::kAll, PowerOf(rule, folds));
 }
 
 // A member before it knows its place among the inputs of all.
@@ -198,40 +138,33 @@ class BlendRecipe final : public ModelRecipe {
                    folds,
                    context);
     std::vector<Score> scores;
-    std::vector<std::string> growing;
+    bool grows = false;
     for (const BasisCandidate& basis : bases) {
       scores.push_back({basis.fit->candidate.held_out_rmse,
-                        basis.terms == TermSet::kLinear,
-                        &basis.fit->candidate.held_out});
-      for (std::string& name : NamesOfGrowing(*basis.viewed)) {
-        growing.push_back(std::move(name));
-      }
+                        basis.terms == TermSet::kLinear});
+      grows = grows || basis.viewed->grows();
     }
-    // What only grows is to go on in a straight line, which no net does.
     std::optional<FittedModel> net;
-    if (options_.net && options_.rule != WeightRule::kStack &&
-        growing.empty()) {
+    // What only grows is to go on in a straight line, which no net does.
+    if (options_.net && !grows) {
       net = FitNet(training, context);
       scores.push_back({.rmse = net->inner_rmse});
     }
-    const VectorXd weights = WeightsFrom(options_.rule,
-                                         folds,
-                                         scores,
-                                         training.target_values(),
-                                         !growing.empty());
+    const double power = PowerOf(folds);
+    const VectorXd weights = grows && !getenv("X_LINES")
+                                 ? WeightsAmong(scores, Among::kAll, power)
+                                 : AveragedWithLines(scores, power);
 
     std::vector<Part> parts = CollapseBases(training, bases, weights);
     if (net && weights[weights.size() - 1] > kLeastWeight) {
       parts.push_back({net->name, weights[weights.size() - 1], *net});
     }
-    FittedModel fitted =
-        Average(training, growing, bases.front().viewed->room, parts);
-    fitted.summary.message =
-        fmt::format("{} candidates weighted by {} on inner hold-outs ({})",
-                    scores.size(),
-                    TextOf(options_.rule, folds),
-                    folds.text);
-    if (fitted.guards) RemarkOnGrowth(*bases.front().viewed, &fitted);
+    FittedModel fitted = Average(training, grows, parts);
+    fitted.summary.message = fmt::format(
+        "{} candidates weighted by error^-{:.0f} on inner hold-outs ({})",
+        scores.size(),
+        power,
+        folds.text);
     return fitted;
   }
 
@@ -358,8 +291,7 @@ class BlendRecipe final : public ModelRecipe {
 
   // One map that reads what any of the parts reads.
   FittedModel Average(const Dataset& training,
-                      const std::vector<std::string>& growing,
-                      double room,
+                      bool grows,
                       const std::vector<Part>& parts) const {
     ReadByMembers read_by;
     FittedModel fitted;
@@ -389,13 +321,11 @@ class BlendRecipe final : public ModelRecipe {
     fitted.summary.termination = fitting::Termination::kDirect;
     fitted.inputs = DescribeInputs(read, all);
     if (options_.bases.clip) {
-      fitted.guards = MakeGuards(fitted.inputs, training.target_values());
-      LeaveRoom(growing, room, fitted.inputs, &*fitted.guards);
+      fitted.guards =
+          MakeGuards(fitted.inputs, training.target_values(), grows);
     }
     fitted.model = std::make_shared<AveragedModel>(
-        static_cast<Index>(all.size()),
-        RuleWords()[static_cast<std::size_t>(options_.rule)],
-        std::move(members));
+        static_cast<Index>(all.size()), "likelihood", std::move(members));
     if (!history.derived.empty()) {
       fitted = WithHistory(std::move(fitted), training, history);
     }
@@ -408,11 +338,6 @@ class BlendRecipe final : public ModelRecipe {
 
 OptionList<BlendOptions> List() {
   OptionList<BlendOptions> list;
-  list.push_back(OptionFor("rule",
-                           "where the weights come from",
-                           &BlendOptions::rule,
-                           EnumWords<WeightRule>(RuleWords()))
-                     .Always());
   list.push_back(OptionFor("net",
                            "net:scg:view=auto among the members",
                            &BlendOptions::net,

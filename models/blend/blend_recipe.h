@@ -10,20 +10,16 @@
 
 namespace errmap::models {
 
-/// Where weights come from: error^-p, then averaged with the same of the
-/// straight lines alone, where p is the number of groups held out, at most 8,
-/// as their likelihood would have it were each one error, or of sessions less
-/// one (3 to 7); error^-4; equal ones within 20 % of the best; stacking.
-enum class WeightRule { kLikelihood, kPower4, kWithin20, kStack };
-
 /// blend: the weighted average of candidates (family x view x terms, each at
 /// its best penalty, and a net where one is asked for), with weights from the
-/// inner hold-outs of the training rows alone. One choice among near-equals is
-/// a gamble; averages of maps that see the inputs differently are not.
+/// inner hold-outs of the training rows alone: error^-p, averaged with the same
+/// of the straight lines alone, where p is the number of groups held out, at
+/// most 8, as their likelihood would have it were each one error, or of
+/// sessions less one (3 to 7). One choice among near-equals is a gamble;
+/// averages of maps that see the inputs differently are not.
 struct BlendOptions {
-  WeightRule rule = WeightRule::kLikelihood;
-  /// With NetInViews in its views, but for kStack and where an input only
-  /// grows. Its figures differ from one processor to another.
+  /// With NetInViews in its views, but where an input only grows. Its figures
+  /// differ from one processor to another.
   bool net = false;
   /// Views are what averaging lives on: without a `view` it is auto.
   BasisOptions bases = {.view = ViewOptions()};

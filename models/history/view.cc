@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include "data/text.h"
-#include "models/history/growth.h"
 #include "models/history/view_options.h"
 #include "models/shared_work.h"
 
@@ -138,29 +137,41 @@ View ViewOf(std::string_view word) {
                            ViewWords().begin());
 }
 
-std::vector<std::string> NamesOfGrowing(const ViewedRows& viewed) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < viewed.only_grows.size(); ++i) {
-    if (viewed.only_grows[i]) names.push_back(viewed.rows->inputs()[i].name);
+std::vector<bool> ColumnsThatOnlyGrow(const Dataset& rows) {
+  constexpr std::size_t kFewestSessions = 3;
+  constexpr double kHardly = 0.1;
+  std::vector<bool> only_grow(static_cast<std::size_t>(rows.num_inputs()),
+                              false);
+  std::map<Index, std::vector<Index>> sessions;
+  const std::vector<Index> codes = rows.session_codes();
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    sessions[codes[i]].push_back(static_cast<Index>(i));
   }
-  return names;
-}
-
-bool ViewedRows::bends_beyond(Index input) const {
-  const auto i = static_cast<std::size_t>(input);
-  return is_position[i] || (only_grows[i] && growth != Growth::kStraight);
-}
-
-void RemarkOnGrowth(const ViewedRows& viewed, FittedModel* fitted) {
-  if (viewed.growth == Growth::kStraight) return;
-  fitted->remarks.push_back(fmt::format(
-      "beyond what was trained it goes on in {} of what only grows ({}), which "
-      "foretold all later sessions better than a line each time that more were "
-      "known",
-      viewed.growth == Growth::kBending
-          ? "a parabola"
-          : "a line, its slope by the other inputs,",
-      data::JoinWords(NamesOfGrowing(viewed), ", ")));
+  if (sessions.size() < kFewestSessions) return only_grow;
+  for (Index j = 0; j < rows.num_inputs(); ++j) {
+    const auto column = rows.input_values().col(j);
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    double mean_before = std::numeric_limits<double>::quiet_NaN();
+    double returned = 0.0;  // shares of the later sessions
+    bool rises = true;
+    bool falls = true;
+    for (const auto& [session, places] : sessions) {
+      const Eigen::ArrayXd values = column(places);
+      if (!std::isnan(mean_before)) {
+        rises = rises && values.mean() > mean_before;
+        falls = falls && values.mean() < mean_before;
+        returned += (values >= low && values <= high).cast<double>().mean();
+      }
+      mean_before = values.mean();
+      low = std::min(low, values.minCoeff());
+      high = std::max(high, values.maxCoeff());
+    }
+    only_grow[static_cast<std::size_t>(j)] =
+        (rises || falls) &&
+        returned < kHardly * static_cast<double>(sessions.size() - 1);
+  }
+  return only_grow;
 }
 
 std::vector<double> MakeTimeConstants(const Dataset& training) {
@@ -217,8 +228,7 @@ double LargestFirstError(const Dataset& training) {
 
 std::vector<ViewedRows> MakeViews(const Dataset& training,
                                   const std::optional<ViewOptions>& asked,
-                                  double indifference,
-                                  SharedWork* shared) {
+                                  double indifference) {
   const ViewOptions options = asked.value_or(ViewOptions{.view = View::kRaw});
   const bool with_history =
       !options.time_constants || !options.time_constants->empty();
@@ -254,8 +264,6 @@ std::vector<ViewedRows> MakeViews(const Dataset& training,
     for (const bool turned : angle_forms) forms.emplace_back(view, turned);
   }
   const double first_error = LargestFirstError(training);
-  const double room = RoomBeyond(training, shared);
-  const Growth growth = GrowthBeyond(training, shared);
   std::vector<ViewedRows> views;
   for (const auto& [view, sine_and_cosine] : forms) {
     ViewedRows viewed;
@@ -274,8 +282,6 @@ std::vector<ViewedRows> MakeViews(const Dataset& training,
       viewed.is_position.push_back(data::IsPosition(input));
     }
     viewed.only_grows = ColumnsThatOnlyGrow(*viewed.rows);
-    viewed.room = room;
-    viewed.growth = growth;
     // Inputs that are zero where a session begins give an error that is zero
     // there, if that is what was measured.
     viewed.intercept =
@@ -291,7 +297,7 @@ std::shared_ptr<const std::vector<ViewedRows>> SharedViews(
     const FitContext& context) {
   const auto make = [&] {
     return std::make_shared<const std::vector<ViewedRows>>(
-        MakeViews(training, options, context.indifference, context.shared));
+        MakeViews(training, options, context.indifference));
   };
   if (context.shared == nullptr) return make();
   auto views = context.shared->GetWhileHeld<std::vector<ViewedRows>>(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,7 +9,6 @@
 
 #include "data/measurements/dataset.h"
 #include "models/error_model.h"
-#include "models/history/growth_beyond.h"
 #include "models/history/history.h"
 
 namespace errmap::models {
@@ -49,16 +49,12 @@ struct ViewedRows {
   bool sine_and_cosine = false;            // of angles, in their place
   std::shared_ptr<const History> history;  // null: the rows as they are
   std::shared_ptr<const data::Dataset> rows;
-  std::vector<bool> is_position;      // (inputs of rows)
-  std::vector<bool> only_grows;       // likewise: ColumnsThatOnlyGrow
-  Growth growth = Growth::kStraight;  // of these: GrowthBeyond
-  double room = 0.0;                  // trained ranges that they go on for
+  std::vector<bool> is_position;  // (inputs of rows)
+  std::vector<bool> only_grows;   // likewise: ColumnsThatOnlyGrow
   bool intercept = true;
 
   std::string label() const;  // "history+zero", "raw with sine and cosine"
-  /// Whether an input bends a map wherever it goes: a position, which stays
-  /// within its travel, and what only grows and is proven to bend.
-  bool bends_beyond(Eigen::Index input) const;
+  bool grows() const { return std::ranges::count(only_grows, true) > 0; }
 };
 
 /// The views of `options` (without them the rows as they are) that these rows
@@ -68,8 +64,7 @@ struct ViewedRows {
 /// for by name is not possible.
 std::vector<ViewedRows> MakeViews(const data::Dataset& training,
                                   const std::optional<ViewOptions>& options,
-                                  double indifference,
-                                  SharedWork* shared = nullptr);
+                                  double indifference);
 
 /// The same of the rows that are fitted, shared with the recipes that hold them
 /// at the same time by way of context.shared.
@@ -86,10 +81,11 @@ std::vector<double> MakeTimeConstants(const data::Dataset& training);
 /// `training` has the first row; NaN where it has none.
 double LargestFirstError(const data::Dataset& training);
 
-/// Of the inputs of these rows.
-std::vector<std::string> NamesOfGrowing(const ViewedRows& viewed);
-
-/// Where a guarded map of these rows bends beyond them, that it does.
-void RemarkOnGrowth(const ViewedRows& viewed, FittedModel* fitted);
+/// Inputs of `rows` that hardly ever return to values they had, as an age does:
+/// with three sessions or more the sessions' means only rise or only fall, and
+/// of a later session on average less than a tenth of the rows lies within what
+/// the earlier ones had. All that is measured later lies beyond them, so a map
+/// is a straight line in them.
+std::vector<bool> ColumnsThatOnlyGrow(const data::Dataset& rows);
 
 }  // namespace errmap::models

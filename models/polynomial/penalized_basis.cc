@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -36,25 +37,14 @@ void ClipColumns(const VectorXd& min,
   }
 }
 
-// Whether a term bends an input that only grows more than `viewed` says that
-// it goes on: what bends is foretold by nothing else where such an input has
-// never been.
+// Whether a term bends an input that only grows: nothing supports a bend where
+// such an input has never been.
 bool BendsWhatGrows(const TermPowers& powers, const ViewedRows& viewed) {
-  int degree = 0;
-  int growing = 0;
+  if (std::accumulate(powers.begin(), powers.end(), 0) < 2) return false;
   for (std::size_t i = 0; i < powers.size(); ++i) {
-    degree += powers[i];
-    if (viewed.only_grows[i]) growing += powers[i];
+    if (viewed.only_grows[i] && powers[i] > 0) return true;
   }
-  switch (viewed.growth) {
-    case Growth::kStraight:
-      return growing > 0 && degree > 1;
-    case Growth::kWithOthers:
-      return growing > 1;
-    case Growth::kBending:
-      return growing > 2;
-  }
-  return true;
+  return false;
 }
 
 std::vector<bool> ExcludedTerms(const PenalizedBasis& basis,
@@ -314,7 +304,8 @@ MatrixXd SummedBasis::GuardedTerms(const MatrixXd& inputs,
   for (Index j = 0; j < held.cols(); ++j) {
     const double low = trained.input_min[j];  // scaled: centred at 0
     const double high = trained.input_max[j];
-    if (viewed_->bends_beyond(j) || low > 0.0 || high < 0.0) {
+    if (viewed_->is_position[static_cast<std::size_t>(j)] || low > 0.0 ||
+        high < 0.0) {
       continue;
     }
     const double room = kBendMargin * (high - low);

@@ -21,17 +21,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using fitting::Penalty;
 
-// Predictions of held-out rows are kept for stacking up to this many.
-constexpr Index kMostKept = 100'000;
-
 // What the inner hold-outs say of each strength tried.
 class StrengthSearch {
  public:
   StrengthSearch(const SummedBasis& rows, Penalty penalty, double indifference)
-      : rows_(rows),
-        folds_(*rows.inner()),
-        indifference_(indifference),
-        keeps_(rows.design().rows() <= kMostKept) {
+      : rows_(rows), folds_(*rows.inner()), indifference_(indifference) {
     for (Index fold = folds_.folds.first_judged(); fold < folds_.folds.count();
          ++fold) {
       paths_.push_back(rows.PathOf(penalty, fold));
@@ -44,12 +38,6 @@ class StrengthSearch {
     const auto judged = static_cast<Index>(paths_.size());
     MatrixXd errors = MatrixXd::Zero(judged, count);  // sums of squares
     VectorXd weights = VectorXd::Zero(judged);
-    MatrixXd held_out;
-    if (keeps_) {
-      held_out = MatrixXd::Constant(rows_.design().rows(),
-                                    count,
-                                    std::numeric_limits<double>::quiet_NaN());
-    }
     for (Index i = 0; i < judged; ++i) {
       rows_.PredictFold(
           i + folds_.folds.first_judged(),
@@ -61,63 +49,51 @@ class StrengthSearch {
                 (-predicted).colwise() + rows_.Targets(block);
             errors.row(i) += w.transpose() * residuals.cwiseAbs2();
             weights[i] += w.sum();
-            if (keeps_) held_out(block, Eigen::all) = predicted;
           });
     }
     for (Index s = 0; s < count; ++s) {
-      Judged result;
-      result.error = TypicalError(
+      judged_[-strengths[static_cast<std::size_t>(s)]] = TypicalError(
           folds_, errors.col(s).cwiseQuotient(weights), weights, indifference_);
-      if (keeps_) result.held_out = held_out.col(s);
-      judged_[-strengths[static_cast<std::size_t>(s)]] = std::move(result);
     }
   }
 
   double Best() const { return -Lowest()->first; }
-  double LeastRmse() const {
-    return std::sqrt(Lowest()->second.error.mean_square);
-  }
+  double LeastRmse() const { return std::sqrt(Lowest()->second.mean_square); }
 
   // The chosen strength and all that was found, into `candidate`.
   void Report(bool one_standard_error, PenalizedCandidate* candidate) const {
     auto chosen = Lowest();
-    const InnerError least = chosen->second.error;
+    const InnerError least = chosen->second;
     if (one_standard_error && !std::isnan(least.standard_error)) {
       const double enough = least.mean_square + least.standard_error;
       chosen =
           std::find_if(judged_.begin(), judged_.end(), [&](const auto& judged) {
-            return judged.second.error.mean_square <= enough;
+            return judged.second.mean_square <= enough;
           });
     }
     for (const auto& [strength, judged] : judged_) {
       candidate->strengths.push_back(-strength);
-      candidate->mean_squared_errors.push_back(judged.error.mean_square);
-      candidate->standard_errors.push_back(judged.error.standard_error);
+      candidate->mean_squared_errors.push_back(judged.mean_square);
+      candidate->standard_errors.push_back(judged.standard_error);
     }
     candidate->strength = -chosen->first;
-    candidate->held_out_rmse = std::sqrt(chosen->second.error.mean_square);
-    candidate->held_out = chosen->second.held_out;
+    candidate->held_out_rmse = std::sqrt(chosen->second.mean_square);
   }
 
  private:
-  struct Judged {
-    InnerError error;
-    VectorXd held_out;
-  };
   // By falling strength: the key is its negative.
-  using Results = std::map<double, Judged>;
+  using Results = std::map<double, InnerError>;
 
   // Of equal errors the stronger penalty.
   Results::const_iterator Lowest() const {
     return std::ranges::min_element(judged_, {}, [](const auto& judged) {
-      return judged.second.error.mean_square;
+      return judged.second.mean_square;
     });
   }
 
   const SummedBasis& rows_;
   const InnerFolds& folds_;
   double indifference_;
-  bool keeps_;
   std::vector<fitting::PenalizedPath> paths_;  // of the judged folds
   Results judged_;
 };
@@ -155,8 +131,8 @@ std::vector<BendRange> BendsWithin(const ViewedRows& viewed,
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const TrainedInput& input = inputs[i];
     const auto at = static_cast<Index>(i);
-    if (viewed.bends_beyond(columns[i]) || offset[at] < input.min ||
-        offset[at] > input.max) {
+    if (viewed.is_position[static_cast<std::size_t>(columns[i])] ||
+        offset[at] < input.min || offset[at] > input.max) {
       continue;
     }
     const double room = kBendMargin * (input.max - input.min);
@@ -248,10 +224,8 @@ FittedModel MapOfCandidate(const std::string& name,
       fitted.inputs,
       std::sqrt(residual.squaredNorm() / static_cast<double>(design.rows())));
   if (guarded) {
-    fitted.guards = MakeGuards(fitted.inputs, raw.target_values());
-    LeaveRoom(
-        NamesOfGrowing(viewed), viewed.room, fitted.inputs, &*fitted.guards);
-    RemarkOnGrowth(viewed, &fitted);
+    fitted.guards =
+        MakeGuards(fitted.inputs, raw.target_values(), viewed.grows());
   }
   if (viewed.history != nullptr) {
     fitted = WithHistory(std::move(fitted), raw, *viewed.history);

@@ -28,9 +28,6 @@ struct PenalizedCandidate {
   /// Root of the mean squared error of the chosen strength; NaN without inner
   /// hold-outs.
   double held_out_rmse = 0.0;
-  /// (n) predictions of the rows held out, at the chosen strength; NaN for
-  /// rows never held out; (0) where they were not kept.
-  Eigen::VectorXd held_out;
   double intercept = 0.0;
   Eigen::VectorXd coefficients;  // (terms) in the scaled inputs of the design
 };

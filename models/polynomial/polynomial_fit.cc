@@ -10,8 +10,7 @@
 
 #include "data/text.h"
 #include "fitting/interruption.h"
-#include "models/history/growth.h"
-#include "models/history/growth_beyond.h"
+#include "models/history/view.h"
 #include "models/polynomial/polynomial_model.h"
 
 namespace errmap::models {
@@ -210,27 +209,20 @@ void RemarkOnTerms(const FittedTerms& kept,
   }
 }
 
-// Names of the inputs that only grow and in which the map is a straight line.
-std::vector<std::string> GrowsStraight(const PolynomialForm& form,
-                                       const std::vector<TrainedInput>& inputs,
-                                       const Dataset& training) {
-  const std::vector<bool> only_grow = ColumnsThatOnlyGrow(training);
-  const auto bends = [&](std::size_t input) {
-    return std::ranges::any_of(form.terms, [&](const PolynomialTerm& term) {
-      return term.powers[input] > 0 &&
-             std::accumulate(term.powers.begin(), term.powers.end(), 0) > 1;
-    });
-  };
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const std::string& name = inputs[i].column.name;
-    for (std::size_t j = 0; j < only_grow.size(); ++j) {
-      if (only_grow[j] && training.inputs()[j].name == name && !bends(i)) {
-        names.push_back(name);
-      }
+// Whether a plane has an input that only grows.
+bool GrowsStraight(const PolynomialForm& form,
+                   const std::vector<TrainedInput>& inputs,
+                   const Dataset& training) {
+  for (const PolynomialTerm& term : form.terms) {
+    if (std::accumulate(term.powers.begin(), term.powers.end(), 0) > 1) {
+      return false;
     }
   }
-  return names;
+  const std::vector<bool> only_grow = ColumnsThatOnlyGrow(training);
+  return std::ranges::any_of(inputs, [&](const TrainedInput& input) {
+    return only_grow[static_cast<std::size_t>(
+        training.FindInput(input.column.name))];
+  });
 }
 
 }  // namespace
@@ -311,11 +303,9 @@ FittedModel PolynomialRecipe::FitTerms(const Dataset& training,
       fitted.inputs,
       std::sqrt(solution.residual_sum_of_squares / rows.observations));
   if (guarded_) {
-    fitted.guards = MakeGuards(fitted.inputs, training.target_values());
-    LeaveRoom(GrowsStraight(form, fitted.inputs, training),
-              RoomBeyond(training, context.shared),
-              fitted.inputs,
-              &*fitted.guards);
+    fitted.guards = MakeGuards(fitted.inputs,
+                               training.target_values(),
+                               GrowsStraight(form, fitted.inputs, training));
   }
   fitted.model =
       std::make_shared<PolynomialModel>(std::move(form), solution.rank);

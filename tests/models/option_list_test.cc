@@ -146,7 +146,7 @@ TEST(OptionList, WritesASpecBackAsItWas) {
       "net:nlopt:method=crs2_lm:box=3",
       "net:ceres:scale=none:output=linear:slope=0.5:method=bfgs:memory=9",
       "net:backprop:learning_rate=0.5:momentum=0",
-      "blend:rule=stack:net=yes:view=history+zero:terms=full:degree=2"};
+      "blend:net=yes:view=history+zero:terms=full:degree=2"};
   // What is shipped: the types and what a comparison takes by default.
   for (const std::string& type : ModelTypes()) {
     if (type != "poly:full") specs.push_back(type);  // which says its degree
@@ -224,9 +224,8 @@ TEST(ModelOptions, SurviveTheirSpec) {
                              .view = ViewOptions{.sine_and_cosine = false}});
   ExpectRoundTrip(NetOptions{
       .method = CeresTraining{.method = fitting::CeresMethod::kBfgs}});
-  ExpectRoundTrip(
-      BlendOptions{.rule = WeightRule::kStack,
-                   .bases = {.view = ViewOptions{.view = View::kRaw}}});
+  ExpectRoundTrip(BlendOptions{
+      .net = true, .bases = {.view = ViewOptions{.view = View::kRaw}}});
 }
 
 TEST(ModelOptions, EachBoundBites) {

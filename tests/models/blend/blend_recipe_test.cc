@@ -154,11 +154,7 @@ TEST(BlendRecipe, TheMoreDaysItIsFittedToTheMoreTheirErrorsDecide) {
 TEST(BlendRecipe, EveryChoiceOfMembersIsAsGoodAsItsPartsAlone) {
   const auto [first, last] = Split(LaggingDays(1.0), 4);
   const double mean = RmseOn(Fitted("mean", first), last);
-  for (const char* spec : {"blend",
-                           "blend:rule=power4",
-                           "blend:rule=within20",
-                           "blend:rule=stack",
-                           "blend:net=yes"}) {
+  for (const char* spec : {"blend", "blend:net=yes"}) {
     EXPECT_LT(RmseOn(Fitted(spec, first), last), 0.3 * mean) << spec;
   }
 }
@@ -261,7 +257,7 @@ TEST(BlendRecipe, IsRecommendedWhereDaysAreTooFewToTellMapsApart) {
 }
 
 TEST(BlendRecipe, RefusesWhatItDoesNotKnow) {
-  EXPECT_THROW(MakeRecipe("blend:rule=best"), std::invalid_argument);
+  EXPECT_THROW(MakeRecipe("blend:rule=stack"), std::invalid_argument);
   EXPECT_THROW(MakeRecipe("blend:net=maybe"), std::invalid_argument);
   EXPECT_THROW(MakeRecipe("blend:hidden=3"), std::invalid_argument);
   EXPECT_THROW(MakeRecipe("poly:ridge:view=auto:penalty=1"),

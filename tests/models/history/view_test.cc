@@ -1,6 +1,7 @@
 #include "models/history/view.h"
 
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "models/polynomial/polynomial_options.h"
+#include "models/recipe_catalog.h"
 #include "tests/models/history/history_data.h"
 
 namespace errmap::models {
@@ -156,6 +158,69 @@ TEST(View, PositionsStayAsTheyAreInAnyCase) {
   EXPECT_TRUE(IsPosition({"position", {}}));
   EXPECT_FALSE(IsPosition({"posit", {}}));
   EXPECT_FALSE(IsPosition({"t_position", {}}));
+}
+
+// Ten rows a day of an age, a temperature that comes and goes, and one that
+// rises by the day but falls again within each.
+data::Dataset AgeingDays(Eigen::Index days,
+                         const std::function<double(double)>& error_of_age) {
+  constexpr Eigen::Index kRows = 10;
+  Eigen::MatrixXd values(days * kRows, 3);
+  Eigen::VectorXd errors(values.rows());
+  std::vector<Eigen::Index> codes;
+  for (Eigen::Index row = 0; row < values.rows(); ++row) {
+    const auto k = static_cast<double>(row);
+    const auto day = static_cast<double>(row / kRows);
+    values.row(row) << 0.1 * k, 20.0 + std::sin(k),
+        20.0 + 0.1 * day + std::sin(k);
+    errors[row] = error_of_age(values(row, 0)) + 0.2 * std::sin(k);
+    codes.push_back(row / kRows);
+  }
+  const data::Dataset logged = errmap::testing::WithLog(
+      {errmap::testing::ColumnNamed("age_days"),
+       errmap::testing::ColumnNamed("t1_degC"),
+       errmap::testing::ColumnNamed("t2_degC")},
+      values,
+      Eigen::VectorXd::LinSpaced(
+          values.rows(), 0.0, 60.0 * static_cast<double>(values.rows() - 1)),
+      codes);
+  return errmap::testing::WithTargets(logged, errors);
+}
+
+TEST(ColumnsThatOnlyGrow, AreThoseThatNeverReturnOverThreeSessions) {
+  const auto level = [](double /*age*/) { return 0.0; };
+  EXPECT_THAT(ColumnsThatOnlyGrow(AgeingDays(4, level)),
+              ElementsAre(true, false, false));
+  EXPECT_THAT(ColumnsThatOnlyGrow(AgeingDays(2, level)),
+              ElementsAre(false, false, false));
+}
+
+// Whatever the error did within the days known.
+TEST(ColumnsThatOnlyGrow, AreStraightLinesUntilTheErrorHasLeftItsRangeByOne) {
+  constexpr double kRounding = 1e-9;
+  for (const auto& error_of_age : std::vector<std::function<double(double)>>{
+           [](double age) { return age; },
+           [](double age) { return age * age; },
+           [](double age) { return 4.0 - 4.0 * std::exp(-age); }}) {
+    const data::Dataset days = AgeingDays(5, error_of_age);
+    for (const char* spec : {"poly:ridge:view=raw:terms=squares",
+                             "poly:lasso:view=raw",
+                             "blend:view=raw",
+                             "poly:full:degree=1"}) {
+      const FittedModel fitted = MakeRecipe(spec)->Fit(days, {});
+      ASSERT_EQ(fitted.inputs[0].column.name, "age_days") << spec;
+      Eigen::MatrixXd inputs = fitted.FormInputs(days).bottomRows(1);
+      inputs = inputs.replicate(4, 1).eval();
+      inputs.col(0) << 5.0, 6.0, 7.0, 1e3;
+      const Eigen::VectorXd errors = fitted.PredictForm(inputs).errors;
+      EXPECT_NEAR(errors[2] - errors[1], errors[1] - errors[0], kRounding)
+          << spec;
+      const double most = days.target_values().maxCoeff();
+      const double range = most - days.target_values().minCoeff();
+      EXPECT_LE(errors[3], most + range + kRounding) << spec;
+      EXPECT_GT(errors[3], errors[2]) << spec;
+    }
+  }
 }
 
 }  // namespace

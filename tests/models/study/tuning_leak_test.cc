@@ -221,7 +221,7 @@ TEST(Tuning, NoMapWithAMemoryDependsOnSessionsHeldOut) {
           "poly:stepwise:terms=axis" + fixed,
           "net:scg:iterations=15:hidden=3" + fixed,
           std::string("blend:history=300+1000"),
-          std::string("blend:rule=stack:history=300+1000")}) {
+          std::string("blend:net=yes:history=300+1000")}) {
       made.push_back(MakeRecipe(spec));
     }
     return made;

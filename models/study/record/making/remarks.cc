@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "models/history/growth.h"
+#include "models/history/view.h"
 #include "models/study/judgement/extrapolated_rows.h"
 
 namespace errmap::models {
