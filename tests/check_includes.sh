@@ -234,8 +234,8 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     }
     # Nor is how TOML is read.
     if (FILENAME ~ /^cli\/desk\/toml\/toml_(keys|parser)\.h$/) next
-    if (name ~ /^sqlite3/ && FILENAME !~ /^cli\/fleet\/store\/sqlite[^\/]*\.cc$/) {
-      violation("<" name "> belongs in cli/fleet/store/sqlite*.cc")
+    if (name ~ /^sqlite3/ && FILENAME !~ /^data\/files\/sqlite[^\/]*\.cc$/) {
+      violation("<" name "> belongs in data/files/sqlite*.cc")
       next
     }
     if (name ~ /^zlib/ && FILENAME !~ /^data\/tables\/gzip\.cc$/) {

@@ -19,7 +19,7 @@
 #include "data/measurements/joined_tables.h"
 #include "models/model_spec.h"
 #include "models/recipe_catalog.h"
-#include "models/study/journal/fit_cache.h"
+#include "models/study/journal/kept_fits.h"
 #include "models/study/record/record_values.h"
 
 namespace errmap::cli {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -151,9 +150,8 @@ class BlendRecipe final : public ModelRecipe {
       scores.push_back({.rmse = net->inner_rmse});
     }
     const double power = PowerOf(folds);
-    const VectorXd weights = grows && !getenv("X_LINES")
-                                 ? WeightsAmong(scores, Among::kAll, power)
-                                 : AveragedWithLines(scores, power);
+    const VectorXd weights = grows ? WeightsAmong(scores, Among::kAll, power)
+                                   : AveragedWithLines(scores, power);
 
     std::vector<Part> parts = CollapseBases(training, bases, weights);
     if (net && weights[weights.size() - 1] > kLeastWeight) {

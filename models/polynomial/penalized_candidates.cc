@@ -163,8 +163,7 @@ class BasisJudge {
   double BetweenIn(const ViewedRows& viewed) const {
     constexpr double kInViews = 0.25;
     if (!folds_.whole_sessions) return 1.0;
-    const bool has_offsets =
-        options_.view && (getenv("X_BETWEEN") || !viewed.grows());
+    const bool has_offsets = options_.view && !viewed.grows();
     return options_.between.value_or(has_offsets ? kInViews : 1.0);
   }
 

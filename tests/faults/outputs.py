@@ -51,7 +51,7 @@ def contents(folder):
     found = {}
     for path in sorted(folder.rglob("*")):
         name = str(path.relative_to(folder))
-        if path.is_dir() or path.name.startswith("journal."):
+        if path.is_dir() or path.name.startswith("fits.sqlite"):
             continue
         kinds = (".json", ".html", ".csv", ".md", ".gz", ".sqlite")
         if ".tmp" in name or path.suffix not in kinds:

@@ -25,7 +25,6 @@
 #include "models/netcg/weights_file.h"
 #include "models/recipe_catalog.h"
 #include "models/study/given_predictions.h"
-#include "models/study/journal/fit_journal_file.h"
 #include "models/study/journal/fit_record.h"
 #include "models/study/record/study_record.h"
 #include "models/study/split_file.h"
@@ -101,30 +100,6 @@ void ReadMachine(std::string_view bytes) {
   desk::ReadMachineOutline(folder.Write("machine.toml", bytes));
 }
 
-// Sums are public, so a forger writes them: each line of the text is taken for
-// the rest of one of the journal's.
-void ReadForgedJournal(std::string_view bytes) {
-  static const ScratchFolder folder;
-  std::string text;
-  while (!bytes.empty()) {
-    const std::size_t end = std::min(bytes.find('\n'), bytes.size());
-    const std::string_view rest = bytes.substr(0, end);
-    text += R"({"sum":")" + data::Sha256(rest) + std::string(rest) + "\n";
-    bytes.remove_prefix(std::min(end + 1, bytes.size()));
-  }
-  folder.Write(models::JournalFile::kName, text);
-  const models::JournalFile journal(folder.path(),
-                                    models::JournalFile::Opening::kResume);
-  for (const char* fold : {"0", "1"}) {
-    models::FitLabel label;
-    label.component = "x";
-    label.model = "mean";
-    label.rows = fold;
-    journal.Find(label);
-    journal.FindPlace(label);
-  }
-}
-
 void ReadFileList(std::string_view bytes) {
   static const ScratchFolder folder;
   folder.Write(cli::ClaimedFolder::kListName, bytes);
@@ -174,12 +149,12 @@ void ReadResults(std::string_view bytes) {
   report::TableText(record, "csv");
 }
 
-void ReadJournal(std::string_view bytes) {
-  try {
-    models::LabelFromText(bytes);
-  } catch (const data::InputError&) {
-  }
-  models::FitFromText(bytes);
+// Sums are public, so a forger writes them.
+void ReadKeptFit(std::string_view bytes) {
+  data::Sha256Stream stream;
+  stream.Add("key");
+  stream.Add(bytes);
+  models::FitFromBytes("key", stream.Finish() + std::string(bytes));
 }
 
 void ReadStudy(std::string_view bytes) {
@@ -219,14 +194,13 @@ const std::vector<Reader>& Readers() {
       {"spec", Refusable<ReadSpec>},
       {"model", Refusable<ReadModel>},
       {"results", Refusable<ReadResults>},
-      {"journal", Refusable<ReadJournal>},
+      {"journal", Refusable<ReadKeptFit>},
       {"study", Refusable<ReadStudy>},
       {"netcg", Refusable<ReadNetcg>},
       {"weights", Refusable<ReadWeights>},
       {"split", Refusable<ReadSplit>},
       {"predictions", Refusable<ReadPredictions>},
       {"machine", Refusable<ReadMachine>},
-      {"forged", Refusable<ReadForgedJournal>},
       {"file_list", Refusable<ReadFileList>},
       {"header", Refusable<ReadHeaders>},
       {"arguments", RunWithArguments},

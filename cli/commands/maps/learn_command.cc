@@ -36,9 +36,8 @@
 #include "models/promise/learning_record.h"
 #include "models/promise/next_states.h"
 #include "models/promise/sensor_curve.h"
-#include "models/study/journal/fit_cache.h"
-#include "models/study/journal/fit_journal_file.h"
 #include "models/study/journal/fit_label.h"
+#include "models/study/journal/kept_fits.h"
 #include "models/study/record/record_json.h"
 #include "models/study/study_defaults.h"
 
@@ -96,9 +95,8 @@ std::vector<std::unique_ptr<models::ModelRecipe>> RecipesOf(
   return recipes;
 }
 
-std::unique_ptr<models::JournalFile> OpenJournal(
-    const LearnArguments& arguments) {
-  using models::JournalFile;
+std::unique_ptr<models::KeptFits> OpenJournal(const LearnArguments& arguments) {
+  using models::KeptFits;
   if (arguments.out.empty()) return nullptr;
   // Of its own, so that a study in the same folder keeps its fits.
   const std::string folder =
@@ -106,12 +104,10 @@ std::unique_ptr<models::JournalFile> OpenJournal(
   data::PrepareFolder(folder);
   // What a killed run was writing.
   data::RemoveAbandonedFiles(arguments.out);
-  JournalFile::RequireNoOther(folder, arguments.force);
-  auto journal = std::make_unique<JournalFile>(
+  KeptFits::RequireNoOther(folder, arguments.force);
+  auto journal = std::make_unique<KeptFits>(
       folder,
-      arguments.resume ? JournalFile::Opening::kResume
-                       : JournalFile::Opening::kAnew);
-  SayUnless(arguments.data.quiet, journal->OpeningRemarks());
+      arguments.resume ? KeptFits::Opening::kResume : KeptFits::Opening::kAnew);
   return journal;
 }
 
@@ -131,18 +127,17 @@ models::StudyResult RunLearning(
       .progress = [&](const models::FitProgress& fit) {
         progress.Show({.done = fit.done, .all = fit.all});
       }};
-  const std::unique_ptr<models::JournalFile> file = OpenJournal(arguments);
+  const std::unique_ptr<models::KeptFits> file = OpenJournal(arguments);
   const models::FitLabels labels(
       "learn", dataset, plan.holdouts, recipes, options);
-  const std::unique_ptr<models::JournalFile> kept =
-      models::OpenKeptFits(arguments.cache, labels);
+  const auto kept = models::KeptFits::OpenCache(arguments.cache);
   models::ComponentJournal journal(
       {file.get(), kept.get()}, &labels, &dataset, &plan.holdouts);
   options.journal = &journal;
   models::StudyResult study =
       models::RunStudy(dataset, plan.holdouts, recipes, options);
   if (file != nullptr) {
-    SayUnless(arguments.data.quiet, file->WritingRemarks());
+    SayUnless(arguments.data.quiet, file->Remarks());
   }
   return study;
 }

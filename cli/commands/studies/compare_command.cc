@@ -28,7 +28,7 @@
 #include "cli/shell/terminal.h"
 #include "data/files/atomic_file.h"
 #include "data/text.h"
-#include "models/study/journal/fit_journal_file.h"
+#include "models/study/journal/kept_fits.h"
 #include "models/study/split_file.h"
 
 namespace errmap::cli {
@@ -88,17 +88,15 @@ void SaveSplit(const models::ComponentStudy& comparison,
 }
 
 // Fits are kept in the output folder of a run that has one.
-std::unique_ptr<models::JournalFile> OpenJournal(
+std::unique_ptr<models::KeptFits> OpenJournal(
     const CompareArguments& arguments) {
-  using models::JournalFile;
+  using models::KeptFits;
   if (arguments.out.empty()) return nullptr;
-  auto journal = std::make_unique<JournalFile>(
+  auto journal = std::make_unique<KeptFits>(
       arguments.out,
-      arguments.resume ? JournalFile::Opening::kResume
-                       : JournalFile::Opening::kAnew);
+      arguments.resume ? KeptFits::Opening::kResume : KeptFits::Opening::kAnew);
   // The folder is ours alone now, and so is what a killed run had begun.
   RemoveAbandoned(arguments.out);
-  SayUnless(arguments.data.quiet, journal->OpeningRemarks());
   return journal;
 }
 
@@ -184,7 +182,7 @@ desk::StudyRun RunShowingProgress(desk::StudyPlan plan,
                                   const CompareArguments& arguments,
                                   int jobs,
                                   bool keep_fold_maps,
-                                  models::JournalFile* journal) {
+                                  models::KeptFits* journal) {
   desk::StudyRun run;
   {
     Progress progress(!arguments.data.quiet);
@@ -210,7 +208,7 @@ desk::StudyRun RunShowingProgress(desk::StudyPlan plan,
          }});
   }
   if (journal != nullptr) {
-    SayUnless(arguments.data.quiet, journal->WritingRemarks());
+    SayUnless(arguments.data.quiet, journal->Remarks());
   }
   return run;
 }
@@ -232,13 +230,13 @@ int RunCompare(const CompareArguments& arguments) {
   std::optional<ClaimedFolder> folder;
   if (!arguments.out.empty()) {
     folder.emplace(arguments.out, OutputNames(plan), inputs, arguments.force);
-    models::JournalFile::RequireNoOther(arguments.out, arguments.force);
+    models::KeptFits::RequireNoOther(arguments.out, arguments.force);
   }
   for (std::size_t i = 0; i < plan.components.size(); ++i) {
     SaveSplit(plan.components[i].comparison, plan.config.components[i]);
   }
   // Open, and so the folder taken, until all is written.
-  const std::unique_ptr<models::JournalFile> journal = OpenJournal(arguments);
+  const std::unique_ptr<models::KeptFits> journal = OpenJournal(arguments);
   const desk::StudyRun run = RunShowingProgress(
       std::move(plan), arguments, jobs, machine.has_value(), journal.get());
   SayShortOfMemory(run);

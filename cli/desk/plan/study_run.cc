@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "models/study/journal/fit_cache.h"
+#include "models/study/journal/kept_fits.h"
 
 namespace errmap::desk {
 
@@ -18,6 +18,7 @@ StudyRun RunPlan(StudyPlan plan,
                .inputs = std::move(plan.inputs),
                .components = {},
                .interrupted = false};
+  const auto kept = models::KeptFits::OpenCache(options.cache);
   int before = 0;  // fits of the components that are finished
   for (models::ComponentPlan& component : plan.components) {
     models::StudyOptions study_options{
@@ -34,7 +35,6 @@ StudyRun RunPlan(StudyPlan plan,
         }};
     const models::ComponentStudy& comparison = component.comparison;
     std::optional<models::FitLabels> labels;
-    std::unique_ptr<models::JournalFile> kept;
     std::optional<models::ComponentJournal> journal;
     if (options.journal != nullptr || !options.cache.empty()) {
       labels.emplace(comparison.name,
@@ -43,12 +43,8 @@ StudyRun RunPlan(StudyPlan plan,
                      component.recipes,
                      study_options);
       if (options.journal != nullptr && options.journal_has) {
-        for (const std::string& line :
-             models::DescribeResume(*options.journal, *labels)) {
-          options.journal_has(line);
-        }
+        options.journal_has(models::DescribeResume(options.journal, *labels));
       }
-      kept = models::OpenKeptFits(options.cache, *labels);
       journal.emplace(std::vector{options.journal, kept.get()},
                       &*labels,
                       &comparison.data.dataset,

@@ -14,7 +14,7 @@
 #include "models/study/study.h"
 
 namespace errmap::models {
-class JournalFile;
+class KeptFits;
 }
 
 namespace errmap::desk {
@@ -36,8 +36,8 @@ struct StudyRun {
 struct RunOptions {
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;
-  models::JournalFile* journal = nullptr;  // keeps the fits; may be null
-  std::string cache = {};  // folder of the last fits (fit_cache.h); "" for none
+  models::KeptFits* journal = nullptr;  // keeps the fits; may be null
+  std::string cache = {};  // folder of the last fits (kept_fits.h); "" for none
   Remark journal_has = {};      // told what the journal has of them
   bool keep_fold_maps = false;  // of the hold-outs: FoldResult::map
   /// Told which component of the plan a fit was of and of the fit, its counts

@@ -4,10 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "cli/fleet/store/sqlite.h"
+#include "data/files/sqlite.h"
 #include "models/fleet/watch.h"
 
 namespace errmap::fleet {
+
+using data::Database;
+using data::SqliteError;
+using data::Statement;
 
 /// A map on a machine.
 struct Deployment {

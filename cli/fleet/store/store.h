@@ -4,12 +4,17 @@
 #include <functional>
 #include <vector>
 
-#include "cli/fleet/store/sqlite.h"
 #include "cli/fleet/store/store_folder.h"
 #include "data/files/file_descriptor.h"
+#include "data/files/sqlite.h"
 #include "models/fleet/component_summary.h"
 
 namespace errmap::fleet {
+
+using data::DamagedDatabase;
+using data::Database;
+using data::SqliteError;
+using data::Statement;
 
 /// Version of the tables in errmap.sqlite that this program writes; an older
 /// store is brought up to it by the next command that writes.

@@ -185,15 +185,6 @@ std::string ContextText(const FitContext& context) {
 
 }  // namespace
 
-std::string FitLabel::Key() const {
-  Sha256Stream stream;
-  for (const std::string* text :
-       {&model, &program, &options, &context, &rows}) {
-    AddText(*text, &stream);
-  }
-  return data::Hexadecimal(stream.Finish());
-}
-
 const std::string& ProgramIdentity() {
   static const std::string identity = [] {
     constexpr std::size_t kDigits = 12;
@@ -239,34 +230,26 @@ FitLabels::FitLabels(std::string component,
   }
 }
 
-FitLabel FitLabels::Of(const StudyTask& task) const {
+std::string FitLabels::KeyOf(const StudyTask& task) const {
   const Model& model = models_.at(task.model);
-  FitLabel label;
-  label.component = component_;
-  label.model = model.name;
-  label.program = program_;
-  label.options = model.options;
-  label.context = ContextText(ContextOfTask(task, holdouts_, options_));
-  label.rows = all_rows_;
-  if (task.holdout < 0) return label;
-  const auto holdout = static_cast<std::size_t>(task.holdout);
-  label.holdout = holdouts_.at(holdout).name;
-  label.fold = task.fold;
-  label.rows = rows_.at(holdout).at(task.fold);
-  return label;
-}
-
-std::string FitLabels::DataKey() const {
+  const std::string context =
+      ContextText(ContextOfTask(task, holdouts_, options_));
+  const std::string& rows =
+      task.holdout < 0
+          ? all_rows_
+          : rows_.at(static_cast<std::size_t>(task.holdout)).at(task.fold);
   Sha256Stream stream;
-  AddText(program_, &stream);
-  AddText(all_rows_, &stream);
+  for (const std::string* text :
+       {&model.name, &program_, &model.options, &context, &rows}) {
+    AddText(*text, &stream);
+  }
   return data::Hexadecimal(stream.Finish());
 }
 
-std::vector<FitLabel> FitLabels::All() const {
-  std::vector<FitLabel> labels;
-  for (const StudyTask& task : tasks_) labels.push_back(Of(task));
-  return labels;
+std::vector<std::string> FitLabels::Keys() const {
+  std::vector<std::string> keys;
+  for (const StudyTask& task : tasks_) keys.push_back(KeyOf(task));
+  return keys;
 }
 
 }  // namespace errmap::models

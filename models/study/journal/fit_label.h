@@ -10,29 +10,13 @@
 
 namespace errmap::models {
 
-/// Where a fit stands in its study, and all that its outcome depends on.
-struct FitLabel {
-  std::string component;
-  std::string holdout;  // "" for a fit to all rows
-  std::size_t fold = 0;
-  std::string model;  // the SPEC as given
-  // Texts that differ where the fit may differ.
-  std::string program;  // version and build
-  std::string options;  // of the model, with the values that take effect
-  std::string context;  // seed and the like
-  std::string rows;     // SHA-256 of training and test rows and their columns
-
-  /// SHA-256 of what the outcome depends on: two fits with the same key have
-  /// the same outcome, wherever they stand.
-  std::string Key() const;
-};
-
 /// Version of errmap and, where it can be had, the start of the SHA-256 of the
 /// running program: another build may give other bits.
 const std::string& ProgramIdentity();
 
-/// Labels of the fits of one component's study; `holdouts` must outlive them.
-/// Each row is hashed once.
+/// Keys of the fits of one component's study: SHA-256 of all that an outcome
+/// depends on, so that two fits of one key have the same outcome, wherever they
+/// stand. `holdouts` must outlive them. Each row is hashed once.
 class FitLabels {
  public:
   FitLabels(std::string component,
@@ -43,11 +27,9 @@ class FitLabels {
             std::string program = ProgramIdentity());
 
   const std::string& component() const { return component_; }
-  /// SHA-256 of the program and of all rows and columns, whatever is fitted.
-  std::string DataKey() const;
-  FitLabel Of(const StudyTask& task) const;
+  std::string KeyOf(const StudyTask& task) const;
   /// Of all fits, as StudyTasks orders them.
-  std::vector<FitLabel> All() const;
+  std::vector<std::string> Keys() const;
 
  private:
   struct Model {

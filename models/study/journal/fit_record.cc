@@ -14,8 +14,8 @@
 
 #include <fmt/format.h>
 
-#include "data/base64.h"
 #include "data/input_error.h"
+#include "data/sha256.h"
 #include "models/blend/form_to_model.h"
 #include "models/history/history.h"
 #include "models/map_experience.h"
@@ -226,42 +226,35 @@ class Reader {
   std::string_view rest_;
 };
 
-template <typename T>
-std::string ToText(const T& value) {
-  Writer writer;
-  writer.Put(value);
-  return '"' + data::ToBase64(writer.bytes()) + '"';
-}
-
-template <typename T>
-T FromText(std::string_view text) {
-  if (text.size() < 2 || !text.starts_with('"') || !text.ends_with('"')) {
-    Refuse("no text in quotes");
-  }
-  T value;
-  try {
-    const std::string bytes = data::FromBase64(text.substr(1, text.size() - 2));
-    Reader reader(bytes);
-    reader.Get(&value);
-    reader.RequireEnd();
-  } catch (const std::logic_error& error) {  // of base64 or of a model
-    Refuse(error.what());
-  }
-  return value;
+std::string SumOf(std::string_view key, std::string_view bytes) {
+  data::Sha256Stream stream;
+  stream.Add(key);
+  stream.Add(bytes);
+  return stream.Finish();
 }
 
 }  // namespace
 
-std::string FitToText(const FitOutcome& outcome) { return ToText(outcome); }
-
-FitOutcome FitFromText(std::string_view text) {
-  return FromText<FitOutcome>(text);
+std::string FitToBytes(std::string_view key, const FitOutcome& outcome) {
+  Writer writer;
+  writer.Put(outcome);
+  return SumOf(key, writer.bytes()) + writer.bytes();
 }
 
-std::string LabelToText(const FitLabel& label) { return ToText(label); }
-
-FitLabel LabelFromText(std::string_view text) {
-  return FromText<FitLabel>(text);
+FitOutcome FitFromBytes(std::string_view key, std::string_view bytes) {
+  constexpr std::size_t kSum = 32;
+  if (bytes.size() < kSum) Refuse("cut off");
+  const std::string_view rest = bytes.substr(kSum);
+  if (SumOf(key, rest) != bytes.substr(0, kSum)) Refuse("damaged");
+  FitOutcome outcome;
+  try {
+    Reader reader(rest);
+    reader.Get(&outcome);
+    reader.RequireEnd();
+  } catch (const std::logic_error& error) {  // of a model
+    Refuse(error.what());
+  }
+  return outcome;
 }
 
 }  // namespace errmap::models

@@ -4,20 +4,15 @@
 #include <string_view>
 
 #include "models/study/fit_outcome.h"
-#include "models/study/journal/fit_label.h"
 
 namespace errmap::models {
 
-/// An outcome as a text of JSON without a line break: base64 of the bytes of
-/// its members, as this build of the program has them.
-std::string FitToText(const FitOutcome& outcome);
+/// The bytes of an outcome's members, as this build of the program has them,
+/// behind the SHA-256 of them and `key`.
+std::string FitToBytes(std::string_view key, const FitOutcome& outcome);
 
-/// What FitToText wrote; its model predicts the same bits. Throws
-/// data::InputError where the text is not of this version.
-FitOutcome FitFromText(std::string_view text);
-
-/// The same for a label.
-std::string LabelToText(const FitLabel& label);
-FitLabel LabelFromText(std::string_view text);
+/// What FitToBytes wrote; its model predicts the same bits. Throws
+/// data::InputError where the bytes are damaged, of another key or layout.
+FitOutcome FitFromBytes(std::string_view key, std::string_view bytes);
 
 }  // namespace errmap::models

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/cli/cli_fixture.h"
+#include "tests/cli/kept_fits_count.h"
 
 namespace errmap {
 namespace {
@@ -49,21 +50,8 @@ class Cache : public Cli {
     return outcome.out;
   }
 
-  fs::path Journal() const {
-    const fs::path folder = scratch_ / "cache/errmap";
-    EXPECT_TRUE(fs::exists(folder));
-    fs::path found;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      EXPECT_EQ(found, "") << "more than one set of data";
-      found = entry.path() / "journal.jsonl";
-    }
-    return found;
-  }
-
-  std::ptrdiff_t NumKept() const {
-    const std::string text = Process::TextOf(Journal());
-    return std::count(text.begin(), text.end(), '\n');
-  }
+  fs::path Kept() const { return scratch_ / "cache/errmap/fits.sqlite"; }
+  std::ptrdiff_t NumKept() const { return NumRowsOf(Kept()); }
 };
 
 TEST_F(Cache, AnswersOtherQuestionsFromTheSameFits) {
@@ -127,9 +115,7 @@ TEST_F(Cache, OtherSeedsAndValuesAreOtherFits) {
   const Outcome of_other =
       Run({"compare", "other.csv", "--models", "poly:eq8"});
   EXPECT_EQ(of_other.status, 0) << of_other.err;
-  EXPECT_EQ(
-      std::distance(fs::directory_iterator(scratch_ / "cache/errmap"), {}), 2);
-  EXPECT_GT(kept, 0);
+  EXPECT_GT(NumKept(), kept);
 }
 
 TEST_F(Cache, WhatAnInterruptedRunFittedIsThereForTheNext) {
@@ -165,15 +151,14 @@ TEST_F(Cache, TwoAtOnceGiveTheSameAnswer) {
 TEST_F(Cache, IsOfNoConsequenceWhereItIsDamagedOrCannotBe) {
   const std::string answer = Answer();
   {
-    std::fstream file(Journal(),
-                      std::ios::in | std::ios::out | std::ios::binary);
+    std::fstream file(Kept(), std::ios::in | std::ios::out | std::ios::binary);
     for (const int at : {100, 5'000, 40'000}) {
       file.seekp(at);
       file.put('#');
     }
   }
   EXPECT_EQ(Answer(), answer);
-  fs::resize_file(Journal(), 12'345);
+  fs::resize_file(Kept(), 12'345);
   EXPECT_EQ(Answer(), answer);
   EXPECT_EQ(Answer(), answer);
   for (const char* folder : {"/dev/null", "/proc/self", "relative"}) {

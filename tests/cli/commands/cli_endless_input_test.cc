@@ -65,15 +65,15 @@ TEST_F(CliEndlessInput, AStoreThatIsAPipeIsRefused) {
       AllOf(HasSubstr("store/errmap.sqlite"), HasSubstr("no plain file")));
 }
 
-TEST_F(CliEndlessInput, AFolderWithAPipeForAJournalIsRefused) {
+TEST_F(CliEndlessInput, AFolderWithAPipeForItsFitsIsRefused) {
   std::filesystem::create_directory(scratch_ / "study");
-  ASSERT_EQ(mkfifo((scratch_ / "study/journal.jsonl").c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo((scratch_ / "study/fits.sqlite").c_str(), 0600), 0);
   for (const char* flag : {"--quiet", "--resume", "--force"}) {
     EXPECT_THAT(
         RefusalOf(
             Run({"compare", kDown, "--models", "mean", "--out", "study", flag}),
             kUnusable),
-        HasSubstr("study/journal.jsonl: is no plain file"));
+        HasSubstr("study/fits.sqlite: is no plain file"));
   }
 }
 

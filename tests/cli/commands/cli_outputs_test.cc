@@ -122,7 +122,7 @@ TEST_F(CliOutputs, AnInputInTheOutputFolderIsNeverReplaced) {
                 HasSubstr("residuals.csv would overwrite"));
     EXPECT_EQ(Read("residuals.csv"), data);
     EXPECT_FALSE(Exists("results.json"));
-    EXPECT_FALSE(Exists("journal.jsonl"));
+    EXPECT_FALSE(Exists("fits.sqlite"));
   }
 }
 
@@ -277,16 +277,16 @@ TEST_F(CliOutputs, FiguresOfAReportKeepWhatIsNotTheirOwn) {
   EXPECT_EQ(Read("f/" + name), "mine");
 }
 
-TEST_F(CliOutputs, AnotherProgramsJournalIsLeftAlone) {
+TEST_F(CliOutputs, AnotherProgramsFitsAreLeftAlone) {
   std::filesystem::create_directory(scratch_ / "study");
-  Write("study/journal.jsonl", "{\"mine\": 1}");
+  Write("study/fits.sqlite", "{\"mine\": 1}");
   for (const char* flag : {"--quiet", "--resume"}) {
     EXPECT_THAT(
         RefusalOf(
             Run({"compare", kDown, "--models", "mean", "--out", "study", flag}),
             kUnusable),
-        HasSubstr("study/journal.jsonl: is no journal of errmap"));
-    EXPECT_EQ(Read("study/journal.jsonl"), "{\"mine\": 1}");
+        HasSubstr("study/fits.sqlite: holds no fits of errmap"));
+    EXPECT_EQ(Read("study/fits.sqlite"), "{\"mine\": 1}");
   }
 }
 

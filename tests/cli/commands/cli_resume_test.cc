@@ -13,6 +13,7 @@
 #include <sys/resource.h>
 
 #include "tests/cli/cli_fixture.h"
+#include "tests/cli/kept_fits_count.h"
 
 namespace errmap {
 namespace {
@@ -45,8 +46,7 @@ class Resume : public Cli {
 
   // Fits that were finished and kept.
   std::ptrdiff_t CountKept(const std::string& folder) const {
-    const std::string journal = Read(folder + "/journal.jsonl");
-    return std::count(journal.begin(), journal.end(), '\n');
+    return NumRowsOf(scratch_ / folder / "fits.sqlite");
   }
 
   // Until so many are kept, but for ten seconds at most.
@@ -82,14 +82,14 @@ class Resume : public Cli {
     return names;
   }
 
-  // Every file of both folders but the journal, times apart.
+  // Every file of both folders but the kept fits, times apart.
   void ExpectSameOutputs(const std::string& a, const std::string& b) const {
     const std::set<std::string> files = FilesOf(a);
     ASSERT_EQ(files, FilesOf(b));
-    // Nine maps, two tables, two reports, the list of these, the journal.
+    // Nine maps, two tables, two reports, the list of these, the fits.
     EXPECT_EQ(files.size(), 15U);
     for (const std::string& file : files) {
-      if (file == "journal.jsonl") continue;
+      if (file == "fits.sqlite") continue;
       // Drawn from results.json, measured times and all.
       if (file.starts_with("report.")) continue;
       std::string text_a = Read(a + "/" + file);
@@ -164,12 +164,11 @@ TEST_F(Resume, EndsInTheSameResultsAfterFiftyKillsAtRandomMoments) {
 
 TEST_F(Resume, RepeatsNoFitOfAFinishedStudy) {
   ASSERT_EQ(Run(Command("study")).status, 0);
-  const std::string journal = Read("study/journal.jsonl");
   EXPECT_EQ(CountKept("study"), kFits);
   const Outcome again = Run(Command("study", {"--resume"}));
   EXPECT_EQ(again.status, 0);
   EXPECT_THAT(again.err, HasSubstr("70 of 70 fits are at hand, 0 to be made"));
-  EXPECT_EQ(Read("study/journal.jsonl"), journal);
+  EXPECT_EQ(CountKept("study"), kFits);
 }
 
 TEST_F(Resume, GoesOnAfterCtrlC) {
@@ -186,18 +185,17 @@ TEST_F(Resume, SaysWhatAnotherSeedMakesAnew) {
   ASSERT_EQ(Run(Command("study")).status, 0);
   const Outcome other = Run(Command("study", {"--resume", "--seed", "2"}));
   EXPECT_EQ(other.status, 0);
-  EXPECT_THAT(other.err, HasSubstr("70 fits made again: seed=1 -> seed=2\n"));
+  EXPECT_THAT(other.err, HasSubstr("0 of 70 fits are at hand, 70 to be made"));
   const Outcome both =
       Run({"compare", kDown, "--models", "mean", "--out", "study", "--resume"});
   EXPECT_THAT(both.err, HasSubstr("28 of 28 fits are at hand"));
 }
 
-TEST_F(Resume, MakesEveryFitWithoutTheFlagAndSetsTheJournalAside) {
+TEST_F(Resume, MakesEveryFitAnewWithoutTheFlag) {
   ASSERT_EQ(Run(Command("study")).status, 0);
-  const std::string journal = Read("study/journal.jsonl");
-  const Outcome again = Run(Command("study"));
-  EXPECT_THAT(again.err, HasSubstr("--resume would have gone on from it"));
-  EXPECT_EQ(Read("study/journal.previous.jsonl"), journal);
+  ASSERT_EQ(
+      Run({"compare", kDown, "--models", "mean", "--out", "study"}).status, 0);
+  EXPECT_LT(CountKept("study"), kFits);
 }
 
 TEST_F(Resume, NeedsAFolder) {
@@ -210,7 +208,7 @@ TEST_F(Resume, RefusesAFolderThatAnotherRunIsUsing) {
   Process first(scratch_.path(),
                 {"compare", kDown, "--model", kEndlessNet, "--out", "study"});
   ASSERT_TRUE(first.WaitUntilInterruptible());
-  for (int poll = 0; poll < 3000 && !Exists("study/journal.jsonl"); ++poll) {
+  for (int poll = 0; poll < 3000 && !Exists("study/fits.sqlite"); ++poll) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   const std::string message =
@@ -260,7 +258,6 @@ TEST_F(Resume, LeavesAGoodReportAloneWhenTheDiskIsFull) {
   EXPECT_THAT(outcome.err, HasSubstr(" of 70 fits are at hand"));
   EXPECT_THAT(outcome.err, Not(HasSubstr(": 0 of 70")));
   ASSERT_EQ(Run(Command("whole", {"--seed", "2"})).status, 0);
-  fs::remove(scratch_ / "study/journal.previous.jsonl");
   ExpectSameOutputs("whole", "study");
 }
 
@@ -269,7 +266,8 @@ TEST_F(Resume, SaysWhatItCouldNotKeep) {
   const FileLimit limit(kBytes);
   const Outcome outcome = Run(Command("study"));
   EXPECT_EQ(outcome.status, kFailure);
-  EXPECT_THAT(outcome.err, HasSubstr("journal.jsonl: File too large; "));
+  EXPECT_THAT(outcome.err,
+              HasSubstr("cannot keep fits in study/fits.sqlite: "));
 }
 
 }  // namespace

@@ -47,26 +47,7 @@ std::vector<std::string> KeysOf(
   const auto folds = MakeHoldouts(dataset, holdouts);
   const FitLabels labels(
       "x", dataset, folds, MakeRecipes(specs), options, program);
-  std::vector<std::string> keys;
-  for (const FitLabel& label : labels.All()) keys.push_back(label.Key());
-  return keys;
-}
-
-TEST(FitLabels, GiveEveryFitItsPlaceInTheOrderOfTheStudy) {
-  const Dataset dataset = QuadraticData(kFitLabelRows);
-  const auto holdouts = MakeHoldouts(dataset, {"every:3", "kfold:2"});
-  const auto recipes = MakeRecipes({"net:scg:hidden=3", "mean"});
-  const FitLabels labels("x down", dataset, holdouts, recipes, {}, "errmap 1");
-  const std::vector<FitLabel> all = labels.All();
-  ASSERT_EQ(all.size(), 8U);
-  EXPECT_EQ(all[0].model, "mean");
-  EXPECT_EQ(all[0].holdout, "");
-  EXPECT_EQ(all[7].model, "net:scg:hidden=3");
-  EXPECT_EQ(all[7].holdout, "kfold:2");
-  EXPECT_EQ(all[7].fold, 1U);
-  EXPECT_EQ(all[7].component, "x down");
-  EXPECT_THAT(all[7].context, HasSubstr("seed=1"));
-  EXPECT_THAT(all[7].options, HasSubstr("hidden=3"));
+  return labels.Keys();
 }
 
 TEST(FitLabels, GiveEveryFitAKeyOfItsOwn) {
@@ -177,7 +158,7 @@ TEST(FitLabels, KnowTheRowsOfATestFile) {
                                    std::make_shared<const Dataset>(test)));
     const auto recipes = MakeRecipes({"mean"});
     const FitLabels labels("x", dataset, holdouts, recipes, {}, "errmap 1");
-    return std::pair(labels.All()[0].Key(), labels.All()[1].Key());
+    return std::pair(labels.Keys()[0], labels.Keys()[1]);
   };
   const auto all = keys_with(dataset);
   const auto some = keys_with(dataset.SelectRows({1, 2, 3}));

@@ -12,16 +12,34 @@
 struct sqlite3;
 struct sqlite3_stmt;
 
-namespace errmap::fleet {
+namespace errmap::data {
 
 /// SQLite says that something cannot be done; what() says what, in its words.
 class SqliteError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  SqliteError(const std::string& what, int code, int system_error)
+      : std::runtime_error(what), code_(code), system_error_(system_error) {}
+
+  int system_error() const { return system_error_; }  // errno, or 0
+  /// Another process has it.
+  bool is_busy() const;
+
+ private:
+  int code_;
+  int system_error_;
+};
+
+/// Whether the file system of `path` knows locks; not so some that are mounted
+/// over a network. Gives up what locks this process has on the file.
+bool KnowsLocks(const std::string& path);
+
+/// Bytes that are no text, for a parameter.
+struct Blob {
+  std::string_view bytes;
 };
 
 /// The file is damaged, or no database at all: what to do stands in what().
-class DamagedDatabase : public data::InputError {
+class DamagedDatabase : public InputError {
  public:
   DamagedDatabase(const std::string& file, const std::string& why);
 };
@@ -56,6 +74,7 @@ class Statement {
   void Bind(int index, bool value) { Bind(index, std::int64_t{value}); }
   void Bind(int index, double value);
   void Bind(int index, std::string_view value);
+  void Bind(int index, Blob value);
   void Bind(int index, const std::string& value) {
     Bind(index, std::string_view(value));
   }
@@ -85,6 +104,9 @@ class Database {
     /// A file that nobody else knows of: what is written is not flushed, and of
     /// a write that fails the whole file is worth nothing.
     kPrivate,
+    /// A file that other processes may write into at the same time, each change
+    /// by a transaction.
+    kShared,
   };
   /// Throws SqliteError where it cannot be opened or is no database.
   Database(const std::string& path, Access access);
@@ -107,4 +129,4 @@ class Database {
   std::unique_ptr<sqlite3, Close> handle_;
 };
 
-}  // namespace errmap::fleet
+}  // namespace errmap::data

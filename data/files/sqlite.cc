@@ -1,16 +1,20 @@
-#include "cli/fleet/store/sqlite.h"
+#include "data/files/sqlite.h"
 
 #include <cmath>
+#include <fcntl.h>
 #include <limits>
 #include <new>
 #include <sqlite3.h>
 
 #include <fmt/format.h>
 
+#include "data/files/file_descriptor.h"
 #include "data/text.h"
 
-namespace errmap::fleet {
+namespace errmap::data {
 namespace {
+
+constexpr int kPrimary = 0xff;  // of codes, without their extensions
 
 bool LacksMemory(sqlite3* database) {
   if (database == nullptr) return true;
@@ -21,14 +25,15 @@ bool LacksMemory(sqlite3* database) {
 // Want of memory is no fault of the file.
 [[noreturn]] void Throw(sqlite3* database) {
   if (LacksMemory(database)) throw std::bad_alloc();
-  constexpr int kWithoutExtension = 0xff;
-  const int code = sqlite3_errcode(database) & kWithoutExtension;
+  const int code = sqlite3_errcode(database) & kPrimary;
   if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {
     const char* const file = sqlite3_db_filename(database, "main");
     throw DamagedDatabase(file == nullptr ? "" : file,
                           sqlite3_errmsg(database));
   }
-  throw SqliteError(sqlite3_errmsg(database));
+  throw SqliteError(sqlite3_errmsg(database),
+                    sqlite3_extended_errcode(database),
+                    sqlite3_system_errno(database));
 }
 
 // A path as it stands in a URI.
@@ -55,8 +60,24 @@ DamagedDatabase::DamagedDatabase(const std::string& file,
     : InputError(fmt::format(
           "{} is damaged ({}); errmap merge STORE writes it anew, and deployed "
           "maps stand in its folder maps",
-          data::PrintablePath(file),
+          PrintablePath(file),
           why)) {}
+
+bool SqliteError::is_busy() const { return (code_ & kPrimary) == SQLITE_BUSY; }
+
+bool KnowsLocks(const std::string& path) {
+  constexpr mode_t kMode = 0666;  // less the umask
+  const FileDescriptor file(
+      open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kMode));
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  // As SQLite asks: tests answer in the system's place.
+  sqlite3_vfs* const system = sqlite3_vfs_find(nullptr);
+  const auto ask = reinterpret_cast<int (*)(int, int, ...)>(
+      system->xGetSystemCall(system, "fcntl"));
+  return !file.is_open() || ask(file.get(), F_GETLK, &lock) == 0;
+}
 
 void Statement::Finalize::operator()(sqlite3_stmt* statement) const {
   sqlite3_finalize(statement);
@@ -69,10 +90,10 @@ Statement::Statement(sqlite3* database, std::string_view sql)
   Check(sqlite3_prepare_v2(
       database, sql.data(), static_cast<int>(sql.size()), &statement, &tail));
   statement_.reset(statement);
-  if (statement == nullptr) throw SqliteError("there is no statement");
+  if (statement == nullptr) throw SqliteError("there is no statement", 0, 0);
   const std::string_view rest(tail, sql.data() + sql.size());
   if (rest.find_first_not_of(" \t\r\n;") != rest.npos) {
-    throw SqliteError("more than one statement");
+    throw SqliteError("more than one statement", 0, 0);
   }
 }
 
@@ -99,6 +120,14 @@ void Statement::Bind(int index, std::string_view value) {
                           index,
                           value.data(),
                           static_cast<int>(value.size()),
+                          SQLITE_TRANSIENT));
+}
+
+void Statement::Bind(int index, Blob value) {
+  Check(sqlite3_bind_blob(statement_.get(),
+                          index,
+                          value.bytes.data(),
+                          static_cast<int>(value.bytes.size()),
                           SQLITE_TRANSIENT));
 }
 
@@ -154,6 +183,11 @@ Database::Database(const std::string& path, Access access) {
     WholeOf("SELECT count(*) FROM sqlite_schema");  // is it a database?
     return;
   }
+  if (access == Access::kShared) {
+    constexpr int kPatience = 500;  // ms
+    sqlite3_busy_timeout(handle, kPatience);
+    return;
+  }
   Execute(
       "PRAGMA foreign_keys = ON; PRAGMA journal_mode = MEMORY;"
       "PRAGMA synchronous = OFF; PRAGMA temp_store = MEMORY");
@@ -185,4 +219,4 @@ void Database::CopyFrom(Database* from) {
   if (sqlite3_backup_finish(backup) != SQLITE_OK) Throw(handle_.get());
 }
 
-}  // namespace errmap::fleet
+}  // namespace errmap::data
