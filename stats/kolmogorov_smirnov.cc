@@ -15,6 +15,8 @@ double KsDistanceFromNormal(const Eigen::Ref<const Eigen::VectorXd>& sample,
   const Eigen::Index n = sample.size();
   if (n == 0 || !(sd > 0.0)) return std::numeric_limits<double>::quiet_NaN();
   Eigen::VectorXd sorted = (sample.array() - mean) / sd;
+  // A NaN has no place in an order.
+  if (sorted.hasNaN()) return std::numeric_limits<double>::quiet_NaN();
   std::sort(sorted.begin(), sorted.end());
   return KsDistanceFromStandardNormal(sorted);
 }

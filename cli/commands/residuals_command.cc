@@ -311,7 +311,7 @@ int RunResiduals(const ResidualsArguments& arguments,
   PrintFitted(fmt::format(
       "{}\n{}\n{}\n{}\n",
       report::SampleText(metrics, values, report.normality.shape, unit),
-      report::NormalityText(report, values.size()),
+      report::NormalityText(report, values.size(), unit),
       report::RandomnessText(report),
       report::WrapText(sentences, kWidth)));
   if (arguments.details) {

@@ -14,7 +14,8 @@
 namespace errmap::stats {
 
 /// All that is asked of a sample's shape. Each entry says why where it does
-/// not apply; all but `ks_*` take mean and sd as estimated from the values.
+/// not apply, as below kFewestForShape; all but `ks_*` take mean and sd as
+/// estimated from the values.
 struct Normality {
   TestResult ks;  // D from the normal with the sample's mean and sd; p: Eq. 140
                   // as if they had been given, asymptotic
@@ -29,7 +30,17 @@ struct Normality {
   TestResult dip;          // p of the null hypothesis of one mode
   ShapeMoments shape;      // NaN where the values do not vary
   TukeyPpcc curve;         // empty where tukey_ppcc does not apply
+  /// Of rounded readings whose step is not small beside their scatter (grid.h),
+  /// that step, in their unit; else 0. Ties make distances from a continuous
+  /// distribution too large, so each p is then that of kGridDraws normal
+  /// samples rounded alike, and `ks`, `ks_exact` have a statistic only.
+  double step = 0.0;
 };
+
+inline constexpr Eigen::Index kGridDraws = 999;
+
+/// Fewer values have no shape: of three, two equal ones reject at any level.
+inline constexpr Eigen::Index kFewestForShape = 4;
 
 /// Null distributions simulated for one size: the p of tests whose own p is
 /// asymptotic or approximate, mean and sd estimated.
@@ -53,9 +64,11 @@ class NormalityTests {
   Normality operator()(const OrderedSample& sample) const;
 
   /// p = (1 + #{simulated at least as extreme}) / (draws + 1) of each test in
-  /// `observed` among `draws` seeded normal samples; NaN where a test does not
-  /// apply. Throws std::invalid_argument for draws < 1.
-  MonteCarloP Simulate(const Normality& observed,
+  /// `observed` among `draws` seeded normal samples, rounded as `sample` is;
+  /// NaN where a test does not apply. Throws std::invalid_argument for draws <
+  /// 1.
+  MonteCarloP Simulate(const OrderedSample& sample,
+                       const Normality& observed,
                        Eigen::Index draws,
                        std::uint64_t seed) const;
 
@@ -65,8 +78,14 @@ class NormalityTests {
   Eigen::VectorXd normal_medians_;
   std::vector<TukeyPlot> tukey_plot_;  // one, or none for n < 4
 
-  // What has a p of its own below; only these are simulated.
+  // What has a p of its own below; only these are simulated at will.
   void Fill(const OrderedSample& sample, Normality* result) const;
+  // Tukey's family and the dip, which take longer.
+  void FillSlow(const OrderedSample& sample, Normality* result) const;
+  // Replaces p by those among samples of the same step (in sd).
+  void CompareOnGrid(const OrderedSample& sample,
+                     double step,
+                     Normality* result) const;
 };
 
 /// NormalityTests of one sample.

@@ -279,5 +279,17 @@ TEST(KolmogorovComplement, DoesNotJumpWhereItsFormsMeet) {
   EXPECT_NEAR(below, at, kLastPlaces);
 }
 
+// In no order: sorting a NaN is undefined.
+TEST(KsDistanceFromNormal, IsNotKnownWhereAValueIsNot) {
+  VectorXd sample = VectorXd::LinSpaced(50, -2.0, 2.0);
+  for (const Index at : {0, 20, 49}) {
+    VectorXd unknown = sample;
+    unknown[at] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_TRUE(std::isnan(KsDistanceFromNormal(unknown, 0.0, 1.0)));
+  }
+  EXPECT_TRUE(std::isnan(KsDistanceFromNormal(
+      sample, std::numeric_limits<double>::quiet_NaN(), 1.0)));
+}
+
 }  // namespace
 }  // namespace errmap::stats

@@ -231,56 +231,63 @@ std::string SampleText(const stats::ErrorMetrics& metrics,
 }
 
 std::string NormalityText(const models::ResidualReport& report,
-                          Eigen::Index n) {
+                          Eigen::Index n,
+                          const data::Unit& unit) {
   const stats::Normality& tests = report.normality;
   const bool simulated = report.monte_carlo.draws > 0;
+  const bool rounded = tests.step > 0.0;
   const stats::MonteCarloP& drawn = report.monte_carlo;
-  const auto monte_carlo = [&](double p) {
-    return simulated ? p : std::nan("");
+  const double none = std::nan("");
+  const auto line = [&](const char* name,
+                        const TestResult& test,
+                        const char* symbol,
+                        const std::string& assumes,
+                        double monte_carlo,
+                        bool from_table = false) {
+    return TestLine(name,
+                    test,
+                    symbol,
+                    rounded ? "normal samples rounded alike" : assumes,
+                    from_table && !rounded,
+                    simulated ? monte_carlo : none);
   };
   std::string text = Heading("normal?", "statistic", "p", "what p assumes");
   text += TestLine(
       "K-S, Eq. 140", tests.ks, "D", "assumes that mean and sd were given");
   text += TestLine("K-S, finite n", tests.ks_exact, "D", "the same; exact");
-  text += TestLine("Lilliefors",
-                   tests.lilliefors,
-                   "D",
-                   "mean and sd estimated; simulated",
-                   false,
-                   monte_carlo(drawn.lilliefors));
-  text += TestLine("Shapiro-Wilk",
-                   tests.shapiro_wilk,
-                   "W",
-                   "the same; Royston's fit",
-                   false,
-                   monte_carlo(drawn.shapiro_wilk));
-  text += TestLine("Anderson-Darling",
-                   tests.anderson_darling,
-                   "A2",
-                   "the same; Stephens' fit",
-                   false,
-                   monte_carlo(drawn.anderson_darling));
-  text += TestLine("Jarque-Bera",
-                   tests.jarque_bera,
-                   "JB",
-                   "the same; many values",
-                   false,
-                   monte_carlo(drawn.jarque_bera));
-  text += TestLine("D'Agostino-Pearson",
-                   tests.dagostino_pearson,
-                   "K2",
-                   "the same; nearly chi-squared",
-                   false,
-                   monte_carlo(drawn.dagostino_pearson));
-  text += TestLine("probability plot",
-                   tests.normal_ppcc,
-                   "r",
-                   "the same; simulated",
-                   true,
-                   monte_carlo(drawn.normal_ppcc));
-  if (tests.tukey_ppcc.ok()) {
-    text += CriticalText(&stats::CriticalNormalPpcc, n);
-  }
+  text += line("Lilliefors",
+               tests.lilliefors,
+               "D",
+               "mean and sd estimated; simulated",
+               drawn.lilliefors);
+  text += line("Shapiro-Wilk",
+               tests.shapiro_wilk,
+               "W",
+               "the same; Royston's fit",
+               drawn.shapiro_wilk);
+  text += line("Anderson-Darling",
+               tests.anderson_darling,
+               "A2",
+               "the same; Stephens' fit",
+               drawn.anderson_darling);
+  text += line("Jarque-Bera",
+               tests.jarque_bera,
+               "JB",
+               "the same; many values",
+               drawn.jarque_bera);
+  text += line("D'Agostino-Pearson",
+               tests.dagostino_pearson,
+               "K2",
+               "the same; nearly chi-squared",
+               drawn.dagostino_pearson);
+  text += line("probability plot",
+               tests.normal_ppcc,
+               "r",
+               "the same; simulated",
+               drawn.normal_ppcc,
+               true);
+  const bool has_critical = tests.tukey_ppcc.ok() && !rounded;
+  if (has_critical) text += CriticalText(&stats::CriticalNormalPpcc, n);
   text += TestLine("Tukey family's best",
                    tests.tukey_ppcc,
                    "r",
@@ -289,15 +296,19 @@ std::string NormalityText(const models::ResidualReport& report,
                                      tests.curve.best_lambda,
                                      tests.curve.r_at_014)
                        : "",
-                   true);
-  if (tests.tukey_ppcc.ok()) {
-    text += CriticalText(&stats::CriticalTukeyPpcc, n);
-  }
+                   !rounded);
+  if (has_critical) text += CriticalText(&stats::CriticalTukeyPpcc, n);
   text +=
-      TestLine("one mode (dip)", tests.dip, "", "one mode; simulated", true);
+      line("one mode (dip)", tests.dip, "", "one mode; simulated", none, true);
   text +=
       "  All p assume independent values; with mean and sd estimated, as here, "
       "those\n  of K-S are too large.\n";
+  if (rounded) {
+    text +=
+        fmt::format("  Steps of {}: p by {} normal samples rounded alike.\n",
+                    InUnit(tests.step, unit),
+                    stats::kGridDraws);
+  }
   if (simulated) {
     text += fmt::format("  Monte Carlo: share of {} normal samples.\n",
                         drawn.draws);

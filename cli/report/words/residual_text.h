@@ -15,8 +15,11 @@ std::string SampleText(const stats::ErrorMetrics& metrics,
                        const stats::ShapeMoments& shape,
                        const data::Unit& unit);
 
-/// The tests of shape as a table; each line says what its p assumes.
-std::string NormalityText(const models::ResidualReport& report, Eigen::Index n);
+/// The tests of shape as a table; each line says what its p assumes. `unit` is
+/// that of the values.
+std::string NormalityText(const models::ResidualReport& report,
+                          Eigen::Index n,
+                          const data::Unit& unit);
 
 /// The tests of order, halves, biases and spread as a table.
 std::string RandomnessText(const models::ResidualReport& report);

@@ -10,6 +10,7 @@
 namespace errmap::report {
 namespace {
 
+using Eigen::Index;
 using stats::TestResult;
 
 // The usual levels: what a reader takes for a hint and for evidence.
@@ -46,8 +47,12 @@ Rejections CountRejections(const stats::Normality& normality) {
 
 bool Shows(const TestResult& test) { return test.ok() && test.p <= kEvidence; }
 
-std::string ShapeSentence(const stats::Normality& normality) {
+std::string ShapeSentence(const stats::Normality& normality, Index values) {
   const Rejections count = CountRejections(normality);
+  if (values < stats::kFewestForShape) {
+    return Count(values, "value") + (values == 1 ? " is" : " are") +
+           " too few for any test of shape.";
+  }
   if (count.tests == 0) {
     return "Nothing can be said of the shape: " + normality.lilliefors.why_not +
            ".";
@@ -78,6 +83,15 @@ std::string ShapeSentence(const stats::Normality& normality) {
       reject(count.at_evidence));
 }
 
+std::string StepSentence(const stats::Normality& normality,
+                         const data::Unit& unit) {
+  if (!(normality.step > 0.0)) return "";
+  return fmt::format(
+      "The values stand in steps of {}, so each test of shape compares them "
+      "with normal samples rounded alike.",
+      ErrorText(unit, normality.step).WithUnit(normality.step));
+}
+
 std::string ModesSentence(const stats::Normality& normality) {
   if (!Shows(normality.dip)) return "";
   return "It has more than one mode (dip).";
@@ -86,7 +100,9 @@ std::string ModesSentence(const stats::Normality& normality) {
 std::string Report1995Sentence(const stats::Normality& normality,
                                const stats::SampleSummary& summary,
                                const stats::Report1995Statistics& printed) {
-  if (!normality.lilliefors.ok() || !(printed.sd > 0.0)) return "";
+  if (!normality.ks.ok() || !normality.lilliefors.ok() || !(printed.sd > 0.0)) {
+    return "";
+  }
   const bool said_normal = printed.ks_probability > kHint;
   const bool is_normal = normality.lilliefors.p > kHint;
   const std::string figures = fmt::format(
@@ -122,24 +138,42 @@ std::string Report1995Sentence(const stats::Normality& normality,
                         : ": the slip decided");
 }
 
+// The tests of order that show memory, by name.
+std::string TestsThatShowMemory(const stats::SerialTests& tests) {
+  const std::pair<const char*, const TestResult*> all[] = {
+      {"runs", &tests.runs},
+      {"lag-1 correlation", &tests.lag1},
+      {"Durbin-Watson", &tests.durbin_watson},
+      {"Ljung-Box", &tests.ljung_box}};
+  std::string names;
+  for (const auto& [name, test] : all) {
+    if (!Shows(*test)) continue;
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  return names;
+}
+
 std::string MemorySentence(const models::ResidualReport& report,
                            const stats::SampleSummary& summary) {
   const stats::SerialTests& whole = report.whole;
-  if (!whole.lag1.ok() || !whole.runs.ok()) return "";
-  if (!Shows(whole.lag1) && !Shows(whole.runs) && !Shows(whole.ljung_box)) {
-    return fmt::format(
-        "No memory shows in the order (lag-1 autocorrelation {:.2f}, {} runs "
-        "where {:.0f} are expected).",
-        whole.lag1.statistic,
-        whole.num_runs,
-        whole.expected_runs);
+  if (!whole.lag1.ok()) return "";
+  const std::string shown_by = TestsThatShowMemory(whole);
+  const std::string runs = whole.runs.ok()
+                               ? fmt::format(
+                                     ", {} runs about the median where {:.0f} "
+                                     "are expected",
+                                     whole.num_runs,
+                                     whole.expected_runs)
+                               : "";
+  const std::string figures =
+      fmt::format("lag-1 autocorrelation {:.2f}{}", whole.lag1.statistic, runs);
+  if (shown_by.empty()) {
+    return fmt::format("No memory shows in the order ({}).", figures);
   }
-  std::string text = fmt::format(
-      "They are not independent: lag-1 autocorrelation {:.2f}, {} runs about "
-      "the median where {:.0f} are expected.",
-      whole.lag1.statistic,
-      whole.num_runs,
-      whole.expected_runs);
+  std::string text =
+      fmt::format("They are not independent: {}. Tests that reject at 1 %: {}.",
+                  figures,
+                  shown_by);
   const double r = whole.lag1.statistic;
   if (r > 0.0 && r < 1.0) {
     text += fmt::format(
@@ -180,8 +214,7 @@ std::string BiasSentence(const models::NamedBias& named,
 std::string WithinSentence(const models::ResidualReport& report) {
   if (!report.within || !report.within->lag1.ok()) return "";
   const stats::SerialTests& within = *report.within;
-  const bool memory =
-      Shows(within.lag1) || Shows(within.durbin_watson) || Shows(within.runs);
+  const bool memory = !TestsThatShowMemory(within).empty();
   return fmt::format(
       "Within a {}, its mean taken off, {} (lag-1 {:.2f} where {:.2f} is "
       "expected).",
@@ -203,7 +236,8 @@ std::string ResidualSentences(const models::ResidualReport& report,
                               const stats::Report1995Statistics& printed,
                               const data::Unit& unit) {
   std::vector<std::string> sentences = {
-      ShapeSentence(report.normality),
+      ShapeSentence(report.normality, summary.n),
+      StepSentence(report.normality, unit),
       ModesSentence(report.normality),
       Report1995Sentence(report.normality, summary, printed),
       MemorySentence(report, summary)};

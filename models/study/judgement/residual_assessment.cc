@@ -13,7 +13,8 @@ ResidualReport AssessResiduals(const ResidualInputs& inputs,
   const stats::NormalityTests tests(sample.size());
   report.normality = tests(sample);
   if (monte_carlo > 0) {
-    report.monte_carlo = tests.Simulate(report.normality, monte_carlo, seed);
+    report.monte_carlo =
+        tests.Simulate(sample, report.normality, monte_carlo, seed);
   }
   report.whole = stats::TestSerially({inputs.values});
   report.halves = stats::CompareHalves(inputs.values);

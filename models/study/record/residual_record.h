@@ -53,7 +53,8 @@ struct PpccRecord {
   LeftOut<std::string> why;
 };
 
-/// p are cut off at 0.001 and 0.999 where they come from simulated tables.
+/// p are cut off at 0.001 and 0.999 where they come from simulated tables; with
+/// a `step` they are shares of normal samples rounded alike.
 struct NormalityRecord {
   KsRecord ks;
   DTestRecord lilliefors;
@@ -65,6 +66,7 @@ struct NormalityRecord {
   DipTestRecord dip;
   double skewness = kNotKnown;
   double kurtosis = kNotKnown;
+  LeftOut<double> step;  // of rounded readings, where it matters
   LeftOut<stats::MonteCarloP> monte_carlo;
 };
 

@@ -193,9 +193,13 @@ TEST_F(CliResiduals, DetailsShowBiasesHistogramAndCurve) {
 TEST_F(CliResiduals, FewOrEqualValuesAreAnsweredOrRefusedNeverNaN) {
   EXPECT_THAT(TextOf({"1"}), HasSubstr("needs at least 2 values, found 1"));
   EXPECT_THAT(TextOf({"1", "2"}),
-              HasSubstr("needs at least 3 values, found 2"));
+              HasSubstr("needs at least 4 values, found 2"));
   EXPECT_THAT(TextOf({"1", "2", "4"}),
               HasSubstr("needs at least 4 values, found 3"));
+  // "p < 1e-300" of three readings would be no finding.
+  EXPECT_THAT(TextOf({"100", "101", "100"}),
+              AllOf(HasSubstr("3 values are too few for any test of shape."),
+                    Not(HasSubstr("1e-300"))));
   EXPECT_THAT(TextOf({"1", "2", "4", "8"}), HasSubstr("Shapiro-Wilk"));
   EXPECT_THAT(TextOf({"3", "3", "3", "3", "3"}),
               HasSubstr("the values do not vary"));
@@ -213,6 +217,49 @@ TEST_F(CliResiduals, FewOrEqualValuesAreAnsweredOrRefusedNeverNaN) {
   EXPECT_THAT(
       RefusalOf(Run({"residuals", "r.csv", "--column", "r"}), kUnusable),
       HasSubstr("r.csv: line 3 (data row 1), column 'r'"));
+}
+
+// An instrument of 1 um on a scatter of 1 um: ties are no modes.
+TEST_F(CliResiduals, RoundedReadingsAreComparedWithRoundedNormals) {
+  std::vector<std::string> values;
+  for (int i = 0; i < 400; ++i) {
+    const double z = stats::NormalQuantile((0.5 + (i * 37) % 400) / 400.0);
+    values.push_back(std::to_string(std::lround(z)));
+  }
+  std::string text = TextOf(values);
+  std::ranges::replace(text, '\n', ' ');
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("The values stand in steps of 1"),
+                    HasSubstr("consistent with a normal distribution"),
+                    HasSubstr("for values without steps"),
+                    Not(HasSubstr("more than one mode")),
+                    Not(HasSubstr("not normal"))));
+  const Json json =
+      RunJson({"residuals", "r.csv", "--column", "r", "--format", "json"});
+  EXPECT_NEAR(json["normality"]["step"].get<double>(), 1.0, 1e-9);
+}
+
+// Durbin and Watson's p is 0.006 here, all others are above 2 %.
+TEST_F(CliResiduals, SaysThatNoMemoryShowsOnlyWhereNoTestShowsOne) {
+  std::string text = TextOf({"21",
+                             "13",
+                             "-32",
+                             "-28",
+                             "-3",
+                             "34",
+                             "28",
+                             "1",
+                             "-35",
+                             "-44",
+                             "-6",
+                             "2",
+                             "50",
+                             "132"});
+  std::ranges::replace(text, '\n', ' ');
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("They are not independent"),
+                    HasSubstr("Tests that reject at 1 %: Durbin-Watson."),
+                    Not(HasSubstr("No memory shows"))));
 }
 
 TEST_F(CliResiduals, DroppedRowsAreDroppedFromEveryColumn) {

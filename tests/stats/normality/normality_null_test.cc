@@ -144,9 +144,10 @@ TEST(MonteCarloNull, JarqueBeraHasItsSizeBySimulation) {
   Random random(5);
   int rejections = 0;
   for (int i = 0; i < kRepeats; ++i) {
-    const Normality found = tests(OrderedSample(NormalSample(kSize, &random)));
+    const OrderedSample sample(NormalSample(kSize, &random));
+    const Normality found = tests(sample);
     const MonteCarloP drawn =
-        tests.Simulate(found, kDraws, static_cast<std::uint64_t>(i));
+        tests.Simulate(sample, found, kDraws, static_cast<std::uint64_t>(i));
     if (drawn.jarque_bera <= kLevel) ++rejections;
   }
   // 5 % of 400 within three standard deviations.

@@ -329,8 +329,14 @@ TEST(Normality, SaysWhyWhereATestDoesNotApply) {
   EXPECT_EQ(Assess(VectorXd{{1.0}}).jarque_bera.why_not,
             "needs at least 2 values, found 1");
   EXPECT_EQ(Assess(VectorXd{{1.0, 2.0}}).shapiro_wilk.why_not,
-            "needs at least 3 values, found 2");
-  EXPECT_TRUE(Assess(VectorXd{{1.0, 2.0, 4.0}}).shapiro_wilk.ok());
+            "needs at least 4 values, found 2");
+  // Two equal ones of three would have p = 0 by Shapiro and Wilk.
+  for (const VectorXd& three :
+       {VectorXd{{1.0, 2.0, 4.0}}, VectorXd{{100.0, 101.0, 100.0}}}) {
+    EXPECT_EQ(Assess(three).shapiro_wilk.why_not,
+              "needs at least 4 values, found 3");
+    EXPECT_FALSE(Assess(three).ks.ok());
+  }
   EXPECT_EQ(Assess(VectorXd{{1.0, 2.0, 4.0}}).lilliefors.why_not,
             "needs at least 4 values, found 3");
   EXPECT_EQ(Assess(VectorXd::Constant(30, 0.1)).anderson_darling.why_not,
@@ -350,20 +356,25 @@ TEST(NormalityTests, RefusesASampleOfAnotherSize) {
       },
       ThrowsMessage<std::invalid_argument>(
           HasSubstr("made for 5 values, found 2")));
-  EXPECT_THAT([&] { tests.Simulate({}, 0, 1); },
-              ThrowsMessage<std::invalid_argument>(
-                  HasSubstr("needs at least 1 draw, found 0")));
+  EXPECT_THAT(
+      [&] {
+        tests.Simulate(
+            OrderedSample(VectorXd{{1.0, 2.0, 4.0, 5.0, 7.0}}), {}, 0, 1);
+      },
+      ThrowsMessage<std::invalid_argument>(
+          HasSubstr("needs at least 1 draw, found 0")));
 }
 
 TEST(NormalityTests, SimulatesTheSamePForTheSameSeed) {
   const VectorXd x = GoldenSample("sample_normal_20");
   const NormalityTests tests(20);
-  const Normality found = tests(OrderedSample(x));
-  const MonteCarloP one = tests.Simulate(found, 500, 7);
-  const MonteCarloP two = tests.Simulate(found, 500, 7);
+  const OrderedSample sample(x);
+  const Normality found = tests(sample);
+  const MonteCarloP one = tests.Simulate(sample, found, 500, 7);
+  const MonteCarloP two = tests.Simulate(sample, found, 500, 7);
   EXPECT_EQ(one.draws, 500);
   EXPECT_EQ(one.jarque_bera, two.jarque_bera);
-  EXPECT_NE(one.lilliefors, tests.Simulate(found, 500, 8).lilliefors);
+  EXPECT_NE(one.lilliefors, tests.Simulate(sample, found, 500, 8).lilliefors);
 }
 
 // The p of the tests that have a good one of their own, within what 20000
@@ -373,8 +384,9 @@ TEST(NormalityTests, SimulatedPAgreesWithTheTestsOwn) {
   constexpr double kThreeSigma = 0.011;
   const NormalityTests tests(20);
   for (const char* name : {"sample_normal_20", "sample_uniform_20"}) {
-    const Normality found = tests(OrderedSample(GoldenSample(name)));
-    const MonteCarloP drawn = tests.Simulate(found, kDraws, 3);
+    const OrderedSample sample(GoldenSample(name));
+    const Normality found = tests(sample);
+    const MonteCarloP drawn = tests.Simulate(sample, found, kDraws, 3);
     EXPECT_NEAR(drawn.lilliefors, found.lilliefors.p, kThreeSigma);
     EXPECT_NEAR(drawn.shapiro_wilk, found.shapiro_wilk.p, kThreeSigma);
     EXPECT_NEAR(drawn.normal_ppcc, found.normal_ppcc.p, kThreeSigma);

@@ -78,6 +78,7 @@ NormalityRecord MakeRecord(const stats::Normality& normality,
   record.dip = MakeTest<DipTestRecord>(normality.dip);
   record.skewness = normality.shape.skewness;
   record.kurtosis = normality.shape.kurtosis;
+  if (normality.step > 0.0) record.step = normality.step;
   if (monte_carlo.draws > 0) record.monte_carlo = monte_carlo;
   return record;
 }
