@@ -13,28 +13,82 @@ using Eigen::VectorXd;
 
 constexpr Index kFewestUnits = 4;  // n - 3 divides
 
-// Upper 95 % bound of the correlation of neighbours of `x` (n), its mean 0.
-double MemoryNotExcluded(const VectorXd& x) {
-  constexpr double kMost = 0.98;
-  constexpr double kNormal95 = 1.6448536269514722;
-  const Index size = x.size();
+constexpr double kMost = 0.98;
+
+struct MemoryEstimate {
+  double rho = 0.0;
+  double error = 0.0;  // standard, of rho
+};
+
+MemoryEstimate EstimateMemory(const Eigen::Ref<const VectorXd>& series) {
+  const Index size = series.size();
   const double n = static_cast<double>(size);
+  // Brought to size 1: squares of very small losses would be lost.
+  VectorXd x = series.array() - series.mean();
+  const double scale = x.cwiseAbs().maxCoeff();
+  if (!(scale > 0.0)) return {};
+  x /= scale;
   const double r = x.head(size - 1).dot(x.tail(size - 1)) / x.squaredNorm();
   const double rho = std::clamp((n * r + 1.0) / (n - 3.0), -1.0, kMost);
-  return std::clamp(
-      rho + kNormal95 * std::sqrt((1.0 - rho * rho) / n), 0.0, kMost);
+  return {.rho = rho, .error = std::sqrt((1.0 - rho * rho) / n)};
+}
+
+double With(const MemoryEstimate& found, double margin) {
+  return std::clamp(found.rho + margin * found.error, 0.0, kMost);
 }
 
 }  // namespace
 
-MemoryBounds::MemoryBounds(const UnitLosses& losses) {
+double MemoryOf(const Eigen::Ref<const VectorXd>& series, double margin) {
+  return With(EstimateMemory(series), margin);
+}
+
+double ShownMemory(const Eigen::Ref<const VectorXd>& series, double above) {
+  const MemoryEstimate found = EstimateMemory(series);
+  return found.rho > above / std::sqrt(static_cast<double>(series.size()))
+             ? With(found, kLikelyMemory)
+             : 0.0;
+}
+
+double EffectiveUnits(Index units, double memory) {
+  return std::max(2.0,
+                  static_cast<double>(units) * (1.0 - memory) / (1.0 + memory));
+}
+
+MemoryBounds::MemoryBounds(const UnitLosses& losses) : means_(losses.means) {
   losses.Validate();
   if (losses.num_units() == 0) return;
   rmse_ = PooledRmse(losses);
   influence_ = InfluenceOnRmse(losses, rmse_);
 }
 
-MemoryTest MemoryBounds::OfDifference(Index a, Index b) const {
+double MemoryBounds::InDifference(Index a, Index b, double margin) const {
+  return influence_.rows() < kFewestUnits
+             ? 0.0
+             : MemoryOf(influence_.col(a) - influence_.col(b), margin);
+}
+
+double MemoryBounds::ShownInDifference(Index a, Index b) const {
+  return influence_.rows() < kFewestUnits
+             ? 0.0
+             : ShownMemory(influence_.col(a) - influence_.col(b));
+}
+
+double MemoryBounds::ShownInLosses(Index model) const {
+  // In fewer, losses seem to have memory as often without it as with it.
+  constexpr Index kFewestForLosses = 20;
+  const Index units = influence_.rows();
+  if (units < kFewestUnits) return 0.0;
+  const bool has_means = means_.size() > 0;
+  const double of_means =
+      has_means ? ShownMemory(means_.col(model), kSuspected) : 0.0;
+  return has_means && units < kFewestForLosses
+             ? of_means
+             : std::max(of_means,
+                        ShownMemory(influence_.col(model), kSuspected));
+}
+
+MemoryTest MemoryBounds::OfDifference(Index a, Index b, double memory) const {
   MemoryTest result;
   if (influence_.rows() < kFewestUnits) {
     result.test = NotApplicable("needs at least 4 units, found " +
@@ -44,12 +98,10 @@ MemoryTest MemoryBounds::OfDifference(Index a, Index b) const {
   const VectorXd x = influence_.col(a) - influence_.col(b);
   const double n = static_cast<double>(x.size());
   const double difference = rmse_[a] - rmse_[b];
-  // Brought to size 1: squares of very small losses would be lost.
   const double scale = x.cwiseAbs().maxCoeff();
   const VectorXd of_size_1 = scale > 0.0 ? VectorXd(x / scale) : x;
-  result.memory = scale > 0.0 ? MemoryNotExcluded(of_size_1) : 0.0;
-  const double m =
-      std::max(2.0, n * (1.0 - result.memory) / (1.0 + result.memory));
+  result.memory = memory;
+  const double m = EffectiveUnits(x.size(), memory);
   result.effective_units = m;
   // The mean of m independent values is off by 1 / m of their variance, which
   // the spread about it lacks.

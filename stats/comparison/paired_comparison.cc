@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "stats/comparison/holm.h"
 #include "stats/randomness.h"
@@ -33,15 +34,16 @@ std::vector<PairComparison> AllPairs(Index models) {
   return pairs;
 }
 
-// One column of loss differences per pair.
-MatrixXd Differences(const MatrixXd& mean_squares,
+// What each unit adds to the difference of each pair (units x pairs).
+MatrixXd Differences(const UnitLosses& losses,
                      const std::vector<PairComparison>& pairs) {
-  MatrixXd differences(mean_squares.rows(), static_cast<Index>(pairs.size()));
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    differences.col(static_cast<Index>(i)) =
-        mean_squares.col(pairs[i].a) - mean_squares.col(pairs[i].b);
+  std::vector<Index> first;
+  std::vector<Index> second;
+  for (const PairComparison& pair : pairs) {
+    first.push_back(pair.a);
+    second.push_back(pair.b);
   }
-  return differences;
+  return losses.Differences(first, second);
 }
 
 void CheckFolds(const FoldLosses& folds, Index models) {
@@ -73,7 +75,8 @@ void TestFolds(const FoldLosses& folds, std::vector<PairComparison>* pairs) {
       folds.test_rows.size() == 0
           ? 0.0
           : folds.test_rows.sum() / folds.train_rows.sum();
-  const MatrixXd differences = Differences(folds.mean_squares, *pairs);
+  const MatrixXd differences = Differences(
+      {.mean_squares = folds.mean_squares, .rows = folds.test_rows}, *pairs);
   for (std::size_t i = 0; i < pairs->size(); ++i) {
     (*pairs)[i].corrected_t = CorrectedResampledT(
         differences.col(static_cast<Index>(i)), test_to_train);
@@ -87,18 +90,22 @@ void TestFolds(const FoldLosses& folds, std::vector<PairComparison>* pairs) {
 // (tests/benchmarks/confidence_study.cc).
 constexpr double kBlocksTestToTrain = 0.3;
 
-// Mean losses of runs of neighbouring units (blocks x models).
-MatrixXd MeanByBlocks(const MatrixXd& mean_squares) {
-  const Index units = mean_squares.rows();
+// Losses of runs of neighbouring units.
+UnitLosses GatherBlocks(const UnitLosses& losses) {
+  const Index units = losses.num_units();
   const Index blocks = std::min(units, kBlocksOfUnits);
-  MatrixXd means(blocks, mean_squares.cols());
+  UnitLosses gathered{.mean_squares = MatrixXd(blocks, losses.num_models()),
+                      .rows = VectorXd::Ones(blocks)};
   Index begin = 0;
   for (Index block = 0; block < blocks; ++block) {
     const Index length = units / blocks + (block < units % blocks ? 1 : 0);
-    means.row(block) = mean_squares.middleRows(begin, length).colwise().mean();
+    const VectorXd rows = losses.rows.segment(begin, length);
+    gathered.mean_squares.row(block) =
+        rows.transpose() * losses.mean_squares.middleRows(begin, length) /
+        rows.sum();
     begin += length;
   }
-  return means;
+  return gathered;
 }
 
 // Losses are sums of squares of what differs by the last digits of a fit.
@@ -115,9 +122,8 @@ bool AreTied(const UnitLosses& losses, const PairComparison& pair) {
 void TestUnits(const UnitLosses& losses,
                const ComparisonOptions& options,
                std::vector<PairComparison>* pairs) {
-  const MatrixXd differences = Differences(losses.mean_squares, *pairs);
-  const MatrixXd of_blocks =
-      Differences(MeanByBlocks(losses.mean_squares), *pairs);
+  const MatrixXd differences = Differences(losses, *pairs);
+  const MatrixXd of_blocks = Differences(GatherBlocks(losses), *pairs);
   const std::vector<SignFlipTest> flipped =
       TestBySignFlips(differences, options.flips, options.seed);
   for (std::size_t i = 0; i < pairs->size(); ++i) {
@@ -136,54 +142,59 @@ void TestUnits(const UnitLosses& losses,
   }
 }
 
-void AdjustTogether(const std::vector<PairComparison*>& pairs) {
+// The largest p of the pairs whose turn is over: none after them is below it.
+struct Gates {
+  double p = 0.0;
+  double p_memory = 0.0;
+};
+
+void AdjustInTurn(PairComparison* pair, Gates* gates) {
+  gates->p = std::max(pair->p, gates->p);
+  gates->p_memory = std::max(pair->memory.test.p, gates->p_memory);
+  pair->p_holm = gates->p;
+  pair->p_memory_holm = gates->p_memory;
+  pair->num_adjusted = 1;
+}
+
+void AdjustTogether(const std::vector<PairComparison*>& pairs,
+                    const Gates& gates) {
   std::vector<double> p;
   std::vector<double> p_memory;
   for (const PairComparison* pair : pairs) {
-    p.push_back(pair->sign_flip.test.p);
+    p.push_back(pair->p);
     p_memory.push_back(pair->memory.test.p);
   }
   const std::vector<double> adjusted = AdjustByHolm(p);
   const std::vector<double> memory_adjusted = AdjustByHolm(p_memory);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    pairs[i]->p_holm = adjusted[i];
-    pairs[i]->p_memory_holm = memory_adjusted[i];
+    pairs[i]->p_holm = std::max(adjusted[i], gates.p);
+    pairs[i]->p_memory_holm = std::max(memory_adjusted[i], gates.p_memory);
     pairs[i]->num_adjusted = static_cast<Index>(pairs.size());
   }
 }
 
-void AdjustByFamilies(const std::vector<Index>& yardsticks,
-                      Comparison* comparison) {
-  const auto is_yardstick = [&](Index model) {
-    return std::ranges::find(yardsticks, model) != yardsticks.end();
-  };
-  const auto others =
-      comparison->rmse.size() - static_cast<Index>(yardsticks.size());
-  comparison->num_asked = std::max(others * (others - 1) / 2,
-                                   yardsticks.empty() ? Index{0} : others);
-  // By how many yardsticks a pair has, and which if it has one.
-  std::map<std::pair<int, Index>, std::vector<PairComparison*>> families;
-  for (PairComparison& pair : comparison->pairs) {
-    if (pair.tied) continue;
-    const bool a = is_yardstick(pair.a);
-    const bool b = is_yardstick(pair.b);
-    families[{int{a} + int{b},
-              a == b ? 0
-              : a    ? pair.a
-                     : pair.b}]
-        .push_back(&pair);
+void AdjustInOrder(const ComparisonOptions& options, Comparison* comparison) {
+  std::vector<PairComparison*> rest;
+  for (PairComparison& pair : comparison->pairs) rest.push_back(&pair);
+  Gates gates;
+  for (const Index yardstick : options.yardsticks) {
+    if (!options.first || yardstick == *options.first) continue;
+    const auto [a, b] = std::minmax(*options.first, yardstick);
+    PairComparison& pair = comparison->pairs[static_cast<std::size_t>(
+        PairIndex(a, b, comparison->rmse.size()))];
+    std::erase(rest, &pair);
+    if (!pair.tied) AdjustInTurn(&pair, &gates);
   }
-  for (const auto& [which, pairs] : families) {
-    AdjustTogether(pairs);
-    if (which.first == 2) continue;
-    comparison->num_tested =
-        std::max(comparison->num_tested, static_cast<Index>(pairs.size()));
-  }
+  comparison->num_asked = std::ssize(rest);
+  std::erase_if(rest, [](const PairComparison* pair) { return pair->tied; });
+  comparison->num_tested = std::ssize(rest);
+  AdjustTogether(rest, gates);
 }
 
 void ForgetTests(PairComparison* pair) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   for (double* p : {&pair->sign_flip.test.p,
+                    &pair->p,
                     &pair->p_holm,
                     &pair->memory.test.p,
                     &pair->p_memory_holm,
@@ -206,6 +217,13 @@ MatrixXd ExcessBounds(const Comparison& comparison) {
   return bounds;
 }
 
+Bounds95 Wider(const Bounds95& one, const Bounds95& other) {
+  return {.lower = std::min(one.lower, other.lower),
+          .upper = std::max(one.upper, other.upper),
+          .at_least = std::min(one.at_least, other.at_least),
+          .at_most = std::max(one.at_most, other.at_most)};
+}
+
 void BoundErrors(const UnitLosses& losses,
                  const ComparisonOptions& options,
                  Comparison* comparison) {
@@ -214,13 +232,34 @@ void BoundErrors(const UnitLosses& losses,
   const UnitBootstrap bootstrap(
       losses, options.resamples, options.seed ^ kOwnSequence);
   const MemoryBounds with_memory(losses);
+  const double units = static_cast<double>(losses.num_units());
   for (Index model = 0; model < losses.num_models(); ++model) {
-    comparison->rmse_bounds.push_back(bootstrap.OfRmse(model));
+    const double shown = with_memory.ShownInLosses(model);
+    const double worth = EffectiveUnits(losses.num_units(), shown);
+    comparison->rmse_bounds.push_back(
+        shown > 0.0 && worth < kFewestForBounds
+            ? Bounds95{}
+            : bootstrap.OfRmse(model, shown > 0.0 ? worth / units : 1.0));
   }
   for (PairComparison& pair : comparison->pairs) {
     pair.difference = comparison->rmse[pair.a] - comparison->rmse[pair.b];
     pair.bounds = bootstrap.OfDifference(pair.a, pair.b);
-    pair.memory = with_memory.OfDifference(pair.a, pair.b);
+    pair.memory = with_memory.OfDifference(
+        pair.a,
+        pair.b,
+        options.separate_units
+            ? kSessionMemory
+            : with_memory.InDifference(pair.a, pair.b, kMostMemory));
+    pair.p = pair.sign_flip.test.p;
+    const bool may_show = !options.separate_units || pair.correlated;
+    if (may_show) {
+      pair.memory_shown = with_memory.ShownInDifference(pair.a, pair.b);
+    }
+    if (pair.memory_shown == 0.0) continue;
+    const MemoryTest likely =
+        with_memory.OfDifference(pair.a, pair.b, pair.memory_shown);
+    pair.p = std::max(pair.p, likely.test.p);
+    pair.bounds = Wider(pair.bounds, likely.bounds);
   }
 }
 
@@ -270,9 +309,9 @@ Comparison CompareModels(const UnitLosses& losses,
   } else {
     comparison.rmse = PooledRmse(losses);
   }
-  BoundErrors(losses, options, &comparison);
   TestUnits(losses, options, &comparison.pairs);
-  AdjustByFamilies(options.yardsticks, &comparison);
+  BoundErrors(losses, options, &comparison);
+  AdjustInOrder(options, &comparison);
   if (folds != nullptr) TestFolds(*folds, &comparison.pairs);
   for (PairComparison& pair : comparison.pairs) {
     if (pair.tied) ForgetTests(&pair);

@@ -22,6 +22,9 @@ inline constexpr double kSignificance = 0.05;
 /// Runs of neighbouring units, as equal as can be, longer ones first.
 inline constexpr Eigen::Index kBlocksOfUnits = 5;
 
+/// Fewer effective units bound no RMSE.
+inline constexpr double kFewestForBounds = 4.0;
+
 /// Mean held-out losses by fold, for the corrected resampled t.
 struct FoldLosses {
   Eigen::MatrixXd mean_squares;  // (folds, of all repeats, x models)
@@ -35,19 +38,28 @@ struct ComparisonOptions {
   Eigen::Index resamples = 4999;  // of the bootstrap; >= 99
   Eigen::Index horizon = 1;       // of Diebold-Mariano; >= 1
   Margin margin = {};             // between tiers
-  /// Models (columns of the losses) that the others are only held against: what
-  /// they add to a comparison takes nothing from the others' power. Holm's
-  /// adjustment counts the pairs of the others; the pairs of the others with
-  /// each yardstick; the pairs of yardsticks.
+  /// Units are known to be separate sessions. Memory from one to the next is
+  /// then allowed for in `p` only where it is larger than chance, and else
+  /// tested with kSessionMemory instead of all that cannot be excluded.
+  bool separate_units = false;
+  /// What the comparison is about and, in this order, the models that it must
+  /// beat (columns of the losses). Chosen before the losses are seen, these
+  /// pairs are tested one by one, each at the full level, until one is not
+  /// shown; all other pairs only then, by Holm's adjustment. So the chance of
+  /// any false one among all pairs is at most the level (a fixed sequence, then
+  /// a gate: Maurer, Hothorn & Lehmacher 1995). Nothing: one adjustment of all.
+  std::optional<Eigen::Index> first = {};
   std::vector<Eigen::Index> yardsticks = {};
 
   /// Throws std::invalid_argument naming field, value and range.
   void Validate() const;
 };
 
-/// Model a against model b; d = loss of a - loss of b, one mean per unit, so
-/// below 0 where a is better. What these figures establish is decided in one
-/// place, models/study/judgement/confidence.h.
+/// Model a against model b; d = loss of a - loss of b, one mean per unit
+/// weighted by its rows, so that the mean of d is the difference of the pooled
+/// mean squares: below 0 where a is better, as `difference` is. What these
+/// figures establish is decided in one place,
+/// models/study/judgement/confidence.h.
 struct PairComparison {
   Eigen::Index a = 0;
   Eigen::Index b = 0;
@@ -55,12 +67,19 @@ struct PairComparison {
   /// No unit's losses differ by more than rounding: one map twice. Then nothing
   /// is tested, every p is NaN, and the pair does not count in Holm's.
   bool tied = false;
-  Bounds95 bounds;                // of `difference`, bootstrap over units
-  SignFlipTest sign_flip;         // of d
-  double p_holm = 1.0;            // sign_flip's p among num_adjusted
-  Eigen::Index num_adjusted = 0;  // pairs that Holm's adjustment counts with it
-  /// Of `difference`, with the memory from unit to unit that their order cannot
-  /// exclude, and its p among num_adjusted.
+  /// Of `difference`: bootstrap over units, and where memory_shown is above 0
+  /// the wider of that and the bounds of a t with so much memory.
+  Bounds95 bounds;
+  SignFlipTest sign_flip;  // of d
+  /// sign_flip's, or where memory_shown is above 0 the larger of that and the p
+  /// of a t with so much memory.
+  double p = 1.0;
+  double memory_shown = 0.0;  // ShownMemory of d; see separate_units
+  double p_holm = 1.0;        // p in its turn: see ComparisonOptions::first
+  /// Pairs that Holm's adjustment counts with it; 1: none, it has a turn.
+  Eigen::Index num_adjusted = 0;
+  /// Of `difference`, with the memory from unit to unit that cannot be
+  /// excluded, and its p in its turn.
   MemoryTest memory;
   double p_memory_holm = 1.0;
   /// Corrected resampled t of d on kBlocksOfUnits runs of neighbouring units,
@@ -73,20 +92,24 @@ struct PairComparison {
   /// Lag-1 correlation of d in the order of units, p two-sided.
   TestResult lag1;
   /// It is larger than chance (p <= 5 %) and positive: neighbouring units
-  /// resemble each other, and every p here is too small.
+  /// resemble each other. All tests but those of `p` and `memory` then find too
+  /// much.
   bool correlated = false;
 };
 
 /// All models against each other on the same units.
 struct Comparison {
   Eigen::Index num_units = 0;
-  Eigen::VectorXd rmse;               // (models) pooled over rows
-  std::vector<Bounds95> rmse_bounds;  // (models)
+  Eigen::VectorXd rmse;  // (models) pooled over rows
+  /// (models) None where neighbouring units resemble each other so much that
+  /// they are worth fewer than kFewestForBounds: what was measured is then too
+  /// little of what there is.
+  std::vector<Bounds95> rmse_bounds;
   std::vector<PairComparison> pairs;  // (0,1), (0,2), ..., (1,2), ...
   std::vector<std::vector<Eigen::Index>> tiers;  // see FormTiers
 
-  /// Of the pairs that hold a model that is no yardstick, the most that one
-  /// adjustment counts; and if none were tied, which depends on nothing found.
+  /// Pairs that Holm's adjustment counts; and if none were tied, which depends
+  /// on nothing found.
   Eigen::Index num_tested = 0;
   Eigen::Index num_asked = 0;
 

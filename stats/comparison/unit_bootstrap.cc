@@ -8,6 +8,7 @@
 
 #include "stats/distributions.h"
 #include "stats/random.h"
+#include "stats/unit_freedom.h"
 
 namespace errmap::stats {
 namespace {
@@ -90,6 +91,22 @@ Bounds95 Bound(Index units, VectorXd resampled, const ByT& by_t) {
           .at_most = high(0.05)};
 }
 
+// The bounds of the square root of a mean square with so many degrees of
+// freedom, where they are wider than `bounds`.
+void WidenByChiSquared(double rmse, double freedom, Bounds95* bounds) {
+  // Beyond these the quantiles no longer move.
+  constexpr double kFewest = 1.0;
+  constexpr double kMost = 1e6;
+  const double f = std::clamp(freedom, kFewest, kMost);
+  const auto at = [=](double probability) {
+    return rmse * std::sqrt(f / ChiSquaredQuantile(probability, f));
+  };
+  bounds->lower = std::min(bounds->lower, at(0.975));
+  bounds->upper = std::max(bounds->upper, at(0.025));
+  bounds->at_least = std::min(bounds->at_least, at(0.95));
+  bounds->at_most = std::max(bounds->at_most, at(0.05));
+}
+
 double StandardError(const VectorXd& influence) {
   const double n = static_cast<double>(influence.size());
   return influence.norm() / std::sqrt(n * (n - 1.0));
@@ -114,16 +131,23 @@ UnitBootstrap::UnitBootstrap(const UnitLosses& losses,
   resampled_ = Resample(losses, resamples, seed);
 }
 
-Bounds95 UnitBootstrap::OfRmse(Index model) const {
+Bounds95 UnitBootstrap::OfRmse(Index model, double worth) const {
   if (units_ < kFewestForBootstrap) return {};
   const double rmse = rmse_[model];
   if (rmse == 0.0) {
     return {.lower = 0.0, .upper = 0.0, .at_least = 0.0, .at_most = 0.0};
   }
   const double relative_error = StandardError(influence_.col(model)) / rmse;
-  return Bound(units_, resampled_.col(model), [=](double t) {
+  Bounds95 bounds = Bound(units_, resampled_.col(model), [=](double t) {
     return rmse * std::exp(t * relative_error);
   });
+  // What a unit adds to the mean square, in shares of it: twice that to the
+  // RMSE.
+  constexpr double kNoLeast = 0.0;
+  const VectorXd squares = 1.0 + 2.0 * influence_.col(model).array() / rmse;
+  const double freedom = UnitFreedom(squares, kNoLeast);
+  WidenByChiSquared(rmse, worth * freedom, &bounds);
+  return bounds;
 }
 
 Bounds95 UnitBootstrap::OfDifference(Index a, Index b) const {

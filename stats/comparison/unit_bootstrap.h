@@ -38,8 +38,11 @@ class UnitBootstrap {
                 Eigen::Index resamples,
                 std::uint64_t seed);
 
-  /// Bounds of the RMSE of `model`; none exist below 2 units.
-  Bounds95 OfRmse(Eigen::Index model) const;
+  /// Bounds of the RMSE of `model`; none exist below 2 units. They are not
+  /// within those of a mean square with the degrees of freedom that the units'
+  /// own mean squares show (unit_freedom.h), times `worth`: of units that
+  /// resemble their neighbours, the share that they count for.
+  Bounds95 OfRmse(Eigen::Index model, double worth = 1.0) const;
   /// Bounds of RMSE of model `a` less that of `b`; none below 2 units.
   Bounds95 OfDifference(Eigen::Index a, Eigen::Index b) const;
 

@@ -36,6 +36,12 @@ void UnitLosses::Validate() const {
     Refuse(std::to_string(codes.size()) + " codes for " +
            std::to_string(num_units()) + " units");
   }
+  if (means.size() > 0 &&
+      (means.rows() != num_units() || means.cols() != num_models())) {
+    Refuse("means of " + std::to_string(means.rows()) + " x " +
+           std::to_string(means.cols()) + " for mean squares of " +
+           std::to_string(num_units()) + " x " + std::to_string(num_models()));
+  }
   for (Index unit = 0; unit < num_units(); ++unit) {
     constexpr double kMost = std::numeric_limits<double>::max();
     if (!(rows[unit] > 0.0 && rows[unit] <= kMost)) {
@@ -50,6 +56,14 @@ void UnitLosses::Validate() const {
       }
     }
   }
+}
+
+MatrixXd UnitLosses::Differences(const std::vector<Index>& first,
+                                 const std::vector<Index>& second) const {
+  if (num_units() == 0) return MatrixXd(0, static_cast<Index>(first.size()));
+  const VectorXd share = rows / rows.mean();
+  return share.asDiagonal() *
+         (mean_squares(Eigen::all, first) - mean_squares(Eigen::all, second));
 }
 
 UnitLosses GatherByUnit(const MatrixXd& residuals,
@@ -75,6 +89,7 @@ UnitLosses GatherByUnit(const MatrixXd& residuals,
   const Index units = static_cast<Index>(losses.codes.size());
   losses.rows = VectorXd::Zero(units);
   losses.mean_squares = MatrixXd::Zero(units, residuals.cols());
+  losses.means = losses.mean_squares;
   for (Index row = 0; row < residuals.rows(); ++row) {
     if (!residuals.row(row).allFinite()) {
       throw std::invalid_argument("GatherByUnit: row " + std::to_string(row) +
@@ -83,8 +98,10 @@ UnitLosses GatherByUnit(const MatrixXd& residuals,
     const Index unit = unit_of[unit_codes[static_cast<std::size_t>(row)]];
     losses.rows[unit] += 1.0;
     losses.mean_squares.row(unit) += residuals.row(row).cwiseAbs2();
+    losses.means.row(unit) += residuals.row(row);
   }
   losses.mean_squares.array().colwise() /= losses.rows.array();
+  losses.means.array().colwise() /= losses.rows.array();
   return losses;
 }
 

@@ -12,11 +12,18 @@ namespace errmap::stats {
 struct UnitLosses {
   Eigen::MatrixXd mean_squares;  // (units x models), squared target units
   Eigen::VectorXd rows;          // (units) rows, or sums of weights, above 0
+  Eigen::MatrixXd means = {};    // (units x models) residual, or empty
   std::vector<Eigen::Index> codes = {};  // (units) group code, or empty
   bool time_ordered = false;             // units stand in the order of time
 
   Eigen::Index num_units() const { return mean_squares.rows(); }
   Eigen::Index num_models() const { return mean_squares.cols(); }
+
+  /// (units x pairs) what each unit adds to the difference of pooled mean
+  /// squares of models first[i] and second[i]: its loss difference times its
+  /// share of the rows, of mean 1.
+  Eigen::MatrixXd Differences(const std::vector<Eigen::Index>& first,
+                              const std::vector<Eigen::Index>& second) const;
 
   /// Throws std::invalid_argument unless the shapes agree, every mean square
   /// is finite and at least 0 and every unit has rows.

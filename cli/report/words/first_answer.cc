@@ -106,11 +106,17 @@ class AnswerWriter {
     const ResultRecord& result =
         numbers_.Result(advice_.model, advice_.holdout);
     std::string text = numbers_.error.WithUnit(result.test.rmse) + " RMSE";
+    // From so many on only units that resemble their neighbours give none.
+    constexpr std::int64_t kFewestForRange = 3;
     // An interval that reaches below no error at all tells nothing.
     if (std::isfinite(result.ci95[0]) && result.ci95[0] > 0.0) {
       text += fmt::format(" (95 %: {} to {})",
                           numbers_.error(result.ci95[0]),
                           numbers_.error(result.ci95[1]));
+    } else if (holdout_.units >= kFewestForRange &&
+               !std::isfinite(result.ci95[0])) {
+      text += fmt::format("; {} do not tell how sure that is",
+                          CountOfUnits(holdout_.units, holdout_));
     }
     if (holdout_.among_neighbours) text += ", next to rows that it learnt from";
     Add(WhereMeasured(), text);
@@ -189,7 +195,7 @@ class AnswerWriter {
     }
     if (const auto& promise = advice_.promise; promise && promise->good_for) {
       Add("good for",
-          fmt::format("the next {}: neighbouring {} err alike",
+          fmt::format("the next {}: neighbouring {} may err alike",
                       Count(*promise->good_for, promise->unit),
                       PluralOf(promise->unit)));
     }

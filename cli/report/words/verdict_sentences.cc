@@ -57,6 +57,14 @@ std::string ObstacleText(const models::Obstacle& obstacle,
   return "";
 }
 
+// "0.02 after Holm for 28 pairs", "0.02 in its turn".
+std::string TurnText(const PairRecord& pair) {
+  return PWords(pair.p_holm) +
+         (pair.holm_pairs == 1
+              ? std::string(" in its turn")
+              : " after Holm for " + Count(pair.holm_pairs, "pair"));
+}
+
 // "0.707 um less RMSE than net:scg (95 % 0.4 to 1.1), p 0.0002 ..."
 std::string TestSentence(const ComponentNumbers& component,
                          const VerdictRecord& verdict) {
@@ -75,31 +83,32 @@ std::string TestSentence(const ComponentNumbers& component,
   if (!std::isfinite(pair.p)) {
     return text + "; they are one map but for rounding: nothing to establish.";
   }
-  text += fmt::format("; sign-flip p {} over {}, {} after Holm for {}",
-                      PWords(pair.p),
-                      CountOfUnits(pair.units, held),
-                      PWords(pair.p_holm),
-                      Count(pair.holm_pairs, "pair"));
+  text +=
+      fmt::format("; p {} over {}{}, {}",
+                  PWords(pair.p),
+                  CountOfUnits(pair.units, held),
+                  pair.memory > 0.0 ? ", with the memory that they show" : "",
+                  TurnText(pair));
   switch (There(verdict.against_rival)) {
     case Confidence::kEstablished:
       return text + ": established.";
     case Confidence::kUnitsCorrelated:
       return text + fmt::format(
-                        ", as if {} were independent; neighbouring ones "
-                        "resemble each other: not established.",
+                        "; neighbouring {} resemble each other: not "
+                        "established.",
                         units);
     case Confidence::kMemoryNotExcluded:
       return text + fmt::format(
-                        ", as if {} were independent; with the memory that "
-                        "their order cannot exclude {}: not established.",
+                        "; with the memory that the order of {} cannot exclude "
+                        "{}: not established.",
                         units,
                         PWords(pair.tests.memory_t.p_holm));
     case Confidence::kBlocksDisagree:
       return text + fmt::format(
-                        ", as if {} were independent; {} runs of neighbouring "
-                        "ones differ too much (p {}): not established.",
-                        units,
+                        "; {} runs of neighbouring {} differ too much (p {}): "
+                        "not established.",
                         stats::kBlocksOfUnits,
+                        units,
                         PWords(pair.tests.block_t.p));
     default:
       return text + ": not established.";
@@ -123,7 +132,7 @@ std::string ChoiceSentence(const ComponentNumbers& component,
     default:
       break;
   }
-  if (verdict.obstacle) {
+  if (verdict.obstacle && verdict.confidence == Confidence::kOutOfReach) {
     return fmt::format(
         "Whether that is more than chance cannot be "
         "established: {}.",

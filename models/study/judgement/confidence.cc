@@ -32,9 +32,13 @@ Index UnitsNeeded(Index pairs, bool separate_sessions) {
   return units;
 }
 
-// Whether bounds of a difference lie wholly on the side of `sign`.
-bool AreOnSide(const stats::Bounds95& bounds, double sign) {
-  return sign > 0.0 ? bounds.lower > 0.0 : bounds.upper < 0.0;
+// Whether the clearest difference of so many units would have a p small enough
+// after the pair's adjustment.
+bool IsInReach(Index units, const PairComparison& pair) {
+  const double smallest = units > stats::kMostForExactFlips
+                              ? pair.sign_flip.smallest_p
+                              : SmallestP(units);
+  return IsSignificant(smallest * static_cast<double>(pair.num_adjusted));
 }
 
 double ExcessAtMost(const stats::Bounds95& bounds, bool is_first) {
@@ -105,19 +109,22 @@ Obstacle FindObstacle(const stats::Comparison& tests, bool separate_sessions) {
 Confidence ThatTheyDiffer(const stats::Comparison& tests,
                           const PairComparison& pair,
                           bool separate_sessions) {
-  if (FindObstacle(tests, separate_sessions).exists()) {
+  if (UnitsObstacle(tests.num_units, separate_sessions) != Kind::kNone ||
+      !IsInReach(tests.num_units, pair)) {
     return Confidence::kOutOfReach;
   }
-  const double side = pair.sign_flip.test.statistic;
-  if (!IsSignificant(pair.p_holm) || !AreOnSide(pair.bounds, side)) {
-    return Confidence::kNotShown;
+  if (!IsSignificant(pair.p_holm) || !pair.bounds.ExcludeZero()) {
+    return pair.correlated && IsSignificant(pair.sign_flip.test.p)
+               ? Confidence::kUnitsCorrelated
+               : Confidence::kNotShown;
   }
   if (pair.correlated) return Confidence::kUnitsCorrelated;
   if (!IsSignificant(pair.p_memory_holm)) return Confidence::kMemoryNotExcluded;
   // Where it does not apply, the runs do not differ at all.
   const stats::TestResult& blocks = pair.block_t.test;
-  return blocks.ok() && !IsSignificant(blocks.p) ? Confidence::kBlocksDisagree
-                                                 : Confidence::kEstablished;
+  return !separate_sessions && blocks.ok() && !IsSignificant(blocks.p)
+             ? Confidence::kBlocksDisagree
+             : Confidence::kEstablished;
 }
 
 Confidence ThatItLosesAtMost(double margin,

@@ -31,7 +31,8 @@ inline constexpr Eigen::Index kFewestUnits = 6;
 /// to see whether they resemble their neighbours.
 inline constexpr Eigen::Index kFewestUnitsOfOneSession = 12;
 
-/// Why not even the clearest difference of a hold-out could be established.
+/// Why of the pairs that Holm's adjustment counts not even the clearest
+/// difference could be established.
 struct Obstacle {
   enum class Kind {
     kNone,
@@ -56,11 +57,12 @@ std::string_view ToString(Obstacle::Kind kind);
 /// a shift), so that nothing but chance makes neighbours alike.
 Obstacle FindObstacle(const stats::Comparison& tests, bool separate_sessions);
 
-/// That the models of `pair`, one of tests.pairs, differ: p at most 5 % of sign
-/// flips and of the t that allows for memory (memory_bounds.h), each after
-/// Holm's adjustment, and of the corrected resampled t on runs of neighbouring
-/// units; the interval of the RMSE difference wholly on the side of the mean
-/// loss difference; no sign that neighbours resemble each other; no obstacle.
+/// That the models of `pair`, one of tests.pairs, differ: in its turn
+/// (stats::ComparisonOptions::first) p is at most 5 %, and so is that of the t
+/// with the memory that cannot be excluded (memory_bounds.h); the interval of
+/// the RMSE difference lies wholly on one side of 0; no sign that neighbours
+/// resemble each other; units enough. Where they may be of one session, the
+/// corrected resampled t on runs of neighbouring units has to agree.
 Confidence ThatTheyDiffer(const stats::Comparison& tests,
                           const stats::PairComparison& pair,
                           bool separate_sessions);

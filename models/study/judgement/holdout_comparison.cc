@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "stats/error_metrics.h"
+#include "models/study/judgement/choice.h"
 
 namespace errmap::models {
 namespace {
@@ -60,6 +60,19 @@ std::vector<WinShare> CountWins(const stats::FoldLosses& folds,
   return shares;
 }
 
+// What a comparison is about before anything is measured: the first blend, or
+// the only model that is no yardstick.
+std::optional<Index> FirstInTurn(const StudyResult& study,
+                                 const std::vector<std::size_t>& models) {
+  std::vector<Index> others;
+  for (std::size_t place = 0; place < models.size(); ++place) {
+    const ModelResult& model = study.models[models[place]];
+    if (ChoiceOf(model) == Choice::kBlend) return static_cast<Index>(place);
+    if (!model.baseline) others.push_back(static_cast<Index>(place));
+  }
+  return others.size() == 1 ? std::optional(others.front()) : std::nullopt;
+}
+
 HoldoutComparison CompareOne(const data::Dataset& dataset,
                              const Holdout& holdout,
                              const StudyResult& study,
@@ -86,6 +99,8 @@ HoldoutComparison CompareOne(const data::Dataset& dataset,
       AssignUnits(holdout, held, &comparison.units);
   stats::UnitLosses losses = stats::GatherByUnit(residuals, codes);
   losses.time_ordered = holdout.forward;
+  options.first = FirstInTurn(study, comparison.models);
+  options.separate_units = comparison.units.separate_sessions;
   comparison.unit_rmse = losses.mean_squares.cwiseSqrt();
   const stats::FoldLosses folds = GatherFolds(holdout, held, residuals);
   comparison.tests = stats::CompareModels(

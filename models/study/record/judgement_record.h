@@ -41,7 +41,7 @@ struct MeanTestRecord {
   double p = kNotKnown;
 };
 
-/// Allows for the memory from unit to unit (memory_bounds.h).
+/// With the memory from unit to unit that is not excluded (memory_bounds.h).
 struct MemoryTestRecord {
   double statistic = kNotKnown;
   double df = kNotKnown;
@@ -69,13 +69,14 @@ struct PairRecord {
   IntervalRecord ci95 = {kNotKnown, kNotKnown};  // of the difference
   double p = kNotKnown;
   double p_holm = kNotKnown;
-  std::int64_t holm_pairs = 0;  // that the adjustment counts
+  std::int64_t holm_pairs = 0;  // that the adjustment counts; 1: its own turn
   std::string test;
   bool exact = false;
   double smallest_p = kNotKnown;
   std::string unit_of_analysis;
   std::int64_t units = 0;
   double lag1 = kNotKnown;
+  double memory = kNotKnown;  // from unit to unit, that p and ci95 allow for
   bool correlated = false;
   bool established = false;
   Confidence confidence = Confidence::kNotShown;

@@ -64,7 +64,8 @@ class Simulation {
                                 nullptr,
                                 {.seed = static_cast<std::uint64_t>(repetition),
                                  .flips = 999,
-                                 .resamples = 399});
+                                 .resamples = 399,
+                                 .separate_units = world_.separate_sessions});
   }
 
   const World& world() const { return world_; }

@@ -16,6 +16,12 @@ using ::testing::HasSubstr;
 
 constexpr double kRounding = 1e-12;
 
+// With all memory that cannot be excluded.
+MemoryTest OfTheFirstPair(const UnitLosses& losses, Index a = 0, Index b = 1) {
+  const MemoryBounds bounds(losses);
+  return bounds.OfDifference(a, b, bounds.InDifference(a, b, kMostMemory));
+}
+
 UnitLosses MakeLosses(Index units) {
   UnitLosses losses;
   losses.mean_squares.resize(units, 2);
@@ -41,7 +47,7 @@ UnitLosses MakeLosses(Index units) {
 //   c(D, phi, m, D / se, 2 * pt(-abs(D / se), m - 1),
 //     D + qt(c(.025, .975, .05, .95), m - 1) * se)
 TEST(MemoryBounds, AgreeWithRFromTheDefinition) {
-  const MemoryTest found = MemoryBounds(MakeLosses(12)).OfDifference(0, 1);
+  const MemoryTest found = OfTheFirstPair(MakeLosses(12));
   EXPECT_NEAR(found.memory, 0.1657792971687524, 1e-10);
   EXPECT_NEAR(found.effective_units, 8.5870871598827847, 1e-9);
   EXPECT_NEAR(found.test.statistic, -2.8925576481244306, 1e-9);
@@ -54,14 +60,14 @@ TEST(MemoryBounds, AgreeWithRFromTheDefinition) {
 
 TEST(MemoryBounds, TurnWithThePairAndScaleWithTheUnit) {
   UnitLosses losses = MakeLosses(23);
-  const MemoryTest one = MemoryBounds(losses).OfDifference(0, 1);
-  const MemoryTest other = MemoryBounds(losses).OfDifference(1, 0);
+  const MemoryTest one = OfTheFirstPair(losses);
+  const MemoryTest other = OfTheFirstPair(losses, 1, 0);
   EXPECT_NEAR(one.bounds.lower, -other.bounds.upper, kRounding);
   EXPECT_NEAR(one.bounds.at_most, -other.bounds.at_least, kRounding);
   EXPECT_NEAR(one.test.p, other.test.p, kRounding);
   for (const double scale : {1e-300, 1e12}) {
     losses.mean_squares = scale * MakeLosses(23).mean_squares;
-    const MemoryTest scaled = MemoryBounds(losses).OfDifference(0, 1);
+    const MemoryTest scaled = OfTheFirstPair(losses);
     EXPECT_NEAR(scaled.test.p, one.test.p, 1e-9);
     EXPECT_NEAR(scaled.bounds.lower / std::sqrt(scale), one.bounds.lower, 1e-9);
   }
@@ -69,11 +75,11 @@ TEST(MemoryBounds, TurnWithThePairAndScaleWithTheUnit) {
 
 TEST(MemoryBounds, NeedFourUnits) {
   for (const Index units : {0, 1, 3}) {
-    const MemoryTest found = MemoryBounds(MakeLosses(units)).OfDifference(0, 1);
+    const MemoryTest found = OfTheFirstPair(MakeLosses(units));
     EXPECT_FALSE(found.bounds.exist());
     EXPECT_THAT(found.test.why_not, HasSubstr("at least 4 units"));
   }
-  EXPECT_TRUE(MemoryBounds(MakeLosses(4)).OfDifference(0, 1).bounds.exist());
+  EXPECT_TRUE(OfTheFirstPair(MakeLosses(4)).bounds.exist());
 }
 
 // The same values, once level by level and once mixed: only where neighbours
@@ -85,8 +91,8 @@ TEST(MemoryBounds, AreWiderWhereNeighboursAreAlike) {
     alike.mean_squares(unit, 0) = unit < 20 ? 1.0 : 3.0;
     mixed.mean_squares(unit, 0) = unit % 2 == 0 ? 1.0 : 3.0;
   }
-  const MemoryTest of_alike = MemoryBounds(alike).OfDifference(0, 1);
-  const MemoryTest of_mixed = MemoryBounds(mixed).OfDifference(0, 1);
+  const MemoryTest of_alike = OfTheFirstPair(alike);
+  const MemoryTest of_mixed = OfTheFirstPair(mixed);
   EXPECT_GT(of_alike.memory, 0.8);
   EXPECT_EQ(of_mixed.memory, 0.0);
   EXPECT_EQ(of_mixed.effective_units, 40.0);
@@ -97,14 +103,35 @@ TEST(MemoryBounds, AreWiderWhereNeighboursAreAlike) {
 TEST(MemoryBounds, KnowEqualModelsAndAConstantDifference) {
   UnitLosses losses = MakeLosses(12);
   losses.mean_squares.col(1) = losses.mean_squares.col(0);
-  const MemoryTest equal = MemoryBounds(losses).OfDifference(0, 1);
+  const MemoryTest equal = OfTheFirstPair(losses);
   EXPECT_EQ(equal.test.p, 1.0);
   EXPECT_EQ(equal.bounds.at_most, 0.0);
   losses.mean_squares.col(0).setConstant(4.0);
   losses.mean_squares.col(1).setConstant(1.0);
-  const MemoryTest constant = MemoryBounds(losses).OfDifference(0, 1);
+  const MemoryTest constant = OfTheFirstPair(losses);
   EXPECT_LT(constant.test.p, 1e-6);
   EXPECT_NEAR(constant.bounds.at_most, 1.0, kRounding);
+}
+
+TEST(MemoryBounds, TakeSeparateSessionsForHalfAsMany) {
+  EXPECT_DOUBLE_EQ(EffectiveUnits(10, kSessionMemory), 5.0);
+  EXPECT_EQ(EffectiveUnits(3, kSessionMemory), 2.0);
+  const MemoryTest found =
+      MemoryBounds(MakeLosses(12)).OfDifference(0, 1, kSessionMemory);
+  EXPECT_DOUBLE_EQ(found.effective_units, 6.0);
+  EXPECT_EQ(found.memory, kSessionMemory);
+}
+
+// A series of 40 that alternates, one that does not, and one by levels.
+TEST(ShownMemory, IsNoneUnlessItIsAboveChance) {
+  VectorXd series(40);
+  for (Index i = 0; i < 40; ++i) series[i] = i % 2 == 0 ? 1.0 : -1.0;
+  EXPECT_EQ(ShownMemory(series), 0.0);
+  for (Index i = 0; i < 40; ++i) series[i] = i / 4 % 2 == 0 ? 1.0 : -1.0;
+  EXPECT_GT(ShownMemory(series), 0.5);
+  EXPECT_LE(ShownMemory(series), MemoryOf(series, kMostMemory));
+  EXPECT_GT(ShownMemory(series), MemoryOf(series, 0.0));
+  EXPECT_EQ(ShownMemory(VectorXd::Constant(40, 0.1)), 0.0);
 }
 
 TEST(MemoryBounds, RefuseInvalidLosses) {

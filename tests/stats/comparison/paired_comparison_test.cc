@@ -90,7 +90,7 @@ TEST(CompareModels, AdjustsOverAllPairs) {
   std::vector<double> p;
   std::vector<double> p_memory;
   for (const PairComparison& pair : found.pairs) {
-    p.push_back(pair.sign_flip.test.p);
+    p.push_back(pair.p);
     p_memory.push_back(pair.memory.test.p);
   }
   const std::vector<double> adjusted = AdjustByHolm(p);
@@ -147,7 +147,7 @@ TEST(CompareModels, KeepsItsAnswerWithOtherOrderAndScale) {
       EXPECT_NEAR(one.difference, -1e3 * other.difference, kRounding);
       EXPECT_NEAR(one.bounds.lower, -1e3 * other.bounds.upper, kRounding);
       EXPECT_EQ(one.sign_flip.test.p, other.sign_flip.test.p);
-      EXPECT_EQ(one.p_holm, other.p_holm);
+      EXPECT_NEAR(one.p_holm, other.p_holm, kRounding);
       EXPECT_EQ(one.wilcoxon.test.p, other.wilcoxon.test.p);
       EXPECT_NEAR(one.p_memory_holm, other.p_memory_holm, kRounding);
     }
@@ -185,6 +185,7 @@ TEST(CompareModels, CallsEqualModelsEqual) {
   EXPECT_EQ(pair.difference, 0.0);
   EXPECT_TRUE(pair.tied);
   for (const double p : {pair.sign_flip.test.p,
+                         pair.p,
                          pair.p_holm,
                          pair.wilcoxon.test.p,
                          pair.corrected_t->test.p,
@@ -214,30 +215,122 @@ TEST(CompareModels, TestsNothingBetweenMapsThatDifferByRounding) {
   // Of two tests the smaller p counts twice, not three times.
   const PairComparison& pair = found.Pair(0, 1);
   EXPECT_FALSE(pair.tied);
-  EXPECT_EQ(pair.p_holm, 2.0 * pair.sign_flip.test.p);
+  EXPECT_EQ(pair.p_holm, 2.0 * pair.p);
   EXPECT_EQ(found.num_asked, 3);
   EXPECT_EQ(found.tiers, (std::vector<std::vector<Index>>{{0, 2}, {1}}));
 }
 
-// What a comparison adds to be held against takes nothing from the others.
-TEST(CompareModels, AdjustsThePairsOfOthersAsIfThereWereNoYardsticks) {
+// Two pairs in turn, then Holm's adjustment of all others.
+TEST(CompareModels, TestsWhatItIsAboutAgainstEachYardstickBeforeAllElse) {
   const UnitLosses losses =
-      MakeLossesInPairedComparison(12, VectorXd{{1.0, 1.5, 2.0, 4.0, 5.0}});
-  UnitLosses alone = losses;
-  alone.mean_squares.conservativeResize(Eigen::NoChange, 3);
-  const Comparison of_three = CompareModels(alone, nullptr, {});
+      MakeLossesInPairedComparison(12, VectorXd{{1.0, 1.5, 2.0, 1.4, 1.6}});
   const Comparison found =
-      CompareModels(losses, nullptr, {.yardsticks = {3, 4}});
-  for (const auto& [a, b] : {std::pair(0, 1), {0, 2}, {1, 2}}) {
-    EXPECT_EQ(found.Pair(a, b).p_holm, of_three.Pair(a, b).p_holm);
-    EXPECT_EQ(found.Pair(a, b).num_adjusted, 3);
+      CompareModels(losses, nullptr, {.first = 0, .yardsticks = {4, 3}});
+  const PairComparison& one = found.Pair(0, 4);
+  const PairComparison& two = found.Pair(0, 3);
+  EXPECT_EQ(one.p_holm, one.p);
+  EXPECT_EQ(one.num_adjusted, 1);
+  EXPECT_EQ(two.p_holm, std::max(one.p, two.p));
+  EXPECT_EQ(two.p_memory_holm, std::max(one.memory.test.p, two.memory.test.p));
+  std::vector<double> p;
+  for (const PairComparison& pair : found.pairs) {
+    if (&pair != &one && &pair != &two) p.push_back(pair.p);
   }
-  // The three with one yardstick; the two yardsticks.
-  EXPECT_EQ(found.Pair(0, 4).num_adjusted, 3);
-  EXPECT_EQ(found.Pair(3, 4).p_holm, found.Pair(3, 4).sign_flip.test.p);
-  EXPECT_EQ(found.num_tested, 3);
-  EXPECT_EQ(found.num_asked, 3);
-  EXPECT_EQ(CompareModels(losses, nullptr, {}).num_tested, 10);
+  ASSERT_EQ(p.size(), 8U);
+  EXPECT_EQ(found.num_tested, 8);
+  EXPECT_EQ(found.num_asked, 8);
+  const std::vector<double> adjusted = AdjustByHolm(p);
+  std::size_t i = 0;
+  for (const PairComparison& pair : found.pairs) {
+    if (&pair == &one || &pair == &two) continue;
+    EXPECT_EQ(pair.p_holm, std::max(two.p_holm, adjusted[i++]));
+    EXPECT_EQ(pair.num_adjusted, 8);
+  }
+  EXPECT_EQ(CompareModels(losses, nullptr, {.yardsticks = {3, 4}}).num_tested,
+            10);
+}
+
+// However clear the others are: the error of the whole stays at the level.
+TEST(CompareModels, ShowsNothingBehindAYardstickThatIsNotBeaten) {
+  const Comparison found = CompareModels(
+      MakeLossesInPairedComparison(20, VectorXd{{1.0, 9.0, 1.0, 0.1}}),
+      nullptr,
+      {.first = 0, .yardsticks = {1, 2, 3}});
+  EXPECT_LE(found.Pair(0, 1).p_holm, kSignificance);
+  const double not_beaten = found.Pair(0, 2).p;
+  ASSERT_GT(not_beaten, kSignificance);
+  EXPECT_LE(found.Pair(0, 3).p, kSignificance);
+  for (const auto& [a, b] : {std::pair(0, 3), {1, 3}, {1, 2}, {2, 3}}) {
+    EXPECT_GE(found.Pair(a, b).p_holm, not_beaten);
+  }
+}
+
+// A yardstick that is the first model itself but for rounding has no turn.
+TEST(CompareModels, PassesOverAYardstickThatIsTied) {
+  UnitLosses losses =
+      MakeLossesInPairedComparison(12, VectorXd{{1.0, 1.0, 2.0}});
+  losses.mean_squares.col(1) = losses.mean_squares.col(0);
+  const Comparison found =
+      CompareModels(losses, nullptr, {.first = 0, .yardsticks = {1, 2}});
+  EXPECT_TRUE(std::isnan(found.Pair(0, 1).p_holm));
+  EXPECT_EQ(found.Pair(0, 2).p_holm, found.Pair(0, 2).p);
+}
+
+// Units of 1 to 500 rows: what is tested is what is shown.
+TEST(CompareModels, HasOneSideForDifferenceIntervalAndTests) {
+  Random random(63);
+  int significant = 0;
+  for (int repetition = 0; repetition < 300; ++repetition) {
+    UnitLosses losses;
+    losses.mean_squares.resize(12, 2);
+    losses.rows.resize(12);
+    for (Index unit = 0; unit < 12; ++unit) {
+      const VectorXd z = NormalSample(3, &random);
+      losses.rows[unit] = std::ceil(std::exp(2.0 * std::abs(z[0])));
+      losses.mean_squares.row(unit) << std::exp(z[1]),
+          std::exp(z[2]) * (repetition % 2 == 0 ? 1.0 : 3.0);
+    }
+    const Comparison found = CompareModels(losses, nullptr, {.resamples = 199});
+    const PairComparison& pair = found.pairs[0];
+    EXPECT_GT(pair.sign_flip.test.statistic * pair.difference, 0.0);
+    EXPECT_LT(pair.bounds.lower, pair.difference);
+    EXPECT_GT(pair.bounds.upper, pair.difference);
+    if (pair.p <= kSignificance) ++significant;
+  }
+  EXPECT_GT(significant, 50);
+}
+
+TEST(CompareModels, AllowsForTheMemoryThatUnitsShow) {
+  UnitLosses alike = MakeLossesInPairedComparison(40, VectorXd{{1.0, 1.0}});
+  UnitLosses mixed = alike;
+  for (Index unit = 0; unit < 40; ++unit) {
+    alike.mean_squares(unit, 0) += unit < 24 ? 1.2 : -0.3;
+    mixed.mean_squares(unit, 0) += (7 * unit) % 40 < 24 ? 1.2 : -0.3;
+  }
+  alike.mean_squares = alike.mean_squares.cwiseAbs();
+  mixed.mean_squares = mixed.mean_squares.cwiseAbs();
+  const PairComparison of_alike = CompareModels(alike, nullptr, {}).pairs[0];
+  const PairComparison of_mixed = CompareModels(mixed, nullptr, {}).pairs[0];
+  EXPECT_EQ(of_mixed.memory_shown, 0.0);
+  EXPECT_EQ(of_mixed.p, of_mixed.sign_flip.test.p);
+  EXPECT_GT(of_alike.memory_shown, 0.5);
+  EXPECT_LT(of_alike.sign_flip.test.p, kSignificance);
+  EXPECT_GT(of_alike.p, kSignificance);
+  EXPECT_GT(of_alike.bounds.upper - of_alike.bounds.lower,
+            1.5 * (of_mixed.bounds.upper - of_mixed.bounds.lower));
+}
+
+// Of units that wander off, those measured are too few of what there is.
+TEST(CompareModels, BoundsNoErrorWhereUnitsResembleTheirNeighbours) {
+  UnitLosses losses = MakeLossesInPairedComparison(12, VectorXd{{1.0, 1.0}});
+  losses.means = MatrixXd::Zero(12, 2);
+  for (Index unit = 0; unit < 12; ++unit) {
+    losses.means(unit, 0) = static_cast<double>(unit);
+    losses.means(unit, 1) = unit % 2 == 0 ? 1.0 : -1.0;
+  }
+  const Comparison found = CompareModels(losses, nullptr, {});
+  EXPECT_FALSE(found.rmse_bounds[0].exist());
+  EXPECT_TRUE(found.rmse_bounds[1].exist());
 }
 
 TEST(CompareModels, WarnsOfUnitsThatResembleTheirNeighbours) {

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "stats/distributions.h"
 #include "stats/normality/monte_carlo.h"
 #include "stats/random.h"
 
@@ -78,8 +79,23 @@ TEST(UnitBootstrap, ReachesBeyondTheWorstUnit) {
   // se = |(-3, -3, 6)| / (2 sqrt(3)) / sqrt(6) = sqrt(3) / 2; the quantile of t
   // with 2 degrees of freedom in closed form.
   const double t = 0.95 * std::sqrt(2.0 / (1.0 - 0.95 * 0.95));
-  EXPECT_NEAR(bounds.upper, std::sqrt(3.0) * std::exp(0.5 * t), 1e-12);
+  EXPECT_GE(bounds.upper, std::sqrt(3.0) * std::exp(0.5 * t));
+  // One degree of freedom, as 9 of one unit in three tells no more.
+  EXPECT_NEAR(
+      bounds.upper, std::sqrt(3.0 / ChiSquaredQuantile(0.025, 1.0)), 1e-9);
   EXPECT_EQ(bounds.lower, 0.0);  // by the resamples without it
+}
+
+// Units that count for half leave half as many degrees of freedom.
+TEST(UnitBootstrap, IsWiderWhereUnitsAreWorthLess) {
+  const UnitBootstrap bootstrap(
+      RandomLosses(20, 1), kResamples, kUnitBootstrapSeed);
+  const Bounds95 all = bootstrap.OfRmse(0);
+  const Bounds95 half = bootstrap.OfRmse(0, 0.5);
+  EXPECT_LE(half.lower, all.lower);
+  EXPECT_GT(half.upper, 1.1 * all.upper);
+  EXPECT_LE(half.at_least, all.at_least);
+  EXPECT_GT(half.at_most, all.at_most);
 }
 
 // With many units both methods agree with the normal interval.
