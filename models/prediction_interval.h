@@ -35,9 +35,9 @@ struct PredictionInterval {
   /// Whether whole sessions were held out, by whatever name: groups that cut
   /// the rows as sessions do are sessions.
   bool of_sessions = false;
-  /// Sessions to come for which it is good, where the mean errors of
-  /// neighbouring sessions go together (their correlation; NaN where it was not
-  /// looked for); 0: no sign of that.
+  /// Sessions to come for which it is good, where it is not excluded that the
+  /// mean errors of neighbouring sessions go together (their correlation; NaN
+  /// where it was not looked for); 0: it is.
   Eigen::Index good_for = 0;
   double lag1 = std::numeric_limits<double>::quiet_NaN();
 };

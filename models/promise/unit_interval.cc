@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "models/study/judgement/units_of_analysis.h"
-#include "stats/comparison/paired_comparison.h"
+#include "stats/comparison/memory_bounds.h"
 #include "stats/distributions.h"
 #include "stats/randomness.h"
 #include "stats/unit_freedom.h"
@@ -65,38 +65,88 @@ double Widening(const std::map<Index, std::vector<double>>& sizes,
          stats::NormalQuantile(upper);
 }
 
+// Mean error of each unit, in their order, and the share of the mean square
+// that these means are.
+struct UnitMeans {
+  VectorXd means;
+  double share = 0.0;
+};
+
+UnitMeans MeansOfUnits(const VectorXd& residuals,
+                       const std::vector<Index>& units) {
+  std::map<Index, std::vector<double>> errors;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    errors[units[i]].push_back(residuals[static_cast<Index>(i)]);
+  }
+  UnitMeans found{.means = VectorXd(std::ssize(errors))};
+  double squares = 0.0;
+  Index unit = 0;
+  for (const auto& [code, of_unit] : errors) {
+    const Eigen::Map<const VectorXd> values(of_unit.data(),
+                                            std::ssize(of_unit));
+    found.means[unit++] = values.mean();
+    squares += values.squaredNorm() / static_cast<double>(values.size());
+  }
+  if (squares > 0.0) found.share = found.means.squaredNorm() / squares;
+  return found;
+}
+
+// By how much the mean square of the next `later` of a first-order
+// autoregression about the mean of `n` of them is above that of these n, each
+// about the mean of the others.
+double MeanSquareToCome(double memory, Index n, Index later) {
+  const auto number = static_cast<double>(n);
+  double of_mean = 1.0 / number;
+  for (Index lag = 1; lag < n; ++lag) {
+    of_mean += 2.0 * (1.0 - static_cast<double>(lag) / number) / number *
+               std::pow(memory, static_cast<double>(lag));
+  }
+  double shared = 0.0;
+  for (Index next = 0; next < later; ++next) {
+    for (Index lag = next + 1; lag <= next + n; ++lag) {
+      shared += std::pow(memory, static_cast<double>(lag)) / number;
+    }
+  }
+  const double to_come =
+      1.0 + of_mean - 2.0 * shared / static_cast<double>(later);
+  const double others = number / (number - 1.0);
+  return std::max(1.0, to_come / ((1.0 - of_mean) * others * others));
+}
+
 // Where the mean errors of neighbouring sessions go together, as an
 // autoregression of the first order would have them, those to come leave what
 // was seen: until a quarter of what neighbours share is gone, and never longer
-// than a fifth of what was measured, the promise is good.
+// than a fifth of what was measured, the promise is good; and it has to be
+// wider, as the next ones are further away than those seen were among each
+// other. So few sessions seldom show that: it is said unless they exclude it.
 void FindMemory(const VectorXd& residuals,
                 const std::vector<Index>& units,
                 PredictionInterval* interval) {
   constexpr double kShared = 0.75;
+  constexpr double kStrong = 0.7;
   constexpr double kMost = 0.98;
-  VectorXd means = VectorXd::Zero(interval->units);
-  VectorXd rows = means;
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    means[units[i]] += residuals[static_cast<Index>(i)];
-    rows[units[i]] += 1.0;
-  }
-  const stats::SerialTests serial =
-      stats::TestSerially({means.cwiseQuotient(rows)});
-  interval->lag1 = serial.lag1.statistic;
-  // Of fewer, memory shows in one case of eight.
-  constexpr Index kFewestSessions = 10;
-  if (interval->units < kFewestSessions || !serial.lag1.ok() ||
-      serial.lag1.p > stats::kSignificance ||
-      serial.lag1.statistic < serial.expected_lag1) {
+  constexpr double kMostToCome = 0.9;
+  constexpr Index kFewestSessions = 6;
+  const UnitMeans found = MeansOfUnits(residuals, units);
+  const Index n = found.means.size();
+  interval->lag1 = stats::TestSerially({found.means}).lag1.statistic;
+  if (n < kFewestSessions || !(found.means.minCoeff() < found.means.maxCoeff()))
     return;
+  if (stats::MemoryOf(found.means, stats::kMostMemory) < kStrong) return;
+  const double likely = stats::MemoryOf(found.means, 0.0);
+  const auto lasts = static_cast<Index>(std::floor(
+      std::log(kShared) / std::log(std::clamp(likely, kShared, kMost))));
+  interval->good_for = std::clamp(lasts, Index{1}, std::max(Index{1}, n / 5));
+  const double wider = std::sqrt(
+      1.0 +
+      found.share * (MeanSquareToCome(
+                         std::min(likely, kMostToCome), n, interval->good_for) -
+                     1.0));
+  for (PredictionInterval::Level& level : interval->levels) {
+    level.half_width *= wider;
+    level.inside *= wider;
+    level.outside *= wider;
   }
-  // Free of its bias: stats/comparison/memory_bounds.h.
-  const auto n = static_cast<double>(interval->units);
-  const double memory =
-      std::clamp((n * interval->lag1 + 1.0) / (n - 3.0), kShared, kMost);
-  const auto lasts =
-      static_cast<Index>(std::floor(std::log(kShared) / std::log(memory)));
-  interval->good_for = std::clamp(lasts, Index{1}, interval->units / 5);
 }
 
 }  // namespace

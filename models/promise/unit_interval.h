@@ -31,12 +31,14 @@ PredictionInterval::Level UnitIntervalLevel(
 
 /// The promise of a model from its predictions of `holdout`'s held-out rows;
 /// nothing where they fall into fewer than two units, or lie between rows that
-/// it was fitted to. `inside`, asked once there are units, tells of each of
-/// these rows whether it is inside of what its fold was trained on
-/// (InsideOfFolds): rows inside and outside then have half-widths of their own,
-/// as UnitIntervalLevel of such rows alone but inside no more and outside no
-/// less than that of all, unless the inside has the larger or one of them is in
-/// fewer than two units.
+/// it was fitted to. Of six sessions or more that do not exclude a memory of
+/// 0.7 from one to the next, `good_for` says for how many to come it is, and
+/// levels are as much wider as these are further from what was measured.
+/// `inside`, asked once there are units, tells of each of these rows whether it
+/// is inside of what its fold was trained on (InsideOfFolds): rows inside and
+/// outside then have half-widths of their own, as UnitIntervalLevel of such
+/// rows alone but inside no more and outside no less than that of all, unless
+/// the inside has the larger or one of them is in fewer than two units.
 std::optional<PredictionInterval> PromiseOf(
     const data::Dataset& dataset,
     const Holdout& holdout,

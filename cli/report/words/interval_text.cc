@@ -22,9 +22,10 @@ std::string IntervalText(const models::PromiseRecord& promise,
   }
   if (promise.good_for) {
     text += fmt::format(
-        "; good for {} to come, as neighbouring {} err alike (correlation "
-        "{:.2f})",
-        Count(*promise.good_for, promise.unit),
+        "; trust that for the next {} only: neighbouring {} may err alike "
+        "(correlation {:.2f})",
+        *promise.good_for == 1 ? promise.unit
+                               : Count(*promise.good_for, promise.unit),
         PluralOf(promise.unit),
         promise.lag1.value_or(models::kNotKnown));
   }

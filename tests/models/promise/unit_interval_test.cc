@@ -211,13 +211,15 @@ Fitted FitSessions(Index known,
   return fitted;
 }
 
-// Through fit, as users get it. Without a word of how long, the 90 % of 35
-// sessions of memory 0.9 hold .78 of the errors of the next 30.
+// Through fit, as users get it. Without a word of how long, the 90 % of 10 and
+// 35 sessions of memory 0.9 hold .64 and .79 of the errors of the next 30. Of
+// 2000 runs each it is said in 83, 91 and 99 % from 6, 10 and 35 sessions, and
+// holds .92, .90 and .91 of the errors.
 TEST(PromiseOf, SaysForHowLongWhereNeighbouringSessionsErrAlike) {
   constexpr int kRuns = 400;
   constexpr Index kLater = 30;
   stats::Random random(5);
-  for (const Index known : {10, 35}) {
+  for (const Index known : {6, 10, 35}) {
     int found = 0;
     double next = 0.0;
     double later = 0.0;
@@ -227,13 +229,11 @@ TEST(PromiseOf, SaysForHowLongWhereNeighbouringSessionsErrAlike) {
       const Index good_for = fitted.map.interval->good_for;
       if (good_for == 0) continue;
       ++found;
-      EXPECT_GT(fitted.map.interval->lag1, 0.0);
       next += fitted.Within(good_for);
       later += fitted.Within(kLater);
     }
-    // Ten sessions can seldom tell.
-    EXPECT_GT(found, known == 10 ? kRuns / 4 : 9 * kRuns / 10) << known;
-    EXPECT_GT(next / found, 0.83) << known;
+    EXPECT_GT(found, (known == 6 ? 0.78 : 0.88) * kRuns) << known;
+    EXPECT_GT(next / found, 0.87) << known;
     EXPECT_LT(later / found, next / found - 0.05) << known;
   }
   int found = 0;
@@ -241,7 +241,8 @@ TEST(PromiseOf, SaysForHowLongWhereNeighbouringSessionsErrAlike) {
     const Fitted fitted = FitSessions(20, 1, HeavyTailed, &random);
     if (fitted.map.interval->good_for > 0) ++found;
   }
-  EXPECT_LT(found, kRuns / 8);
+  // So many do exclude it where there is none.
+  EXPECT_LT(found, kRuns / 6);
 }
 
 data::Dataset GroupedQuadratic(Index groups) {

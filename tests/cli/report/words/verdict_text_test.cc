@@ -168,8 +168,11 @@ TEST(Sentences, SayForHowManyDaysAPromiseIsGood) {
   promise.lag1 = 0.84;
   promise.good_for = 2;
   EXPECT_THAT(IntervalText(promise, error),
-              EndsWith(" um; good for 2 days to come, as neighbouring days err "
-                       "alike (correlation 0.84)"));
+              EndsWith(" um; trust that for the next 2 days only: neighbouring "
+                       "days may err alike (correlation 0.84)"));
+  promise.good_for = 1;
+  EXPECT_THAT(IntervalText(promise, error),
+              HasSubstr("trust that for the next day only"));
 }
 
 TEST(Sentences, TellWhichColumnToIgnoreForAFlatteredModel) {
