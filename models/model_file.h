@@ -12,7 +12,7 @@ namespace errmap::models {
 using Provenance = std::vector<std::pair<std::string, std::string>>;
 
 /// The model as a JSON document of schema errmap-model-1; numbers are written
-/// so that they read back to the same bits.
+/// so that they read back to the same bits. Its last key is a checksum.
 std::string ModelToJson(const FittedModel& fitted,
                         const Provenance& provenance);
 
@@ -26,7 +26,8 @@ void SaveModel(const FittedModel& fitted,
 /// Its summary is that of a model that was not fitted here.
 /// Throws data::InputError naming the file, the key and what is wrong: no
 /// JSON, another schema, a missing key, a wrong type or shape, a number that
-/// is not finite.
+/// is not finite, a checksum that says that it was changed. A file without one
+/// is read, with a remark.
 FittedModel LoadModel(const std::string& path);
 
 /// The same from text; `source` stands for the file in messages.

@@ -9,6 +9,7 @@
 #include "data/formats/nesting.h"
 #include "data/input_error.h"
 #include "data/text.h"
+#include "models/file/checksum.h"
 #include "models/file/map_members_json.h"
 #include "models/file/model_json.h"
 #include "models/history/history.h"
@@ -423,6 +424,23 @@ FittedModel ReadModel(const Node& root) {
   return fitted;
 }
 
+// Said of a file that has none, which older versions wrote.
+std::optional<std::string> CheckSum(const Node& root,
+                                    const std::string& text,
+                                    const std::string& source) {
+  const auto sum = root.Find(kChecksumKey);
+  if (!sum) {
+    return fmt::format("{} has no checksum: a changed number would go unseen",
+                       source);
+  }
+  if (HasChecksum(text, sum->Text())) return std::nullopt;
+  throw data::InputError(fmt::format(
+      "{}: was changed after errmap wrote it; take another copy, or "
+      "remove its key '{}' if that was meant",
+      source,
+      kChecksumKey));
+}
+
 }  // namespace
 
 FittedModel ModelFromJson(const std::string& text, const std::string& source) {
@@ -446,7 +464,11 @@ FittedModel ModelFromJson(const std::string& text, const std::string& source) {
   } catch (const Json::out_of_range&) {
     throw data::InputError(source + ": has a number that is too large");
   }
-  return ReadModel(Node(document, "", source));
+  const Node root(document, "", source);
+  const std::optional<std::string> remark = CheckSum(root, text, source);
+  FittedModel fitted = ReadModel(root);
+  if (remark) fitted.remarks.push_back(*remark);
+  return fitted;
 }
 
 }  // namespace errmap::models

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "models/file/checksum.h"
 #include "models/file/map_members_json.h"
 #include "models/file/model_json.h"
 #include "models/history/history.h"
@@ -134,7 +135,7 @@ std::string ModelToJson(const FittedModel& fitted,
     document["provenance"][key] = value;
   }
   constexpr int kIndent = 1;
-  return document.dump(kIndent) + "\n";
+  return WithChecksum(document.dump(kIndent));
 }
 
 }  // namespace errmap::models

@@ -22,6 +22,7 @@
 #include <sys/types.h>
 #include <sys/wait.h>
 
+#include "data/sha256.h"
 #include "tests/places.h"
 
 namespace errmap {
@@ -173,6 +174,14 @@ class CliTest : public ::testing::Test {
     Json document = Json::parse(outcome.out, nullptr, false);
     EXPECT_FALSE(document.is_discarded()) << outcome.out;
     return document;
+  }
+
+  /// A model file whose checksum holds.
+  void WriteMapFile(const std::string& name, Json map) const {
+    map.erase("checksum");
+    std::string text = map.dump();
+    text.pop_back();
+    Write(name, text + ",\"checksum\":\"" + data::Sha256(text) + "\"}");
   }
 
   void Write(const std::string& name, std::string_view text) const {

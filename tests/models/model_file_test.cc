@@ -25,6 +25,13 @@ std::string SavedModel(const std::string& spec) {
                      {{"data", "shipped"}});
 }
 
+// Of a file that may be changed at will.
+Json WithoutChecksum(const std::string& text) {
+  Json document = Json::parse(text);
+  document.erase("checksum");
+  return document;
+}
+
 TEST(ModelFile, ReproducesEveryPredictionBitForBit) {
   const data::Dataset dataset = ShippedMeasurements();
   for (const std::string spec : {"zero",
@@ -50,7 +57,7 @@ TEST(ModelFile, ReproducesEveryPredictionBitForBit) {
 // What loading says after `damage` has been done to a saved model.
 std::string Refusal(const std::string& spec,
                     const std::function<void(Json*)>& damage) {
-  Json document = Json::parse(SavedModel(spec));
+  Json document = WithoutChecksum(SavedModel(spec));
   damage(&document);
   try {
     ModelFromJson(document.dump(), "saved.json");
@@ -180,13 +187,13 @@ TEST(ModelFile, KeepsWhatAMapPromises) {
   EXPECT_FALSE(read.interval->levels[0].at_least);
   EXPECT_EQ(read.interval->levels[1].half_width, 2.5e-3);
   EXPECT_TRUE(read.interval->levels[1].at_least);
-  std::string spoilt = ModelToJson(fitted, {});
+  std::string spoilt = WithoutChecksum(ModelToJson(fitted, {})).dump();
   spoilt.replace(spoilt.find("0.00125"), 7, "-1.0000");
   EXPECT_THROW(ModelFromJson(spoilt, "memory.json"), data::InputError);
 }
 
 TEST(ModelFile, ReadsFilesFromBeforeThereWereMemories) {
-  Json document = Json::parse(SavedModel("poly:eq8"));
+  Json document = WithoutChecksum(SavedModel("poly:eq8"));
   document.erase("history");
   document.erase("guards");
   EXPECT_EQ(ModelFromJson(document.dump(), "old.json").history, nullptr);
@@ -196,7 +203,7 @@ TEST(ModelFile, RefusesAHistoryThatCannotRun) {
   const std::string text = ModelToJson(
       MapWithMemoryInModelFile(errmap::testing::WanderingDays()), {});
   const auto refusal = [&](const std::function<void(Json*)>& damage) {
-    Json document = Json::parse(text);
+    Json document = WithoutChecksum(text);
     damage(&document);
     try {
       ModelFromJson(document.dump(), "saved.json");
@@ -244,6 +251,43 @@ TEST(ModelFile, SaysWhereAFileBreaks) {
   EXPECT_THAT(reading("{\"schema\": 1e999}"),
               ::testing::ThrowsMessage<data::InputError>(
                   "map.json: has a number that is too large"));
+}
+
+// Where a digit is changed: in the mantissa, the exponent, a name, the
+// checksum.
+TEST(ModelFile, RefusesAFileOfWhichADigitWasChanged) {
+  const std::string whole =
+      ModelToJson(MapWithMemoryInModelFile(errmap::testing::WanderingDays()),
+                  {{"data", "shipped"}});
+  EXPECT_TRUE(ModelFromJson(whole, "map.json").remarks.empty());
+  int digits = 0;
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    if (whole[at] < '0' || whole[at] > '9') continue;
+    std::string changed = whole;
+    changed[at] = changed[at] == '9' ? '0' : static_cast<char>(whole[at] + 1);
+    EXPECT_THROW(ModelFromJson(changed, "map.json"), data::InputError)
+        << whole.substr(at > 20 ? at - 20 : 0, 40);
+    ++digits;
+  }
+  EXPECT_GT(digits, 300);
+}
+
+TEST(ModelFile, TakesAnIndentedCopy) {
+  const std::string whole = SavedModel("poly:eq8");
+  std::string copy = Json::parse(whole).dump(4);
+  for (std::size_t at = 0; (at = copy.find('\n', at)) != std::string::npos;) {
+    copy.insert(at, "\r");
+    at += 2;
+  }
+  EXPECT_TRUE(ModelFromJson(copy, "map.json").remarks.empty());
+}
+
+TEST(ModelFile, SaysWhatAFileWithoutChecksumLacks) {
+  const std::string text = WithoutChecksum(SavedModel("poly:eq8")).dump();
+  EXPECT_THAT(
+      ModelFromJson(text, "old.json").remarks,
+      ::testing::ElementsAre(
+          "old.json has no checksum: a changed number would go unseen"));
 }
 
 TEST(ModelFile, RefusesAKeyThatStandsTwiceInOneObject) {

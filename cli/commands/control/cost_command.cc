@@ -31,7 +31,7 @@ struct CostArguments {
 
 models::MapExport PrepareToMeasure(const CostArguments& arguments) {
   const models::FittedModel fitted =
-      LoadForControl(arguments.model, arguments.every);
+      LoadForControl(arguments.model, arguments.every, false);
   try {
     return models::PrepareExport({&fitted},
                                  "map",

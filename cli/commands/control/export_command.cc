@@ -262,7 +262,7 @@ int RunExport(const ExportArguments& arguments) {
   }
   std::vector<models::FittedModel> maps;
   for (const std::string& file : MapsOf(arguments)) {
-    maps.push_back(LoadForControl(file, arguments.every));
+    maps.push_back(LoadForControl(file, arguments.every, arguments.quiet));
   }
   const models::MapExport map = Prepare(arguments, maps);
   std::vector<models::ExportedFile> files = FilesOf(arguments, map);

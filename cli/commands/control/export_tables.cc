@@ -242,6 +242,10 @@ void ExportLinuxcnc(const std::string& model,
         "{}: {}", data::PrintablePath(maps.forward.file), error.what()));
   }
   data::WriteFileAtomically(out, file.text);
+  SayUnless(quiet, maps.forward.fitted.remarks);
+  if (maps.reverse.file != maps.forward.file) {
+    SayUnless(quiet, maps.reverse.fitted.remarks);
+  }
   if (!quiet) {
     SayOfLinuxcnc(file, maps, increasing, decreasing, arguments, out);
   }

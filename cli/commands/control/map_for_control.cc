@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/maps/map_warnings.h"
 #include "cli/shell/command_options.h"
 #include "data/text.h"
 #include "models/history/with_history.h"
-#include "models/model_file.h"
 
 namespace errmap::cli {
 
@@ -22,8 +22,9 @@ void AddEveryOption(CLI::App* command, std::string* every) {
 }
 
 models::FittedModel LoadForControl(const std::string& file,
-                                   const std::string& every) {
-  models::FittedModel map = models::LoadModel(file);
+                                   const std::string& every,
+                                   bool quiet) {
+  models::FittedModel map = LoadMap(file, quiet);
   if (every.empty()) return map;
   const std::optional<double> seconds = data::ParseInterval(every);
   if (!seconds) {

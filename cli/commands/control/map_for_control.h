@@ -16,8 +16,9 @@ void AddEveryOption(CLI::App* command, std::string* every);
 /// The map of a file; one that counts rows in seconds, where `every` is given,
 /// which its name then says.
 /// Throws UsageError where it is no interval or the map counts no rows, else
-/// as models::LoadModel.
+/// as LoadMap.
 models::FittedModel LoadForControl(const std::string& file,
-                                   const std::string& every);
+                                   const std::string& every,
+                                   bool quiet);
 
 }  // namespace errmap::cli

@@ -134,6 +134,7 @@ struct Deployed {
   fleet::Deployment deployment;
   std::string promised;
   std::string why_not_watched;
+  std::vector<std::string> remarks;  // on the map's file
 };
 
 Deployed Prepare(const fleet::StorePaths& paths,
@@ -162,7 +163,8 @@ Deployed Prepare(const fleet::StorePaths& paths,
                                       ? fitted.interval->levels[1].half_width
                                       : kNaN},
       .promised = "nothing, since no rows were held out",
-      .why_not_watched = models::WhyNotWatched(fitted)};
+      .why_not_watched = models::WhyNotWatched(fitted),
+      .remarks = fitted.remarks};
   if (const double promised = deployed.deployment.promised;
       std::isfinite(promised)) {
     deployed.promised =
@@ -251,6 +253,7 @@ int RunDeploy(const DeployArguments& arguments) {
     }
   });
   PrintFitted(DeployedText(paths, all));
+  for (const Deployed& one : all) SayUnless(false, one.remarks);
   SayNotWatched(all);
   return kDone;
 }

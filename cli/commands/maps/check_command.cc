@@ -158,7 +158,7 @@ models::SessionProbes ProbesOf(const models::FittedModel& fitted,
 }
 
 int RunCheck(const CheckArguments& arguments, const std::string& command_line) {
-  const models::FittedModel fitted = models::LoadModel(arguments.model);
+  const models::FittedModel fitted = LoadMap(arguments.model, arguments.quiet);
   if (fitted.held_out == nullptr) {
     throw data::InputError(fmt::format(
         "{}: holds no errors of unseen days to judge probes by; fit the map "

@@ -195,7 +195,7 @@ std::string EvaluationText(const Evaluation& found,
 
 int RunEvaluate(const EvaluateArguments& arguments,
                 const std::string& command_line) {
-  const models::FittedModel fitted = models::LoadModel(arguments.model);
+  const models::FittedModel fitted = LoadMap(arguments.model, arguments.quiet);
   const models::MapRows rows =
       ReadMapRows(fitted, arguments.files, arguments.rows, arguments.quiet);
   const data::Dataset& dataset = rows.dataset;

@@ -146,7 +146,7 @@ void ReadWithMap(const std::string& file,
                  const std::string& map,
                  const Iso230Arguments& arguments,
                  Approached* all) {
-  const models::FittedModel fitted = models::LoadModel(map);
+  const models::FittedModel fitted = LoadMap(map, arguments.quiet);
   const models::MapRows rows = ReadMapRows(fitted, {file}, {}, arguments.quiet);
   const VectorXd& measured = rows.dataset.target_values();
   Take(rows.table,

@@ -23,6 +23,12 @@ namespace errmap::cli {
 
 using Eigen::Index;
 
+models::FittedModel LoadMap(const std::string& file, bool quiet) {
+  models::FittedModel fitted = models::LoadModel(file);
+  SayUnless(quiet, fitted.remarks);
+  return fitted;
+}
+
 void RequireAges(const models::FittedModel& fitted, const std::string& model) {
   if (!models::KnowsAges(fitted)) {
     throw data::InputError(fmt::format(

@@ -14,6 +14,9 @@
 
 namespace errmap::cli {
 
+/// models::LoadModel; says what is to be known of the file, unless quiet.
+models::FittedModel LoadMap(const std::string& file, bool quiet);
+
 /// models::ReadForMap; says what was converted, unless quiet.
 data::CsvTable ReadForMap(const models::FittedModel& fitted,
                           const std::vector<std::string>& files,

@@ -255,7 +255,7 @@ int RunPredict(const PredictArguments& arguments) {
                 {arguments.model, arguments.log.after, arguments.probes});
     return read;
   }());
-  const models::FittedModel fitted = models::LoadModel(arguments.model);
+  const models::FittedModel fitted = LoadMap(arguments.model, arguments.quiet);
   const data::CsvTable table = ReadForMap(
       fitted, arguments.files, models::MapColumns::kInputs, arguments.quiet);
   const Eigen::MatrixXd inputs = models::InputsOf(fitted, table);

@@ -173,7 +173,7 @@ int RunUpdate(const UpdateArguments& arguments,
   read.push_back(arguments.file);
   CheckOutputName("-o", arguments.out, read);
   RequirePlaceFor(arguments.out);
-  const models::FittedModel old_map = models::LoadModel(arguments.model);
+  const models::FittedModel old_map = LoadMap(arguments.model, arguments.quiet);
   const data::Dataset fresh = ReadRows(old_map, arguments.file, arguments);
   std::vector<desk::InputFile> learnt_from = KnownFiles(arguments);
   const double indifference = models::DefaultIndifference(old_map.target.unit);

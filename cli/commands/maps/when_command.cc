@@ -131,7 +131,7 @@ Json WhenJson(const models::FittedModel& fitted,
 }
 
 int RunWhen(const WhenArguments& arguments, const std::string& command_line) {
-  const models::FittedModel fitted = models::LoadModel(arguments.model);
+  const models::FittedModel fitted = LoadMap(arguments.model, false);
   RequireAges(fitted, arguments.model);
   const models::HeldOutErrors& errors = *fitted.held_out;
   const data::Unit& unit = fitted.target.unit;

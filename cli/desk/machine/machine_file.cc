@@ -330,6 +330,8 @@ class MachineFileReader {
       try {
         map = std::make_shared<const models::FittedModel>(
             models::LoadModel(path));
+        warnings_.insert(
+            warnings_.end(), map->remarks.begin(), map->remarks.end());
       } catch (const data::InputError& error) {
         Refuse(file_, node.source(), fmt::format("{}: {}", name, error.what()));
       }

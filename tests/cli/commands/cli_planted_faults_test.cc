@@ -410,7 +410,7 @@ TEST_F(CliPlantedFaults, PredictionsThatAreNotFiniteAreCountedAndFail) {
   map["polynomial"]["terms"][0]["coefficient"] = 1e308;
   map["polynomial"]["input_scale"][0] = 1e10;
   map["guards"] = nullptr;  // they would hold it within the trained errors
-  Write("m.json", map.dump());
+  WriteMapFile("m.json", map);
   Write("other.csv", other.Csv());
   const Outcome predicted = Run({"predict", "m.json", "other.csv", "--quiet"});
   EXPECT_EQ(predicted.status, kEveryFitFailed);
@@ -425,7 +425,7 @@ TEST_F(CliPlantedFaults, PredictionsThatAreNotFiniteAreCountedAndFail) {
   EXPECT_THAT(RefusalOf(judged, kEveryFitFailed), HasSubstr("not finite"));
   // Finite, but nothing that is said of it would be.
   map["polynomial"]["input_scale"][0] = 1e-2;
-  Write("m.json", map.dump());
+  WriteMapFile("m.json", map);
   const Outcome large = Run({"evaluate", "m.json", "other.csv", "--quiet"});
   EXPECT_EQ(large.out, "");
   EXPECT_THAT(RefusalOf(large, kEveryFitFailed),

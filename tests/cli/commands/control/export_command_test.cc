@@ -489,7 +489,7 @@ TEST_F(CliExport, RefusesWhatItCannotWrite) {
       HasSubstr("--float goes with --c, --st, --scl and --plcopen alone"));
   Json opaque = Json::parse(Read("map.json"));
   opaque["kind"] = "opaque";
-  Write("opaque.json", opaque.dump());
+  WriteMapFile("opaque.json", opaque);
   EXPECT_THAT(
       RefusalOf(Run({"export", "opaque.json", "--c", "-o", "."}), kUnusable),
       HasSubstr("unknown kind of model 'opaque'"));
@@ -501,7 +501,7 @@ TEST_F(CliExport, RefusesAMapThatCountsRows) {
          "map.json");
   Json rows = Json::parse(Read("map.json"));
   rows["history"]["time_unit"] = "rows";
-  Write("rows.json", rows.dump());
+  WriteMapFile("rows.json", rows);
   EXPECT_THAT(
       RefusalOf(Run({"export", "rows.json", "--c", "-o", "."}), kUnusable),
       HasSubstr("rows.json: its memory counts rows, and a controller seconds; "
@@ -524,9 +524,9 @@ TEST_F(CliExport, TakesAMapThatCountsRowsByHowOftenTheyCame) {
          "poly:ridge:view=history:history=600",
          "map.json");
   const std::string seconds = Read("map.json");
-  Json rows = Json::parse(seconds);
+  Json rows = Json::parse(Read("map.json"));
   rows["history"]["time_unit"] = "rows";
-  Write("map.json", rows.dump());
+  WriteMapFile("map.json", rows);
   ASSERT_EQ(
       Run({"export", "map.json", "--python", "-o", "rows", "--every", "1s"})
           .status,

@@ -252,7 +252,7 @@ TEST_F(CliExportTables, RefusesAMapOfTheOtherDirection) {
     const std::string file = std::string(direction) + ".json";
     Json map = Json::parse(Read(file));
     map["where"] = Json::array({{{"column", "way"}, {"text", direction}}});
-    Write(file, map.dump());
+    WriteMapFile(file, map);
   }
   EXPECT_EQ(
       Linuxcnc({"--increasing", "up.json", "--decreasing", "down.json"}).status,
@@ -387,7 +387,7 @@ TEST_F(CliExportTables, RefusesWhatIsNoTable) {
       HasSubstr("--grid takes ROWSxCOLUMNS"));
   Json angle = Json::parse(Read("up.json"));
   angle["target"] = {{"name", "error_urad"}, {"unit", "urad"}};
-  Write("angle.json", angle.dump());
+  WriteMapFile("angle.json", angle);
   EXPECT_THAT(RefusalOf(Linuxcnc({"angle.json"}), kUnusable),
               HasSubstr("'error_urad' is no length that can be written in mm"));
 }
