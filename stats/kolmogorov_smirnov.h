@@ -6,8 +6,8 @@ namespace errmap::stats {
 
 /// One-sample Kolmogorov-Smirnov distance of `sample` (n >= 1) from the normal
 /// distribution of this mean and sd > 0: the largest |F_n(x) - F(x)| over both
-/// sides of every step (NISTIR 5367, Eq. 138). NaN for n = 0, sd not > 0 or a NaN
-/// among the values.
+/// sides of every step (NISTIR 5367, Eq. 138). NaN for n = 0, sd not > 0 or a
+/// NaN among the values.
 double KsDistanceFromNormal(const Eigen::Ref<const Eigen::VectorXd>& sample,
                             double mean,
                             double sd);

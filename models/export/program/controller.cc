@@ -111,8 +111,8 @@ void SetBounds(const FittedModel& fitted, MapProgram* program) {
     ++index;
     const double range = Range(reading);
     const data::Unit& unit = reading.column.unit;
-    reading.is_position =
-        data::IsPosition(reading.column) || unit.quantity == data::Quantity::kAngle;
+    reading.is_position = data::IsPosition(reading.column) ||
+                          unit.quantity == data::Quantity::kAngle;
     reading.far_low = -kHuge;
     reading.far_high = kHuge;
     if (reading.is_position) continue;

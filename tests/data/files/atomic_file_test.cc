@@ -1,5 +1,4 @@
 #include "data/files/atomic_file.h"
-#include "data/files/link.h"
 
 #include <csignal>
 #include <cstdio>
@@ -20,6 +19,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include "data/files/link.h"
 #include "data/input_error.h"
 
 namespace errmap::data {
@@ -127,8 +127,8 @@ TEST_F(AtomicFile, RefusesALinkInTheFolderOfAnotherUser) {
   }
   WriteFileAtomically(Path("file"), "old");
   EXPECT_THAT([&] { WriteFileAtomically(link, "new"); },
-              ::testing::ThrowsMessage<std::system_error>(
-                  ::testing::HasSubstr("a link in the folder of another user")));
+              ::testing::ThrowsMessage<std::system_error>(::testing::HasSubstr(
+                  "a link in the folder of another user")));
   EXPECT_EQ(ReadFile(Path("file")), "old");
   WriteFileAtomically(Path("theirs/other"), "new");
   EXPECT_THROW(RemoveLink(link), std::system_error);

@@ -224,8 +224,9 @@ void Remarks::AddNotNoise() {
       columns.front() == result->randomness.by_group->column;
   if (has_offset &&
       record_.recommendation->goal_standing != GoalStanding::kMet) {
-    remark.add_sensor = std::ranges::count_if(study_.data.dataset.inputs(),
-                                              data::IsReadBySensor) <= kManySensors;
+    remark.add_sensor =
+        std::ranges::count_if(study_.data.dataset.inputs(),
+                              data::IsReadBySensor) <= kManySensors;
   }
   remark.columns = std::move(columns);
   remark.shares = std::move(shares);
