@@ -185,9 +185,18 @@ void AdjustInOrder(const ComparisonOptions& options, Comparison* comparison) {
     std::erase(rest, &pair);
     if (!pair.tied) AdjustInTurn(&pair, &gates);
   }
-  comparison->num_asked = std::ssize(rest);
+  const auto is_yardstick = [&](Index model) {
+    return std::ranges::find(options.yardsticks, model) !=
+           options.yardsticks.end();
+  };
+  // Nobody asks which of the yardsticks is the better one.
+  const bool is_asked =
+      std::ranges::any_of(rest, [&](const PairComparison* pair) {
+        return !(is_yardstick(pair->a) && is_yardstick(pair->b));
+      });
+  comparison->num_asked = is_asked ? std::ssize(rest) : 0;
   std::erase_if(rest, [](const PairComparison* pair) { return pair->tied; });
-  comparison->num_tested = std::ssize(rest);
+  comparison->num_tested = is_asked ? std::ssize(rest) : 0;
   AdjustTogether(rest, gates);
 }
 

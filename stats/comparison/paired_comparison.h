@@ -109,7 +109,7 @@ struct Comparison {
   std::vector<std::vector<Eigen::Index>> tiers;  // see FormTiers
 
   /// Pairs that Holm's adjustment counts; and if none were tied, which depends
-  /// on nothing found.
+  /// on nothing found. 0 where it counts pairs of yardsticks alone.
   Eigen::Index num_tested = 0;
   Eigen::Index num_asked = 0;
 

@@ -248,6 +248,10 @@ TEST(CompareModels, TestsWhatItIsAboutAgainstEachYardstickBeforeAllElse) {
   }
   EXPECT_EQ(CompareModels(losses, nullptr, {.yardsticks = {3, 4}}).num_tested,
             10);
+  EXPECT_EQ(
+      CompareModels(losses, nullptr, {.first = 0, .yardsticks = {1, 2, 3, 4}})
+          .num_asked,
+      0);
 }
 
 // However clear the others are: the error of the whole stays at the level.
