@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 constexpr Index kFewestUnits = 4;  // n - 3 divides
 
-constexpr double kMost = 0.98;
+constexpr double kMostMemorable = 0.98;
 
 struct MemoryEstimate {
   double rho = 0.0;
@@ -29,12 +29,12 @@ MemoryEstimate EstimateMemory(const Eigen::Ref<const VectorXd>& series) {
   if (!(scale > 0.0)) return {};
   x /= scale;
   const double r = x.head(size - 1).dot(x.tail(size - 1)) / x.squaredNorm();
-  const double rho = std::clamp((n * r + 1.0) / (n - 3.0), -1.0, kMost);
+  const double rho = std::clamp((n * r + 1.0) / (n - 3.0), -1.0, kMostMemorable);
   return {.rho = rho, .error = std::sqrt((1.0 - rho * rho) / n)};
 }
 
 double With(const MemoryEstimate& found, double margin) {
-  return std::clamp(found.rho + margin * found.error, 0.0, kMost);
+  return std::clamp(found.rho + margin * found.error, 0.0, kMostMemorable);
 }
 
 }  // namespace
