@@ -70,7 +70,9 @@ class Studies(unittest.TestCase):
         best = self.study.recommendation
         self.assertEqual(best["model"], "poly:position")
         self.assertTrue(best["caveats"])
-        self.assertLess(best["ci95"][0], best["rmse"])
+        # None where neighbouring cycles err too much alike to tell.
+        low = best["ci95"][0]
+        self.assertTrue(low is None or low < best["rmse"])
 
     def test_residuals_are_target_minus_predicted(self):
         found = self.study.residuals

@@ -97,6 +97,17 @@ TEST(FirstAnswer, LeavesOutAnIntervalThatReachesBelowNoError) {
   EXPECT_THAT(Text(record), Not(HasSubstr("95 %")));
 }
 
+// The range is missing as neighbours err alike, which the reader is told.
+TEST(FirstAnswer, SaysThatTheUnitsDoNotTellHowSureTheErrorIs) {
+  ComponentRecord record = Answered();
+  for (models::ModelRecord& model : record.models) {
+    for (auto& [name, result] : model.results) {
+      result.ci95 = {models::kNotKnown, models::kNotKnown};
+    }
+  }
+  EXPECT_THAT(Text(record), HasSubstr("6 cycles do not tell how sure that is"));
+}
+
 TEST(FirstAnswer, HoldsTheErrorAgainstAGoal) {
   ComponentRecord record = Answered();
   record.goal = 0.0005;
