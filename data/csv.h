@@ -55,28 +55,51 @@ struct CsvTable {
   std::vector<std::pair<std::size_t, std::size_t>> line_runs;
   /// Of several files: (first row, file as given), ascending; else empty.
   std::vector<std::pair<std::size_t, std::string>> parts;
+
+  /// Lines that stand above the table: a program's name, a date, the axis.
+  std::vector<std::string> titles;
+  /// What was not plain in the file and how it was read, one line each, to be
+  /// told to whoever uses the table.
+  std::vector<std::string> remarks;
 };
 
-/// Reads a CSV file: RFC 4180 quotes; `,` `;` or tab, found from the header;
-/// decimal comma where the delimiter is `;` or tab; UTF-8 byte order mark,
-/// CRLF, lines starting with `#`, and blank lines at the end are passed over.
-/// An unnamed column is called column_N (`has_name` is false). Text that is no
-/// valid UTF-8 is taken for Latin-1 and converted; what begins as gzip does is
-/// unpacked first, up to kMostTextOfPrograms; of an xlsx file a sheet is read
-/// ("book.xlsx:Day 2", formats/spreadsheet.h). Linear time, about twice the
-/// file's memory; never looks at the locale.
+/// What becomes of rows that have another number of cells than the others:
+/// refused, all at once; the same, and the message names the option of
+/// MissingPolicy that leaves them out; left out with a remark.
+enum class OddRows { kRefuse, kOffer, kLeaveOut };
+
+/// Reads a CSV file: `,` `;` `|`, tab or blanks between cells, found from its
+/// rows; quotes as RFC 4180 has them, those inside a cell that nobody doubled
+/// too; decimal comma where no comma parts cells; UTF-8 byte order mark, CRLF,
+/// lines starting with `#`, and blank lines at the end are passed over. Text
+/// that is no valid UTF-8 is taken for Latin-1 and converted; what begins as
+/// gzip does is unpacked first, up to kMostTextOfPrograms; of an xlsx file a
+/// sheet is read ("book.xlsx:Day 2", formats/spreadsheet.h). Linear time, about
+/// twice the file's memory; never looks at the locale.
 ///
-/// Throws InputError: unreadable file, empty file, no header (a number where a
-/// name should be), header alone, ragged row, blank line inside the data,
-/// duplicate column name, quote never closed, text after a closing quote, NUL
-/// byte. Cells that are no numbers are not judged here (see MakeDataset).
-CsvTable ReadCsv(const std::string& path);
+/// Read with a remark: lines above the table (`titles`), no line of names
+/// (column_1, ...), names in a comment or in two rows, a name that comes twice
+/// (x, x_2), columns that no row reaches, blank lines and names again between
+/// rows, points that part thousands ("1.050" where others are whole numbers of
+/// three digits), a last line cut off in mid number, which is left out; a
+/// column for each position ("e@-215.9mm_um") becomes a row for each reading.
+/// An unnamed column is called column_N (`has_name` is false).
+///
+/// Throws InputError: unreadable file, empty file, header alone, a number where
+/// a name should be, rows of another length (OddRows), another table below, a
+/// blank line in a single column, quote never closed, NUL byte, more columns
+/// than 65536. Cells that are no numbers are not judged here (see MakeDataset).
+CsvTable ReadCsv(const std::string& path, OddRows odd = OddRows::kRefuse);
 
 /// The same, and what Sha256OfFile says of the file, which is read once.
-CsvTable ReadCsv(const std::string& path, std::string* sha256);
+CsvTable ReadCsv(const std::string& path,
+                 std::string* sha256,
+                 OddRows odd = OddRows::kRefuse);
 
 /// The same from text in memory; `name` stands for the file in messages.
-CsvTable ParseCsv(std::string_view text, const std::string& name);
+CsvTable ParseCsv(std::string_view text,
+                  const std::string& name,
+                  OddRows odd = OddRows::kRefuse);
 
 /// Quotes a field for a comma-separated file where RFC 4180 asks for it.
 std::string CsvField(std::string_view text);

@@ -48,9 +48,9 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     rooms["data"] = ""
     rooms["data/files"] = " data "
     rooms["data/tables"] = " data data/files "
-    rooms["data/measurements"] = " data data/files " \
+    rooms["data/measurements"] = " data data/files data/tables " \
                                  "data/measurements/reading "
-    rooms["data/measurements/reading"] = " data data/measurements " \
+    rooms["data/measurements/reading"] = " data data/files data/measurements " \
                                          "data/measurements/faults "
     rooms["data/measurements/faults"] = " data data/measurements " \
                                         "data/measurements/reading "

@@ -130,6 +130,7 @@ Rows CommonRows(const std::vector<const Column*>& columns) {
 
 models::ResidualInputs ReadInputs(const ResidualsArguments& arguments) {
   const data::CsvTable table = data::ReadCsv(arguments.file);
+  SayUnless(false, table.remarks);
   data::RequireKnownUnit(
       table,
       {data::RequireColumn(table, arguments.column, "--column"),

@@ -37,13 +37,11 @@ struct StudyOption {
 /// data::DatasetSelection, const or not.
 template <typename Selection, typename Visit>
 void ForSelectionOptions(Selection& selection, const Visit& visit) {
-  visit(
-      StudyOption{
-          .key = "target",
-          .value = "COL",
-          .help = "Column to be mapped (default: the only one named error*)",
-          .reach = Reach::kOne},
-      selection.target);
+  visit(StudyOption{.key = "target",
+                    .value = "COL",
+                    .help = "Column to be mapped (default: the error by name)",
+                    .reach = Reach::kOne},
+        selection.target);
   visit(StudyOption{.key = "inputs",
                     .value = "A,B,...",
                     .help = "Columns to map from (default: all other numeric)",
@@ -62,20 +60,19 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
                     .reach = Reach::kMachine,
                     .example = "group = \"cycle\""},
         selection.group);
-  visit(
-      StudyOption{.key = "time",
-                  .value = "COL",
-                  .help =
-                      "Column of times (default: the only time* or\nzeit*) or "
-                      "of dates; none: the number of the row counts",
-                  .reach = Reach::kMachine,
-                  .example = "time = \"time_s\""},
-      selection.time);
+  visit(StudyOption{.key = "time",
+                    .value = "COL",
+                    .help =
+                        "Column of times (default: by name and values)\nor of "
+                        "dates; none: the number of the row counts",
+                    .reach = Reach::kMachine,
+                    .example = "time = \"time_s\""},
+        selection.time);
   visit(StudyOption{.key = "session",
                     .value = "COL",
-                    .help = "Column of sessions (default: session, day, run "
-                            "or\ntag), uninterrupted runs; none: cut where "
-                            "time breaks off",
+                    .help = "Column of sessions (default: by name, else "
+                            "nights)\nwhich are uninterrupted runs; none: cut "
+                            "where time breaks off",
                     .reach = Reach::kMachine,
                     .example = "session = \"day\""},
         selection.session);
@@ -111,6 +108,21 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
                     .seldom = true,
                     .example = "time_unit = \"s\""},
         selection.time_unit);
+  visit(StudyOption{.key = "with",
+                    .value = "LOG.csv",
+                    .help = "Log of thermometers with a clock, joined to the "
+                            "rows by time",
+                    .reach = Reach::kOne,
+                    .seldom = true,
+                    .example = "with = \"thermometers.csv\""},
+        selection.with);
+  visit(StudyOption{.key = "clock_offset",
+                    .value = "S",
+                    .help = "What the clock of that log is ahead: 3s, -2min",
+                    .reach = Reach::kOne,
+                    .seldom = true,
+                    .example = "clock_offset = \"3s\""},
+        selection.clock_offset);
   visit(StudyOption{.key = "align",
                     .help = "first: take each session's first value off the "
                             "target",
@@ -128,8 +140,9 @@ void ForSelectionOptions(Selection& selection, const Visit& visit) {
         selection.weight);
   visit(
       StudyOption{.key = "missing",
-                  .help = "What cells without a number do (empty, NA, #N/A, "
-                          "-): error or drop-rows",
+                  .help = "What cells without a number do (empty, NA, OPEN, "
+                          "---), and rows with too few or too many: error or "
+                          "drop-rows",
                   .seldom = true,
                   .example = "missing = \"error\"   # or \"drop-rows\""},
       selection.missing,

@@ -185,26 +185,6 @@ BadCells FindBadCells(const CsvTable& table,
 
 }  // namespace
 
-bool IsMissingText(std::string_view text) {
-  constexpr auto kWords = std::to_array<std::string_view>(
-      {"", "na", "nan", "n/a", "#n/a", "#na", "#nv", "null", "(null)"});
-  return std::ranges::any_of(kWords, [&](std::string_view word) {
-    return EqualsIgnoringCase(text, word);
-  });
-}
-
-bool IsMissingNumber(std::string_view text) {
-  constexpr auto kWords = std::to_array<std::string_view>(
-      {"-",         "--",      "---",     "?",      ".",
-       "none",      "nil",     "missing", "-nan",   "nan(ind)",
-       "-nan(ind)", "1.#qnan", "-1.#ind", "1.#ind", "#value!",
-       "#div/0!",   "#num!",   "#ref!",   "#name?", "#null!"});
-  return IsMissingText(text) ||
-         std::ranges::any_of(kWords, [&](std::string_view word) {
-           return EqualsIgnoringCase(text, word);
-         });
-}
-
 void ThrowUnusable(const CsvTable& table, const std::string& what) {
   throw InputError(PrintablePath(table.file) + ": " + what);
 }

@@ -9,6 +9,7 @@
 
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
+#include "data/tables/missing_cells.h"
 
 namespace errmap::data {
 
@@ -79,15 +80,7 @@ KeptRows CheckCells(const CsvTable& table,
                     const std::vector<bool>& passes,
                     MissingPolicy missing);
 
-/// True for "", NA, NaN, N/A, #N/A and NULL in any case: the cell holds
-/// nothing.
-bool IsMissingText(std::string_view text);
-
-/// And for what else stands where a number is missing: "-", "?", "none",
-/// "#DIV/0!".
-bool IsMissingNumber(std::string_view text);
-
-/// Throws InputError where the cell is such.
+/// Throws InputError where the cell is missing (IsMissingNumber).
 void RefuseMissingCell(const CsvTable& table,
                        const ColumnInUse& column,
                        std::size_t row);

@@ -204,6 +204,8 @@ struct DatasetSelection {
   std::string direction = {};  // "up", "down": rows of one way; or a column
   std::string gap = {};        // "2h": a longer pause parts sessions
   std::string time_unit = {};  // of a column of numbers; default: reading.h
+  std::string with = {};       // a log of more columns, joined by time
+  std::string clock_offset = {};  // what the clock of that log is ahead: "3s"
   Alignment align = Alignment::kNone;
   MissingPolicy missing = MissingPolicy::kError;
   FaultPolicy faults = FaultPolicy::kKeep;

@@ -11,6 +11,7 @@
 #include "data/argument_name.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/measured_files.h"
+#include "data/measurements/merged_log.h"
 #include "data/measurements/reading/column_words.h"
 #include "data/measurements/sessions.h"
 #include "data/text.h"
@@ -56,6 +57,8 @@ void AppendRows(const CsvTable& later, CsvTable* table) {
     table->line_runs.emplace_back(table->num_rows + row, line);
   }
   table->parts.emplace_back(table->num_rows, later.file);
+  table->remarks.insert(
+      table->remarks.end(), later.remarks.begin(), later.remarks.end());
   table->num_rows += later.num_rows;
 }
 
@@ -380,11 +383,21 @@ JoinedTable ReadTables(const std::vector<std::string>& given,
                        const DatasetSelection& selection) {
   const MeasuredFiles files = FindFiles(given);
   std::vector<CsvTable> tables;
-  for (const std::string& path : files.paths) tables.push_back(ReadCsv(path));
+  for (const std::string& path : files.paths) {
+    tables.push_back(ReadCsv(path, OddRowsFor(selection)));
+  }
   JoinedTable joined = JoinTables(std::move(tables), selection);
+  if (!selection.with.empty()) {
+    MergeLog(ReadCsv(selection.with), selection, &joined.table);
+  }
   joined.remarks.insert(
       joined.remarks.begin(), files.remarks.begin(), files.remarks.end());
   return joined;
+}
+
+OddRows OddRowsFor(const DatasetSelection& selection) {
+  return selection.missing == MissingPolicy::kDropRows ? OddRows::kLeaveOut
+                                                       : OddRows::kOffer;
 }
 
 void AddFileColumn(const std::string& label, CsvTable* table) {

@@ -32,9 +32,13 @@ struct JoinedTable {
 JoinedTable JoinTables(std::vector<CsvTable> tables,
                        const DatasetSelection& selection);
 
-/// JoinTables of the files that `given` names (FindFiles).
+/// JoinTables of the files that `given` names (FindFiles), and the log of
+/// `selection.with` (MergeLog).
 JoinedTable ReadTables(const std::vector<std::string>& given,
                        const DatasetSelection& selection);
+
+/// Rows of another length are left out where rows with missing cells are.
+OddRows OddRowsFor(const DatasetSelection& selection);
 
 /// Gives every row of the table `label` in a column kFileColumn, in place of
 /// one that is there.

@@ -59,21 +59,21 @@ std::string CsvTable::CellText(const CsvColumn& column, std::size_t row) const {
   return CsvNumber(column.values[row]);
 }
 
-CsvTable ReadCsv(const std::string& path) {
+CsvTable ReadCsv(const std::string& path, OddRows odd) {
   if (const CsvTable* const table = FilesInMemory::FindTable(path)) {
     return *table;
   }
-  return ParseCsv(ReadFile(path), path);
+  return ParseCsv(ReadFile(path), path, odd);
 }
 
-CsvTable ReadCsv(const std::string& path, std::string* sha256) {
+CsvTable ReadCsv(const std::string& path, std::string* sha256, OddRows odd) {
   if (FilesInMemory::FindTable(path) != nullptr) {
     *sha256 = Sha256OfFile(path);
     return ReadCsv(path);
   }
   const std::string text = ReadFile(path);
   *sha256 = Sha256(text);
-  return ParseCsv(text, path);
+  return ParseCsv(text, path, odd);
 }
 
 std::string CsvField(std::string_view text) {

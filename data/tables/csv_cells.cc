@@ -1,5 +1,6 @@
 #include "data/tables/csv_cells.h"
 
+#include <array>
 #include <cstring>
 
 #include "data/input_error.h"
@@ -36,60 +37,128 @@ void CsvCells::LeaveEmptyEnd() {
   end_ = PastLineEnd(std::find_if(last, end_, IsLineEnd), end_);
 }
 
-bool CsvCells::PassEmptyRest() {
-  const char* rest = cursor_;
-  while (rest != end_ && (IsBlank(*rest) || *rest == delimiter)) ++rest;
-  if (rest != end_ && !IsLineEnd(*rest)) return false;
-  cursor_ = PastLineEnd(rest, end_);
-  ++line_;
-  return true;
-}
-
 std::string_view CsvCells::Next() {
   const char* const start = SkipBlanks(cursor_);
   if (start != end_ && *start == '"') {
     cursor_ = start + 1;
-    return Trimmed(Quoted());
+    return TrimmedCell(Quoted());
   }
   cursor_ = start;
   while (!EndsCell(cursor_)) ++cursor_;
-  return Trimmed({start, static_cast<std::size_t>(cursor_ - start)});
+  return TrimmedCell({start, static_cast<std::size_t>(cursor_ - start)});
+}
+
+void CsvCells::ThrowNeverClosed(std::size_t line) const {
+  ThrowAt(line,
+          "the quote that opens here is never closed; close it, or remove it");
+}
+
+// Whether one of the lines after the first has as many cells as a row.
+bool CsvCells::RunsOverRows(std::string_view cell) const {
+  if (width < 2) return false;
+  const char* const end = cell.data() + cell.size();
+  const char* line = std::find_if(cell.data(), end, IsLineEnd);
+  while (line != end) {
+    line = PastLineEnd(line, end);
+    const char* const next = std::find_if(line, end, IsLineEnd);
+    if (static_cast<std::size_t>(std::count(line, next, delimiter)) + 1 >=
+        width) {
+      return true;
+    }
+    line = next;
+  }
+  return false;
 }
 
 // The cursor stands after the opening quote.
 std::string_view CsvCells::Quoted() {
   const std::size_t opening_line = line_;
   const char* const begin = cursor_;
+  bool has_bare_quote = false;
   unquoted_.clear();
   for (const char* part = begin;;) {
     const auto rest = static_cast<std::size_t>(end_ - part);
     const char* const quote =
         rest == 0 ? nullptr
                   : static_cast<const char*>(std::memchr(part, '"', rest));
-    if (quote == nullptr) {
-      throw InputError(place_(opening_line) +
-                       ": the quote that opens here is never closed; close "
-                       "it, or remove it");
-    }
-    if (quote + 1 != end_ && quote[1] == '"') {
+    if (quote == nullptr) ThrowNeverClosed(opening_line);
+    const bool is_double = quote + 1 != end_ && quote[1] == '"';
+    const char* const after = SkipBlanks(quote + 1);
+    if (is_double || !EndsCell(after)) {
+      has_bare_quote = has_bare_quote || !is_double;
       unquoted_.append(part, quote + 1);
-      part = quote + 2;
+      part = quote + (is_double ? 2 : 1);
       continue;
     }
-    line_ += CountLineEnds({begin, static_cast<std::size_t>(quote - begin)});
-    cursor_ = SkipBlanks(quote + 1);
-    if (!EndsCell(cursor_)) {
-      throw InputError(place_(line_) +
-                       ": text after the closing quote of the cell that "
-                       "opened on line " +
-                       std::to_string(opening_line) +
-                       "; a quote inside quotes is written twice");
+    const std::string_view all(begin, static_cast<std::size_t>(quote - begin));
+    const std::size_t line_ends = CountLineEnds(all);
+    if (line_ends > 0 && (has_bare_quote || RunsOverRows(all))) {
+      ThrowNeverClosed(opening_line);
     }
+    line_ += line_ends;
+    cursor_ = after;
     const std::string_view last(part, static_cast<std::size_t>(quote - part));
     if (part == begin) return last;
     unquoted_ += last;
     return unquoted_;
   }
+}
+
+bool ReadNumberForm(std::string_view cell,
+                    bool may_be_comma,
+                    NumberForm* form) {
+  form->decimal_point = cell.find('.') != std::string_view::npos;
+  const std::size_t comma = may_be_comma && !form->decimal_point
+                                ? cell.find(',')
+                                : std::string_view::npos;
+  form->decimal_comma = comma != std::string_view::npos;
+  if (!form->decimal_comma) return ParseNumber(cell, &form->value);
+  std::string with_point(cell);
+  with_point[comma] = '.';
+  return ParseNumber(with_point, &form->value);
+}
+
+namespace {
+
+// Blanks that programs put between a number and what stands beside it: no-break
+// space, figure space, thin spaces, and the mark that begins a file.
+constexpr auto kBlanks = std::to_array<std::string_view>({" ",
+                                                          "\t",
+                                                          "\xC2\xA0",
+                                                          "\xE2\x80\x87",
+                                                          "\xE2\x80\x89",
+                                                          "\xE2\x80\xAF",
+                                                          "\xEF\xBB\xBF"});
+constexpr char kLatinBlank = '\xA0';
+
+bool IsAscii(char c) { return static_cast<unsigned char>(c) < 0x80U; }
+
+}  // namespace
+
+std::string_view TrimmedCell(std::string_view text) {
+  for (bool more = true; more && !text.empty();) {
+    more = false;
+    for (const std::string_view blank : kBlanks) {
+      if (text.starts_with(blank)) {
+        text.remove_prefix(blank.size());
+        more = true;
+      }
+      if (text.ends_with(blank)) {
+        text.remove_suffix(blank.size());
+        more = true;
+      }
+    }
+    if (text.starts_with(kLatinBlank)) {
+      text.remove_prefix(1);
+      more = true;
+    }
+    if (text.size() > 1 && text.back() == kLatinBlank &&
+        IsAscii(text[text.size() - 2])) {
+      text.remove_suffix(1);
+      more = true;
+    }
+  }
+  return text;
 }
 
 }  // namespace errmap::data

@@ -10,6 +10,8 @@
 #include <system_error>
 #include <utility>
 
+#include "data/input_error.h"
+
 namespace errmap::data {
 
 inline bool IsLineEnd(char c) { return c == '\n' || c == '\r'; }
@@ -58,6 +60,9 @@ class CsvCells {
 
   /// ' ' stands for any number of blanks.
   char delimiter = kNoDelimiter;
+  /// Cells of a row, or 0 where that is not known yet: a quoted cell with a
+  /// line of so many in it is one that somebody forgot to close.
+  std::size_t width = 0;
 
   // ---- Lines.
 
@@ -72,8 +77,9 @@ class CsvCells {
   // ---- Cells.
 
   /// Text of the cell at the cursor, trimmed and without its quotes; good until
-  /// the next call. The cursor comes to rest on what ends the cell. Throws
-  /// InputError for a quote that is never closed or is followed by text.
+  /// the next call. The cursor comes to rest on what ends the cell. A quote
+  /// inside a quoted cell that nothing ends after is part of its text. Throws
+  /// InputError for a quote that is never closed, or not within its row.
   std::string_view Next();
 
   /// Most cells are plain numbers, and from_chars finds their end by itself:
@@ -102,9 +108,13 @@ class CsvCells {
     return false;
   }
 
-  /// Past the line where it has nothing but delimiters and blanks any more;
-  /// else false, and the cursor stays.
-  bool PassEmptyRest();
+  /// Throws InputError that begins with the place of the line.
+  [[noreturn]] void ThrowAt(std::size_t line, const std::string& what) const {
+    throw InputError(place_(line) + ": " + what);
+  }
+
+  /// Leaves out the line at the end, which starts at `start`.
+  void LeaveOutEnd(const char* start) { end_ = start; }
 
  private:
   bool IsBlank(char c) const {
@@ -123,6 +133,8 @@ class CsvCells {
   }
 
   std::string_view Quoted();
+  [[noreturn]] void ThrowNeverClosed(std::size_t line) const;
+  bool RunsOverRows(std::string_view cell) const;
 
   const char* cursor_;
   const char* end_;
@@ -134,9 +146,18 @@ class CsvCells {
 /// How many lines end within a text.
 std::size_t CountLineEnds(std::string_view text);
 
-/// The delimiter of a file whose header begins `text`, by its header and the
-/// rows below: tab, `;`, `|` or `,`, ' ' where blanks part the cells, or
-/// CsvCells::kNoDelimiter.
-char FindDelimiter(std::string_view text);
+/// A cell that is a number, and how it was written.
+struct NumberForm {
+  double value = 0.0;
+  bool decimal_comma = false;
+  bool decimal_point = false;
+};
+
+/// Whether a cell is one finite number, with a decimal comma where that may be.
+/// A second comma makes it a text.
+bool ReadNumberForm(std::string_view cell, bool may_be_comma, NumberForm* form);
+
+/// Cell text without blanks at its ends, no-break and thin ones included.
+std::string_view TrimmedCell(std::string_view text);
 
 }  // namespace errmap::data

@@ -1,18 +1,28 @@
-// ParseCsv of data/csv.h: one pass over the text, cell by cell.
+// ParseCsv of data/csv.h: the dialect, the table's place, then one pass over
+// its rows, cell by cell.
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
-#include <unordered_map>
+#include <unordered_set>
 
+#include "data/argument_name.h"
 #include "data/csv.h"
 #include "data/files/atomic_file.h"
 #include "data/files/sheet_path.h"
 #include "data/formula_text.h"
 #include "data/tables/csv_cells.h"
+#include "data/tables/csv_dialect.h"
+#include "data/tables/csv_layout.h"
+#include "data/tables/cut_line.h"
+#include "data/tables/folded_positions.h"
 #include "data/tables/gzip.h"
+#include "data/tables/missing_cells.h"
 #include "data/tables/spreadsheet.h"
 #include "data/tables/text_encoding.h"
+#include "data/tables/unit_cells.h"
 #include "data/text.h"
 #include "data/text_index.h"
 #include "data/units.h"
@@ -20,30 +30,46 @@
 namespace errmap::data {
 namespace {
 
-// Whether a cell below a name is a unit or nothing: "mm", "[um]", "-"; a unit
-// comes back without its brackets, nothing as "".
-bool ReadUnitCell(std::string* cell) {
-  std::string_view text = *cell;
-  if (text.size() > 1 && ((text.front() == '[' && text.back() == ']') ||
-                          (text.front() == '(' && text.back() == ')'))) {
-    text = Trimmed(text.substr(1, text.size() - 2));
+// What a column of numbers looks like, to tell a point that parts thousands.
+struct ColumnShape {
+  bool all_threes = true;  // each point or comma has three digits behind it
+  bool any_parted = false;
+  double most_parted = 0.0;  // the largest of those, read as decimals
+  double most_whole = 0.0;   // the largest number without
+  bool by_thousands = false;
+};
+
+// "1.050", "-215.900": one to three digits, none of them a 0 in front, a point
+// or comma, three digits.
+bool MayPartThousands(std::string_view number, std::size_t point) {
+  const std::string_view behind = number.substr(point + 1);
+  if (behind.size() != 3 ||
+      behind.find_first_not_of("0123456789") != std::string_view::npos) {
+    return false;
   }
-  if (text.empty() || text == "-") {
-    cell->clear();
-    return true;
+  std::string_view before = number.substr(0, point);
+  if (before.starts_with('-') || before.starts_with('+')) {
+    before.remove_prefix(1);
   }
-  double number = 0.0;
-  if (ParseNumber(text, &number)) return false;
-  const bool is_unit =
-      ReadHeader("x [" + std::string(text) + "]").source == UnitSource::kStated;
-  *cell = std::string(text);
-  return is_unit;
+  return !before.empty() && before.size() <= 3 && before.front() != '0';
 }
+
+// Lines in a row as one: (first, last), cells.
+struct OddRun {
+  std::size_t first;
+  std::size_t last;
+  std::size_t cells;
+};
 
 class Parser {
  public:
-  Parser(std::string_view text, const std::string& name, char delimiter)
-      : cells_(text, [this](std::size_t line) { return PlaceOfCell(line); }) {
+  Parser(std::string_view text,
+         const std::string& name,
+         char delimiter,
+         OddRows odd)
+      : text_(text),
+        cells_(text, [this](std::size_t line) { return PlaceOfCell(line); }),
+        odd_(odd) {
     table_.file = name;
     cells_.delimiter = delimiter;
   }
@@ -51,18 +77,33 @@ class Parser {
   CsvTable Parse() {
     CheckText();
     TakeSeparatorLine();
-    SkipToHeader();
-    char& delimiter = cells_.delimiter;
-    if (delimiter == CsvCells::kNoDelimiter) {
-      delimiter = FindDelimiter(cells_.rest());
+    SkipToTable();
+    if (cells_.delimiter == CsvCells::kNoDelimiter) {
+      dialect_ = FindDialect(cells_);
+      cells_.delimiter = dialect_.delimiter;
+    } else {
+      dialect_ = {.delimiter = cells_.delimiter,
+                  .decimal_comma = cells_.delimiter != ','};
     }
-    decimal_comma_ = delimiter != ',' && delimiter != CsvCells::kNoDelimiter;
-    ReadHeader();
+    layout_ = FindLayout(cells_, dialect_, text_);
+    for (const std::string& remark : layout_.remarks) Say(remark);
+    NameColumns();
+    cells_.GoTo(layout_.data);
     TakeUnitsRow();
     cells_.LeaveEmptyEnd();
-    ReserveRows();
+    cells_.width = layout_.width;
+    LeaveOutCutLine();
+    const CsvCells::Position begin = cells_.position();
     ReadRows();
+    if (PartThousands()) {
+      ForgetRows();
+      cells_.GoTo(begin);
+      ReadRows();
+    }
+    JudgeOddRows();
+    SayWhatWasPassedOver();
     LeaveEmptyColumns();
+    table_.titles = std::move(layout_.titles);
     return std::move(table_);
   }
 
@@ -87,6 +128,10 @@ class Parser {
 
   [[noreturn]] void ThrowAt(std::size_t line, const std::string& what) const {
     throw InputError(Place(line) + ": " + what);
+  }
+
+  void Say(const std::string& what) {
+    table_.remarks.push_back(File() + ": " + what);
   }
 
   bool AtMark() const {
@@ -133,10 +178,9 @@ class Parser {
     cells_.SkipLine();
   }
 
-  void SkipToHeader() {
+  void SkipToTable() {
     while (!cells_.at_end() &&
            (cells_.front() == '#' || cells_.AtBlankLine())) {
-      if (cells_.front() == '#') comment_before_header_ = cells_.line();
       if (cells_.line() == 1 && AtMark()) has_apostrophes_ = true;
       cells_.SkipLine();
     }
@@ -147,39 +191,50 @@ class Parser {
     }
   }
 
-  void ReadHeader() {
-    const std::size_t line = cells_.line();
-    std::unordered_map<std::string, std::size_t> numbers;  // by name, 1-based
-    for (bool more = true; more;) {
+  void NameColumns() {
+    std::unordered_set<std::string> given;
+    for (const std::string& name : layout_.names) given.insert(AsUtf8(name));
+    std::unordered_set<std::string> taken;
+    std::vector<std::string> again;
+    for (const std::string& text : layout_.names) {
       const std::size_t number = table_.columns.size() + 1;
-      std::string name = AsUtf8(TextOf(cells_.Next()));
-      more = cells_.PassEnd();
-      if (NumberForm form{}; ReadNumber(name, &form)) {
-        ThrowAt(line,
-                "no header: cell " + std::to_string(number) +
-                    " is the number " + QuotedText(name) +
-                    " where a column name should be; put a line of column "
-                    "names first" +
-                    (comment_before_header_ == 0
-                         ? ""
-                         : " (line " + std::to_string(comment_before_header_) +
-                               " starts with # and so is a comment)"));
-      }
+      std::string name = AsUtf8(TextOf(text));
+      RefuseNumber(name, number);
       const bool has_name = !name.empty();
       if (!has_name) name = "column_" + std::to_string(number);
-      const auto [other, is_new] = numbers.emplace(name, number);
-      if (!is_new) {
-        ThrowAt(line,
-                "columns " + std::to_string(other->second) + " and " +
-                    std::to_string(number) + " are both named " +
-                    QuotedName(name) + "; rename one of them");
+      if (taken.contains(name)) {
+        const std::string first = name;
+        for (int i = 2; taken.contains(name) || given.contains(name); ++i) {
+          name = first + "_" + std::to_string(i);
+        }
+        if (has_name) again.push_back(QuotedName(name));
       }
+      taken.insert(name);
       table_.columns.emplace_back();
       table_.columns.back().name = std::move(name);
       table_.columns.back().has_name = has_name;
+      if (has_name) num_named_ = number;
     }
     texts_.resize(table_.columns.size());
-    header_line_ = line;
+    shapes_.resize(table_.columns.size());
+    if (again.empty()) return;
+    constexpr std::size_t kMostShown = 5;
+    const std::size_t num = again.size();
+    again.resize(std::min(num, kMostShown));
+    Say("columns of one name: the later " +
+        std::string(num == 1 ? "is" : "are") + " read as " +
+        JoinWords(again, ", ") + (num > kMostShown ? ", ..." : ""));
+  }
+
+  void RefuseNumber(const std::string& name, std::size_t number) const {
+    NumberForm form;
+    if (!ReadNumberForm(name, dialect_.decimal_comma, &form)) return;
+    ThrowAt(layout_.header_line,
+            "no header: cell " + std::to_string(number) + " is the number " +
+                QuotedText(name) +
+                " where a column name should be; put a line of column names "
+                "first (of errors at a position: error_um@" +
+                Printable(name, kShownName) + "mm)");
   }
 
   // What the unit of a column of this name and unit makes of it; throws where
@@ -200,7 +255,7 @@ class Parser {
     return name + " [" + std::string(unit) + "]";
   }
 
-  // The cells of the record at the cursor, which stays.
+  // The cells of a record from the cursor on, which stays.
   std::vector<std::string> PeekRecord(std::size_t record) {
     const auto saved = cells_.position();
     std::vector<std::string> cells;
@@ -235,8 +290,11 @@ class Parser {
     const std::vector<std::string> below = PeekRecord(1);
     for (std::size_t i = 0; i < units.size(); ++i) {
       if (units[i].empty()) continue;
-      NumberForm form{};
-      if (i >= below.size() || !ReadNumber(below[i], &form)) return;
+      NumberForm form;
+      if (i >= below.size() ||
+          !ReadNumberForm(below[i], dialect_.decimal_comma, &form)) {
+        return;
+      }
     }
     for (std::size_t i = 0; i < units.size(); ++i) {
       CsvColumn& column = table_.columns[i];
@@ -251,10 +309,18 @@ class Parser {
   void LeaveEmptyColumns() {
     auto& columns = table_.columns;
     while (columns.size() > 1 && !columns.back().has_name &&
-           columns.back().is_text() && columns.back().texts.size() == 1 &&
-           columns.back().texts.front().empty()) {
+           IsEmpty(columns.back())) {
       columns.pop_back();
     }
+  }
+
+  void LeaveOutCutLine() {
+    const std::optional<CutLine> cut =
+        FindCutLine(cells_.rest(), cells_.delimiter);
+    if (!cut) return;
+    cells_.LeaveOutEnd(cut->start);
+    Say("the last line breaks off in mid number (" + QuotedText(cut->number) +
+        ") and is left out; complete it, or end it with a line end");
   }
 
   // No more rows than lines, and none shorter than its delimiters. Memory that
@@ -273,6 +339,7 @@ class Parser {
 
   void ReadRows() {
     in_data_ = true;
+    ReserveRows();
     std::size_t blank_line = 0;
     while (!cells_.at_end()) {
       if (cells_.front() == '#') {
@@ -280,118 +347,343 @@ class Parser {
       } else if (cells_.AtBlankLine()) {
         if (blank_line == 0) blank_line = cells_.line();
         cells_.SkipLine();
-      } else if (blank_line != 0) {
-        throw InputError(File() + ": line " + std::to_string(blank_line) +
-                         ": blank line inside the data; remove it, or start "
-                         "it with #");
       } else {
-        ReadRow();
+        if (blank_line != 0) ++num_blank_;
+        if (blank_line != 0 && table_.columns.size() == 1) {
+          throw InputError(File() + ": line " + std::to_string(blank_line) +
+                           ": blank line inside the data; remove it, or start "
+                           "it with #");
+        }
+        ReadRow(blank_line != 0);
+        blank_line = 0;
       }
     }
-    if (table_.num_rows == 0) {
-      throw InputError(File() + ": line " + std::to_string(header_line_) +
+    in_data_ = false;
+    if (table_.num_rows == 0 && odd_rows_.empty()) {
+      throw InputError(File() + ": line " +
+                       std::to_string(layout_.header_line) +
                        ": a header without data; put rows of numbers below it");
     }
   }
 
-  void ReadRow() {
+  void ReadRow(bool after_blank) {
     const std::size_t line = cells_.line();
+    column_ = 0;
+    num_numbers_ = 0;
+    is_beyond_ = false;
+    last_named_is_empty_ = false;
+    bool more = true;
+    while (more && column_ < layout_.width) {
+      more = ReadCell();
+      ++column_;
+    }
+    std::size_t found = column_;
+    for (; more; ++found) {
+      cells_.Next();
+      more = cells_.PassEnd();
+    }
+    if (!HasItsCells(found)) {
+      if (after_blank) ThrowAnotherTable(line, found);
+      TakeOddRow(line, found);
+    } else if (num_numbers_ == 0 && AreNamesAgain()) {
+      UndoRow();
+      ++num_names_again_;
+    } else if (num_numbers_ == 0 && AreOtherNames()) {
+      ThrowAnotherTable(line, found);
+    } else {
+      if (found < layout_.width) short_rows_.push_back(line);
+      for (; column_ < table_.columns.size(); ++column_) {
+        StoreText("", &table_.columns[column_]);
+      }
+      NoteLine(line);
+      ++table_.num_rows;
+    }
+  }
+
+  void NoteLine(std::size_t line) {
     auto& runs = table_.line_runs;
     if (runs.empty() ||
         runs.back().second + (table_.num_rows - runs.back().first) != line) {
       runs.emplace_back(table_.num_rows, line);
     }
-    column_ = 0;
-    while (column_ < table_.columns.size() && ReadCell()) ++column_;
-    if (column_ + 1 != table_.columns.size() && !EndsEmpty()) ThrowRagged(line);
-    ++table_.num_rows;
   }
 
-  // Whether a row with more or less cells than the header has nothing beyond
-  // the last name; columns that it left out become empty.
-  bool EndsEmpty() {
-    if (column_ == table_.columns.size()) return cells_.PassEmptyRest();
-    for (std::size_t i = column_ + 1; i < table_.columns.size(); ++i) {
-      if (table_.columns[i].has_name) return false;
-    }
-    while (++column_ < table_.columns.size()) {
-      StoreText("", &table_.columns[column_]);
-    }
-    return true;
+  // As many as most rows; or less by columns without a name, where it is sure
+  // which are lacking.
+  bool HasItsCells(std::size_t found) const {
+    if (is_beyond_) return false;
+    return found == layout_.width ||
+           (found < layout_.width && found >= num_named_ &&
+            layout_.header_line != 0 && !last_named_is_empty_);
   }
 
-  [[noreturn]] void ThrowRagged(std::size_t line) {
-    std::size_t found = column_ + 1;
-    if (column_ == table_.columns.size()) {
-      for (cells_.Next(); cells_.PassEnd(); cells_.Next()) ++found;
+  // Whether a row of words repeats the names.
+  bool AreNamesAgain() const {
+    for (std::size_t i = 0; i < layout_.width; ++i) {
+      const CsvColumn& column = table_.columns[i];
+      const auto& [row, text] = column.exceptions.back();
+      if (column.texts[text] != AsUtf8(TextOf(layout_.names[i]))) return false;
     }
-    std::string what =
-        std::to_string(found) + (found == 1 ? " field" : " fields") +
-        " where the header has " + std::to_string(table_.columns.size()) +
-        "; complete the row or remove it";
-    if (table_.num_rows == 0 && table_.columns.size() == 1) {
-      what +=
-          ", or, where the names stand further down, start the lines above "
-          "them with #";
-    } else if (cells_.delimiter == ',' && found > table_.columns.size()) {
+    return table_.num_rows > 0 && layout_.header_line != 0;
+  }
+
+  // Whether words stand where numbers stood so far, in half of those columns.
+  bool AreOtherNames() const {
+    std::size_t num_numeric = 0;
+    std::size_t num_words = 0;
+    for (std::size_t i = 0; i < column_; ++i) {
+      const CsvColumn& column = table_.columns[i];
+      if (2 * (column.exceptions.size() - 1) >= table_.num_rows) continue;
+      ++num_numeric;
+      const std::string& text = column.texts[column.exceptions.back().second];
+      num_words += IsMissingNumber(text) ? 0 : 1;
+    }
+    return num_numeric > 1 && 2 * num_words >= num_numeric;
+  }
+
+  [[noreturn]] void ThrowAnotherTable(std::size_t line,
+                                      std::size_t found) const {
+    throw InputError(File() + ": line " + std::to_string(line) +
+                     ": another table begins here (" + Fields(found) +
+                     "); keep one table in a file, and the others in files of "
+                     "their own");
+  }
+
+  static std::string Fields(std::size_t count) {
+    return std::to_string(count) + (count == 1 ? " field" : " fields");
+  }
+
+  // Takes back the cells of the row that is being read.
+  void UndoRow() {
+    for (std::size_t i = 0; i < std::min(column_, table_.columns.size()); ++i) {
+      CsvColumn& column = table_.columns[i];
+      column.values.Own().resize(table_.num_rows);
+      if (!column.exceptions.empty() &&
+          column.exceptions.back().first == table_.num_rows) {
+        column.exceptions.pop_back();
+      }
+      const auto row = static_cast<std::ptrdiff_t>(table_.num_rows);
+      for (std::ptrdiff_t* const first :
+           {&column.first_decimal_comma, &column.first_decimal_point}) {
+        if (*first == row) *first = -1;
+      }
+    }
+  }
+
+  void TakeOddRow(std::size_t line, std::size_t found) {
+    UndoRow();
+    ++num_odd_;
+    if (!odd_rows_.empty() && odd_rows_.back().last + 1 == line &&
+        odd_rows_.back().cells == found) {
+      odd_rows_.back().last = line;
+    } else {
+      odd_rows_.push_back({line, line, found});
+    }
+    if (first_odd_row_ == kNoRow) first_odd_row_ = table_.num_rows;
+  }
+
+  // ---- Rows of another length.
+
+  // Rows that ended before columns without a name are whole where these are
+  // empty throughout.
+  void JudgeShortRows() {
+    for (std::size_t i = num_named_; i < layout_.width; ++i) {
+      const CsvColumn& column = table_.columns[i];
+      if (short_rows_.empty() || IsEmpty(column)) continue;
+      for (const std::size_t line : short_rows_) TakeOddRow(line, i);
+      ThrowOddRows();
+    }
+  }
+
+  static bool IsEmpty(const CsvColumn& column) {
+    return column.is_text() && column.texts.size() == 1 &&
+           column.texts.front().empty();
+  }
+
+  void JudgeOddRows() {
+    JudgeShortRows();
+    if (odd_rows_.empty()) return;
+    if (odd_ != OddRows::kLeaveOut || table_.num_rows == 0) ThrowOddRows();
+    Say((num_odd_ == 1 ? "1 row is" : std::to_string(num_odd_) + " rows are") +
+        " left out for another number of cells than " + Expected() + ": " +
+        OddLines());
+  }
+
+  std::string Expected() const {
+    return (layout_.header_line == 0 ? "the other rows' " : "the header's ") +
+           std::to_string(layout_.width);
+  }
+
+  std::string OddLines() const {
+    constexpr std::size_t kMostShown = 12;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(odd_rows_.size(), kMostShown); ++i) {
+      const OddRun& run = odd_rows_[i];
+      const std::string first = std::to_string(run.first);
+      list +=
+          (i == 0 ? "" : ", ") +
+          (run.first == run.last ? "line " + first + " has "
+                                 : "lines " + first + " to " +
+                                       std::to_string(run.last) + " have ") +
+          std::to_string(run.cells);
+    }
+    if (odd_rows_.size() > kMostShown) list += ", and so on";
+    return list;
+  }
+
+  [[noreturn]] void ThrowOddRows() const {
+    const OddRun& first = odd_rows_.front();
+    const bool is_one = num_odd_ == 1;
+    const bool is_all =
+        table_.num_rows == 0 && odd_rows_.size() == 1 && !is_one;
+    std::string what = File() + ": ";
+    if (is_all) {
+      what += "line " + std::to_string(first.first) + ": " +
+              Fields(first.cells) + ", in all rows, where the header has " +
+              std::to_string(layout_.width) +
+              "; give it a name for each, or take the others out";
+    } else if (is_one) {
+      what += "line " + std::to_string(first.first) + " (data row " +
+              std::to_string(first_odd_row_) + "): " + Fields(first.cells) +
+              " where " +
+              (layout_.header_line == 0 ? "the other rows have "
+                                        : "the header has ") +
+              std::to_string(layout_.width) + "; complete the row or remove it";
+    } else {
+      what += std::to_string(num_odd_) +
+              " rows have another number of cells than " + Expected() + ": " +
+              OddLines() + "; complete them or remove them";
+    }
+    if (odd_ == OddRows::kOffer && table_.num_rows > 0) {
+      what += ", or leave " + std::string(is_one ? "it" : "them") +
+              " out with " + ArgumentName("missing", "drop-rows");
+    }
+    if (cells_.delimiter == ',' && first.cells > layout_.width &&
+        first_odd_row_ == 0) {
       what +=
           " (if these are decimal commas, write decimal points or separate "
           "the columns with ; or tab)";
     }
-    ThrowAt(line, what);
+    throw InputError(what);
   }
+
+  void SayWhatWasPassedOver() {
+    if (num_blank_ > 0) {
+      Say("blank lines between rows are passed over, in " +
+          std::to_string(num_blank_) +
+          (num_blank_ == 1 ? " place" : " places"));
+    }
+    if (num_names_again_ > 0) {
+      Say("the names stand between the rows again, " +
+          std::to_string(num_names_again_) +
+          (num_names_again_ == 1 ? " time" : " times") +
+          ": what is below them is read as the same table");
+    }
+  }
+
+  // ---- Points and commas that part thousands.
+
+  // Finds the columns of numbers where they do; true where there is one.
+  bool PartThousands() {
+    bool any = false;
+    for (std::size_t i = 0; i < shapes_.size(); ++i) {
+      ColumnShape& shape = shapes_[i];
+      if (!shape.any_parted || !shape.all_threes ||
+          shape.most_whole <= shape.most_parted) {
+        continue;
+      }
+      // Beside numbers of three digits the next have a mark after the first;
+      // those of four have none, so that it is not the file's way.
+      constexpr double kThreeDigits = 100.0;
+      constexpr double kFourDigits = 1000.0;
+      const CsvColumn& column = table_.columns[i];
+      const auto first =
+          std::max(column.first_decimal_comma, column.first_decimal_point);
+      const double value = column.values[static_cast<std::size_t>(first)];
+      const std::string name = "column " + QuotedName(column.name);
+      const std::string place =
+          " (line " +
+          std::to_string(table_.LineOfRow(static_cast<std::size_t>(first))) +
+          ")";
+      if (shape.most_whole >= kThreeDigits && shape.most_whole < kFourDigits) {
+        shape.by_thousands = true;
+        any = true;
+        Say(name +
+            " is read with marks between thousands, as its other "
+            "numbers are whole: " +
+            CsvNumber(kFourDigits * value) + place);
+      } else {
+        Say(name + " has numbers with three decimals among whole ones: " +
+            CsvNumber(value) + place + "; if its mark parts thousands, write " +
+            CsvNumber(kFourDigits * value));
+      }
+    }
+    return any;
+  }
+
+  void ForgetRows() {
+    for (CsvColumn& column : table_.columns) {
+      column.values = {};
+      column.exceptions.clear();
+      column.texts.clear();
+      column.first_decimal_comma = column.first_decimal_point = -1;
+    }
+    texts_.assign(table_.columns.size(), {});
+    table_.line_runs.clear();
+    table_.num_rows = 0;
+    odd_rows_.clear();
+    short_rows_.clear();
+    first_odd_row_ = kNoRow;
+    num_odd_ = num_blank_ = num_names_again_ = 0;
+  }
+
+  // ---- Cells.
 
   // Reads a cell into its column; false where the row ends with it.
   bool ReadCell() {
     CsvColumn& column = table_.columns[column_];
-    double value = 0.0;
-    if (const auto number = cells_.NextNumber(&value); !number.empty()) {
-      StoreNumber({value, false, HasPoint(number)}, &column);
+    NumberForm form;
+    const std::string_view number = cells_.NextNumber(&form.value);
+    if (!number.empty()) {
+      form.decimal_point = number.find('.') != std::string_view::npos;
+      StoreNumber(number, form, &column);
       return cells_.PassEnd();
     }
     const std::string_view field = cells_.Next();
-    if (NumberForm form{}; ReadNumber(field, &form)) {
-      StoreNumber(form, &column);
+    if (column_ + 1 == num_named_) last_named_is_empty_ = field.empty();
+    if (ReadNumberForm(field, dialect_.decimal_comma, &form)) {
+      StoreNumber(field, form, &column);
     } else {
+      if (!field.empty() && column_ >= layout_.num_names) is_beyond_ = true;
       StoreText(field, &column);
     }
     return cells_.PassEnd();
   }
 
-  struct NumberForm {
-    double value;
-    bool decimal_comma;
-    bool decimal_point;
-  };
-
-  static bool HasPoint(std::string_view text) {
-    return text.find('.') != std::string_view::npos;
-  }
-
-  bool ReadNumber(std::string_view field, NumberForm* form) {
-    form->decimal_point = HasPoint(field);
-    form->decimal_comma = false;
-    if (decimal_comma_ && !form->decimal_point) {
-      const std::size_t comma = field.find(',');
-      if (comma != std::string_view::npos) {
-        // A second comma stays and is no part of a number.
-        point_form_ = field;
-        point_form_[comma] = '.';
-        form->decimal_comma = true;
-        return ParseNumber(point_form_, &form->value);
-      }
+  void StoreNumber(std::string_view text,
+                   const NumberForm& form,
+                   CsvColumn* column) {
+    ++num_numbers_;
+    if (column_ >= layout_.num_names) is_beyond_ = true;
+    ColumnShape& shape = shapes_[column_];
+    if (!form.decimal_comma && !form.decimal_point) {
+      shape.most_whole = std::max(shape.most_whole, std::abs(form.value));
+      column->values.push_back(form.value);
+      return;
     }
-    return ParseNumber(field, &form->value);
-  }
-
-  void StoreNumber(const NumberForm& form, CsvColumn* column) const {
+    const std::size_t mark = text.find(form.decimal_comma ? ',' : '.');
+    const bool may_part = MayPartThousands(text, mark);
+    if (shape.by_thousands && may_part) {
+      column->values.push_back(std::round(1000.0 * form.value));
+      return;
+    }
+    shape.any_parted = true;
+    shape.all_threes = shape.all_threes && may_part;
+    shape.most_parted = std::max(shape.most_parted, std::abs(form.value));
     const auto row = static_cast<std::ptrdiff_t>(table_.num_rows);
-    if (form.decimal_comma && column->first_decimal_comma < 0) {
-      column->first_decimal_comma = row;
-    }
-    if (form.decimal_point && column->first_decimal_point < 0) {
-      column->first_decimal_point = row;
-    }
+    std::ptrdiff_t& first = form.decimal_comma ? column->first_decimal_comma
+                                               : column->first_decimal_point;
+    if (first < 0) first = row;
     column->values.push_back(form.value);
   }
 
@@ -402,21 +694,39 @@ class Parser {
     column->values.push_back(std::numeric_limits<double>::quiet_NaN());
   }
 
+  static constexpr std::size_t kNoRow = std::string::npos;
+  static constexpr std::size_t kShownName = 20;
+
+  std::string_view text_;
   CsvCells cells_;
-  bool decimal_comma_ = false;
-  bool has_apostrophes_ = false;           // kFormulaMark stands at the top
-  std::size_t comment_before_header_ = 0;  // line of the last one, or 0
-  std::size_t header_line_ = 0;
+  OddRows odd_;
+  CsvDialect dialect_;
+  CsvLayout layout_;
+  bool has_apostrophes_ = false;  // kFormulaMark stands at the top
   bool in_data_ = false;
-  std::size_t column_ = 0;        // being read, within the data
+  std::size_t num_named_ = 0;     // columns down to the last with a name
   std::vector<TextIndex> texts_;  // (columns)
-  std::string point_form_;        // scratch: cell with its comma made a point
+  std::vector<ColumnShape> shapes_;
   CsvTable table_;
+
+  // Of the row that is being read.
+  std::size_t column_ = 0;
+  std::size_t num_numbers_ = 0;
+  bool is_beyond_ = false;  // it has something beyond the last name
+  bool last_named_is_empty_ = false;
+
+  // Rows that are not in the table.
+  std::vector<OddRun> odd_rows_;
+  std::size_t num_odd_ = 0;
+  std::size_t first_odd_row_ = kNoRow;
+  std::vector<std::size_t> short_rows_;  // lines; they are in the table
+  std::size_t num_blank_ = 0;
+  std::size_t num_names_again_ = 0;
 };
 
 }  // namespace
 
-CsvTable ParseCsv(std::string_view text, const std::string& name) {
+CsvTable ParseCsv(std::string_view text, const std::string& name, OddRows odd) {
   std::string unpacked;
   std::optional<std::string> sheet;
   try {
@@ -430,11 +740,12 @@ CsvTable ParseCsv(std::string_view text, const std::string& name) {
   } catch (const InputError& error) {
     throw InputError(PrintablePath(name) + ": " + error.what());
   }
-  if (sheet) return Parser(*sheet, name, '\t').Parse();
-  const std::string converted = TextOfFile(text, name);
-  return Parser(
-             converted.empty() ? text : converted, name, CsvCells::kNoDelimiter)
-      .Parse();
+  const std::string converted = sheet ? *sheet : TextOfFile(text, name);
+  if (!converted.empty()) text = converted;
+  const char delimiter = sheet ? '\t' : CsvCells::kNoDelimiter;
+  CsvTable table = Parser(text, name, delimiter, odd).Parse();
+  FoldPositions(&table);
+  return table;
 }
 
 }  // namespace errmap::data

@@ -9,7 +9,7 @@
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/report/table.h"
+#include "cli/report/words/fault_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
@@ -150,6 +150,12 @@ int RunRead(const ReadArguments& arguments) {
   try {
     const data::JoinedTable joined =
         data::ReadTables(arguments.data.files, arguments.data.selection);
+    // Also where the columns then cannot be told.
+    std::vector<std::string> of_files = joined.remarks;
+    of_files.insert(of_files.end(),
+                    joined.table.remarks.begin(),
+                    joined.table.remarks.end());
+    SayUnless(arguments.data.quiet, of_files);
     const data::ReadTable read =
         data::ReadRoles(joined.table, arguments.data.selection);
     reading = read.reading;
@@ -158,7 +164,16 @@ int RunRead(const ReadArguments& arguments) {
           arguments.out,
           CleanCsv(read.table ? *read.table : joined.table, read));
     }
-    reading = data::MakeDataset(joined.table, arguments.data.selection).reading;
+    const data::PreparedDataset prepared =
+        data::MakeDataset(joined.table, arguments.data.selection);
+    reading = prepared.reading;
+    reading.remarks.insert(
+        reading.remarks.begin(), of_files.begin(), of_files.end());
+    for (std::string& line : report::FaultLines(prepared,
+                                                arguments.data.selection.faults,
+                                                report::FaultUse::kFit)) {
+      reading.remarks.push_back(std::move(line));
+    }
   } catch (const data::OpenQuestion& open) {
     if (arguments.format != "json") throw;
     reading.files = arguments.data.files;
@@ -181,9 +196,7 @@ int RunRead(const ReadArguments& arguments) {
 void AddReadCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<ReadArguments>();
   CLI::App* command = AddCommand(
-      app,
-      "read",
-      "Show how measurements are understood: target, axis, time, sessions");
+      app, "read", "Show how measurements are understood, and what changes it");
   AddDataArguments(command, &arguments->data);
   AddOption(command,
             "-o,--output clean.csv",

@@ -17,6 +17,7 @@
 #include "data/input_error.h"
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/measured_files.h"
+#include "data/measurements/merged_log.h"
 #include "data/measurements/reading/read_table.h"
 #include "data/text.h"
 #include "models/comparison/compare.h"
@@ -34,11 +35,12 @@ class TableReader {
  public:
   explicit TableReader(std::vector<InputFile>* inputs) : inputs_(inputs) {}
 
-  const data::CsvTable& Read(const std::string& file) {
+  const data::CsvTable& Read(const std::string& file,
+                             data::OddRows odd = data::OddRows::kRefuse) {
     const auto found = tables_.find(file);
     if (found != tables_.end()) return found->second;
     InputFile& input = inputs_->emplace_back(file);
-    return tables_.emplace(file, data::ReadCsv(file, &input.sha256))
+    return tables_.emplace(file, data::ReadCsv(file, &input.sha256, odd))
         .first->second;
   }
 
@@ -47,12 +49,16 @@ class TableReader {
   const data::CsvTable& ReadAll(const std::vector<std::string>& files,
                                 const data::DatasetSelection& selection,
                                 const Remark& tell) {
-    if (files.size() == 1) return Read(files[0]);
+    const data::OddRows odd = data::OddRowsFor(selection);
+    if (files.size() == 1 && selection.with.empty()) return Read(files[0], odd);
     std::vector<data::CsvTable> tables;
-    for (const std::string& file : files) tables.push_back(Read(file));
+    for (const std::string& file : files) tables.push_back(Read(file, odd));
     data::JoinedTable joined = data::JoinTables(std::move(tables), selection);
     for (const std::string& line : joined.remarks) {
       if (tell) tell(line);
+    }
+    if (!selection.with.empty()) {
+      data::MergeLog(Read(selection.with), selection, &joined.table);
     }
     return joined_.emplace_back(std::move(joined.table));
   }

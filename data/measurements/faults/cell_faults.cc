@@ -173,7 +173,12 @@ std::vector<bool> Jumps(const Thermometer& t, const std::vector<double>& v) {
           v.begin() + static_cast<std::ptrdiff_t>(i + size));
       const auto [before, after] = std::minmax(v[i - 1], v[i + size]);
       if (*low - after <= least && before - *high <= least) continue;
-      if (after - before >= 0.5 * least) continue;
+      // Over a night the neighbours differ, and a spike is far from both.
+      const double away = std::max(*low - after, before - *high);
+      if (after - before >= 0.5 * least &&
+          away < kFarFromEnd * (after - before)) {
+        continue;
+      }
       std::fill_n(is_jump.begin() + static_cast<std::ptrdiff_t>(i), size, true);
       i += size;
       break;
@@ -235,6 +240,7 @@ class CellFaultFinder {
       const Bounds possible{Converted(kColdest, kDegC, UnitOf(input)),
                             Converted(kHottest, kDegC, UnitOf(input))};
       wrong = RowsBeyond(values, possible, &others);
+      if (GoTogether(values, wrong, others)) wrong.clear();
       if (!wrong.empty()) {
         if (static_cast<Index>(wrong.size()) == values.size()) {
           others = {values.minCoeff(), values.maxCoeff()};
@@ -259,6 +265,20 @@ class CellFaultFinder {
     if (wrong.empty()) return;
     Add(FaultKind::kOutlying, input, wrong, values[wrong.front()], others);
     SingleOutCodes(values);
+  }
+
+  // Whether it really was that cold: readings that vary, and with no gap to
+  // those within the bounds, if there are any.
+  static bool GoTogether(const VectorXd& values,
+                         const Rows& wrong,
+                         const Bounds& others) {
+    if (wrong.empty() || values.maxCoeff() > 0.0 ||
+        !HasLevels(values, kFewestLevels)) {
+      return false;
+    }
+    if (static_cast<Index>(wrong.size()) == values.size()) return true;
+    const double nearest = values(wrong).maxCoeff();
+    return others.low - nearest <= kFarRangesOfCode * (others.high - nearest);
   }
 
   // One number for "no reading" in up to half of the rows is no fault of the

@@ -52,6 +52,10 @@ std::vector<ColumnFault> FindColumnFaults(const MeasuredColumns& measured) {
   append(FindThermometerFaults(measured, thermometers));
   append(FindDrift(measured, thermometers, faults));
   append(FindTargetFaults(measured));
+  if (std::ranges::none_of(
+          faults, [](const ColumnFault& fault) { return fault.input < 0; })) {
+    append(FindSlippedPoints(measured));
+  }
   std::ranges::stable_sort(faults, {}, &ColumnFault::input);
   for (ColumnFault& fault : faults) {
     for (Index& row : fault.rows) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -387,6 +388,44 @@ std::vector<ColumnFault> FindTargetFaults(const MeasuredColumns& measured) {
   LookForOtherUnit(measured, &faults);
   if (faults.empty()) LookForZeros(measured, &faults);
   return faults;
+}
+
+std::vector<ColumnFault> FindSlippedPoints(const MeasuredColumns& measured) {
+  constexpr double kTen = 10.0;
+  constexpr double kFar = 8.0;   // robust standard deviations off
+  constexpr double kNear = 2.0;  // once the point is put right
+  constexpr Index kRowsPerSlip = 20;
+  const VectorXd& target = measured.target_values;
+  std::vector<Index> all(static_cast<std::size_t>(target.size()));
+  std::iota(all.begin(), all.end(), Index{0});
+  const VectorXd predicted = LinearPrediction(measured, all);
+  if (predicted.size() == 0) return {};
+  const double sd = SpreadOfMisses(measured, predicted, all);
+  ColumnFault fault{
+      .kind = FaultKind::kOutlying, .input = -1, .of_cells = true};
+  fault.low = std::numeric_limits<double>::infinity();
+  fault.high = -fault.low;
+  for (const Index row : all) {
+    const double value = target[row];
+    if (std::abs(value - predicted[row]) > kFar * sd &&
+        std::abs(value / kTen - predicted[row]) < kNear * sd) {
+      fault.rows.push_back(row);
+    } else {
+      fault.low = std::min(fault.low, value);
+      fault.high = std::max(fault.high, value);
+    }
+  }
+  // Many are heavy tails; and what others have, too, is no slip.
+  if (fault.rows.empty() || sd == 0.0 ||
+      kRowsPerSlip * std::ssize(fault.rows) > target.size()) {
+    return {};
+  }
+  std::erase_if(fault.rows, [&](Index row) {
+    return target[row] >= fault.low && target[row] <= fault.high;
+  });
+  if (fault.rows.empty()) return {};
+  fault.value = target[fault.rows.front()];
+  return {fault};
 }
 
 }  // namespace errmap::data

@@ -27,4 +27,8 @@ std::vector<Eigen::Index> RepeatedRows(const CsvTable& table,
 /// in another unit (kOtherUnit, a fault each). Rows count from 0.
 std::vector<ColumnFault> FindTargetFaults(const MeasuredColumns& measured);
 
+/// Single targets ten times as large as what a linear map of the other columns
+/// makes of their rows (kOutlying): a point that slipped. Rows count from 0.
+std::vector<ColumnFault> FindSlippedPoints(const MeasuredColumns& measured);
+
 }  // namespace errmap::data

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "data/csv.h"
+#include "data/measurements/dataset.h"
+
+namespace errmap::data {
+
+/// Adds the columns of a log that was kept beside the measurements, each row
+/// with the reading nearest in time, with a remark. The last reading before a
+/// row is taken where it is no older than a step of the log, else the next one,
+/// as near; a row without either has an empty cell. `selection.clock_offset` is
+/// what the log's clock is ahead, as ParseInterval reads it with a sign
+/// ("-3s"). Columns that the table has, too, stay its own.
+///
+/// Throws InputError where the table or the log has no times, one has dates and
+/// the other none, or no row has a reading.
+void MergeLog(const CsvTable& log,
+              const DatasetSelection& selection,
+              CsvTable* table);
+
+}  // namespace errmap::data

@@ -1,0 +1,333 @@
+#include "data/tables/csv_layout.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <set>
+
+#include "data/tables/missing_cells.h"
+#include "data/tables/unit_cells.h"
+#include "data/text.h"
+#include "data/units.h"
+
+namespace errmap::data {
+namespace {
+
+constexpr std::size_t kNone = std::string::npos;
+
+// Of some of a row's cells: how many are numbers, and words that stand for
+// none.
+struct CellCounts {
+  std::size_t numbers = 0;
+  std::size_t words = 0;
+};
+
+std::string NumberOf(std::size_t count, const char* what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+class LayoutFinder {
+ public:
+  LayoutFinder(const CsvCells& cells,
+               const CsvDialect& dialect,
+               std::string_view text_above)
+      : cells_(cells),
+        dialect_(dialect),
+        text_above_(text_above),
+        records_(FirstRecords(cells)) {}
+
+  CsvLayout Find() {
+    if (records_.empty()) return OfUnreadable();
+    usual_ = UsualWidth(records_, 0);
+    FindNumericColumns();
+    const std::size_t first = FirstDataRow();
+    const std::size_t names = first == kNone ? 0 : NamesAbove(first);
+    if (names != kNone) {
+      TakeNames(names);
+    } else {
+      TakeNoNames(first);
+    }
+    FindWidth(names == kNone ? first : names + 1);
+    return std::move(layout_);
+  }
+
+ private:
+  // A quote in the first row is never closed: to be told by who reads on.
+  CsvLayout OfUnreadable() {
+    CsvCells cells = cells_;
+    do {
+      layout_.names.emplace_back(cells.Next());
+    } while (cells.PassEnd());
+    layout_.width = layout_.num_names = layout_.names.size();
+    layout_.header_line = cells_.line();
+    layout_.data = cells.position();
+    return std::move(layout_);
+  }
+
+  bool IsNumber(std::string_view cell) const {
+    NumberForm form;
+    return ReadNumberForm(cell, dialect_.decimal_comma, &form);
+  }
+
+  // In the columns that hold numbers.
+  CellCounts CountsOf(const std::vector<std::string>& cells) const {
+    CellCounts counts;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (i >= is_numeric_.size() || !is_numeric_[i]) continue;
+      if (IsNumber(cells[i])) {
+        ++counts.numbers;
+      } else if (!IsMissingNumber(cells[i])) {
+        ++counts.words;
+      }
+    }
+    return counts;
+  }
+
+  void FindNumericColumns() {
+    std::vector<CellCounts> counts(usual_);
+    std::size_t rows = 0;
+    for (const CsvRecord& record : records_) {
+      if (record.cells.size() != usual_) continue;
+      // The first row may be names.
+      if (++rows == 2) counts.assign(usual_, {});
+      for (std::size_t i = 0; i < usual_; ++i) {
+        if (IsNumber(record.cells[i])) {
+          ++counts[i].numbers;
+        } else if (!IsMissingNumber(record.cells[i])) {
+          ++counts[i].words;
+        }
+      }
+    }
+    for (const CellCounts& column : counts) {
+      is_numeric_.push_back(column.numbers > 0 &&
+                            column.numbers >= column.words);
+      num_numeric_ += is_numeric_.back() ? 1 : 0;
+    }
+  }
+
+  // The first row with more numbers than words there; kNone where the table
+  // has none.
+  std::size_t FirstDataRow() const {
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+      const CellCounts counts = CountsOf(records_[i].cells);
+      if (counts.numbers > counts.words) return i;
+    }
+    return kNone;
+  }
+
+  // A separator at the rows' ends, or columns that no row reaches, make a line
+  // of names shorter by one, or longer.
+  bool MayBeNames(const std::vector<std::string>& cells) const {
+    const CellCounts counts = CountsOf(cells);
+    return cells.size() + 1 >= usual_ && (cells.size() > 1 || usual_ == 1) &&
+           counts.numbers == 0 && 2 * counts.words >= num_numeric_;
+  }
+
+  // The row of names above the first data row, or kNone.
+  std::size_t NamesAbove(std::size_t first) const {
+    for (std::size_t i = first; i-- > 0;) {
+      if (!MayBeNames(records_[i].cells)) continue;
+      const bool is_below_names = i > 0 && MayBeNames(records_[i - 1].cells);
+      if (is_below_names && AreUnitCells(records_[i].cells)) continue;
+      return i;
+    }
+    // One line of another length, or with numbers in it, is meant for names
+    // all the same: to be told what is wrong with it.
+    if (first == 1 && (records_[0].cells.size() > 1 || usual_ == 1)) return 0;
+    return kNone;
+  }
+
+  void TakeNames(std::size_t row) {
+    layout_.names = records_[row].cells;
+    layout_.header_line = records_[row].start.line;
+    layout_.data = After(row);
+    std::string& first = layout_.names.front();
+    if (first.starts_with("$$")) first.erase(0, 2);
+    const std::size_t titles = TakeUpperNames(row) ? row - 1 : row;
+    TakeTitles(titles);
+  }
+
+  // A second row of names right above tells apart what the lower one does not.
+  bool TakeUpperNames(std::size_t row) {
+    if (row == 0 || records_[row - 1].cells.size() != usual_ || usual_ < 2 ||
+        layout_.names.size() != usual_) {
+      return false;
+    }
+    const std::vector<std::string>& upper = records_[row - 1].cells;
+    const auto num_words = std::ranges::count_if(
+        upper, [](const std::string& cell) { return !cell.empty(); });
+    if (num_words < 2 || CountsOf(upper).numbers > 0) return false;
+    const std::set<std::string> distinct(layout_.names.begin(),
+                                         layout_.names.end());
+    const bool tells = distinct.size() == usual_ && !distinct.contains("");
+    std::string group;
+    for (std::size_t i = 0; i < usual_ && !tells; ++i) {
+      if (!upper[i].empty()) group = upper[i];
+      std::string& name = layout_.names[i];
+      const bool is_alone = std::ranges::count(records_[row].cells, name) == 1;
+      if (name.empty()) {
+        name = upper[i];
+      } else if (!is_alone && !group.empty()) {
+        name = group + " " + name;
+      }
+    }
+    Say("line " + std::to_string(records_[row - 1].start.line) +
+        " is a second row of names" + (tells ? " and passed over" : "") +
+        (tells ? "" : ", which tells columns of one name apart"));
+    return true;
+  }
+
+  void TakeNoNames(std::size_t first) {
+    layout_.data = records_[first].start;
+    layout_.names.assign(usual_, "");
+    TakeTitles(first);
+    if (TakeNamesOfComment(first)) return;
+    Say("no line of names: the columns are called column_1" +
+        (usual_ == 1 ? std::string() : " to column_" + std::to_string(usual_)));
+  }
+
+  // Names in the nearest comment above that has as many as there are cells.
+  bool TakeNamesOfComment(std::size_t first) {
+    const char* const end = records_[first].start.cursor;
+    const std::string_view above(
+        text_above_.data(), static_cast<std::size_t>(end - text_above_.data()));
+    std::size_t line = 1;
+    for (std::size_t at = 0; at < above.size(); ++line) {
+      const char* const begin = above.data() + at;
+      const char* const stop = std::find_if(begin, end, IsLineEnd);
+      at = static_cast<std::size_t>(PastLineEnd(stop, end) - above.data());
+      std::string_view text(begin, static_cast<std::size_t>(stop - begin));
+      if (!text.starts_with('#')) continue;
+      text.remove_prefix(std::min(text.find_first_not_of("# \t"), text.size()));
+      const std::vector<std::string> cells = CellsOf(text);
+      if (cells.size() != usual_ || !MayBeNames(cells)) continue;
+      layout_.names = cells;
+      layout_.header_line = line;
+    }
+    if (layout_.header_line == 0) return false;
+    layout_.num_names = usual_;
+    Say("the names of the columns are those of the comment on line " +
+        std::to_string(layout_.header_line));
+    return true;
+  }
+
+  std::vector<std::string> CellsOf(std::string_view line) const {
+    CsvCells cells(line, [](std::size_t) { return std::string(); });
+    cells.delimiter = dialect_.delimiter;
+    std::vector<std::string> texts;
+    try {
+      do {
+        texts.emplace_back(cells.Next());
+      } while (cells.PassEnd());
+    } catch (const InputError&) {
+      texts.clear();
+    }
+    return texts;
+  }
+
+  void TakeTitles(std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      std::vector<std::string> words = records_[i].cells;
+      while (words.size() > 1 && words.back().empty()) words.pop_back();
+      const std::string between(1, dialect_.delimiter);
+      std::string title = AsUtf8(JoinWords(words, between));
+      if (!title.empty()) layout_.titles.push_back(std::move(title));
+    }
+    if (layout_.titles.empty()) return;
+    constexpr std::size_t kMostShown = 8;
+    std::string list;
+    for (const std::string& title : layout_.titles) {
+      if (&title - layout_.titles.data() == kMostShown) break;
+      list += (list.empty() ? "" : ", ") + QuotedText(title);
+    }
+    if (layout_.titles.size() > kMostShown) list += " and more";
+    Say(NumberOf(layout_.titles.size(), "line") + " above the table: " + list);
+  }
+
+  // Cells of a row, by the rows from `first` on.
+  void FindWidth(std::size_t first) {
+    std::vector<std::string>& names = layout_.names;
+    layout_.num_names = names.size();
+    layout_.width = names.size();
+    if (first >= records_.size()) return;
+    const std::size_t usual = UsualWidth(records_, first);
+    if (usual > names.size()) {
+      if (AreEmptyBeyond(names.size(), usual, first)) {
+        names.resize(usual);
+        layout_.width = usual;
+      }
+      return;
+    }
+    if (usual == names.size()) return;
+    const bool all_alike =
+        records_.size() - first > 1 &&
+        std::all_of(At(first), records_.cend(), [&](const CsvRecord& record) {
+          return record.cells.size() == usual;
+        });
+    const auto beyond = names.begin() + static_cast<std::ptrdiff_t>(usual);
+    if (std::all_of(beyond, names.end(), [](const std::string& name) {
+          return name.empty();
+        })) {
+      layout_.width = usual;
+    } else if (all_alike && std::find(names.begin(), beyond, "") == beyond &&
+               std::none_of(beyond, names.end(), HasUnit)) {
+      layout_.width = usual;
+      Say("the rows end before " + NumberOf(names.size() - usual, "column") +
+          " (" + QuotedName(AsUtf8(*beyond)) +
+          (beyond + 1 == names.end() ? "" : ", ...") + "), which stay" +
+          (beyond + 1 == names.end() ? "s" : "") + " empty");
+    }
+  }
+
+  // A column with a unit is meant to have numbers.
+  static bool HasUnit(const std::string& name) {
+    return ReadHeader(AsUtf8(name)).source != UnitSource::kNone;
+  }
+
+  bool AreEmptyBeyond(std::size_t width,
+                      std::size_t usual,
+                      std::size_t first) const {
+    return std::all_of(
+        At(first), records_.cend(), [&](const CsvRecord& record) {
+          return record.cells.size() != usual ||
+                 std::all_of(
+                     record.cells.begin() + static_cast<std::ptrdiff_t>(width),
+                     record.cells.end(),
+                     [](const std::string& cell) { return cell.empty(); });
+        });
+  }
+
+  std::vector<CsvRecord>::const_iterator At(std::size_t row) const {
+    return records_.begin() + static_cast<std::ptrdiff_t>(row);
+  }
+
+  CsvCells::Position After(std::size_t row) const {
+    CsvCells cells = cells_;
+    cells.GoTo(records_[row].start);
+    do {
+      cells.Next();
+    } while (cells.PassEnd());
+    return cells.position();
+  }
+
+  void Say(const std::string& line) { layout_.remarks.push_back(line); }
+
+  const CsvCells& cells_;
+  const CsvDialect& dialect_;
+  std::string_view text_above_;
+  std::vector<CsvRecord> records_;
+  std::size_t usual_ = 1;         // cells of most rows
+  std::vector<bool> is_numeric_;  // (usual_) most cells are numbers
+  std::size_t num_numeric_ = 0;
+  CsvLayout layout_;
+};
+
+}  // namespace
+
+CsvLayout FindLayout(const CsvCells& cells,
+                     const CsvDialect& dialect,
+                     std::string_view text_above) {
+  return LayoutFinder(cells, dialect, text_above).Find();
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,38 @@
+#include "data/tables/unit_cells.h"
+
+#include <string_view>
+
+#include "data/text.h"
+#include "data/units.h"
+
+namespace errmap::data {
+
+bool ReadUnitCell(std::string* cell) {
+  std::string_view text = *cell;
+  if (text.size() > 1 && ((text.front() == '[' && text.back() == ']') ||
+                          (text.front() == '(' && text.back() == ')'))) {
+    text = Trimmed(text.substr(1, text.size() - 2));
+  }
+  if (text.empty() || text == "-") {
+    cell->clear();
+    return true;
+  }
+  double number = 0.0;
+  if (ParseNumber(text, &number)) return false;
+  const bool is_unit =
+      ReadHeader("x [" + std::string(text) + "]").source == UnitSource::kStated;
+  *cell = std::string(text);
+  return is_unit;
+}
+
+bool AreUnitCells(std::vector<std::string> cells) {
+  bool any = false;
+  for (std::string& cell : cells) {
+    cell = AsUtf8(cell);
+    if (!ReadUnitCell(&cell)) return false;
+    any = any || !cell.empty();
+  }
+  return any;
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,313 @@
+// How tables stand in files of laboratories, and what is read of each.
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "data/csv.h"
+
+namespace errmap::data {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+std::vector<std::string> NamesIn(const CsvTable& table) {
+  std::vector<std::string> names;
+  for (const CsvColumn& column : table.columns) names.push_back(column.name);
+  return names;
+}
+
+std::string RefusalOf(const std::string& text, OddRows odd) {
+  try {
+    ParseCsv(text, "f.csv", odd);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "read";
+}
+
+// Eight rows of three readings, a cell more at the end of each.
+std::string Rows(const std::string& end = "") {
+  std::string text;
+  for (int i = 0; i < 8; ++i) {
+    text += std::to_string(20 * i - 200) + ",20." + std::to_string(i) + ",-" +
+            std::to_string(i) + ".95" + end + "\n";
+  }
+  return text;
+}
+
+void ExpectRows(const CsvTable& table) {
+  ASSERT_EQ(table.num_rows, 8U);
+  ASSERT_GE(table.columns.size(), 3U);
+  for (int i = 0; i < 8; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    EXPECT_EQ(table.columns[0].values[row], 20 * i - 200);
+    EXPECT_DOUBLE_EQ(table.columns[1].values[row], 20 + 0.1 * i);
+    EXPECT_DOUBLE_EQ(table.columns[2].values[row], -(i + 0.95));
+  }
+}
+
+const std::string kNames = "position_mm,t1_degC,error_um";
+
+TEST(TableShape, FindsTheTableBelowTitles) {
+  for (const std::string title :
+       {"Linear test of slide X,,\nin the morning,,\n,,\n",
+        "Laser linear test\nFile: X.rtl\nDate: 04/03/2024 08:12\nTemp: "
+        "20.3\n\n",
+        "Machine,3\nTemp,20.3\n",
+        "Temp,20.3,,\n"}) {
+    const CsvTable table = ParseCsv(title + kNames + "\n" + Rows(), "f.csv");
+    EXPECT_THAT(NamesIn(table),
+                ElementsAre("position_mm", "t1_degC", "error_um"));
+    ExpectRows(table);
+    EXPECT_THAT(table.remarks, ElementsAre(HasSubstr(" above the table: '")));
+    EXPECT_FALSE(table.titles.empty());
+  }
+}
+
+TEST(TableShape, FindsNamesBelowTitlesWhateverTheRowsEndWith) {
+  std::string titles = "Linear test of slide X\nDate: 04.03.2024\n\n";
+  for (int i = 0; i < 2; ++i) {
+    const CsvTable table =
+        ParseCsv(titles + kNames + "\n" + Rows(","), "f.csv");
+    EXPECT_THAT(NamesIn(table),
+                ElementsAre("position_mm", "t1_degC", "error_um"));
+    ExpectRows(table);
+    EXPECT_EQ(
+        NamesIn(ParseCsv(titles + kNames + ",remark\n" + Rows(), "f.csv")),
+        (std::vector<std::string>{
+            "position_mm", "t1_degC", "error_um", "remark"}));
+    // More lines above than rows below.
+    for (int k = 0; k < 12; ++k) titles += "of the header block\n";
+  }
+}
+
+TEST(TableShape, FindsNamesInCommentsAndBehindDollars) {
+  for (const std::string& head : {"# a test stand\n# " + kNames + "\n",
+                                  "##Instrument A\n##\n##" + kNames + "\n",
+                                  "$$file[3]\n$$" + kNames + "\n",
+                                  "#" + kNames + "\n# units: mm\n"}) {
+    const CsvTable table = ParseCsv(head + Rows(), "f.csv");
+    EXPECT_THAT(NamesIn(table),
+                ElementsAre("position_mm", "t1_degC", "error_um"));
+    ExpectRows(table);
+    EXPECT_THAT(table.remarks, SizeIs(1));
+  }
+}
+
+TEST(TableShape, NamesColumnsByNumberWhereThereAreNoNames) {
+  const CsvTable table = ParseCsv(Rows(), "f.csv");
+  EXPECT_THAT(NamesIn(table), ElementsAre("column_1", "column_2", "column_3"));
+  ExpectRows(table);
+  EXPECT_EQ(table.LineOfRow(0), 1U);
+  EXPECT_THAT(table.remarks,
+              ElementsAre("f.csv: no line of names: the columns are called "
+                          "column_1 to column_3"));
+  // A row whose first reading is not a number is no header.
+  EXPECT_EQ(ParseCsv("1,OPEN\n2,3\n4,5\n", "f.csv").num_rows, 3U);
+}
+
+TEST(TableShape, TellsColumnsOfOneNameApart) {
+  const CsvTable table = ParseCsv("x,x,x_2\n" + Rows(), "f.csv");
+  EXPECT_THAT(NamesIn(table), ElementsAre("x", "x_3", "x_2"));
+  EXPECT_THAT(table.remarks, ElementsAre(HasSubstr("'x_3'")));
+}
+
+TEST(TableShape, TakesTheLowerOfTwoRowsOfNames) {
+  const CsvTable table =
+      ParseCsv("slide,,spindle\n" + kNames + "\n" + Rows(), "f.csv");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("position_mm", "t1_degC", "error_um"));
+  ExpectRows(table);
+  EXPECT_THAT(table.remarks, ElementsAre(HasSubstr("second row of names")));
+  EXPECT_THAT(NamesIn(ParseCsv("x,bed,spindle\n,t,t\n" + Rows(), "f.csv")),
+              ElementsAre("x", "bed t", "spindle t"));
+  // Units below names are none.
+  EXPECT_THAT(NamesIn(ParseCsv("x,t,e\nmm,degC,um\n" + Rows(), "f.csv")),
+              ElementsAre("x [mm]", "t [degC]", "e [um]"));
+}
+
+TEST(TableShape, TakesNoBreakSpacesOffNamesAndNumbers) {
+  const CsvTable table = ParseCsv(
+      " x\xC2\xA0;\xE2\x80\xAFy ;z\n1\xC2\xA0;\xC2\xA0"
+      "2,5;\xE2\x80\x89"
+      "3\n\xA0"
+      "4\xA0;5;6\n",
+      "f.csv");
+  EXPECT_THAT(NamesIn(table), ElementsAre("x", "y", "z"));
+  EXPECT_THAT(table.columns[0].values, ElementsAre(1.0, 4.0));
+  EXPECT_THAT(table.columns[1].values, ElementsAre(2.5, 5.0));
+  EXPECT_THAT(table.columns[2].values, ElementsAre(3.0, 6.0));
+}
+
+TEST(TableShape, ReadsQuotesInsideQuotedCells) {
+  const CsvTable table =
+      ParseCsv("x,note\n1,\"slide \"X\" warm\"\n2,\"\"\n", "f.csv");
+  EXPECT_EQ(table.CellText(table.columns[1], 0), "slide \"X\" warm");
+  EXPECT_THAT(table.columns[0].values, ElementsAre(1.0, 2.0));
+}
+
+// ---- Rows of another length.
+
+TEST(OddRows, AreNamedAllAtOnceAndLeftOutWhereAsked) {
+  const std::string text =
+      kNames + ",remark\n" + Rows(",") + "1,,2,3,\n1,2,3\n1,2,3\n7,8,9,\n1,2\n";
+  EXPECT_EQ(RefusalOf(text, OddRows::kOffer),
+            "f.csv: 4 rows have another number of cells than the header's 4: "
+            "line 10 has 5, lines 11 to 12 have 3, line 14 has 2; complete "
+            "them or remove them, or leave them out with missing = drop-rows");
+  EXPECT_THAT(RefusalOf(text, OddRows::kRefuse),
+              ::testing::EndsWith("complete them or remove them"));
+  const CsvTable table = ParseCsv(text, "f.csv", OddRows::kLeaveOut);
+  EXPECT_EQ(table.num_rows, 9U);
+  EXPECT_EQ(table.LineOfRow(8), 13U);
+  EXPECT_EQ(table.columns[2].values[8], 9.0);
+  EXPECT_EQ(table.columns[1].exceptions.size(), 0U);
+  EXPECT_THAT(table.remarks, ElementsAre(HasSubstr("4 rows are left out")));
+}
+
+TEST(OddRows, AreNoneWhereAllRowsEndAlike) {
+  const CsvTable longer = ParseCsv(kNames + "\n" + Rows(",,"), "f.csv");
+  ExpectRows(longer);
+  EXPECT_THAT(longer.columns, SizeIs(3));
+  EXPECT_THAT(longer.remarks, IsEmpty());
+  const CsvTable shorter = ParseCsv(kNames + ",remark\n" + Rows(), "f.csv");
+  ExpectRows(shorter);
+  EXPECT_TRUE(shorter.columns[3].is_text());
+  EXPECT_THAT(shorter.remarks, ElementsAre(HasSubstr("'remark'")));
+  // A column with a unit should have numbers.
+  EXPECT_THAT(RefusalOf("day," + kNames + "\n" + Rows(), OddRows::kRefuse),
+              HasSubstr("3 fields, in all rows, where the header has 4"));
+}
+
+TEST(OddRows, MayEndBeforeColumnsWithoutANameThatAreEmpty) {
+  const std::string rows = Rows(",");
+  ExpectRows(ParseCsv(kNames + ",\n" + rows.substr(0, rows.size() - 2) + "\n",
+                      "f.csv"));
+  EXPECT_THAT(
+      RefusalOf(kNames + ",\n" + Rows(",x") + "1,2,3\n", OddRows::kRefuse),
+      HasSubstr("3 fields where the header has 4"));
+}
+
+TEST(TableShape, RefusesAnotherTableBelow) {
+  const std::string table = kNames + "\n" + Rows();
+  EXPECT_THAT(RefusalOf(table + "\na,b\n1,2\n", OddRows::kLeaveOut),
+              HasSubstr("f.csv: line 11: another table begins here"));
+  EXPECT_THAT(RefusalOf(table + "a,b,c\n1,2,3\n", OddRows::kLeaveOut),
+              HasSubstr("f.csv: line 10: another table begins here"));
+}
+
+TEST(TableShape, ReadsOnBelowTheSameNamesAndBlankLines) {
+  const CsvTable table =
+      ParseCsv(kNames + "\n1,2,3\n4,5,6\n\n" + kNames + "\n7,8,9\n", "f.csv");
+  EXPECT_THAT(table.columns[0].values, ElementsAre(1.0, 4.0, 7.0));
+  EXPECT_EQ(table.LineOfRow(2), 6U);
+  EXPECT_THAT(table.remarks,
+              ElementsAre(HasSubstr("blank lines between rows"),
+                          HasSubstr("names stand between the rows again")));
+}
+
+// ---- Numbers.
+
+TEST(TableShape, ReadsOneColumnOfDecimalCommas) {
+  const CsvTable table =
+      ParseCsv("residual_um\n1,25\n0,40\n-0,75\n2\n", "f.csv");
+  ASSERT_THAT(table.columns, SizeIs(1));
+  EXPECT_THAT(table.columns[0].values, ElementsAre(1.25, 0.4, -0.75, 2.0));
+}
+
+TEST(ThousandsPoint, IsReadWhereTheOthersAreWholeNumbersOfThreeDigits) {
+  for (const char mark : {'.', ','}) {
+    const std::string text = std::string("x;e\n0;1\n450;2\n-900;3\n1") + mark +
+                             "050;4\n12" + mark + "600;5\n";
+    const CsvTable table = ParseCsv(text, "f.csv");
+    EXPECT_THAT(table.columns[0].values,
+                ElementsAre(0.0, 450.0, -900.0, 1050.0, 12600.0));
+    EXPECT_EQ(table.columns[0].first_decimal_point, -1);
+    EXPECT_EQ(table.columns[0].first_decimal_comma, -1);
+    EXPECT_THAT(table.remarks,
+                ElementsAre(AllOf(HasSubstr("1050"), HasSubstr("line 5"))));
+  }
+}
+
+TEST(ThousandsPoint, IsAskedAboutWhereItIsUnclear) {
+  const CsvTable table = ParseCsv("x;e\n0;1\n50;2\n1.050;3\n", "f.csv");
+  EXPECT_DOUBLE_EQ(table.columns[0].values[2], 1.05);
+  EXPECT_THAT(table.remarks, ElementsAre(HasSubstr("write 1050")));
+}
+
+TEST(ThousandsPoint, IsNoneWhereDecimalsDiffer) {
+  for (const std::string cells : {"-215.900;1\n-203.200;2\n",
+                                  "1500;1\n1.050;2\n150;3\n0.5;4\n",
+                                  "150;1\n0.125;2\n",
+                                  "1.125;1\n1.5;2\n200;3\n"}) {
+    const CsvTable table = ParseCsv("x;e\n" + cells, "f.csv");
+    EXPECT_THAT(table.remarks, IsEmpty()) << cells;
+  }
+}
+
+TEST(CutLine, IsLeftOutAndNamed) {
+  const std::string whole = kNames + "\n" + Rows();
+  const CsvTable table = ParseCsv(whole + "-40,20.8,-9.", "f.csv");
+  ExpectRows(table);
+  EXPECT_THAT(table.remarks, ElementsAre(HasSubstr("'-9.'")));
+  // With a line end, or as many decimals, it is whole.
+  EXPECT_EQ(ParseCsv(whole + "-40,20.8,-9\n", "f.csv").num_rows, 9U);
+  EXPECT_EQ(ParseCsv(whole + "-40,20.8,-9.25", "f.csv").num_rows, 9U);
+  EXPECT_EQ(ParseCsv("a,b\n1,2.5\n3,4", "f.csv").num_rows, 2U);
+}
+
+// ---- A column for each position.
+
+TEST(FoldedPositions, BecomeARowForEachReading) {
+  const CsvTable table = ParseCsv(
+      "day,e@-215.9mm_um,e@-203.2mm_um,e@+10mm_um,t_degC\n"
+      "1,2.5,NA,4,20\n2,5,6,7,21\n",
+      "f.csv");
+  EXPECT_THAT(NamesIn(table),
+              ElementsAre("day", "t_degC", "position_mm", "error_um"));
+  EXPECT_THAT(table.columns[0].values, ElementsAre(1, 1, 1, 2, 2, 2));
+  EXPECT_THAT(table.columns[2].values,
+              ElementsAre(-215.9, -203.2, 10, -215.9, -203.2, 10));
+  EXPECT_THAT(table.columns[3].exceptions, ElementsAre(::testing::Pair(1, 0)));
+  EXPECT_EQ(table.columns[3].values[5], 7.0);
+  EXPECT_EQ(table.Where(4, "error_um"),
+            "f.csv: line 3 (data row 4), column 'error_um'");
+  EXPECT_THAT(table.remarks,
+              ElementsAre(HasSubstr("2 rows with a column for each of 3 "
+                                    "positions (-215.9 to 10 mm) are read as 6 "
+                                    "rows, of 'error_um'")));
+}
+
+TEST(FoldedPositions, AreSeveralQuantitiesOrNoneByTheirPositions) {
+  EXPECT_THAT(
+      NamesIn(ParseCsv("ex@1 mm [um],ex@2 mm [um],ex@3 mm [um],ey@1 mm [um],"
+                       "ey@2 mm [um],ey@3 mm [um]\n1,2,3,4,5,6\n",
+                       "f.csv")),
+      ElementsAre("position_mm", "ex [um]", "ey [um]"));
+  EXPECT_THAT(ParseCsv("a@1,a@2,b@1\n1,2,3\n", "f.csv").columns, SizeIs(3));
+  EXPECT_THAT(ParseCsv("t01_degC,t02_degC,t03_degC\n1,2,3\n", "f").columns,
+              SizeIs(3));
+}
+
+TEST(ParseCsv, RefusesMoreColumnsThanMemoryShouldBeKeptFor) {
+  std::string names = "a";
+  std::string row = "1";
+  for (int i = 0; i < 100000; ++i) {
+    names += ",n" + std::to_string(i);
+    row += ",1";
+  }
+  EXPECT_THAT(RefusalOf(names + "\n" + row + "\n", OddRows::kRefuse),
+              HasSubstr("f.csv: line 1: more than 65536 columns"));
+}
+
+}  // namespace
+}  // namespace errmap::data
