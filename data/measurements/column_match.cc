@@ -100,6 +100,8 @@ MatchedColumn MatchColumn(const CsvTable& table, const ColumnInfo& of_map) {
 
 TableForMap InMapUnits(CsvTable table, const std::vector<ColumnInfo>& of_map) {
   TableForMap result;
+  // Told here, and to nobody again.
+  result.remarks = std::exchange(table.remarks, {});
   for (const ColumnInfo& wanted : of_map) {
     const MatchedColumn match = MatchColumn(table, wanted);
     if (match.Remark().empty()) continue;

@@ -381,6 +381,9 @@ class InputChooser {
     const MeasuredBeside measured(Name(roles_.target));
     std::vector<std::string> texts;
     std::vector<std::string> beside;
+    // Of a table without names every column is called by its number.
+    const bool has_names =
+        std::ranges::any_of(table_.columns, &CsvColumn::has_name);
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       if (i == roles_.target || Is(roles_.group, i) || Is(roles_.weight, i) ||
           Is(found_.time_column, i) || Is(found_.date_column, i) ||
@@ -391,7 +394,7 @@ class InputChooser {
       const std::string name = NameInRemark(Name(i));
       if (excluded.contains(Name(i))) {
         had_candidates_ = had_candidates_ || !table_.At(i).is_text();
-      } else if (IsUnnamed(table_.At(i))) {
+      } else if (IsUnnamed(table_.At(i)) && has_names) {
         had_candidates_ = true;
         Drop(i, "has no name in the header");
         chosen_.remarks.push_back(
@@ -415,7 +418,8 @@ class InputChooser {
         had_candidates_ = true;
         Drop(i, "tells which one, and measures nothing");
         chosen_.words.push_back(i);
-      } else if (const std::string_view why = measured.Why(Name(i));
+      } else if (const std::string_view why =
+                     has_names ? measured.Why(Name(i)) : std::string_view();
                  !why.empty()) {
         had_candidates_ = true;
         Drop(i, std::string(why));

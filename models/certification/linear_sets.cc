@@ -53,9 +53,11 @@ std::string FormulaSpec(const data::StrdProblem& problem) {
 // What `errmap fit` makes of the problem, from its text on.
 LinearCertificate Certify(const data::StrdProblem& problem) {
   LinearCertificate row{.problem = problem.name, .model = FormulaSpec(problem)};
-  const data::PreparedDataset prepared =
-      data::MakeDataset(data::ParseCsv(CsvText(problem), problem.name + ".csv"),
-                        {.target = problem.columns[0]});
+  // By name, or a column that only counts would be left out.
+  const data::PreparedDataset prepared = data::MakeDataset(
+      data::ParseCsv(CsvText(problem), problem.name + ".csv"),
+      {.target = problem.columns[0],
+       .inputs = {problem.columns.begin() + 1, problem.columns.end()}});
   const FittedModel fitted =
       MakeRecipe(row.model)->Fit(prepared.dataset, {.explain = true});
   const RegressionReport& report = *fitted.regression;

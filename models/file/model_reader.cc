@@ -22,9 +22,10 @@ namespace errmap::models {
 data::ColumnInfo ReadColumn(const ModelJsonNode& node) {
   data::ColumnInfo column{.name = node.At("name").Text(),
                           .unit = data::UnitOfSymbol(node.At("unit").Text())};
-  // Maps of before have no roles.
-  const auto role = node.Find("role");
-  column.role = role ? ReadWord<data::Role>(*role) : data::RoleByName(column);
+  // Maps of before have no roles: RoleOf goes by the name.
+  if (const auto role = node.Find("role")) {
+    column.role = ReadWord<data::Role>(*role);
+  }
   return column;
 }
 

@@ -264,6 +264,11 @@ SessionCheck CheckSession(const HeldOutErrors& errors,
   }
   if (check.status != SessionStatus::kOff) {
     check.next_probe = NextProbe(forecast, errors.rmse);
+    if (!check.next_probe && check.status == SessionStatus::kHoldsSoFar &&
+        !forecast.later.empty()) {
+      check.next_probe =
+          forecast.elapsed[forecast.later[forecast.later.size() / 2]];
+    }
   }
   return check;
 }

@@ -26,10 +26,13 @@ MemoryEstimate EstimateMemory(const Eigen::Ref<const VectorXd>& series) {
   // Brought to size 1: squares of very small losses would be lost.
   VectorXd x = series.array() - series.mean();
   const double scale = x.cwiseAbs().maxCoeff();
-  if (!(scale > 0.0)) return {};
+  // The mean of equal values is off by their last digits.
+  constexpr double kRounding = 1e-12;
+  if (!(scale > kRounding * series.cwiseAbs().maxCoeff())) return {};
   x /= scale;
   const double r = x.head(size - 1).dot(x.tail(size - 1)) / x.squaredNorm();
-  const double rho = std::clamp((n * r + 1.0) / (n - 3.0), -1.0, kMostMemorable);
+  const double rho =
+      std::clamp((n * r + 1.0) / (n - 3.0), -1.0, kMostMemorable);
   return {.rho = rho, .error = std::sqrt((1.0 - rho * rho) / n)};
 }
 

@@ -399,8 +399,8 @@ void AddExportCommand(CLI::App* app, Run* run) {
   AddOption(command,
             "--max-rate X",
             arguments->max_rate,
-            "Largest change of it per second: 1um (default: 10 um or "
-            "10 urad)");
+            "Its largest change per second: 1um (default: 10um)\nor 10 urad "
+            "of angles");
   AddEveryOption(command, &arguments->every);
   AddTableOptions(command, &arguments->tables);
   AddForceFlag(command, &arguments->force);

@@ -190,8 +190,8 @@ int RunWatch(const WatchArguments& arguments) {
 
 void AddWatchCommand(CLI::App* app, Run* run) {
   auto arguments = std::make_shared<WatchArguments>();
-  CLI::App* command = AddCommand(
-      app, "watch", "Tell by new measurements which deployed maps still hold");
+  CLI::App* command =
+      AddCommand(app, "watch", "Check deployed maps against new measurements");
   AddOption(
       command, "STORE DIR", arguments->store, "Folder with an errmap.sqlite")
       .Required();

@@ -349,13 +349,19 @@ std::string Page::Answer(const ReportView& view,
       FiguresHtml(figures, FigurePlace::kAnswer, "plain") + Picks(view);
   const std::string of_sensors =
       FiguresHtml(figures, FigurePlace::kSensors, "plain");
-  const std::string reading = Paragraph(kSignConvention, "soft small") +
-                              (index == 0 ? GlossaryLinks() : "");
+  std::string notes;
+  if (view.component->data.reading.rows > 0) {
+    for (const std::string& line :
+         data::ReadingLines(view.component->data.reading)) {
+      notes += Paragraph(line, "soft small");
+    }
+  }
+  notes += Paragraph(kSignConvention, "soft small") +
+           (index == 0 ? GlossaryLinks() : "");
   return "<div class=\"answer\">\n<div>" + Card(view) +
-         (of_sensors.empty()
-              ? reading + "</div>\n<div>" + of_models + Next(index)
-              : of_models + "</div>\n<div>" + Next(index) + reading +
-                    of_sensors) +
+         (of_sensors.empty() ? notes + "</div>\n<div>" + of_models + Next(index)
+                             : of_models + "</div>\n<div>" + Next(index) +
+                                   notes + of_sensors) +
          "</div>\n</div>\n";
 }
 

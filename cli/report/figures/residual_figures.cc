@@ -32,9 +32,10 @@ Series Means(const std::vector<double>& x, const std::vector<double>& y) {
   for (std::size_t i = 0; i < order.size();) {
     double sum = 0.0;
     std::size_t j = i;
-    for (; j < order.size() && x[order[j]] == x[order[i]]; ++j) {
+    do {  // a level that is no number equals none, not even itself
       sum += y[order[j]];
-    }
+      ++j;
+    } while (j < order.size() && x[order[j]] == x[order[i]]);
     series.Add({x[order[i]], sum / static_cast<double>(j - i)});
     i = j;
   }

@@ -22,6 +22,7 @@ std::string Label(const Without& without, std::size_t all) {
   constexpr std::size_t kRoomBeside = 12;
   const std::vector<std::string>& sensors = without.sensors;
   if (sensors.size() == 1) return Shortened(sensors.front(), kMost);
+  if (sensors.empty()) return "";  // of an incomplete record
   if (sensors.size() == all) return fmt::format("all {} sensors", all);
   return fmt::format("{} and {} alike",
                      Shortened(sensors.front(), kMost - kRoomBeside),

@@ -8,6 +8,7 @@
 
 #include "cli/report/number_text.h"
 #include "cli/report/shell_word.h"
+#include "cli/report/words/component_numbers.h"
 #include "cli/report/words/verdict_text.h"
 #include "data/text.h"
 
@@ -137,7 +138,7 @@ std::vector<std::string> SensorsByNeed(
   if (!advice.importance) return advice.sensors;
   Words sensors;
   for (const auto& without : advice.importance->one_by_one) {
-    sensors.push_back(without.sensors.front());
+    sensors.push_back(First(without.sensors));
   }
   return sensors;
 }

@@ -57,28 +57,26 @@ bool CountsOn(const Eigen::Ref<const Eigen::VectorXd>& values,
   return true;
 }
 
-std::vector<std::string> RepeatedInputs::Look(const Dataset::Parts& parts) {
+RepeatedInputs::Found RepeatedInputs::Look(const Dataset::Parts& parts) {
   const auto used = static_cast<Eigen::Index>(parts.inputs.size()) - 1;
-  std::vector<std::string> remarks;
+  Found found;
   const auto values = parts.input_values.col(used);
   const std::string name =
       NameInRemark(parts.inputs[static_cast<std::size_t>(used)].name);
   if (values == parts.target_values) {
-    remarks.push_back("input " + name + " repeats the target " +
-                      NameInRemark(parts.target.name) + " value for value; " +
-                      ArgumentName("exclude", name) + " leaves it out");
+    found.remarks.push_back("input " + name + " repeats the target " +
+                            NameInRemark(parts.target.name) +
+                            " value for value; " +
+                            ArgumentName("exclude", name) + " leaves it out");
   }
   std::vector<Eigen::Index>& alike = inputs_by_hash_[Hash(values)];
   for (const Eigen::Index other : alike) {
     if (parts.input_values.col(other) != values) continue;
-    remarks.push_back(
-        "input " + name + " repeats " +
-        NameInRemark(parts.inputs[static_cast<std::size_t>(other)].name) +
-        " value for value; both are kept");
-    return remarks;
+    found.repeats = parts.inputs[static_cast<std::size_t>(other)].name;
+    return found;
   }
   alike.push_back(used);
-  return remarks;
+  return found;
 }
 
 }  // namespace errmap::data

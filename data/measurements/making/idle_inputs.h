@@ -30,9 +30,14 @@ bool CountsOn(const Eigen::Ref<const Eigen::VectorXd>& values,
 /// hash, so that many stay cheap.
 class RepeatedInputs {
  public:
-  /// Remarks where the last of `parts.inputs` repeats the target or an earlier
-  /// input that was looked at; one column of `parts.input_values` each.
-  std::vector<std::string> Look(const Dataset::Parts& parts);
+  /// Of the last of `parts.inputs`, one column of `parts.input_values` each:
+  /// remarks where it repeats the target, and the name of the earlier input
+  /// that was looked at and that it repeats, or "".
+  struct Found {
+    std::vector<std::string> remarks;
+    std::string repeats;
+  };
+  Found Look(const Dataset::Parts& parts);
 
  private:
   std::unordered_map<std::uint64_t, std::vector<Eigen::Index>> inputs_by_hash_;

@@ -54,7 +54,7 @@ class LeakFinder {
              const VectorXd& target_values,
              const std::vector<ColumnInfo>& inputs,
              const Eigen::MatrixXd& input_values)
-      : inputs_(inputs) {
+      : unit_(target.unit), inputs_(inputs) {
     const Index m = target_values.size();
     const Index stride = 1 + (m - 1) / kMostRowsLooked;
     for (Index row = 0; row < m; row += stride) rows_.push_back(row);
@@ -111,7 +111,7 @@ class LeakFinder {
                         .values = std::move(values),
                         .sd = 0.0,
                         .resolution = 0.0,
-                        .position = NamesPosition(column.name),
+                        .position = IsPosition(column),
                         .settings = false};
     const std::set<double> levels(candidate.values.begin(),
                                   candidate.values.end());
@@ -156,6 +156,7 @@ class LeakFinder {
 
   bool MayBe(const std::vector<Index>& set, const VectorXd& b) const {
     const double rounding = RoundingOf(set, b);
+    if (IsTheErrorItself(set, b)) return rounding <= kMostOfDifference * sd_;
     const double least = b.cwiseAbs().minCoeff();
     const double most = b.cwiseAbs().maxCoeff();
     double size = 0.0;
@@ -237,6 +238,17 @@ class LeakFinder {
     return leak;
   }
 
+  // A position that goes with the error one to one is where it was measured.
+  bool IsTheErrorItself(const std::vector<Index>& set,
+                        const VectorXd& b) const {
+    if (set.size() != 1 || !Of(set[0]).position) return false;
+    const Unit& unit = inputs_[static_cast<std::size_t>(Of(set[0]).input)].unit;
+    return AreConvertible(unit, unit_) &&
+           std::abs(std::abs(b[0]) / Converted(1.0, unit, unit_) - 1.0) <
+               kUnitSlack;
+  }
+
+  const Unit& unit_;
   const std::vector<ColumnInfo>& inputs_;
   std::vector<Index> rows_;  // looked at
   VectorXd target_;          // of these, less its mean

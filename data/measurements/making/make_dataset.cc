@@ -123,8 +123,27 @@ class DatasetBuilder {
     inputs_ = std::move(chosen.inputs);
     dropped_ = std::move(chosen.dropped);
     words_ = std::move(chosen.words);
+    LeaveOutMeasuredPositions();
     remarks_.insert(
         remarks_.end(), chosen.remarks.begin(), chosen.remarks.end());
+  }
+
+  // Where a position was measured is known after the fact only.
+  void LeaveOutMeasuredPositions() {
+    for (const std::size_t column : read_.axis.measured) {
+      const auto found = std::ranges::find(inputs_, column);
+      if (found == inputs_.end() || IsNamed(Name(column))) continue;
+      const std::string why = read_.position.empty()
+                                  ? "reads the position, which holds the error"
+                                  : "reads the position that " +
+                                        NameInRemark(read_.position) +
+                                        " commands";
+      inputs_.erase(found);
+      Drop(column, why);
+      remarks_.push_back("input " + NameInRemark(Name(column)) + " " + why +
+                         " and is left out; name it in " +
+                         ArgumentName("inputs") + " to use it");
+    }
   }
 
   // ---- In which units.
@@ -286,13 +305,34 @@ class DatasetBuilder {
       if (!idle.how.empty()) ReportIdle(Name(input), idle);
       if (idle.dead && !selection_.keep_dead) continue;
       parts_.inputs.push_back(Info(input));
-      if (!idle.dead && !selection_.only_to_judge) {
-        std::ranges::move(repeated_.Look(parts_), std::back_inserter(remarks_));
+      if (!idle.dead && !selection_.only_to_judge && IsRepeated(input)) {
+        parts_.inputs.pop_back();
+        continue;
       }
       ++used;
     }
     if (used == 0 && !inputs_.empty()) ThrowNoInputs(table_, dropped_);
     parts_.input_values.conservativeResize(Eigen::NoChange, used);
+  }
+
+  // Whether the last input says once more what another says, and is left out:
+  // a map would share its weight between them by chance.
+  bool IsRepeated(std::size_t input) {
+    RepeatedInputs::Found found = repeated_.Look(parts_);
+    std::ranges::move(found.remarks, std::back_inserter(remarks_));
+    if (found.repeats.empty()) return false;
+    const std::string why =
+        "repeats " + NameInRemark(found.repeats) + " value for value";
+    if (IsNamed(Name(input))) {
+      remarks_.push_back("input " + NameInRemark(Name(input)) + " " + why +
+                         "; both are kept");
+      return false;
+    }
+    Drop(input, why);
+    remarks_.push_back("input " + NameInRemark(Name(input)) + " " + why +
+                       " and is left out; name it in " +
+                       ArgumentName("inputs") + " to use it");
+    return true;
   }
 
   // Of rows left out, the log keeps what else they hold.
@@ -596,8 +636,12 @@ PreparedDataset MakeDataset(const CsvTable& table,
   ReadTable read = ReadRoles(table, selection);
   // Moved out first: the builder reads from one table only.
   const std::optional<CsvTable> as_read = std::move(read.table);
-  return DatasetBuilder(as_read ? *as_read : table, selection, std::move(read))
-      .Build();
+  PreparedDataset prepared =
+      DatasetBuilder(as_read ? *as_read : table, selection, std::move(read))
+          .Build();
+  prepared.remarks.insert(
+      prepared.remarks.begin(), table.remarks.begin(), table.remarks.end());
+  return prepared;
 }
 
 }  // namespace errmap::data

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "data/argument_name.h"
+#include "data/files/shown_path.h"
 #include "data/measurements/column_checks.h"
 #include "data/measurements/faults/row_faults.h"
 #include "data/measurements/reading/column_words.h"
@@ -181,7 +182,7 @@ class TableReader {
   ReadTable Read() {
     read_.where = selection_.where;
     TakeTarget();
-    read_.roles = ChooseRoles(table(), selection_);
+    read_.roles = ChooseRoles(table(), WithoutDerivedCycles());
     read_.reading.rows = static_cast<std::int64_t>(given_.num_rows);
     ChooseBaseRows();
     if (selection_.only_to_judge) {
@@ -192,6 +193,9 @@ class TableReader {
     FindOrder();
     FindDirection();
     FindCycles();
+    if (!selection_.group.empty() && read_.roles.group == kNoColumn) {
+      RequireColumn(table(), selection_.group, ArgumentName("group"));
+    }
     TakeRows();
     if (selection_.with_log) FindSessionsOfRows();
     Describe();
@@ -216,6 +220,15 @@ class TableReader {
     if (of < 0) return;  // to be refused by its name
     AddColumn(Negative(given_.At(of)));
     read_.reading.target.sign = -1;
+  }
+
+  // A study names the cycles that were found by the column that they then got.
+  DatasetSelection WithoutDerivedCycles() const {
+    DatasetSelection selection = selection_;
+    if (selection.group == kCycleColumn && given_.Find(kCycleColumn) < 0) {
+      selection.group.clear();
+    }
+    return selection;
   }
 
   bool IsDerived(const ColumnFilter& filter) const {
@@ -503,11 +516,13 @@ class TableReader {
     }
     RefuseRowsOfWords(table(), numbering, read_.passes);
     if (!selection_.only_to_judge) {
+      // Rows are compared as given, but for rows put in order and for a target
+      // that is the negative of a column given.
+      const bool as_given = given_.num_rows == table().num_rows &&
+                            !Reordered() &&
+                            read_.roles.target < given_.columns.size();
       read_.repeated_rows = RepeatedRows(
-          given_.num_rows == table().num_rows && !Reordered() ? given_
-                                                              : table(),
-          read_.roles.target,
-          read_.passes);
+          as_given ? given_ : table(), read_.roles.target, read_.passes);
     }
     if (selection_.faults == FaultPolicy::kDropRows) {
       for (const Index row : read_.repeated_rows) {
@@ -600,11 +615,11 @@ class TableReader {
       reading.rows_left_out.push_back(
           {.row = row, .why = "repeats another value for value"});
     }
-    reading.files = {given_.file};
+    reading.files = {ShownPath(given_.file)};
     if (!given_.parts.empty()) {
       reading.files.clear();
       for (const auto& part : given_.parts)
-        reading.files.push_back(part.second);
+        reading.files.push_back(ShownPath(part.second));
     }
   }
 

@@ -91,7 +91,10 @@ KeptFits::KeptFits(std::string path, std::optional<std::int64_t> most_bytes)
 KeptFits::KeptFits(const std::string& folder, Opening opening) try
     : KeptFits(PathIn(folder), std::nullopt) {
   if (opening == Opening::kAnew && database_) {
-    database_->Execute("DELETE FROM fit");
+    // It was had for this process alone; a full disk can still be removed from.
+    database_.reset();
+    fs::remove(path_);
+    Open();
   }
 } catch (const data::SqliteError& error) {
   const std::string path = data::PrintablePath(PathIn(folder));
