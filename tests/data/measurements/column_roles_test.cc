@@ -174,9 +174,11 @@ TEST(ColumnRoles, VeryManyKnownColumnsAreCutShort) {
 }
 
 TEST(ColumnRoles, NoTargetOrSeveral) {
-  EXPECT_EQ(ErrorOf("a,b\n1,2\n"),
-            "f.csv: no column's name starts with 'error'; name the measured "
-            "error with target (columns of numbers: 'a', 'b')");
+  EXPECT_EQ(
+      ErrorOf("a,b\n1,2\n"),
+      "f.csv: no column's name says that it is an error (error, deviation, "
+      "Abweichung); name the measured "
+      "error with target (columns of numbers: 'a', 'b')");
   EXPECT_THAT(ErrorOf("a\nx\n"), HasSubstr("no column holds numbers"));
   EXPECT_EQ(ErrorOf("error_x,a,error_y\n1,2,3\n"),
             "f.csv: several columns could be the target; name one with "

@@ -87,11 +87,33 @@ TEST(JoinTables, NamesSessionsByTheirFileWhereTwoHaveTheSameName) {
 }
 
 TEST(JoinTables, TakesAFileForOneSessionWhateverTheLeapsOfItsTime) {
-  const std::string cycles =
-      "time_s,x_mm,error_um\n0,1,1\n1,2,2\n2,3,3\n900,1,3\n901,2,1\n";
-  const PreparedDataset prepared =
-      MakeDataset(Join({{"a.csv", cycles}, {"b.csv", cycles}}).table, {});
+  const auto cycles = [](const std::string& last) {
+    return "time_s,x_mm,error_um\n0,1,1\n1,2,2\n2,3,3\n900,1,3\n901,2," + last +
+           "\n";
+  };
+  const PreparedDataset prepared = MakeDataset(
+      Join({{"a.csv", cycles("1")}, {"b.csv", cycles("1.5")}}).table, {});
   EXPECT_THAT(prepared.dataset.log()->sessions.labels, ElementsAre("a", "b"));
+}
+
+TEST(JoinTables, LeavesOutAFileThatWasSavedTwice) {
+  const std::string day = "time_s,x_mm,error_um\n0,1,1\n1,2,2\n2,3,3\n";
+  const JoinedTable joined = Join({{"a.csv", day}, {"b.csv", day}});
+  EXPECT_EQ(joined.table.num_rows, 3U);
+  EXPECT_THAT(joined.remarks,
+              ElementsAre(HasSubstr("b.csv: holds the rows of a.csv")));
+}
+
+TEST(JoinTables, KeepsADayThatGoesOnInTheNextFile) {
+  const std::string head = "day,time_s,error_um\n";
+  const JoinedTable joined =
+      Join({{"a.csv", head + "1,0,1\n1,600,2\n"},
+            {"b.csv", head + "1,1200,3\n1,1800,4\n2,90000,5\n"}});
+  EXPECT_THAT(Cells(joined.table, "day"), ElementsAre("1", "1", "1", "1", "2"));
+  // A clock that starts anew in each file is one of another day.
+  const JoinedTable anew = Join({{"a.csv", head + "1,0,1\n1,600,2\n"},
+                                 {"b.csv", head + "1,0,3\n1,600,4\n"}});
+  EXPECT_THAT(Cells(anew.table, "day"), ElementsAre("a", "a", "b", "b"));
 }
 
 TEST(JoinTables, ReadsNamesAndUnitsAsTheFirstFileHasThem) {

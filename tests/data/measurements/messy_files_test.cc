@@ -87,6 +87,8 @@ TEST(MessyFiles, WhatIsUnambiguousIsSimplyRead) {
       {"separators at the rows' ends", padded(0, 3)},
       {"one more at the header's end", padded(1, 0)},
       {"rows of separators below", Joined(rows) + ",,,,,,\n,,,,,,\n"},
+      {"a title", "Machine 7\n" + Joined(rows)},
+      {"names in a comment", "# " + Joined(rows)},
   };
   for (const auto& [what, text] : files) {
     SCOPED_TRACE(what);
@@ -101,25 +103,11 @@ TEST(MessyFiles, WhatIsUnambiguousIsSimplyRead) {
 }
 
 TEST(MessyFiles, WordsForMissingCellsAreMissingCells) {
-  for (const char* word : {"",
-                           "NA",
-                           "NaN",
-                           "n/a",
-                           "#N/A",
-                           "#NV",
-                           "NULL",
-                           "null",
-                           "-",
-                           "--",
-                           "?",
-                           "None",
-                           "missing",
-                           "(null)",
-                           "1.#QNAN",
-                           "-nan",
-                           ".",
-                           "#DIV/0!",
-                           "#VALUE!"}) {
+  for (const char* word :
+       {"",        "NA",   "NaN",   "n/a",     "#N/A",    "#NV",     "NULL",
+        "null",    "-",    "--",    "?",       "None",    "missing", "(null)",
+        "1.#QNAN", "-nan", ".",     "#DIV/0!", "#VALUE!", "OPEN",    "OL",
+        "OVER",    "ERR",  "Fault", "NC",      "---"}) {
     SCOPED_TRACE(word);
     const std::string text = Joined(WithCell(7, kT1, word));
     EXPECT_THAT(ErrorOf(text),
@@ -144,14 +132,13 @@ TEST(MessyFiles, AllElseIsOneLineThatSaysWhatToDo) {
       {"%PDF-1.4\n", "PDF"},
       {"<!doctype html><table></table>\n", "web page"},
       {"{\n \"schema\": \"errmap-model-1\"}\n", "this is JSON"},
-      {"Machine 7\n" + text, "start the lines above them with #"},
       {text + "End of file\n", "line 122 (data row 120): 1 field"},
       {text + "End of file,,,,,,\n", "'End of file' where the other rows"},
       {text + "Mean,,,200,24,21,9.5\n", "a row of totals or a remark"},
       {text + "3,Mean,4380,200,24,21,9.5\n", "column 'cycle': 'Mean'"},
       {text + text.substr(text.find('\n') + 1), "120 rows repeat others"},
-      {text + text, "'day' where the other rows have numbers"},
-      {Joined(WithCell(7, kT1, "OVER")), "'OVER' is no number"},
+      {text + text, "120 rows repeat others"},
+      {Joined(WithCell(7, kT1, "warm")), "'warm' is no number"},
       {Joined(WithCell(7, kT1, "1,5")), "8 fields where the header has 7"},
   };
   for (const auto& [messy, line] : files) {
@@ -319,6 +306,14 @@ TEST(MessyFiles, RowsThatAreNoMeasurementsAreNamedAndLeftOutByAnOption) {
        FaultKind::kOutlying,
        {0, 4, 8},
        90},
+      {changed([](int i, auto* cells) {
+         if (i == 33 || i == 71 || i == 104) {
+           (*cells)[kError] = CsvNumber(Number((*cells)[kError]) * 10.0);
+         }
+       }),
+       FaultKind::kOutlying,
+       {33, 71, 104},
+       117},
   };
   for (const Case& one : cases) {
     const PreparedDataset kept = Make(one.text);
@@ -464,9 +459,14 @@ TEST(MessyFiles, CountersAreNoInputsAndCyclesAreGroups) {
     EXPECT_THAT(InputNames(prepared.dataset),
                 ElementsAre("position_mm", "t1_degC", "t2_degC"))
         << name;
+    // Without a name that says it, the passes along the axis are the cycles.
     const bool is_cycle =
         name != "Lauf" && name != "run" && name != "Messung" && name != "Nr.";
-    EXPECT_EQ(prepared.dataset.groups().column, is_cycle ? name : "") << name;
+    EXPECT_EQ(prepared.dataset.groups().column, is_cycle ? name : "cycle")
+        << name;
+    EXPECT_EQ(prepared.dataset.groups().labels.size(),
+              static_cast<std::size_t>(kDays * kCycles))
+        << name;
   }
 }
 

@@ -105,7 +105,7 @@ TEST(Sessions, TimeIsFoundByItsDatesWhateverItsName) {
   EXPECT_THAT(found.sessions.codes, ElementsAre(0, 0, 1, 1));
   EXPECT_THAT(
       found.remarks,
-      ElementsAre("2 sessions, cut where 'Zeitpunkt' goes back or leaps "
+      ElementsAre("2 sessions, cut where 'Zeitpunkt' pauses for a night "
                   "(first at data row 2); time by 'Zeitpunkt'"));
   // One whose name says so comes first.
   EXPECT_EQ(Find("When,time_s\n07:30,1\n07:31,2\n").time_column, 1);
@@ -133,8 +133,12 @@ TEST(Sessions, AreTheDatesWhereTimeHasNone) {
   const std::string rows =
       "01.03.2024,7:00,1\n01.03.2024,7:10,2\n02.03.2024,7:20,3\n"
       "02.03.2024,7:30,4\n";
-  EXPECT_EQ(Find("Datum,Uhrzeit,x\n" + rows).sessions.column, "Datum");
-  EXPECT_EQ(Find("Datum,Uhrzeit,x\n" + rows).time_column, 1);
+  // Hours beside them tell the nights.
+  const FoundSessions apart = Find("Datum,Uhrzeit,x\n" + rows);
+  EXPECT_THAT(apart.sessions.codes, ElementsAre(0, 0, 1, 1));
+  EXPECT_EQ(apart.by, "nights");
+  EXPECT_EQ(apart.time_column, 1);
+  EXPECT_EQ(apart.time[2] - apart.time[1], 86400.0 + 600.0);
   EXPECT_EQ(Find("Datum,other,x\n01.03.2024,a,1\n02.03.2024,b,2\n"
                  "02.03.2024,b,2\n")
                 .sessions.column,
@@ -145,20 +149,36 @@ TEST(Sessions, AreTheDatesWhereTimeHasNone) {
             "");
 }
 
-TEST(Sessions, AreCutWhereTimeGoesBackOrLeaps) {
+TEST(Sessions, AreCutWhereTimeGoesBackOrAfterANight) {
   std::string text = "time_s\n";
-  for (const int time :
-       {0, 10, 20, 30, 40, 50, 250, 260, 461, 471, 481, 0, 10, 20, 30, 40}) {
+  for (const int time : {0,
+                         10,
+                         20,
+                         30,
+                         40,
+                         50,
+                         3000,
+                         3010,
+                         43000,
+                         43010,
+                         43020,
+                         0,
+                         10,
+                         20,
+                         30,
+                         40}) {
     text += std::to_string(time) + "\n";
   }
-  // Steps of 10: 200 is no leap, 201 is one.
+  // A pause of 50 minutes is none of 11 hours.
   const FoundSessions found = Find(text);
   EXPECT_THAT(found.sessions.codes,
               ElementsAre(0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2, 2));
-  EXPECT_THAT(found.remarks,
-              ElementsAre("3 sessions, cut where 'time_s' goes back or leaps "
-                          "(first at data row 8); time by 'time_s'"));
+  EXPECT_THAT(
+      found.remarks,
+      ElementsAre("3 sessions, cut where 'time_s' goes back or pauses for a "
+                  "night (first at data row 8); time by 'time_s'"));
   EXPECT_EQ(found.sessions.column, "");
+  EXPECT_THAT(Find(text, {.gap = "20min"}).sessions.labels.size(), 4U);
 }
 
 TEST(Sessions, AreOneWhereNothingTells) {
@@ -168,7 +188,7 @@ TEST(Sessions, AreOneWhereNothingTells) {
   EXPECT_THAT(found.known, Each(true));
   EXPECT_THAT(Find("time_s\n1\n2\n").remarks,
               ElementsAre("one session (no column session, day, run or tag, no "
-                          "break in time); time by 'time_s'"));
+                          "night in time); time by 'time_s'"));
 }
 
 TEST(Sessions, MayHaveSeveralRowsAtOneTime) {

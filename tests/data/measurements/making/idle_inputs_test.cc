@@ -78,14 +78,21 @@ TEST(IdleInputs, JudgesDeadInputsByTheRowsKept) {
   EXPECT_THAT(DroppedNames(prepared), ElementsAre("a"));
 }
 
-TEST(IdleInputs, NamesInputsThatRepeatOthersAndKeepsThem) {
-  const PreparedDataset prepared =
-      Make("t3,t4,t5,t6,error_um\n1,0,1.0,-0,1\n2,2,2,2,3\n");
-  EXPECT_EQ(prepared.dataset.num_inputs(), 4);
+TEST(IdleInputs, LeavesOutWhatRepeatsAnotherUnlessItIsNamed) {
+  const std::string text = "t3,t4,t5,t6,error_um\n1,0,1.0,-0,1\n2,2,2,2,3\n";
+  const PreparedDataset prepared = Make(text);
+  EXPECT_THAT(InputNames(prepared.dataset), ElementsAre("t3", "t4"));
+  EXPECT_THAT(DroppedNames(prepared), ElementsAre("t5", "t6"));
+  EXPECT_THAT(prepared.remarks,
+              ElementsAre("input t5 repeats t3 value for value and is left "
+                          "out; name it in inputs to use it",
+                          "input t6 repeats t4 value for value and is left "
+                          "out; name it in inputs to use it"));
+  const PreparedDataset named = Make(text, {.inputs = {"t3", "t5"}});
+  EXPECT_EQ(named.dataset.num_inputs(), 2);
   EXPECT_THAT(
-      prepared.remarks,
-      ElementsAre("input t5 repeats t3 value for value; both are kept",
-                  "input t6 repeats t4 value for value; both are kept"));
+      named.remarks,
+      ElementsAre("input t5 repeats t3 value for value; both are kept"));
 }
 
 // What counts the cycles on through the days is a state that never returns.

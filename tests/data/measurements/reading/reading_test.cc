@@ -1,0 +1,342 @@
+#include "data/measurements/reading/reading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "data/csv.h"
+#include "data/measurements/dataset.h"
+#include "data/measurements/reading/read_table.h"
+
+namespace errmap::data {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// A machine that warms: days of cycles of positions, up or both ways.
+struct Log {
+  int days = 4;
+  int cycles = 5;
+  int positions = 6;
+  double step = 10.0;      // s
+  double pause = 300.0;    // s
+  double night = 50000.0;  // s
+  bool both_ways = false;
+
+  struct Row {
+    int day = 0;
+    int cycle = 0;  // in all days
+    double time = 0.0;
+    double position = 0.0;
+    double warm = 0.0;
+    double error = 0.0;
+  };
+
+  std::vector<Row> Rows() const {
+    std::vector<Row> rows;
+    double time = 1000.0;
+    for (int day = 0; day < days; ++day) {
+      const double begin = time;
+      for (int cycle = 0; cycle < cycles; ++cycle) {
+        const int ways = both_ways ? 2 : 1;
+        for (int i = 0; i < ways * positions; ++i) {
+          const int at = i < positions ? i : ways * positions - 1 - i;
+          const double warm =
+              20.0 + 0.3 * day + 5.0 * (1.0 - std::exp((begin - time) / 2000));
+          const double noise =
+              std::sin(12.9898 * static_cast<double>(rows.size() + 1)) * 1e4;
+          rows.push_back({.day = day,
+                          .cycle = day * cycles + cycle,
+                          .time = time,
+                          .position = 50.0 * at,
+                          .warm = warm,
+                          .error = 2.0 * (warm - 20.0) + 0.5 * at +
+                                   (i < positions ? 0.0 : 3.0) + 0.1 * noise -
+                                   0.1 * std::floor(noise)});
+          time += step;
+        }
+        time += pause;
+      }
+      time += night;
+    }
+    return rows;
+  }
+};
+
+std::string Fixed(double value) {
+  return CsvNumber(std::round(1e4 * value) / 1e4);
+}
+
+using CellsOfRow = std::function<std::vector<std::string>(const Log::Row&)>;
+
+std::string Text(const std::string& header,
+                 const std::vector<Log::Row>& rows,
+                 const CellsOfRow& cells) {
+  std::string text = header + "\n";
+  for (const Log::Row& row : rows) {
+    std::string line;
+    for (const std::string& cell : cells(row)) {
+      line += (line.empty() ? "" : ",") + cell;
+    }
+    text += line + "\n";
+  }
+  return text;
+}
+
+Reading Read(const std::string& text, const DatasetSelection& selection = {}) {
+  return MakeDataset(ParseCsv(text, "log.csv"), selection).reading;
+}
+
+std::vector<std::string> TimePositionTempError(const Log::Row& row) {
+  return {
+      Fixed(row.time), Fixed(row.position), Fixed(row.warm), Fixed(row.error)};
+}
+
+TEST(Reading, PartsSessionsByNightsAndNotByPausesOfOneOrder) {
+  for (const double pause : {60.0, 300.0, 1200.0, 3600.0}) {
+    for (const double night : {15000.0, 50000.0, 200000.0}) {
+      if (4.0 * pause > night) continue;
+      Log log;
+      log.pause = pause;
+      log.night = night;
+      const Reading reading = Read(Text("time_s,position_mm,t1_degC,error_um",
+                                        log.Rows(),
+                                        TimePositionTempError));
+      EXPECT_EQ(reading.sessions.count, 4) << pause << " " << night;
+      EXPECT_EQ(reading.sessions.by, "nights");
+      EXPECT_THAT(reading.sessions.first_rows, ElementsAre(0, 30, 60, 90));
+      EXPECT_EQ(reading.cycles.count, 20);
+      EXPECT_EQ(reading.cycles.by, "position");
+      EXPECT_TRUE(reading.sessions.sure);
+    }
+  }
+}
+
+TEST(Reading, TakesOneRunOfOneDayForOneSession) {
+  Log log;
+  log.days = 1;
+  const Reading reading = Read(Text("time_s,position_mm,t1_degC,error_um",
+                                    log.Rows(),
+                                    TimePositionTempError));
+  EXPECT_EQ(reading.sessions.count, 1);
+  EXPECT_EQ(reading.cycles.count, 5);
+}
+
+TEST(Reading, FindsTheUnitOfTimeByStepsAndSpan) {
+  struct Clock {
+    const char* name;
+    double factor;
+    double offset;
+    const char* unit;
+  };
+  for (const Clock& clock :
+       {Clock{"time_s", 1.0, 0.0, "s"},
+        Clock{"time_ms", 1e3, 0.0, "ms"},
+        Clock{"time_min", 1.0 / 60.0, 0.0, "min"},
+        Clock{"t (h)", 1.0 / 3600.0, 0.0, "h"},
+        Clock{"timestamp", 1.0, 1.7724384e9, "s"},
+        Clock{"timestamp", 1e3, 1.7724384e12, "ms"},
+        Clock{"stamp", 1e6, 1.7724384e15, "us"},
+        Clock{"Datum", 1.0 / 86400.0, 46083.0, "Excel days"}}) {
+    const Reading reading =
+        Read(Text(std::string(clock.name) + ",position_mm,t1_degC,error_um",
+                  Log().Rows(),
+                  [&](const Log::Row& row) {
+                    std::vector<std::string> cells = TimePositionTempError(row);
+                    cells[0] =
+                        CsvNumber(clock.factor * row.time + clock.offset);
+                    return cells;
+                  }));
+    EXPECT_EQ(reading.time.column, clock.name);
+    EXPECT_EQ(reading.time.unit, clock.unit) << clock.name;
+    EXPECT_NEAR(reading.time.step_s.value_or(0.0), 10.0, 1e-2) << clock.name;
+    EXPECT_EQ(reading.sessions.count, 4) << clock.name;
+    EXPECT_THAT(reading.sensors, ElementsAre("t1_degC")) << clock.name;
+  }
+}
+
+TEST(Reading, TakesWhatIsCommandedForTheAxisWhateverItsName) {
+  for (const std::string name : {"position_mm",
+                                 "x_pos_mm",
+                                 "X [mm]",
+                                 "Sollposition [mm]",
+                                 "Achse Z [mm]",
+                                 "posizione [mm]",
+                                 "axis_x_mm",
+                                 "reach [mm]"}) {
+    const Reading reading = Read(Text("time_s," + name + ",t1_degC,error_um",
+                                      Log().Rows(),
+                                      TimePositionTempError));
+    EXPECT_EQ(reading.position.column, name);
+    EXPECT_THAT(reading.direction.values, ElementsAre("up")) << name;
+  }
+}
+
+TEST(Reading, LeavesOutThePositionThatWasMeasuredBesideIt) {
+  const auto text = [](bool at_one_place) {
+    return Text("day,nominal [mm],actual [mm],t1_degC,error_um",
+                Log().Rows(),
+                [&](const Log::Row& row) {
+                  const double nominal = at_one_place ? 100.0 : row.position;
+                  return std::vector<std::string>{
+                      std::to_string(row.day),
+                      Fixed(nominal),
+                      CsvNumber(nominal + 1e-3 * std::stod(Fixed(row.error))),
+                      Fixed(row.warm),
+                      Fixed(row.error)};
+                });
+  };
+  EXPECT_EQ(Read(text(false)).position.column, "nominal [mm]");
+  EXPECT_THAT(Read(text(false)).sensors, ElementsAre("t1_degC"));
+  EXPECT_EQ(Read(text(true)).position.column, std::nullopt);
+  const PreparedDataset one = MakeDataset(ParseCsv(text(true), "log.csv"), {});
+  EXPECT_EQ(one.dataset.num_inputs(), 1);
+}
+
+TEST(Reading, FindsTheTwoWaysThroughThePositions) {
+  Log log;
+  log.both_ways = true;
+  const std::string text = Text(
+      "time_s,position_mm,t1_degC,error_um", log.Rows(), TimePositionTempError);
+  const Reading reading = Read(text);
+  EXPECT_THAT(reading.direction.values, ElementsAre("up", "down"));
+  EXPECT_EQ(reading.direction.column, kDirectionColumn);
+  EXPECT_EQ(reading.cycles.count, 20);
+  const PreparedDataset up =
+      MakeDataset(ParseCsv(text, "log.csv"), {.direction = "up"});
+  EXPECT_EQ(up.dataset.num_rows(), 4 * 5 * 6);
+  EXPECT_EQ(up.where.size(), 1U);
+  EXPECT_THAT(DirectionsOf(reading, {.direction = "up"}), IsEmpty());
+  EXPECT_EQ(DirectionsOf(reading, {}).size(), 2U);
+}
+
+TEST(Reading, PutsShuffledRowsInTheOrderOfTheirClock) {
+  const std::vector<Log::Row> rows = Log().Rows();
+  std::vector<Log::Row> sorted = rows;
+  std::ranges::stable_sort(sorted, {}, &Log::Row::position);
+  const auto make = [](const std::vector<Log::Row>& of) {
+    return MakeDataset(ParseCsv(Text("time_s,position_mm,t1_degC,error_um",
+                                     of,
+                                     TimePositionTempError),
+                                "log.csv"),
+                       {});
+  };
+  const PreparedDataset measured = make(rows);
+  const PreparedDataset found = make(sorted);
+  EXPECT_EQ(found.reading.order, "time");
+  EXPECT_EQ(found.dataset.target_values(), measured.dataset.target_values());
+  EXPECT_EQ(found.dataset.log()->sessions.codes,
+            measured.dataset.log()->sessions.codes);
+}
+
+TEST(Reading, TakesNoHistoryFromRowsThatWereSortedWithoutAClock) {
+  std::vector<Log::Row> rows = Log().Rows();
+  std::ranges::stable_sort(rows, {}, &Log::Row::position);
+  const PreparedDataset prepared = MakeDataset(
+      ParseCsv(Text("day,cycle,position_mm,t1_degC,error_um",
+                    rows,
+                    [](const Log::Row& row) {
+                      return std::vector<std::string>{std::to_string(row.day),
+                                                      std::to_string(row.cycle),
+                                                      Fixed(row.position),
+                                                      Fixed(row.warm),
+                                                      Fixed(row.error)};
+                    }),
+               "log.csv"),
+      {});
+  EXPECT_EQ(prepared.reading.order, "none");
+  EXPECT_FALSE(prepared.dataset.log()->ordered);
+  EXPECT_EQ(prepared.dataset.num_sessions(), 4);
+  EXPECT_THAT(ReadingLines(prepared.reading).back(),
+              HasSubstr("no map gets a memory"));
+}
+
+TEST(Reading, BeginsASessionWhereTheCyclesCountAnew) {
+  const Reading reading = Read(Text("cycle,position_mm,t1_degC,error_um",
+                                    Log().Rows(),
+                                    [](const Log::Row& row) {
+                                      return std::vector<std::string>{
+                                          std::to_string(row.cycle % 5 + 1),
+                                          Fixed(row.position),
+                                          Fixed(row.warm),
+                                          Fixed(row.error)};
+                                    }));
+  EXPECT_EQ(reading.sessions.by, "counter");
+  EXPECT_EQ(reading.sessions.count, 4);
+  EXPECT_EQ(reading.cycles.count, 20);
+}
+
+TEST(Reading, KeepsARunningNumberOutWhateverItsName) {
+  for (const std::string name : {"scan", "shot", "epoch", "n", "xyz"}) {
+    int row_number = 0;
+    const Reading reading =
+        Read(Text("day," + name + ",position_mm,t1_degC,error_um",
+                  Log().Rows(),
+                  [&](const Log::Row& row) {
+                    return std::vector<std::string>{
+                        std::to_string(row.day),
+                        std::to_string(30000 + 3 * row_number++),
+                        Fixed(row.position),
+                        Fixed(row.warm),
+                        Fixed(row.error)};
+                  }));
+    EXPECT_THAT(reading.sensors, ElementsAre("t1_degC")) << name;
+  }
+}
+
+TEST(Reading, AsksForTheSignOfACorrection) {
+  const std::string text = Text("time_s,position_mm,t1_degC,correction_um",
+                                Log().Rows(),
+                                TimePositionTempError);
+  try {
+    Read(text);
+    FAIL() << "no question";
+  } catch (const OpenQuestion& open) {
+    EXPECT_EQ(open.question().topic, "target");
+    EXPECT_EQ(open.question().answers.size(), 2U);
+    EXPECT_THAT(open.what(),
+                AllOf(HasSubstr("-correction_um"), HasSubstr("target")));
+  }
+  const CsvTable table = ParseCsv(text, "log.csv");
+  const PreparedDataset error = MakeDataset(table, {.target = "correction_um"});
+  const PreparedDataset against =
+      MakeDataset(table, {.target = "-correction_um"});
+  EXPECT_EQ(against.dataset.target_values(),
+            Eigen::VectorXd(-error.dataset.target_values()));
+  EXPECT_EQ(against.reading.target.sign, -1);
+  EXPECT_EQ(against.dataset.target().unit.symbol, "um");
+}
+
+TEST(Reading, GoesOnOverMidnight) {
+  // Shifts from 21:00 on, by a clock without dates.
+  Log log;
+  log.step = 600.0;
+  log.pause = 600.0;
+  log.cycles = 8;
+  const double shift = log.cycles * (log.positions * log.step + log.pause);
+  log.night = 86400.0 - shift;
+  const Reading reading = Read(Text(
+      "time,position_mm,t1_degC,error_um", log.Rows(), [](const Log::Row& row) {
+        const auto minutes =
+            static_cast<int>((row.time - 1000.0) / 60.0) + 21 * 60;
+        const auto two = [](int number) {
+          return std::string(number < 10 ? "0" : "") + std::to_string(number);
+        };
+        std::vector<std::string> cells = TimePositionTempError(row);
+        cells[0] = two(minutes / 60 % 24) + ":" + two(minutes % 60) + ":00";
+        return cells;
+      }));
+  EXPECT_EQ(reading.sessions.count, 4);
+  EXPECT_EQ(reading.cycles.count, 32);
+}
+
+}  // namespace
+}  // namespace errmap::data
