@@ -154,10 +154,10 @@ TEST(View, RefusesTimeConstantsThatAreNone) {
 }
 
 TEST(View, PositionsStayAsTheyAreInAnyCase) {
-  EXPECT_TRUE(IsPosition({"Position_mm", {}}));
-  EXPECT_TRUE(IsPosition({"position", {}}));
-  EXPECT_FALSE(IsPosition({"posit", {}}));
-  EXPECT_FALSE(IsPosition({"t_position", {}}));
+  EXPECT_TRUE(data::IsPosition({"Position_mm", {}}));
+  EXPECT_TRUE(data::IsPosition({"position", {}}));
+  EXPECT_FALSE(data::IsPosition({"posit", {}}));
+  EXPECT_FALSE(data::IsPosition({"t_position", {}}));
 }
 
 // Ten rows a day of an age, a temperature that comes and goes, and one that

@@ -160,37 +160,6 @@ TEST(FitPenalty, WeighsWhatDiffersBetweenSessions) {
   }
 }
 
-TEST(FitPenalty, HoldsOutWhatTheOtherSessionsPredict) {
-  const data::Dataset dataset = SessionsWithOffsets(true, 3);
-  const FitContext context{.inner_holdout = InnerHoldout::kWholeSessions};
-  const InnerFolds folds = MakeInnerFolds(dataset, context);
-  const auto viewed = std::make_shared<const ViewedRows>(
-      MakeViews(dataset, std::nullopt, 0.0).front());
-  PenalizedBasis basis;
-  basis.between = 0.25;
-  const PenalizedCandidate chosen = FitPenalty({viewed, basis, &folds, context},
-                                               fitting::Penalty::kRidge,
-                                               {},
-                                               0.0,
-                                               1.0)
-                                        ->candidate;
-  std::vector<Index> others;
-  for (Index row = 0; row < dataset.num_rows(); ++row) {
-    if (folds.folds.codes[static_cast<std::size_t>(row)] != 1) {
-      others.push_back(row);
-    }
-  }
-  const Eigen::VectorXd expected =
-      WithinAndBetween(dataset.SelectRows(others), 0.25, chosen.strength);
-  for (Index row = 0; row < dataset.num_rows(); ++row) {
-    if (folds.folds.codes[static_cast<std::size_t>(row)] != 1) continue;
-    EXPECT_NEAR(
-        chosen.held_out[row],
-        dataset.input_values().row(row) * expected.tail(3) + expected[0],
-        1e-9);
-  }
-}
-
 // In a view a quarter; rows as they are measured count as anywhere else.
 TEST(PenalizedRecipe, WeighsSessionsInViewsAlone) {
   const data::Dataset dataset = SessionsWithOffsets(false, 3);

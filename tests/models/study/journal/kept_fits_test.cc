@@ -118,8 +118,9 @@ TEST_F(KeptFitsFile, RefusesADamagedRecordAndLosesNoOther) {
   sqlite3* database = nullptr;
   ASSERT_EQ(sqlite3_open(Path().c_str(), &database), SQLITE_OK);
   ASSERT_EQ(sqlite3_exec(database,
-                         "UPDATE fit SET outcome = substr(outcome, 1, 60) || "
-                         "x'00' || substr(outcome, 62) WHERE key = 'fit 1'",
+                         "UPDATE fit SET outcome = CAST(substr(outcome, 1, 60) "
+                         "|| x'5a' || substr(outcome, 62) AS BLOB) WHERE key "
+                         "= 'fit 1'",
                          nullptr,
                          nullptr,
                          nullptr),
