@@ -91,11 +91,17 @@ TEST_F(Certify, LinearFiguresAreThoseOfFit) {
   for (const std::string problem :
        {"Filip", "Longley", "Norris", "NoInt1", "Wampler2", "Wampler5"}) {
     const Json& row = rows.at(problem);
-    Write("data.csv", CsvOf(problem));
+    const std::string text = CsvOf(problem);
+    Write("data.csv", text);
+    // All of them, a year that only counts on, too.
+    const std::string inputs =
+        text.substr(2, text.find('\n') - 2);  // after "y,"
     const Json fitted = RunJson({"fit",
                                  "data.csv",
                                  "--target",
                                  "y",
+                                 "--inputs",
+                                 inputs,
                                  "--model",
                                  row["model"].get<std::string>(),
                                  "-o",

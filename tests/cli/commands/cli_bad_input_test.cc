@@ -96,13 +96,28 @@ TEST_F(CliBadInput, ShortAndLongRowsAreRagged) {
                     HasSubstr("decimal commas")));
 }
 
-TEST_F(CliBadInput, DuplicateNames) {
-  EXPECT_THAT(Refusal("t,t,error_mm\n" + kRows),
-              HasSubstr("f.csv: line 1: columns 1 and 2 are both named 't'"));
+TEST_F(CliBadInput, RowsOfAnotherLengthAreLeftOutByTheOptionThatIsNamed) {
+  const std::string text = kHeader + kRows + "7,20\n8,20,,1\n";
+  EXPECT_THAT(
+      Refusal(text),
+      HasSubstr("2 rows have another number of cells than the header's "
+                "3: line 8 has 2, line 9 has 4; complete them or remove "
+                "them, or leave them out with --missing drop-rows"));
+  const Outcome outcome =
+      Compare(text, {"--missing", "drop-rows", "--format", "json"});
+  EXPECT_EQ(Data(outcome)["data"]["rows"], 6);
+  EXPECT_THAT(outcome.err, HasSubstr("2 rows are left out"));
 }
 
-TEST_F(CliBadInput, NoHeader) {
-  EXPECT_THAT(Refusal(kRows), HasSubstr("f.csv: line 1: no header"));
+TEST_F(CliBadInput, WhatWasNotPlainInAFileIsSaid) {
+  EXPECT_THAT(Compare("t,t,error_mm\n" + kRows).err,
+              HasSubstr("f.csv: columns of one name: the later is read as "
+                        "'t_2'"));
+  EXPECT_THAT(Compare(kRows,
+                      {"--target", "column_3", "--inputs", "column_1,column_2"})
+                  .err,
+              HasSubstr("f.csv: no line of names: the columns are called "
+                        "column_1 to column_3"));
 }
 
 TEST_F(CliBadInput, EmptyFile) {
@@ -238,18 +253,18 @@ const std::string kDeadSensors =
     "1,20,0,7,20,0.1\n2,21,0,7,21,0.3\n3,22.5,0,7,22.5,0.2\n"
     "4,20.3,0,7,20.3,0.5\n";
 
-TEST_F(CliBadInput, DeadSensorsAreDroppedAndDuplicatesNamed) {
+TEST_F(CliBadInput, DeadSensorsAndDuplicatesAreLeftOutAndNamed) {
   const Outcome outcome = Compare(kDeadSensors, {"--format", "json"});
   EXPECT_THAT(
       outcome.err,
       AllOf(HasSubstr("errmap: input t2 is dead (0 in all 4 rows) and is left "
                       "out; --keep-dead keeps it\n"),
             HasSubstr("errmap: input t3 is dead (7 in all 4 rows)"),
-            HasSubstr("errmap: input t4 repeats t1 value for value; both are "
-                      "kept\n")));
+            HasSubstr("errmap: input t4 repeats t1 value for value and is left "
+                      "out; name it in --inputs to use it\n")));
   const Json data = Data(outcome)["data"];
-  EXPECT_EQ(data["inputs"], Json::parse(R"(["position_mm","t1","t4"])"));
-  ASSERT_EQ(data["dropped"].size(), 2U);
+  EXPECT_EQ(data["inputs"], Json::parse(R"(["position_mm","t1"])"));
+  ASSERT_EQ(data["dropped"].size(), 3U);
   EXPECT_EQ(data["dropped"][0]["column"], "t2");
   EXPECT_EQ(data["dropped"][1]["column"], "t3");
 }
@@ -314,8 +329,9 @@ TEST_F(CliBadInput, KeepDeadKeepsThemAndSaysSo) {
               HasSubstr("errmap: input t2 is dead (0 in all 4 rows) and is "
                         "kept\n"));
   const Json data = Data(outcome)["data"];
-  EXPECT_EQ(data["inputs"].size(), 5U);
-  EXPECT_THAT(data["dropped"], IsEmpty());
+  EXPECT_EQ(data["inputs"].size(), 4U);
+  ASSERT_EQ(data["dropped"].size(), 1U);
+  EXPECT_EQ(data["dropped"][0]["column"], "t4");
 }
 
 TEST_F(CliBadInput, QuietKeepsRemarksBack) {

@@ -57,14 +57,6 @@ TEST_F(CliEndlessInput, APipeThatNeverEndsIsReadToABound) {
               HasSubstr("/dev/stdin: is longer than 4 MiB"));
 }
 
-TEST_F(CliEndlessInput, AStoreThatIsAPipeIsRefused) {
-  std::filesystem::create_directory(scratch_ / "store");
-  ASSERT_EQ(mkfifo((scratch_ / "store/errmap.sqlite").c_str(), 0600), 0);
-  EXPECT_THAT(
-      RefusalOf(Shell("merge store > out"), kUnusable),
-      AllOf(HasSubstr("store/errmap.sqlite"), HasSubstr("no plain file")));
-}
-
 TEST_F(CliEndlessInput, AFolderWithAPipeForItsFitsIsRefused) {
   std::filesystem::create_directory(scratch_ / "study");
   ASSERT_EQ(mkfifo((scratch_ / "study/fits.sqlite").c_str(), 0600), 0);

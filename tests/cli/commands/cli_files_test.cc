@@ -24,7 +24,7 @@ class CliFiles : public Cli {
                              : "time_s,position_mm,T1_K,error_mm\n";
     double state = 0.0;
     for (int i = 0; i < 40; ++i) {
-      const double t = 20.0 + day % 2 + 3.0 * (i % 20) / 20.0;
+      const double t = 20.0 + day % 2 + 0.1 * day + 3.0 * (i % 20) / 20.0;
       state += 0.2 * (t - 20.0 - state);
       const double error = 4.0 * state + 0.1 * (i % 7);
       text += std::to_string(300 * i) + "," + std::to_string(i % 8 * 10) + "," +

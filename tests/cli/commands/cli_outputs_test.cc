@@ -50,6 +50,7 @@ TEST_F(CliOutputs, OutputsThatAreInputsAreRefusedBeforeAnyWork) {
        "mean",
        "--holdout",
        "file:x.csv",
+       "--quiet",
        "--save-split",
        "x.csv"},
       {"init", "x.csv", "-o", "hard.csv", "--force"},

@@ -239,7 +239,7 @@ TEST_F(Resume, LeavesAGoodReportAloneWhenTheDiskIsFull) {
   const std::vector<std::string> other =
       Command("study", {"--seed", "2", "--quiet"});
   {
-    constexpr rlim_t kBytes = 20'000;
+    constexpr rlim_t kBytes = 60'000;
     const FileLimit limit(kBytes);
     const Outcome full = Run(other);
     EXPECT_EQ(full.status, kFailure);

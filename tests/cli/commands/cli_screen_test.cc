@@ -105,7 +105,7 @@ TEST_F(Screens, FitSixComponentsInARowEach) {
   ExpectToFit(words);
   ExpectToFit(With(words, {"--details"}));
   const Outcome outcome = Run(words);
-  EXPECT_THAT(outcome.out, StartsWith("6 components: "));
+  EXPECT_THAT(outcome.out, StartsWith("6 components"));
   EXPECT_LT(SplitLines(outcome.out).size(), 20U);
 }
 
@@ -153,8 +153,7 @@ TEST_F(Screens, FitHelpAndWhatIsSaidOfAMap) {
   setenv("COLUMNS", "80", 1);
   EXPECT_THAT(Run({"help", "compare"}).out,
               HasSubstr("  --target COL                Column to be mapped "
-                        "(default: the only one named\n"
-                        "                              error*)\n"));
+                        "(default: the error by name)\n"));
   const std::string map = "a_map_of_a_long_name_that_fills_half_of_a_line.json";
   ASSERT_EQ(Run({"fit", kDown, "--model", "poly:eq8", "-o", map}).status, 0);
   ExpectToFit({"check", map, kDown, "--quiet"});
@@ -221,7 +220,7 @@ TEST_F(Screens, TellTheNextCommandsWhichWorkAsTheyStand) {
   EXPECT_EQ(Run(words).status, 0) << line.str();
   EXPECT_THAT(OneLine(text),
               AllOf(HasSubstr("errmap check map.json PROBES.csv"),
-                    ContainsRegex("It removes 9[0-9] % of the error")));
+                    HasSubstr("; 92 % removed")));
 }
 
 TEST_F(Screens, NameTheSensorsAndTheCommandThatTellsWhichWouldDo) {
@@ -328,7 +327,7 @@ TEST_F(Screens, SayWhatTwoDaysHeldOutWholeTell) {
   const Outcome outcome =
       Run({"compare", "days.csv", "--models", "poly:full:degree=1", "--quiet"});
   const std::string text = Squeezed(outcome.out);
-  EXPECT_THAT(text, HasSubstr("on another day."));
+  EXPECT_THAT(text, HasSubstr("another day "));
   EXPECT_THAT(text, Not(HasSubstr("another day is not known")));
   EXPECT_THAT(text, ContainsRegex("measure next +6 days or more"));
 }
@@ -489,7 +488,8 @@ TEST_F(Screens, TakeAGoalWithItsUnit) {
   const auto compare = [&](const std::string& goal) {
     return Run({"compare", kDown, "--models", "poly:eq8", "--goal", goal});
   };
-  EXPECT_THAT(OneLine(compare("2um").out), HasSubstr("goal 2 um: not reached"));
+  EXPECT_THAT(OneLine(compare("2um").out),
+              ContainsRegex("goal +2 um: not reached"));
   for (const char* same : {"0.002", "0.002 mm", "2 \u00b5m", "2e-3mm"}) {
     EXPECT_EQ(compare(same).out, compare("2um").out) << same;
   }

@@ -397,7 +397,7 @@ TEST_F(CliStudy, WhereThatFitsNoRowAndEqualNamesAreRefused) {
               HasSubstr("no row is left where 'direction' is 'left'; the "
                         "column has 'down', 'up'"));
   EXPECT_THAT(Refusal(component + component),
-              HasSubstr("two components are named 'both'"));
+              HasSubstr("two components are named 'both, "));
 }
 
 // ---- Plans.
@@ -434,6 +434,9 @@ TEST_F(CliStudy, InitWritesAFileThatDoesWhatTheDataFileAloneDoes) {
   Json from_data = RunJson(words)["components"];
   DropTimes(&from_file);
   DropTimes(&from_data);
+  // Here the file names the roles, there the values tell them.
+  from_file[0]["data"].erase("reading");
+  from_data[0]["data"].erase("reading");
   EXPECT_EQ(from_file.dump(), from_data.dump());
   // The models it writes are those that the data alone would get.
   const Outcome plan = Run({"compare", "--config", "study.toml", "--dry-run"});

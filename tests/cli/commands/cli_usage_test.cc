@@ -275,7 +275,10 @@ TEST_F(Cli, DataWithoutPositionLeavePositionModelsOut) {
 
 TEST_F(Cli, HoldoutFileIsTestedOnAndNeverTrainedOn) {
   const std::vector<std::string> lines = SplitLines(Process::TextOf(kDown));
-  Write("test.csv", lines[0] + "\n" + lines[3] + "\n" + lines[90] + "\n");
+  // Rows that the training file does not have.
+  const auto moved = [](std::string line) { return line + "1"; };
+  Write("test.csv",
+        lines[0] + "\n" + moved(lines[3]) + "\n" + moved(lines[90]) + "\n");
   const Json component = Compare(
       {"--models", "poly:eq8", "--holdout", "file:test.csv", "--out", "o"});
   EXPECT_EQ(component["holdouts"][0]["name"], "file:test.csv");

@@ -158,6 +158,7 @@ TEST_F(EveryScreen, FitsEightyColumns) {
         "-o",
         "demo.json"});
   Show({"when", "demo.json", "--goal", "5um"});
+  Show({"read", "demo/x_displacement_down.csv"});
   Show({"certify", "nist"});
   Show({"certify", "agreement"});
   ShowMachine();
@@ -214,8 +215,7 @@ class OneResult : public EveryScreen {
                 HasSubstr(reached ? "0.5 um: reached" : "0.5 um: not reached"));
     const std::string page = Read(folder + "report.html");
     EXPECT_THAT(page, HasSubstr("class=\"number\">" + figure + " µm"));
-    EXPECT_THAT(page, HasSubstr("(" + holdout + ")"));
-    EXPECT_EQ(page.find("0.5 µm: reached") != page.npos, reached);
+    EXPECT_EQ(page.find("µm: reached") != page.npos, reached);
     EXPECT_THAT(Read(folder + "report.md"),
                 HasSubstr(": " + figure + " um RMSE"));
     for (const Json& model : component["models"]) {

@@ -97,12 +97,16 @@ TEST_F(When, IsSaidByCheckForAGoal) {
   EXPECT_THAT(text.out,
               HasSubstr("\nA probe every 2 h keeps 90 % of the errors within "
                         "2.000 um."));
-  const Json found = RunJson(
-      {"check", "map.json", "probes.csv", "--goal", "2um", "--format", "json"});
+  // Half an hour tells nothing of the day: status 5.
+  const auto parsed = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"check", "map.json", "probes.csv"});
+    words.insert(words.end(), {"--format", "json"});
+    return Json::parse(Run(words).out);
+  };
+  const Json found = parsed({"--goal", "2um"});
   EXPECT_EQ(found["next_probe"]["interval_s"], 7200.0);
   EXPECT_EQ(found["next_probe"]["kept"], true);
-  EXPECT_FALSE(RunJson({"check", "map.json", "probes.csv", "--format", "json"})
-                   .contains("next_probe"));
+  EXPECT_FALSE(parsed({}).contains("next_probe"));
 }
 
 TEST_F(When, RefusesMapsOfOneSession) {
@@ -111,7 +115,7 @@ TEST_F(When, RefusesMapsOfOneSession) {
   EXPECT_EQ(found.status, kUnusable);
   EXPECT_THAT(found.err,
               HasSubstr("one.json: holds no errors of unseen sessions with "
-                        "times; fit the map to two sessions or more"));
+                        "times"));
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ TEST_F(ReportCommand, KeepsInTheRecordAllThatWasJudged) {
     return found;
   };
   EXPECT_THAT(kinds(advice["grounds"]),
-              ::testing::IsSupersetOf({"gap", "goal", "cost"}));
+              ::testing::IsSupersetOf({"gap", "removes", "cost"}));
   EXPECT_THAT(kinds(advice["doubts"]),
               ::testing::IsSupersetOf({"one run only", "units correlated"}));
 }
