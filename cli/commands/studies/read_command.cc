@@ -10,6 +10,7 @@
 #include "cli/commands/format_option.h"
 #include "cli/output/claimed_folder.h"
 #include "cli/report/words/fault_text.h"
+#include "cli/report/wrap_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
@@ -68,17 +69,28 @@ std::string Why(data::Evidence evidence, bool sure) {
 
 std::string Described(const data::Reading& reading) {
   std::string text;
+  constexpr std::size_t kColumns = 80;
+  constexpr std::size_t kIndent = 13;
   for (const std::string& line : data::ReadingLines(reading)) {
-    text += line + "\n";
+    text += report::WrapText(line, kColumns) + "\n";
   }
   const auto row = [&](const std::string& role,
                        const std::string& what,
                        const std::string& why,
                        const std::string& option) {
-    text += fmt::format("  {:<10} {:<34} {:<20} {}\n", role, what, why, option);
+    std::string begin = fmt::format("  {:<10} ", role);
+    for (const std::string& line : report::WrapLines(
+             fmt::format("{}{}; {}",
+                         what,
+                         why.empty() ? "" : fmt::format(" ({})", why),
+                         option),
+             kColumns - kIndent)) {
+      text += begin + line + "\n";
+      begin.assign(kIndent, ' ');
+    }
   };
   text += "\n";
-  row("role", "what", "by", "changed by");
+  row("role", "what it is (how it is known)", "", "what changes it");
   row("target",
       reading.target.column.value_or("none") +
           (reading.target.unit.empty() ? "" : " in " + reading.target.unit),

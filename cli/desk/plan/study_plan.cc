@@ -39,7 +39,8 @@ class TableReader {
                              data::OddRows odd = data::OddRows::kRefuse) {
     const auto found = tables_.find(file);
     if (found != tables_.end()) return found->second;
-    InputFile& input = inputs_->emplace_back(file);
+    InputFile& input = inputs_->emplace_back();
+    input.file = file;
     return tables_.emplace(file, data::ReadCsv(file, &input.sha256, odd))
         .first->second;
   }
