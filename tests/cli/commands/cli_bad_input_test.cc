@@ -113,11 +113,11 @@ TEST_F(CliBadInput, WhatWasNotPlainInAFileIsSaid) {
   EXPECT_THAT(Compare("t,t,error_mm\n" + kRows).err,
               HasSubstr("f.csv: columns of one name: the later is read as "
                         "'t_2'"));
-  EXPECT_THAT(Compare(kRows,
-                      {"--target", "column_3", "--inputs", "column_1,column_2"})
-                  .err,
-              HasSubstr("f.csv: no line of names: the columns are called "
-                        "column_1 to column_3"));
+  EXPECT_THAT(
+      Compare(kRows, {"--target", "column_3", "--inputs", "column_1,column_2"})
+          .err,
+      HasSubstr("f.csv: no line of names: the columns are called "
+                "column_1 to column_3"));
 }
 
 TEST_F(CliBadInput, EmptyFile) {
