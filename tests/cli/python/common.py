@@ -32,7 +32,7 @@ def without_times(value):
         key: without_times(item)
         for key, item in value.items()
         if "seconds" not in key and not key.endswith("_ns")
-        and key not in ("provenance", "file", "sha256", "name")
+        and key not in ("provenance", "file", "files", "sha256", "name")
     }
 
 

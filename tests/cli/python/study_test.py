@@ -233,7 +233,9 @@ class Maps(unittest.TestCase):
             path = os.path.join(folder, "map.json")
             self.map.save(path)
             _, printed, _ = common.run("predict", path, common.XDOWN)
-            by_cli = [line.split(",")[2] for line in printed.splitlines()[1:]]
+            lines = [line.split(",") for line in printed.splitlines()]
+            at = lines[0].index("predicted")
+            by_cli = [line[at] for line in lines[1:]]
             self.assertEqual(self.map.predict(self.frame).tolist(),
                              [float(cell) for cell in by_cli])
             self.assertEqual(errmap.load(path), self.map)
