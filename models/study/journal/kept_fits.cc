@@ -64,8 +64,11 @@ void KeptFits::RequireNoOther(const std::string& folder, bool force) {
   std::string begin(kOwnerAt + kOwner.size(), '\0');
   std::ifstream stream(path, std::ios::binary);
   stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  // An empty one is of a process that was killed.
-  if (force || stream.gcount() == 0 ||
+  // An empty one, or one with a transaction broken off, is of a process that
+  // was killed; one page has room for no table, so nothing in it is lost.
+  constexpr std::uintmax_t kPage = 4096;
+  if (force || stream.gcount() == 0 || fs::file_size(path) <= kPage ||
+      fs::exists(path + "-journal") ||
       (begin.starts_with(kBegin) && begin.ends_with(kOwner))) {
     return;
   }
