@@ -93,7 +93,7 @@ prints early_stopping data.csv 6 -- 'ended by the caller'
 prints lilliefors -- 'D = 0.10095'
 prints one_row map.json -- '0 allocations'
 prints my_model data.csv -- 'mm by neighbours'
-prints compare data.csv results.json page.html -- 'Use blend: 0.704 um RMSE'
+prints compare data.csv results.json page.html -- '0.704 um RMSE (95 %'
 cat >"$scratch/elsewhere/study.toml" <<'TOML'
 holdouts = ["every:3", "groups:5"]
 models = ["mean", "poly:eq8"]
