@@ -402,7 +402,7 @@ std::vector<ColumnFault> FindSlippedPoints(const MeasuredColumns& measured) {
   if (predicted.size() == 0) return {};
   const double sd = SpreadOfMisses(measured, predicted, all);
   ColumnFault fault{
-      .kind = FaultKind::kOutlying, .input = -1, .of_cells = true};
+      .kind = FaultKind::kOutlying, .input = -1, .rows = {}, .of_cells = true};
   fault.low = std::numeric_limits<double>::infinity();
   fault.high = -fault.low;
   for (const Index row : all) {

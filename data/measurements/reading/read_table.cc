@@ -30,7 +30,9 @@ CsvTable Borrowed(const CsvTable& table) {
                        .columns = {},
                        .num_rows = table.num_rows,
                        .line_runs = table.line_runs,
-                       .parts = table.parts};
+                       .parts = table.parts,
+                       .titles = table.titles,
+                       .remarks = table.remarks};
   const std::shared_ptr<const void> keeper(&table, [](const void*) {});
   for (const CsvColumn& column : table.columns) {
     CsvColumn& copy = borrowed.columns.emplace_back(
@@ -57,7 +59,9 @@ CsvTable InOrder(const CsvTable& table, const std::vector<Index>& order) {
                      .columns = {},
                      .num_rows = table.num_rows,
                      .line_runs = {},
-                     .parts = {}};
+                     .parts = {},
+                     .titles = table.titles,
+                     .remarks = table.remarks};
   std::vector<Index> place(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     place[static_cast<std::size_t>(order[i])] = static_cast<Index>(i);
