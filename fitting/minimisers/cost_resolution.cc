@@ -152,6 +152,35 @@ bool CurvesDown(HessianProduct* hessian, Index n) {
   return false;
 }
 
+// What remains at x, or infinity where H is found to curve down.
+double Remaining(const Objective& f,
+                 const VectorXd& x,
+                 const VectorXd& gradient,
+                 double limit,
+                 const std::function<bool()>& may_evaluate) {
+  HessianProduct hessian(f, x, may_evaluate);
+  const double remaining = NewtonDecrease(&hessian, gradient, limit);
+  return std::isfinite(remaining) && CurvesDown(&hessian, x.size())
+             ? std::numeric_limits<double>::infinity()
+             : remaining;
+}
+
+// f of parameters as shares of their own size.
+class InShares final : public Objective {
+ public:
+  InShares(const Objective& f, const VectorXd& sizes) : f_(f), sizes_(sizes) {}
+  Index num_parameters() const override { return sizes_.size(); }
+  double Evaluate(const VectorXd& shares, VectorXd* gradient) const override {
+    const double cost = f_.Evaluate(sizes_.cwiseProduct(shares), gradient);
+    if (gradient != nullptr) gradient->array() *= sizes_.array();
+    return cost;
+  }
+
+ private:
+  const Objective& f_;
+  VectorXd sizes_;
+};
+
 }  // namespace
 
 std::string CostResolution::Text() const {
@@ -174,10 +203,18 @@ CostResolution FindCostResolution(const Objective& f,
   result.cost = f.Evaluate(x, &gradient);
   result.rounding = Rounding(f, x, result.cost, may_evaluate);
   if (!std::isfinite(result.rounding) || !gradient.allFinite()) return result;
-  HessianProduct hessian(f, x, may_evaluate);
-  const double remaining = NewtonDecrease(&hessian, gradient, result.limit());
-  if (!std::isfinite(remaining) || CurvesDown(&hessian, x.size())) {
-    return result;
+  double remaining = Remaining(f, x, gradient, result.limit(), may_evaluate);
+  // A few parameters may be of units so different that what one of them still
+  // promises is lost in the gradient of another.
+  constexpr Index kMostOfUnits = 100;
+  if (std::isfinite(remaining) && x.size() <= kMostOfUnits) {
+    const VectorXd sizes = (x.array() != 0.0).select(x.cwiseAbs(), 1.0);
+    const double in_shares = Remaining(InShares(f, sizes),
+                                       x.cwiseQuotient(sizes),
+                                       sizes.cwiseProduct(gradient),
+                                       result.limit(),
+                                       may_evaluate);
+    remaining = std::max(remaining, in_shares);
   }
   result.remaining = remaining;
   return result;

@@ -38,8 +38,11 @@ struct CostResolution {
 /// until the residual is a tenth of g; it ends as unknown after 2 n steps or
 /// 500, or once what is promised exceeds limit(). The same from a direction
 /// with a part in all others (up to 100 steps) tells minima from saddles whose
-/// way down is at right angles to g. `may_evaluate` is asked before each
-/// evaluation; where it refuses, the result is unknown.
+/// way down is at right angles to g. Up to 100 parameters all this is done once
+/// more with each as a share of its size, and the larger result taken: in units
+/// that differ by powers of ten the gradient of one hides that of another.
+/// `may_evaluate` is asked before each evaluation; where it refuses, the result
+/// is unknown.
 CostResolution FindCostResolution(const Objective& f,
                                   const Eigen::VectorXd& x,
                                   const std::function<bool()>& may_evaluate);

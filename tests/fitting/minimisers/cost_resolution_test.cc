@@ -84,6 +84,22 @@ TEST(CostResolution, IsUnknownAtASaddleThatTheGradientDoesNotSee) {
           .is_reached());
 }
 
+// What the first parameter promises, 0.005, is a thousandth of the gradient.
+TEST(CostResolution, SeesThroughUnitsThatDifferByPowersOfTen) {
+  const auto at = [](double first) {
+    const FunctionObjective f(2, [](const VectorXd& x, VectorXd* gradient) {
+      const double a = 1e-3 * (x[0] - 400.0);
+      const double b = 1e6 * (x[1] - 1e-4);
+      if (gradient != nullptr) *gradient << 1e-3 * a, 1e6 * b;
+      return 1.0 + 0.5 * (a * a + b * b);
+    });
+    return FindCostResolution(f, VectorXd{{first, 1e-4 + 1e-13}}, kAlways)
+        .is_reached();
+  };
+  EXPECT_FALSE(at(500.0));
+  EXPECT_TRUE(at(400.0));
+}
+
 // A run that shortens its steps ends a few digits before a wall.
 TEST(CostResolution, TakesNoWallForRounding) {
   const VectorXd edge{{0.3, 0.4}};
