@@ -24,8 +24,8 @@ using Eigen::Index;
 // Columns that say which rows belong together.
 struct Shape {
   std::string name;
-  std::vector<int> cycles_of_days;  // none: no day
-  int cycles = 0;                   // where there is no day
+  std::vector<int> cycles_of_days = {};  // none: no day
+  int cycles = 0;                        // where there is no day
   bool has_cycles = true;
   bool cycles_count_on = false;  // from day to day, else each begins with 1
   bool first_days_come_last = false;
