@@ -81,6 +81,8 @@ void NameDataAsAsked(const std::string& path,
                      const ComponentSource& source,
                      StudyRun* run) {
   run->components.front().files.front().file = data::ShownPath(source.path);
+  run->components.front().data.reading.files.front() =
+      data::ShownPath(source.path);
   run->config.components.front().data = source.path;
   for (desk::InputFile& input : run->inputs) {
     if (input.file == path) input.file = source.path;

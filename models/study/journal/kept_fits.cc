@@ -27,6 +27,9 @@ namespace fs = std::filesystem;
 constexpr std::string_view kBegin{"SQLite format 3", 16};
 constexpr std::size_t kOwnerAt = 68;
 constexpr std::string_view kOwner = "ErMp";  // application_id 1165118832
+constexpr std::size_t kSchemaAt = 40;        // counts changes of the tables
+constexpr std::string_view kNoSchema{"\0\0\0\0", 4};
+constexpr std::uintmax_t kPage = 4096;
 
 std::string PathIn(const std::string& folder) {
   return fs::path(folder) / KeptFits::kName;
@@ -64,13 +67,15 @@ void KeptFits::RequireNoOther(const std::string& folder, bool force) {
   std::string begin(kOwnerAt + kOwner.size(), '\0');
   std::ifstream stream(path, std::ios::binary);
   stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  // An empty one, or one with a transaction broken off, is of a process that
-  // was killed; one page has room for no table, so nothing in it is lost.
-  constexpr std::uintmax_t kPage = 4096;
-  if (force || stream.gcount() == 0 || fs::file_size(path) <= kPage ||
-      fs::exists(path + "-journal") ||
-      (begin.starts_with(kBegin) && begin.ends_with(kOwner))) {
-    return;
+  if (force || stream.gcount() == 0) return;  // empty: of a killed process
+  if (begin.starts_with(kBegin)) {
+    // Where the first transaction was broken off, its journal lies beside the
+    // file, or there is one page and no table was ever made.
+    const bool is_broken_off =
+        fs::exists(path + "-journal") ||
+        (fs::file_size(path) == kPage &&
+         begin.substr(kSchemaAt, kNoSchema.size()) == kNoSchema);
+    if (is_broken_off || begin.ends_with(kOwner)) return;
   }
   throw data::InputError(data::PrintablePath(path) +
                          ": holds no fits of errmap; choose another folder, "
