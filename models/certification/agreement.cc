@@ -52,7 +52,8 @@ void CertifyAgreement(Certification* certification) {
     const NetObjective objective = MakeNetExample(example);
     AgreementCertificate& row = rows[i];
     row.solver = solvers[i]->name;
-    row.judged = solvers[i]->judged_on_nets;
+    row.most_difference = solvers[i]->floors.agreement_difference;
+    row.most_prediction_difference = solvers[i]->floors.agreement_prediction;
     row.objective = std::nan("");
     row.stop = std::string(ToString(fitting::Termination::kFailed));
     try {

@@ -32,9 +32,14 @@ void JudgeFloors(const CertificationFloors& floors,
   certification->missed.clear();
   Judge judge(&certification->missed);
   for (const NonlinearCertificate& row : certification->nonlinear) {
-    if (row.solver != kDefaultSolver) continue;
     const std::string run =
         fmt::format("{} from start {}, ", row.problem, row.start);
+    if (row.claims_minimum && row.other_minimum.empty()) {
+      judge.AtLeast(run + row.solver + " claims a minimum; sum of squares",
+                    row.lre_rss,
+                    floors.claimed_lre_rss);
+    }
+    if (row.solver != kDefaultSolver) continue;
     judge.AtLeast(run + "parameters",
                   row.lre_parameters,
                   floors.nonlinear_lre_parameters);
@@ -44,11 +49,11 @@ void JudgeFloors(const CertificationFloors& floors,
         run + "residual sum of squares", row.lre_rss, floors.nonlinear_lre_rss);
   }
   for (const SolverCertificate& row : certification->nonlinear_summary) {
-    if (row.solver != kDefaultSolver) continue;
-    judge.AtLeast("problems solved", row.solved, floors.nonlinear_solved);
-    judge.AtLeast("mean of parameters",
+    judge.AtLeast(
+        row.solver + ", problems solved", row.solved, row.floor_solved);
+    judge.AtLeast(row.solver + ", mean of parameters",
                   row.mean_lre_parameters,
-                  floors.nonlinear_mean_lre_parameters);
+                  row.floor_mean_lre_parameters);
   }
   for (const LinearCertificate& row : certification->linear) {
     judge.AtLeast(row.problem + ", coefficients",
@@ -86,13 +91,12 @@ void JudgeFloors(const CertificationFloors& floors,
                  floors.gradient_relative_error);
   }
   for (const AgreementCertificate& row : certification->agreement) {
-    if (!row.judged) continue;
     judge.AtMost(row.solver + ", objective above the lowest",
                  row.difference,
-                 floors.agreement_difference);
+                 row.most_difference);
     judge.AtMost(row.solver + ", predictions",
                  row.prediction_difference,
-                 floors.agreement_prediction_difference);
+                 row.most_prediction_difference);
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -25,38 +27,71 @@ std::string Stops(const Certification& certification,
   return text;
 }
 
+std::size_t NumProblems(const Certification& certification) {
+  std::set<std::string> names;
+  for (const auto& row : certification.nonlinear) names.insert(row.problem);
+  return names.size();
+}
+
+// What claims of a minimum are worth.
+std::string ClaimsText(const Certification& certification,
+                       const CertificationFloors& floors) {
+  int claims = 0;
+  std::map<std::string, int> others;  // by the reason
+  for (const auto& row : certification.nonlinear) {
+    if (!row.claims_minimum) continue;
+    ++claims;
+    if (row.lre_rss < floors.claimed_lre_rss && !row.other_minimum.empty()) {
+      ++others[row.other_minimum];
+    }
+  }
+  std::string text = fmt::format(
+      "{} runs claim a minimum: with {:.0f} digits of the sum of squares or "
+      "more, but for\n",
+      claims,
+      floors.claimed_lre_rss);
+  for (const auto& [reason, count] : others) {
+    text += fmt::format("{:>4} on problems of which {}\n", count, reason);
+  }
+  return text;
+}
+
 std::string SolversText(const Certification& certification,
                         const CertificationFloors& floors,
                         bool details) {
-  std::string text =
-      "NIST StRD, nonlinear: 27 problems from both starts; digits (LRE, at "
-      "most 11)\n";
-  text += fmt::format("{:<30}{:>7}{:>7}{:>7}{:>7}{}\n",
+  std::string text = fmt::format(
+      "NIST StRD, nonlinear: {} problems from both starts; digits (LRE, at "
+      "most 11)\n",
+      NumProblems(certification));
+  text += fmt::format("{:<30}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{}\n",
                       "solver",
                       "solved",
+                      "floor",
                       "mean",
+                      "floor",
                       "least",
                       "sd",
                       details ? "  runs ended with" : "");
   for (const auto& row : certification.nonlinear_summary) {
-    text += fmt::format("{:<30}{:>7}{:>7.2f}{:>7.2f}{:>7.2f}{}\n",
+    text += fmt::format("{:<30}{:>7}{:>7}{:>7.2f}{:>7.2f}{:>7.2f}{:>7.2f}{}\n",
                         row.solver,
                         fmt::format("{}/{}", row.solved, row.runs),
+                        row.floor_solved,
                         row.mean_lre_parameters,
+                        row.floor_mean_lre_parameters,
                         row.least_lre_parameters,
                         row.mean_lre_sd,
                         details ? "  " + Stops(certification, row.solver) : "");
   }
   return text +
          fmt::format(
-             "Floors of {}: {} solved, mean {:.1f}, every run's parameters "
-             "{:.1f},\nsd {:.1f}, sum of squares {:.1f}\n",
+             "Floors of every run of {}: parameters {:.1f}, sd {:.1f}, sum of "
+             "squares {:.1f}\n",
              models::kDefaultSolver,
-             floors.nonlinear_solved,
-             floors.nonlinear_mean_lre_parameters,
              floors.nonlinear_lre_parameters,
              floors.nonlinear_lre_sd,
              floors.nonlinear_lre_rss) +
+         ClaimsText(certification, floors) +
          fmt::format(
              "{} is the library's (fitting/nonlinear/nonlinear_regression.h); "
              "no command\nfits formulas by it. The commands fit nets, by the "
@@ -181,29 +216,31 @@ std::string GradientsText(const Certification& certification,
   return text;
 }
 
-std::string AgreementText(const Certification& certification,
-                          const CertificationFloors& floors) {
+std::string AgreementText(const Certification& certification) {
   std::string text = fmt::format(
-      "\nAgreement on one well-damped net from one start: objective within "
-      "{:.0e},\npredictions within {:.0e} of the target range (*: no floor)\n"
-      "{:<30}{:>12}{:>9}{:>10}{:>6} {}\n",
-      floors.agreement_difference,
-      floors.agreement_prediction_difference,
+      "\nAgreement on one well-damped net from one start: the objective above "
+      "the lowest,\nthe largest difference of predictions as a share of the "
+      "target range, their floors\n"
+      "{:<30}{:>12}{:>9}{:>8}{:>10}{:>8}{:>6} {}\n",
       "solver",
       "objective",
-      "relative",
+      "above",
+      "floor",
       "predicted",
+      "floor",
       "steps",
       "stop");
   for (const auto& row : certification.agreement) {
-    text += fmt::format("{:<30}{:>12.8g}{:>9.0e}{:>10.0e}{:>6} {}{}\n",
-                        row.solver,
-                        row.objective,
-                        row.difference,
-                        row.prediction_difference,
-                        row.iterations,
-                        row.stop,
-                        row.judged ? "" : " *");
+    text += fmt::format(
+        "{:<30}{:>12.8g}{:>9.0e}{:>8.0e}{:>10.0e}{:>8.0e}{:>6} {}\n",
+        row.solver,
+        row.objective,
+        row.difference,
+        row.most_difference,
+        row.prediction_difference,
+        row.most_prediction_difference,
+        row.iterations,
+        row.stop);
   }
   return text;
 }
@@ -226,7 +263,7 @@ std::string CertificationText(const Certification& certification,
     text += GradientsText(certification, floors, details);
   }
   if (!certification.agreement.empty()) {
-    text += AgreementText(certification, floors);
+    text += AgreementText(certification);
   }
   if (text.starts_with('\n')) text.erase(0, 1);
   text += certification.passed() ? "\nPassed: every floor is reached.\n"

@@ -143,7 +143,7 @@ TEST(JudgeFloors, PassesWhatReachesThemAndNamesWhatDoesNot) {
   EXPECT_THAT(certification.missed, Not(Contains(HasSubstr("NumAcc4"))));
 }
 
-TEST(JudgeFloors, HoldsOnlyTheDefaultSolverToThem) {
+TEST(JudgeFloors, HoldsRunsOfTheDefaultSolverToTheirDigits) {
   Certification certification;
   NonlinearCertificate row;
   row.problem = "MGH10";
@@ -154,6 +154,41 @@ TEST(JudgeFloors, HoldsOnlyTheDefaultSolverToThem) {
   certification.nonlinear[0].solver = kDefaultSolver;
   JudgeFloors({}, &certification);
   EXPECT_THAT(certification.missed, SizeIs(3));
+}
+
+TEST(JudgeFloors, BelievesNoClaimOfAMinimumWithoutDigits) {
+  Certification certification;
+  certification.nonlinear.push_back({.problem = "Nelson",
+                                     .solver = "cg",
+                                     .lre_rss = 3.9,
+                                     .claims_minimum = true});
+  JudgeFloors({}, &certification);
+  EXPECT_THAT(certification.missed,
+              Contains(HasSubstr("cg claims a minimum; sum of squares: 3.90")));
+  certification.nonlinear[0].other_minimum = "there are two";
+  JudgeFloors({}, &certification);
+  EXPECT_TRUE(certification.passed());
+}
+
+TEST(JudgeFloors, ExemptsNoSolver) {
+  Certification certification;
+  certification.nonlinear_summary.push_back({.solver = "cg",
+                                             .runs = 54,
+                                             .solved = 17,
+                                             .mean_lre_parameters = 2.9,
+                                             .floor_solved = 18,
+                                             .floor_mean_lre_parameters = 3.0});
+  certification.agreement.push_back({.solver = "nlopt:mma",
+                                     .difference = 2e-3,
+                                     .most_difference = 1e-3,
+                                     .most_prediction_difference = 2e-2});
+  JudgeFloors({}, &certification);
+  EXPECT_THAT(certification.missed, SizeIs(3));
+  for (const CertifiedSolver& solver : CertifiedSolvers()) {
+    EXPECT_TRUE(solver.floors.solved > 0 || !solver.fits_formulas)
+        << solver.name;
+    EXPECT_LE(solver.floors.agreement_difference, 1e-3) << solver.name;
+  }
 }
 
 // What is declared linear must be: the second difference of r vanishes.
@@ -218,6 +253,90 @@ TEST(CertifiedSolvers, NeverClaimAMinimumBesideATrap) {
               ->Minimize(Trap(beyond), Eigen::Vector2d(1.0, 0.8));
       EXPECT_FALSE(minimum.summary.converged()) << solver.name << beyond;
       EXPECT_TRUE(std::isfinite(minimum.summary.final_cost)) << solver.name;
+    }
+  }
+}
+
+// Rosenbrock's valley, which counts what it is asked.
+class CountedValley final : public fitting::Objective,
+                            private fitting::ResidualFunction {
+ public:
+  Eigen::Index num_parameters() const override { return 2; }
+  double Evaluate(const Eigen::VectorXd& x,
+                  Eigen::VectorXd* gradient) const override {
+    ++evaluations_;
+    Eigen::VectorXd r;
+    Eigen::MatrixXd jacobian;
+    Fill(x, &r, &jacobian);
+    if (gradient != nullptr) *gradient = jacobian.transpose() * r;
+    return 0.5 * r.squaredNorm();
+  }
+  const fitting::ResidualFunction* residuals() const override { return this; }
+  std::int64_t evaluations() const { return evaluations_; }
+
+ private:
+  static void Fill(const Eigen::VectorXd& x,
+                   Eigen::VectorXd* r,
+                   Eigen::MatrixXd* jacobian) {
+    *r = Eigen::Vector2d(10.0 * (x[1] - x[0] * x[0]), 1.0 - x[0]);
+    *jacobian = Eigen::Matrix2d{{-20.0 * x[0], 10.0}, {-1.0, 0.0}};
+  }
+  Eigen::Index num_residuals() const override { return 2; }
+  double ridge() const override { return 0.0; }
+  void Evaluate(const Eigen::VectorXd& x,
+                Eigen::VectorXd* residuals,
+                Eigen::MatrixXd* jacobian) const override {
+    ++evaluations_;
+    Eigen::MatrixXd unused;
+    Fill(x, residuals, jacobian != nullptr ? jacobian : &unused);
+  }
+
+  mutable std::int64_t evaluations_ = 0;
+};
+
+TEST(CertifiedSolvers, StopAtOneCountOfEvaluationsWithinAStep) {
+  constexpr std::int64_t kOfAStep = 6;
+  std::size_t judged = 0;
+  for (const std::int64_t limit : {8, 12, 16, 20}) {
+    for (const CertifiedSolver& solver : CertifiedSolvers()) {
+      if (!solver.fits_formulas) continue;  // its rate diverges in the valley
+      ++judged;
+      const CountedValley f;
+      const fitting::FitSummary summary =
+          solver.make({.evaluations = limit, .gradient_goal = 0.0})
+              ->Minimize(f, Eigen::Vector2d(-1.2, 1.0))
+              .summary;
+      EXPECT_EQ(summary.termination, fitting::Termination::kEvaluationLimit)
+          << solver.name << ": " << summary.message;
+      EXPECT_EQ(summary.evaluations(), f.evaluations()) << solver.name;
+      EXPECT_LE(f.evaluations(), limit) << solver.name;
+      EXPECT_GT(f.evaluations(), limit - kOfAStep) << solver.name;
+    }
+  }
+  EXPECT_EQ(judged, 4U * 17U);
+}
+
+// At the limit of iterations that the commands have.
+TEST(CertifiedSolvers, ConjugateGradientsComeNearTheBestOnTenNets) {
+  const auto cost = [](const std::string& name,
+                       const NetExampleShape& example,
+                       std::uint64_t seed) {
+    const NetObjective objective = MakeNetExample(example);
+    for (const CertifiedSolver& solver : CertifiedSolvers()) {
+      if (solver.name != name) continue;
+      return solver.make({.iterations = 1500})
+          ->Minimize(objective, InitialWeights(example.shape, seed))
+          .summary.final_cost;
+    }
+    return std::nan("");
+  };
+  for (const NetExampleShape& example : NetExampleShapes()) {
+    for (const std::uint64_t seed : {1U, 2U}) {
+      const double found = cost("cg", example, seed);
+      for (const char* other : {"lm:unscaled", "scg:moller", "ceres:bfgs"}) {
+        EXPECT_LT(found, 2.0 * cost(other, example, seed))
+            << example.name << " from " << seed << ", " << other;
+      }
     }
   }
 }
