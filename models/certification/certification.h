@@ -27,9 +27,9 @@ struct NonlinearCertificate {
   double lre_sd = 0.0;
   double lre_rss = 0.0;
   std::int64_t iterations = 0;
-  std::string stop;  // fitting::ToString of the termination
+  std::string stop = {};  // fitting::ToString of the termination
   bool claims_minimum = false;
-  std::string message;  // the solver's own words, or what it threw
+  std::string message = {};  // the solver's own words, or what it threw
   /// Why a minimum that is claimed here may be another than the certified one;
   /// empty: it may not.
   std::string other_minimum = {};
@@ -97,7 +97,7 @@ struct AgreementCertificate {
   double most_difference = 0.0;        // the floors of this solver
   double most_prediction_difference = 0.0;
   std::int64_t iterations = 0;
-  std::string stop;
+  std::string stop = {};
 };
 
 /// The name of the default: Levenberg-Marquardt with its fallbacks and polish

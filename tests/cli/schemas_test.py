@@ -392,7 +392,7 @@ DEEP = {
         put("linear", 0, "lre_coefficients", -1),
         put("univariate", 0, "lre_mean", "15"),
         put("gradients", 0, "worst_relative_error", ...),
-        put("agreement", 0, "judged", "yes"),
+        put("nonlinear", 0, "claims_minimum", "yes"),
         put("floors", "linear_lre_sd", "10"),
     ],
     "cost": [put("operations", "copies", -1), put("bytes", "state", None)],

@@ -217,30 +217,32 @@ std::string GradientsText(const Certification& certification,
 }
 
 std::string AgreementText(const Certification& certification) {
+  const auto lowest = std::ranges::min_element(
+      certification.agreement, {}, &models::AgreementCertificate::objective);
   std::string text = fmt::format(
-      "\nAgreement on one well-damped net from one start: the objective above "
-      "the lowest,\nthe largest difference of predictions as a share of the "
-      "target range, their floors\n"
-      "{:<30}{:>12}{:>9}{:>8}{:>10}{:>8}{:>6} {}\n",
+      "\nAgreement on one well-damped net from one start: how far the "
+      "objective "
+      "ends\nabove the lowest ({:.8g}), how far predictions are apart as a "
+      "share "
+      "of the\ntarget range, each beside its floor\n"
+      "{:<29}{:>7}{:>6}{:>7}{:>6}{:>6} {}\n",
+      lowest->objective,
       "solver",
-      "objective",
       "above",
       "floor",
-      "predicted",
+      "apart",
       "floor",
       "steps",
       "stop");
   for (const auto& row : certification.agreement) {
-    text += fmt::format(
-        "{:<30}{:>12.8g}{:>9.0e}{:>8.0e}{:>10.0e}{:>8.0e}{:>6} {}\n",
-        row.solver,
-        row.objective,
-        row.difference,
-        row.most_difference,
-        row.prediction_difference,
-        row.most_prediction_difference,
-        row.iterations,
-        row.stop);
+    text += fmt::format("{:<29}{:>7.0e}{:>6.0e}{:>7.0e}{:>6.0e}{:>6} {}\n",
+                        row.solver,
+                        row.difference,
+                        row.most_difference,
+                        row.prediction_difference,
+                        row.most_prediction_difference,
+                        row.iterations,
+                        row.stop);
   }
   return text;
 }
