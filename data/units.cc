@@ -82,6 +82,7 @@ constexpr auto kKnownUnits = std::to_array<KnownUnit>({
      kZeroFahrenheit,
      "fahrenheit \u00b0F degreesF",
      "F"},
+    {"us", Quantity::kTime, 1e-6, 0, "", ""},
     {"ms", Quantity::kTime, 1e-3, 0, "", ""},
     {"s", Quantity::kTime, 1.0, 0, "sec seconds", ""},
     {"min", Quantity::kTime, 60.0, 0, "minutes", ""},

@@ -118,7 +118,8 @@ class MeasuredBeside {
 
   // Why a column is no default input; "" where it may be one.
   std::string_view Why(std::string_view name) const {
-    if (NamesPosition(name)) return "";
+    // "column_3" says nothing: the table has no line of names.
+    if (NamesPosition(name) || stem_ == "column") return "";
     const std::string stem = StemOfColumn(name);
     if (stem == stem_) return "measures the target's quantity";
     const Header header = ReadHeader(name);
@@ -381,9 +382,6 @@ class InputChooser {
     const MeasuredBeside measured(Name(roles_.target));
     std::vector<std::string> texts;
     std::vector<std::string> beside;
-    // Of a table without names every column is called by its number.
-    const bool has_names =
-        std::ranges::any_of(table_.columns, &CsvColumn::has_name);
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       if (i == roles_.target || Is(roles_.group, i) || Is(roles_.weight, i) ||
           Is(found_.time_column, i) || Is(found_.date_column, i) ||
@@ -394,7 +392,7 @@ class InputChooser {
       const std::string name = NameInRemark(Name(i));
       if (excluded.contains(Name(i))) {
         had_candidates_ = had_candidates_ || !table_.At(i).is_text();
-      } else if (IsUnnamed(table_.At(i)) && has_names) {
+      } else if (IsUnnamed(table_.At(i))) {
         had_candidates_ = true;
         Drop(i, "has no name in the header");
         chosen_.remarks.push_back(
@@ -418,8 +416,7 @@ class InputChooser {
         had_candidates_ = true;
         Drop(i, "tells which one, and measures nothing");
         chosen_.words.push_back(i);
-      } else if (const std::string_view why =
-                     has_names ? measured.Why(Name(i)) : std::string_view();
+      } else if (const std::string_view why = measured.Why(Name(i));
                  !why.empty()) {
         had_candidates_ = true;
         Drop(i, std::string(why));

@@ -196,12 +196,15 @@ class Parser {
     for (const std::string& name : layout_.names) given.insert(AsUtf8(name));
     std::unordered_set<std::string> taken;
     std::vector<std::string> again;
+    // Without a line of names every column is called by its number.
+    const bool by_number =
+        std::ranges::all_of(layout_.names, &std::string::empty);
     for (const std::string& text : layout_.names) {
       const std::size_t number = table_.columns.size() + 1;
       std::string name = AsUtf8(TextOf(text));
       RefuseNumber(name, number);
-      const bool has_name = !name.empty();
-      if (!has_name) name = "column_" + std::to_string(number);
+      const bool has_name = by_number || !name.empty();
+      if (name.empty()) name = "column_" + std::to_string(number);
       if (taken.contains(name)) {
         const std::string first = name;
         for (int i = 2; taken.contains(name) || given.contains(name); ++i) {

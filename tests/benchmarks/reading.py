@@ -35,8 +35,9 @@ from program_runs import parser_of, seeds  # noqa: E402
 
 def told(reading, topic):
     """Whether the reading says that this item is open."""
-    item = reading.get(topic) or {}
-    return item.get("sure") is False or any(
+    item = reading.get(topic)
+    unsure = isinstance(item, dict) and item.get("sure") is False
+    return unsure or any(
         question["topic"] == topic for question in reading["questions"])
 
 

@@ -142,6 +142,9 @@ std::string Described(const data::Reading& reading) {
         reading.rows_left_out.front().why,
         "--faults drop-rows");
   }
+  for (const std::string& remark : reading.remarks) {
+    text += "\n" + report::WrapText(remark, kColumns) + "\n";
+  }
   return text;
 }
 

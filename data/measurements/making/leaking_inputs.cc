@@ -1,6 +1,7 @@
 #include "data/measurements/making/leaking_inputs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -238,14 +239,22 @@ class LeakFinder {
     return leak;
   }
 
-  // A position that goes with the error one to one is where it was measured.
+  // A position that goes with the error one to one is where it was measured; of
+  // a name whose unit could not be told ("position_in"), in any unit of length.
   bool IsTheErrorItself(const std::vector<Index>& set,
                         const VectorXd& b) const {
     if (set.size() != 1 || !Of(set[0]).position) return false;
+    const auto goes_one_to_one = [&](const Unit& unit) {
+      return AreConvertible(unit, unit_) &&
+             std::abs(std::abs(b[0]) / Converted(1.0, unit, unit_) - 1.0) <
+                 kUnitSlack;
+    };
     const Unit& unit = inputs_[static_cast<std::size_t>(Of(set[0]).input)].unit;
-    return AreConvertible(unit, unit_) &&
-           std::abs(std::abs(b[0]) / Converted(1.0, unit, unit_) - 1.0) <
-               kUnitSlack;
+    if (!unit.symbol.empty()) return goes_one_to_one(unit);
+    return std::ranges::any_of(std::array{"mm", "in", "m", "um", "cm"},
+                               [&](const char* symbol) {
+                                 return goes_one_to_one(UnitOfSymbol(symbol));
+                               });
   }
 
   const Unit& unit_;

@@ -65,7 +65,7 @@ class DatasetBuilder {
     }
     parts_.source = table_.file;
     TakeRoles();
-    inputs_of_dataset_ = parts_.inputs;
+    Reading reading = DescribedReading();
     return {.dataset = Dataset(std::move(parts_)),
             .dropped = std::move(dropped_),
             .remarks = std::move(remarks_),
@@ -73,7 +73,7 @@ class DatasetBuilder {
             .time_column = time_column,
             .where = std::move(read_.where),
             .faults = std::move(faults_),
-            .reading = DescribedReading()};
+            .reading = std::move(reading)};
   }
 
  private:
@@ -579,8 +579,9 @@ class DatasetBuilder {
     reading.remarks = remarks_;
     for (const DroppedColumn& column : dropped_) {
       reading.left_out.push_back({.column = column.column, .why = column.why});
+      if (reading.position.column == column.column) reading.position = {};
     }
-    for (const ColumnInfo& input : inputs_of_dataset_) {
+    for (const ColumnInfo& input : parts_.inputs) {
       if (input.role == Role::kPosition) continue;
       (input.role == Role::kSwitch    ? reading.switches
        : input.role == Role::kCounter ? reading.counters
@@ -626,7 +627,6 @@ class DatasetBuilder {
   std::vector<std::size_t> words_;  // columns that name things
   std::vector<Eigen::Index> repeated_rows_;
   std::vector<std::string> doubts_;
-  std::vector<ColumnInfo> inputs_of_dataset_;
 };
 
 }  // namespace

@@ -11,7 +11,10 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kFarBelow = 10.0;  // spacing of levels per width
+// Spacing of levels per width; of values that come again exactly, as those of a
+// coarse encoder may, more than any program's positions would show.
+constexpr double kFarBelow = 10.0;
+constexpr double kFarBelowOfExact = 1000.0;
 
 struct Value {
   double value;
@@ -48,7 +51,7 @@ bool ComeAlike(const std::vector<Value>& distinct) {
 
 // Where to part ascending values, so that the parts are far narrower than what
 // is between them; infinite where there is no such place.
-double PartsAt(const std::vector<Value>& distinct) {
+double PartsAt(const std::vector<Value>& distinct, double far_below) {
   std::vector<double> gaps;
   for (std::size_t i = 1; i < distinct.size(); ++i) {
     gaps.push_back(distinct[i].value - distinct[i - 1].value);
@@ -71,7 +74,7 @@ double PartsAt(const std::vector<Value>& distinct) {
     if (gaps[i] >= sorted[at]) from = distinct[i + 1].value;
     width = std::max(width, distinct[i + 1].value - from);
   }
-  return sorted[at] >= kFarBelow * width ? sorted[at] : INFINITY;
+  return sorted[at] >= far_below * width ? sorted[at] : INFINITY;
 }
 
 // The share of the rows of which the levels before tell the next.
@@ -117,7 +120,9 @@ Levels LevelsOf(std::span<const double> values) {
     return levels;
   }
   levels.come_alike = ComeAlike(distinct);
-  const double part = levels.come_alike ? 0.0 : PartsAt(distinct);
+  double part =
+      PartsAt(distinct, levels.come_alike ? kFarBelowOfExact : kFarBelow);
+  if (levels.come_alike && !std::isfinite(part)) part = 0.0;
   std::vector<double> ends;  // the highest value of each level
   double from = distinct.front().value;
   double sum = 0.0;

@@ -493,6 +493,16 @@ class TableReader {
         given_.Find(kCycleColumn) >= 0) {
       return;
     }
+    const std::ptrdiff_t counter = PassCounter(motion);
+    if (counter >= 0) {
+      read_.roles.group = counter;
+      cycles = {.column = table().At(counter).name,
+                .by = "column",
+                .count = motion.num_passes,
+                .evidence = Evidence::kValues,
+                .sure = true};
+      return;
+    }
     std::vector<double> numbers(table().num_rows, std::nan(""));
     for (std::size_t i = 0; i < base_rows_.size(); ++i) {
       numbers[static_cast<std::size_t>(base_rows_[i])] =
@@ -505,6 +515,46 @@ class TableReader {
               .count = motion.num_passes,
               .evidence = Evidence::kValues,
               .sure = true};
+  }
+
+  // A column that numbers the passes, whatever it is called, from its first
+  // number on or anew with each session; -1: none.
+  std::ptrdiff_t PassCounter(const Motion& motion) const {
+    for (std::size_t i = 0; i < table().columns.size(); ++i) {
+      const CsvColumn& column = table().columns[i];
+      if (i != read_.roles.target && !column.is_text() &&
+          UnitOfColumn(column.name).symbol.empty() &&
+          std::ranges::find(selection_.inputs, column.name) ==
+              selection_.inputs.end() &&
+          column.name != selection_.session &&
+          !CountsCycles({.name = column.name, .unit = {}}) &&
+          NumbersPasses(column, motion)) {
+        return static_cast<std::ptrdiff_t>(i);
+      }
+    }
+    return -1;
+  }
+
+  bool NumbersPasses(const CsvColumn& column, const Motion& motion) const {
+    double first = std::nan("");
+    double before = std::nan("");
+    Index counted_on = 0;
+    for (std::size_t i = 0; i < base_rows_.size(); ++i) {
+      const double value =
+          column.values[static_cast<std::size_t>(base_rows_[i])];
+      if (value != std::floor(value)) return false;  // NaN, too
+      if (i == 0) {
+        first = value;
+      } else if (motion.passes[i] == motion.passes[i - 1]) {
+        if (value != before) return false;
+      } else if (value == before + 1.0) {
+        ++counted_on;
+      } else if (value != first) {
+        return false;
+      }
+      before = value;
+    }
+    return 2 * counted_on >= motion.num_passes;
   }
 
   // ---- Rows and sessions.

@@ -45,7 +45,7 @@ class File:
         hold("direction", sorted(reading["direction"]["values"]) or ["up"],
              true["direction"])
         hold("order", reading["order"], true.get("order"))
-        hold("position", reading["position"]["column"],
+        hold("position", reading["position"]["column"] or "",
              true.get("axis", self.names.get("axis")))
         hold("target", reading["target"]["column"],
              true.get("target", self.names.get("target")))
@@ -384,6 +384,30 @@ def day_files(seed, draw):
     return File(texts, log, names)
 
 
+def pass_counter(seed, draw):
+    log = six(seed, draw)
+    name = draw.choice(("pass", "traverse", "Durchgang", "sweep_id", "loop"))
+    anew = draw.random() < 0.5
+    begin = draw.choice((0, 1))
+    numbers = [str(begin + (c % log.cycles_a_day if anew else c))
+               for c in log.cycle]
+    text, names = write_table(log, draw, day=True, extra=[(name, numbers)])
+    return File(text, log, names)
+
+
+def read_in_one_place(seed, draw):
+    log = six(seed, draw)
+    inch = draw.random() < 0.5
+    name = draw.choice(("position_in", "pos_in") if inch else
+                       ("position_mm", "X [mm]", "Istposition [mm]"))
+    place = draw.choice((50.0, 100.0, 412.5))
+    log.position[:] = [place + e / 1000.0 for e in log.error]
+    if inch:
+        log.position[:] = [p / 25.4 for p in log.position]
+    text, names = write_table(log, draw, day=True, axis=name)
+    return File(text, log, names, axis="", cycles=None, left_out=[name])
+
+
 def twice(seed, draw):
     log = six(seed, draw)
     text, names = write_table(log, draw, form="iso")
@@ -394,7 +418,8 @@ KINDS = (axis_names, nights, units_of_time, german, romance, cycles_anew,
          title_lines, folded, two_logs, open_cells, both_ways,
          sorted_without_clock, shuffled_with_clock, measured_beside,
          running_number, switches, power_up, sign, no_header, names_twice,
-         names_in_comment, units_below, thousands, day_files, twice)
+         names_in_comment, units_below, thousands, day_files, twice,
+         pass_counter, read_in_one_place)
 
 
 def draw(seed):
