@@ -23,6 +23,10 @@
 #include "data/files/atomic_file.h"
 #include "data/files/shown_path.h"
 #include "data/input_error.h"
+#include "data/measurements/column_checks.h"
+#include "data/measurements/reading/column_words.h"
+#include "data/measurements/reading/motion.h"
+#include "data/measurements/reading/read_table.h"
 #include "data/measurements/row_filters.h"
 #include "data/text.h"
 #include "models/kinematics/iso230.h"
@@ -58,53 +62,71 @@ struct Approached {
   std::vector<bool> upwards;
 };
 
-// The column that is named, else the first whose name begins as `begins` does;
-// -1: there is none.
-std::ptrdiff_t FindColumn(const data::CsvTable& table,
-                          const std::string& named,
-                          std::string_view begins) {
-  if (!named.empty()) {
-    const std::ptrdiff_t found = table.Find(named);
-    if (found >= 0) return found;
-    throw data::InputError(fmt::format(
-        "{}: has no column {}", table.file, data::QuotedName(named)));
+// The columns of a test: position, and direction ("": the motion tells).
+struct TestColumns {
+  std::string position;
+  std::string direction;
+};
+
+TestColumns ColumnsOf(const data::CsvTable& table,
+                      const Iso230Arguments& arguments) {
+  const data::Reading reading = data::ReadRoles(table,
+                                                {.target = arguments.target,
+                                                 .position = arguments.position,
+                                                 .with_log = false})
+                                    .reading;
+  TestColumns columns{.position = reading.position.column.value_or(""),
+                      .direction = arguments.direction};
+  if (columns.position.empty()) {
+    throw data::InputError(
+        table.file + ": no column is a position; name it with --position");
   }
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    if (data::StartsWithIgnoringCase(table.columns[i].name, begins)) {
-      return static_cast<std::ptrdiff_t>(i);
+  if (!columns.direction.empty()) {
+    data::RequireColumn(table, columns.direction, "--direction");
+  } else {
+    const auto says_direction =
+        std::ranges::find_if(table.columns, [](const data::CsvColumn& column) {
+          return data::Says(column.name, data::Word::kDirection);
+        });
+    if (says_direction != table.columns.end()) {
+      columns.direction = says_direction->name;
     }
   }
-  return -1;
+  return columns;
 }
 
-std::string PositionColumn(const data::CsvTable& table,
-                           const Iso230Arguments& arguments) {
-  const std::ptrdiff_t found =
-      FindColumn(table, arguments.position, "position");
-  if (found >= 0) return table.At(found).name;
-  throw data::InputError(fmt::format(
-      "{}: has no column position*; name it with --position", table.file));
+// Where the axis was sent: readings of an encoder differ by microns.
+VectorXd Targets(const VectorXd& positions) {
+  const data::Levels levels = data::LevelsOf(
+      {positions.data(), static_cast<std::size_t>(positions.size())});
+  VectorXd targets(positions.size());
+  for (Index i = 0; i < positions.size(); ++i) {
+    const Index code = levels.codes[static_cast<std::size_t>(i)];
+    targets[i] = code < 0 ? positions[i]
+                          : levels.centers[static_cast<std::size_t>(code)];
+  }
+  return targets;
 }
 
 // By the column of directions where its words say it, else by the motion.
 std::vector<bool> DirectionsOf(const data::CsvTable& table,
                                const std::vector<Index>& rows,
                                const VectorXd& positions,
-                               const Iso230Arguments& arguments) {
-  std::vector<bool> upwards = models::ApproachedUpwards(positions);
-  const std::ptrdiff_t column =
-      FindColumn(table, arguments.direction, "direction");
-  if (column < 0) return upwards;
+                               const std::string& column,
+                               bool named) {
+  std::vector<bool> upwards = models::ApproachedUpwards(Targets(positions));
+  if (column.empty()) return upwards;
+  const data::CsvColumn& words = table.At(table.Find(column));
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::string word =
-        table.CellText(table.At(column), static_cast<std::size_t>(rows[i]));
+    const auto row = static_cast<std::size_t>(rows[i]);
+    const std::string word = table.CellText(words, row);
     if (const auto up = data::IsUpwards(word)) {
       upwards[i] = *up;
-    } else if (!arguments.direction.empty()) {
+    } else if (named) {
       throw data::InputError(fmt::format(
           "{}: {} is no direction: up or down, + or -, 1 or -1; without "
           "--direction the order of the positions tells",
-          table.Where(static_cast<std::size_t>(rows[i]), table.At(column).name),
+          table.Where(row, column),
           data::QuotedName(word)));
     }
   }
@@ -118,13 +140,13 @@ void Take(const data::CsvTable& table,
           const VectorXd& after,
           const Iso230Arguments& arguments,
           Approached* all) {
-  const std::string position = PositionColumn(table, arguments);
+  const TestColumns columns = ColumnsOf(table, arguments);
   const VectorXd positions = data::NumericColumn(
-      table, position, data::MissingPolicy::kError, nullptr)(rows);
+      table, columns.position, data::MissingPolicy::kError, nullptr)(rows);
   if (all->target.empty()) {
     all->target = target.name;
     all->unit = target.unit;
-    all->position = position;
+    all->position = columns.position;
   } else if (all->unit.symbol != target.unit.symbol) {
     throw data::InputError(
         fmt::format("{}: the error is in {}, that of {} in {}",
@@ -133,8 +155,8 @@ void Take(const data::CsvTable& table,
                     arguments.files.front(),
                     all->unit.symbol));
   }
-  const std::vector<bool> upwards =
-      DirectionsOf(table, rows, positions, arguments);
+  const std::vector<bool> upwards = DirectionsOf(
+      table, rows, positions, columns.direction, !arguments.direction.empty());
   all->positions.insert(
       all->positions.end(), positions.begin(), positions.end());
   all->before.insert(all->before.end(), before.begin(), before.end());
@@ -165,7 +187,7 @@ void ReadAlone(const std::string& file,
   const data::PreparedDataset prepared =
       data::MakeDataset(table,
                         {.target = arguments.target,
-                         .inputs = {PositionColumn(table, arguments)},
+                         .inputs = {ColumnsOf(table, arguments).position},
                          .only_to_judge = true,
                          .with_log = false});
   const data::Dataset& dataset = prepared.dataset;
@@ -199,9 +221,10 @@ std::vector<PositioningPoint> PointsOf(const Approached& all,
     return Eigen::Map<const VectorXd>(values.data(),
                                       static_cast<Index>(values.size()));
   };
-  return models::PositioningPointsOf({.positions = vector(all.positions),
-                                      .deviations = vector(deviations),
-                                      .upwards = all.upwards});
+  return models::PositioningPointsOf(
+      {.positions = Targets(vector(all.positions)),
+       .deviations = vector(deviations),
+       .upwards = all.upwards});
 }
 
 // A test as it was measured, and with a map if there is one.

@@ -12,6 +12,8 @@
 #include "cli/report/words/rezero_text.h"
 #include "cli/report/wrap_text.h"
 #include "data/text.h"
+#include "models/study/judgement/goal.h"
+#include "models/study/judgement/recommendation.h"
 
 namespace errmap::report {
 namespace {
@@ -309,7 +311,12 @@ class AnswerWriter {
         Add("goal", wanted + ": not reached", Tone::kBad);
         return;
       case GoalStanding::kNotJudged:
-        Add("goal", wanted + ": not judged, since fits are missing");
+        Add("goal",
+            wanted + (found.n < models::kFewestRowsForGoal
+                          ? fmt::format(": not judged on {} rows; it takes {}",
+                                        found.n,
+                                        models::kFewestRowsForGoal)
+                          : ": not judged, since fits are missing"));
         return;
       case GoalStanding::kNone:
         return;
@@ -336,15 +343,28 @@ class AnswerWriter {
   }
 };
 
+FirstAnswer WithoutAMap(const models::ComponentRecord& record) {
+  const std::string why =
+      record.interrupted ? "the run was interrupted."
+      : record.data.rows < models::kFewestRowsToRecommend
+          ? fmt::format(
+                "{} rows are too few to judge one. Measure {} or more, best "
+                "ten cycles on each of two days.",
+                record.data.rows,
+                models::kFewestRowsToRecommend)
+          : "none could be judged.";
+  FirstAnswer answer{.use = "No map can be recommended: " + why, .lines = {}};
+  for (const std::string& doubt : record.data.doubts) {
+    answer.lines.push_back(
+        {.label = "check the data", .text = doubt, .tone = Tone::kBad});
+  }
+  return answer;
+}
+
 }  // namespace
 
 FirstAnswer FirstAnswerOf(const models::ComponentRecord& record) {
-  if (!record.recommendation) {
-    return {.use = record.interrupted
-                       ? "No map can be recommended: the run was interrupted."
-                       : "No map can be recommended: none could be judged.",
-            .lines = {}};
-  }
+  if (!record.recommendation) return WithoutAMap(record);
   return AnswerWriter(record).Write();
 }
 

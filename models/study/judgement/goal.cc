@@ -29,7 +29,8 @@ GoalJudgement JudgeGoal(double goal,
                        .offset = test.residuals.mean};
   if (!std::isfinite(goal)) {
     judged.standing = GoalStanding::kNone;
-  } else if (!complete || !std::isfinite(judged.rmse)) {
+  } else if (!complete || !std::isfinite(judged.rmse) ||
+             test.residuals.n < kFewestRowsForGoal) {
     judged.standing = GoalStanding::kNotJudged;
   } else if (judged.rmse <= goal) {
     judged.standing = GoalStanding::kMet;

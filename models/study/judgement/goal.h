@@ -10,7 +10,7 @@ namespace errmap::models {
 /// How a held-out error stands to what the user needs.
 enum class GoalStanding {
   kNone,               // no goal was set
-  kNotJudged,          // the run was interrupted, or a fit failed
+  kNotJudged,          // too few rows, an interrupted run, or a failed fit
   kMet,                // the RMSE is at most the goal
   kMetAfterRezeroing,  // only the sd is: an offset, taken off, would do
   kMissed,
@@ -30,9 +30,13 @@ struct GoalJudgement {
   double offset = kNaN;  // mean of target - predicted
 };
 
+/// Rows held out that a goal asks for: chance lets a poor map meet it on fewer.
+inline constexpr Eigen::Index kFewestRowsForGoal = 24;
+
 /// Holds `test`, a model's held-out errors, against `goal` (target's unit; NaN:
 /// none). `complete`: every fold was fitted and the study ran to its end; what
-/// an interrupted one leaves may be what was easy, and is not judged.
+/// an interrupted one leaves may be what was easy, and is not judged. Nor are
+/// fewer than kFewestRowsForGoal rows.
 GoalJudgement JudgeGoal(double goal,
                         const stats::ErrorMetrics& test,
                         bool complete);

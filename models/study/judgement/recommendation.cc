@@ -163,6 +163,7 @@ std::optional<Recommendation> Recommend(
     const StudyResult& study,
     const std::vector<HoldoutComparison>& comparisons,
     const JudgeOptions& options) {
+  if (dataset.num_rows() < kFewestRowsToRecommend) return std::nullopt;
   const auto strictest = StrictestHoldout(holdouts, comparisons);
   const auto decisive = DecisiveHoldout(holdouts, comparisons);
   if (!strictest || !decisive) return std::nullopt;

@@ -69,7 +69,12 @@ struct JudgeOptions {
   Prefer prefer = Prefer::kLeastError;
 };
 
-/// The map to use, or nothing where no map could be judged.
+/// Rows that a recommendation asks for: a parabola goes through three whatever
+/// they are.
+inline constexpr Eigen::Index kFewestRowsToRecommend = 12;
+
+/// The map to use, or nothing where no map could be judged: too few rows, or no
+/// hold-out with a fit of every fold.
 ///
 /// What is promised follows the first hold-out of two or more whole sessions,
 /// else of whole unseen groups, else of another file, else of blocks, else the

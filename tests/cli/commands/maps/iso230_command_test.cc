@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -124,10 +125,30 @@ TEST_F(Iso230, AMapIsJudgedByTheSameFigures) {
   EXPECT_THAT(Read("test.svg"), AllOf(HasSubstr("<svg"), HasSubstr("upwards")));
 }
 
+// Positions as an encoder read them, some microns about each target.
+TEST_F(Iso230, ReadingsOfOnePositionAreOneTarget) {
+  std::string text = "pos [mm],Richtung,Abweichung [um]\n";
+  for (int run = 0; run < 5; ++run) {
+    for (int step = 0; step < 10; ++step) {
+      const int place = step < 5 ? step : 9 - step;
+      const double away = 1e-3 * ((7 * run + 3 * step) % 5 - 2);
+      text += fmt::format("{:.4f},{},{:.2f}\n",
+                          100.0 * place + away,
+                          step < 5 ? "+" : "-",
+                          place + 0.1 * run + (step < 5 ? 0.0 : 2.0));
+    }
+  }
+  Write("jitter.csv", text);
+  const Json test = RunJson({"iso230", "jitter.csv", "--format", "json"});
+  ASSERT_EQ(test["points"]["measured"].size(), 5);
+  EXPECT_EQ(test["points"]["measured"][4]["down"]["runs"], 5);
+  EXPECT_NEAR(test["measured"]["B"], 2.0, 1e-9);
+}
+
 TEST_F(Iso230, WhatCannotBeJudgedIsSaid) {
   EXPECT_THAT(Run({"iso230", "up.csv"}).out,
               HasSubstr("all runs are in one direction"));
-  Write("none.csv", "x_mm,error_um\n1,2\n2,3\n");
+  Write("none.csv", "t1_degC,error_um\n1,2\n2,3\n");
   EXPECT_THAT(RefusalOf(Run({"iso230", "none.csv"}), kUnusable),
               HasSubstr("--position"));
   Write("words.csv", "position_mm,way,error_um\n0,hin,1\n1,her,2\n");

@@ -10,6 +10,7 @@ namespace {
 // Residuals of sd `sd` about `offset`, n large.
 stats::ErrorMetrics Metrics(double offset, double sd) {
   stats::ErrorMetrics metrics;
+  metrics.residuals.n = 1000;
   metrics.residuals.mean = offset;
   metrics.residuals.sd = sd;
   metrics.rmse = std::hypot(offset, sd);
@@ -27,6 +28,14 @@ TEST(Goal, IsMetWhereTheRmseIsAtMostTheGoal) {
   EXPECT_EQ(standing(4.98, 0.2), GoalStanding::kMetAfterRezeroing);
   EXPECT_EQ(standing(-4.98, 0.5), GoalStanding::kMetAfterRezeroing);
   EXPECT_EQ(standing(-4.98, 0.6), GoalStanding::kMissed);
+}
+
+TEST(Goal, IsNotJudgedOnFewRows) {
+  stats::ErrorMetrics metrics = Metrics(0.0, 0.1);
+  metrics.residuals.n = kFewestRowsForGoal - 1;
+  EXPECT_EQ(JudgeGoal(0.5, metrics, true).standing, GoalStanding::kNotJudged);
+  metrics.residuals.n = kFewestRowsForGoal;
+  EXPECT_EQ(JudgeGoal(0.5, metrics, true).standing, GoalStanding::kMet);
 }
 
 TEST(Goal, CarriesTheNumbersItWasHeldAgainst) {
