@@ -250,7 +250,7 @@ class SessionFinder {
       any = any || (now >= before &&
                     now - before <= std::min(nights_.gap, kShortestNight));
     }
-    return any ? "changes at midnight in the midst of a run; sessions are "
+    return any ? "changes at midnight during a run; sessions are "
                  "parted by " +
                      QuotedName(TimeColumn().name)
                : "";

@@ -95,7 +95,7 @@ struct History {
   /// where that is more (models/history/README.md); infinity where nothing is
   /// known or nothing is filtered.
   double longest_bridged() const;
-  /// Time after which filters that began in the midst of a session, in the
+  /// Time after which filters that began inside a session, in the
   /// steady state of its readings there, have forgotten that: kSettledTaus of
   /// the longest time constant, those of filters of filters one after the
   /// other. Infinity where an input is zeroed, since the zero was taken

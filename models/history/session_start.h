@@ -7,7 +7,7 @@
 
 namespace errmap::models {
 
-// A log that begins in the midst of a session looks like one that begins with
+// A log that begins inside a session looks like one that begins with
 // it, but the filters of a map begin wrong. Where sessions begin, thermometers
 // stand to each other as the machine at rest leaves them; later some have
 // warmed. The readings of a row are held against both: d, each less the mean of

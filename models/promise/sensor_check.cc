@@ -294,7 +294,8 @@ std::optional<SensorFaultFound> SwapThatExplains(const FittedModel& fitted,
 std::optional<SensorFaultFound> OffAtStart(const FittedModel& fitted,
                                            const VectorXd& readings) {
   constexpr double kFalseAlarms = 1e-3;  // of all columns together
-  constexpr Index kFewestColumns = 3;
+  // Of fewer, the others may have warmed as well as the one be off.
+  constexpr Index kFewestColumns = 4;
   if (fitted.history == nullptr) return std::nullopt;
   const std::vector<StartReading>& starts = fitted.history->start_readings;
   const auto count = std::ssize(starts);

@@ -147,7 +147,7 @@ class Watcher {
     }
     if (newest.begins_inside) {
       component->why_not =
-          "its log begins in the midst of the session, which the map's memory "
+          "its log begins inside the session, which the map's memory "
           "needs from the start: give all readings since then";
       return;
     }

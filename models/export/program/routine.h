@@ -31,7 +31,7 @@ enum class Cell {
   kRoom,       // what it may still change by
   kMostError,  // limits
   kMostRate,
-  kFresh,     // 1: begun in the midst of a session, as far as is known
+  kFresh,     // 1: begun inside a session, as far as is known
   kSettling,  // s until what filters remember is good again
   kKnown,     // which map's state kNear is, from 1; 0: of none
   kDown,      // 1: the map of decreasing positions acts
