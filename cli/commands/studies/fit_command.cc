@@ -149,7 +149,9 @@ std::string FitText(const models::FittedModel& fitted,
                   error.WithUnit(train.rmse),
                   learnt_from < dataset.num_rows() ? "all" : "these"));
   constexpr Eigen::Index kMostTerms = 12;
-  if (arguments.details || fitted.model->num_parameters() <= kMostTerms + 1) {
+  const bool is_short =
+      arguments.details || fitted.model->num_parameters() <= kMostTerms + 1;
+  if (is_short) {
     say(data::Printable(fitted.equation, fitted.equation.size()));
   } else if (!fitted.equation.empty()) {
     say("The equation is long: it is in the file, and here with --details.");
@@ -159,7 +161,7 @@ std::string FitText(const models::FittedModel& fitted,
   for (const std::string& remark : fitted.remarks) say(remark);
   text += report::StartsText(fitted.starts, error);
   if (arguments.correlations) text += report::CorrelationText(dataset, room);
-  if (fitted.regression) {
+  if (fitted.regression && is_short) {
     text += report::RegressionText(*fitted.regression, fitted.target, room);
   }
   if (fitted.interval) {
