@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/commands/reading_option.h"
 #include "cli/report/words/fault_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/command_reference.h"
@@ -121,6 +122,16 @@ void AddDataArguments(CLI::App* command, DataArguments* arguments) {
             "CSV file, one row per sample; several, or a folder, are "
             "days of one component")
       .Required();
+  // Before the others, which overrule it.
+  AddOption(
+      command,
+      "--reading READING.json",
+      [arguments](const std::string& path) {
+        TakeReading(path, &arguments->selection);
+      },
+      "Read the columns as `errmap read --format json` told, unless another\n"
+      "option says otherwise")
+      .Seldom();
   desk::ForSelectionOptions(arguments->selection, FlagAdder(command));
   AddFlag(command,
           "--quiet",

@@ -386,7 +386,7 @@ class InputChooser {
       if (i == roles_.target || Is(roles_.group, i) || Is(roles_.weight, i) ||
           Is(found_.time_column, i) || Is(found_.date_column, i) ||
           Name(i) == found_.sessions.column || KeepsRecord(Name(i)) ||
-          IsFiltered(i)) {
+          "-" + Name(i) == selection_.target || IsFiltered(i)) {
         continue;
       }
       const std::string name = NameInRemark(Name(i));

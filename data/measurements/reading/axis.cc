@@ -35,6 +35,16 @@ struct Candidate {
   Levels levels = {};
   Motion motion = {};
 
+  // How often it changes from row to row: an axis more often than what counts
+  // its passes.
+  Index Moves() const {
+    Index moves = 0;
+    for (std::size_t i = 1; i < levels.codes.size(); ++i) {
+      moves += levels.codes[i] != levels.codes[i - 1] ? 1 : 0;
+    }
+    return moves;
+  }
+
   // Higher is likelier.
   int Rank() const {
     return (motion.is_commanded ? 8 : 0) + (named ? 4 : 0) + (nominal ? 2 : 0) -
@@ -142,7 +152,7 @@ class AxisFinder {
   void Choose(std::vector<Candidate>* candidates) {
     std::ranges::stable_sort(
         *candidates, std::greater<>(), [](const Candidate& candidate) {
-          return candidate.Rank();
+          return std::pair(candidate.Rank(), candidate.Moves());
         });
     const Candidate& best = candidates->front();
     const bool beside_constant =

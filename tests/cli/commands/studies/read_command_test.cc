@@ -1,0 +1,94 @@
+// What a file means, and a reading that is used again.
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/cli_fixture.h"
+
+namespace errmap {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class ReadCommand : public CliTest {
+ protected:
+  void SetUp() override {
+    std::string text = "day,pass,where,heat_degC,comp_um,spare\n";
+    for (int day = 1; day <= 3; ++day) {
+      for (int pass = 1; pass <= 4; ++pass) {
+        for (int place = 0; place < 5; ++place) {
+          const double heat = 20.0 + pass + 0.3 * day;
+          text += fmt::format(
+              "{},{},{},{:.2f},{:.3f},7\n",
+              day,
+              pass,
+              50 * place,
+              heat,
+              -(0.02 * 50 * place + 2.0 * (heat - 20.0) + 0.1 * (place % 2)));
+        }
+      }
+    }
+    Write("log.csv", text);
+  }
+
+  std::vector<std::string> Compare(std::vector<std::string> more) const {
+    std::vector<std::string> words = {"compare",
+                                      "log.csv",
+                                      "--models",
+                                      "mean,poly:position,poly:full:degree=1",
+                                      "--format",
+                                      "json",
+                                      "--quiet"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+};
+
+TEST_F(ReadCommand, NamesEachRoleAndWhatWasLeftOut) {
+  const Outcome read = Run({"read", "log.csv", "--target=-comp_um"});
+  EXPECT_EQ(read.status, 0) << read.err;
+  EXPECT_THAT(read.out,
+              AllOf(HasSubstr("axis       where"),
+                    HasSubstr("cycles     12 by pass"),
+                    HasSubstr("sessions   3 by day"),
+                    HasSubstr("sensors    heat_degC"),
+                    HasSubstr("left out   spare (is dead")));
+}
+
+TEST_F(ReadCommand, AReadingIsUsedAgain) {
+  const Outcome read =
+      Run({"read", "log.csv", "--target=-comp_um", "--format", "json"});
+  ASSERT_EQ(read.status, 0) << read.err;
+  Write("reading.json", read.out);
+  const Json by_options = RunJson(Compare({"--target=-comp_um"}));
+  const Json by_reading = RunJson(Compare({"--reading", "reading.json"}));
+  const auto rmse = [](const Json& document) {
+    const Json& model = document["components"][0]["models"][2];
+    return model["results"]["sessions:3"]["test"]["rmse"];
+  };
+  EXPECT_EQ(rmse(by_reading), rmse(by_options));
+  EXPECT_TRUE(rmse(by_options).is_number());
+  EXPECT_EQ(by_reading["components"][0]["data"]["groups"],
+            by_options["components"][0]["data"]["groups"]);
+  // What an option says is never overruled.
+  const Json other =
+      RunJson(Compare({"--reading", "reading.json", "--inputs", "heat_degC"}));
+  EXPECT_EQ(other["components"][0]["data"]["reading"]["sensors"],
+            Json::array({"heat_degC"}));
+  EXPECT_EQ(other["components"][0]["data"]["inputs"].size(), 1);
+}
+
+TEST_F(ReadCommand, WhatIsNoReadingSaysWhatWritesOne) {
+  Write("other.json", "{\"schema\": \"errmap-map-2\"}");
+  EXPECT_THAT(
+      RefusalOf(Run(Compare({"--reading", "other.json"})), kUnusable),
+      AllOf(HasSubstr("other.json"), HasSubstr("errmap read DATA.csv")));
+}
+
+}  // namespace
+}  // namespace errmap
