@@ -28,13 +28,13 @@ cut -d, -f2-6,9,19,34,38,46 six/x_displacement_up.csv >six.csv
 "$errmap" report views --figures view_figures 2>report.txt
 
 keep() { cp "$1" "$out/$2.svg"; }
-keep figures/c1-surface-measured.svg error
+keep figures/c1-time.svg error
 keep figures/c1-compensation.svg map
-keep figures/c1-best-group.svg cycle
+keep figures/c1-clock.svg cycle
 keep study/learn-sessions.svg session
 keep figures/c1-gap.svg hold-out
 keep view_figures/c1-gap.svg view
 keep figures/c1-units.svg blend
 keep figures/c1-best-histogram.svg promise
 keep figures/c1-best-map.svg probe
-keep figures/c1-surface-left.svg inside
+keep figures/c1-temperatures.svg inside

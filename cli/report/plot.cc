@@ -13,6 +13,7 @@ std::size_t NumColumns(Mark mark) {
     case Mark::kLine:
       return 2;
     case Mark::kBars:
+    case Mark::kBand:
       return 3;
     case Mark::kSpan:
       return 4;
@@ -72,8 +73,7 @@ bool HasPoints(const Plot& plot) {
 
 std::string WithUnit(std::string_view what, std::string_view unit) {
   std::string text(what);
-  text += ", ";
-  text += unit.empty() ? std::string_view("no unit") : unit;
+  if (!unit.empty()) text.append(" (").append(unit).append(")");
   return text;
 }
 

@@ -16,6 +16,7 @@ enum class Mark {
   kLine,    // x, y
   kBars,    // x, y, width: from 0 to y
   kSpan,    // x, y, low, high: along x
+  kBand,    // x, low, high: the area between them
   kCells,   // x, y, half width, half height, value: a map in colours
 };
 
@@ -29,12 +30,11 @@ struct Series {
   /// left out, and breaks a line.
   std::vector<std::vector<double>> columns = {};
   std::string colour = "#0072B2";  // #rrggbb
-  double size = 1.0;  // of points in diameters of 3.6 px, of lines in pixels
+  double size = 1.0;  // of points in diameters of 4.4 px, of lines in pixels
   Shape shape = Shape::kDot;
   bool dashed = false;
-  /// Of which model each point is, by its place in the report's list; of one
-  /// entry: all of them. A reader can hide what is of a model.
-  std::vector<std::size_t> models = {};
+  /// What a browser says of each point or bar when pointed at; or empty.
+  std::vector<std::string> hints = {};
 
   /// Adds a point: a value for each of its first columns.
   void Add(std::initializer_list<double> point) {
@@ -56,15 +56,15 @@ struct Axis {
   /// Names at places instead of numbers: the axis has categories, no unit.
   std::vector<std::pair<std::string, double>> names = {};
 
-  /// "residual, µm"; "correlation, no unit"; of categories the quantity alone.
+  /// "residual (µm)"; of categories, and without a unit, the quantity alone.
   std::string Label() const;
 };
 
 /// One plot as plain data.
 struct Plot {
   std::string name;  // of its files and ids: a-z, 0-9 and '-' only
-  int width = 430;   // pixels; 72 make an inch on paper
-  int height = 290;  // without the legend
+  int width = 390;   // pixels; 72 make an inch on paper
+  int height = 260;  // without the legend
   Axis x;
   Axis y;
   /// Of the values of kCells, from -high to high; from 0 where low is 0.
@@ -94,7 +94,7 @@ bool IsShown(const Plot& plot, const Series& series, std::size_t point);
 bool HasPoints(const Plot& plot, const Series& series);
 bool HasPoints(const Plot& plot);
 
-/// "residual, µm"; "residual, no unit".
+/// "residual (µm)"; without a unit the quantity alone.
 std::string WithUnit(std::string_view what, std::string_view unit);
 
 /// At most `most` characters (not bytes), the middle replaced by "…".

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -123,15 +124,18 @@ class FleetPage {
   std::string Answer() const {
     const std::int64_t judged = all_.met + all_.missed;
     std::string card = "<div class=\"card\">";
-    card += fmt::format(
-        "<p class=\"sentence\">{} of {} with a goal meet it on rows that no "
-        "fit saw; {} failed{}.</p>",
-        all_.met,
-        report::Count(judged, "component"),
-        all_.failed,
-        found_.missing.empty()
-            ? std::string()
-            : fmt::format(" and {} are missing", found_.missing.size()));
+    std::string sentence =
+        judged > 0 ? fmt::format(
+                         "{} of {} with a goal meet it on rows that no fit saw",
+                         all_.met,
+                         report::Count(judged, "component"))
+                   : report::Count(all_.components - all_.failed, "component") +
+                         " with a map, and no goal to judge by";
+    if (all_.failed > 0) sentence += fmt::format("; {} failed", all_.failed);
+    if (!found_.missing.empty()) {
+      sentence += fmt::format("; {} are missing", found_.missing.size());
+    }
+    card += "<p class=\"sentence\">" + sentence + ".</p>";
     if (judged > 0) {
       card += fmt::format("<p class=\"number\">{:.0f} %</p>",
                           report::kPercent * static_cast<double>(all_.met) /
@@ -233,68 +237,58 @@ class FleetPage {
     return columns;
   }
 
-  // Machines by components, coloured by the error over the goal.
+  // Machines by components: the error of each, of several the one that is the
+  // most times its goal.
   std::string Matrix() const {
-    std::map<std::string, double> rows;
-    std::map<std::string, double> columns;
-    std::map<std::pair<std::string, std::string>, double> cells;
+    using Column = std::map<std::string, const ComponentSummary*>;
+    std::map<std::string, Column> rows;
+    std::set<std::string> columns;
+    const auto over_goal = [](const ComponentSummary& summary) {
+      return summary.recommendation->rmse / summary.goal;
+    };
     for (const ComponentSummary& summary : found_.summaries) {
       if (summary.fields.size() < 2 || !HasMap(summary)) continue;
-      const double ratio = summary.recommendation->rmse / summary.goal;
-      if (!(ratio > 0.0) || std::isinf(ratio)) continue;
-      const std::string& row = summary.fields[0].second;
       const std::string& column = summary.fields[1].second;
-      rows[row] = 0.0;
-      columns[column] = 0.0;
-      auto& worst = cells.try_emplace({row, column}, -HUGE_VAL).first->second;
-      worst = std::max(worst, std::log2(ratio));
-    }
-    if (rows.size() < 2 || columns.size() < 2) return "";
-    constexpr double kHalf = 0.5;
-    constexpr double kLimit = 2.0;
-    report::Series series{.mark = report::Mark::kCells};
-    series.columns.resize(5);
-    NumberKeys(&rows);
-    NumberKeys(&columns);
-    for (const auto& [place, value] : cells) {
-      const double numbers[] = {columns[place.second],
-                                rows[place.first],
-                                kHalf,
-                                kHalf,
-                                std::clamp(value, -kLimit, kLimit)};
-      for (std::size_t i = 0; i < series.columns.size(); ++i) {
-        series.columns[i].push_back(numbers[i]);
+      columns.insert(column);
+      const ComponentSummary*& cell = rows[summary.fields[0].second][column];
+      if (cell == nullptr || over_goal(summary) > over_goal(*cell)) {
+        cell = &summary;
       }
     }
-    const int height = std::clamp(16 * static_cast<int>(rows.size()), 240, 900);
-    report::Plot plot;
-    plot.name = "matrix";
-    plot.width = 820;
-    plot.height = height;
-    plot.x = {.quantity = FieldName(1),
-              .low = -kHalf,
-              .high = static_cast<double>(columns.size()) - kHalf};
-    plot.y = {.quantity = FieldName(0),
-              .low = static_cast<double>(rows.size()) - kHalf,
-              .high = -kHalf};
-    plot.colour = {.quantity = "log2 of error over goal", .high = kLimit};
-    plot.series = {std::move(series)};
-    plot.x.names.assign(columns.begin(), columns.end());
-    plot.y.names.assign(rows.begin(), rows.end());
-    return "<h2>Where goals are met</h2>\n<div class=\"figures\">" +
-           FigureHtml(
-               plot,
-               "Error over goal",
-               "Blue: the goal is met, the deeper the better; orange: it "
-               "is not. The worst of a cell counts.",
-               true) +
-           "</div>\n";
+    if (rows.size() < 2 || columns.size() < 2) return "";
+    const auto head = [](const std::string& name) {
+      return "<th class=\"t\">" + report::HtmlName(name) + "</th>";
+    };
+    std::string html = "<tr>" + head(FieldName(0));
+    for (const std::string& column : columns) html += head(column);
+    html += "</tr>\n";
+    for (const auto& [name, cells] : rows) {
+      html += "<tr><td class=\"t\">" + report::HtmlName(name) + "</td>";
+      for (const std::string& column : columns) {
+        const auto cell = cells.find(column);
+        html += cell == cells.end() ? "<td></td>" : ErrorCell(*cell->second);
+      }
+      html += "</tr>\n";
+    }
+    return Collapsed(
+        fmt::format("Error by {} and {}", FieldName(0), FieldName(1)),
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+        "aria-label=\"Errors\"><table>" +
+            html + "</table></div>",
+        rows.size() <= kMostShown);
   }
 
-  // Numbers the keys in their order.
-  static void NumberKeys(std::map<std::string, double>* keys) {
-    double number = 0.0;
-    for (auto& [key, value] : *keys) value = number++;
+  // Green where the goal is met, red where it is not.
+  static std::string ErrorCell(const ComponentSummary& summary) {
+    const auto& found = *summary.recommendation;
+    const char* const tone = found.goal == GoalStanding::kMet    ? "good"
+                             : found.goal == GoalStanding::kNone ? "soft"
+                                                                 : "bad";
+    return fmt::format(
+        "<td class=\"{}\">{:.3g} {}</td>",
+        tone,
+        summary.display.scale * found.rmse,
+        report::HtmlText(report::PrettyUnit(summary.display.unit)));
   }
 
   std::string FieldName(std::size_t field) const {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/report/table.h"
+#include "data/text.h"
 #include "models/study/record/record_json.h"
 
 namespace errmap::fleet {
@@ -48,13 +49,15 @@ std::string Headline(const std::vector<ComponentSummary>& summaries) {
                   : 0;
     without += goal == models::GoalStanding::kNone ? 1 : 0;
   }
-  return fmt::format(
-      "{}: goal met by {}, not met by {}{}, failed {}\n",
-      report::Count(std::ssize(summaries), "component"),
-      met,
-      missed,
-      without == 0 ? std::string() : fmt::format(", no goal for {}", without),
-      failed);
+  // Where none has a goal there is nothing to say of it.
+  std::vector<std::string> parts;
+  if (met + missed > 0) {
+    parts.push_back(fmt::format("goal met by {}, not met by {}", met, missed));
+    if (without > 0) parts.push_back(fmt::format("no goal for {}", without));
+  }
+  if (failed > 0) parts.push_back(fmt::format("{} failed", failed));
+  return report::Count(std::ssize(summaries), "component") +
+         (parts.empty() ? "" : ": " + data::JoinWords(parts, ", ")) + ".\n";
 }
 
 // A row per component: what is recommended and how it does.

@@ -56,22 +56,10 @@ std::string Collapsed(const std::string& title,
 // What does not apply is left out.
 std::string FigureHtml(const Figure& figure) {
   if (!figure.missing.empty()) return "";
-  constexpr int kWide = 560;
-  const bool wide = !figure.small && figure.plot.width > kWide;
-  std::string drawn = FigureSvg(figure);
-  if (wide) {
-    // On a phone it keeps a size that can be read.
-    drawn = fmt::format(
-        "<div class=\"scroll bare\" tabindex=\"0\" role=\"region\" "
-        "aria-label=\"{}\">{}</div>",
-        HtmlText(figure.title),
-        drawn);
-  }
   return fmt::format(
-      "<figure{}><figcaption><b>{}</b></figcaption>{}{}</figure>\n",
-      wide ? " class=\"wide\"" : "",
+      "<figure><figcaption><b>{}</b></figcaption>{}{}</figure>\n",
       HtmlName(figure.title),
-      drawn,
+      FigureSvg(figure),
       Paragraph(figure.note, "soft small"));
 }
 
@@ -92,28 +80,26 @@ std::string Grid(const std::string& figures, const char* style) {
   return fmt::format("<div class=\"{}\">\n{}</div>\n", style, figures);
 }
 
-// Those of one place, by the model they are of; small ones in a grid of their
-// own.
-std::string FiguresHtml(const ComponentFigures& figures,
-                        FigurePlace place,
-                        const char* style = "figures") {
+// Text and the figures of one place in three columns, of which the text takes
+// those that the figures leave free.
+std::string Columns(const std::string& text,
+                    const ComponentFigures& figures,
+                    FigurePlace place) {
   std::string html;
-  for (std::size_t i = 0; i < figures.figures.size();) {
-    const std::string& subject = figures.figures[i].subject;
-    std::string large;
-    std::string small;
-    for (; i < figures.figures.size() && figures.figures[i].subject == subject;
-         ++i) {
-      const Figure& figure = figures.figures[i];
-      if (figure.place != place) continue;
-      (figure.small ? small : large) += FigureHtml(figure);
-    }
-    if (!subject.empty() && !(large.empty() && small.empty())) {
-      html += "<h4>" + HtmlName(subject) + "</h4>\n";
-    }
-    html += Grid(large, style) + Grid(small, "figures many");
+  std::size_t drawn = 0;
+  for (const Figure& figure : figures.figures) {
+    if (figure.place != place || !figure.missing.empty()) continue;
+    html += FigureHtml(figure);
+    ++drawn;
   }
-  return html;
+  constexpr std::size_t kColumns = 3;
+  if (!text.empty()) {
+    html = fmt::format("<div class=\"span{}\">{}</div>\n{}",
+                       drawn < kColumns ? kColumns - drawn : kColumns,
+                       text,
+                       html);
+  }
+  return Grid(html, "figures");
 }
 
 // How the recommended map does on one unit held out after another.
@@ -150,32 +136,6 @@ std::string WithFirstRows(Table table, std::size_t most) {
   return HtmlTable(table) + Collapsed(title, HtmlTable(more));
 }
 
-// A box for each model: without its tick the figures leave the model out.
-std::string Picks(const ReportView& view) {
-  std::string html;
-  for (std::size_t i = 0; i < view.models.size(); ++i) {
-    html += fmt::format(
-        "<label><input type=\"checkbox\" class=\"h{}\" checked> {}</label>\n",
-        i,
-        HtmlName(view.models[i]->name));
-  }
-  return "<div class=\"picks\">" + Collapsed("Models in the figures", html) +
-         "</div>\n";
-}
-
-// Where no browser knows :has(), all stay.
-std::string PickStyle(const std::vector<ReportView>& views) {
-  std::size_t most = 0;
-  for (const ReportView& view : views)
-    most = std::max(most, view.models.size());
-  std::string style;
-  for (std::size_t i = 0; i < most; ++i) {
-    style += fmt::format(
-        "section:has(.h{0}:not(:checked)) .m{0}{{display:none}}\n", i);
-  }
-  return style;
-}
-
 // The page and what it is made of.
 class Page {
  public:
@@ -200,6 +160,11 @@ class Page {
   std::string Answer(const ReportView& view,
                      std::size_t index,
                      const ComponentFigures& figures) const;
+  std::string Measured(const ReportView& view,
+                       std::size_t index,
+                       const ComponentFigures& figures) const;
+  std::string Why(const ReportView& view,
+                  const ComponentFigures& figures) const;
   std::string Next(std::size_t index) const;
   std::string Card(const ReportView& view) const;
   std::string Evidence(const ReportView& view) const;
@@ -318,7 +283,8 @@ std::string Page::Next(std::size_t index) const {
         HtmlText(step.purpose),
         step.words.empty() ? HtmlSentence(step.text) : HtmlCommand(step.words));
   }
-  return html.empty() ? html : "<dl class=\"next\">" + html + "</dl>\n";
+  return html.empty() ? html
+                      : "<h4>Next</h4>\n<dl class=\"next\">" + html + "</dl>\n";
 }
 
 std::string Page::Card(const ReportView& view) const {
@@ -345,24 +311,45 @@ std::string Page::Card(const ReportView& view) const {
 std::string Page::Answer(const ReportView& view,
                          std::size_t index,
                          const ComponentFigures& figures) const {
-  const std::string of_models =
-      FiguresHtml(figures, FigurePlace::kAnswer, "plain") + Picks(view);
-  const std::string of_sensors =
-      FiguresHtml(figures, FigurePlace::kSensors, "plain");
-  std::string notes;
-  if (view.component->data.reading.rows > 0) {
-    for (const std::string& line :
-         data::ReadingLines(view.component->data.reading)) {
-      notes += Paragraph(line, "soft small");
-    }
+  std::string of_models;
+  for (const Figure& figure : figures.figures) {
+    if (figure.place == FigurePlace::kAnswer) of_models += FigureHtml(figure);
   }
-  notes += Paragraph(kSignConvention, "soft small") +
-           (index == 0 ? GlossaryLinks() : "");
-  return "<div class=\"answer\">\n<div>" + Card(view) +
-         (of_sensors.empty() ? notes + "</div>\n<div>" + of_models + Next(index)
-                             : of_models + "</div>\n<div>" + Next(index) +
-                                   notes + of_sensors) +
-         "</div>\n</div>\n";
+  return "<div class=\"answer\">\n<div>" + Card(view) + Next(index) +
+         "</div>\n<div>" + of_models + "</div>\n</div>\n";
+}
+
+std::string Page::Measured(const ReportView& view,
+                           std::size_t index,
+                           const ComponentFigures& figures) const {
+  const models::DataRecord& measured = view.component->data;
+  std::string text = Paragraph(fmt::format(
+      "{}: {}{}.",
+      measured.file.empty() ? "File not known" : measured.file,
+      measured.target.empty() ? "error not known" : TargetWords(measured),
+      measured.unit.empty() ? "" : " in " + measured.unit));
+  if (measured.reading.rows > 0) {
+    for (const std::string& line : data::ReadingLines(measured.reading)) {
+      text += Paragraph(line);
+    }
+  } else {
+    text += Paragraph(Count(measured.rows, "row") + UnitsWords(measured) + ".");
+  }
+  text += Paragraph(kSignConvention) + (index == 0 ? GlossaryLinks() : "");
+  return Columns(text, figures, FigurePlace::kMeasured);
+}
+
+std::string Page::Why(const ReportView& view,
+                      const ComponentFigures& figures) const {
+  constexpr std::size_t kMostRows = 12;
+  const Headline line = HeadlineOf(view);
+  const Table leaderboard = PageLeaderboard(view);
+  return Columns(List("Reasons", line.reasons) + List("Caveats", line.caveats),
+                 figures,
+                 FigurePlace::kSensors) +
+         (leaderboard.missing.empty()
+              ? Grid(WithFirstRows(leaderboard, kMostRows), "first2")
+              : Paragraph(leaderboard.missing, "absent"));
 }
 
 std::string Page::Evidence(const ReportView& view) const {
@@ -383,7 +370,7 @@ std::string Page::Evidence(const ReportView& view) const {
 
 std::string Page::Residuals(const ReportView& view,
                             const ComponentFigures& figures) const {
-  std::string html = FiguresHtml(figures, FigurePlace::kResiduals);
+  std::string html = Columns("", figures, FigurePlace::kResiduals);
   if (const Table since = SinceStartTable(view); !since.rows.empty()) {
     html += HtmlTable(since);
   }
@@ -404,7 +391,7 @@ std::string Page::Residuals(const ReportView& view,
 
 std::string Page::Fits(const ReportView& view,
                        const ComponentFigures& figures) const {
-  return FiguresHtml(figures, FigurePlace::kFits) + HtmlTable(RunTable(view)) +
+  return Columns("", figures, FigurePlace::kFits) + HtmlTable(RunTable(view)) +
          Collapsed("Every start", HtmlTable(StartTable(view))) +
          Collapsed("Every fold", HtmlTable(FoldTable(view))) +
          Collapsed("Options", HtmlTable(OptionTable(view)));
@@ -436,32 +423,14 @@ std::string Page::Polynomials(const ReportView& view, bool brief) const {
 }
 
 std::string Page::Data(const ReportView& view) const {
-  const models::DataRecord& measured = view.component->data;
-  std::string html =
-      "<p>" +
-      fmt::format(
-          "{}: {} rows, target {}{}{}{}{}.",
-          measured.file.empty() ? "File not known" : HtmlName(measured.file),
-          measured.rows,
-          measured.target.empty() ? "not known" : HtmlName(measured.target),
-          measured.unit.empty() ? "" : " in " + HtmlText(measured.unit),
-          measured.group ? ", groups by " + HtmlName(*measured.group)
-                         : ", no groups",
-          measured.session ? ", sessions by " + HtmlName(*measured.session)
-                           : "",
-          measured.align == data::Alignment::kFirst
-              ? "; each session's first value is taken off the target"
-              : "") +
-      "</p>\n";
-  const std::vector<std::string>& inputs = measured.inputs;
+  const std::vector<std::string>& inputs = view.component->data.inputs;
   std::string names;
   for (const std::string& input : inputs) {
     names += (names.empty() ? "" : ", ") + HtmlName(input);
   }
-  html += "<p>" + Count(static_cast<long long>(inputs.size()), "input") +
-          (names.empty() ? "" : ": " + names) + ".</p>\n";
-  html += HtmlTable(DroppedTable(view)) + HtmlTable(HoldoutTable(view));
-  return html;
+  return "<p>" + Count(static_cast<long long>(inputs.size()), "input") +
+         (names.empty() ? "" : ": " + names) + ".</p>\n" +
+         HtmlTable(DroppedTable(view)) + HtmlTable(HoldoutTable(view));
 }
 
 std::string Page::Component(const ReportView& view, std::size_t index) const {
@@ -476,32 +445,22 @@ std::string Page::Component(const ReportView& view, std::size_t index) const {
     std::string content;
     bool folded;
   };
-  const Headline line = HeadlineOf(view);
-  const std::string reasons =
-      List("Reasons", line.reasons) + List("Caveats", line.caveats);
-  const std::string effect =
-      FiguresHtml(figures, FigurePlace::kCompensation, "figures halves") +
-      FiguresHtml(figures, FigurePlace::kSurface, "figures thirds");
-  constexpr std::size_t kMostRows = 12;
-  std::vector<Part> parts;
-  const Table leaderboard = PageLeaderboard(view);
-  parts.push_back({"Every model",
-                   leaderboard.missing.empty()
-                       ? WithFirstRows(leaderboard, kMostRows)
-                       : Paragraph(leaderboard.missing, "absent"),
-                   false});
-  parts.push_back({"What the map does", effect, false});
-  parts.push_back({"Why this map, and what bounds its worth", reasons, true});
-  parts.push_back({"Is it more than chance?", Evidence(view), true});
-  parts.push_back({"Residuals", Residuals(view, figures), true});
-  parts.push_back(
+  const std::vector<Part> parts = {
+      {"What was measured", Measured(view, index, figures), false},
+      {"What the map does",
+       Columns("", figures, FigurePlace::kCompensation),
+       false},
+      {"Why this map", Why(view, figures), false},
+      {"Is it more than chance?", Evidence(view), true},
+      {"Residuals", Residuals(view, figures), true},
       {"Costs and fits",
        HtmlTable(CostTable(view)) +
            (brief ? HtmlTable(RunTable(view)) : Fits(view, figures)),
-       true});
-  parts.push_back(
-      {"Equations and coefficients", Polynomials(view, brief), true});
-  parts.push_back({"Data and hold-outs", Data(view), true});
+       true},
+      {"Equations and coefficients", Polynomials(view, brief), true},
+      {"Provenance",
+       Data(view) + (alone ? HtmlTable(ProvenanceTable(record_)) : ""),
+       true}};
   std::string html = Answer(view, index, figures);
   std::string contents;
   std::string body;
@@ -522,6 +481,7 @@ std::string Page::Component(const ReportView& view, std::size_t index) const {
   if (alone) {
     return fmt::format("<section id=\"c{}\">\n{}</section>\n", index + 1, html);
   }
+  const Headline line = HeadlineOf(view);
   // The anchor lies inside, so that a link opens what is closed.
   return fmt::format(
       "<details class=\"component\"><summary>{} <span>{}</span></summary>\n"
@@ -561,7 +521,7 @@ std::string Page::Html() const {
       "initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" "
       "content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
       "data:\">\n<link rel=\"icon\" href=\"data:,\">\n<title>" +
-      title + "</title>\n<style>" + kReportStyle + PickStyle(views) +
+      title + "</title>\n<style>" + kReportStyle +
       "</style>\n</head>\n<body>\n";
   html += "<header id=\"top\"><h1>" + title + "</h1></header>\n<main>\n";
   html += Notices();
@@ -570,7 +530,9 @@ std::string Page::Html() const {
     html += Component(views[i], i);
   }
   html += Machine();
-  html += Collapsed("Provenance", HtmlTable(ProvenanceTable(record_)));
+  if (views.size() != kOpenComponents) {
+    html += Collapsed("Provenance", HtmlTable(ProvenanceTable(record_)));
+  }
   if (!views.empty()) html += Glossary();
   html +=
       "<p class=\"printed\">What is folded on the screen is left out here; "

@@ -18,14 +18,14 @@ p{margin:.4rem 0;max-width:75ch}
 a{color:var(--blue)}
 .soft{color:var(--soft)}
 .small{font-size:.875rem}
-.answer{display:grid;grid-template-columns:minmax(0,1fr) minmax(0,540px);gap:8px 28px;align-items:start;margin-top:.7rem}
+.answer{display:grid;grid-template-columns:minmax(0,1fr) minmax(0,500px);gap:8px 36px;align-items:start;margin-top:.7rem}
 .card{border:1px solid var(--line);border-left:6px solid var(--blue);border-radius:6px;padding:14px 18px;background:var(--tint)}
 .sentence{font-size:1.12rem;line-height:1.4;font-weight:600;margin:0 0 .5rem}
 .number{font-size:2.3rem;line-height:1.1;font-weight:700;margin:.2rem 0 0;white-space:nowrap}
 .number+p{margin-top:.1rem}
 .good{color:var(--good);font-weight:600}
 .bad{color:var(--bad)}
-ul{margin:.4rem 0;padding-left:1.3rem}
+ul{margin:.4rem 0;padding-left:1.3rem;font-size:.875rem}
 .scroll{overflow-x:auto;margin:.4rem 0 1rem;border:1px solid var(--line);border-radius:4px;max-width:100%;width:fit-content}
 .scroll:focus-visible,.equation:focus-visible,summary:focus-visible,input:focus-visible,a:focus-visible{outline:3px solid var(--blue);outline-offset:2px}
 table{border-collapse:collapse;font-size:.875rem;font-variant-numeric:tabular-nums}
@@ -42,15 +42,13 @@ tr.mark td,tr.mark td:first-child{background:var(--mark);font-weight:600}
 tbody tr:hover td,tbody tr:hover td:first-child{background:#fff3d6}
 .printed{display:none}
 :target{background:var(--mark)}
-.figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,370px),1fr));gap:18px 22px;align-items:start}
-.figures.many{grid-template-columns:repeat(auto-fill,minmax(min(100%,260px),1fr));gap:14px}
+.figures{display:grid;grid-template-columns:repeat(3,minmax(0,1fr));gap:18px 22px;align-items:start}
+.span2{grid-column:span 2}.span3{grid-column:span 3}.figures>div{font-size:.875rem}.figures>div>:first-child{margin-top:0}
 figure{margin:0;min-width:0;break-inside:avoid}
 figcaption{font-size:.875rem;margin-bottom:.2rem}
 figcaption b{display:block}
-figure svg{display:block;width:100%;height:auto;max-width:640px;background:#fff;font-family:system-ui,-apple-system,"Segoe UI",Roboto,Arial,"Noto Sans",sans-serif}
+figure svg{display:block;width:100%;height:auto;background:#fff;font-family:system-ui,-apple-system,"Segoe UI",Roboto,Arial,"Noto Sans",sans-serif}
 .words{fill:var(--ink)}.frame{stroke:var(--soft)}.grid{stroke:var(--line)}.paper{fill:var(--paper)}
-figure.wide{grid-column:1/-1}
-figure.wide svg{max-width:820px}
 .absent{border:1px dashed #8a94a0;border-radius:4px;padding:14px;color:var(--soft);font-size:.875rem;background:var(--tint)}
 details{margin:.5rem 0}
 summary{cursor:pointer;padding:.3rem 0;font-weight:600}
@@ -59,12 +57,7 @@ details.component>summary{font-size:1.05rem}
 details.component>summary span{font-weight:400;color:var(--soft)}
 .equation{font:0.875rem/1.5 ui-monospace,SFMono-Regular,Menlo,Consolas,"Liberation Mono",monospace;background:var(--tint);border:1px solid var(--line);border-radius:4px;padding:8px 12px;overflow-wrap:anywhere;white-space:pre-wrap;margin:.4rem 0;max-height:16rem;overflow-y:auto}
 .contents{max-width:none;font-size:.875rem;margin:1rem 0 .4rem}
-.plain{display:block;margin-top:14px}.plain figure svg{max-width:540px}
-.picks label{display:inline-block;margin-right:14px;font-size:.875rem}
-.bare{border:0;margin:0;width:auto}
 .figures.halves{grid-template-columns:repeat(2,minmax(0,1fr))}
-.figures.halves figure.wide svg{max-width:none}
-.figures.thirds{grid-template-columns:repeat(3,minmax(0,1fr));margin-top:18px}
 .next{display:grid;grid-template-columns:max-content minmax(0,1fr);gap:2px 12px;margin:.6rem 0;font-size:.875rem}
 .next dt{font-weight:600}
 .next dd{margin:0;overflow-wrap:anywhere}
@@ -72,24 +65,21 @@ code{font:.8125rem/1.45 ui-monospace,SFMono-Regular,Menlo,Consolas,"Liberation M
 .spark{display:inline-block;vertical-align:middle;width:120px;height:18px}
 .notice{border:1px solid #a33a00;background:#fff4ec;border-radius:6px;padding:8px 14px;margin:.8rem 0}
 footer{border-top:1px solid var(--line);margin-top:2rem;padding-top:10px;padding-bottom:30px;font-size:.875rem;color:var(--soft)}
-@media (max-width:1000px){.answer,.figures.halves,.figures.thirds{grid-template-columns:minmax(0,1fr)}}
-@media (max-width:600px){main,header,footer{padding-left:14px;padding-right:14px}.card{padding:12px 14px}h1{font-size:1.3rem}.number{font-size:2rem}td:first-child{white-space:normal;overflow-wrap:anywhere;min-width:9.7rem}td.long:first-child{min-width:9.7rem}.bare svg{min-width:980px}td.long{min-width:11rem}th,td{padding:4px 8px}}
+@media screen and (max-width:1000px){.answer,.figures,.figures.halves{grid-template-columns:minmax(0,1fr)}.span2,.span3{grid-column:auto}figure svg{max-width:520px}}
+@media screen and (max-width:600px){main,header,footer{padding-left:14px;padding-right:14px}.card{padding:12px 14px}h1{font-size:1.3rem}.number{font-size:2rem}td:first-child{white-space:normal;overflow-wrap:anywhere;min-width:9.7rem}td.long:first-child{min-width:9.7rem}td.long{min-width:11rem}th,td{padding:4px 8px}.first2 th:nth-child(n+3),.first2 td:nth-child(n+3){display:none}.first2::after{content:"All columns: turn the phone.";font-size:.875rem;color:var(--soft)}}
 @media print{@page{margin:10mm}
 body{font-size:8.5pt;line-height:1.35}
 main,header,footer{max-width:none;padding:0}
 header{padding-top:0}h1{font-size:14pt}h2{font-size:12pt;margin:8pt 0 4pt}h3{font-size:10.5pt;margin:8pt 0 3pt}h4{margin:6pt 0 2pt}
-p{margin:2pt 0}.small,figcaption,.next{font-size:7.5pt}code{font-size:7pt}
+p{margin:2pt 0}.small,figcaption,.next,ul,.figures>div{font-size:7.5pt}code{font-size:7pt}
 .sentence{font-size:10pt;margin:0 0 3pt}.number{font-size:18pt}.card{padding:6pt 9pt}.next{margin:3pt 0;gap:1pt 8pt}
 .scroll{overflow:visible;border:0;width:auto;margin:2pt 0}
 table{font-size:7pt;width:100%}th .soft{font-size:6pt}th,td{padding:1px 3px}
 td:first-child,th:first-child{position:static;min-width:0}td{white-space:nowrap}td:first-child,td.long{white-space:normal;min-width:0}
-.bare svg{min-width:0}.plain figure svg{max-width:86%}
 .answer{grid-template-columns:minmax(0,1fr) minmax(0,1.1fr);gap:4pt 12pt;margin-top:3pt}
 .figures{gap:6pt 10pt}
-.figures.many,.figures.thirds{grid-template-columns:repeat(3,minmax(0,1fr))}
+.figures{grid-template-columns:repeat(3,minmax(0,1fr))}
 .figures.halves{grid-template-columns:repeat(2,minmax(0,1fr))}
-.figures.halves figure.wide{grid-column:1/-1}
-.figures.thirds{margin-top:6pt}
 h2,h3,h4,summary{break-after:avoid}tr{break-inside:avoid}
 .equation{max-height:none}
 details.component:not([open])::details-content{content-visibility:visible;display:block}

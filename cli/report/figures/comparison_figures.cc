@@ -63,7 +63,6 @@ Series Intervals(const ReportView& view,
                 static_cast<double>(i),
                 result->ci95[0] * view.scale,
                 result->ci95[1] * view.scale});
-    series.models.push_back(PlaceOf(view, *models[i]));
   }
   return series;
 }
@@ -131,12 +130,13 @@ std::vector<Series> HoldoutMarks(const ReportView& view,
                   .mark = Mark::kPoints,
                   .columns = {{}, {}},
                   .colour = kHoldoutColours[h],
-                  .size = 2.6,
+                  .size = 2.1,
                   .shape = kShapes[h]};
     for (std::size_t i = 0; i < models.size(); ++i) {
       const double rmse = TestRmse(*models[i], holdouts[h]) * view.scale;
       points.Add({rmse > 0.0 ? rmse : kAutomatic, static_cast<double>(i)});
-      points.models.push_back(PlaceOf(view, *models[i]));
+      points.hints.push_back(fmt::format(
+          "{}: {}, {}", models[i]->name, Amount(rmse, view), points.label));
       if (rmse > 0.0) span->Take(rmse);
     }
     if (h == 0) {
@@ -163,10 +163,8 @@ Series LinksOf(const ReportView& view,
     for (const std::string& holdout : holdouts) {
       links.Add(
           {TestRmse(*models[i], holdout) * view.scale, static_cast<double>(i)});
-      links.models.push_back(PlaceOf(view, *models[i]));
     }
     links.Add({kAutomatic, kAutomatic});
-    links.models.push_back(PlaceOf(view, *models[i]));
   }
   return links;
 }
@@ -180,10 +178,13 @@ void NameRows(const std::vector<const ModelRecord*>& models, Plot* plot) {
   plot->y.quantity = "model";
   plot->y.low = static_cast<double>(models.size()) - 0.5;
   plot->y.high = -0.5;
-  plot->width = 450;
+  plot->width = 440;
   constexpr int kFrame = 60;
-  constexpr int kRow = 19;
-  plot->height = kFrame + kRow * static_cast<int>(models.size());
+  constexpr int kRow = 25;
+  constexpr int kMost = 520;
+  constexpr int kLeast = 240;
+  plot->height = std::clamp(
+      kFrame + kRow * static_cast<int>(models.size()), kLeast, kMost);
 }
 
 }  // namespace
@@ -204,6 +205,18 @@ Figure GapFigure(const ReportView& view, const std::string& prefix) {
   if (models.empty()) {
     figure.missing = "No model has an error on held-out rows.";
     return figure;
+  }
+  // The others are in the table; what no map does stays.
+  constexpr std::size_t kMostModels = 12;
+  if (models.size() > kMostModels) {
+    std::ranges::stable_partition(
+        models.begin() + kMostModels - 2, models.end(), [&](const auto* model) {
+          return model->name == view.recommended || model->name == "zero";
+        });
+    models.resize(kMostModels);
+    std::ranges::stable_sort(models, {}, [&](const ModelRecord* model) {
+      return PlaceOf(view, *model);
+    });
   }
   const std::vector<std::string> holdouts = ShownHoldouts(view);
   Plot& plot = figure.plot;
@@ -250,7 +263,7 @@ std::vector<Figure> TrainingFigures(const ReportView& view,
         "included, as the report's Figures 10 to 24.";
     figure.plot.name =
         fmt::format("{}training-{}", prefix, 1 + first / kLineColours.size());
-    figure.plot.x = {.quantity = "iteration", .unit = "count"};
+    figure.plot.x = {.quantity = "iteration"};
     figure.plot.y.quantity = "sqrt(2 E), scaled";
     figure.plot.y.logarithmic = true;
     std::vector<std::string> words;
@@ -261,8 +274,7 @@ std::vector<Figure> TrainingFigures(const ReportView& view,
                     .mark = Mark::kLine,
                     .columns = {{}, {}},
                     .colour = kLineColours[i - first],
-                    .size = 1.8,
-                    .models = {PlaceOf(view, *iterated[i])}};
+                    .size = 1.8};
       for (const auto& [iteration, rms, gradient] :
            *iterated[i]->final->summary.value.trace) {
         series.Add(

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "data/units.h"
+
 namespace errmap::report {
 
 bool SpansDecades(double low, double high) {
@@ -29,15 +31,18 @@ Figure BeginFigure(const ResidualContext& context,
 std::string SpreadWords(const ResidualContext& context) {
   const auto [low, high] = std::minmax_element(context.rows.residual.begin(),
                                                context.rows.residual.end());
-  return fmt::format(
-      "residuals of {} held-out rows from {} to {}, mean {}",
-      context.rows.residual.size(),
-      Plain(*low),
-      Plain(*high),
-      WithUnit(Plain(MeanOf(context.rows.residual)), context.view.shown_unit));
+  return fmt::format("residuals of {} held-out rows from {} to {}, mean {}",
+                     context.rows.residual.size(),
+                     Plain(*low),
+                     Plain(*high),
+                     Amount(MeanOf(context.rows.residual), context.view));
 }
 
 std::string Plain(double value) { return fmt::format("{:.3g}", value); }
+
+std::string Amount(double error, const ReportView& view) {
+  return ErrorTextOf(view).WithUnit(error / view.scale);
+}
 
 double MeanOf(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) /
@@ -61,7 +66,8 @@ std::size_t PositionIndex(const ReportView& view) {
 Axis InputAxis(const ReportView& view, std::size_t index, std::size_t most) {
   const models::FigureInputRecord& input =
       view.component->figures.inputs[index];
-  return {.quantity = Shortened(input.name, most),
+  const std::string base = data::ReadHeader(input.name).base;
+  return {.quantity = Shortened(base.empty() ? input.name : base, most),
           .unit = PrettyUnit(input.unit)};
 }
 

@@ -44,6 +44,8 @@ std::string SpreadWords(const ResidualContext& context);
 
 /// Three digits.
 std::string Plain(double value);
+/// "0.123 µm" of an error in the shown unit, with the digits of all others.
+std::string Amount(double error, const ReportView& view);
 
 double MeanOf(const std::vector<double>& values);
 double RmsOf(const std::vector<double>& values);
@@ -51,7 +53,7 @@ double RmsOf(const std::vector<double>& values);
 /// Index of the position among the inputs of the figures' rows; npos: none.
 std::size_t PositionIndex(const ReportView& view);
 
-/// Of an input, its name in at most `most` characters.
+/// Of an input, its name less the unit in at most `most` characters.
 Axis InputAxis(const ReportView& view, std::size_t index, std::size_t most);
 
 Axis ResidualAxis(const ReportView& view);

@@ -8,6 +8,7 @@
 #include "cli/report/figures/comparison_figures.h"
 #include "cli/report/figures/compensation_figures.h"
 #include "cli/report/figures/machine_figures.h"
+#include "cli/report/figures/measured_figures.h"
 #include "cli/report/figures/residual_figures.h"
 #include "cli/report/figures/sensor_figures.h"
 #include "cli/report/figures/svg.h"
@@ -35,14 +36,16 @@ std::vector<Figure> FiguresOf(const ReportView& view,
   const bool brief = detail == FigureDetail::kBrief;
   const bool whole = detail == FigureDetail::kFull;
   std::vector<Figure> figures{GapFigure(view, prefix)};
-  if (!brief) Append(OverTimeFigures(view, prefix), &figures);
-  Append(BeforeAndAfterFigures(view, prefix), &figures);
-  Append(UnitFigures(view, prefix), &figures);
-  if (!brief) {
-    Append(CostFigures(view, prefix), &figures);
-    Append(SurfaceFigures(view, prefix), &figures);
+  Append(MeasuredFigures(view, prefix), &figures);
+  Append(CompensationFigures(view, prefix), &figures);
+  if (brief) {
+    // The error before and after, and by unit.
+    std::erase_if(figures, [&](const Figure& figure) {
+      return figure.place == FigurePlace::kMeasured ||
+             figure.plot.name == prefix + "clock";
+    });
+  } else {
     Append(ImportanceFigures(view, prefix), &figures);
-    Append(TrainingResidualFigures(view, prefix), &figures);
   }
   if (!brief && !view.recommended.empty() && !view.decisive.empty()) {
     Append(ResidualFigures(

@@ -11,8 +11,8 @@ namespace errmap::report {
 /// Where in a component's part of the report a figure stands.
 enum class FigurePlace {
   kAnswer,
+  kMeasured,
   kCompensation,
-  kSurface,  // in one row
   kSensors,
   kResiduals,
   kFits
@@ -27,8 +27,7 @@ struct Figure {
   std::string description;  // what it shows, for those who do not see it
   /// Why there is nothing to draw; "" = there is.
   std::string missing;
-  bool small = false;  // one of many of a kind
-  Plot plot;           // plot.name: "c1-gap", unique in the report
+  Plot plot;  // plot.name: "c1-gap", unique in the report
 };
 
 /// How much is drawn of one component.

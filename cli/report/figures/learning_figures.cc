@@ -47,9 +47,7 @@ Figure CurvesFigure(const models::LearningCurvesRecord& curves,
   figure.title = fmt::format("What each further {} would bring", curves.unit);
   Plot& plot = figure.plot;
   plot.name = prefix + "learning-curve";
-  plot.width = 560;
-  plot.x = {
-      .quantity = curves.unit + " learnt from", .unit = "count", .low = 0.0};
+  plot.x = {.quantity = curves.unit + "s learnt from", .low = 0.0};
   plot.y = {.quantity = "RMSE on an unseen " + curves.unit,
             .unit = unit.display_symbol,
             .low = 0.0};
@@ -98,8 +96,7 @@ Figure SensorsFigure(const models::SensorCurveRecord& curve,
   figure.title = "What fewer sensors would do";
   Plot& plot = figure.plot;
   plot.name = prefix + "sensor-curve";
-  plot.width = 560;
-  plot.x = {.quantity = "sensors", .unit = "count", .low = 0.0};
+  plot.x = {.quantity = "sensors", .low = 0.0};
   plot.y = {
       .quantity = "RMSE held out", .unit = unit.display_symbol, .low = 0.0};
   const ErrorText error = ErrorTextOf(curve, unit);

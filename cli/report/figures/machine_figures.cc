@@ -169,7 +169,7 @@ class MachinePictures {
   }
 
   std::string WithSymbol(double value) const {
-    return WithUnit(Plain(scale_ * value), symbol_);
+    return Plain(scale_ * value) + " " + symbol_;
   }
 
   // `most` is drawn as long as a cell is wide or high, whichever is less.

@@ -89,6 +89,7 @@ std::pair<double, double> Ends(const Plot& plot, bool along_x) {
       take(value - reach);
       take(value + reach);
       if (series.mark == Mark::kBars && !along_x) take(0.0);
+      if (series.mark == Mark::kBand && !along_x) take(columns[2][i]);
       if (series.mark == Mark::kSpan && along_x) {
         take(columns[2][i]);
         take(columns[3][i]);

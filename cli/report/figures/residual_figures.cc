@@ -14,9 +14,7 @@
 namespace errmap::report {
 namespace {
 
-// Characters of a name that fit under a figure, and under a small one.
-constexpr std::size_t kLongLabel = 40;
-constexpr std::size_t kShortLabel = 24;
+constexpr std::size_t kLongLabel = 40;  // characters under a figure
 
 // Mean residual at each level of x, with its 95 % interval where n > 1.
 Series Means(const std::vector<double>& x, const std::vector<double>& y) {
@@ -63,7 +61,7 @@ Figure PredictedFigure(const ResidualContext& context) {
       rows.target.size(),
       Plain(*low),
       Plain(*high),
-      WithUnit(Plain(RmsOf(rows.residual)), unit));
+      Amount(RmsOf(rows.residual), context.view));
   return figure;
 }
 
@@ -102,29 +100,6 @@ std::vector<std::pair<std::string, double>> GroupTics(const HeldOutRows& rows) {
   return tics;
 }
 
-Figure GroupFigure(const ResidualContext& context) {
-  const std::string group = context.view.component->figures.group.value_or("");
-  Figure figure = BeginFigure(context, "group", "residual by group");
-  if (figure.missing.empty() && context.rows.group.empty()) {
-    figure.missing = "The data have no groups.";
-  }
-  if (!figure.missing.empty()) return figure;
-  figure.note =
-      "Groups whose mean lies off zero drift as a whole: warm-up or another "
-      "day that the map does not know.";
-  figure.plot.x.quantity = Shortened(group, 40);
-  figure.plot.x.names = GroupTics(context.rows);
-  figure.plot.y = ResidualAxis(context.view);
-  figure.plot.series = {Points(context.rows.group, context.rows.residual),
-                        ZeroLine(context.rows.group),
-                        Means(context.rows.group, context.rows.residual)};
-  figure.description =
-      fmt::format("Scatter over {} groups: {}; a line joins the means.",
-                  context.rows.labels.size(),
-                  SpreadWords(context));
-  return figure;
-}
-
 double SmallestStep(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   double step = std::numeric_limits<double>::infinity();
@@ -160,7 +135,6 @@ Figure MapFigure(const ResidualContext& context, std::size_t position) {
   figure.note =
       "Blue: measured less than predicted; orange: more. A row of one colour "
       "is a group that drifts, a column a position that the map misses.";
-  figure.plot.width = 460;
   figure.plot.x = InputAxis(context.view, position, kLongLabel);
   figure.plot.y.quantity =
       Shortened(context.view.component->figures.group.value_or(""), 30);
@@ -238,10 +212,7 @@ std::vector<Figure> InputFigures(const ResidualContext& context,
                     fmt::format("residual against {}",
                                 Shortened(InputName(context.view, input), 60)));
     const std::vector<double>& x = context.rows.inputs[input];
-    figure.small = true;
-    figure.plot.width = 300;
-    figure.plot.height = 210;
-    figure.plot.x = InputAxis(context.view, input, kShortLabel);
+    figure.plot.x = InputAxis(context.view, input, kLongLabel);
     figure.plot.y = ResidualAxis(context.view);
     figure.plot.series = {Points(x, context.rows.residual), ZeroLine(x)};
     if (used.size() < all && figures.empty()) {
@@ -274,7 +245,6 @@ std::vector<Figure> ResidualFigures(const ReportView& view,
   figures.push_back(PositionFigure(context, position));
   figures.push_back(HistogramFigure(context));
   if (!brief) {
-    figures.push_back(GroupFigure(context));
     figures.push_back(MapFigure(context, position));
     figures.push_back(NormalPlotFigure(context));
     for (Figure& figure : InputFigures(context, position)) {

@@ -57,7 +57,7 @@ Series Dots(const char* label, const char* colour, Shape shape) {
           .mark = Mark::kPoints,
           .columns = {{}, {}},
           .colour = colour,
-          .size = 2.6,
+          .size = 2.1,
           .shape = shape};
 }
 
@@ -150,7 +150,6 @@ std::vector<Figure> ImportanceFigures(const ReportView& view,
   plot.y.quantity = "taken away";
   plot.y.low = rows - 0.5;
   plot.y.high = -0.5;
-  plot.width = 450;
   constexpr int kFrame = 60;
   constexpr int kRow = 19;
   constexpr int kLeast = 150;  // the words along the axis need it

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -81,7 +82,7 @@ std::string PointPath(Shape shape, double x, double y, double radius) {
 }
 
 double PointRadius(const Series& series) {
-  constexpr double kRadius = 1.8;
+  constexpr double kRadius = 2.2;
   return kRadius * series.size;
 }
 
@@ -109,6 +110,11 @@ std::string LineStyle(const Series& series) {
                      series.dashed ? " stroke-dasharray=\"6 4\"" : "");
 }
 
+// Of the area between two edges.
+std::string BandStyle(const Series& series) {
+  return fmt::format("fill=\"{}\" fill-opacity=\".18\"", series.colour);
+}
+
 constexpr const char* kBarStyle = "fill-opacity=\".45\" stroke-width=\".8\"";
 
 std::string PathElement(const std::string& d, const std::string& style) {
@@ -123,7 +129,7 @@ class Pen {
 
   std::string Draw() const {
     std::string body = HasCells() ? Hatching() : Grid();
-    for (const Series& series : plot_.series) body += SeriesShapes(series);
+    for (const Series& series : plot_.series) body += Shapes(series);
     return body + Frame() + ColourBar() + Legend() + Words();
   }
 
@@ -182,46 +188,57 @@ class Pen {
     return PathElement(d, "class=\"frame\" fill=\"none\" stroke=\"#555\"");
   }
 
-  // A path for each model.
-  std::string SeriesShapes(const Series& series) const {
-    if (series.models.empty()) return Shapes(series);
-    const std::set<std::size_t> models(series.models.begin(),
-                                       series.models.end());
-    std::string shapes;
-    for (const std::size_t model : models) {
-      Series of_model = series;
-      for (std::size_t i = 0; models.size() > 1 && i < series.models.size();
-           ++i) {
-        if (series.models[i] != model) of_model.columns[0][i] = kAutomatic;
-      }
-      const std::string drawn = Shapes(of_model);
-      if (drawn.empty()) continue;
-      shapes += fmt::format("<g class=\"m{}\">{}</g>", model, drawn);
-    }
-    return shapes;
-  }
-
   std::string Shapes(const Series& series) const {
     switch (series.mark) {
       case Mark::kPoints:
-        return PathElement(Points(series), PointStyle(series));
+        return Paths(Points(series), PointStyle(series));
       case Mark::kLine:
         return PathElement(Line(series), LineStyle(series));
       case Mark::kSpan:
         return PathElement(Spans(series), LineStyle(series));
       case Mark::kBars:
-        return PathElement(
+        return Paths(
             Bars(series),
             fmt::format(
                 "fill=\"{0}\" stroke=\"{0}\" {1}", series.colour, kBarStyle));
+      case Mark::kBand:
+        return PathElement(Band(series), BandStyle(series));
       case Mark::kCells:
         return Cells(series);
     }
     return "";
   }
 
-  std::string Points(const Series& series) const {
+  // What is drawn of a series, and what is said of each part of it.
+  struct Part {
     std::string d;
+    std::string hint;
+  };
+
+  // A path for all, or for each that has something to say.
+  static std::string Paths(const std::vector<Part>& parts,
+                           const std::string& style) {
+    std::string together;
+    std::string alone;
+    for (const Part& part : parts) {
+      if (part.hint.empty()) {
+        together += part.d;
+      } else {
+        alone += fmt::format("<path d=\"{}\"><title>{}</title></path>",
+                             part.d,
+                             HtmlText(part.hint));
+      }
+    }
+    if (!alone.empty()) alone = fmt::format("<g {}>{}</g>", style, alone);
+    return PathElement(together, style) + alone;
+  }
+
+  static std::string HintOf(const Series& series, std::size_t i) {
+    return i < series.hints.size() ? series.hints[i] : "";
+  }
+
+  std::vector<Part> Points(const Series& series) const {
+    std::vector<Part> parts;
     std::set<std::string> drawn;  // one on another is one
     for (std::size_t i = 0; i < series.columns[0].size(); ++i) {
       if (!IsShown(plot_, series, i)) continue;
@@ -229,9 +246,11 @@ class Pen {
                                           x_(series.columns[0][i]),
                                           y_(series.columns[1][i]),
                                           PointRadius(series));
-      if (drawn.insert(point).second) d += point;
+      if (drawn.insert(point).second) {
+        parts.push_back({point, HintOf(series, i)});
+      }
     }
-    return d;
+    return parts;
   }
 
   std::string Line(const Series& series) const {
@@ -261,17 +280,32 @@ class Pen {
     return d;
   }
 
-  std::string Bars(const Series& series) const {
-    std::string d;
+  std::vector<Part> Bars(const Series& series) const {
+    std::vector<Part> parts;
     for (std::size_t i = 0; i < series.columns[0].size(); ++i) {
       if (!IsShown(plot_, series, i)) continue;
       const double half = 0.5 * series.columns[2][i];
-      d += RectanglePath(x_(series.columns[0][i] - half),
-                         y_(0.0),
-                         x_(series.columns[0][i] + half),
-                         y_(series.columns[1][i]));
+      parts.push_back({RectanglePath(x_(series.columns[0][i] - half),
+                                     y_(0.0),
+                                     x_(series.columns[0][i] + half),
+                                     y_(series.columns[1][i])),
+                       HintOf(series, i)});
     }
-    return d;
+    return parts;
+  }
+
+  // Along the high edge and back along the low one.
+  std::string Band(const Series& series) const {
+    const auto& [x, low, high] =
+        std::tie(series.columns[0], series.columns[1], series.columns[2]);
+    std::string d;
+    std::string back;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (!IsShown(plot_, series, i)) continue;
+      d += (d.empty() ? "M" : "L") + At(x_(x[i]), y_(high[i]));
+      back = "L" + At(x_(x[i]), y_(low[i])) + back;
+    }
+    return d.empty() ? d : d + back + "Z";
   }
 
   // A path per colour; neighbours that touch leave no seam between them.
@@ -331,6 +365,10 @@ class Pen {
                                         entry.y,
                                         PointRadius(series)),
                               PointStyle(series));
+      } else if (series.mark == Mark::kBand) {
+        shapes += PathElement(
+            RectanglePath(entry.x, entry.y - 4.0, right, entry.y + 4.0),
+            BandStyle(series));
       } else {
         shapes += PathElement("M" + At(entry.x, entry.y) + "H" + Tenth(right),
                               LineStyle(series));

@@ -254,8 +254,7 @@ const std::vector<ResultColumn>& Columns() {
         {.key = "tier", .cell = &Tier, .name = "tier", .page = "tier"},
         {.key = "interchangeable",
          .cell = &Interchangeable,
-         .is_number = false,
-         .page = "as good as the best"},
+         .is_number = false},
         {.key = "gap", .cell = &Gap, .name = "gap"},
         {.key = "goal",
          .cell = &Goal,
@@ -267,11 +266,7 @@ const std::vector<ResultColumn>& Columns() {
          .name = "no re-zero",
          .page = "never re-zeroed",
          .explanation = "RMSE"},
-        {.key = "p_recommended",
-         .cell = &PAgainstRecommended,
-         .name = "p",
-         .page = "p against recommended",
-         .explanation = "Holm over pairs of maps"},
+        {.key = "p_recommended", .cell = &PAgainstRecommended, .name = "p"},
         {.key = "established", .cell = &Established, .is_number = false},
         {.key = "fit_seconds", .cell = &FitSeconds},
         {.key = "all_fit_seconds",
@@ -520,14 +515,14 @@ Table SummaryRows(const models::StudyRecord& record) {
 Table PageLeaderboard(const ReportView& view) {
   const std::string& decisive = view.decisive;
   std::vector<Slot> slots = SlotsOf({"model"});
-  Append(SlotsOf({"error", "interchangeable"}, decisive), &slots);
+  Append(SlotsOf({"error"}, decisive), &slots);
   for (const std::string& holdout : view.holdouts) {
     if (holdout != decisive) Append(SlotsOf({"test_rmse"}, holdout), &slots);
   }
   if (view.component->rezero) {
     Append(SlotsOf({"never_rezeroed"}, decisive), &slots);
   }
-  Append(SlotsOf({"goal", "p_recommended"}, decisive), &slots);
+  Append(SlotsOf({"goal"}, decisive), &slots);
   Append(SlotsOf({"sensors", "parameters", "predict_ns"}), &slots);
   Table table;
   table.error = ErrorTextOf(view);

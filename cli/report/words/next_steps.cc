@@ -127,9 +127,6 @@ std::vector<NextStep> NextSteps(const models::StudyRecord& record,
   if (std::string measure = MeasureNext(of); !measure.empty()) {
     steps.push_back({"measure next", {}, std::move(measure)});
   }
-  if (found != nullptr) {
-    AddAnswers(*of.recommendation, *found, folder, &steps);
-  }
   return steps;
 }
 
@@ -149,8 +146,12 @@ std::vector<NextStep> PlacesToLook(const models::StudyRecord& record,
                                    const std::string& folder,
                                    const std::string& page) {
   constexpr std::size_t kMostNamed = 6;
-  const auto& advice = record.components[component].recommendation;
+  const models::ComponentRecord& of = record.components[component];
+  const auto& advice = of.recommendation;
   std::vector<NextStep> steps;
+  const models::ModelRecord* found =
+      advice ? models::FindNamed(of.models, advice->model) : nullptr;
+  if (found != nullptr) AddAnswers(*advice, *found, folder, &steps);
   if (advice && !advice->sensors.empty()) {
     Words sensors = SensorsByNeed(*advice);
     const std::size_t all = sensors.size();

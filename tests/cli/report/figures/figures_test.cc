@@ -28,17 +28,13 @@ const Figure* FigureNamed(const FigureSet& set, const std::string& name) {
 TEST(MakeFigures, MakesEveryFigureOfTheReport) {
   const FigureSet set = MakeFigures(Recorded(MakeReportDocument()));
   for (const char* name : {"c1-gap",
+                           "c1-temperatures",
                            "c1-time",
                            "c1-compensation",
+                           "c1-clock",
                            "c1-units",
-                           "c1-cost",
-                           "c1-surface-measured",
-                           "c1-surface-mapped",
-                           "c1-surface-left",
-                           "c1-both",
                            "c1-best-predicted",
                            "c1-best-position",
-                           "c1-best-group",
                            "c1-best-map",
                            "c1-best-histogram",
                            "c1-best-normal",
@@ -96,7 +92,7 @@ TEST(MakeFigures, ShowsLengthsInMicrometres) {
   const FigureSet set = MakeFigures(Recorded(MakeReportDocument()));
   const Figure* figure = FigureNamed(set, "c1-best-predicted");
   ASSERT_NE(figure, nullptr);
-  EXPECT_EQ(figure->plot.y.Label(), "predicted error, µm");
+  EXPECT_EQ(figure->plot.y.Label(), "predicted error (µm)");
   const Json document = MakeReportDocument();
   const double first =
       document["components"][0]["figures"]["tables"][0]["target"][0]
@@ -116,19 +112,6 @@ TEST(MakeFigures, DrawsWhatAResidualIs) {
   }
 }
 
-TEST(MakeFigures, ShowsSurfacesOnOneScale) {
-  const FigureSet set = MakeFigures(Recorded(MakeReportDocument()));
-  const double high = FigureNamed(set, "c1-surface-measured")->plot.colour.high;
-  EXPECT_EQ(FigureNamed(set, "c1-surface-mapped")->plot.colour.high, high);
-  // What is left has a scale of its own: the whole error's leaves it blank.
-  const Plot& left = FigureNamed(set, "c1-surface-left")->plot;
-  double largest = 0.0;
-  for (const double value : left.series.front().columns[4]) {
-    largest = std::max(largest, std::abs(value));
-  }
-  EXPECT_DOUBLE_EQ(left.colour.high, largest);
-}
-
 TEST(MakeFigures, DrawsNoBarsTooThinToBeSeen) {
   DocumentSpec spec;
   const auto units = [&](std::size_t groups) {
@@ -138,38 +121,60 @@ TEST(MakeFigures, DrawsNoBarsTooThinToBeSeen) {
                        "c1-units")
         ->plot;
   };
-  EXPECT_EQ(units(6).series.size(), 3U);
   const Plot some = units(70);
-  EXPECT_EQ(some.series.size(), 1U);
   EXPECT_EQ(some.series.front().mark, Mark::kBars);
+  // The worst has a colour of its own.
+  EXPECT_EQ(some.series.back().columns[0].size(), 1U);
   EXPECT_EQ(units(300).series.front().mark, Mark::kLine);
 }
 
-TEST(MakeFigures, MarksRowsOutsideTheTrainedRange) {
-  const FigureSet set = MakeFigures(Recorded(MakeReportDocument()));
-  const Figure* figure = FigureNamed(set, "c1-time");
-  ASSERT_NE(figure, nullptr);
-  EXPECT_EQ(figure->plot.series.front().label, "outside the trained range");
-  EXPECT_EQ(figure->plot.series.front().columns[0].size(), 2U);
-  EXPECT_THAT(figure->note, HasSubstr("Of 60 rows 2 lie outside"));
+TEST(MakeFigures, SaysWhatDiffersOnTheWorstDay) {
+  Json document = MakeReportDocument();
+  Json& component = document["components"][0];
+  Json& figures = component["figures"];
+  Json& table = figures["tables"][0];
+  const auto note = [&] {
+    return FigureNamed(MakeFigures(Recorded(document)), "c1-units")->note;
+  };
+  const Json labels = component["holdouts"][1]["unit_labels"];
+  component["models"][1]["results"]["groups:5"]["unit_rmse"] = {
+      0.001, 0.001, 0.005, 0.001, 0.001, 0.001};
+  EXPECT_THAT(note(),
+              HasSubstr("Worst (orange): cycle " +
+                        labels[2].get<std::string>() + ", 5.000 µm."));
+  for (std::size_t row = 0; row < table["groups"].size(); ++row) {
+    const bool worst = table["groups"][row] == 2;
+    table["inputs"][1][row] =
+        worst ? 30.0 : 20.0 + 0.1 * table["groups"][row].get<double>();
+  }
+  EXPECT_THAT(
+      note(),
+      HasSubstr(" There t12 is 30 in the mean, elsewhere 20 to 20.5 °C."));
 }
 
-TEST(MakeFigures, PartsSessions) {
+TEST(MakeFigures, NamesSessionsAndPutsThemOneAfterAnother) {
   Json document = MakeReportDocument();
   Json& table = document["components"][0]["figures"]["tables"][0];
   table["session_labels"] = {"Monday", "Tuesday"};
   table["sessions"] = Json::array();
-  for (int i = 0; i < 60; ++i) table["sessions"].push_back(i / 30);
+  table["time"] = Json::array();
+  for (int i = 0; i < 60; ++i) {
+    table["sessions"].push_back(i / 30);
+    table["time"].push_back(3600.0 * (i + (i < 30 ? 0 : 1000)));
+  }
   const FigureSet set = MakeFigures(Recorded(document));
-  EXPECT_EQ(FigureNamed(set, "c1-time")->plot.series.front().label,
-            "a session begins");
+  const Plot& plot = FigureNamed(set, "c1-time")->plot;
+  ASSERT_EQ(plot.x.names.size(), 2U);
+  EXPECT_EQ(plot.x.names[1].first, "Tuesday");
+  // The night between them takes no room.
+  EXPECT_DOUBLE_EQ(plot.series.back().columns[0].back(), 58.0);
 }
 
-TEST(MakeFigures, LeavesOutWhatTheMapHasNoSensorsFor) {
+TEST(MakeFigures, DrawsNoTemperaturesWithoutAThermometer) {
   Json document = MakeReportDocument();
-  document["components"][0]["recommendation"]["sensors"] = Json::array();
+  document["components"][0]["figures"]["inputs"][1]["unit"] = "bar";
   const FigureSet set = MakeFigures(Recorded(document));
-  EXPECT_EQ(FigureNamed(set, "c1-surface-measured"), nullptr);
+  EXPECT_EQ(FigureNamed(set, "c1-temperatures"), nullptr);
   EXPECT_NE(FigureNamed(set, "c1-time"), nullptr);
 }
 
@@ -192,8 +197,8 @@ TEST(MakeFigures, NeedsNoGroupsAndNoPosition) {
   const FigureSet set = MakeFigures(Recorded(document));
   EXPECT_THAT(FigureNamed(set, "c1-best-position")->missing,
               HasSubstr("no position"));
-  EXPECT_THAT(FigureNamed(set, "c1-best-group")->missing,
-              HasSubstr("no groups"));
+  EXPECT_THAT(FigureNamed(set, "c1-best-map")->missing,
+              HasSubstr("no position"));
   EXPECT_EQ(FigureNamed(set, "c1-best-histogram")->missing, "");
 }
 

@@ -110,8 +110,8 @@ TEST(MachineFigures, TellNoErrorFromNoFigure) {
 
 TEST(MachineFigures, HaveUnitsDaysAndAlternativeText) {
   for (const Figure& figure : MachineFigures(Lathe())) {
-    EXPECT_EQ(figure.plot.x.Label(), "Z, mm");
-    EXPECT_EQ(figure.plot.y.Label(), "X, mm");
+    EXPECT_EQ(figure.plot.x.Label(), "Z (mm)");
+    EXPECT_EQ(figure.plot.y.Label(), "X (mm)");
     EXPECT_THAT(figure.note, HasSubstr("12 poses of sessions 6, 7"));
     EXPECT_THAT(figure.description,
                 AllOf(HasSubstr("µm"), Not(HasSubstr("nan"))));
@@ -124,7 +124,7 @@ TEST(MachineFigures, ColoursBeginAtZero) {
   const std::vector<Figure> figures = MachineFigures(Lathe());
   const Figure& grid = Named(figures, "grid-before");
   const std::string svg = Svg(grid.plot, grid.title, grid.description);
-  EXPECT_THAT(svg, AllOf(HasSubstr(">RMS, µm</text>"), Not(HasSubstr(">−"))));
+  EXPECT_THAT(svg, AllOf(HasSubstr(">RMS (µm)</text>"), Not(HasSubstr(">−"))));
   // Of the palette's half with blue nothing is drawn.
   EXPECT_THAT(svg, Not(HasSubstr("#004b7a")));
   EXPECT_THAT(svg, HasSubstr("#8c2d04"));

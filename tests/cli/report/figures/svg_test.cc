@@ -53,8 +53,8 @@ TEST(Svg, IsWholeWithTitleDescriptionAndBothAxesUnits) {
   EXPECT_THAT(svg, HasSubstr("aria-labelledby=\"c1-x-t c1-x-d\""));
   EXPECT_THAT(svg, HasSubstr("<title id=\"c1-x-t\">a title</title>"));
   EXPECT_THAT(svg, HasSubstr("<desc id=\"c1-x-d\">what it shows</desc>"));
-  EXPECT_THAT(svg, HasSubstr(">position, mm</text>"));
-  EXPECT_THAT(svg, HasSubstr(">residual, µm</text>"));
+  EXPECT_THAT(svg, HasSubstr(">position (mm)</text>"));
+  EXPECT_THAT(svg, HasSubstr(">residual (µm)</text>"));
 }
 
 TEST(Svg, PutsTicsAtRoundNumbersInProportion) {

@@ -92,7 +92,7 @@ TEST(ResultTables, AgreeWithEachOther) {
   EXPECT_THAT(row_of(TerminalLeaderboard(ViewOf(component), 12), 0),
               HasSubstr(" 1.900 1.520-2.470 "));
   EXPECT_THAT(row_of(PageLeaderboard(ViewOf(component)), 0),
-              HasSubstr(" 1.900 (1.520 to 2.470) no "));
+              HasSubstr(" 1.900 (1.520 to 2.470) 1.200 no "));
 }
 
 }  // namespace
