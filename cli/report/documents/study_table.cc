@@ -83,8 +83,6 @@ class ComponentScreen {
   const StudyTableOptions& options_;
   Screen* screen_;
 
-  void Verdict();
-  void Data();
   void Leaderboard();
 
   std::size_t Width() const { return options_.terminal.text_columns(); }
@@ -107,45 +105,35 @@ class ComponentScreen {
 };
 
 void ComponentScreen::Answer() {
-  if (record_.data.reading.rows > 0) {
-    for (const std::string& line : data::ReadingLines(record_.data.reading)) {
-      Paragraph(line);
+  const models::DataRecord& data = record_.data;
+  std::vector<std::string> above;
+  const auto add = [&](const std::string& text) {
+    for (std::string& line : WrapLines(text, Width())) {
+      above.push_back(std::move(line));
     }
+  };
+  if (data.reading.rows > 0) {
+    for (const std::string& line : data::ReadingLines(data.reading)) add(line);
   }
-  Data();
+  // What these lines do not say.
+  if (data.reading.rows == 0 || data.align != data::Alignment::kNone) {
+    add(fmt::format("{}: {}{}; {}",
+                    data.file,
+                    Count(data.rows, "row"),
+                    UnitsWords(data),
+                    TargetWords(data)));
+  }
+  for (const std::string& line : above) screen_->Add(line + "\n");
   screen_->Add("\n");
-  Verdict();
-  screen_->Add("\n");
-  Leaderboard();
-  screen_->Add("\n");
-}
-
-void ComponentScreen::Verdict() {
   bool first = true;
-  for (const std::string& line : AnswerLines(FirstAnswerOf(record_), Width())) {
+  for (const std::string& line :
+       AnswerLines(FirstAnswerOf(record_), Width(), above)) {
     screen_->Add(line + "\n", first);
     first = false;
   }
-}
-
-void ComponentScreen::Data() {
-  const models::DataRecord& data = record_.data;
-  constexpr std::size_t kMostInputsNamed = 6;
-  std::vector<std::string> inputs;
-  for (const std::string& input : data.inputs) {
-    inputs.push_back(data::Printable(input, input.size()));
-  }
-  const std::size_t more =
-      inputs.size() - std::min(inputs.size(), kMostInputsNamed);
-  inputs.resize(inputs.size() - more);
-  Paragraph(
-      fmt::format("{}: {}{}; {} from {}{}",
-                  data.file,
-                  Count(data.rows, "row"),
-                  UnitsWords(data),
-                  TargetWords(data),
-                  inputs.empty() ? "no inputs" : data::JoinWords(inputs, ", "),
-                  more > 0 ? fmt::format(" and {} more", more) : ""));
+  screen_->Add("\n");
+  Leaderboard();
+  screen_->Add("\n");
 }
 
 void ComponentScreen::Leaderboard() {

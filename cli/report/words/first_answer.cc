@@ -377,7 +377,8 @@ std::string FirstAnswer::Sentence() const {
 }
 
 std::vector<std::string> AnswerLines(const FirstAnswer& answer,
-                                     std::size_t width) {
+                                     std::size_t width,
+                                     const std::vector<std::string>& above) {
   constexpr std::size_t kMostLines = 12;
   constexpr std::ptrdiff_t kMostWords = 110;
   constexpr std::size_t kIndent = 19;  // two blanks, a label, two blanks
@@ -386,12 +387,13 @@ std::vector<std::string> AnswerLines(const FirstAnswer& answer,
   };
   std::vector<std::string> lines = WrapLines(answer.use, width);
   std::ptrdiff_t words = words_in(answer.use);
+  for (const std::string& line : above) words += words_in(line);
   for (const AnswerLine& line : answer.lines) {
     const std::vector<std::string> wrapped =
         WrapLines(data::Printable(line.text, line.text.size()),
                   width > 2 * kIndent ? width - kIndent : width);
     const std::ptrdiff_t more = words_in(line.label) + words_in(line.text);
-    if (lines.size() + wrapped.size() > kMostLines ||
+    if (above.size() + lines.size() + wrapped.size() > kMostLines ||
         words + more > kMostWords) {
       continue;
     }

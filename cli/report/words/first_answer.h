@@ -31,8 +31,11 @@ struct FirstAnswer {
 FirstAnswer FirstAnswerOf(const models::ComponentRecord& record);
 
 /// The answer on a terminal of `width` columns, labels in a column, in at most
-/// 12 lines and 110 words: a message that no longer fits is left out.
-std::vector<std::string> AnswerLines(const FirstAnswer& answer,
-                                     std::size_t width);
+/// 12 lines and 110 words with those `above` it: a message that no longer fits
+/// is left out.
+std::vector<std::string> AnswerLines(
+    const FirstAnswer& answer,
+    std::size_t width,
+    const std::vector<std::string>& above = {});
 
 }  // namespace errmap::report

@@ -22,7 +22,7 @@ std::string IntervalText(const models::PromiseRecord& promise,
   }
   if (promise.good_for) {
     text += fmt::format(
-        "; trust that for the next {} only: neighbouring {} may err alike "
+        ". Trust that for the next {} only: neighbouring {} may err alike "
         "(correlation {:.2f})",
         *promise.good_for == 1 ? promise.unit
                                : Count(*promise.good_for, promise.unit),

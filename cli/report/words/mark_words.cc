@@ -74,7 +74,7 @@ std::string MarkWords(const ReportView& view) {
     return text + "; = the lowest error here.";
   }
   return text +
-         "; = as good as the lowest error: with 95 % certainty at most 5 % "
+         ". = as good as the lowest error: with 95 % certainty at most 5 % "
          "above it, or by what never matters (--indifference).";
 }
 

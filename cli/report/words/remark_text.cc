@@ -106,14 +106,13 @@ std::string SimplestSentence(const ComponentNumbers& component,
     case RemarkKind::kAveragesMaps:
       return fmt::format(
           "No single map is proven better by separate days, and an average of "
-          "maps that see the inputs differently gambles less than the choice "
-          "of one; {} {} ({}).",
+          "maps risks less than the choice of one. {} {} ({}).",
           advice.decided_by != advice.holdout
-              ? fmt::format("of single maps {} would choose", advice.decided_by)
+              ? fmt::format("Of single maps {} would choose", advice.decided_by)
           : std::ranges::find(advice.first_tier, model) ==
                   advice.first_tier.end()
-              ? "the best single map is"
-              : "the simplest single map is",
+              ? "The best single map is"
+              : "The simplest single map is",
           model,
           rmse);
     case RemarkKind::kSimplestNearLowest:
@@ -124,16 +123,16 @@ std::string SimplestSentence(const ComponentNumbers& component,
           model);
     default:
       return fmt::format(
-          "It is the simplest of a tier without practical difference: {} has "
-          "the lowest error ({}), and with 95 % certainty{} it loses at most "
-          "{} to it.",
+          "It is the simplest of those without practical difference: {} has "
+          "the lowest error ({}). With 95 % certainty it loses at most {} to "
+          "it{}.",
           model,
           rmse,
+          component.error.WithUnit(There(remark.excess)),
           There(remark.confidence) != Confidence::kEstablished
-              ? fmt::format(", as if {} were independent,",
+              ? fmt::format(", as if {} were independent",
                             PluralOfUnit(component.Holdout(advice.holdout)))
-              : "",
-          component.error.WithUnit(There(remark.excess)));
+              : "");
   }
 }
 
@@ -238,28 +237,28 @@ std::string DisagreementSentence(const ComponentNumbers& component,
   for (const std::string& holdout : There(remark.holdouts)) {
     const std::string& best = component.Verdict(holdout).model;
     parts.push_back(
-        fmt::format("under {} it has {}, {} has {}",
+        fmt::format("Under {} it has {}, {} has {}.",
                     holdout,
                     component.error.WithUnit(
                         component.Rmse(component.Advice().model, holdout)),
                     best,
                     component.error.WithUnit(component.Rmse(best, holdout))));
   }
-  return fmt::format("The hold-outs of unseen rows disagree: {}.",
-                     data::JoinWords(parts, "; "));
+  return "The hold-outs of unseen rows disagree. " +
+         data::JoinWords(parts, " ");
 }
 
 std::string CorrelationSentence(const ComponentNumbers& component,
                                 const RemarkRecord& remark) {
   return fmt::format(
       "Neighbouring {} resemble each other (lag-1 correlation {:.2f} of the "
-      "loss differences), so their number proves little, and {} is called "
+      "loss differences), so their number proves little. {} is called "
       "established; more days, held out whole, would tell.",
       PluralOfUnit(component.Holdout(component.Advice().holdout)),
       There(remark.lag1),
       There(remark.established) == 0
-          ? "nothing"
-          : fmt::format("only what is free of that, {} of {},",
+          ? "Nothing"
+          : fmt::format("Only what is free of that, {} of {},",
                         There(remark.established),
                         Count(There(remark.pairs), "difference")));
 }
@@ -364,15 +363,14 @@ StatesBeyond StatesOf(const std::string& column) {
   if (unit.symbol == "rpm") return {"a slower spindle", "a faster spindle"};
   switch (unit.quantity) {
     case data::Quantity::kTemperature:
-      return {"a cold start, or a cooler room",
-              "a longer run, or a hotter room"};
+      return {"a colder start or room", "a longer run or hotter room"};
     case data::Quantity::kTime:
       return {"the first minutes", "a longer run"};
     case data::Quantity::kLength:
     case data::Quantity::kAngle:
       return {"positions further down", "positions further up"};
     default:
-      return {"other values", "other values"};
+      return {"smaller values", "larger values"};
   }
 }
 
@@ -522,9 +520,9 @@ std::string RemarkText(const ComponentNumbers& component,
       const std::string where = WhereToMeasure(remark);
       return fmt::format(
           "In {:.0f} % of the held-out rows an input lies outside what the "
-          "fold was trained on, and the map extrapolates{}.",
+          "fold was trained on: the map extrapolates.{}",
           kPercent * advice.extrapolated_share,
-          where.empty() ? "" : ": measure " + where);
+          where.empty() ? "" : " Measure " + where + ".");
     }
     case RemarkKind::kNotConverged:
       return fmt::format(
@@ -552,7 +550,7 @@ std::string WhereToMeasure(const RemarkRecord& remark) {
       remark.above->size() != remark.columns->size()) {
     return "";  // of an older record
   }
-  // By what a person can do, the columns that would show it.
+  // By what a person can do, the columns that would show it; one is named.
   std::vector<std::pair<const char*, std::vector<std::string>>> states;
   const auto add = [&](const char* state, std::string shown) {
     auto found = std::ranges::find(
@@ -575,8 +573,7 @@ std::string WhereToMeasure(const RemarkRecord& remark) {
   }
   std::vector<std::string> parts;
   for (const auto& [state, shown] : states) {
-    parts.push_back(
-        fmt::format("{} ({})", state, data::JoinWords(shown, ", ")));
+    parts.push_back(fmt::format("{} ({})", state, shown.front()));
   }
   return data::JoinWords(parts, "; ");
 }

@@ -32,24 +32,20 @@ std::string ObstacleText(const models::Obstacle& obstacle,
     case Kind::kNone:
       return "";
     case Kind::kTooFewUnits:
-      return fmt::format(
-          "{}, at least {} are needed: with fewer, no sign-flip p can be below "
-          "0.05 for so many maps",
-          found,
-          obstacle.needed);
+      return fmt::format("{}, at least {} are needed for so many maps",
+                         found,
+                         obstacle.needed);
     case Kind::kPerhapsOneSession:
       return fmt::format(
-          "{}, not known to be separate sessions: at least {} are needed to "
-          "see whether they resemble each other",
+          "{}, perhaps of one session: at least {} are needed to see whether "
+          "they resemble each other",
           found,
           obstacle.needed);
     case Kind::kTooManyPairs:
-      return fmt::format(
-          "{} for {} pairs: at least {} are needed for a p below 0.05 after "
-          "Holm's adjustment",
-          found,
-          obstacle.pairs,
-          obstacle.needed);
+      return fmt::format("{} for {} pairs, at least {} are needed",
+                         found,
+                         obstacle.pairs,
+                         obstacle.needed);
     case Kind::kTooFewSignPatterns:
       return fmt::format("the sign patterns drawn are too few for {} pairs",
                          obstacle.pairs);
@@ -198,7 +194,7 @@ std::string GapSentence(const ComponentNumbers& component) {
   if (flattered.empty()) return "";
   std::ranges::stable_sort(
       flattered, std::greater(), &models::GapModelRecord::ratio);
-  constexpr std::size_t kMostNamed = 4;
+  constexpr std::size_t kMostNamed = 3;
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < std::min(flattered.size(), kMostNamed); ++i) {
     const models::GapModelRecord& row = flattered[i];
@@ -214,7 +210,7 @@ std::string GapSentence(const ComponentNumbers& component) {
     text += fmt::format(" and {} more", flattered.size() - kMostNamed);
   }
   return text +
-         ": its held-out rows have neighbours in the training rows, whole " +
+         ". Its held-out rows have neighbours in the training rows, whole " +
          PluralOfUnit(component.Holdout(gap.unseen)) + " (" + gap.unseen +
          ") have not.";
 }

@@ -57,7 +57,7 @@ TEST_F(Cli, RecommendsWhatHoldsOnUnseenCyclesAndSaysWhy) {
     }
   }
   EXPECT_THAT(advice["reasons"].dump(),
-              HasSubstr("the best single map is poly:ridge:view=auto (0.9"));
+              HasSubstr("The best single map is poly:ridge:view=auto (0.9"));
   std::set<std::string> tiered;
   for (const Json& tier : component["tiers"]["groups:5"]) {
     for (const Json& name : tier) tiered.insert(name);
@@ -172,7 +172,7 @@ TEST_F(Cli, SaysWhereHoldOutsOfUnseenCyclesDisagree) {
                                   "--quiet"});
   EXPECT_EQ(component["recommendation"]["model"], "poly:full:degree=3");
   EXPECT_THAT(component["recommendation"]["caveats"].dump(),
-              AllOf(HasSubstr("disagree: under forward:5 it has"),
+              AllOf(HasSubstr("disagree. Under forward:5 it has"),
                     HasSubstr("poly:position has")));
 }
 

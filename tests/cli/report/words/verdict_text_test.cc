@@ -168,11 +168,11 @@ TEST(Sentences, SayForHowManyDaysAPromiseIsGood) {
   promise.lag1 = 0.84;
   promise.good_for = 2;
   EXPECT_THAT(IntervalText(promise, error),
-              EndsWith(" um; trust that for the next 2 days only: neighbouring "
+              EndsWith(" um. Trust that for the next 2 days only: neighbouring "
                        "days may err alike (correlation 0.84)"));
   promise.good_for = 1;
   EXPECT_THAT(IntervalText(promise, error),
-              HasSubstr("trust that for the next day only"));
+              HasSubstr("Trust that for the next day only"));
 }
 
 TEST(Sentences, TellWhichColumnToIgnoreForAFlatteredModel) {
@@ -280,7 +280,7 @@ TEST(Sentences, SayWhichMapHasLessErrorThanABlend) {
   ComponentRecord record = Base();
   record.recommendation->decided_by = record.recommendation->holdout;
   EXPECT_THAT(GroundOf(record, remark),
-              EndsWith("the best single map is zero (0.800 um)."));
+              EndsWith("The best single map is zero (0.800 um)."));
   record.recommendation->decided_by = "every:3";
   EXPECT_THAT(GroundOf(record, remark),
               EndsWith("of single maps every:3 would choose zero (0.800 um)."));
@@ -334,18 +334,17 @@ TEST(Sentences, TellWhatToMeasureWhereTheMapExtrapolates) {
   remark.above = std::vector<double>{27.0};
   EXPECT_EQ(DoubtOf(record, remark),
             "In 40 % of the held-out rows an input lies outside what the fold "
-            "was trained on, and the map extrapolates: measure a cold start, "
-            "or a cooler room (t12_degC below 21.5); a longer run, or a hotter "
-            "room (t12_degC above 27).");
+            "was trained on: the map extrapolates. Measure a colder start or "
+            "room (t12_degC below 21.5); a longer run or hotter room (t12_degC "
+            "above 27).");
   remark.columns = std::vector<std::string>{"t12_degC", "speed_rpm", "t3_degC"};
   remark.below = std::vector<double>{21.5, models::kNotKnown, 20.0};
   remark.above = std::vector<double>{models::kNotKnown, 3000.0, 31.0};
   record.recommendation->doubts = {remark};
   EXPECT_EQ(
       MeasureNext(record),
-      "a cold start, or a cooler room (t12_degC below 21.5, t3_degC below "
-      "20); a faster spindle (speed_rpm above 3000); a longer run, or a "
-      "hotter room (t3_degC above 31)");
+      "a colder start or room (t12_degC below 21.5); a faster spindle "
+      "(speed_rpm above 3000); a longer run or hotter room (t3_degC above 31)");
 }
 
 TEST(Sentences, TellThatNeighboursProveLittle) {
@@ -353,11 +352,11 @@ TEST(Sentences, TellThatNeighboursProveLittle) {
   remark.lag1 = 0.75;
   remark.pairs = 3;
   remark.established = 0;
-  EXPECT_THAT(DoubtOf(Base(), remark),
-              StartsWith("Neighbouring cycles resemble each other (lag-1 "
-                         "correlation 0.75 of the loss differences), so their "
-                         "number proves little, and nothing is called "
-                         "established"));
+  EXPECT_THAT(
+      DoubtOf(Base(), remark),
+      StartsWith("Neighbouring cycles resemble each other (lag-1 "
+                 "correlation 0.75 of the loss differences), so their "
+                 "number proves little. Nothing is called established"));
 }
 
 TEST(VerdictParagraphs, LeaveOutWhatTheNextStepsSay) {
