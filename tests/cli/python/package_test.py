@@ -64,6 +64,19 @@ class Package(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
 
+class ShippedDays(unittest.TestCase):
+    @unittest.skipUnless(installed("pandas"), "pandas is not installed")
+    def test_are_those_of_the_simulated_machine(self):
+        made = errmap.simulate(days=8, cycles=10, seed=5, components=[
+            "x_displacement_up"])["x_displacement_up"]
+        folder = os.path.join(common.ROOT, "data/sets/turning_centre")
+        six = errmap.read_csv(os.path.join(folder, "six_days.csv"))
+        later = errmap.read_csv(os.path.join(folder, "later_days.csv"))
+        for days, of in ((six, made["day"] <= 6), (later, made["day"] > 6)):
+            self.assertEqual(days.values.tolist(),
+                             made.loc[of, list(days)].values.tolist())
+
+
 class Notebook(unittest.TestCase):
     @unittest.skipUnless(installed("nbclient") and installed("ipykernel")
                          and installed("pandas"), "nbclient is not installed")
