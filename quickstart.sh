@@ -18,7 +18,7 @@ test_packages="libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 python
 python_packages="pybind11-dev python3-dev python3-pip python3-setuptools python3-wheel python3-numpy"
 # Without these a few tests are skipped.
 optional_packages="pybind11-dev python3-dev python3-pandas python3-sklearn
-  python3-tqdm python3-nbclient python3-ipykernel mypy r-base-core
+  python3-matplotlib python3-tqdm python3-nbclient python3-ipykernel mypy r-base-core
   r-cran-jsonlite clang cmark-gfm linuxcnc-uspace linuxcnc-uspace-dev slurm-wlm munge
   openmpi-bin mosquitto python3-paho-mqtt"
 example="data/sets/nistir5367_xdisp_down.csv"

@@ -52,7 +52,7 @@ residuals, maps as programs for a control.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-errmap)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-numpy, python3-pandas")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-sklearn, python3-tqdm")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-sklearn, python3-matplotlib, python3-tqdm")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
 "maps of machine-tool errors: package for Python
 Comparisons of maps on data frames, with the numbers of the program errmap to

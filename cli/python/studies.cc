@@ -10,6 +10,7 @@
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/studies/compare_arguments.h"
 #include "cli/commands/studies/compare_plan.h"
+#include "cli/desk/plan/rough_time.h"
 #include "cli/desk/plan/run_files.h"
 #include "cli/desk/plan/run_record.h"
 #include "cli/desk/plan/study_forecast.h"
@@ -24,9 +25,6 @@
 #include "cli/report/figures/figures.h"
 #include "cli/report/report.h"
 #include "models/model_file.h"
-#include "models/promise/promise.h"
-#include "models/recipe_catalog.h"
-#include "models/study/study_defaults.h"
 #include "models/version.h"
 #include "stats/holdout.h"
 
@@ -166,53 +164,21 @@ Study Compare(const Words& words,
   return study;
 }
 
-// The map file's text of one model that is fitted to all rows of a table.
-std::string Fit(const Table& table,
-                const std::string& target,
-                const Words& inputs,
-                const std::string& session,
-                const std::string& time,
-                const std::string& spec,
-                std::uint64_t seed,
-                bool interval,
-                int jobs) {
-  std::string text;
+// (model, rough seconds) of each that compare would fit.
+py::list Forecast(const Words& words,
+                  const std::map<std::string, Table>& tables) {
+  std::vector<std::pair<std::string, double>> seconds;
   std::atomic<bool> stop{false};
   cli::Host host{.stop = &stop};
   const auto work = [&] {
-    const data::PreparedDataset prepared =
-        data::MakeDataset(*table.table(),
-                          {.target = target,
-                           .inputs = inputs,
-                           .time = time,
-                           .session = session,
-                           .keep_dead = true,
-                           .only_to_judge = true});
-    const data::Dataset& dataset = prepared.dataset;
-    auto recipe = models::MakeRecipe(spec);
-    const double indifference =
-        models::DefaultIndifference(dataset.target().unit);
-    models::FittedModel fitted = recipe->Fit(dataset,
-                                             {.seed = seed,
-                                              .stop = &stop,
-                                              .threads = cli::JobsOf(jobs),
-                                              .indifference = indifference});
-    models::AddExperience(dataset, &fitted);
-    if (interval && !stop.load()) {
-      models::AddPromise(dataset,
-                         std::move(recipe),
-                         {.seed = seed,
-                          .jobs = cli::JobsOf(jobs),
-                          .stop = &stop,
-                          .indifference = indifference},
-                         &fitted);
-    }
-    text = models::ModelToJson(fitted, {});
+    const cli::CompareArguments arguments = cli::ReadCompareArguments(words);
+    const desk::StudyPlan plan = cli::PlanOf(arguments, std::nullopt);
+    seconds = desk::RoughSecondsOfModels(plan.components.front());
   };
-  if (RunHostedWork({}, &host, &stop, work, {})) {
+  if (RunHostedWork({tables, {}}, &host, &stop, work, {})) {
     throw py::error_already_set();
   }
-  return text;
+  return py::cast(seconds);
 }
 
 // (train, test) of each fold.
@@ -255,17 +221,7 @@ void DefineStudies(py::module_* module) {
               py::arg("foreign"),
               py::arg("beside_defaults"),
               py::arg("progress"));
-  module->def("fit",
-              &Fit,
-              py::arg("table"),
-              py::arg("target"),
-              py::arg("inputs"),
-              py::arg("session"),
-              py::arg("time"),
-              py::arg("spec"),
-              py::arg("seed"),
-              py::arg("interval"),
-              py::arg("jobs"));
+  module->def("forecast", &Forecast, py::arg("words"), py::arg("tables"));
   module->def("folds",
               &Folds,
               py::arg("holdout"),

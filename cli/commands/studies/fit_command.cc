@@ -45,6 +45,7 @@ struct FitArguments {
   std::string model;
   std::string out;
   std::uint64_t seed = 1;
+  int jobs = 0;
   std::string format = "table";
   bool correlations = false;
   bool no_interval = false;
@@ -247,7 +248,7 @@ int RunFit(const FitArguments& arguments, const std::string& command_line) {
       .seed = arguments.seed,
       .stop = &stop,
       .explain = true,
-      .threads = JobsOf(0),
+      .threads = JobsOf(arguments.jobs),
       .keep_trace = arguments.format == "json",
       .indifference = models::DefaultIndifference(dataset.target().unit)};
   TimedFit fit;
@@ -314,6 +315,11 @@ void AddFitCommand(CLI::App* app, Run* run) {
       command, "-o,--output FILE.json", arguments->out, "Model file to write")
       .Required();
   AddSeedOption(command, &arguments->seed);
+  AddOption(command,
+            "--jobs N",
+            arguments->jobs,
+            "Threads (default: one per core)\nThey change no figure")
+      .Range(1, 1024);
   AddFlag(command,
           "--correlations",
           arguments->correlations,

@@ -108,7 +108,8 @@ double RoughFitSeconds(const models::ModelRecipe& recipe,
   }
 }
 
-double RoughSeconds(const models::ComponentPlan& component, int jobs) {
+std::vector<std::pair<std::string, double>> RoughSecondsOfModels(
+    const models::ComponentPlan& component) {
   const data::Dataset& dataset = component.comparison.data.dataset;
   std::vector<double> rows_of_fits = {static_cast<double>(dataset.num_rows())};
   for (const models::Holdout& holdout : component.comparison.holdouts) {
@@ -116,15 +117,31 @@ double RoughSeconds(const models::ComponentPlan& component, int jobs) {
       rows_of_fits.push_back(static_cast<double>(fold.train.size()));
     }
   }
+  std::vector<std::pair<std::string, double>> models;
+  for (const auto& recipe : component.recipes) {
+    if (recipe->WhatIsMissing(dataset)) continue;
+    double seconds = 0.0;
+    for (const double rows : rows_of_fits) {
+      seconds += RoughFitSeconds(*recipe, dataset, rows);
+    }
+    models.emplace_back(recipe->name(), seconds);
+  }
+  return models;
+}
+
+double RoughSeconds(const models::ComponentPlan& component, int jobs) {
+  const data::Dataset& dataset = component.comparison.data.dataset;
   double all = 0.0;
   double longest = 0.0;
   for (const auto& recipe : component.recipes) {
     if (recipe->WhatIsMissing(dataset)) continue;
-    for (const double rows : rows_of_fits) {
-      const double seconds = RoughFitSeconds(*recipe, dataset, rows);
-      all += seconds;
-      longest = std::max(longest, seconds);
-    }
+    longest = std::max(
+        longest,
+        RoughFitSeconds(
+            *recipe, dataset, static_cast<double>(dataset.num_rows())));
+  }
+  for (const auto& [model, seconds] : RoughSecondsOfModels(component)) {
+    all += seconds;
   }
   return std::max(longest, all / jobs);
 }

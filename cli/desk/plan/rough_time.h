@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "cli/desk/plan/study_plan.h"
 
@@ -10,7 +12,12 @@ namespace errmap::desk {
 /// each kind of model: good to a factor of some three, for a dry run only.
 double RoughSeconds(const models::ComponentPlan& component, int jobs);
 
-/// The same of one fit to so many rows.
+/// Each model that suits the component, with the rough seconds of its fits one
+/// after the other.
+std::vector<std::pair<std::string, double>> RoughSecondsOfModels(
+    const models::ComponentPlan& component);
+
+/// Rough seconds of one fit to so many rows.
 double RoughFitSeconds(const models::ModelRecipe& recipe,
                        const data::Dataset& dataset,
                        double rows);

@@ -6,7 +6,8 @@ pandas ``DataFrame``, a mapping of names to arrays, a structured NumPy array or
 the path of a CSV file.
 
 >>> import errmap
->>> day = {"position_mm": [0, 1, 2, 3, 4, 5], "error_um": [0, 1, 4, 8, 17, 25]}
+>>> day = {"position_mm": list(range(12)),
+...        "error_um": [0, 1, 4, 8, 17, 25, 36, 48, 65, 80, 101, 120]}
 >>> study = errmap.compare(day, models=["mean", "poly:position"],
 ...                        holdouts=["every:3"])
 >>> study.recommendation["model"]
@@ -23,18 +24,18 @@ from errmap._commands import (
     simulate,
 )
 from errmap._core import version as _version
-from errmap._frames import SessionStartWarning
+from errmap._frames import ErrmapWarning
 from errmap._maps import MapFile, load, loads
 from errmap._study import Foreign, Study, compare, foreign
 
 __version__ = _version()
 
 __all__ = [
+    "ErrmapWarning",
     "Foreign",
     "Map",
     "MapFile",
     "SessionSplit",
-    "SessionStartWarning",
     "Study",
     "certify",
     "compare",

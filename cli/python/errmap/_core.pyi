@@ -34,17 +34,9 @@ def compare(
     beside_defaults: bool,
     progress: Callable[[int, int, str], None] | None,
 ) -> Study: ...
-def fit(
-    table: Table,
-    target: str,
-    inputs: Sequence[str],
-    session: str,
-    time: str,
-    spec: str,
-    seed: int,
-    interval: bool,
-    jobs: int,
-) -> str: ...
+def forecast(
+    words: Sequence[str], tables: Mapping[str, Table]
+) -> list[tuple[str, float]]: ...
 def folds(
     holdout: str, rows: int, codes: Sequence[int], seed: int
 ) -> list[tuple[list[int], list[int]]]: ...

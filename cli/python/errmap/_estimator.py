@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import inspect
+import numbers
+import os
+import sys
 from typing import Any, Iterator
 
 import numpy
@@ -14,8 +18,21 @@ from sklearn.utils.validation import (
 )
 
 from errmap import _core
-from errmap._frames import FRAME, table_of
-from errmap._maps import MapFile
+from errmap._frames import FRAME, columns_of, table_of, warn, words_of
+from errmap._maps import MapFile, fitted
+from errmap._study import compare
+
+
+#: Options of models; a test holds them to ``errmap models MODEL``.
+_OPTIONS = (
+    "angles", "between", "bootstrap", "box", "centred", "choose", "clip",
+    "criterion", "decay", "degree", "direction", "discrepancy", "egoal",
+    "enter", "errdel", "evaluations", "exclude", "gwgoal", "heredity",
+    "hidden", "history", "include", "intercept", "iterations",
+    "learning_rate", "max_terms", "members", "memory", "method", "momentum",
+    "net", "nfreq", "output", "path", "penalty", "position", "precision",
+    "remove", "rows", "rule", "scale", "seconds", "select", "sigma2",
+    "slope", "starts", "stop", "terms", "variant", "view", "wfactor", "zero")
 
 
 class Map(RegressorMixin, BaseEstimator):
@@ -23,18 +40,29 @@ class Map(RegressorMixin, BaseEstimator):
 
     Parameters
     ----------
-    spec : str
-        The model, such as ``"poly:ridge:view=auto"``.
+    model : str
+        ``"auto"``: the map that :func:`errmap.compare` recommends for these
+        rows. Inside ``GridSearchCV``, ``cross_val_score`` and the like it is
+        the blend, without a comparison in each fold. Else a model, such as
+        ``"poly:ridge"``, whose options may follow after colons.
     session, time : str, optional
-        Columns of ``X`` with sessions and times, for maps with a memory; they
-        are no inputs. Without ``session`` the sessions are ``groups``.
+        Columns of ``X`` with sessions (days) and times, for maps with a memory.
+        Found by names and values, as on the command line, if left out.
     seed : int
         Of all random choices.
-    interval : bool
-        Whether the map is fitted again with sessions held out, to find what it
-        may promise (:meth:`predict_interval`).
-    jobs : int
-        Threads of a fit; they change no figure.
+    interval : bool, optional
+        Whether the map is fitted again with sessions held out, for
+        :meth:`predict_interval`. If left out: yes, but not inside a search.
+    jobs : int, optional
+        Threads of a fit; they change no figure. If left out one per core, and
+        one alone inside a search.
+    budget : float, optional
+        Seconds for the comparison of ``"auto"``. The slowest models are left
+        out until the rest is expected to take no longer.
+    **options
+        Options of the model, as ``errmap models MODEL`` lists them:
+        ``degree=2``, ``view="auto"``, ``include=["position_mm", "t1_degC"]``.
+        ``GridSearchCV`` can vary each of them.
 
     Attributes
     ----------
@@ -48,42 +76,48 @@ class Map(RegressorMixin, BaseEstimator):
     --------
     >>> import numpy, errmap
     >>> x = numpy.linspace(0, 1, 20).reshape(-1, 1)
-    >>> map = errmap.Map("poly:full:degree=2").fit(x, x[:, 0] ** 2)
+    >>> map = errmap.Map(model="poly:full", degree=2).fit(x, x[:, 0] ** 2)
     >>> float(numpy.round(map.predict([[0.5]])[0], 9))
     0.25
     """
 
-    def __init__(self, spec: str = "poly:ridge", *, session: str | None = None,
-                 time: str | None = None, seed: int = 1, interval: bool = False,
-                 jobs: int = 1) -> None:
-        self.spec = spec
+    def __init__(self, model: str = "auto", *, session: str | None = None,
+                 time: str | None = None, seed: int = 1,
+                 interval: bool | None = None, jobs: int | None = None,
+                 budget: float | None = None, **options: Any) -> None:
+        self.model = model
         self.session = session
         self.time = time
         self.seed = seed
         self.interval = interval
         self.jobs = jobs
+        self.budget = budget
+        for name in options:
+            if name not in _OPTIONS:
+                raise TypeError(f"no model has an option {name!r}")
+        for name in _OPTIONS:
+            setattr(self, name, options.get(name))
+
+    def _spec(self) -> str:
+        options = [name for name in _OPTIONS if getattr(self, name) is not None]
+        if self.model == "auto" and options:
+            raise ValueError(f"{options[0]} is an option of one model: name it, "
+                             "as in errmap.Map(model='poly:ridge')")
+        return self.model + "".join(
+            f":{name}={_option_text(getattr(self, name))}" for name in options)
 
     def _columns(self, X: Any, *, reset: bool) -> dict[str, Any]:
-        """The columns of X by name, those of numbers checked."""
+        """The columns of X by name; those of an array are checked."""
         _note_names(self, X, reset)
         names = getattr(self, "feature_names_in_", None)
+        if names is not None and hasattr(X, "columns"):
+            self._check_width(len(X.columns), reset)
+            return dict(columns_of(X))
+        values = check_array(X, dtype="float64")
+        self._check_width(values.shape[1], reset)
         if names is None:
-            values = check_array(X, dtype="float64")
-            self._check_width(values.shape[1], reset)
-            return {f"x{i}": values[:, i] for i in range(values.shape[1])}
-        self._check_width(len(names), reset)
-        if not hasattr(X, "columns"):  # a frame was fitted, rows are predicted
-            X = dict(zip(names, check_array(X, dtype=None).T))
-            others = []
-        else:
-            others = [self.session, self.time]
-        inputs = [name for name in names if name not in others]
-        frame = X[inputs] if others else numpy.column_stack(
-            [X[name] for name in inputs])
-        values = check_array(frame, dtype="float64")
-        columns = {name: values[:, i] for i, name in enumerate(inputs)}
-        columns.update((name, X[name]) for name in others if name is not None)
-        return columns
+            names = [f"x{i}" for i in range(values.shape[1])]
+        return dict(zip(names, values.T))
 
     def _check_width(self, width: int, reset: bool) -> None:
         if reset:
@@ -93,17 +127,25 @@ class Map(RegressorMixin, BaseEstimator):
                 f"X has {width} features, but {type(self).__name__} is "
                 f"expecting {self.n_features_in_} features as input")
 
-    def fit(self, X: Any, y: Any, groups: Any = None) -> Map:
+    def fit(self, X: Any, y: Any, groups: Any = None,
+            sample_weight: Any = None) -> Map:
         """Fit the map to all rows.
+
+        With ``model="auto"`` it first says on stderr how long the comparison
+        takes, unless it is done at once.
 
         Parameters
         ----------
         X : array or frame (rows x inputs)
-            Units are read from the names of a frame's columns.
+            The columns of a frame are read as the command line reads a file:
+            units, position, sessions, times and inputs. Those of an array are
+            all inputs.
         y : array (rows)
             The error; its unit is read from the name of a Series.
         groups : array (rows), optional
             The session of each row.
+        sample_weight : array (rows), optional
+            Weights; rows of weight 0 are left out.
 
         Returns
         -------
@@ -112,25 +154,77 @@ class Map(RegressorMixin, BaseEstimator):
         columns = self._columns(X, reset=True)
         if y is None:
             raise ValueError("requires y to be passed, but the target y is None")
-        target = _unused(getattr(y, "name", None) or "target", columns)
         errors = column_or_1d(y, warn=True)
         errors = check_array(errors, dtype="float64", ensure_2d=False)
         check_consistent_length(errors, next(iter(columns.values())))
         if len(errors) < 2:
             raise ValueError("a map needs two rows at least, found 1 sample")
-        inputs = [name for name in columns
-                  if name not in (self.session, self.time)]
-        columns[target] = errors
-        session = self.session or "none"
+        read = {"session": self.session, "time": self.time, "seed": self.seed}
+        if not hasattr(self, "feature_names_in_"):
+            read.update(inputs=list(columns), keep_dead=True, session="none",
+                        time="none")
+
+        def add(name: str, values: Any) -> str:
+            check_consistent_length(errors, values)
+            while name in columns:
+                name += "_"
+            columns[name] = values
+            return name
+
+        read["target"] = add(str(getattr(y, "name", None) or "target"), errors)
         if groups is not None:
-            check_consistent_length(errors, groups)
-            session = _unused("session", columns)
-            columns[session] = numpy.asarray(groups)
-        text = _core.fit(table_of(columns), target, inputs, session,
-                         self.time or "none", self.spec, self.seed,
-                         self.interval, self.jobs)
-        self.map_ = MapFile(text)
+            read["session"] = add("session", numpy.asarray(groups))
+        if sample_weight is not None:
+            weights = check_array(sample_weight, dtype="float64",
+                                  ensure_2d=False)
+            if weights.ndim != 1:
+                raise ValueError("Sample weights must be 1D array or scalar")
+            read["weight"] = add("weight", weights)
+            columns = {name: numpy.asarray(column)[weights != 0]
+                       for name, column in columns.items()}
+        searched = _is_searched()
+        read["jobs"] = self.jobs or (1 if searched else None)
+        spec = self._spec()
+        if spec == "auto" and not searched:
+            self.map_ = self._recommended(columns, read)
+        else:
+            wanted = not searched if self.interval is None else self.interval
+            self.map_ = fitted(columns, "blend" if spec == "auto" else spec,
+                               {**read, "no_interval": not wanted})
         return self
+
+    def _recommended(self, columns: dict[str, Any],
+                     read: dict[str, Any]) -> MapFile:
+        costs = _core.forecast([FRAME, *words_of(read)],
+                               {FRAME: table_of(columns)})
+        jobs = self.jobs or os.cpu_count() or 1
+        kept: list[str] = []
+        seconds = 0.0
+        for model, cost in sorted(costs, key=lambda pair: pair[1]):
+            if self.budget and kept and seconds + cost / jobs > self.budget:
+                break
+            seconds += cost / jobs
+            kept.append(model)
+        slow = seconds >= 2
+        if slow:
+            print(f"errmap: compares {len(kept)} models, about {seconds:.0f} s; "
+                  f"budget=SECONDS leaves out the slowest", file=sys.stderr)
+        study = compare(columns, models=[m for m, _ in costs if m in kept],
+                        progress=slow, **read)
+        if len(study.components) > 1:
+            raise ValueError("rows go both ways along the axis, which err "
+                             "differently; fit a map to the rows of each way")
+        if study.recommendation is None:
+            warn(["warning: too few rows to recommend a map: this is the blend, "
+                  "and its error is not known"])
+            return fitted(columns, "blend", {**read, "no_interval": True})
+        return study.map()
+
+    @property
+    def equation_(self) -> str | None:
+        """The map as a formula; None of a net and of a blend."""
+        check_is_fitted(self)
+        return self.map_.equation
 
     def predict(self, X: Any) -> Any:
         """Predicted error of every row, in the unit of ``y``."""
@@ -138,21 +232,61 @@ class Map(RegressorMixin, BaseEstimator):
         return self.map_.predict(self._columns(X, reset=False), **self._where())
 
     def predict_interval(self, X: Any, coverage: int = 90) -> Any:
-        """Where the error lies with a probability (rows x 2)."""
+        """Where the error lies with a probability (rows x 2).
+
+        Warns
+        -----
+        ErrmapWarning
+            Once, where it is NaN: the map states no interval.
+        """
         check_is_fitted(self)
         return self.map_.interval(self._columns(X, reset=False), coverage,
                                   **self._where())
+
+    def plot(self, X: Any, y: Any, ax: Any = None) -> Any:
+        """Draw the error over the position, before and after compensation.
+
+        See :meth:`MapFile.plot`.
+        """
+        check_is_fitted(self)
+        columns = {**self._columns(X, reset=False),
+                   self.map_.target: numpy.asarray(y)}
+        return self.map_.plot(columns, ax, **self._where())
 
     def _where(self) -> dict[str, Any]:
         return {name: value for name, value in
                 (("session", self.session), ("time", self.time))
                 if value is not None}
 
-    def _more_tags(self) -> dict[str, Any]:
-        return {"_xfail_checks": {}}
 
-    def __sklearn_tags__(self) -> Any:
-        return super().__sklearn_tags__()
+# Each option is a parameter, as scikit-learn wants to see it.
+_signature = inspect.signature(Map.__init__)
+Map.__init__.__signature__ = _signature.replace(parameters=[  # type: ignore
+    *list(_signature.parameters.values())[:-1],
+    *(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None)
+      for name in _OPTIONS)])
+
+
+def _option_text(value: Any) -> str:
+    if isinstance(value, (bool, numpy.bool_)):
+        return "yes" if value else "no"
+    if isinstance(value, (list, tuple)):
+        return "+".join(map(_option_text, value))
+    if isinstance(value, numbers.Real):
+        return repr(int(value) if isinstance(value, numbers.Integral)
+                    else float(value))
+    return str(value)
+
+
+def _is_searched() -> bool:
+    """Whether a search or a cross-validation of scikit-learn calls."""
+    frame = sys._getframe(1)
+    while frame is not None:
+        if frame.f_globals.get("__name__", "").startswith(
+                "sklearn.model_selection."):
+            return True
+        frame = frame.f_back
+    return False
 
 
 def _note_names(estimator: Any, X: Any, reset: bool) -> None:
@@ -164,13 +298,6 @@ def _note_names(estimator: Any, X: Any, reset: bool) -> None:
         from sklearn.utils import validation
 
         validation._check_feature_names(estimator, X, reset=reset)
-
-
-def _unused(name: Any, columns: dict[str, Any]) -> str:
-    name = str(name)
-    while name in columns:
-        name += "_"
-    return name
 
 
 class SessionSplit:

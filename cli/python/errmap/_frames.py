@@ -6,6 +6,7 @@ import math
 import numbers
 import os
 import sys
+import warnings
 from typing import Any, Iterable, Mapping, Union
 
 from errmap import _core
@@ -81,7 +82,8 @@ def _name(label: Any) -> str:
     return str(label).encode("utf-8", "replace").decode()
 
 
-def _columns(frame: Measurements) -> Iterable[tuple[str, Any]]:
+def columns_of(frame: Measurements) -> Iterable[tuple[str, Any]]:
+    """The columns by name."""
     if isinstance(frame, Mapping):
         return [(_name(name), column) for name, column in frame.items()]
     if hasattr(frame, "iloc") and hasattr(frame, "columns"):
@@ -108,7 +110,7 @@ def _columns(frame: Measurements) -> Iterable[tuple[str, Any]]:
 def table_of(frame: Measurements, units: Mapping[str, str] | None = None,
              name: str = FRAME) -> _core.Table:
     """The frame as errmap reads it; a unit goes into the column's name."""
-    columns = list(_columns(frame))
+    columns = list(columns_of(frame))
     units = dict(units or {})
     unknown = set(units) - {column for column, _ in columns}
     if unknown:
@@ -219,28 +221,22 @@ def _array(column: Any) -> Any:
     return numpy.asarray(column)
 
 
-class SessionStartWarning(UserWarning):
-    """Rows begin in the midst of a session that a map's memory needs whole.
+class ErrmapWarning(UserWarning):
+    """What errmap warns of: rows that a map cannot know, a study cut short.
 
-    Give the rows before them with ``after``, or say ``from_rest=True`` where
-    the machine was at rest before the first of them.
+    Where rows begin in the midst of a session that a map's memory needs whole,
+    give the rows before them with ``after``. Say ``from_rest=True`` where the
+    machine was at rest before the first of them.
     """
 
 
-def warn(messages: Iterable[str]) -> None:
-    """Tells what errmap warns of; of sessions that begin inside, of one."""
-    import warnings
-
-    told = set()
-    for line in messages:
-        if line.startswith("warning: "):
-            begins_inside = " begins inside, " in line
-            if begins_inside and SessionStartWarning in told:
-                continue
-            category = SessionStartWarning if begins_inside else UserWarning
-            told.add(category)
-            depth = 2
-            while sys._getframe(depth).f_globals["__name__"].startswith("errmap"):
-                depth += 1
-            warnings.warn(line[len("warning: "):], category,
-                          stacklevel=depth + 1)
+def warn(messages: Iterable[str]) -> bool:
+    """Tells in one warning what errmap warns of; False where it is nothing."""
+    lines = [line[len("warning: "):] for line in messages
+             if line.startswith("warning: ")]
+    if lines:
+        depth = 1
+        while sys._getframe(depth).f_globals["__name__"].startswith("errmap"):
+            depth += 1
+        warnings.warn("; ".join(lines), ErrmapWarning, stacklevel=depth + 1)
+    return bool(lines)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from typing import Any, Mapping
+from typing import Any, Iterable, Mapping
 
 from errmap import _core
-from errmap._frames import Files, Measurements, frame_of, warn, words_of
+from errmap._frames import Files, Measurements, columns_of, frame_of, warn, words_of
 
 
 class MapFile:
@@ -33,6 +33,12 @@ class MapFile:
         self.text = text
         _core.require_map(text)
         self._document = json.loads(text)
+        self._told: set[str] = set()
+
+    def _warn_once(self, what: str, messages: Iterable[str]) -> None:
+        """Warns, the first time of each kind."""
+        if what not in self._told and warn(messages):
+            self._told.add(what)
 
     def _files(self) -> Files:
         files = Files()
@@ -71,6 +77,11 @@ class MapFile:
         """Unit of the predicted error."""
         return self._document["target"]["unit"]
 
+    @property
+    def equation(self) -> str | None:
+        """The map as a formula; None of a net and of a blend."""
+        return self._document.get("polynomial", {}).get("equation")
+
     def predictions(self, frame: Measurements, *,
                     after: Measurements | None = None,
                     probes: Measurements | None = None,
@@ -99,9 +110,9 @@ class MapFile:
 
         Warns
         -----
-        SessionStartWarning
-            Rows begin in the midst of a session: ``inside`` is 0 until the
-            map's memory is full.
+        ErrmapWarning
+            Once a map: rows are unlike those of training, or begin in the midst
+            of a session, so that the map's memory is not full.
         """
         columns = self._predict(frame, after, probes, options)
         for name in ("why", "offender", "unit"):
@@ -119,7 +130,11 @@ class MapFile:
                 words.append(f"--{name}={files.data(more, None, name)}")
         _, printed, messages = files.run(
             "predict", self._FILE, *words, accept=(0, 4))
-        warn(messages)
+        lines = [line for line in messages if line.startswith("warning: ")]
+        if len(lines) > 1:
+            lines[1:] = [f"warning: predictions() says more ({len(lines) - 1} "
+                         "lines) row by row"]
+        self._warn_once("rows", lines)
         return _core.Table.of_csv(printed, "predictions").columns()
 
     def predict(self, frame: Measurements, **options: Any) -> Any:
@@ -156,8 +171,14 @@ class MapFile:
         if coverage not in (90, 95):
             raise ValueError(f"coverage must be 90 or 95, found {coverage}")
         columns = self._predict(frame, options=options)
-        return numpy.column_stack([columns[f"lower_{coverage}"],
-                                   columns[f"upper_{coverage}"]])
+        bounds = numpy.column_stack([columns[f"lower_{coverage}"],
+                                     columns[f"upper_{coverage}"]])
+        if numpy.isnan(bounds).any():
+            self._warn_once("interval", [
+                "warning: NaN where the map states no interval; it was fitted "
+                "without one (errmap.Map(interval=True) asks for it), or to too "
+                "few rows"])
+        return bounds
 
     def inside(self, frame: Measurements, **options: Any) -> Any:
         """Whether each row is like those of training.
@@ -308,10 +329,66 @@ class MapFile:
             f"--output={os.fspath(folder)}")
         return messages
 
+    def plot(self, frame: Measurements, ax: Any = None, **options: Any) -> Any:
+        """Draw the error over the position, before and after compensation.
+
+        Needs matplotlib.
+
+        Parameters
+        ----------
+        frame : measurements
+            Inputs and target.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure, if left out.
+        **options
+            Those of :meth:`predictions`.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+        """
+        import numpy
+        from matplotlib import pyplot
+
+        if isinstance(frame, (str, os.PathLike)):
+            raise ValueError("plot: read the file first, by errmap.read_csv")
+        columns = dict(columns_of(frame))
+        reading = self._document.get("reading") or {}
+        axis = (reading.get("position") or {}).get("column") or self.inputs[0]
+        per_unit, unit = {"mm": (1e3, "um"), "m": (1e6, "um")}.get(
+            self.unit, (1.0, self.unit))
+        before = per_unit * numpy.asarray(columns[self.target], dtype="float64")
+        after = before - per_unit * self.predict(frame, **options)
+        if ax is None:
+            ax = pyplot.subplots()[1]
+        ax.axhline(0.0, color="0.8", linewidth=1, zorder=0)
+        for errors, color, what in ((before, "0.6", "without a map"),
+                                    (after, "C0", self.name)):
+            rmse = numpy.sqrt(numpy.mean(errors ** 2))
+            ax.plot(columns[axis], errors, ".", color=color,
+                    label=f"{what}: RMSE {rmse:.3g} {unit}".rstrip())
+        ax.set_xlabel(axis)
+        ax.set_ylabel(f"error, {unit}" if unit else "error")
+        ax.legend()
+        return ax
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the model file."""
         with open(path, "w", encoding="utf-8", newline="") as file:
             file.write(self.text)
+
+
+def fitted(frame: Measurements, model: str,
+           options: Mapping[str, Any]) -> MapFile:
+    """What ``errmap fit`` writes."""
+    files = Files()
+    with tempfile.TemporaryDirectory() as scratch:
+        path = os.path.join(scratch, "map.json")
+        _, _, messages = files.run(
+            "fit", files.data(frame), f"--model={model}", f"--output={path}",
+            *words_of(options))
+        warn(messages)
+        return load(path)
 
 
 def loads(text: str) -> MapFile:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import json
 import os
-import warnings
 from dataclasses import dataclass
 from html import escape
 from typing import Any, Callable, Mapping, Sequence, Union
 
 from errmap import _core
-from errmap._frames import Files, Measurements, frame_of, words_of
+from errmap._frames import Files, Measurements, frame_of, warn, words_of
 from errmap._maps import MapFile
 
 
@@ -336,5 +335,5 @@ def compare(frame: Measurements = None, *,
     finally:
         bar.close()
     if found.interrupted:
-        warnings.warn("interrupted; what was finished is shown", stacklevel=2)
+        warn(["warning: interrupted; what was finished is shown"])
     return Study(found)
