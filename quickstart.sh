@@ -4,7 +4,7 @@
 #   sh quickstart.sh        install what is missing, build, compare models on
 #                           the shipped measurements
 #   sh quickstart.sh test   the same, then the whole test suite
-#   sh quickstart.sh python the package errmap for Python, for this user
+#   sh quickstart.sh python the package errmap for the python3 on the PATH
 #
 # Safe to run again: what is installed stays, the build is incremental. A
 # package that is already there is never replaced or removed.
@@ -13,7 +13,7 @@ set -eu
 packages="g++ cmake ninja-build libeigen3-dev libopenblas-dev libceres-dev
   libnlopt-dev libnlopt-cxx-dev libboost-dev libtbb-dev libcli11-dev
   nlohmann-json3-dev libfmt-dev libtomlplusplus-dev libssl-dev libsqlite3-dev
-  zlib1g-dev libminizip-dev libpugixml-dev"
+  zlib1g-dev libminizip-dev libpugixml-dev help2man"
 test_packages="libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 python3-jsonschema chromium patch"
 python_packages="pybind11-dev python3-dev python3-pip python3-setuptools python3-wheel python3-numpy"
 # Without these a few tests are skipped.
@@ -21,7 +21,7 @@ optional_packages="pybind11-dev python3-dev python3-pandas python3-sklearn
   python3-matplotlib python3-tqdm python3-nbclient python3-ipykernel mypy r-base-core
   r-cran-jsonlite clang cmark-gfm linuxcnc-uspace linuxcnc-uspace-dev slurm-wlm munge
   openmpi-bin mosquitto python3-paho-mqtt"
-example="data/sets/nistir5367_xdisp_down.csv"
+example="data/sets/turning_centre/six_days.csv"
 
 usage="usage: sh quickstart.sh [test|python]"
 step=""
@@ -231,7 +231,7 @@ case ${1-} in
       "Installs what is missing from Debian, builds errmap into build/ and" \
       "compares models on the shipped measurements; with 'test' it then runs" \
       "the test suite; with 'python' it builds the package errmap and installs" \
-      "it for this user."
+      "it for the python3 on the PATH."
     exit 0
     ;;
   *)
@@ -266,11 +266,30 @@ fi
 cores=$(nproc 2>/dev/null || echo 2)
 
 if [ "$mode" = python ]; then
-  step="building and installing the package errmap (pip install ./cli/python)"
-  say "building the package errmap for Python: some minutes"
-  quietly env CMAKE_GENERATOR=Ninja /usr/bin/python3 -m pip install --user \
-    --break-system-packages --no-build-isolation --no-deps ./cli/python
-  /usr/bin/python3 -c 'import errmap; print("import errmap:", errmap.__version__)'
+  python=$(python3 -c 'import sys; print(sys.executable)')
+  step="building and installing the package errmap for $python (pip install ./cli/python)"
+  say "building the package errmap for $python: some minutes"
+  # Of what pip builds with, a Python without it is lent Debian's.
+  debian=/usr/lib/python3/dist-packages
+  lent=$(mktemp -d)
+  for part in setuptools wheel; do
+    "$python" -c "import $part" 2>/dev/null || ln -s "$debian/$part"* "$lent"
+  done
+  set -- --no-deps
+  if PYTHONPATH=$lent "$python" -c 'import setuptools, wheel' 2>/dev/null; then
+    set -- "$@" --no-build-isolation
+  fi
+  # An environment of its own has no packages of a user.
+  if "$python" -c 'import sys; sys.exit(sys.prefix != sys.base_prefix)'; then
+    set -- "$@" --user
+  fi
+  quietly env CMAKE_GENERATOR=Ninja "PYTHONPATH=$lent" PIP_BREAK_SYSTEM_PACKAGES=1 \
+    "$python" -m pip install "$@" ./cli/python
+  rm -r "$lent"
+  cd /
+  "$python" -c 'import errmap, os, sys
+print("errmap: installed", errmap.__version__, "for", sys.executable, "in",
+      os.path.dirname(os.path.dirname(errmap.__file__)))'
   exit 0
 fi
 

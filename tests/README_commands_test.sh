@@ -10,7 +10,7 @@
 #
 # Conventions of these pages that this relies on:
 # - In a ```sh block, each line that starts with "errmap " (in the manual and
-#   the gallery also with cut, sed and the like) is run (a trailing backslash continues it), in
+#   the gallery also with cp, sed and the like) is run (a trailing backslash continues it), in
 #   the order of the text, in one scratch folder that holds a copy of data/sets.
 #   Commands that cannot run stand in another block.
 # - A ```text block that directly follows (blank lines apart) a ```sh block with
@@ -45,7 +45,7 @@ manual | gallery)
 esac
 case $set in
 manual)
-  starts="(errmap|cut|sed|cc|python3|printf) "
+  starts="(errmap|cp|head|cut|sed|cc|python3|printf) "
   pages=$(sed -n '/^set(manual_pages/,/)/p' "$root/cli/manual/pages.cmake" |
     sed '1d; s/)//; s/ //g; s|.*|cli/manual/&.md|')
   ;;

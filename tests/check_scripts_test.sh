@@ -286,8 +286,8 @@ expect 0
 calls_lack apt-get
 calls_have "cmake --preset release"
 calls_have "--target errmap"
-output_has "running: build/errmap compare data/sets/nistir5367_xdisp_down.csv"
-output_has "table of data/sets/nistir5367_xdisp_down.csv"
+output_has "running: build/errmap compare data/sets/turning_centre/six_days.csv"
+output_has "table of data/sets/turning_centre/six_days.csv"
 
 system 0 libeigen3-dev
 expect 0

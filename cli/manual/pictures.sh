@@ -11,12 +11,12 @@ fi
 errmap=$(CDPATH='' cd -- "$(dirname -- "$1")" && pwd)/$(basename -- "$1")
 mkdir -p "$2"
 out=$(CDPATH='' cd -- "$2" && pwd)
+sets=$(CDPATH='' cd -- "$(dirname -- "$0")/../../data/sets" && pwd)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
 
-"$errmap" simulate turning-centre -o six --days 6 --cycles 10 --seed 5 --quiet
-cut -d, -f2-6,9,19,34,38,46 six/x_displacement_up.csv >six.csv
+cp "$sets/turning_centre/six_days.csv" six.csv
 "$errmap" compare six.csv --quiet --out study --models \
   mean,poly:position,poly:eq8,poly:full:degree=2,poly:ridge:view=auto,blend \
   >study.txt

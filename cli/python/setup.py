@@ -12,7 +12,8 @@ from setuptools.command.build_ext import build_ext
 
 ROOT = Path(__file__).resolve().parents[2]
 # A build of the program that is there already is used, and kept.
-BUILD = Path(os.environ.get("ERRMAP_BUILD", ROOT / "build-python"))
+BUILD = Path(os.environ.get(
+    "ERRMAP_BUILD", ROOT / f"build-{sys.implementation.cache_tag}"))
 
 
 def version() -> str:

@@ -69,10 +69,10 @@ std::string Why(data::Evidence evidence, bool sure) {
 
 std::string Described(const data::Reading& reading) {
   std::string text;
-  constexpr std::size_t kColumns = 80;
+  const std::size_t columns = OutputTerminal().text_columns();
   constexpr std::size_t kIndent = 13;
   for (const std::string& line : data::ReadingLines(reading)) {
-    text += report::WrapText(line, kColumns) + "\n";
+    text += report::WrapText(line, columns) + "\n";
   }
   const auto row = [&](const std::string& role,
                        const std::string& what,
@@ -84,7 +84,7 @@ std::string Described(const data::Reading& reading) {
                          what,
                          why.empty() ? "" : fmt::format(" ({})", why),
                          option),
-             kColumns - kIndent)) {
+             columns - kIndent)) {
       text += begin + line + "\n";
       begin.assign(kIndent, ' ');
     }
@@ -143,7 +143,7 @@ std::string Described(const data::Reading& reading) {
         "--faults drop-rows");
   }
   for (const std::string& remark : reading.remarks) {
-    text += "\n" + report::WrapText(remark, kColumns) + "\n";
+    text += "\n" + report::WrapText(remark, columns) + "\n";
   }
   return text;
 }
