@@ -98,6 +98,26 @@ class Notebook(unittest.TestCase):
         self.assertIn("<svg", shown)
 
 
+class Manual(unittest.TestCase):
+    @unittest.skipUnless(installed("sklearn") and installed("pandas")
+                         and installed("matplotlib"),
+                         "scikit-learn or matplotlib is not installed")
+    def test_its_python_runs(self):
+        with open(os.path.join(common.ROOT, "cli/manual/python.md")) as file:
+            blocks = re.findall(r"```python\n(.*?)```", file.read(), re.S)
+        self.assertGreater(len(blocks), 3)
+        days = os.path.join(common.ROOT, "data/sets/turning_centre")
+        with common.scratch() as folder:
+            for here, there in (("six", "six_days"), ("later", "later_days")):
+                shutil.copy(f"{days}/{there}.csv", f"{folder}/{here}.csv")
+            done = subprocess.run(
+                [sys.executable, "-W", "ignore", "-c", "\n".join(blocks)],
+                cwd=folder, capture_output=True, text=True,
+                env={**os.environ, "MPLBACKEND": "Agg"})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r"compares \d+ models, about \d+ s")
+
+
 class Vignette(unittest.TestCase):
     @unittest.skipUnless(shutil.which("Rscript"), "R is not installed")
     def test_of_r_runs(self):
