@@ -16,9 +16,12 @@ constexpr double kSecondsPerMinute = 60.0;
 std::string TimesText(const models::HeldOutErrors& errors,
                       const Eigen::VectorXd& elapsed) {
   if (errors.time_unit != "s") return "";
-  return fmt::format(", {:.0f} to {:.0f} min after the session began",
-                     elapsed.minCoeff() / kSecondsPerMinute,
-                     elapsed.maxCoeff() / kSecondsPerMinute);
+  const bool is_short = elapsed.maxCoeff() < 2.0 * kSecondsPerMinute;
+  const double unit = is_short ? 1.0 : kSecondsPerMinute;
+  return fmt::format(", {:.0f} to {:.0f} {} after the session began",
+                     elapsed.minCoeff() / unit,
+                     elapsed.maxCoeff() / unit,
+                     is_short ? "s" : "min");
 }
 
 std::string NameText(const data::ColumnInfo& column) {
