@@ -185,7 +185,7 @@ class Checks:
             self.same(case, "certainty", proven, "proven" in rival)
         needed = set()
         for words in (" ".join(value for _, value in rows), screen, shown(page), text):
-            needed.update(re.findall(r"(\d+) (?:days|cycles) would tell", words))
+            needed.update(re.findall(r"(\d+) (?:days|cycles) would\b", words))
             needed.update(re.findall(r"(\d+) (?:days|cycles)? ?or more in all", words))
         self.same(case, f"numbers of days {needed}", True, len(needed) <= 1)
 

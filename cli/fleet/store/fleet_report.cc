@@ -115,8 +115,7 @@ class FleetPage {
         report::HtmlText(title),
         report::kReportStyle,
         report::HtmlText(title));
-    html += Answer() + All() + Matrix() + ByField(0) + ByField(1) + Worst() +
-            Failures();
+    html += Answer() + All() + ByField(0) + ByField(1) + Worst() + Failures();
     return html + Footer() + "</main>\n</body></html>\n";
   }
 
@@ -147,8 +146,9 @@ class FleetPage {
           "mean).</p>",
           report::kPercent * all_.Left());
     }
-    return "<div class=\"answer\">" + card + report::HtmlTable(Winners()) +
-           "</div>" + "<div>" + Distribution() + "</div></div>\n";
+    return "<div class=\"answer\"><div>" + card + report::HtmlTable(Winners()) +
+           "</div>" + Matrix() + "</div><div>" + Distribution() +
+           "</div></div>\n";
   }
 
   // Where polynomials, nets, or maps that remember win.
@@ -176,10 +176,12 @@ class FleetPage {
 
   // Share of the components up to an error, before and after.
   std::string Distribution() const {
-    report::Series before{
-        .label = "no map", .mark = report::Mark::kLine, .colour = "#A33A00"};
-    report::Series after{.label = "recommended map",
-                         .mark = report::Mark::kLine};
+    report::Series before{.label = "no map",
+                          .mark = report::Mark::kLine,
+                          .colour = "#A33A00",
+                          .size = 2.2};
+    report::Series after{
+        .label = "recommended map", .mark = report::Mark::kLine, .size = 2.2};
     std::vector<double> errors_before;
     std::vector<double> errors_after;
     std::int64_t left_out = 0;
@@ -220,7 +222,7 @@ class FleetPage {
         false);
   }
 
-  // (error, percent of the errors up to it), at most kMost points.
+  // Steps of (error, percent of the errors up to it), at most kMost.
   static std::vector<std::vector<double>> Shares(std::vector<double> errors) {
     constexpr std::size_t kMost = 200;
     std::erase_if(errors, [](double e) { return !(e > 0.0) || std::isinf(e); });
@@ -230,7 +232,8 @@ class FleetPage {
     for (std::size_t i = 0; i < points; ++i) {
       const std::size_t at =
           points == 1 ? 0 : i * (errors.size() - 1) / (points - 1);
-      columns[0].push_back(errors[at]);
+      columns[0].insert(columns[0].end(), 2, errors[at]);
+      columns[1].push_back(i == 0 ? 0.0 : columns[1].back());
       columns[1].push_back(report::kPercent * static_cast<double>(at + 1) /
                            static_cast<double>(errors.size()));
     }

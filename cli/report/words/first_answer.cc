@@ -336,8 +336,9 @@ class AnswerWriter {
     const auto needed =
         apart ? 0 : There(numbers_.Verdict(advice_.holdout).obstacle).needed;
     if (needed > 0) {
-      text += fmt::format("; {} would tell the maps apart",
-                          CountOfUnits(needed, holdout_));
+      text += fmt::format("; {} would{}",
+                          CountOfUnits(needed, holdout_),
+                          little ? " tell the maps apart" : "");
     }
     Add("how sure", text, little ? Tone::kBad : Tone::kPlain);
   }

@@ -209,7 +209,7 @@ TEST_F(CliMemory, AddsBlocksWhereSessionsAreTooFewToDecide) {
               HasSubstr("errmap: 2 sessions by 'day'; time by 'time_s'"));
   Write("one.csv", Days(1));
   EXPECT_THAT(OneLine(Run({"compare", "one.csv", "--models", "mean"}).out),
-              AllOf(HasSubstr("no groups, one run"),
+              AllOf(HasSubstr("in 1 session (by day)"),
                     HasSubstr("not measured: this is one run")));
 }
 

@@ -58,6 +58,7 @@ TEST(Report, BeginsTheScreenWithTheVerdict) {
 
 TEST(Report, SaysWhyNothingIsRecommended) {
   models::ComponentRecord nothing;
+  nothing.data.rows = 60;
   EXPECT_THAT(VerdictText(nothing), HasSubstr("none could be judged"));
   nothing.interrupted = true;
   EXPECT_THAT(VerdictText(nothing), HasSubstr("interrupted"));
