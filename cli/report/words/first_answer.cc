@@ -172,12 +172,14 @@ class AnswerWriter {
     const bool errs_less = numbers_.Rmse(*rival, advice_.holdout) <
                            numbers_.Rmse(advice_.model, advice_.holdout);
     if (*rival == "zero" && !errs_less) return;  // has a line of its own
+    const bool alike = RmseOf(*rival) == RmseOf(advice_.model);
     Add(IsBaseline() ? "best other map" : "simplest rival",
-        fmt::format("{}, {}{}; {}",
-                    RmseOf(*rival),
-                    *rival,
-                    errs_less ? ", which errs less" : "",
-                    Certainty(*rival)));
+        alike ? fmt::format("{}, {}: as good", RmseOf(*rival), *rival)
+              : fmt::format("{}, {}{}; {}",
+                            RmseOf(*rival),
+                            *rival,
+                            errs_less ? ", which errs less" : "",
+                            Certainty(*rival)));
   }
 
   void AddAnotherDay() {
