@@ -96,8 +96,11 @@ find $folders -type f \( -name '*.h' -o -name '*.cc' \) -exec awk '
     # Libraries of their own: a record as words, tables, figures, pages.
     rooms["cli/report"] = ""
     rooms["cli/report/figures"] = " cli/report "
-    rooms["cli/report/words"] = rooms["cli/report/figures"]
-    rooms["cli/report/tables"] = rooms["cli/report/words"] "cli/report/words "
+    rooms["cli/report/words/answers"] = rooms["cli/report/figures"]
+    rooms["cli/report/words/commands"] = rooms["cli/report/words/answers"] \
+                                         "cli/report/words/answers "
+    rooms["cli/report/tables"] = rooms["cli/report/words/commands"] \
+                                 "cli/report/words/commands "
     rooms["cli/report/documents"] = rooms["cli/report/tables"] \
                                     "cli/report/tables cli/report/figures "
     # What a study or a machine is given, and its run.

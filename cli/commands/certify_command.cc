@@ -8,7 +8,7 @@
 #include "cli/commands/format_option.h"
 #include "cli/json_blocks.h"
 #include "cli/report/number_text.h"
-#include "cli/report/words/certify_text.h"
+#include "cli/report/words/commands/certify_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"

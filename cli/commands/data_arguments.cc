@@ -12,7 +12,7 @@
 
 #include "cli/command.h"
 #include "cli/commands/reading_option.h"
-#include "cli/report/words/fault_text.h"
+#include "cli/report/words/commands/fault_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/command_reference.h"
 #include "cli/shell/standard_streams.h"

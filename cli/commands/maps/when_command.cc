@@ -13,7 +13,7 @@
 #include "cli/desk/provenance.h"
 #include "cli/json_blocks.h"
 #include "cli/report/number_text.h"
-#include "cli/report/words/when_text.h"
+#include "cli/report/words/commands/when_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"

@@ -21,7 +21,7 @@
 #include "cli/output/output_folder.h"
 #include "cli/report/documents/study_table.h"
 #include "cli/report/report.h"
-#include "cli/report/words/check_text.h"
+#include "cli/report/words/commands/check_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/standard_streams.h"

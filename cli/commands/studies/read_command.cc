@@ -9,7 +9,7 @@
 #include "cli/commands/data_arguments.h"
 #include "cli/commands/format_option.h"
 #include "cli/output/claimed_folder.h"
-#include "cli/report/words/fault_text.h"
+#include "cli/report/words/commands/fault_text.h"
 #include "cli/report/wrap_text.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"

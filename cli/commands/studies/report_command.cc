@@ -13,7 +13,7 @@
 #include "cli/report/documents/report_html.h"
 #include "cli/report/figures/figures.h"
 #include "cli/report/report.h"
-#include "cli/report/words/data_words.h"
+#include "cli/report/words/answers/data_words.h"
 #include "cli/shell/command_options.h"
 #include "cli/shell/standard_streams.h"
 #include "data/files/atomic_file.h"

@@ -7,7 +7,7 @@
 
 #include "cli/desk/plan/rough_time.h"
 #include "cli/report/number_text.h"
-#include "cli/report/words/data_words.h"
+#include "cli/report/words/answers/data_words.h"
 #include "cli/report/wrap_text.h"
 #include "data/text.h"
 

@@ -10,7 +10,7 @@
 
 #include "cli/desk/data_options.h"
 #include "cli/desk/plan/component_names.h"
-#include "cli/report/words/fault_text.h"
+#include "cli/report/words/commands/fault_text.h"
 #include "data/argument_name.h"
 #include "data/csv.h"
 #include "data/files/shown_path.h"

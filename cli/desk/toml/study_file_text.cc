@@ -11,7 +11,7 @@
 #include "cli/desk/study_options.h"
 #include "cli/desk/toml/toml_text.h"
 #include "cli/report/number_text.h"
-#include "cli/report/words/data_words.h"
+#include "cli/report/words/answers/data_words.h"
 #include "cli/report/wrap_text.h"
 #include "data/measurements/column_roles.h"
 #include "data/text.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cli/report/report_view.h"
-#include "cli/report/words/first_answer.h"
+#include "cli/report/words/answers/first_answer.h"
 
 namespace errmap::report {
 

@@ -15,9 +15,9 @@
 #include "cli/report/tables/machine_tables.h"
 #include "cli/report/tables/report_tables.h"
 #include "cli/report/tables/result_table.h"
-#include "cli/report/words/data_words.h"
-#include "cli/report/words/next_steps.h"
-#include "cli/report/words/verdict_text.h"
+#include "cli/report/words/answers/data_words.h"
+#include "cli/report/words/answers/next_steps.h"
+#include "cli/report/words/answers/verdict_text.h"
 
 namespace errmap::report {
 namespace {

@@ -7,7 +7,7 @@
 #include "cli/report/tables/machine_tables.h"
 #include "cli/report/tables/report_tables.h"
 #include "cli/report/tables/result_table.h"
-#include "cli/report/words/data_words.h"
+#include "cli/report/words/answers/data_words.h"
 
 namespace errmap::report {
 namespace {

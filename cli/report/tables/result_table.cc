@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/report/plot.h"
-#include "cli/report/words/verdict_text.h"
+#include "cli/report/words/answers/verdict_text.h"
 #include "cli/report/wrap_text.h"
 #include "data/text.h"
 

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/report/words/remark_text.h"
+#include "cli/report/words/answers/remark_text.h"
 #include "data/input_error.h"
 #include "data/measurements/dataset.h"
 #include "models/comparison/compare.h"

@@ -1,4 +1,4 @@
-#include "cli/report/words/first_answer.h"
+#include "cli/report/words/answers/first_answer.h"
 
 #include <random>
 #include <sstream>
@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/report/words/verdict_text.h"
+#include "cli/report/words/answers/verdict_text.h"
 #include "cli/report/wrap_text.h"
 #include "tests/cli/report/report_document.h"
 

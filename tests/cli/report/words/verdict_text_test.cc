@@ -1,12 +1,12 @@
-#include "cli/report/words/verdict_text.h"
+#include "cli/report/words/answers/verdict_text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/report/words/interval_text.h"
-#include "cli/report/words/mark_words.h"
+#include "cli/report/words/answers/interval_text.h"
+#include "cli/report/words/answers/mark_words.h"
 #include "cli/report/wrap_text.h"
 #include "data/input_error.h"
 #include "tests/cli/report/report_document.h"

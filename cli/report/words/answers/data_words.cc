@@ -1,4 +1,4 @@
-#include "cli/report/words/data_words.h"
+#include "cli/report/words/answers/data_words.h"
 
 #include <string_view>
 

@@ -1,4 +1,4 @@
-#include "cli/report/words/outside_text.h"
+#include "cli/report/words/commands/outside_text.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cli/report/words/verdict_text.h"
+#include "cli/report/words/answers/verdict_text.h"
 
 #include <algorithm>
 #include <iterator>
@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "cli/report/words/component_numbers.h"
-#include "cli/report/words/first_answer.h"
-#include "cli/report/words/remark_text.h"
-#include "cli/report/words/rezero_text.h"
-#include "cli/report/words/verdict_sentences.h"
+#include "cli/report/words/answers/component_numbers.h"
+#include "cli/report/words/answers/first_answer.h"
+#include "cli/report/words/answers/remark_text.h"
+#include "cli/report/words/answers/rezero_text.h"
+#include "cli/report/words/answers/verdict_sentences.h"
 #include "cli/report/wrap_text.h"
 #include "data/input_error.h"
 #include "data/text.h"

@@ -1,4 +1,4 @@
-#include "cli/report/words/kept_promise_text.h"
+#include "cli/report/words/commands/kept_promise_text.h"
 
 #include <algorithm>
 #include <cmath>

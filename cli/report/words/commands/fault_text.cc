@@ -1,4 +1,4 @@
-#include "cli/report/words/fault_text.h"
+#include "cli/report/words/commands/fault_text.h"
 
 #include <algorithm>
 #include <cmath>

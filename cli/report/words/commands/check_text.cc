@@ -1,4 +1,4 @@
-#include "cli/report/words/check_text.h"
+#include "cli/report/words/commands/check_text.h"
 
 #include <algorithm>
 #include <cmath>

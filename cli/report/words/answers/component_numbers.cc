@@ -1,4 +1,4 @@
-#include "cli/report/words/component_numbers.h"
+#include "cli/report/words/answers/component_numbers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "cli/report/words/regression_text.h"
+#include "cli/report/words/commands/regression_text.h"
 
 #include <algorithm>
 #include <cmath>

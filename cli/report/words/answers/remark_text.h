@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "cli/report/words/component_numbers.h"
+#include "cli/report/words/answers/component_numbers.h"
 
 namespace errmap::report {
 

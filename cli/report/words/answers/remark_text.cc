@@ -1,4 +1,4 @@
-#include "cli/report/words/remark_text.h"
+#include "cli/report/words/answers/remark_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "cli/report/number_text.h"
-#include "cli/report/words/interval_text.h"
-#include "cli/report/words/verdict_sentences.h"
+#include "cli/report/words/answers/interval_text.h"
+#include "cli/report/words/answers/verdict_sentences.h"
 #include "data/text.h"
 #include "data/units.h"
 

@@ -1,4 +1,4 @@
-#include "cli/report/words/learning_text.h"
+#include "cli/report/words/commands/learning_text.h"
 
 #include <algorithm>
 #include <cmath>

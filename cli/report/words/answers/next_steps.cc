@@ -1,4 +1,4 @@
-#include "cli/report/words/next_steps.h"
+#include "cli/report/words/answers/next_steps.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 #include "cli/report/number_text.h"
 #include "cli/report/shell_word.h"
-#include "cli/report/words/component_numbers.h"
-#include "cli/report/words/verdict_text.h"
+#include "cli/report/words/answers/component_numbers.h"
+#include "cli/report/words/answers/verdict_text.h"
 #include "data/text.h"
 
 namespace errmap::report {

@@ -1,4 +1,4 @@
-#include "cli/report/words/verdict_sentences.h"
+#include "cli/report/words/answers/verdict_sentences.h"
 
 #include <algorithm>
 #include <cmath>

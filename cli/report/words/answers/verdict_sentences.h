@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "cli/report/words/component_numbers.h"
+#include "cli/report/words/answers/component_numbers.h"
 
 namespace errmap::report {
 

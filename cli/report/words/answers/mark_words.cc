@@ -1,10 +1,10 @@
-#include "cli/report/words/mark_words.h"
+#include "cli/report/words/answers/mark_words.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "cli/report/words/component_numbers.h"
+#include "cli/report/words/answers/component_numbers.h"
 
 namespace errmap::report {
 namespace {

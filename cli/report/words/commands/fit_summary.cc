@@ -1,4 +1,4 @@
-#include "cli/report/words/fit_summary.h"
+#include "cli/report/words/commands/fit_summary.h"
 
 #include <cmath>
 

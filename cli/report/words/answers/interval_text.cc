@@ -1,8 +1,8 @@
-#include "cli/report/words/interval_text.h"
+#include "cli/report/words/answers/interval_text.h"
 
 #include <fmt/format.h>
 
-#include "cli/report/words/component_numbers.h"
+#include "cli/report/words/answers/component_numbers.h"
 
 namespace errmap::report {
 

@@ -1,4 +1,4 @@
-#include "cli/report/words/rezero_text.h"
+#include "cli/report/words/answers/rezero_text.h"
 
 #include <algorithm>
 #include <cctype>

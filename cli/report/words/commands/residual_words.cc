@@ -1,4 +1,4 @@
-#include "cli/report/words/residual_words.h"
+#include "cli/report/words/commands/residual_words.h"
 
 #include <cmath>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "cli/report/words/residual_text.h"
+#include "cli/report/words/commands/residual_text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "cli/report/words/certify_text.h"
+#include "cli/report/words/commands/certify_text.h"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "cli/report/words/first_answer.h"
+#include "cli/report/words/answers/first_answer.h"
 
 #include <algorithm>
 #include <cctype>
@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "cli/report/number_text.h"
-#include "cli/report/words/component_numbers.h"
-#include "cli/report/words/rezero_text.h"
+#include "cli/report/words/answers/component_numbers.h"
+#include "cli/report/words/answers/rezero_text.h"
 #include "cli/report/wrap_text.h"
 #include "data/text.h"
 #include "models/study/judgement/goal.h"

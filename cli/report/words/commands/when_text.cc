@@ -1,4 +1,4 @@
-#include "cli/report/words/when_text.h"
+#include "cli/report/words/commands/when_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/report/number_text.h"
-#include "cli/report/words/rezero_text.h"
+#include "cli/report/words/answers/rezero_text.h"
 #include "data/text.h"
 
 namespace errmap::report {
