@@ -20,8 +20,10 @@
 #include "data/tables/folded_positions.h"
 #include "data/tables/gzip.h"
 #include "data/tables/missing_cells.h"
+#include "data/tables/odd_rows.h"
 #include "data/tables/spreadsheet.h"
 #include "data/tables/text_encoding.h"
+#include "data/tables/thousands.h"
 #include "data/tables/unit_cells.h"
 #include "data/text.h"
 #include "data/text_index.h"
@@ -29,37 +31,6 @@
 
 namespace errmap::data {
 namespace {
-
-// What a column of numbers looks like, to tell a point that parts thousands.
-struct ColumnShape {
-  bool all_threes = true;  // each point or comma has three digits behind it
-  bool any_parted = false;
-  double most_parted = 0.0;  // the largest of those, read as decimals
-  double most_whole = 0.0;   // the largest number without
-  bool by_thousands = false;
-};
-
-// "1.050", "-215.900": one to three digits, none of them a 0 in front, a point
-// or comma, three digits.
-bool MayPartThousands(std::string_view number, std::size_t point) {
-  const std::string_view behind = number.substr(point + 1);
-  if (behind.size() != 3 ||
-      behind.find_first_not_of("0123456789") != std::string_view::npos) {
-    return false;
-  }
-  std::string_view before = number.substr(0, point);
-  if (before.starts_with('-') || before.starts_with('+')) {
-    before.remove_prefix(1);
-  }
-  return !before.empty() && before.size() <= 3 && before.front() != '0';
-}
-
-// Lines in a row as one: (first, last), cells.
-struct OddRun {
-  std::size_t first;
-  std::size_t last;
-  std::size_t cells;
-};
 
 class Parser {
  public:
@@ -95,7 +66,8 @@ class Parser {
     LeaveOutCutLine();
     const CsvCells::Position begin = cells_.position();
     ReadRows();
-    if (PartThousands()) {
+    if (PartThousands(
+            table_, &shapes_, [this](const std::string& what) { Say(what); })) {
       ForgetRows();
       cells_.GoTo(begin);
       ReadRows();
@@ -240,24 +212,6 @@ class Parser {
                 Printable(name, kShownName) + "mm)");
   }
 
-  // What the unit of a column of this name and unit makes of it; throws where
-  // the two do not agree.
-  std::string WithUnit(const std::string& name, std::string_view unit) const {
-    const Header header = data::ReadHeader(name);
-    if (header.source == UnitSource::kStated) {
-      if (header.unit ==
-          data::ReadHeader("x [" + std::string(unit) + "]").unit) {
-        return name;
-      }
-      ThrowAt(cells_.line(),
-              "the unit " + QuotedText(unit) + " of column " +
-                  QuotedName(name) +
-                  " is another than in its name; correct "
-                  "one of them");
-    }
-    return name + " [" + std::string(unit) + "]";
-  }
-
   // The cells of a record from the cursor on, which stays.
   std::vector<std::string> PeekRecord(std::size_t record) {
     const auto saved = cells_.position();
@@ -302,7 +256,14 @@ class Parser {
     for (std::size_t i = 0; i < units.size(); ++i) {
       CsvColumn& column = table_.columns[i];
       if (!units[i].empty() && column.has_name) {
-        column.name = WithUnit(column.name, units[i]);
+        std::optional<std::string> name = NameWithUnit(column.name, units[i]);
+        if (!name) {
+          ThrowAt(cells_.line(),
+                  "the unit " + QuotedText(units[i]) + " of column " +
+                      QuotedName(column.name) +
+                      " is another than in its name; correct one of them");
+        }
+        column.name = std::move(*name);
       }
     }
     cells_.SkipLine();
@@ -447,13 +408,9 @@ class Parser {
   [[noreturn]] void ThrowAnotherTable(std::size_t line,
                                       std::size_t found) const {
     throw InputError(File() + ": line " + std::to_string(line) +
-                     ": another table begins here (" + Fields(found) +
+                     ": another table begins here (" + FieldsText(found) +
                      "); keep one table in a file, and the others in files of "
                      "their own");
-  }
-
-  static std::string Fields(std::size_t count) {
-    return std::to_string(count) + (count == 1 ? " field" : " fields");
   }
 
   // Takes back the cells of the row that is being read.
@@ -475,14 +432,7 @@ class Parser {
 
   void TakeOddRow(std::size_t line, std::size_t found) {
     UndoRow();
-    ++num_odd_;
-    if (!odd_rows_.empty() && odd_rows_.back().last + 1 == line &&
-        odd_rows_.back().cells == found) {
-      odd_rows_.back().last = line;
-    } else {
-      odd_rows_.push_back({line, line, found});
-    }
-    if (first_odd_row_ == kNoRow) first_odd_row_ = table_.num_rows;
+    odd_rows_.Add(line, found, table_.num_rows);
   }
 
   // ---- Rows of another length.
@@ -494,7 +444,9 @@ class Parser {
       const CsvColumn& column = table_.columns[i];
       if (short_rows_.empty() || IsEmpty(column)) continue;
       for (const std::size_t line : short_rows_) TakeOddRow(line, i);
-      ThrowOddRows();
+      throw InputError(File() + ": " +
+                       odd_rows_.RefusalText(
+                           layout_, table_.num_rows, odd_, cells_.delimiter));
     }
   }
 
@@ -506,68 +458,11 @@ class Parser {
   void JudgeOddRows() {
     JudgeShortRows();
     if (odd_rows_.empty()) return;
-    if (odd_ != OddRows::kLeaveOut || table_.num_rows == 0) ThrowOddRows();
-    Say((num_odd_ == 1 ? "1 row is" : std::to_string(num_odd_) + " rows are") +
-        " left out for another number of cells than " + Expected() + ": " +
-        OddLines());
-  }
-
-  std::string Expected() const {
-    return (layout_.header_line == 0 ? "the other rows' " : "the header's ") +
-           std::to_string(layout_.width);
-  }
-
-  std::string OddLines() const {
-    constexpr std::size_t kMostShown = 12;
-    std::string list;
-    for (std::size_t i = 0; i < std::min(odd_rows_.size(), kMostShown); ++i) {
-      const OddRun& run = odd_rows_[i];
-      const std::string first = std::to_string(run.first);
-      list +=
-          (i == 0 ? "" : ", ") +
-          (run.first == run.last ? "line " + first + " has "
-                                 : "lines " + first + " to " +
-                                       std::to_string(run.last) + " have ") +
-          std::to_string(run.cells);
-    }
-    if (odd_rows_.size() > kMostShown) list += ", and so on";
-    return list;
-  }
-
-  [[noreturn]] void ThrowOddRows() const {
-    const OddRun& first = odd_rows_.front();
-    const bool is_one = num_odd_ == 1;
-    const bool is_all =
-        table_.num_rows == 0 && odd_rows_.size() == 1 && !is_one;
-    std::string what = File() + ": ";
-    if (is_all) {
-      what += "line " + std::to_string(first.first) + ": " +
-              Fields(first.cells) + ", in all rows, where the header has " +
-              std::to_string(layout_.width) +
-              "; give it a name for each, or take the others out";
-    } else if (is_one) {
-      what += "line " + std::to_string(first.first) + " (data row " +
-              std::to_string(first_odd_row_) + "): " + Fields(first.cells) +
-              " where " +
-              (layout_.header_line == 0 ? "the other rows have "
-                                        : "the header has ") +
-              std::to_string(layout_.width) + "; complete the row or remove it";
-    } else {
-      what += std::to_string(num_odd_) +
-              " rows have another number of cells than " + Expected() + ": " +
-              OddLines() + "; complete them or remove them";
-    }
-    if (odd_ == OddRows::kOffer && table_.num_rows > 0) {
-      what += ", or leave " + std::string(is_one ? "it" : "them") +
-              " out with " + ArgumentName("missing", "drop-rows");
-    }
-    if (cells_.delimiter == ',' && first.cells > layout_.width &&
-        first_odd_row_ == 0) {
-      what +=
-          " (if these are decimal commas, write decimal points or separate "
-          "the columns with ; or tab)";
-    }
-    throw InputError(what);
+    if (odd_ != OddRows::kLeaveOut || table_.num_rows == 0)
+      throw InputError(File() + ": " +
+                       odd_rows_.RefusalText(
+                           layout_, table_.num_rows, odd_, cells_.delimiter));
+    Say(odd_rows_.LeftOutText(layout_));
   }
 
   void SayWhatWasPassedOver() {
@@ -584,46 +479,6 @@ class Parser {
     }
   }
 
-  // ---- Points and commas that part thousands.
-
-  // Finds the columns of numbers where they do; true where there is one.
-  bool PartThousands() {
-    bool any = false;
-    for (std::size_t i = 0; i < shapes_.size(); ++i) {
-      ColumnShape& shape = shapes_[i];
-      if (!shape.any_parted || !shape.all_threes ||
-          shape.most_whole <= shape.most_parted) {
-        continue;
-      }
-      // Beside numbers of three digits the next have a mark after the first;
-      // those of four have none, so that it is not the file's way.
-      constexpr double kThreeDigits = 100.0;
-      constexpr double kFourDigits = 1000.0;
-      const CsvColumn& column = table_.columns[i];
-      const auto first =
-          std::max(column.first_decimal_comma, column.first_decimal_point);
-      const double value = column.values[static_cast<std::size_t>(first)];
-      const std::string name = "column " + QuotedName(column.name);
-      const std::string place =
-          " (line " +
-          std::to_string(table_.LineOfRow(static_cast<std::size_t>(first))) +
-          ")";
-      if (shape.most_whole >= kThreeDigits && shape.most_whole < kFourDigits) {
-        shape.by_thousands = true;
-        any = true;
-        Say(name +
-            " is read with marks between thousands, as its other "
-            "numbers are whole: " +
-            CsvNumber(kFourDigits * value) + place);
-      } else {
-        Say(name + " has numbers with three decimals among whole ones: " +
-            CsvNumber(value) + place + "; if its mark parts thousands, write " +
-            CsvNumber(kFourDigits * value));
-      }
-    }
-    return any;
-  }
-
   void ForgetRows() {
     for (CsvColumn& column : table_.columns) {
       column.values = {};
@@ -634,10 +489,9 @@ class Parser {
     texts_.assign(table_.columns.size(), {});
     table_.line_runs.clear();
     table_.num_rows = 0;
-    odd_rows_.clear();
+    odd_rows_ = {};
     short_rows_.clear();
-    first_odd_row_ = kNoRow;
-    num_odd_ = num_blank_ = num_names_again_ = 0;
+    num_blank_ = num_names_again_ = 0;
   }
 
   // ---- Cells.
@@ -697,7 +551,6 @@ class Parser {
     column->values.push_back(std::numeric_limits<double>::quiet_NaN());
   }
 
-  static constexpr std::size_t kNoRow = std::string::npos;
   static constexpr std::size_t kShownName = 20;
 
   std::string_view text_;
@@ -719,9 +572,7 @@ class Parser {
   bool last_named_is_empty_ = false;
 
   // Rows that are not in the table.
-  std::vector<OddRun> odd_rows_;
-  std::size_t num_odd_ = 0;
-  std::size_t first_odd_row_ = kNoRow;
+  OddRowList odd_rows_;
   std::vector<std::size_t> short_rows_;  // lines; they are in the table
   std::size_t num_blank_ = 0;
   std::size_t num_names_again_ = 0;

@@ -35,4 +35,15 @@ bool AreUnitCells(std::vector<std::string> cells) {
   return any;
 }
 
+std::optional<std::string> NameWithUnit(const std::string& name,
+                                        std::string_view unit) {
+  const std::string with_unit = name + " [" + std::string(unit) + "]";
+  const Header header = ReadHeader(name);
+  if (header.source != UnitSource::kStated) return with_unit;
+  if (header.unit != ReadHeader("x [" + std::string(unit) + "]").unit) {
+    return std::nullopt;
+  }
+  return name;
+}
+
 }  // namespace errmap::data

@@ -24,6 +24,7 @@
 #include "cli/shell/standard_streams.h"
 #include "cli/shell/terminal.h"
 #include "data/files/shown_path.h"
+#include "data/measurements/reading/directions.h"
 #include "data/measurements/reading/read_table.h"
 #include "data/text.h"
 #include "fitting/interruption.h"

@@ -18,6 +18,7 @@
 #include "data/measurements/joined_tables.h"
 #include "data/measurements/measured_files.h"
 #include "data/measurements/merged_log.h"
+#include "data/measurements/reading/directions.h"
 #include "data/measurements/reading/read_table.h"
 #include "data/text.h"
 #include "models/comparison/compare.h"

@@ -18,6 +18,7 @@
 #include "data/measurements/faults/row_faults.h"
 #include "data/measurements/making/idle_inputs.h"
 #include "data/measurements/making/leaking_inputs.h"
+#include "data/measurements/making/value_checks.h"
 #include "data/measurements/making/word_columns.h"
 #include "data/measurements/reading/read_table.h"
 #include "data/measurements/rounded.h"
@@ -200,9 +201,15 @@ class DatasetBuilder {
   void TakeTarget() {
     parts_.target = Info(roles_.target);
     parts_.target_values = ValuesOfRows(table_.At(roles_.target), parts_.rows);
-    RequireSquares("target", parts_.target.name, parts_.target_values);
+    RequireSquares(table_,
+                   parts_.rows,
+                   "target",
+                   parts_.target.name,
+                   parts_.target_values);
     if (selection_.only_to_judge) return;
-    SayIfUnlikely();
+    if (auto remark = UnlikelySize(parts_.target, parts_.target_values)) {
+      remarks_.push_back(std::move(*remark));
+    }
     const double first = parts_.target_values(0);
     if (!(parts_.target_values.array() == first).all()) return;
     ThrowUnusable(
@@ -216,48 +223,12 @@ class DatasetBuilder {
             ArgumentName("target"));
   }
 
-  // A machine that errs by millimetres, or by less than most can measure, is
-  // one whose numbers are in another unit, more often than not.
-  void SayIfUnlikely() {
-    constexpr double kMost = 1000.0;  // um, RMS
-    constexpr double kLeast = 0.05;
-    const Unit& unit = parts_.target.unit;
-    const Unit um = UnitOfSymbol("um");
-    if (!AreConvertible(unit, um)) return;
-    const double rms =
-        parts_.target_values.norm() /
-        std::sqrt(static_cast<double>(parts_.target_values.size()));
-    const double size = Converted(rms, unit, um);
-    if (size == 0.0 || (size >= kLeast && size <= kMost)) return;
-    remarks_.push_back(
-        NameInRemark(parts_.target.name) + " is " + Rounded(rms) + " " +
-        unit.symbol + " RMS, " + (size > kMost ? "more" : "less") +
-        " than machine tools err by; if it is in another unit, write that into "
-        "its name: error_um, 'error [mm]'");
-  }
-
-  // Every figure of a target or an input is a sum of squares.
-  void RequireSquares(const std::string& what,
-                      const std::string& column,
-                      const Eigen::Ref<const Eigen::VectorXd>& values) const {
-    constexpr double kMost = 1e100;
-    constexpr double kLeast = 1e-100;
-    Eigen::Index row = 0;
-    const double largest = values.cwiseAbs().maxCoeff(&row);
-    if (largest == 0.0 || (largest >= kLeast && largest <= kMost)) return;
-    throw InputError(
-        table_.Where(static_cast<std::size_t>(
-                         parts_.rows[static_cast<std::size_t>(row)]),
-                     column) +
-        ": the largest " + what + ", " + CsvNumber(values[row]) +
-        ", is no size between 1e-100 and 1e100, whose squares can be summed; "
-        "correct it or choose another unit");
-  }
-
   void RequireSquaresOfInputs() const {
     if (selection_.only_to_judge) return;
     for (std::size_t i = 0; i < parts_.inputs.size(); ++i) {
-      RequireSquares("input",
+      RequireSquares(table_,
+                     parts_.rows,
+                     "input",
                      parts_.inputs[i].name,
                      parts_.input_values.col(static_cast<Eigen::Index>(i)));
     }
@@ -354,18 +325,6 @@ class DatasetBuilder {
     return sessions;
   }
 
-  std::vector<Eigen::Index> SessionStarts() const {
-    std::vector<Eigen::Index> starts;
-    if (NumSessions() == 0) return starts;
-    const std::vector<Eigen::Index> sessions = SessionOfRows();
-    for (std::size_t i = 0; i < sessions.size(); ++i) {
-      if (i == 0 || sessions[i] != sessions[i - 1]) {
-        starts.push_back(static_cast<Eigen::Index>(i));
-      }
-    }
-    return starts;
-  }
-
   // Before anything is made of the rows.
   void LookForFaults() {
     const MeasuredColumns measured{.target = parts_.target,
@@ -376,7 +335,10 @@ class DatasetBuilder {
                                    .num_sessions = NumSessions()};
     faults_ = FindColumnFaults(measured);
     if (std::optional<ColumnFault> drift =
-            FindColdDrift(measured, SessionStarts(), faults_)) {
+            FindColdDrift(measured,
+                          NumSessions() == 0 ? std::vector<Eigen::Index>()
+                                             : RunsIn(SessionOfRows()),
+                          faults_)) {
       faults_.push_back(*std::move(drift));
     }
     if (!repeated_rows_.empty()) {
@@ -561,16 +523,6 @@ class DatasetBuilder {
   const Eigen::MatrixXd& LogValues() const {
     static const Eigen::MatrixXd kNone;
     return parts_.log ? parts_.log->input_values : kNone;
-  }
-
-  static bool HasTwoValues(const Eigen::Ref<const Eigen::VectorXd>& values) {
-    double other = std::numeric_limits<double>::quiet_NaN();
-    for (const double value : values) {
-      if (value == values[0] || std::isnan(value)) continue;
-      if (std::isnan(other)) other = value;
-      if (value != other) return false;
-    }
-    return !std::isnan(other);
   }
 
   // The reading, with what the values of the columns in use added.

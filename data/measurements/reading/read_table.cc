@@ -13,6 +13,10 @@
 #include "data/measurements/column_checks.h"
 #include "data/measurements/faults/row_faults.h"
 #include "data/measurements/reading/column_words.h"
+#include "data/measurements/reading/derived_columns.h"
+#include "data/measurements/reading/describe_sessions.h"
+#include "data/measurements/reading/directions.h"
+#include "data/measurements/reading/pass_counter.h"
 #include "data/measurements/row_filters.h"
 #include "data/text.h"
 
@@ -23,111 +27,6 @@ using Eigen::Index;
 
 constexpr std::size_t kNoTarget = static_cast<std::size_t>(-1);
 constexpr Index kFewestRowsInOrder = 12;
-
-// The same numbers without a copy of them; `table` must outlive it.
-CsvTable Borrowed(const CsvTable& table) {
-  CsvTable borrowed = {.file = table.file,
-                       .columns = {},
-                       .num_rows = table.num_rows,
-                       .line_runs = table.line_runs,
-                       .parts = table.parts,
-                       .titles = table.titles,
-                       .remarks = table.remarks};
-  const std::shared_ptr<const void> keeper(&table, [](const void*) {});
-  for (const CsvColumn& column : table.columns) {
-    CsvColumn& copy = borrowed.columns.emplace_back(
-        CsvColumn{.name = column.name,
-                  .has_name = column.has_name,
-                  .values = {},
-                  .exceptions = column.exceptions,
-                  .texts = column.texts,
-                  .first_decimal_comma = column.first_decimal_comma,
-                  .first_decimal_point = column.first_decimal_point});
-    if (column.values.empty()) continue;
-    const double* first = &column.values[0];
-    const std::ptrdiff_t stride =
-        column.values.size() > 1 ? &column.values[1] - first : 1;
-    copy.values =
-        ColumnValues::Borrowed(first, stride, column.values.size(), keeper);
-  }
-  return borrowed;
-}
-
-// Its rows in another order; each keeps its line of the file.
-CsvTable InOrder(const CsvTable& table, const std::vector<Index>& order) {
-  CsvTable sorted = {.file = table.file,
-                     .columns = {},
-                     .num_rows = table.num_rows,
-                     .line_runs = {},
-                     .parts = {},
-                     .titles = table.titles,
-                     .remarks = table.remarks};
-  std::vector<Index> place(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    place[static_cast<std::size_t>(order[i])] = static_cast<Index>(i);
-  }
-  for (const CsvColumn& column : table.columns) {
-    CsvColumn copy = {.name = column.name,
-                      .has_name = column.has_name,
-                      .values = {},
-                      .exceptions = column.exceptions,
-                      .texts = column.texts,
-                      .first_decimal_comma = -1,
-                      .first_decimal_point = -1};
-    std::vector<double>& values = copy.values.Own();
-    values.reserve(order.size());
-    for (const Index row : order) {
-      values.push_back(column.values[static_cast<std::size_t>(row)]);
-    }
-    for (auto& [row, text] : copy.exceptions) {
-      row = static_cast<std::size_t>(place[row]);
-    }
-    std::ranges::sort(copy.exceptions);
-    const auto moved = [&](std::ptrdiff_t row) {
-      return row < 0 ? row : place[static_cast<std::size_t>(row)];
-    };
-    copy.first_decimal_comma = moved(column.first_decimal_comma);
-    copy.first_decimal_point = moved(column.first_decimal_point);
-    sorted.columns.push_back(std::move(copy));
-  }
-  for (std::size_t i = 0; !table.line_runs.empty() && i < order.size(); ++i) {
-    sorted.line_runs.emplace_back(
-        i, table.LineOfRow(static_cast<std::size_t>(order[i])));
-  }
-  return sorted;
-}
-
-CsvColumn NumberColumn(const std::string& name, std::vector<double> values) {
-  CsvColumn column{.name = name, .values = {}, .exceptions = {}, .texts = {}};
-  for (std::size_t row = 0; row < values.size(); ++row) {
-    if (!std::isnan(values[row])) continue;
-    if (column.texts.empty()) column.texts.emplace_back();
-    column.exceptions.emplace_back(row, 0U);
-  }
-  column.values = std::move(values);
-  return column;
-}
-
-CsvColumn WordColumn(const std::string& name,
-                     const std::vector<int>& codes,
-                     std::vector<std::string> words) {
-  CsvColumn column{
-      .name = name, .values = {}, .exceptions = {}, .texts = std::move(words)};
-  column.values = std::vector<double>(codes.size(), std::nan(""));
-  for (std::size_t row = 0; row < codes.size(); ++row) {
-    column.exceptions.emplace_back(row, static_cast<std::uint32_t>(codes[row]));
-  }
-  return column;
-}
-
-CsvColumn Negative(const CsvColumn& column) {
-  CsvColumn negative = column;
-  negative.name = "-" + column.name;
-  std::vector<double> values(column.values.begin(), column.values.end());
-  for (double& value : values) value = -value;
-  negative.values = std::move(values);
-  return negative;
-}
 
 std::vector<Index> AllRows(std::size_t count) {
   std::vector<Index> rows(count);
@@ -151,31 +50,6 @@ double GapOf(const DatasetSelection& selection, const Nights& nights) {
                      ": is no length of time; give 2h, 90min or 30s");
   }
   return *gap;
-}
-
-// A column of two words or numbers that is called a direction; -1: none.
-std::ptrdiff_t NamedDirection(const CsvTable& table,
-                              const DatasetSelection& selection,
-                              const std::vector<Index>& rows) {
-  const std::ptrdiff_t named = table.Find(selection.direction);
-  if (named >= 0) return named;
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    const CsvColumn& column = table.columns[i];
-    if (column.name == selection.target || column.name == selection.weight ||
-        !Says(column.name, Word::kDirection) ||
-        !UnitOfColumn(column.name).symbol.empty()) {
-      continue;
-    }
-    std::set<std::string> values;
-    for (const Index row : rows) {
-      values.insert(table.CellText(column, static_cast<std::size_t>(row)));
-      if (values.size() > 2) break;
-    }
-    if (values.size() == 2 && !values.contains("")) {
-      return static_cast<std::ptrdiff_t>(i);
-    }
-  }
-  return -1;
 }
 
 class TableReader {
@@ -493,7 +367,8 @@ class TableReader {
         given_.Find(kCycleColumn) >= 0) {
       return;
     }
-    const std::ptrdiff_t counter = PassCounter(motion);
+    const std::ptrdiff_t counter = PassCounter(
+        table(), selection_, read_.roles.target, base_rows_, motion);
     if (counter >= 0) {
       read_.roles.group = counter;
       cycles = {.column = table().At(counter).name,
@@ -515,46 +390,6 @@ class TableReader {
               .count = motion.num_passes,
               .evidence = Evidence::kValues,
               .sure = true};
-  }
-
-  // A column that numbers the passes, whatever it is called, from its first
-  // number on or anew with each session; -1: none.
-  std::ptrdiff_t PassCounter(const Motion& motion) const {
-    for (std::size_t i = 0; i < table().columns.size(); ++i) {
-      const CsvColumn& column = table().columns[i];
-      if (i != read_.roles.target && !column.is_text() &&
-          UnitOfColumn(column.name).symbol.empty() &&
-          std::ranges::find(selection_.inputs, column.name) ==
-              selection_.inputs.end() &&
-          column.name != selection_.session &&
-          !CountsCycles({.name = column.name, .unit = {}}) &&
-          NumbersPasses(column, motion)) {
-        return static_cast<std::ptrdiff_t>(i);
-      }
-    }
-    return -1;
-  }
-
-  bool NumbersPasses(const CsvColumn& column, const Motion& motion) const {
-    double first = std::nan("");
-    double before = std::nan("");
-    Index counted_on = 0;
-    for (std::size_t i = 0; i < base_rows_.size(); ++i) {
-      const double value =
-          column.values[static_cast<std::size_t>(base_rows_[i])];
-      if (value != std::floor(value)) return false;  // NaN, too
-      if (i == 0) {
-        first = value;
-      } else if (motion.passes[i] == motion.passes[i - 1]) {
-        if (value != before) return false;
-      } else if (value == before + 1.0) {
-        ++counted_on;
-      } else if (value != first) {
-        return false;
-      }
-      before = value;
-    }
-    return 2 * counted_on >= motion.num_passes;
   }
 
   // ---- Rows and sessions.
@@ -664,7 +499,9 @@ class TableReader {
       reading.position.sure = true;
     }
     DescribeTime();
-    if (!read_.found.sessions.labels.empty()) DescribeSessions();
+    if (!read_.found.sessions.labels.empty()) {
+      DescribeSessions(table(), clock_, nights_, &read_);
+    }
     for (const Index row : read_.repeated_rows) {
       reading.rows_left_out.push_back(
           {.row = row, .why = "repeats another value for value"});
@@ -695,68 +532,6 @@ class TableReader {
     }
     const double step = MedianStep(std::move(steps));
     if (std::isfinite(step)) time.step_s = step;
-  }
-
-  void DescribeSessions() {
-    Reading::Sessions& sessions = read_.reading.sessions;
-    const FoundSessions& found = read_.found;
-    if (!found.sessions.column.empty()) {
-      sessions.column = found.sessions.column;
-    }
-    sessions.by = found.by;
-    sessions.count = std::ssize(found.sessions.labels);
-    sessions.evidence = found.evidence;
-    sessions.sure = found.by != "one" || nights_.sure;
-    if (clock_.hours_alone && found.by != "column" && !AreAlike(found)) {
-      sessions.sure = false;
-      sessions.alternative = "more, as times of day hide whole days";
-    }
-    if (std::isfinite(found.gap) && found.gap > 0.0) {
-      sessions.gap_s = found.gap;
-    }
-    if (found.by == "one" && nights_.other > 0.0) {
-      sessions.alternative = "parted by pauses above " +
-                             CsvNumber(std::round(nights_.other)) + " s";
-    }
-    std::vector<std::int64_t> first(found.sessions.labels.size(), -1);
-    std::set<std::pair<Index, double>> cycles;
-    const std::ptrdiff_t group = read_.roles.group;
-    for (std::size_t i = 0; i < found.sessions.codes.size(); ++i) {
-      const Index code = found.sessions.codes[i];
-      auto& at = first[static_cast<std::size_t>(code)];
-      if (at < 0) at = static_cast<std::int64_t>(read_.log_rows[i]);
-      if (group != kNoColumn) {
-        const auto row = static_cast<std::size_t>(read_.log_rows[i]);
-        const CsvColumn& column = table().At(group);
-        cycles.emplace(
-            code,
-            column.is_text() ? TextCode(column, row) : column.values[row]);
-      }
-    }
-    std::ranges::sort(first);
-    sessions.first_rows = std::move(first);
-    if (group != kNoColumn) {
-      read_.reading.cycles.count = std::ssize(cycles);
-    }
-  }
-
-  // Whether there are two sessions or more, of as many rows each: a clock that
-  // tells no dates shows a night of a day and an hour as an hour.
-  static bool AreAlike(const FoundSessions& found) {
-    std::vector<Index> counts(found.sessions.labels.size(), 0);
-    for (const Index code : found.sessions.codes) {
-      ++counts[static_cast<std::size_t>(code)];
-    }
-    return counts.size() > 1 &&
-           std::ranges::count(counts, counts[0]) == std::ssize(counts);
-  }
-
-  static double TextCode(const CsvColumn& column, std::size_t row) {
-    const auto found = std::ranges::lower_bound(
-        column.exceptions, row, {}, [](const auto& cell) {
-          return cell.first;
-        });
-    return static_cast<double>(found->second);
   }
 
   const CsvTable& given_;
@@ -795,44 +570,6 @@ FoundSessions FindSessions(const CsvTable& table,
     }
   }
   return FindSessions(table, selection, rows, std::move(clues));
-}
-
-std::vector<ColumnFilter> DirectionsOf(const Reading& reading,
-                                       const DatasetSelection& selection) {
-  std::vector<ColumnFilter> filters;
-  if (IsUpwards(selection.direction)) return filters;
-  if (!reading.direction.column || reading.direction.values.size() != 2) {
-    return filters;
-  }
-  for (const ColumnFilter& filter : selection.where) {
-    if (filter.column == *reading.direction.column) return filters;
-  }
-  for (const std::string& label : reading.direction.labels) {
-    filters.push_back({.column = *reading.direction.column, .value = label});
-  }
-  return filters;
-}
-
-void AddDerivedColumns(const std::vector<ColumnFilter>& filters,
-                       const std::string& position,
-                       const std::string& target,
-                       CsvTable* table) {
-  if (target.starts_with('-') && table->Find(target) < 0) {
-    const std::ptrdiff_t of = table->Find(target.substr(1));
-    if (of >= 0) table->columns.push_back(Negative(table->At(of)));
-  }
-  const bool needs_direction =
-      std::ranges::any_of(filters, [&](const ColumnFilter& filter) {
-        return filter.column == kDirectionColumn &&
-               table->Find(kDirectionColumn) < 0;
-      });
-  if (!needs_direction) return;
-  const std::vector<Index> rows = AllRows(table->num_rows);
-  const Axis axis = FindAxis(*table, {.position = position}, kNoTarget, rows);
-  if (axis.column < 0 || axis.motion.directions.empty()) return;
-  std::vector<int> codes;
-  for (const int way : axis.motion.directions) codes.push_back(way > 0 ? 0 : 1);
-  table->columns.push_back(WordColumn(kDirectionColumn, codes, {"up", "down"}));
 }
 
 }  // namespace errmap::data

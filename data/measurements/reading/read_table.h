@@ -13,11 +13,6 @@
 
 namespace errmap::data {
 
-/// The column that says which way rows went, where the table has none and the
-/// positions tell; and that of cycles.
-inline constexpr const char* kDirectionColumn = "direction";
-inline constexpr const char* kCycleColumn = "cycle";
-
 /// A table with what was found in it: rows in order of time, and columns of
 /// what its values say (direction, cycle, an error for a correction).
 struct ReadTable {
@@ -39,17 +34,5 @@ struct ReadTable {
 /// Throws InputError as MakeDataset does, OpenQuestion where no reading is the
 /// cautious one.
 ReadTable ReadRoles(const CsvTable& table, const DatasetSelection& selection);
-
-/// The rows of each of the two ways through the positions, as filters; none
-/// where there is one way, or `selection` has taken one.
-std::vector<ColumnFilter> DirectionsOf(const Reading& reading,
-                                       const DatasetSelection& selection);
-
-/// The columns that `filters` and `target` name and a table lacks, where its
-/// positions can tell them: for files that a map is used on.
-void AddDerivedColumns(const std::vector<ColumnFilter>& filters,
-                       const std::string& position,
-                       const std::string& target,
-                       CsvTable* table);
 
 }  // namespace errmap::data

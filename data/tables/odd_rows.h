@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "data/csv.h"
+#include "data/tables/csv_layout.h"
+
+namespace errmap::data {
+
+/// "1 field", "3 fields".
+std::string FieldsText(std::size_t count);
+
+/// The rows of a file that have another number of cells than its header.
+class OddRowList {
+ public:
+  /// A line of so many cells, where the table has `num_rows` rows so far.
+  void Add(std::size_t line, std::size_t cells, std::size_t num_rows);
+  bool empty() const { return runs_.empty(); }
+
+  /// "2 rows are left out for another number of cells than the header's 3:
+  /// line 8 has 2, line 9 has 4".
+  std::string LeftOutText(const CsvLayout& layout) const;
+  /// What they are and what to do; `num_rows` are those that are whole.
+  std::string RefusalText(const CsvLayout& layout,
+                          std::size_t num_rows,
+                          OddRows odd,
+                          char delimiter) const;
+
+ private:
+  // Lines in a row as one: (first, last), cells.
+  struct Run {
+    std::size_t first;
+    std::size_t last;
+    std::size_t cells;
+  };
+  static constexpr std::size_t kNoRow = static_cast<std::size_t>(-1);
+
+  std::string LinesText() const;
+
+  std::vector<Run> runs_;
+  std::size_t count_ = 0;
+  std::size_t first_row_ = kNoRow;
+};
+
+}  // namespace errmap::data

@@ -1,0 +1,60 @@
+#include "data/tables/thousands.h"
+
+#include <algorithm>
+
+#include "data/text.h"
+
+namespace errmap::data {
+
+bool MayPartThousands(std::string_view number, std::size_t point) {
+  const std::string_view behind = number.substr(point + 1);
+  if (behind.size() != 3 ||
+      behind.find_first_not_of("0123456789") != std::string_view::npos) {
+    return false;
+  }
+  std::string_view before = number.substr(0, point);
+  if (before.starts_with('-') || before.starts_with('+')) {
+    before.remove_prefix(1);
+  }
+  return !before.empty() && before.size() <= 3 && before.front() != '0';
+}
+
+bool PartThousands(const CsvTable& table,
+                   std::vector<ColumnShape>* shapes,
+                   const std::function<void(const std::string&)>& say) {
+  bool any = false;
+  for (std::size_t i = 0; i < shapes->size(); ++i) {
+    ColumnShape& shape = (*shapes)[i];
+    if (!shape.any_parted || !shape.all_threes ||
+        shape.most_whole <= shape.most_parted) {
+      continue;
+    }
+    // Beside numbers of three digits the next have a mark after the first;
+    // those of four have none, so that it is not the file's way.
+    constexpr double kThreeDigits = 100.0;
+    constexpr double kFourDigits = 1000.0;
+    const CsvColumn& column = table.columns[i];
+    const auto first =
+        std::max(column.first_decimal_comma, column.first_decimal_point);
+    const double value = column.values[static_cast<std::size_t>(first)];
+    const std::string name = "column " + QuotedName(column.name);
+    const std::string place =
+        " (line " +
+        std::to_string(table.LineOfRow(static_cast<std::size_t>(first))) + ")";
+    if (shape.most_whole >= kThreeDigits && shape.most_whole < kFourDigits) {
+      shape.by_thousands = true;
+      any = true;
+      say(name +
+          " is read with marks between thousands, as its other "
+          "numbers are whole: " +
+          CsvNumber(kFourDigits * value) + place);
+    } else {
+      say(name + " has numbers with three decimals among whole ones: " +
+          CsvNumber(value) + place + "; if its mark parts thousands, write " +
+          CsvNumber(kFourDigits * value));
+    }
+  }
+  return any;
+}
+
+}  // namespace errmap::data

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "data/csv.h"
+
+namespace errmap::data {
+
+/// What a column of numbers looks like, to tell a point that parts thousands.
+struct ColumnShape {
+  bool all_threes = true;  // each point or comma has three digits behind it
+  bool any_parted = false;
+  double most_parted = 0.0;  // the largest of those, read as decimals
+  double most_whole = 0.0;   // the largest number without
+  bool by_thousands = false;
+};
+
+/// "1.050", "-215.900": one to three digits, none of them a 0 in front, a point
+/// or comma (at `point`), three digits.
+bool MayPartThousands(std::string_view number, std::size_t point);
+
+/// Finds the columns of numbers in which points or commas part thousands, and
+/// says so; true where there is one: the rows have to be read again.
+bool PartThousands(const CsvTable& table,
+                   std::vector<ColumnShape>* shapes,
+                   const std::function<void(const std::string&)>& say);
+
+}  // namespace errmap::data
