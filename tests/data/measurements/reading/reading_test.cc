@@ -11,6 +11,7 @@
 
 #include "data/csv.h"
 #include "data/measurements/dataset.h"
+#include "data/measurements/reading/directions.h"
 #include "data/measurements/reading/read_table.h"
 
 namespace errmap::data {
