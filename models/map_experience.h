@@ -13,6 +13,19 @@
 
 namespace errmap::models {
 
+/// What tells a sensor that hangs from one that stands still; of columns (s),
+/// or empty where nothing is known. How it is learnt: promise/standing_still.h.
+struct StandingStill {
+  /// By how much of their ranges the others may move, on average, while a
+  /// column stands still. 0: it is not watched.
+  Eigen::VectorXd others_move = {};
+  Eigen::VectorXd resolution = {};  // of its range
+  /// How long its noise may leave it alone (s); 0: it has none to be seen.
+  Eigen::VectorXd quiet = {};
+  /// How long all of them may hold their values together (s); 0: not known.
+  double silence = 0.0;
+};
+
 /// Where a map was trained, besides the range of each of its columns: the
 /// ranges of what it derives from them, and its thermal states (the inputs that
 /// are no positions), taken together.
@@ -46,6 +59,8 @@ struct Applicability {
   /// (s) Of readings within sessions, those that repeat the one before to the
   /// last digit; (0): not known.
   Eigen::VectorXd repeats = {};
+
+  StandingStill standing = {};  // of nothing in older files
 };
 
 /// Of its trained range an input may leave it by so much and is still inside:

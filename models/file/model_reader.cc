@@ -185,7 +185,7 @@ std::vector<Index> ReadColumnsOf(const Node& node,
 
 Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
   Applicability trained;
-  ReadMembers(node, &trained, {"columns", "repeats"});
+  ReadMembers(node, &trained, {"columns", "repeats", "standing"});
   for (std::size_t i = 0; i < trained.derived.size(); ++i) {
     if (fitted.history == nullptr ||
         std::ranges::find(fitted.history->form_inputs,
@@ -196,6 +196,13 @@ Applicability ReadApplicability(const Node& node, const FittedModel& fitted) {
   }
   trained.columns = ReadColumnsOf(node.At("columns"), fitted.inputs);
   const auto size = static_cast<Index>(trained.columns.size());
+  if (const auto standing = node.Find("standing")) {
+    StandingStill& still = trained.standing;
+    ReadMembers(*standing, &still);
+    RequireSize(standing->At("others_move"), still.others_move, size);
+    RequireSize(standing->At("resolution"), still.resolution, size);
+    RequireSize(standing->At("quiet"), still.quiet, size);
+  }
   if (trained.rows < 2) node.At("rows").Refuse("must be at least 2");
   RequireSize(node.At("mean"), trained.mean, size);
   RequirePositive(node.At("scale"), trained.scale, size);

@@ -10,6 +10,7 @@
 #include "models/history/history.h"
 #include "models/history/view.h"
 #include "models/inner_folds.h"
+#include "models/promise/standing_still.h"
 #include "models/scaling.h"
 #include "models/study/study.h"
 #include "stats/spread_sample.h"
@@ -304,14 +305,17 @@ StateMeasures MeasureStates(const Applicability& trained,
 std::optional<Applicability> MakeApplicability(const FittedModel& fitted,
                                                const data::Dataset& training) {
   constexpr Index kFewestRows = 3;
-  std::vector<Index> columns;
+  std::vector<Index> columns;      // of the map
+  std::vector<Index> of_training;  // the same
   MatrixXd inputs(training.num_rows(),
                   static_cast<Index>(fitted.inputs.size()));
   for (std::size_t i = 0; i < fitted.inputs.size(); ++i) {
     const data::ColumnInfo& column = fitted.inputs[i].column;
     inputs.col(static_cast<Index>(i)) =
         training.input_values().col(training.FindInput(column.name));
-    if (!data::IsPosition(column)) columns.push_back(static_cast<Index>(i));
+    if (data::IsPosition(column)) continue;
+    columns.push_back(static_cast<Index>(i));
+    of_training.push_back(training.FindInput(column.name));
   }
   if (columns.empty() || training.num_rows() < kFewestRows) return std::nullopt;
   const std::vector<Index> chosen =
@@ -321,6 +325,7 @@ std::optional<Applicability> MakeApplicability(const FittedModel& fitted,
   Applicability trained = FitStates(states, fitted.inputs, columns);
   trained.derived = DerivedRanges(fitted, training);
   trained.repeats = RepeatsOf(training, StatesOf(inputs, columns));
+  trained.standing = LearnStandingStill(training, of_training);
   SetLimits(states, MakeInnerFolds(rows, {}).folds, fitted.inputs, &trained);
   return trained;
 }
